@@ -1,0 +1,3 @@
+//! The host tool of palpate.
+
+fn main() {}

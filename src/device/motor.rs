@@ -1,0 +1,47 @@
+//! Joint torques to motor duty.
+
+/// A motor command as a fraction of full scale: −32 767 is full torque one way, +32 767 the other, 0 is no current.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Duty(pub i16);
+
+impl Duty {
+    /// No current.
+    pub const ZERO: Self = Self(0);
+    /// Full scale.
+    pub const FULL: Self = Self(i16::MAX);
+
+    /// The duty nearest to a fraction of full scale. Beyond ±1 it is full scale; a NaN is zero.
+    #[inline]
+    pub fn from_fraction(fraction: f32) -> Self {
+        // `clamp` passes NaN on and the cast makes it 0; the cast truncates, so the half rounds to nearest.
+        let scaled = fraction.clamp(-1.0, 1.0) * 32_767.0;
+        Self((scaled + if scaled < 0.0 { -0.5 } else { 0.5 }) as i16)
+    }
+
+    /// The duty as a fraction of full scale, −1 to 1.
+    #[inline]
+    pub fn fraction(self) -> f32 {
+        f32::from(self.0) * (1.0 / 32_767.0)
+    }
+}
+
+/// A motor on a current-controlled amplifier, seen through the transmission.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motor {
+    /// Joint torque at full duty, N·m; negative where the motor turns the joint the other way.
+    pub torque_at_full: f32,
+}
+
+impl Motor {
+    /// A motor of torque constant `torque_constant` (N·m/A) whose amplifier gives `current_at_full` amperes at full duty,
+    /// geared down `ratio : 1` to the joint. A negative ratio turns the direction round.
+    pub const fn current_driven(torque_constant: f32, current_at_full: f32, ratio: f32) -> Self {
+        Self { torque_at_full: torque_constant * current_at_full * ratio }
+    }
+
+    /// The fraction of full scale that gives a joint torque, N·m. Not limited.
+    #[inline]
+    pub fn fraction(&self, torque: f32) -> f32 {
+        torque / self.torque_at_full
+    }
+}

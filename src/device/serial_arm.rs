@@ -1,0 +1,42 @@
+//! The serial three-joint arm of WoodenHaptics, Polhem and Phantom-type devices.
+
+use super::{Kinematics, ProbePose};
+use crate::math::{Vec3, sin_cos, vec3};
+
+/// A turntable that carries a parallelogram of two links.
+///
+/// Joint angles, radians: `a` turns the table about the vertical; `b` tilts the first link from the vertical; `c` tilts
+/// the second link down from the horizontal. Both link motors sit on the turntable, so `c` is absolute, not relative
+/// to `b`. With `r = B sin b + C cos c`:
+/// `x = r cos a`, `y = r sin a`, `z = A + B cos b − C sin c`, less the workspace centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SerialArm {
+    /// Height of the first link's axis, `A`, metres.
+    pub base_height: f32,
+    /// Length of the first link, `B`, metres.
+    pub first_link: f32,
+    /// Length of the second link, `C`, metres.
+    pub second_link: f32,
+    /// The centre of the workspace, metres from the foot of the turntable.
+    pub workspace_centre: Vec3,
+}
+
+impl Kinematics<3> for SerialArm {
+    #[inline]
+    fn pose(&self, [a, b, c]: [f32; 3]) -> ProbePose<3> {
+        let ((sin_a, cos_a), (sin_b, cos_b), (sin_c, cos_c)) = (sin_cos(a), sin_cos(b), sin_cos(c));
+        let (first, second) = (self.first_link, self.second_link);
+        let reach = first * sin_b + second * cos_c;
+        let height = self.base_height + first * cos_b - second * sin_c;
+        // How reach grows with b and with c.
+        let (reach_b, reach_c) = (first * cos_b, -second * sin_c);
+        ProbePose {
+            position: vec3(reach * cos_a, reach * sin_a, height) - self.workspace_centre,
+            jacobian: [
+                vec3(-reach * sin_a, reach * cos_a, 0.0),
+                vec3(reach_b * cos_a, reach_b * sin_a, -first * sin_b),
+                vec3(reach_c * cos_a, reach_c * sin_a, -second * cos_c),
+            ],
+        }
+    }
+}

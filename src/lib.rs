@@ -1,0 +1,11 @@
+#![no_std]
+#![doc = include_str!("../README.md")]
+
+pub mod device;
+pub mod math;
+pub mod patch;
+pub mod render;
+pub mod servo;
+pub mod track;
+#[cfg(feature = "wire")]
+pub mod wire;

@@ -1,0 +1,60 @@
+//! What a parametric surface gives: a point and both tangents in one evaluation.
+//!
+//! A *patch* maps `(u, v) ∈ [0, 1]²` to a point of the body, in metres. [`SplinePatch`] is any NURBS patch of degree
+//! 1 to 5, kept as polynomial spans so that the target evaluates by Horner's rule and never by de Boor's recursion.
+//! A new kind of surface (a cylinder, a torus) is a new file here that implements [`Patch`].
+
+mod horner;
+mod spline;
+
+pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError};
+
+use crate::math::Vec3;
+
+/// A point of a patch with its two tangents: one evaluation.
+///
+/// # Units
+/// Metres; the tangents are metres per unit of parameter and are *not* normalised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// `f(u, v)`.
+    pub point: Vec3,
+    /// `f_u = ∂f/∂u`.
+    pub tangent_u: Vec3,
+    /// `f_v = ∂f/∂v`.
+    pub tangent_v: Vec3,
+}
+
+/// Upper bounds, over the whole patch, of the norms of the second partial derivatives.
+///
+/// They are what the controller needs to know about the shape to choose a step that provably brings the witness point
+/// nearer (see [`crate::track::certified_gain`]). The host proves them from the control points; they hold for the stored
+/// coefficients and include their rounding.
+///
+/// # Units
+/// Metres per unit of parameter squared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecondDerivativeBounds {
+    /// `sup ‖f_uu‖`.
+    pub uu: f32,
+    /// `sup ‖f_uv‖`.
+    pub uv: f32,
+    /// `sup ‖f_vv‖`.
+    pub vv: f32,
+}
+
+/// A parametric surface patch over `[0, 1]²`.
+pub trait Patch {
+    /// The point and both tangents at `(u, v)`. Parameters outside `[0, 1]` extrapolate the nearest span; the
+    /// controller never asks for them.
+    fn evaluate(&self, u: f32, v: f32) -> SurfacePoint;
+
+    /// Bounds on the second derivatives over the whole patch.
+    fn bounds(&self) -> SecondDerivativeBounds;
+
+    /// `+1` if `f_u × f_v` points out of the body, `-1` if into it.
+    fn orientation(&self) -> f32;
+
+    /// The largest side of the patch's bounding box, in metres: what relative tolerances are measured against.
+    fn size(&self) -> f32;
+}

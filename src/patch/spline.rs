@@ -1,0 +1,288 @@
+//! NURBS patches as polynomial spans in flash.
+//!
+//! The host splits a patch at its knots and writes each span in powers of the distance from the span's centre
+//! (`s = u - centre`), which keeps Horner's rule well conditioned in `f32`. Rational patches are kept homogeneous
+//! (`w x, w y, w z, w`) and divided once.
+
+use super::horner::{self, Derivatives};
+use super::{Patch, SecondDerivativeBounds, SurfacePoint};
+use crate::math::{Vec3, vec3};
+use thiserror::Error;
+
+/// The highest degree along either parameter.
+pub const MAX_DEGREE: usize = 5;
+/// The greatest number of spans along either parameter.
+pub const MAX_SPANS: usize = 256;
+
+/// Which way the outward normal points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    /// `f_u × f_v` points out of the body.
+    Outward,
+    /// `f_u × f_v` points into the body.
+    Inward,
+}
+
+/// The coefficients of all spans: span `(i, j)` is entry `i · spans_v + j`; in a span, row `k` holds the power `k` of
+/// `s`, and its columns the powers of `t`.
+#[derive(Clone, Copy, Debug)]
+pub enum Coefficients {
+    /// `[x, y, z]`, metres.
+    Polynomial(&'static [[f32; 3]]),
+    /// `[w x, w y, w z, w]`.
+    Rational(&'static [[f32; 4]]),
+}
+
+/// Why a table is refused. In a `static` it is a compile error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum TableError {
+    /// A degree is 0 or above [`MAX_DEGREE`].
+    #[error("the degree must be 1 to 5 along u and along v")]
+    Degree,
+    /// The span borders along `u` do not run from 0 to 1, strictly rising, with at most [`MAX_SPANS`] spans.
+    #[error("the span borders along u must rise strictly from 0 to 1, at most 256 spans")]
+    BreaksU,
+    /// The same along `v`.
+    #[error("the span borders along v must rise strictly from 0 to 1, at most 256 spans")]
+    BreaksV,
+    /// The number of coefficients is not spans × (degree + 1) along both parameters.
+    #[error("the number of coefficients does not match the spans and degrees")]
+    CoefficientCount,
+    /// A coefficient is not finite.
+    #[error("a coefficient is not finite")]
+    CoefficientNotFinite,
+    /// A bound is negative or not finite.
+    #[error("a second-derivative bound is negative or not finite")]
+    Bounds,
+    /// The size is not positive and finite.
+    #[error("the size must be positive and finite")]
+    Size,
+}
+
+/// A NURBS patch of degree 1 to 5, polynomial or rational, as a table in flash.
+///
+/// # Shapes
+/// `breaks_u` and `breaks_v` are the span borders, from 0 to 1; see [`Coefficients`] for the rest.
+#[derive(Clone, Copy, Debug)]
+pub struct SplinePatch {
+    degree: [u8; 2],
+    breaks_u: &'static [f32],
+    breaks_v: &'static [f32],
+    coefficients: Coefficients,
+    bounds: SecondDerivativeBounds,
+    orientation: Orientation,
+    size: f32,
+}
+
+impl SplinePatch {
+    /// Checks a table and takes it.
+    ///
+    /// # Errors
+    /// The first thing wrong with the table, as a [`TableError`].
+    pub const fn try_new(
+        degree: [u8; 2],
+        breaks_u: &'static [f32],
+        breaks_v: &'static [f32],
+        coefficients: Coefficients,
+        bounds: SecondDerivativeBounds,
+        orientation: Orientation,
+        size: f32,
+    ) -> Result<Self, TableError> {
+        if degree[0] < 1 || degree[0] as usize > MAX_DEGREE || degree[1] < 1 || degree[1] as usize > MAX_DEGREE {
+            return Err(TableError::Degree);
+        }
+        if !breaks_are_valid(breaks_u) {
+            return Err(TableError::BreaksU);
+        }
+        if !breaks_are_valid(breaks_v) {
+            return Err(TableError::BreaksV);
+        }
+        let spans = (breaks_u.len() - 1) * (breaks_v.len() - 1);
+        let expected = spans * (degree[0] as usize + 1) * (degree[1] as usize + 1);
+        let (count, finite) = match coefficients {
+            Coefficients::Polynomial(entries) => (entries.len(), all_finite(entries)),
+            Coefficients::Rational(entries) => (entries.len(), all_finite(entries)),
+        };
+        if count != expected {
+            return Err(TableError::CoefficientCount);
+        }
+        if !finite {
+            return Err(TableError::CoefficientNotFinite);
+        }
+        if !(is_bound(bounds.uu) && is_bound(bounds.uv) && is_bound(bounds.vv)) {
+            return Err(TableError::Bounds);
+        }
+        if !(size > 0.0 && size < f32::INFINITY) {
+            return Err(TableError::Size);
+        }
+        Ok(Self { degree, breaks_u, breaks_v, coefficients, bounds, orientation, size })
+    }
+
+    /// [`Self::try_new`] for a `static`: a bad table does not compile.
+    ///
+    /// # Panics
+    /// At compile time, naming what is wrong.
+    pub const fn from_table(
+        degree: [u8; 2],
+        breaks_u: &'static [f32],
+        breaks_v: &'static [f32],
+        coefficients: Coefficients,
+        bounds: SecondDerivativeBounds,
+        orientation: Orientation,
+        size: f32,
+    ) -> Self {
+        match Self::try_new(degree, breaks_u, breaks_v, coefficients, bounds, orientation, size) {
+            Ok(patch) => patch,
+            Err(TableError::Degree) => panic!("degree"),
+            Err(TableError::BreaksU) => panic!("breaks_u"),
+            Err(TableError::BreaksV) => panic!("breaks_v"),
+            Err(TableError::CoefficientCount) => panic!("coefficients: count"),
+            Err(TableError::CoefficientNotFinite) => panic!("coefficients: not finite"),
+            Err(TableError::Bounds) => panic!("bounds"),
+            Err(TableError::Size) => panic!("size"),
+        }
+    }
+
+    /// Degrees along `u` and `v`.
+    pub const fn degree(&self) -> [u8; 2] {
+        self.degree
+    }
+
+    /// Bytes of table this patch keeps in flash.
+    pub const fn table_bytes(&self) -> usize {
+        let coefficients = match self.coefficients {
+            Coefficients::Polynomial(entries) => entries.len() * 12,
+            Coefficients::Rational(entries) => entries.len() * 16,
+        };
+        coefficients + (self.breaks_u.len() + self.breaks_v.len()) * 4 + size_of::<Self>()
+    }
+}
+
+impl Patch for SplinePatch {
+    fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
+        let (span_u, s) = locate(self.breaks_u, u);
+        let (span_v, t) = locate(self.breaks_v, v);
+        let span = span_u * (self.breaks_v.len() - 1) + span_v;
+        match self.coefficients {
+            Coefficients::Polynomial(entries) => {
+                let d = self.evaluate_span(entries, span, s, t);
+                SurfacePoint {
+                    point: Vec3::from_array(d.value),
+                    tangent_u: Vec3::from_array(d.along_s),
+                    tangent_v: Vec3::from_array(d.along_t),
+                }
+            }
+            Coefficients::Rational(entries) => divide_by_weight(&self.evaluate_span(entries, span, s, t)),
+        }
+    }
+
+    fn bounds(&self) -> SecondDerivativeBounds {
+        self.bounds
+    }
+
+    fn orientation(&self) -> f32 {
+        match self.orientation {
+            Orientation::Outward => 1.0,
+            Orientation::Inward => -1.0,
+        }
+    }
+
+    fn size(&self) -> f32 {
+        self.size
+    }
+}
+
+impl SplinePatch {
+    /// Evaluates one span. The degree along `v` picks a loop that is unrolled for it.
+    #[inline(always)]
+    fn evaluate_span<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32, t: f32) -> Derivatives<D> {
+        match self.degree[1] {
+            1 => self.evaluate_rows::<D, 2>(entries, span, s, t),
+            2 => self.evaluate_rows::<D, 3>(entries, span, s, t),
+            3 => self.evaluate_rows::<D, 4>(entries, span, s, t),
+            4 => self.evaluate_rows::<D, 5>(entries, span, s, t),
+            _ => self.evaluate_rows::<D, 6>(entries, span, s, t),
+        }
+    }
+
+    fn evaluate_rows<const D: usize, const Q: usize>(
+        &self,
+        entries: &[[f32; D]],
+        span: usize,
+        s: f32,
+        t: f32,
+    ) -> Derivatives<D> {
+        let rows = self.degree[0] as usize + 1;
+        let (all_rows, _) = entries.as_chunks::<Q>();
+        // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the tick.
+        let span_rows = all_rows.get(span * rows..(span + 1) * rows).unwrap_or(&[]);
+        horner::evaluate(span_rows, s, t)
+    }
+}
+
+/// The span that holds `parameter`, and the distance from the span's centre.
+#[inline]
+fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
+    // Bisection; at most log2(MAX_SPANS) rounds. On a border the upper span is taken, at 1 the last.
+    let mut low = 0;
+    let mut high = breaks.len() - 1;
+    while high - low > 1 {
+        let middle = (low + high) / 2;
+        if breaks.get(middle).is_some_and(|border| parameter >= *border) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let (Some(left), Some(right)) = (breaks.get(low), breaks.get(high)) else { return (0, 0.0) };
+    (low, parameter - span_centre(*left, *right))
+}
+
+/// The centre a span's powers are taken about. The host expands about this very `f32`.
+pub const fn span_centre(left: f32, right: f32) -> f32 {
+    0.5 * (left + right)
+}
+
+/// The quotient rule: `P = A / w`, `P_u = (A_u - w_u P) / w`.
+#[inline(always)]
+fn divide_by_weight(d: &Derivatives<4>) -> SurfacePoint {
+    let split = |[x, y, z, w]: [f32; 4]| (vec3(x, y, z), w);
+    let ((a, w), (a_u, w_u), (a_v, w_v)) = (split(d.value), split(d.along_s), split(d.along_t));
+    let inverse = 1.0 / w;
+    let point = a * inverse;
+    SurfacePoint { point, tangent_u: (a_u - point * w_u) * inverse, tangent_v: (a_v - point * w_v) * inverse }
+}
+
+const fn breaks_are_valid(breaks: &[f32]) -> bool {
+    if breaks.len() < 2 || breaks.len() > MAX_SPANS + 1 || breaks[0] != 0.0 || breaks[breaks.len() - 1] != 1.0 {
+        return false;
+    }
+    let mut index = 1;
+    while index < breaks.len() {
+        // Written so that NaN fails.
+        if !(breaks[index] > breaks[index - 1]) {
+            return false;
+        }
+        index += 1;
+    }
+    true
+}
+
+const fn all_finite<const D: usize>(entries: &[[f32; D]]) -> bool {
+    let mut index = 0;
+    while index < entries.len() {
+        let mut component = 0;
+        while component < D {
+            if !entries[index][component].is_finite() {
+                return false;
+            }
+            component += 1;
+        }
+        index += 1;
+    }
+    true
+}
+
+const fn is_bound(value: f32) -> bool {
+    value >= 0.0 && value < f32::INFINITY
+}

@@ -1,0 +1,47 @@
+//! What is said, a tick, each way. Arrays hold three joints; a device with fewer leaves the rest zero.
+
+use serde::{Deserialize, Serialize};
+
+/// To the device: what its sensors would say at this tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sensors {
+    /// Which tick this answers, counted from 0. A frame for another tick is late or lost.
+    pub tick: u32,
+    /// Encoder counts.
+    pub counts: [i32; 3],
+    /// Whether the person at the device wants force. The loop leaves standby only while it is true.
+    pub enable: bool,
+}
+
+/// From the device, at the end of a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// The tick this reports.
+    pub tick: u32,
+    /// Motor duties now applied, full scale ±32 767.
+    pub duties: [i16; 3],
+    /// [`crate::servo::Phase`] as its number.
+    pub phase: u8,
+    /// [`crate::servo::Fault`] as its code, 0 for none. Latched.
+    pub fault: u8,
+    /// The tick at which the fault was seen.
+    pub fault_tick: u32,
+    /// [`crate::track::BoundaryMode`] as its number.
+    pub mode: u8,
+    /// The witness point's parameters.
+    pub parameters: [f32; 2],
+    /// Probe in the body frame, metres.
+    pub probe: [f32; 3],
+    /// Signed distance along the outward normal, metres; negative while penetrating.
+    pub gap: f32,
+    /// Force at the probe, N.
+    pub force: [f32; 3],
+    /// Frames lost, late or damaged so far.
+    pub frames_lost: u32,
+    /// How often the controller undid a step that brought the witness point no nearer.
+    pub steps_undone: u32,
+    /// Instructions the servo tick took, from the counter of the board; 0 where there is none.
+    pub instructions: u32,
+    /// [`crate::servo::ServoState::digest`] after this tick: the same on host and target, bit for bit.
+    pub digest: u32,
+}
