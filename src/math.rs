@@ -47,7 +47,8 @@ mod tests {
         for step in -1_000_000..=1_000_000 {
             let x = step as f32 * 1e-4;
             let (sine, cosine) = sin_cos(x);
-            let error = (f64::from(sine) - f64::from(x).sin()).abs().max((f64::from(cosine) - f64::from(x).cos()).abs());
+            let error =
+                (f64::from(sine) - f64::from(x).sin()).abs().max((f64::from(cosine) - f64::from(x).cos()).abs());
             worst = worst.max(error);
         }
         assert!(worst <= 1.2e-7 + 100.0 * 1e-9, "largest error {worst:e}");

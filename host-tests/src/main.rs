@@ -1,3 +1,38 @@
-//! The host tool of palpate.
+//! The host tool of palpate: `cargo palpate COMMAND`.
 
-fn main() {}
+use clap::{Parser, Subcommand};
+use palpate_host::commands::{bake, check, closest, demo, sim, test};
+use std::process::ExitCode;
+
+#[derive(Parser)]
+#[command(name = "palpate", version, about = "Feel a CAD surface from a haptic device's own microcontroller")]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Demo(demo::Arguments),
+    Test(test::Arguments),
+    Check(check::Arguments),
+    Bake(bake::Arguments),
+    Closest(closest::Arguments),
+    Sim(sim::Arguments),
+}
+
+fn main() -> ExitCode {
+    let outcome = match CommandLine::parse().command {
+        Command::Demo(arguments) => demo::run(&arguments),
+        Command::Test(arguments) => test::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Bake(arguments) => bake::run(&arguments),
+        Command::Closest(arguments) => closest::run(&arguments),
+        Command::Sim(arguments) => sim::run(&arguments),
+    };
+    // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).
+    outcome.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        ExitCode::from(2)
+    })
+}

@@ -6,5 +6,3 @@
 pub mod frame;
 mod message;
 pub use message::{Report, Sensors};
-
-

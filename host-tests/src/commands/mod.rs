@@ -1,0 +1,8 @@
+//! The commands of `palpate`, one file each: its arguments and what it does.
+
+pub mod bake;
+pub mod check;
+pub mod closest;
+pub mod demo;
+pub mod sim;
+pub mod test;

@@ -1,0 +1,10 @@
+//! The host side of palpate: bakes model files into tables, simulates the device, runs the firmware in an emulator and
+//! prints the figures. The binary `palpate` is a thin front on this library; the tests use it directly.
+
+pub mod bake;
+pub mod commands;
+pub mod firmware;
+pub mod oracle;
+pub mod plant;
+pub mod report;
+pub mod simulation;
