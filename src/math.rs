@@ -11,6 +11,13 @@ pub fn sqrt(x: f32) -> f32 {
     libm::sqrtf(x)
 }
 
+/// `x` brought into `[low, high]`; a NaN becomes `low`. Plain comparisons: `f32::max` leaves the sign of zero open, and with
+/// it the last bit that host and target must share.
+#[inline]
+pub fn saturate(x: f32, low: f32, high: f32) -> f32 {
+    if x > low { if x < high { x } else { high } } else { low }
+}
+
 /// `(sin x, cos x)`, `x` in radians. About 50 instructions, against 2,200 for `libm::sincosf`, which computes in
 /// software `f64`.
 ///
@@ -20,7 +27,7 @@ pub fn sqrt(x: f32) -> f32 {
 #[inline]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     const HALF_PI_HIGH: f32 = 1.570_312_5;
-    const HALF_PI_LOW: f32 = 4.838_267_8e-4;
+    const HALF_PI_LOW: f32 = 4.838_268e-4;
     let half_turns = x * core::f32::consts::FRAC_2_PI;
     // The cast truncates and saturates; a NaN becomes 0 and stays visible in the remainder.
     let quarter = (half_turns + if half_turns < 0.0 { -0.5 } else { 0.5 }) as i32;

@@ -13,7 +13,7 @@ impl Duty {
     /// The duty nearest to a fraction of full scale. Beyond ±1 it is full scale; a NaN is zero.
     #[inline]
     pub fn from_fraction(fraction: f32) -> Self {
-        // `clamp` passes NaN on and the cast makes it 0; the cast truncates, so the half rounds to nearest.
+        // `clamp` passes a NaN on and the cast makes it 0; the cast truncates, so the half rounds to nearest.
         let scaled = fraction.clamp(-1.0, 1.0) * 32_767.0;
         Self((scaled + if scaled < 0.0 { -0.5 } else { 0.5 }) as i16)
     }

@@ -259,8 +259,8 @@ const fn breaks_are_valid(breaks: &[f32]) -> bool {
     }
     let mut index = 1;
     while index < breaks.len() {
-        // Written so that NaN fails.
-        if !(breaks[index] > breaks[index - 1]) {
+        let rises = breaks[index] > breaks[index - 1];
+        if !rises {
             return false;
         }
         index += 1;

@@ -1,1 +1,19 @@
-//! Placeholder.
+//! The low level: one switching controller step on one patch, after Theorem 1 of Patoglu and Gillespie.
+//!
+//! Conventions: `Q` is the probe in the body's frame, `P = f(u, v)` the witness point, `ΔR = P − Q`. The projection
+//! errors `Ψ` are the measure numbers of `ΔR` in the basis of the tangents (Eq. (4)): `ΔR = Ψᵘ f_u + Ψᵛ f_v + Δ N`.
+//! `V = ‖ΔR‖ − E`, with `E` the least distance, is the Lyapunov function of every mode.
+//!
+//! The way of a step: [`ProjectionErrors`] of the new probe at the cached surface point → [`Descent`], the direction the
+//! boundary allows and its [`BoundaryMode`] → [`certified_gain`], the longest step proved to bring the witness nearer →
+//! cut at the patch's border → one evaluation of the patch → kept if the distance did not rise.
+
+mod boundary;
+mod controller;
+mod gain;
+mod projection;
+
+pub use boundary::{BoundaryMode, Descent};
+pub use controller::{Controller, Outcome, Step, Witness};
+pub use gain::certified_gain;
+pub use projection::{FirstFundamentalForm, ProjectionErrors};

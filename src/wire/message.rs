@@ -28,6 +28,8 @@ pub struct Report {
     pub fault_tick: u32,
     /// [`crate::track::BoundaryMode`] as its number.
     pub mode: u8,
+    /// [`crate::render::Contact`] as its number.
+    pub contact: u8,
     /// The witness point's parameters.
     pub parameters: [f32; 2],
     /// Probe in the body frame, metres.

@@ -5,4 +5,5 @@
 
 pub mod frame;
 mod message;
+mod report;
 pub use message::{Report, Sensors};

@@ -1,0 +1,40 @@
+//! From encoder counts to joint angles that can be believed.
+
+use super::{Fault, ServoState};
+use crate::device::{Counts, Device, VelocityFilter};
+
+/// Takes this tick's counts into the state: joint angles and rates.
+///
+/// # Errors
+/// The fault, if an angle lies outside the joint's range or jumped faster than the device can move. The state keeps its
+/// last good counts then.
+#[inline]
+pub fn sense<K, const JOINTS: usize>(
+    device: &Device<K, JOINTS>,
+    filter: &VelocityFilter,
+    greatest_move: f32,
+    state: &mut ServoState<JOINTS>,
+    counts: [Counts; JOINTS],
+) -> Result<(), Fault> {
+    let mut angles = [0.0; JOINTS];
+    for ((angle, encoder), count) in angles.iter_mut().zip(&device.encoders).zip(counts) {
+        *angle = encoder.angle(count);
+    }
+    let in_range = |(angle, [least, greatest]): (&f32, &[f32; 2])| least <= angle && angle <= greatest;
+    if !angles.iter().zip(&device.joint_range).all(in_range) {
+        return Err(Fault::JointOutOfRange);
+    }
+    // The first counts have nothing to have moved from.
+    if state.counts.is_some() {
+        let believable = |(angle, last): (&f32, &f32)| (angle - last).abs() <= greatest_move;
+        if !angles.iter().zip(&state.angles).all(believable) {
+            return Err(Fault::JointJumped);
+        }
+        for ((rate, angle), last) in state.rates.iter_mut().zip(angles).zip(state.angles) {
+            *rate = filter.next(*rate, angle - last);
+        }
+    }
+    state.counts = Some(counts);
+    state.angles = angles;
+    Ok(())
+}
