@@ -26,3 +26,30 @@ impl Encoder {
         counts.0 as f32 * self.radians_per_count + self.angle_at_zero
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f32::consts::{PI, TAU};
+
+    #[test]
+    fn a_turn_of_the_motor_is_a_turn_over_the_ratio() {
+        let encoder = Encoder::geared(2_000.0, 16.0, 0.25);
+        // A rounding or two of 0.6 rad.
+        assert!((encoder.angle(Counts(2_000)) - (TAU / 16.0 + 0.25)).abs() < 1.2e-7);
+        assert_eq!(encoder.angle(Counts(0)), 0.25);
+    }
+
+    #[test]
+    fn a_negative_ratio_counts_the_other_way() {
+        let encoder = Encoder::geared(2_000.0, -12.0, 0.0);
+        assert!((encoder.angle(Counts(12_000)) + PI).abs() < 2.0 * PI * f32::EPSILON);
+        assert_eq!(encoder.angle(Counts(-7)), -encoder.angle(Counts(7)));
+    }
+
+    #[test]
+    fn every_count_has_a_finite_angle() {
+        let encoder = Encoder::geared(2_000.0, 16.0, 0.0);
+        assert!([i32::MIN, i32::MAX].iter().all(|counts| encoder.angle(Counts(*counts)).is_finite()));
+    }
+}

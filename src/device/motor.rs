@@ -45,3 +45,48 @@ impl Motor {
         torque / self.torque_at_full
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fraction_has_a_duty() {
+        for (fraction, duty) in [
+            (f32::NAN, 0),
+            (-f32::NAN, 0),
+            (f32::INFINITY, 32_767),
+            (f32::NEG_INFINITY, -32_767),
+            (f32::MAX, 32_767),
+            (f32::MIN, -32_767),
+            (1.0, 32_767),
+            (-1.0, -32_767),
+            (0.0, 0),
+            (-0.0, 0),
+            (f32::MIN_POSITIVE, 0),
+            // To nearest, halves away from zero, the same on both sides.
+            (0.49 / 32_767.0, 0),
+            (0.51 / 32_767.0, 1),
+            (-0.49 / 32_767.0, 0),
+            (-0.51 / 32_767.0, -1),
+            (0.5, 16_384),
+            (-0.5, -16_384),
+        ] {
+            assert_eq!(Duty::from_fraction(fraction), Duty(duty), "{fraction}");
+        }
+    }
+
+    #[test]
+    fn every_duty_comes_back_from_its_fraction() {
+        for duty in -32_767..=32_767 {
+            assert_eq!(Duty::from_fraction(Duty(duty).fraction()), Duty(duty));
+        }
+    }
+
+    #[test]
+    fn full_torque_is_full_duty() {
+        let motor = Motor::current_driven(0.0259, 3.0, -12.0);
+        assert_eq!(Duty::from_fraction(motor.fraction(-0.0259 * 3.0 * 12.0)), Duty::FULL);
+        assert_eq!(Duty::from_fraction(motor.fraction(0.0259 * 3.0 * 6.0)), Duty(-16_384));
+    }
+}

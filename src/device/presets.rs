@@ -8,6 +8,8 @@ use crate::math::vec3;
 /// Lengths 80, 205 and 245 mm; capstan 10 mm on bodies of 160, 120 and 120 mm (16:1, 12:1, 12:1); 2,000 counts a turn;
 /// 0.0259 N·m/A at 3 A; 5 N, 1,000 N/m, 8 N·s/m. Source: the configuration of the project's CHAI3D driver
 /// (woody-experimental, `cWoodenDevice`). Zero counts is the calibration pose: first link upright, second level.
+/// Directions are those of the driver's USB variant, in which the turntable's encoder counts against its motor.
+/// At the workspace centre the first link's motor is at full duty with 4.8 N along x; along y and z 5 N are within reach.
 /// The joint range and the greatest rate are ours: wide enough for its workspace and for a hand at 3 m/s.
 pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
@@ -22,7 +24,7 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
         Encoder::geared(2_000.0, 12.0, 0.0),
     ],
     motors: [
-        Motor::current_driven(0.0259, 3.0, -16.0),
+        Motor::current_driven(0.0259, 3.0, 16.0),
         Motor::current_driven(0.0259, 3.0, -12.0),
         Motor::current_driven(0.0259, 3.0, 12.0),
     ],
@@ -32,3 +34,37 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
     greatest_stiffness: 1_000.0,
     greatest_damping: 8.0,
 };
+
+#[cfg(test)]
+mod tests {
+    use super::super::Kinematics;
+    use super::*;
+
+    #[test]
+    fn wooden_haptics_resolves_what_is_published() {
+        // Published for the probe: 43, 54 and 64 µm, to the micrometre. The levers are the reach at the workspace centre and
+        // the two links.
+        for ((encoder, lever), micrometres) in
+            WOODEN_HAPTICS_2016.encoders.iter().zip([0.220, 0.205, 0.245]).zip([43.0, 54.0, 64.0])
+        {
+            let step = encoder.radians_per_count.abs() * lever * 1e6;
+            assert!((step - micrometres).abs() <= 0.5, "{step} µm, published {micrometres} µm");
+        }
+    }
+
+    #[test]
+    fn wooden_haptics_gives_its_greatest_force_at_the_workspace_centre_or_all_but_four_percent() {
+        // Joint angles that put the probe at the centre, to a millimetre.
+        let pose = WOODEN_HAPTICS_2016.kinematics.pose([0.0, 0.344, 0.907]);
+        assert!(pose.position.length() < 1e-3, "{}", pose.position);
+        // 5 N × 0.205 m × cos 0.344 along x ask the first link for 0.965 N·m; 12 × 3 A × 0.0259 N·m/A are 0.932 N·m.
+        for (axis, load) in [(vec3(1.0, 0.0, 0.0), 1.035), (vec3(0.0, 1.0, 0.0), 0.885), (vec3(0.0, 0.0, 1.0), 0.809)] {
+            let torques = pose.torques(axis * WOODEN_HAPTICS_2016.greatest_force);
+            let fractions: [f32; 3] =
+                core::array::from_fn(|joint| WOODEN_HAPTICS_2016.motors[joint].fraction(torques[joint]));
+            let largest = fractions.into_iter().fold(0.0, |most: f32, fraction: f32| most.max(fraction.abs()));
+            // To the last digit above.
+            assert!((largest - load).abs() < 0.001, "{axis}: {fractions:?}");
+        }
+    }
+}
