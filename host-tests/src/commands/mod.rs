@@ -4,5 +4,6 @@ pub mod bake;
 pub mod check;
 pub mod closest;
 pub mod demo;
+mod output;
 pub mod sim;
 pub mod test;
