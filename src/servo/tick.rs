@@ -7,7 +7,7 @@ use crate::device::{Counts, Device, Duty, Kinematics, VelocityFilter};
 use crate::math::Vec3;
 use crate::patch::Patch;
 use crate::render::{Contact, Penalty};
-use crate::track::{Controller, Outcome, Witness};
+use crate::track::{Controller, Outcome, Probe, Witness};
 
 /// What a tick starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,7 +150,8 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
         state.probe = pose.position - self.body_origin;
 
         // Probe → witness point.
-        let step = self.controller.step(self.patch, &mut state.witness, state.probe, self.period);
+        let probe = Probe { position: state.probe, velocity: pose.velocity(state.rates) };
+        let step = self.controller.step(self.patch, &mut state.witness, probe, self.period);
         state.steps_undone = state.steps_undone.wrapping_add(u32::from(step.outcome == Outcome::Undone));
 
         // Witness point → gap → force → torques.
@@ -159,7 +160,7 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
         state.contact = state.contact.next(state.gap, state.witness.mode);
         state.fade = self.next_fade(state);
         let push = match state.contact {
-            Contact::Touching => self.penalty.push(state.gap, pose.velocity(state.rates).dot(normal)),
+            Contact::Touching => self.penalty.push(state.gap, probe.velocity.dot(normal)),
             Contact::Behind | Contact::InFront => 0.0,
         };
         state.force = normal * (push * state.fade);

@@ -4,7 +4,8 @@
 //! `½ δᵀ I δ + gᵀ δ` over the directions the boundary allows. Strictly convex in two variables, it has one minimiser, and
 //! the set of constraints active there is the mode.
 
-use super::projection::ProjectionErrors;
+use super::law::Law;
+use super::projection::{FirstFundamentalForm, ProjectionErrors};
 
 /// The active constraints. Numbers 1 to 5 are those of Eq. (1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,62 +29,94 @@ pub enum BoundaryMode {
 /// The direction a step takes, before its length is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Descent {
-    /// Change of `(u, v)` for a gain of 1 (`K h = 1`): `−Ψ` in the interior, `−g_v/G` or `−g_u/E` along an edge.
+    /// Change `w` of `(u, v)` for a gain of 1 (`K h = 1`): `−Ψ` in the interior, `−g_v/G` or `−g_u/E` along an edge.
     pub direction: [f32; 2],
-    /// `−gᵀ · direction ≥ 0`: twice the fall of `½ ‖ΔR‖²` that a gain of 1 would give on a flat patch. It bounds the
-    /// squared length `wᵀ I w` of the step in space, metres squared.
+    /// `s = −gᵀ w`, the fall of `½ ‖ΔR‖²` to first order, metres squared. Never negative without feed-forward.
     pub slope: f32,
+    /// An upper bound of `wᵀ I w`, the squared length of the step in space, metres squared. Without feed-forward it is `s`.
+    pub length_squared: f32,
     /// The mode.
     pub mode: BoundaryMode,
 }
 
 impl Descent {
-    /// The best direction the boundary allows at `(u, v)`.
+    /// The best direction that the boundary allows at `(u, v)` under a law.
     #[inline]
-    pub fn new(errors: &ProjectionErrors, [u, v]: [f32; 2]) -> Self {
-        let [along_u, along_v] = errors.gradient;
-        let direction = match errors.measure_numbers() {
-            Some([psi_u, psi_v]) => [-psi_u, -psi_v],
-            // No inverse: the plain gradient, scaled by the trace, which is not below the largest eigenvalue of I.
-            None => {
-                let scale = -reciprocal_or_zero(errors.form.e + errors.form.g);
-                [along_u * scale, along_v * scale]
-            }
-        };
-        let blocked_u = is_blocked(u, direction[0]);
-        let blocked_v = is_blocked(v, direction[1]);
-        if !blocked_u && !blocked_v {
-            return Self::along(direction, errors.gradient, BoundaryMode::Interior);
-        }
-        // On an edge the error is measured against the geodesic normal: g/G, not the measure number of Eq. (4).
-        let slide_v = -along_v * reciprocal_or_zero(errors.form.g);
-        let slide_u = -along_u * reciprocal_or_zero(errors.form.e);
-        let edge_u = Self::along([0.0, slide_v], errors.gradient, lower_or_upper_u(u));
-        let edge_v = Self::along([slide_u, 0.0], errors.gradient, lower_or_upper_v(v));
-        // At a corner the mode that is asked for may be blocked while the other edge is open: take the greater fall.
-        let fall_u = if is_at_border(u) && !is_blocked(v, slide_v) { edge_u.slope } else { 0.0 };
-        let fall_v = if is_at_border(v) && !is_blocked(u, slide_u) { edge_v.slope } else { 0.0 };
-        if fall_u <= 0.0 && fall_v <= 0.0 && is_at_border(u) && is_at_border(v) {
-            Self { direction: [0.0; 2], slope: 0.0, mode: BoundaryMode::Corner }
-        } else if is_at_border(u) && (fall_u >= fall_v || !is_at_border(v)) {
-            edge_u
-        } else {
-            edge_v
+    pub fn new(law: Law, errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
+        match law {
+            Law::MeasureNumbers => Self::measured(errors, parameters),
+            Law::Covariant => Self::projected_gradient(errors, parameters),
         }
     }
 
+    /// `−Ψ`, or the active set of the two-variable problem.
+    #[inline]
+    fn measured(errors: &ProjectionErrors, [u, v]: [f32; 2]) -> Self {
+        let FirstFundamentalForm { e, g, .. } = errors.form;
+        // No inverse at a pole: the plain gradient is still a descent there.
+        let Some([psi_u, psi_v]) = errors.measure_numbers() else {
+            return Self::projected_gradient(errors, [u, v]);
+        };
+        let [along_u, along_v] = errors.gradient;
+        let blocked_u = is_blocked(u, -psi_u);
+        let blocked_v = is_blocked(v, -psi_v);
+        if !blocked_u && !blocked_v {
+            return Self::along([-psi_u, -psi_v], errors.gradient, BoundaryMode::Interior);
+        }
+        // On an edge the error is measured against the geodesic normal: g/G, not the measure number of Eq. (4).
+        let slide_v = -along_v * reciprocal_or_zero(g);
+        let slide_u = -along_u * reciprocal_or_zero(e);
+        let edge_u = Self::along([0.0, slide_v], errors.gradient, lower_or_upper_u(u));
+        let edge_v = Self::along([slide_u, 0.0], errors.gradient, lower_or_upper_v(v));
+        match (is_at_border(u), is_at_border(v)) {
+            (true, false) => edge_u,
+            (false, _) => edge_v,
+            // At a corner the edge that was asked for may be blocked while the other is open: take the greater fall.
+            (true, true) => {
+                let fall_u = if is_blocked(v, slide_v) { 0.0 } else { edge_u.slope };
+                let fall_v = if is_blocked(u, slide_u) { 0.0 } else { edge_v.slope };
+                if fall_u <= 0.0 && fall_v <= 0.0 {
+                    Self::AT_CORNER
+                } else if fall_u >= fall_v {
+                    edge_u
+                } else {
+                    edge_v
+                }
+            }
+        }
+    }
+
+    /// `−g / trace I`, saturated component by component. The trace is not below the largest eigenvalue of `I`, so that
+    /// `wᵀ I w ≤ −gᵀ w`.
+    #[inline]
+    fn projected_gradient(errors: &ProjectionErrors, [u, v]: [f32; 2]) -> Self {
+        let scale = -reciprocal_or_zero(errors.form.e + errors.form.g);
+        let [w_u, w_v] = [errors.gradient[0] * scale, errors.gradient[1] * scale];
+        match (is_blocked(u, w_u), is_blocked(v, w_v)) {
+            (false, false) => Self::along([w_u, w_v], errors.gradient, BoundaryMode::Interior),
+            (true, false) => Self::along([0.0, w_v], errors.gradient, lower_or_upper_u(u)),
+            (false, true) => Self::along([w_u, 0.0], errors.gradient, lower_or_upper_v(v)),
+            (true, true) => Self::AT_CORNER,
+        }
+    }
+
+    const AT_CORNER: Self = Self { direction: [0.0; 2], slope: 0.0, length_squared: 0.0, mode: BoundaryMode::Corner };
+
     #[inline]
     fn along(direction: [f32; 2], gradient: [f32; 2], mode: BoundaryMode) -> Self {
-        Self { direction, slope: -(gradient[0] * direction[0] + gradient[1] * direction[1]), mode }
+        let slope = -(gradient[0] * direction[0] + gradient[1] * direction[1]);
+        Self { direction, slope, length_squared: slope, mode }
     }
 }
 
 /// The point a step reaches: `(u, v) + gain · direction`, cut where it would leave `[0, 1]²`.
 ///
-/// Cutting (and not clamping each parameter by itself) keeps the step on the segment along which the distance is proved to fall.
+/// Cutting (and not clamping each parameter by itself) keeps the step on the segment along which the distance is proved to
+/// fall. A component that points outward from its border already is left out: an integrator's mean may have one.
 #[inline]
 pub fn advance([u, v]: [f32; 2], direction: [f32; 2], gain: f32) -> [f32; 2] {
-    let (change_u, change_v) = (gain * direction[0], gain * direction[1]);
+    let change = |parameter, along: f32| if is_blocked(parameter, along) { 0.0 } else { gain * along };
+    let (change_u, change_v) = (change(u, direction[0]), change(v, direction[1]));
     let (cut_u, cut_v) = (fraction_inside(u, change_u), fraction_inside(v, change_v));
     let cut = cut_u.min(cut_v);
     [land(u, change_u, cut_u, cut), land(v, change_v, cut_v, cut)]
@@ -179,7 +212,7 @@ mod tests {
                 let errors = ProjectionErrors::new(&surface, vec3(cosine, sine, 0.4));
                 for u in corners {
                     for v in corners {
-                        let descent = Descent::new(&errors, [u, v]);
+                        let descent = Descent::new(Law::MeasureNumbers, &errors, [u, v]);
                         modes[descent.mode as usize] = true;
                         assert!(!is_blocked(u, descent.direction[0]) && !is_blocked(v, descent.direction[1]));
                         // At the minimiser of the model the fall is half the slope. The fan's 1e-4 rad step costs

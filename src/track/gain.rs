@@ -6,14 +6,15 @@ use crate::patch::SecondDerivativeBounds;
 
 /// The gain `a = K h` of a step that is proved to lower the distance, from bounds stored with the patch.
 ///
-/// Let `w` be the direction, `φ(a) = ½ ‖f(x + a w) − Q‖²`, `s` the slope `−gᵀw`, `ℓ² = wᵀ I w ≤ s` and
+/// Let `w` be the direction, `φ(a) = ½ ‖f(x + a w) − Q‖²`, `s` the slope `−gᵀw`, `ℓ²` a bound of `wᵀ I w` (it is `s`, or
+/// less, for the laws without feed-forward) and
 /// `m = sup ‖D²f[w, w]‖`, the supremum over the patch, at most `‖f_uu‖ w_u² + 2 ‖f_uv‖ |w_u w_v| + ‖f_vv‖ w_v²` with the
 /// stored bounds. Along the step the speed `‖Df w‖` grows at most by `a m`, and while the distance falls it is at most
 /// `R = ‖ΔR‖`, so for `0 ≤ a ≤ 1`
 ///
-/// `φ''(a) = ‖Df w‖² + ΔR · D²f[w, w] ≤ (ℓ + m)² + R m`, hence `φ(a) ≤ φ(0) − a s + ½ a² ((√s + m)² + R m)`.
+/// `φ''(a) = ‖Df w‖² + ΔR · D²f[w, w] ≤ (ℓ + m)² + R m`, hence `φ(a) ≤ φ(0) − a s + ½ a² ((ℓ + m)² + R m)`.
 ///
-/// The minimiser of the right-hand side, `a = s / ((√s + m)² + R m) ≤ 1`, is returned: `½ ‖ΔR‖²` falls by at least
+/// The minimiser of the right-hand side in `[0, 1]`, `a = s / ((ℓ + m)² + R m)`, is returned: `½ ‖ΔR‖²` falls by at least
 /// `½ a s`, and falls all along the way, so a step cut at the patch's border lowers it too. Near the closest point
 /// `m/s → c`, a curvature of the parametrisation, and `a → 1 / (1 + c R)`: the gain schedule of the paper's limits of
 /// performance with a proved constant. The patch must be C¹ along the step; its second derivatives may jump.
@@ -24,6 +25,8 @@ use crate::patch::SecondDerivativeBounds;
 pub fn certified_gain(descent: &Descent, bounds: &SecondDerivativeBounds, distance: f32) -> f32 {
     let [w_u, w_v] = descent.direction;
     let bend = bounds.uu * w_u * w_u + 2.0 * bounds.uv * (w_u * w_v).abs() + bounds.vv * w_v * w_v;
-    let reach = sqrt(descent.slope) + bend;
-    descent.slope / (reach * reach + distance * bend)
+    let reach = sqrt(descent.length_squared) + bend;
+    let gain = descent.slope / (reach * reach + distance * bend);
+    // Only feed-forward can ask for more than the whole way.
+    if gain < 1.0 { gain } else { 1.0 }
 }

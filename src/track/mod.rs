@@ -10,10 +10,20 @@
 
 mod boundary;
 mod controller;
+mod feed_forward;
 mod gain;
+mod integrate;
+mod law;
+mod pair;
+mod placement;
 mod projection;
+mod witness;
 
 pub use boundary::{BoundaryMode, Descent};
-pub use controller::{Controller, Outcome, Step, Witness};
+pub use controller::Controller;
 pub use gain::certified_gain;
+pub use law::{FeedForward, Gain, Integrator, Law};
+pub use pair::{CommonNormalStep, CommonNormalTracker, PairStep, PairTracker, PairWitness};
+pub use placement::Placement;
 pub use projection::{FirstFundamentalForm, ProjectionErrors};
+pub use witness::{Outcome, Probe, Step, Witness};

@@ -1,0 +1,75 @@
+//! The witness point, and what a step found out.
+
+use super::boundary::BoundaryMode;
+use crate::math::{Vec3, saturate, sqrt};
+use crate::patch::{Patch, SurfacePoint};
+
+/// The probe as the controller sees it, in the body's frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Probe {
+    /// Position `Q`, metres.
+    pub position: Vec3,
+    /// Velocity `q̇` relative to the body, m/s. Only feed-forward looks at it.
+    pub velocity: Vec3,
+}
+
+impl Probe {
+    /// A probe that is not known to move.
+    pub const fn at(position: Vec3) -> Self {
+        Self { position, velocity: Vec3::ZERO }
+    }
+}
+
+/// The witness point: the controller's whole state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Witness {
+    /// `(u, v)`, in `[0, 1]²` always.
+    pub parameters: [f32; 2],
+    /// The patch evaluated there.
+    pub surface: SurfacePoint,
+    /// The boundary mode of the last step.
+    pub mode: BoundaryMode,
+    /// What the certified gain is multiplied by: 1, or less for a while after a step had to be undone.
+    pub caution: f32,
+}
+
+/// What became of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// The witness point moved, and is not farther from the probe.
+    Moved,
+    /// There was nowhere nearer to go.
+    AtRest,
+    /// The step would have raised the distance by more than rounding can explain and was undone; the gain was halved.
+    /// With bounds that hold, on a patch that is C¹, it does not happen.
+    Undone,
+}
+
+/// What a step found out on its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// `‖ΔR‖` from the probe to the witness point before the step, metres.
+    pub distance_before: f32,
+    /// Length in space of the full correction that was asked for, metres: the projection error, 0 at the closest point.
+    pub residual: f32,
+    /// The gain `K h` used.
+    pub gain: f32,
+    /// What became of it.
+    pub outcome: Outcome,
+}
+
+impl Witness {
+    /// A witness point at `(u, v)`, moved into `[0, 1]²` if it lies outside; NaN is 0. One evaluation.
+    pub fn at<P: Patch>(patch: &P, u: f32, v: f32) -> Self {
+        let (u, v) = (saturate(u, 0.0, 1.0), saturate(v, 0.0, 1.0));
+        Self { parameters: [u, v], surface: patch.evaluate(u, v), mode: BoundaryMode::Interior, caution: 1.0 }
+    }
+
+    /// The outward unit normal at the witness point; `None` where the tangents span no plane.
+    #[inline]
+    pub fn normal<P: Patch>(&self, patch: &P) -> Option<Vec3> {
+        let across = self.surface.tangent_u.cross(self.surface.tangent_v);
+        let squared = across.length_squared();
+        (squared > f32::MIN_POSITIVE).then(|| across * (patch.orientation() / sqrt(squared)))
+    }
+}
