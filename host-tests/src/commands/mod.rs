@@ -4,6 +4,7 @@ pub mod bake;
 pub mod check;
 pub mod closest;
 pub mod demo;
+pub mod firmware;
 mod output;
 pub mod sim;
 pub mod test;

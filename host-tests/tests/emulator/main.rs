@@ -1,0 +1,8 @@
+//! The firmware image on the emulated board. Runs with `cargo palpate test`; plain `cargo test` says what it leaves out.
+
+mod agreement;
+mod faults;
+mod image;
+mod path;
+mod round_trip;
+mod running;
