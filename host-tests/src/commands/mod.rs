@@ -5,6 +5,8 @@ pub mod check;
 pub mod closest;
 pub mod demo;
 pub mod firmware;
+pub mod options;
 mod output;
+pub mod progress;
 pub mod sim;
 pub mod test;
