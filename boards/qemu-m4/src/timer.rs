@@ -76,11 +76,6 @@ impl InstructionCounter {
         let ticks = before.wrapping_sub(after) & MASK;
         (result, (ticks * 5 / 8).saturating_sub(self.overhead))
     }
-
-    /// Stops the count.
-    pub fn stop(&mut self) {
-        self.systick.disable_counter();
-    }
 }
 
 const MASK: u32 = 0x00ff_ffff;

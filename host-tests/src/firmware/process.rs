@@ -103,7 +103,12 @@ pub(super) fn apt_install(packages: &[&str], progress: &Progress) -> Result<(), 
         if !is_root {
             command.args(["-n", "apt-get"]);
         }
-        output(command.env("DEBIAN_FRONTEND", "noninteractive").arg("-qq").args(arguments))
+        output(
+            command
+                .env("DEBIAN_FRONTEND", "noninteractive")
+                .args(["-qq", "-o", "DPkg::Lock::Timeout=120"])
+                .args(arguments),
+        )
     };
     progress.during(&format!("installing with apt-get: {list}"), || {
         // Stale lists do not matter as long as the packages are found.
