@@ -81,13 +81,19 @@ fn on_board(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Run> {
 }
 
 /// What can go wrong before the image runs.
-enum Preparation {
+#[derive(Debug)]
+pub enum Preparation {
+    /// No emulator, no compiler, or a build that failed.
     SetUp(SetUpError),
+    /// The scene's tables cannot be written.
     Tables(anyhow::Error),
 }
 
 /// Bakes the scene into an image.
-fn prepare(scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
+///
+/// # Errors
+/// What was missing or failed.
+pub fn prepare(scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
     let folder = write_tables(scene).map_err(Preparation::Tables)?;
     let choice =
         Choice { body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };

@@ -37,6 +37,8 @@ pub struct Summary {
     pub steps_undone: u32,
     /// The latched fault and its tick.
     pub fault: Option<(Fault, u32)>,
+    /// A hash over the digest of every tick's state: two runs that agree in it agreed in every bit.
+    pub state_hash: u32,
     /// Instructions a tick, where the board counts them.
     pub instructions: Option<Instructions>,
 }
@@ -64,6 +66,7 @@ impl Summary {
             largest_penetration: reports().filter(touching).map(|report| -f64::from(report.gap)).fold(0.0, f64::max),
             frames_lost: last.frames_lost,
             steps_undone: last.steps_undone,
+            state_hash: reports().fold(0, |hash, report| (hash ^ report.digest).wrapping_mul(0x0100_0193)),
             fault: Fault::from_code(last.fault).map(|fault| (fault, last.fault_tick)),
             instructions: counted
                 .last()
@@ -90,6 +93,7 @@ impl Summary {
             ("frames lost", self.frames_lost.to_string()),
             ("faults", fault),
             ("steps undone", self.steps_undone.to_string()),
+            ("state hash", format!("{:08x}", self.state_hash)),
             ("instructions a tick", instructions),
         ]
     }
