@@ -2,7 +2,7 @@
 
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
-use palpate::track::{Controller, Outcome, Witness};
+use palpate::track::{Controller, Outcome, Probe, Witness};
 
 /// Starts on each patch, along each parameter: until a locator picks one, they stand in for it.
 const STARTS: [f32; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
@@ -76,7 +76,7 @@ impl<'a> Solver<'a> {
         let mut evaluations = 0;
         for _ in 0..ticks {
             // The gain is certified, not a rate: the period does not matter.
-            let step = self.controller.step(patch, &mut witness, probe, 1.0);
+            let step = self.controller.step(patch, &mut witness, Probe::at(probe), 1.0);
             evaluations += u32::from(step.outcome != Outcome::AtRest);
         }
         Some(Found { patch: previous.patch, witness, evaluations, status: Status::Tracking })
@@ -85,7 +85,7 @@ impl<'a> Solver<'a> {
     /// Steps until the controller asks for no more; the evaluations spent.
     fn settle(&self, patch: &SplinePatch, witness: &mut Witness, probe: Vec3) -> (u32, Status) {
         for steps in 0..STEP_LIMIT {
-            let step = self.controller.step(patch, witness, probe, 1.0);
+            let step = self.controller.step(patch, witness, Probe::at(probe), 1.0);
             if step.outcome == Outcome::AtRest {
                 return (steps, Status::Converged);
             }
