@@ -35,10 +35,10 @@ pub(super) fn check(knots: Vec<f64>, axis: Axis, points: usize, degree: usize) -
     if borders.len() - 1 > MAX_SPANS {
         return Err(Fault::TooManySpans { axis, count: borders.len() - 1 });
     }
-    // NaN comes of knots whose range overflows.
-    if let Some(pair) =
-        borders.windows(2).find(|pair| pair[0] as f32 >= pair[1] as f32 || pair[0].is_nan() || pair[1].is_nan())
-    {
+    // A narrower span is less than one step of f32 near 1, and far narrower than any that is meant. NaN comes of knots
+    // whose range overflows.
+    let is_wide = |pair: &[f64]| pair[1] - pair[0] >= f64::from(f32::EPSILON) && (pair[0] as f32) < pair[1] as f32;
+    if let Some(pair) = borders.windows(2).find(|pair| !is_wide(pair)) {
         let back = |mapped: f64| first + mapped * width;
         return Err(Fault::KnotsTooNear { axis, first: back(pair[0]), second: back(pair[1]) });
     }
