@@ -83,8 +83,14 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     }
 
     /// What each drive is to be told so that its motor gives this duty of torque at this joint rate, rad/s.
+    ///
+    /// Unless `live` it is zero: a bridge makes up for back-EMF even where no torque is asked for, and after a fault the rates
+    /// are not to be believed. On zero volts a motor brakes by itself.
     #[inline]
-    pub fn feed(&self, duties: [Duty; JOINTS], joint_rates: [f32; JOINTS]) -> [Duty; JOINTS] {
+    pub fn feed(&self, live: bool, duties: [Duty; JOINTS], joint_rates: [f32; JOINTS]) -> [Duty; JOINTS] {
+        if !live {
+            return [Duty::ZERO; JOINTS];
+        }
         let mut fed = duties;
         for ((fed, feed), rate) in fed.iter_mut().zip(&self.feeds).zip(joint_rates) {
             *fed = feed.command(*fed, rate);

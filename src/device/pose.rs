@@ -39,7 +39,7 @@ impl<const JOINTS: usize> ProbePose<JOINTS> {
             [a, b, c] => 2.0 * a.dot(b.cross(*c)).abs() / squares,
             _ => 0.0,
         };
-        if margin.is_finite() { margin } else { 0.0 }
+        if margin.is_finite() && self.position.is_finite() { margin } else { 0.0 }
     }
 }
 

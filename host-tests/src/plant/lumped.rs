@@ -123,3 +123,86 @@ impl<G: Geometry> Mechanism for Lumped<G> {
         self.points(angles).iter().map(|point| -point.weight * dot(self.gravity, point.place)).sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plant::PlantSettings;
+    use crate::plant::vector::difference;
+
+    /// Every lumped mechanism, with a hand, at poses about its workspace centre, and rates.
+    fn poses() -> Vec<(Box<dyn Mechanism>, Vector, Vector)> {
+        let mut poses = Vec::new();
+        for settings in [
+            PlantSettings::polhem_v2(),
+            PlantSettings::hapkit(),
+            PlantSettings::haply_2diy_v3(),
+            PlantSettings::haply_kit_v1(),
+            PlantSettings::novint_falcon(),
+        ] {
+            for offset in [[0.0; 3], [0.02, 0.01, -0.015], [-0.015, -0.02, 0.01]] {
+                let mechanism = settings.mechanism(0.05);
+                let angles = mechanism.angles(offset).unwrap();
+                let joints = mechanism.joints();
+                let rates = core::array::from_fn(|joint| if joint < joints { [2.0, -1.5, 3.0][joint] } else { 0.0 });
+                poses.push((mechanism, angles, rates));
+            }
+        }
+        poses
+    }
+
+    fn unit(joint: usize) -> Vector {
+        core::array::from_fn(|other| if other == joint { 1.0 } else { 0.0 })
+    }
+
+    #[test]
+    fn velocity_torques_follow_from_the_mass_matrix() {
+        for (mechanism, angles, rates) in poses() {
+            let step = 1e-5;
+            let momentum = |h: f64| times(&mechanism.mass_matrix(add_scaled(angles, rates, h)), rates);
+            let drift = scaled(difference(momentum(step), momentum(-step)), 0.5 / step);
+            let expected: Vector = core::array::from_fn(|joint| {
+                let energy = |h: f64| mechanism.kinetic_energy(add_scaled(angles, unit(joint), h), rates);
+                drift[joint] - (energy(step) - energy(-step)) / (2.0 * step)
+            });
+            let found = mechanism.velocity_torques(angles, rates);
+            // Energies near 0.01 J round at 1e-18 over 2e-5 rad; truncation is of the order of the step squared.
+            assert!(norm(difference(found, expected)) < 1e-9, "{mechanism:?}: {found:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn gravity_torques_follow_from_the_energy_of_height() {
+        for (mechanism, angles, _) in poses() {
+            let found = mechanism.gravity_torques(angles);
+            for joint in 0..mechanism.joints() {
+                let energy = |h: f64| mechanism.height_energy(add_scaled(angles, unit(joint), h));
+                let slope = (energy(1e-5) - energy(-1e-5)) / 2e-5;
+                // Energies of 0.2 J round at 3e-17 over 2e-5 rad.
+                assert!((found[joint] + slope).abs() < 1e-10, "{mechanism:?}: {found:?} {slope}");
+            }
+        }
+    }
+
+    #[test]
+    fn joints_that_are_not_there_stay_where_they_are() {
+        for (mechanism, angles, rates) in poses() {
+            let mass = mechanism.mass_matrix(angles);
+            let torques = add_scaled(mechanism.velocity_torques(angles, rates), mechanism.gravity_torques(angles), 1.0);
+            for (joint, (row, torque)) in mass.into_iter().zip(torques).enumerate().skip(mechanism.joints()) {
+                assert_eq!((row, torque), (unit(joint), 0.0));
+            }
+        }
+    }
+
+    #[test]
+    fn the_paddle_is_a_physical_pendulum() {
+        let settings = PlantSettings::hapkit();
+        let mechanism = settings.mechanism(0.0);
+        // Paddle, and the rotor through (0.073152/0.004191)²; the weight of 60 g at 25 mm, tipped by 0.1 rad.
+        let inertia = 1e-4 + 5e-7 * (0.073152_f64 / 0.004191).powi(2);
+        assert!((mechanism.mass_matrix([0.1, 0.0, 0.0])[0][0] - inertia).abs() < 1e-15);
+        let weight = 9.81 * 0.06 * 0.025 * 0.1_f64.sin();
+        assert!((mechanism.gravity_torques([0.1, 0.0, 0.0])[0] - weight).abs() < 1e-15);
+    }
+}

@@ -45,6 +45,9 @@ mod tests {
         // 0.03 N·m · 0.073152/0.004191 / 0.065659 m, to its three digits.
         assert!((motor.fraction(torque) - 1.0).abs() < 1e-3, "{}", motor.fraction(torque));
         // At standstill the supply gives all of it.
-        assert_eq!(HAPKIT.feed([Duty::FULL], [0.0]), [Duty::FULL]);
+        assert_eq!(HAPKIT.feed(true, [Duty::FULL], [0.0]), [Duty::FULL]);
+        // After a fault nothing, whatever the rates say.
+        assert_eq!(HAPKIT.feed(false, [Duty::ZERO], [30.0]), [Duty::ZERO]);
+        assert_ne!(HAPKIT.feed(true, [Duty::ZERO], [30.0]), [Duty::ZERO]);
     }
 }
