@@ -2,9 +2,11 @@
 //! prints the figures. The binary `palpate` is a thin front on this library; the tests use it directly.
 
 pub mod bake;
+pub mod closest;
 pub mod commands;
 pub mod firmware;
 pub mod oracle;
 pub mod plant;
+pub mod queries;
 pub mod report;
 pub mod simulation;
