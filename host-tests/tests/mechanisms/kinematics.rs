@@ -42,6 +42,28 @@ fn forward_map_agrees_with_the_simulated_mechanism() {
 }
 
 #[test]
+fn wherever_a_device_says_it_is_in_its_workspace_the_forward_map_holds() {
+    for case in cases() {
+        let mechanism = case.mechanism();
+        let (mut worst, mut inside) = (0.0_f64, 0);
+        // Joint angles over a turn and more, as they come: most are outside.
+        for n in 0..60_u32.pow(case.joints as u32) {
+            let angle = |joint: u32| -2.2 + 6.6 * ((n / 60_u32.pow(joint) % 60) as f32 + 0.37) / 60.0;
+            let angles: [f32; 3] =
+                core::array::from_fn(|joint| if joint < case.joints { angle(joint as u32) } else { 0.0 });
+            if (case.in_workspace)(angles) {
+                let off = distance((case.pose)(angles).position, mechanism.position(angles.map(f64::from)));
+                (worst, inside) = (worst.max(off), inside + 1);
+            }
+        }
+        println!("{}: forward map to {worst:.1e} m over all of the workspace, {inside} poses", case.name);
+        assert!(inside >= [10, 200, 2_000][case.joints - 1], "{}: {inside}", case.name);
+        // As over the workspace that is spoken of.
+        assert!(worst < 4e-7, "{}: {worst:e} m", case.name);
+    }
+}
+
+#[test]
 fn jacobian_agrees_with_differences_of_both_forward_maps() {
     for case in cases() {
         let mechanism = case.mechanism();
