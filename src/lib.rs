@@ -6,6 +6,8 @@ pub mod math;
 pub mod patch;
 pub mod render;
 pub mod servo;
+#[doc = include_str!("theory.md")]
+pub mod theory {}
 pub mod track;
 #[cfg(feature = "wire")]
 pub mod wire;
