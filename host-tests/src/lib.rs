@@ -5,6 +5,7 @@ pub mod bake;
 pub mod baselines;
 pub mod closest;
 pub mod commands;
+mod drawing;
 pub mod firmware;
 pub mod oracle;
 pub mod plant;
