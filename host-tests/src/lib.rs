@@ -6,6 +6,7 @@ pub mod baselines;
 pub mod closest;
 pub mod commands;
 mod drawing;
+pub mod figures;
 pub mod firmware;
 pub mod oracle;
 pub mod plant;
