@@ -8,6 +8,7 @@ pub mod commands;
 mod drawing;
 pub mod figures;
 pub mod firmware;
+pub mod generate;
 pub mod oracle;
 pub mod plant;
 pub mod queries;
