@@ -126,7 +126,7 @@ fn figure_8_chatters_above_the_predicted_limit() -> anyhow::Result<()> {
 
 #[test]
 fn the_same_arguments_give_the_same_bytes() -> anyhow::Result<()> {
-    let options = Options { probes: 3, seed: 5 };
+    let options = Options { probes: 3, distances: [0.1, 1.0], seed: 5 };
     let once = || sheets(&subject("table1c"), options, |_, _, _| ());
     let (first, second) = (once()?, once()?);
     assert_eq!(first.iter().map(|sheet| sheet.files.len()).sum::<usize>(), 10);

@@ -3,7 +3,7 @@
 use super::output::write_whole;
 use super::progress;
 use crate::figures::{Options, Stage, Subject, sheets};
-use anyhow::Context as _;
+use anyhow::{Context as _, ensure};
 use clap::Args;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,6 +29,12 @@ pub struct Arguments {
     /// Probes of Figure 7
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..))]
     probes: u16,
+    /// Their least distance from the patch, in its sizes: Newton's basins grow as it shrinks
+    #[arg(long, default_value_t = 0.1)]
+    nearest: f64,
+    /// Their greatest distance
+    #[arg(long, default_value_t = 1.0)]
+    farthest: f64,
     /// Seed of the probes
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -39,6 +45,11 @@ pub struct Arguments {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let distances = [arguments.nearest, arguments.farthest];
+    ensure!(
+        0.0 < distances[0] && distances[0] <= distances[1] && distances[1] <= 100.0,
+        "--nearest must be above 0 and not above --farthest, and that not above 100"
+    );
     let models = if arguments.model.is_empty() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
         vec![folder.join("table1.toml"), folder.join("table1c.toml")]
@@ -48,7 +59,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let subjects = models.iter().map(|model| Subject::read(model)).collect::<anyhow::Result<Vec<_>>>()?;
     fs::create_dir_all(&arguments.out)
         .with_context(|| format!("cannot make the folder {}", arguments.out.display()))?;
-    let options = Options { probes: arguments.probes.into(), seed: arguments.seed };
+    let options = Options { probes: arguments.probes.into(), distances, seed: arguments.seed };
     for subject in subjects {
         let bar = progress::work();
         let computed = sheets(&subject, options, |stage, done, all| bar.tell(name(stage), done, all))?;

@@ -194,9 +194,11 @@ pub fn start_grid() -> impl Iterator<Item = [f64; 2]> {
     (0..STARTS).flat_map(move |i| (0..STARTS).map(move |j| [grid(i), grid(j)]))
 }
 
-/// Probes that Theorem 1 covers: straight out from feet spread over the inside of the patch, 0.1 to 1 sizes away. Where another
+/// Probes that Theorem 1 covers: straight out from feet spread over the inside of the patch, their
+/// distances in sizes of the patch spread over `distances`. Where another
 /// point of the patch is nearer than the foot, the probe is drawn again.
-pub fn seeded_targets(subject: &Subject, count: usize, seed: u64) -> Vec<Target> {
+pub fn seeded_targets(subject: &Subject, count: usize, distances: [f64; 2], seed: u64) -> Vec<Target> {
+    let [nearest, farthest] = distances;
     let oracle = subject.oracle();
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut targets = Vec::with_capacity(count);
@@ -206,7 +208,7 @@ pub fn seeded_targets(subject: &Subject, count: usize, seed: u64) -> Vec<Target>
             break;
         }
         let foot = [random.random_range(0.02..0.98), random.random_range(0.02..0.98)];
-        let distance = subject.size * random.random_range(0.1..1.0);
+        let distance = subject.size * (nearest + (farthest - nearest) * random.random_range(0.0..1.0));
         targets.extend(subject.probe_over(&oracle, foot, distance).map(|(probe, closest)| Target { probe, closest }));
     }
     targets

@@ -11,10 +11,12 @@ use palpate::track::Integrator;
 use std::fmt::Write as _;
 
 /// What can be chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Probes of Figure 7.
     pub probes: usize,
+    /// Their least and greatest distance from the patch, in its sizes.
+    pub distances: [f64; 2],
     /// Their seed.
     pub seed: u64,
 }
@@ -92,7 +94,7 @@ fn modes(passage: &Passage) -> String {
 }
 
 fn attraction(subject: &Subject, options: Options, progress: impl FnMut(usize, usize)) -> anyhow::Result<Sheet> {
-    let targets = seeded_targets(subject, options.probes, options.seed);
+    let targets = seeded_targets(subject, options.probes, options.distances, options.seed);
     ensure!(
         targets.len() == options.probes && !targets.is_empty(),
         "{}: figure 7: only {} of {} probes have their closest point where they were set out",
