@@ -2,8 +2,11 @@
 //! prints the figures. The binary `palpate` is a thin front on this library; the tests use it directly.
 
 pub mod bake;
+pub mod baselines;
 pub mod closest;
 pub mod commands;
+mod drawing;
+pub mod figures;
 pub mod firmware;
 pub mod generate;
 pub mod oracle;

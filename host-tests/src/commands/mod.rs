@@ -4,6 +4,7 @@ pub mod bake;
 pub mod check;
 pub mod closest;
 pub mod demo;
+pub mod figures;
 pub mod firmware;
 pub mod options;
 mod output;

@@ -15,6 +15,35 @@ pub fn ticks(length: u32) -> Ticks {
     Ticks(bar)
 }
 
+/// A bar for work of some kind, of which the length is told as it goes; goes when dropped.
+pub struct Work(ProgressBar);
+
+/// A bar for work that is about to begin.
+pub fn work() -> Work {
+    let bar = ProgressBar::no_length();
+    let style = ProgressStyle::with_template("  {bar:40} {pos}/{len} {msg}, {eta} left");
+    bar.set_style(style.expect("the template is a constant"));
+    Work(bar)
+}
+
+impl Work {
+    /// So much is done, of so much, of this.
+    pub fn tell(&self, what: &str, done: usize, all: usize) {
+        if self.0.message() != what {
+            self.0.reset();
+            self.0.set_message(what.to_owned());
+        }
+        self.0.set_length(all as u64);
+        self.0.set_position(done as u64);
+    }
+}
+
+impl Drop for Work {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
 impl Ticks {
     /// So many are done.
     pub fn tell(&self, done: u32) {

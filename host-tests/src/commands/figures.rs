@@ -1,0 +1,87 @@
+//! `palpate figures`: the paper's Figures 6 to 8, computed anew.
+
+use super::output::write_whole;
+use super::progress;
+use crate::figures::{Options, Stage, Subject, sheets};
+use anyhow::{Context as _, ensure};
+use clap::Args;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Draws the paper's Figures 6 to 8, with the numbers beside them.
+///
+/// Figure 6: a start from which the witness point meets a border, follows it and leaves it again; the one that shows it best
+/// of a fixed grid of probes and starts. Figure 7: from which of 21 x 21 starts Newton's method, with and without saturation at
+/// the borders, and the firmware's controller find the closest point (to 1e-4 of the size), over seeded probes straight out from the
+/// patch. Figure 8: following a moving probe with gains that are good, too high and too low, and the measured limits of stability
+/// beside the predicted ones.
+///
+/// The same arguments write the same bytes.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Model file; its first patch is taken. Table I of the paper and its convex companion if not given
+    #[arg(long)]
+    model: Vec<PathBuf>,
+    /// Folder for the files
+    #[arg(long, default_value = "palpate-report/figures")]
+    out: PathBuf,
+    /// Probes of Figure 7
+    #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..))]
+    probes: u16,
+    /// Their least distance from the patch, in its sizes: Newton's basins grow as it shrinks
+    #[arg(long, default_value_t = 0.1)]
+    nearest: f64,
+    /// Their greatest distance
+    #[arg(long, default_value_t = 1.0)]
+    farthest: f64,
+    /// Seed of the probes
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let distances = [arguments.nearest, arguments.farthest];
+    ensure!(
+        0.0 < distances[0] && distances[0] <= distances[1] && distances[1] <= 100.0,
+        "--nearest must be above 0 and not above --farthest, and that not above 100"
+    );
+    let models = if arguments.model.is_empty() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+        vec![folder.join("table1.toml"), folder.join("table1c.toml")]
+    } else {
+        arguments.model.clone()
+    };
+    let subjects = models.iter().map(|model| Subject::read(model)).collect::<anyhow::Result<Vec<_>>>()?;
+    fs::create_dir_all(&arguments.out)
+        .with_context(|| format!("cannot make the folder {}", arguments.out.display()))?;
+    let options = Options { probes: arguments.probes.into(), distances, seed: arguments.seed };
+    for subject in subjects {
+        let bar = progress::work();
+        let computed = sheets(&subject, options, |stage, done, all| bar.tell(name(stage), done, all))?;
+        drop(bar);
+        println!("{}", subject.name);
+        for sheet in computed {
+            for (name, value) in sheet.rows {
+                println!("  {name:<28} {value}");
+            }
+            for (file, contents) in sheet.files {
+                let path = arguments.out.join(file);
+                write_whole(&path, contents.as_bytes())?;
+                println!("    {}", path.display());
+            }
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+const fn name(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Passage => "probes of figure 6",
+        Stage::Basins => "probes of figure 7",
+    }
+}

@@ -1,0 +1,16 @@
+//! The paper's simulation figures, computed anew: the numbers first, then what draws them.
+
+pub mod attraction;
+mod attraction_plot;
+mod compact;
+pub mod comparison;
+pub mod invariance;
+mod invariance_plot;
+mod page;
+mod sheets;
+mod subject;
+pub mod tracking;
+mod tracking_plot;
+
+pub use sheets::{Options, Sheet, Stage, sheets};
+pub use subject::Subject;

@@ -1,0 +1,185 @@
+//! All figures of a patch: files of drawings and numbers, and the lines of the table.
+
+use super::attraction::{Contender, seeded_targets, start_grid};
+use super::comparison::{Comparison, DRAWN};
+use super::invariance::{self, Passage};
+use super::subject::Subject;
+use super::tracking::{self, Configuration, Limit};
+use super::{attraction_plot, invariance_plot, tracking_plot};
+use anyhow::ensure;
+use palpate::track::Integrator;
+use std::fmt::Write as _;
+
+/// What can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Probes of Figure 7.
+    pub probes: usize,
+    /// Their least and greatest distance from the patch, in its sizes.
+    pub distances: [f64; 2],
+    /// Their seed.
+    pub seed: u64,
+}
+
+/// What is being computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Figure 6: the search for a passage.
+    Passage,
+    /// Figure 7: the basins.
+    Basins,
+}
+
+/// A figure of a patch.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sheet {
+    /// Name and contents of each file.
+    pub files: Vec<(String, String)>,
+    /// Name and value of each number that the table shows.
+    pub rows: Vec<(String, String)>,
+}
+
+impl Sheet {
+    fn row(&mut self, name: impl Into<String>, value: impl Into<String>) {
+        self.rows.push((name.into(), value.into()));
+    }
+}
+
+/// Computes all figures of a patch. `progress` hears the stage, what is done of it and how much there is.
+///
+/// # Errors
+/// A patch without a probe for Figure 7, a measured limit far from the prediction, or a drawing that failed.
+pub fn sheets(
+    subject: &Subject,
+    options: Options,
+    mut progress: impl FnMut(Stage, usize, usize),
+) -> anyhow::Result<Vec<Sheet>> {
+    Ok(vec![
+        invariance(subject, |done, all| progress(Stage::Passage, done, all))?,
+        attraction(subject, options, |done, all| progress(Stage::Basins, done, all))?,
+        tracking(subject)?,
+    ])
+}
+
+fn invariance(subject: &Subject, progress: impl FnMut(usize, usize)) -> anyhow::Result<Sheet> {
+    let mut sheet = Sheet::default();
+    let Some(passage) = Passage::search(subject, progress) else {
+        sheet.row("figure 6", "left out: no start of the search goes interior, border, interior");
+        return Ok(sheet);
+    };
+    let mut csv = "time_s,u,v,x_mm,y_mm,z_mm,mode,psi_u,psi_v,distance_mm\n".to_owned();
+    for sample in &passage.samples {
+        let ([u, v], [x, y, z]) = (sample.parameters, (sample.point * 1e3).to_array());
+        let ([psi_u, psi_v], mode) = (sample.errors, sample.mode as u8);
+        let (time, distance) = (sample.time, sample.distance * 1e3);
+        writeln!(csv, "{time:.3},{u:.7},{v:.7},{x:.5},{y:.5},{z:.5},{mode},{psi_u:.7},{psi_v:.7},{distance:.5}")?;
+    }
+    let [start, closest] = [passage.samples[0].parameters, passage.closest.parameters];
+    sheet.row("figure 6", format!("K = {} 1/s, {}", invariance::GAIN, modes(&passage)));
+    sheet.row("  P0, P*", format!("({:.3}, {:.3}), ({:.3}, {:.3})", start[0], start[1], closest[0], closest[1]));
+    let times = [passage.meets_border, passage.leaves_border, passage.arrives];
+    sheet.row("  t1, t2, t3", format!("{:.3}, {:.3}, {:.3} s", times[0], times[1], times[2]));
+    let rises = |axis| if passage.error_rises(axis) { "rises" } else { "falls throughout" };
+    sheet.row("  |psi_u|, |psi_v|", format!("{}, {}", rises(0), rises(1)));
+    sheet.row("  largest rise of ‖ΔR‖", format!("{:.1e} m", passage.largest_rise()));
+    sheet.files.push((format!("{}-figure6.svg", subject.name), invariance_plot::draw(subject, &passage)?));
+    sheet.files.push((format!("{}-figure6.csv", subject.name), csv));
+    Ok(sheet)
+}
+
+fn modes(passage: &Passage) -> String {
+    let numbers: Vec<_> =
+        passage.samples.chunk_by(|a, b| a.mode == b.mode).map(|stretch| (stretch[0].mode as u8).to_string()).collect();
+    format!("modes {}", numbers.join(" → "))
+}
+
+fn attraction(subject: &Subject, options: Options, progress: impl FnMut(usize, usize)) -> anyhow::Result<Sheet> {
+    let targets = seeded_targets(subject, options.probes, options.distances, options.seed);
+    ensure!(
+        targets.len() == options.probes && !targets.is_empty(),
+        "{}: figure 7: only {} of {} probes have their closest point where they were set out",
+        subject.name,
+        targets.len(),
+        options.probes
+    );
+    let comparison = Comparison::new(subject, targets, progress);
+    let mut sheet = Sheet::default();
+    let drawn = comparison.drawn;
+    sheet.row("figure 7", format!("{} probes, probe {drawn} drawn; mean, worst, drawn:", comparison.targets.len()));
+    for (index, contender) in Contender::ALL.into_iter().enumerate() {
+        let (mean, worst) = comparison.mean_and_worst(contender);
+        let shares = [mean, worst, comparison.shares[drawn][index]].map(|share| format!("{:6.2} %", 100.0 * share));
+        sheet.row(format!("  {}", contender.name()), shares.join(" "));
+    }
+    sheet.files.push((format!("{}-figure7.svg", subject.name), attraction_plot::draw(subject, &comparison)?));
+
+    let mut probes = "probe,qx_mm,qy_mm,qz_mm,distance_mm,u,v".to_owned();
+    Contender::ALL.iter().try_for_each(|contender| write!(probes, ",{}", contender.name()))?;
+    for (index, (target, shares)) in comparison.targets.iter().zip(&comparison.shares).enumerate() {
+        let [x, y, z] = (target.probe.as_dvec3() * 1e3).to_array();
+        let ([u, v], distance) = (target.closest.parameters, target.closest.distance * 1e3);
+        write!(probes, "\n{index},{x:.5},{y:.5},{z:.5},{distance:.5},{u:.7},{v:.7}")?;
+        shares.iter().try_for_each(|share| write!(probes, ",{share:.6}"))?;
+    }
+    probes.push('\n');
+    sheet.files.push((format!("{}-figure7-probes.csv", subject.name), probes));
+
+    let mut basins = "controller,u,v,converges,steps\n".to_owned();
+    let mut paths = "controller,step,u,v\n".to_owned();
+    for (contender, (basin, run)) in DRAWN.iter().zip(comparison.basins.iter().zip(&comparison.runs)) {
+        for ([u, v], (found, steps)) in start_grid().zip(&basin.starts) {
+            writeln!(basins, "{},{u:.2},{v:.2},{},{steps}", contender.name(), u8::from(*found))?;
+        }
+        for (step, [u, v]) in run.path.iter().enumerate() {
+            writeln!(paths, "{},{step},{u:.7},{v:.7}", contender.name())?;
+        }
+    }
+    sheet.files.push((format!("{}-figure7-basins.csv", subject.name), basins));
+    sheet.files.push((format!("{}-figure7-paths.csv", subject.name), paths));
+    Ok(sheet)
+}
+
+fn tracking(subject: &Subject) -> anyhow::Result<Sheet> {
+    let mut sheet = Sheet::default();
+    let oracle = subject.oracle();
+    let Some(rest) = Configuration::find(subject, &oracle) else {
+        sheet.row("figure 8", "left out: no convex place to track over");
+        return Ok(sheet);
+    };
+    let runs = tracking::runs(subject, &rest);
+    let mut csv = "gain,time_s,u,v,psi_u,psi_v,distance_mm\n".to_owned();
+    for (gain, run) in tracking::GAINS.iter().zip(&runs) {
+        // The slow run is long: what it shows needs no more rows than the others.
+        for sample in run.iter().step_by(run.len().div_ceil(2_000)) {
+            let ([u, v], [psi_u, psi_v]) = (sample.parameters, sample.errors);
+            let distance = sample.witness.distance(sample.probe) * 1e3;
+            writeln!(csv, "{gain},{:.3},{u:.7},{v:.7},{psi_u:.7},{psi_v:.7},{distance:.5}", sample.time)?;
+        }
+    }
+    let limits = tracking::limits(subject, &oracle, &rest)?;
+    let predicted = rest.predicted_limit(Integrator::Euler);
+    let measured = rest.measured_limit(subject, Integrator::Euler)?;
+    let product = rest.curvature * rest.distance;
+    sheet.row(
+        "figure 8",
+        format!("κ = {:.1} 1/m, ‖ΔR‖ = {:.3} mm, κ ‖ΔR‖ = {product:.3}", rest.curvature, rest.distance * 1e3),
+    );
+    sheet.row("  stable below", format!("{measured:.1} 1/s measured, {predicted:.1} 1/s predicted"));
+    let error = |limit: &Limit| (limit.measured / limit.predicted - 1.0).abs();
+    let worst = limits.iter().map(error).fold(0.0, f64::max);
+    sheet.row("  all integrators, distances", format!("measured within {:.2} % of predicted", 100.0 * worst));
+    for (gain, run) in tracking::GAINS.iter().zip(&runs) {
+        let left = run.last().map_or(0.0, |sample| sample.errors[0].hypot(sample.errors[1]));
+        let end = run.last().map_or(0.0, |sample| sample.time);
+        sheet.row(format!("  K = {gain} 1/s"), format!("‖Ψ‖ = {left:.1e} after {end:.1} s"));
+    }
+    sheet.files.push((format!("{}-figure8.svg", subject.name), tracking_plot::draw(subject, &runs)?));
+    sheet.files.push((format!("{}-figure8.csv", subject.name), csv));
+    sheet.files.push((format!("{}-figure8-limits.svg", subject.name), tracking_plot::draw_limits(&limits, &rest)?));
+    let mut csv = "integrator,curvature_times_distance,predicted_per_s,measured_per_s\n".to_owned();
+    for Limit { integrator, product, predicted, measured } in &limits {
+        writeln!(csv, "{integrator:?},{product:.1},{predicted:.2},{measured:.2}")?;
+    }
+    sheet.files.push((format!("{}-figure8-limits.csv", subject.name), csv));
+    Ok(sheet)
+}
