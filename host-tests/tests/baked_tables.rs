@@ -43,7 +43,7 @@ fn the_compiled_table_has_the_bits_of_the_baked_patch() -> Result<(), Box<dyn Er
     let patch = BakedPatch::new(&model.patches[0])?.to_patch()?;
     let compiled: &SplinePatch = &table1c::PATCHES[0];
     assert_eq!(table1c::PATCHES.len(), model.patches.len());
-    assert_eq!(compiled.bounds(), patch.bounds());
+    assert_eq!(compiled.shape(), patch.shape());
     assert_eq!(compiled.size().to_bits(), patch.size().to_bits());
     assert_eq!((compiled.orientation(), compiled.degree()), (patch.orientation(), patch.degree()));
     for i in 0..=64_u16 {

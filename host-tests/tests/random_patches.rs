@@ -214,7 +214,8 @@ fn the_bounds_hold_and_are_tight() -> Result<(), Box<dyn Error>> {
                 }
             }
         }
-        let bounds = [baked.bounds.uu, baked.bounds.uv, baked.bounds.vv].map(f64::from);
+        let derivatives = baked.shape.second_derivatives;
+        let bounds = [derivatives.uu, derivatives.uv, derivatives.vv].map(f64::from);
         for (kind, (bound, sampled)) in bounds.into_iter().zip(sampled).enumerate() {
             assert!(bound >= sampled, "degree {:?}, kind {kind}: {bound} below {sampled}", patch.degree);
             if sampled > 0.0 {
