@@ -176,10 +176,14 @@ fn convexity(patch: &NurbsPatch, baked: &BakedPatch) -> Convexity {
     if proved.is_convex() {
         return Convexity::Proved;
     }
+    let size = patch.size();
     let (mut least, mut worst, mut largest) = (f64::INFINITY, [0.0; 2], 0.0_f64);
     patch.for_each_sample(12, |parameters, surface| {
+        // At a pole the tangents are rounding, and so would be the curvature.
+        if surface.tangent_u.cross(surface.tangent_v).length() <= POLE * size * size {
+            return true;
+        }
         let [low, high] = surface.principal_curvatures(patch.flip);
-        // False for the NaN of a pole.
         if low < least {
             (least, worst) = (low, parameters);
         }
