@@ -331,3 +331,24 @@ fn the_exponential_gain_decays_at_least_exponentially_until_it_is_capped() {
         }
     }
 }
+
+#[test]
+fn no_gain_but_the_unlimited_one_goes_beyond_the_certified_one() {
+    let body = Body::load("table1c");
+    let query = body.probe([0.6, 0.4], 0.02).as_vec3();
+    let start = Witness::at(&body.patch, 0.2, 0.7);
+    let gain = |gain| {
+        let (controller, mut witness) = (Controller { gain, ..Controller::CERTIFIED }, start);
+        controller.step(&body.patch, &mut witness, Probe::at(query), 1.0).gain
+    };
+    let certified = gain(Gain::Certified);
+    assert_eq!([gain(Gain::Constant(1e6)), gain(Gain::Exponential(1e12))], [certified; 2]);
+    assert_eq!(gain(Gain::Constant(0.5 * certified)), 0.5 * certified);
+    assert_eq!(gain(Gain::Unlimited(1.5)), 1.5);
+    // And the certified one is not below what the limits promise for projection errors of this length.
+    let errors = palpate::track::ProjectionErrors::new(&start.surface, query);
+    let descent = palpate::track::Descent::new(Law::MeasureNumbers, &errors, start.parameters);
+    let distance = errors.difference.length();
+    let limits = PerformanceLimits::new(&body.patch.shape(), Integrator::Euler, 1.0, distance);
+    assert!(limits.monotone_gain(descent.slope.sqrt()) <= certified * (1.0 + 1e-6));
+}

@@ -21,7 +21,7 @@ pub const SLACK: f64 = 0.02;
 /// How often a cell is halved at most: 9 times along each parameter. A pole's cells, which stay without a bound, are
 /// then a 500th of a span wide.
 pub const HALVINGS: usize = 18;
-/// Cells of a patch, shared by its spans (each has 1024 at least): a second of work at degree 5.
+/// Cells of a patch, shared by its spans (each has 1024 at least): a few seconds of work for a rational patch of degree 5, hundredths for degree 2.
 pub const CELLS: usize = 16_384;
 /// A direction that bends inward by less than this, relative to the largest curvature, is straight but for the rounding of the
 /// coefficients to `f32` (6e-8 of coordinates that are some ten times what the bending moves them). It is not pursued further, and not called convex.
