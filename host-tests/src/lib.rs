@@ -5,6 +5,7 @@ pub mod bake;
 pub mod closest;
 pub mod commands;
 pub mod firmware;
+pub mod generate;
 pub mod oracle;
 pub mod plant;
 pub mod queries;

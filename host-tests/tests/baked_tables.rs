@@ -58,7 +58,7 @@ fn the_compiled_table_has_the_bits_of_the_baked_patch() -> Result<(), Box<dyn Er
 
 #[test]
 fn numbers_of_the_source_read_back_as_the_same_bits() -> Result<(), Box<dyn Error>> {
-    let text = model("mm", "[1, 1]", "[[0, 0, 0], [0, 1.234567e-3, 9.9]], [[33.3, 0, -1e-9], [77.7, 66.6, 1]]");
+    let text = model("mm", "[1, 1]", "[[0, 0, 0], [0, 1.234567e-3, -0.3]], [[33.3, 0, 0.02], [77.7, 66.6, 0.01]]");
     let baked = BakedPatch::all(&Model::parse(&text, "m.toml")?, "m.toml")?;
     let origin = Origin { model_file: "m.toml\n#!", out_file: "m.rs", model: text.as_bytes() };
     let source = source::rust_source(&origin, &baked)?;

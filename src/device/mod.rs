@@ -1,46 +1,51 @@
 //! The device: encoder counts to joint angles to the probe, and a force at the probe back to motor duty.
 //!
-//! One direction in, one out: [`Encoder`] → [`Kinematics`] → … → [`Kinematics`] (transposed Jacobian) → [`Motor`].
-//! A new device is a [`Kinematics`] and a preset in [`presets`].
+//! One direction in, one out: [`sensor`] → [`Encoder`] → [`Kinematics`] → … → [`Kinematics`] (transposed Jacobian) →
+//! [`Motor`] → [`drive`]. [`Homing`] finds out where the joints are to begin with. A new device is a [`Kinematics`] and a
+//! preset in [`presets`]; one, two and three joints are alike to the servo.
 
+mod delta;
+pub mod drive;
 mod encoder;
+mod five_bar;
+mod homing;
+mod linkage_arm;
 mod motor;
+mod paddle;
+mod pose;
 pub mod presets;
+pub mod sensor;
 mod serial_arm;
 mod velocity;
 
+pub use delta::Delta;
 pub use encoder::{Counts, Encoder};
+pub use five_bar::FiveBar;
+pub use homing::{Homing, HomingError, HomingInput, HomingProgress, HomingState, Reference, Refusal};
+pub use linkage_arm::{LinkMass, LinkageArm};
 pub use motor::{Duty, Motor};
+pub use paddle::Paddle;
+pub use pose::ProbePose;
 pub use serial_arm::SerialArm;
 pub use velocity::VelocityFilter;
 
-use crate::math::Vec3;
+/// Acceleration of free fall, m/s².
+pub const GRAVITY: f32 = 9.81;
 
-/// Where the probe is and how it moves with each joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProbePose<const JOINTS: usize> {
-    /// The probe's position in the device's frame, metres from the centre of its workspace.
-    pub position: Vec3,
-    /// The Jacobian's columns `∂position/∂angle`, metres per radian.
-    pub jacobian: [Vec3; JOINTS],
-}
-
-impl<const JOINTS: usize> ProbePose<JOINTS> {
-    /// The probe's velocity, m/s, from the joint rates, rad/s.
-    pub fn velocity(&self, joint_rates: [f32; JOINTS]) -> Vec3 {
-        self.jacobian.iter().zip(joint_rates).fold(Vec3::ZERO, |sum, (column, rate)| sum + *column * rate)
-    }
-
-    /// The joint torques, N·m, that hold a force at the probe, N: `τ = Jᵀ F`.
-    pub fn torques(&self, force: Vec3) -> [f32; JOINTS] {
-        self.jacobian.map(|column| column.dot(force))
-    }
-}
-
-/// The forward map of a mechanism.
+/// The forward map of a mechanism and the weight of its links.
+///
+/// The device's frame is each mechanism's own; its documentation says where the axes point.
 pub trait Kinematics<const JOINTS: usize> {
-    /// Probe position and Jacobian at these joint angles, radians.
+    /// Probe position and Jacobian at these joint angles, radians. [`ProbePose::UNREACHABLE`], all NaN, where the mechanism
+    /// cannot be closed.
     fn pose(&self, angles: [f32; JOINTS]) -> ProbePose<JOINTS>;
+
+    /// The joint torques, N·m, that carry the weight of the links. Zero where the masses are not known or do not load the
+    /// joints.
+    fn holding_torques(&self, angles: [f32; JOINTS]) -> [f32; JOINTS] {
+        let _ = angles;
+        [0.0; JOINTS]
+    }
 }
 
 /// A device as the servo sees it: mechanism, encoders, motors and limits. Lives in flash.
@@ -52,8 +57,12 @@ pub struct Device<K, const JOINTS: usize> {
     pub encoders: [Encoder; JOINTS],
     /// One motor a joint.
     pub motors: [Motor; JOINTS],
+    /// How each motor is fed.
+    pub feeds: [drive::Feed; JOINTS],
     /// Least and greatest angle of each joint, radians: what lies outside is a sensor fault.
     pub joint_range: [[f32; 2]; JOINTS],
+    /// Below this [`ProbePose::singularity_margin`], m/rad, the device counts as outside its workspace.
+    pub least_margin: f32,
     /// The greatest believable joint speed, rad/s: what is faster is a sensor fault.
     pub greatest_joint_rate: f32,
     /// The greatest force the device is to be asked for, N.
@@ -62,4 +71,30 @@ pub struct Device<K, const JOINTS: usize> {
     pub greatest_stiffness: f32,
     /// The greatest damping recommended for it, N·s/m.
     pub greatest_damping: f32,
+}
+
+impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
+    /// Whether these joint angles, radians, are in the workspace: each in its range, the mechanism closed, and far enough
+    /// from a singularity for forces to make sense. False for NaN.
+    pub fn in_workspace(&self, angles: [f32; JOINTS]) -> bool {
+        let in_range = |(angle, [least, most]): (&f32, &[f32; 2])| least <= angle && angle <= most;
+        angles.iter().zip(&self.joint_range).all(in_range)
+            && self.kinematics.pose(angles).singularity_margin() >= self.least_margin
+    }
+
+    /// What each drive is to be told so that its motor gives this duty of torque at this joint rate, rad/s.
+    ///
+    /// Unless `live` it is zero: a bridge makes up for back-EMF even where no torque is asked for, and after a fault the rates
+    /// are not to be believed. On zero volts a motor brakes by itself.
+    #[inline]
+    pub fn feed(&self, live: bool, duties: [Duty; JOINTS], joint_rates: [f32; JOINTS]) -> [Duty; JOINTS] {
+        if !live {
+            return [Duty::ZERO; JOINTS];
+        }
+        let mut fed = duties;
+        for ((fed, feed), rate) in fed.iter_mut().zip(&self.feeds).zip(joint_rates) {
+            *fed = feed.command(*fed, rate);
+        }
+        fed
+    }
 }

@@ -1,9 +1,11 @@
-//! The serial three-joint arm of WoodenHaptics, Polhem and Phantom-type devices.
+//! The serial three-joint arm of WoodenHaptics and of the Phantom.
 
-use super::{Kinematics, ProbePose};
+use super::{GRAVITY, Kinematics, ProbePose};
 use crate::math::{Vec3, sin_cos, vec3};
 
 /// A turntable that carries a parallelogram of two links.
+///
+/// The frame: x away from the turntable at `a = 0`, z up.
 ///
 /// Joint angles, radians: `a` turns the table about the vertical; `b` tilts the first link from the vertical; `c` tilts
 /// the second link down from the horizontal. Both link motors sit on the turntable, so `c` is absolute, not relative
@@ -19,6 +21,9 @@ pub struct SerialArm {
     pub second_link: f32,
     /// The centre of the workspace, metres from the foot of the turntable.
     pub workspace_centre: Vec3,
+    /// What each link lifts: its mass times the distance of its centre from its axis, and for the first also all that hangs
+    /// on its end times its length, kg·m. Negative where it is overbalanced; zero if not known.
+    pub mass_moments: [f32; 2],
 }
 
 impl Kinematics<3> for SerialArm {
@@ -38,5 +43,12 @@ impl Kinematics<3> for SerialArm {
                 vec3(reach_c * cos_a, reach_c * sin_a, -second * cos_c),
             ],
         }
+    }
+
+    #[inline]
+    fn holding_torques(&self, [_, b, c]: [f32; 3]) -> [f32; 3] {
+        // The links' height is `m₁ cos b − m₂ sin c`; the torque that holds it is its slope.
+        let [first, second] = self.mass_moments;
+        [0.0, -GRAVITY * first * sin_cos(b).0, -GRAVITY * second * sin_cos(c).1]
     }
 }

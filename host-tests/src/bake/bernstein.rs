@@ -26,8 +26,12 @@ impl<const D: usize> Bernstein<D> {
     /// From powers of `s` and `t` over `[s₀, s₁] × [t₀, t₁]`.
     pub(super) fn from_powers(degree: [usize; 2], powers: &[[f64; D]], s: [f64; 2], t: [f64; 2]) -> Self {
         let table = Self { degree, coefficients: powers.to_vec() };
-        let along_t = Self::from_fn(degree, |i, j| sum(degree[1], |k| (*table.at(i, k), blossom(degree[1], k, j, t))));
-        Self::from_fn(degree, |i, j| sum(degree[0], |k| (*along_t.at(k, j), blossom(degree[0], k, i, s))))
+        let blossoms = |degree: usize, range: [f64; 2]| -> Vec<Vec<f64>> {
+            (0..=degree).map(|index| (0..=degree).map(|power| blossom(degree, power, index, range)).collect()).collect()
+        };
+        let (blossoms_s, blossoms_t) = (blossoms(degree[0], s), blossoms(degree[1], t));
+        let along_t = Self::from_fn(degree, |i, j| sum(degree[1], |k| (*table.at(i, k), blossoms_t[j][k])));
+        Self::from_fn(degree, |i, j| sum(degree[0], |k| (*along_t.at(k, j), blossoms_s[i][k])))
     }
 
     /// The derivative along one axis (0 or 1), as a derivative by the unit-square parameter.
@@ -48,15 +52,21 @@ impl<const D: usize> Bernstein<D> {
     pub(super) fn times(&self, scalar: &Bernstein<1>) -> Self {
         let [a, b] = [self.degree, scalar.degree];
         let degree = [a[0] + b[0], a[1] + b[1]];
-        let share = |axis: usize, whole: usize, own: usize| {
-            binomial(a[axis], own) * binomial(b[axis], whole - own) / binomial(degree[axis], whole)
-        };
+        // Computed once a product: they would be most of its cost.
+        let shares = [0, 1].map(|axis| {
+            let share = |whole: usize, own: usize| {
+                let other = whole.checked_sub(own).map_or(0.0, |other| binomial(b[axis], other));
+                binomial(a[axis], own) * other / binomial(degree[axis], whole)
+            };
+            (0..=degree[axis]).map(|whole| (0..=a[axis]).map(|own| share(whole, own)).collect()).collect()
+        });
+        let [shares_u, shares_v]: [Vec<Vec<f64>>; 2] = shares;
         let range = |axis: usize, whole: usize| whole.saturating_sub(b[axis])..=whole.min(a[axis]);
         Self::from_fn(degree, |i, j| {
             let mut total = [0.0; D];
             for k in range(0, i) {
                 for l in range(1, j) {
-                    let factor = share(0, i, k) * share(1, j, l) * scalar.at(i - k, j - l)[0];
+                    let factor = shares_u[i][k] * shares_v[j][l] * scalar.at(i - k, j - l)[0];
                     accumulate(&mut total, self.at(k, l), factor);
                 }
             }
@@ -75,6 +85,9 @@ impl<const D: usize> Bernstein<D> {
     }
 
     fn raised(&self, degree: [usize; 2]) -> Self {
+        if degree == self.degree {
+            return self.clone();
+        }
         let missing = [degree[0] - self.degree[0], degree[1] - self.degree[1]];
         let one = Bernstein::<1>::from_fn(missing, |_, _| [1.0]);
         self.times(&one)
@@ -119,7 +132,8 @@ fn blossom(degree: usize, power: usize, index: usize, [a, b]: [f64; 2]) -> f64 {
 
 /// Exact up to the degree 15 of a second derivative of a rational quintic.
 pub(super) fn binomial(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
+    // Of more than n there are none: the product passes 0.
+    (0..k).fold(1.0, |product, i| product * n.saturating_sub(i) as f64 / (i + 1) as f64)
 }
 
 /// `xᵏ` by multiplication: the standard library's power may differ in the last bit from machine to machine.

@@ -4,7 +4,7 @@ use super::options::{Scene, SceneOptions};
 use super::{progress, sim};
 use crate::bake::source::rust_source;
 use crate::firmware::{self, Choice, Firmware, Progress, SetUpError, Transport};
-use crate::report::{Page, Summary, write_page};
+use crate::report::{Page, Summary, plots, write_page};
 use crate::simulation::{self, Trace};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -26,6 +26,9 @@ pub struct Arguments {
     /// Where the report goes
     #[arg(long, default_value = "palpate-report/demo.html")]
     report: PathBuf,
+    /// Also writes the view of the probe's path to this SVG file
+    #[arg(long, value_name = "FILE.svg")]
+    picture: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -57,6 +60,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let page =
         Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, patch: scene.patch };
     write_page(&page, &arguments.report)?;
+    if let Some(picture) = &arguments.picture {
+        fs::write(picture, plots::path(&page)?).with_context(|| format!("cannot write {}", picture.display()))?;
+    }
     println!("palpate demo: {subtitle}");
     for (name, value) in &figures {
         println!("  {name:<20} {value}");

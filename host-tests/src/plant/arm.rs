@@ -4,7 +4,7 @@
 //! each other. Joint angles, radians: `a` turns the table about the vertical, `b` tilts the first link from the vertical,
 //! `c` tilts the second link down from the horizontal (absolute, not relative to `b`).
 
-use super::vector::{Matrix, Vector, difference, dot, times};
+use super::vector::{Matrix, Vector, difference};
 
 /// A rigid link.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +37,8 @@ pub struct Arm {
     pub second: Link,
     /// The origin of probe positions, m from the foot of the turntable.
     pub workspace_centre: Vector,
+    /// What counterweights and drums add to what each link lifts, kg·m; their inertia is in `joint_inertia`.
+    pub balance: [f64; 2],
     /// Inertia that turns with each joint alone, kg·m²: the turntable, and each rotor seen through its transmission.
     pub joint_inertia: Vector,
     /// Mass that moves with the probe but is carried by the hand, so that gravity does not load the arm with it, kg.
@@ -125,22 +127,22 @@ impl Arm {
         ]
     }
 
-    /// The torques gravity puts on the joints, N·m, on the right of the equation of motion.
-    pub fn gravity_torques(&self, [_, b, c]: Vector) -> Vector {
-        let lifted_by_first = self.first.mass * self.first.centre + self.second.mass * self.first.length;
-        let lifted_by_second = self.second.mass * self.second.centre;
-        [0.0, self.gravity * lifted_by_first * b.sin(), self.gravity * lifted_by_second * c.cos()]
+    /// What each link lifts: mass times distance from its axis, kg·m.
+    fn lifted(&self) -> [f64; 2] {
+        let first = self.first.mass * self.first.centre + self.second.mass * self.first.length;
+        let second = self.second.mass * self.second.centre;
+        [first + self.balance[0], second + self.balance[1]]
     }
 
-    /// Kinetic energy, J.
-    pub fn kinetic_energy(&self, angles: Vector, rates: Vector) -> f64 {
-        0.5 * dot(rates, times(&self.mass_matrix(angles), rates))
+    /// The torques gravity puts on the joints, N·m, on the right of the equation of motion.
+    pub fn gravity_torques(&self, [_, b, c]: Vector) -> Vector {
+        let [lifted_by_first, lifted_by_second] = self.lifted();
+        [0.0, self.gravity * lifted_by_first * b.sin(), self.gravity * lifted_by_second * c.cos()]
     }
 
     /// Energy of height, J, zero where all masses lie level with the first axis.
     pub fn height_energy(&self, [_, b, c]: Vector) -> f64 {
-        let lifted_by_first = self.first.mass * self.first.centre + self.second.mass * self.first.length;
-        let lifted_by_second = self.second.mass * self.second.centre;
+        let [lifted_by_first, lifted_by_second] = self.lifted();
         self.gravity * (lifted_by_first * b.cos() - lifted_by_second * c.sin())
     }
 }
@@ -148,8 +150,9 @@ impl Arm {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plant::Mechanism;
     use crate::plant::PlantSettings;
-    use crate::plant::vector::{add_scaled, norm, scaled};
+    use crate::plant::vector::{add_scaled, norm, scaled, times};
 
     fn arm() -> Arm {
         PlantSettings::wooden_haptics_2016().arm(0.05)

@@ -2,30 +2,43 @@
 //!
 //! A [`Plant`] takes motor duties and gives encoder counts, as the real device does. All its numbers are f64 and its own,
 //! in [`PlantSettings`]: nothing is taken from the library, so that each checks the other. The same settings, hand and
-//! duties give the same trace, bit for bit, on the same platform. It has no end stops.
+//! duties give the same trace, bit for bit, on the same platform. It has no end stops. Devices of one and two joints leave
+//! the other entries of counts and duties alone.
 
 mod arm;
+mod delta;
 mod encoder;
+mod five_bar;
 mod friction;
 mod hand;
+mod lumped;
 mod mechanics;
+mod mechanism;
 mod motor;
+mod paddle;
 mod path;
+mod presets;
 mod settings;
 mod touching;
 mod validate;
 mod vector;
 
 pub use arm::{Arm, Link};
-pub use encoder::Encoder;
+pub use delta::DeltaSettings;
+pub use encoder::{Encoder, EncoderFault};
+pub use five_bar::{FiveBarSettings, LinkLump, LinkageArmSettings};
 pub use hand::{HandPath, HandSettings, StillHand};
-pub use motor::Motor;
+pub use lumped::{Geometry, Lumped, Point, Points};
+pub use mechanism::Mechanism;
+pub use motor::{Amplifier, Motor, Winding};
+pub use paddle::PaddleSettings;
 pub use path::{PathError, TouchingPath};
-pub use settings::{Direction, JointSettings, PlantSettings};
+pub use settings::{ArmSettings, Direction, JointSettings, MechanismSettings, PlantSettings};
 pub use touching::TouchingSettings;
 pub use validate::PlantError;
 pub use vector::{Matrix, Vector};
 
+use encoder::FaultyEncoder;
 use mechanics::Mechanics;
 use motor::Drives;
 use validate::validate;
@@ -35,7 +48,7 @@ use vector::{difference, dot};
 pub struct Plant {
     mechanics: Mechanics,
     drives: Drives,
-    encoders: [Encoder; 3],
+    encoders: [FaultyEncoder; 3],
     hand: HandSettings,
     path: Box<dyn HandPath>,
     sub_step: f64,
@@ -56,21 +69,21 @@ impl Plant {
         rate_hz: f64,
     ) -> Result<Self, PlantError> {
         validate(settings, &hand, rate_hz)?;
-        let arm = settings.arm(hand.mass);
+        let mechanism = settings.mechanism(hand.mass);
         let position = path.target(0.0);
-        let angles = arm.angles(position).ok_or(PlantError::OutOfReach { position })?;
+        let angles = mechanism.angles(position).ok_or(PlantError::OutOfReach { position })?;
         let sub_step = 1.0 / (rate_hz * f64::from(settings.sub_steps));
         let delay = (settings.delay_periods * f64::from(settings.sub_steps)).round() as u64;
         Ok(Self {
             mechanics: Mechanics {
-                arm,
+                mechanism,
                 viscous: settings.joints.map(|joint| joint.viscous_friction),
                 coulomb: settings.joints.map(|joint| joint.coulomb_friction),
                 angles,
                 rates: [0.0; 3],
             },
             drives: Drives::new(settings.motors(), delay, settings.current_time_constant, sub_step),
-            encoders: settings.encoders(),
+            encoders: settings.encoders().map(FaultyEncoder::sound),
             hand,
             path,
             sub_step,
@@ -88,7 +101,7 @@ impl Plant {
     pub fn advance(&mut self, duties: [i16; 3]) {
         self.drives.command(self.elapsed, duties);
         for _ in 0..self.sub_steps {
-            let torques = self.drives.step(self.elapsed);
+            let torques = self.drives.step(self.elapsed, self.mechanics.rates);
             let aims = [0.0, 0.5, 1.0].map(|share| self.aim(self.elapsed as f64 + share));
             let hand = self.hand;
             self.mechanics.step(self.sub_step, torques, |half_steps, position, velocity| {
@@ -96,6 +109,14 @@ impl Plant {
                 hand.force(target, target_velocity, position, velocity)
             });
             self.elapsed += 1;
+        }
+        self.encoders.iter_mut().for_each(FaultyEncoder::tick);
+    }
+
+    /// From now on an encoder has this fault, or none. The joint is counted from 0; one that is not there is left alone.
+    pub fn inject(&mut self, joint: usize, fault: Option<EncoderFault>) {
+        if let (Some(encoder), Some(angle)) = (self.encoders.get_mut(joint), self.mechanics.angles.get(joint)) {
+            encoder.inject(fault, *angle);
         }
     }
 
@@ -153,8 +174,8 @@ impl Plant {
     }
 
     /// The mechanism.
-    pub fn arm(&self) -> &Arm {
-        &self.mechanics.arm
+    pub fn mechanism(&self) -> &dyn Mechanism {
+        self.mechanics.mechanism.as_ref()
     }
 }
 
@@ -188,8 +209,9 @@ mod tests {
         let grip = HandSettings { stiffness: 1e5, damping: 200.0, mass: 0.0 };
         for gravity in [0.0, 9.81] {
             for duties in [[8_000, 0, 0], [0, 8_000, 0], [0, 0, 8_000], [-3_000, 5_000, -7_000]] {
-                let mut plant = still(&PlantSettings { gravity, ..smooth() }, grip, [0.02, 0.03, -0.01]);
-                let arm = *plant.arm();
+                let settings = PlantSettings { gravity, ..smooth() };
+                let mut plant = still(&settings, grip, [0.02, 0.03, -0.01]);
+                let arm = settings.arm(0.0);
                 let angles = plant.angles();
                 (0..2_000).for_each(|_| plant.advance(duties));
                 // From the published constants, not from the plant's motors.
@@ -232,7 +254,7 @@ mod tests {
             // Full torque for the part of the three periods in which the one command is in force.
             let in_force = (3.0 - periods).min(1.0);
             let torque = 10_000.0 / 32_767.0 * 3.0 * 0.0259 * 16.0;
-            let rate = torque / plant.arm().mass_matrix(plant.angles())[0][0] * in_force / RATE;
+            let rate = torque / plant.mechanism().mass_matrix(plant.angles())[0][0] * in_force / RATE;
             // The current jumps within a sub-step, whose mean is half: at the two ends they cancel, unless one end is yet
             // to come; half a sub-step of 20. Otherwise the inertia's change over 0.1 mrad.
             let bound = if periods == 2.0 { 0.5 / 20.0 + 1e-3 } else { 1e-3 };

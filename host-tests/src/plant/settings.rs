@@ -1,9 +1,14 @@
 //! Every number of the simulated device.
 
 use super::arm::{Arm, Link};
+use super::delta::DeltaSettings;
 use super::encoder::Encoder;
-use super::motor::Motor;
-use super::vector::Vector;
+use super::five_bar::{FiveBarSettings, LinkageArmSettings};
+use super::lumped::{Geometry, Lumped};
+use super::mechanism::Mechanism;
+use super::motor::{Amplifier, Motor};
+use super::paddle::PaddleSettings;
+use super::vector::{Vector, scaled};
 
 /// Which way an encoder or a motor is mounted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,11 +38,15 @@ pub struct JointSettings {
     pub counts_per_turn: f64,
     /// Which way the encoder counts.
     pub encoder_direction: Direction,
+    /// Joint angle at zero counts, rad.
+    pub angle_at_zero: f64,
+    /// What feeds the motor.
+    pub amplifier: Amplifier,
     /// Which way the motor turns the joint.
     pub motor_direction: Direction,
-    /// N·m/A at the motor.
+    /// N·m/A at the motor, and V·s/rad.
     pub torque_constant: f64,
-    /// Motor current at full duty, A.
+    /// Motor current at full duty, A; on a bridge full duty is the supply's voltage instead.
     pub current_at_full: f64,
     /// The most the amplifier gives, A.
     pub current_limit: f64,
@@ -49,9 +58,27 @@ pub struct JointSettings {
     pub coulomb_friction: f64,
 }
 
-/// The simulated device.
+impl JointSettings {
+    /// A joint that is not there: no counts, no torque, no friction.
+    pub const NONE: Self = Self {
+        ratio: 1.0,
+        counts_per_turn: 1.0,
+        encoder_direction: Direction::With,
+        angle_at_zero: 0.0,
+        amplifier: Amplifier::Current,
+        motor_direction: Direction::With,
+        torque_constant: 0.0,
+        current_at_full: 0.0,
+        current_limit: 0.0,
+        rotor_inertia: 1.0,
+        viscous_friction: 0.0,
+        coulomb_friction: 0.0,
+    };
+}
+
+/// A turntable with two links.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlantSettings {
+pub struct ArmSettings {
     /// Height of the first link's axis over the foot, m.
     pub base_height: f64,
     /// The link that is upright at zero.
@@ -62,11 +89,37 @@ pub struct PlantSettings {
     pub workspace_centre: Vector,
     /// Inertia of the turntable with all it carries but the links, kg·m².
     pub turntable_inertia: f64,
+    /// What counterweights and drums add to what each link lifts, kg·m.
+    pub balance: [f64; 2],
+    /// Their inertia about the links' axes, kg·m².
+    pub balance_inertia: [f64; 2],
+}
+
+/// Which mechanism it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MechanismSettings {
+    /// Three joints: a turntable with two links.
+    Arm(ArmSettings),
+    /// One joint.
+    Paddle(PaddleSettings),
+    /// Two joints: a five-bar flat on a table, so that gravity does not load it.
+    FiveBar(FiveBarSettings),
+    /// Three joints: a five-bar upright on a turntable.
+    LinkageArm(LinkageArmSettings),
+    /// Three joints: a delta standing on its side, y up.
+    Delta(DeltaSettings),
+}
+
+/// The simulated device.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlantSettings {
+    /// The mechanism.
+    pub mechanism: MechanismSettings,
     /// Acceleration of free fall, m/s²; 0 switches gravity off.
     pub gravity: f64,
-    /// Turntable, first link, second link.
+    /// Its joints; for a turntable with two links turntable, first link, second link.
     pub joints: [JointSettings; 3],
-    /// Time constant of the current loop, s; 0 means at once.
+    /// Time constant of the current loops, s; 0 means at once.
     pub current_time_constant: f64,
     /// From the instant the counts are read to the instant the duty computed from them reaches the amplifier, in servo
     /// periods; rounded to whole sub-steps.
@@ -76,73 +129,83 @@ pub struct PlantSettings {
 }
 
 impl PlantSettings {
-    /// WoodenHaptics as published in 2016.
-    ///
-    /// | number | value | where from |
-    /// |---|---|---|
-    /// | lengths, workspace centre, ratios, counts, torque constant, currents | | the project's CHAI3D driver (woody-experimental, `cWoodenDevice`) |
-    /// | link masses 0.170, 0.110 kg; centres 51, 91 mm | | the same; its gravity compensation |
-    /// | directions of encoders and motors | | the same, its USB variant: the turntable's encoder counts against its motor |
-    /// | link inertias | `m L²/12` | assumed: thin rods |
-    /// | turntable | 2.0e-3 kg·m² | assumed: two motors of 0.24 kg at 50 mm, a disc of 0.25 kg and 160 mm |
-    /// | rotor | 33.5 g·cm² | assumed: a Maxon RE 30 of 60 W has about this; not checked against its data sheet |
-    /// | friction | 5e-4 N·m·s, 0.01 N·m | assumed: published for a Phantom Premium (Çavuşoğlu 2001), the same kind of arm; none is published for this one, and too little is the safe side, for friction hides limit cycles |
-    /// | current loop | 0.15 ms | assumed: about 1 kHz |
-    /// | delay | 1 period | assumed: a tick's duty takes effect at the next tick |
-    pub const fn wooden_haptics_2016() -> Self {
-        const MOTOR: JointSettings = JointSettings {
-            ratio: 12.0,
-            counts_per_turn: 2_000.0,
-            encoder_direction: Direction::With,
-            motor_direction: Direction::With,
-            torque_constant: 0.0259,
-            current_at_full: 3.0,
-            current_limit: 3.0,
-            rotor_inertia: 33.5e-7,
-            viscous_friction: 5e-4,
-            coulomb_friction: 0.01,
-        };
-        Self {
-            base_height: 0.080,
-            first_link: Link::rod(0.205, 0.170, 0.051),
-            second_link: Link::rod(0.245, 0.110, 0.091),
-            workspace_centre: [0.220, 0.0, 0.080],
-            turntable_inertia: 2.0e-3,
-            gravity: 9.81,
-            joints: [
-                JointSettings { ratio: 16.0, encoder_direction: Direction::Against, ..MOTOR },
-                JointSettings { encoder_direction: Direction::Against, motor_direction: Direction::Against, ..MOTOR },
-                MOTOR,
-            ],
-            current_time_constant: 1.5e-4,
-            delay_periods: 1.0,
-            sub_steps: 20,
+    /// The mechanism, with a hand of `hand_mass` kg on the probe.
+    pub fn mechanism(&self, hand_mass: f64) -> Box<dyn Mechanism> {
+        let along = |direction: Vector| scaled(direction, self.gravity);
+        let (down, flat, sideways) = ([0.0, 0.0, -1.0], [0.0; 3], [0.0, -1.0, 0.0]);
+        match self.mechanism {
+            MechanismSettings::Arm(settings) => Box::new(self.arm_of(&settings, hand_mass)),
+            MechanismSettings::Paddle(settings) => {
+                self.lumped(settings, [settings.inertia, 0.0, 0.0], hand_mass, along(down))
+            }
+            MechanismSettings::FiveBar(settings) => self.lumped(settings, [0.0; 3], hand_mass, along(flat)),
+            MechanismSettings::LinkageArm(settings) => {
+                self.lumped(settings, [settings.turntable_inertia, 0.0, 0.0], hand_mass, along(down))
+            }
+            MechanismSettings::Delta(settings) => {
+                let knee = 0.5 * settings.shin_mass * settings.a * settings.a;
+                self.lumped(settings, [settings.thigh_inertia + knee; 3], hand_mass, along(sideways))
+            }
         }
     }
 
-    /// The mechanism, with a hand of `hand_mass` kg at its tip.
-    pub fn arm(&self, hand_mass: f64) -> Arm {
-        let mut joint_inertia = self.joints.map(|joint| joint.rotor_inertia * joint.ratio * joint.ratio);
-        joint_inertia[0] += self.turntable_inertia;
+    fn lumped<G: Geometry + 'static>(
+        &self,
+        geometry: G,
+        added_inertia: Vector,
+        hand_mass: f64,
+        gravity: Vector,
+    ) -> Box<dyn Mechanism> {
+        let rotors = self.rotor_inertia();
+        let joint_inertia = core::array::from_fn(|joint| rotors[joint] + added_inertia[joint]);
+        Box::new(Lumped { geometry, joint_inertia, hand_mass, gravity })
+    }
+
+    /// The rotors' inertia seen at the joints, kg·m².
+    fn rotor_inertia(&self) -> Vector {
+        self.joints.map(|joint| joint.rotor_inertia * joint.ratio * joint.ratio)
+    }
+
+    fn arm_of(&self, settings: &ArmSettings, hand_mass: f64) -> Arm {
+        let mut joint_inertia = self.rotor_inertia();
+        joint_inertia[0] += settings.turntable_inertia;
+        joint_inertia[1] += settings.balance_inertia[0];
+        joint_inertia[2] += settings.balance_inertia[1];
         Arm {
-            base_height: self.base_height,
-            first: self.first_link,
-            second: self.second_link,
-            workspace_centre: self.workspace_centre,
+            base_height: settings.base_height,
+            first: settings.first_link,
+            second: settings.second_link,
+            workspace_centre: settings.workspace_centre,
+            balance: settings.balance,
             joint_inertia,
             tip_mass: hand_mass,
             gravity: self.gravity,
         }
     }
 
+    /// The mechanism as an arm.
+    ///
+    /// # Panics
+    /// If it is another.
+    pub fn arm(&self, hand_mass: f64) -> Arm {
+        match &self.mechanism {
+            MechanismSettings::Arm(settings) => self.arm_of(settings, hand_mass),
+            other => panic!("not an arm: {other:?}"),
+        }
+    }
+
     /// The encoders.
     pub fn encoders(&self) -> [Encoder; 3] {
-        self.joints.map(|joint| Encoder::geared(joint.counts_per_turn, joint.ratio, joint.encoder_direction.sign()))
+        self.joints.map(|joint| {
+            let direction = joint.encoder_direction.sign();
+            Encoder::geared(joint.counts_per_turn, joint.ratio, direction, joint.angle_at_zero)
+        })
     }
 
     /// The motors, seen at the joints.
     pub fn motors(&self) -> [Motor; 3] {
         self.joints.map(|joint| Motor {
+            amplifier: joint.amplifier,
             current_at_full: joint.current_at_full,
             current_limit: joint.current_limit,
             torque_per_ampere: joint.motor_direction.sign() * joint.torque_constant * joint.ratio,

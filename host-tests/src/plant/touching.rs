@@ -1,7 +1,6 @@
 //! What a touching hand does: where on the surface it is, and how high over it, drawn from a seed.
 
-use rand::{Rng, SeedableRng};
-use rand_pcg::Pcg64;
+use crate::generate::Random;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// What the hand does.
@@ -48,10 +47,8 @@ pub(super) struct Motion {
 
 impl Motion {
     pub(super) fn draw(settings: TouchingSettings, seed: u64) -> Self {
-        let mut random = Pcg64::seed_from_u64(seed);
-        // 53 bits to [low, high): our own, so that the sequence does not hang on another library's choice.
-        let mut uniform =
-            |low: f64, high: f64| low + (high - low) * ((random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64);
+        let mut random = Random::new(seed);
+        let mut uniform = |low, high| random.between(low, high);
         // About one sweep to and fro in two seconds, u and v at ratios that do not close the figure.
         let slides = [(); 2].map(|()| [uniform(0.35, 0.6), uniform(0.0, TAU), uniform(0.3, 0.6), uniform(0.0, TAU)]);
         let [least, most] = settings.press_depth;

@@ -1,7 +1,9 @@
 //! Numbers no device has are refused by name before anything is simulated.
 
+use super::five_bar::FiveBarSettings;
 use super::hand::HandSettings;
-use super::settings::PlantSettings;
+use super::motor::Amplifier;
+use super::settings::{ArmSettings, MechanismSettings, PlantSettings};
 use super::vector::Vector;
 
 /// Why a plant cannot be built.
@@ -31,8 +33,8 @@ pub enum PlantError {
         /// What was given.
         value: f64,
     },
-    /// The hand's path starts where the arm cannot reach.
-    #[error("the hand's path starts at {position:?} m, out of the arm's reach")]
+    /// The hand's path starts where the device cannot reach.
+    #[error("the hand's path starts at {position:?} m, out of the device's reach")]
     OutOfReach {
         /// Where it starts, m from the workspace centre.
         position: Vector,
@@ -54,24 +56,17 @@ fn finite(field: &'static str, value: f64) -> Result<(), PlantError> {
 /// Checks every number, in the order they are declared.
 pub(super) fn validate(plant: &PlantSettings, hand: &HandSettings, rate_hz: f64) -> Result<(), PlantError> {
     positive("rate_hz", rate_hz)?;
-    not_negative("base_height", plant.base_height)?;
-    for (link, [length, mass, centre, inertia]) in [
-        (&plant.first_link, ["first_link.length", "first_link.mass", "first_link.centre", "first_link.inertia"]),
-        (&plant.second_link, ["second_link.length", "second_link.mass", "second_link.centre", "second_link.inertia"]),
-    ] {
-        positive(length, link.length)?;
-        not_negative(mass, link.mass)?;
-        finite(centre, link.centre)?;
-        not_negative(inertia, link.inertia)?;
-    }
-    for entry in plant.workspace_centre {
-        finite("workspace_centre", entry)?;
-    }
-    not_negative("turntable_inertia", plant.turntable_inertia)?;
+    validate_mechanism(&plant.mechanism)?;
     finite("gravity", plant.gravity)?;
     for joint in &plant.joints {
         positive("ratio", joint.ratio)?;
         positive("counts_per_turn", joint.counts_per_turn)?;
+        finite("angle_at_zero", joint.angle_at_zero)?;
+        if let Amplifier::CurrentOn(winding) | Amplifier::Voltage(winding) = joint.amplifier {
+            positive("supply", winding.supply)?;
+            positive("resistance", winding.resistance)?;
+            not_negative("inductance", winding.inductance)?;
+        }
         not_negative("torque_constant", joint.torque_constant)?;
         not_negative("current_at_full", joint.current_at_full)?;
         not_negative("current_limit", joint.current_limit)?;
@@ -88,6 +83,74 @@ pub(super) fn validate(plant: &PlantSettings, hand: &HandSettings, rate_hz: f64)
     not_negative("hand.mass", hand.mass)
 }
 
+fn validate_mechanism(mechanism: &MechanismSettings) -> Result<(), PlantError> {
+    match mechanism {
+        MechanismSettings::Arm(arm) => validate_arm(arm),
+        MechanismSettings::Paddle(paddle) => {
+            positive("handle", paddle.handle)?;
+            not_negative("inertia", paddle.inertia)?;
+            not_negative("mass", paddle.mass)?;
+            finite("centre", paddle.centre)
+        }
+        MechanismSettings::FiveBar(linkage) => validate_linkage(linkage),
+        MechanismSettings::LinkageArm(arm) => {
+            validate_linkage(&arm.linkage)?;
+            finite("pivot_reach", arm.pivot_reach)?;
+            arm.workspace_centre.into_iter().try_for_each(|entry| finite("workspace_centre", entry))?;
+            not_negative("turntable_inertia", arm.turntable_inertia)
+        }
+        MechanismSettings::Delta(delta) => {
+            for (name, length) in [("a", delta.a), ("b", delta.b), ("workspace_depth", delta.workspace_depth)] {
+                positive(name, length)?;
+            }
+            not_negative("d", delta.d)?;
+            not_negative("e", delta.e)?;
+            for (name, number) in [("c", delta.c), ("f", delta.f), ("r", delta.r), ("s", delta.s)] {
+                finite(name, number)?;
+            }
+            delta.legs.into_iter().try_for_each(|leg| finite("legs", leg))?;
+            not_negative("thigh_inertia", delta.thigh_inertia)?;
+            not_negative("shin_mass", delta.shin_mass)?;
+            not_negative("plate_mass", delta.plate_mass)?;
+            not_negative("thigh_mass", delta.thigh_mass)?;
+            finite("thigh_centre", delta.thigh_centre)
+        }
+    }
+}
+
+fn validate_arm(arm: &ArmSettings) -> Result<(), PlantError> {
+    not_negative("base_height", arm.base_height)?;
+    for (link, [length, mass, centre, inertia]) in [
+        (&arm.first_link, ["first_link.length", "first_link.mass", "first_link.centre", "first_link.inertia"]),
+        (&arm.second_link, ["second_link.length", "second_link.mass", "second_link.centre", "second_link.inertia"]),
+    ] {
+        positive(length, link.length)?;
+        not_negative(mass, link.mass)?;
+        finite(centre, link.centre)?;
+        not_negative(inertia, link.inertia)?;
+    }
+    arm.workspace_centre.into_iter().try_for_each(|entry| finite("workspace_centre", entry))?;
+    not_negative("turntable_inertia", arm.turntable_inertia)?;
+    arm.balance.into_iter().try_for_each(|entry| finite("balance", entry))?;
+    arm.balance_inertia.into_iter().try_for_each(|entry| not_negative("balance_inertia", entry))
+}
+
+fn validate_linkage(linkage: &FiveBarSettings) -> Result<(), PlantError> {
+    finite("second_pivot", linkage.second_pivot)?;
+    linkage.cranks.into_iter().try_for_each(|length| positive("cranks", length))?;
+    linkage.rods.into_iter().try_for_each(|length| positive("rods", length))?;
+    positive("tool", linkage.tool.abs())?;
+    linkage.workspace_centre.into_iter().try_for_each(|entry| finite("workspace_centre", entry))?;
+    not_negative("tool_mass", linkage.tool_mass)?;
+    for link in linkage.links {
+        not_negative("links.mass", link.mass)?;
+        finite("links.along", link.along)?;
+        finite("links.across", link.across)?;
+        not_negative("links.inertia", link.inertia)?;
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,18 +163,36 @@ mod tests {
     }
 
     #[test]
-    fn the_preset_is_valid() {
-        assert_eq!(verdict(|_, _, _| ()), Ok(()));
+    fn the_presets_are_valid() {
+        for preset in [
+            PlantSettings::wooden_haptics_2016(),
+            PlantSettings::phantom_premium(),
+            PlantSettings::polhem_v2(),
+            PlantSettings::hapkit(),
+            PlantSettings::haply_2diy_v3(),
+            PlantSettings::haply_kit_v1(),
+            PlantSettings::novint_falcon(),
+        ] {
+            assert_eq!(validate(&preset, &HandSettings::default(), 4_000.0), Ok(()));
+        }
+    }
+
+    /// The arm to change.
+    fn arm(plant: &mut PlantSettings) -> &mut ArmSettings {
+        match &mut plant.mechanism {
+            MechanismSettings::Arm(arm) => arm,
+            other => panic!("{other:?}"),
+        }
     }
 
     #[test]
     fn the_offending_number_is_named() {
         let names = [
             verdict(|_, _, rate| *rate = 0.0),
-            verdict(|plant, _, _| plant.first_link.mass = -0.1),
-            verdict(|plant, _, _| plant.second_link.inertia = f64::NAN),
-            verdict(|plant, _, _| plant.second_link.length = 0.0),
-            verdict(|plant, _, _| plant.workspace_centre[2] = f64::INFINITY),
+            verdict(|plant, _, _| arm(plant).first_link.mass = -0.1),
+            verdict(|plant, _, _| arm(plant).second_link.inertia = f64::NAN),
+            verdict(|plant, _, _| arm(plant).second_link.length = 0.0),
+            verdict(|plant, _, _| arm(plant).workspace_centre[2] = f64::INFINITY),
             verdict(|plant, _, _| plant.gravity = f64::NAN),
             verdict(|plant, _, _| plant.joints[1].rotor_inertia = 0.0),
             verdict(|plant, _, _| plant.joints[2].coulomb_friction = -1.0),

@@ -1,7 +1,7 @@
 //! What a run shows: its figures as text, and one HTML file with the plots inside.
 
 mod html;
-mod plots;
+pub mod plots;
 mod summary;
 
 pub use html::{Page, write_page};

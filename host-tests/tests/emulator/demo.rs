@@ -41,5 +41,11 @@ fn host_and_firmware_agree_in_every_bit_of_every_tick_of_the_demo() {
     assert_eq!(device.state_hash, host.state_hash);
     // A demo that touches nothing would agree too.
     assert!(host.ticks == 20_000 && host.touches > 3 && host.mode_changes > 3 && host.contact_time > 1.0, "{host}");
+    // What does not hang on the compiler must stand in the README as it is printed.
+    let readme = include_str!("../../../README.md");
+    for (name, value) in device.rows().iter().filter(|(name, _)| *name != "instructions a tick") {
+        let row = format!("  {name:<20} {value}");
+        assert!(readme.contains(&row), "the README does not show {row:?}");
+    }
     assert!(device.fault.is_none() && device.frames_lost == 0 && device.steps_undone == 0, "{device}");
 }

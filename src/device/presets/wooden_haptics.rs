@@ -1,6 +1,7 @@
-//! Devices by name, with where their numbers come from.
+//! WoodenHaptics.
 
-use super::{Device, Encoder, Motor, SerialArm};
+use crate::device::drive::Feed;
+use crate::device::{Device, Encoder, Motor, SerialArm};
 use crate::math::vec3;
 
 /// WoodenHaptics as published in 2016: 3-D serial arm with Maxon RE30 motors on capstans.
@@ -10,6 +11,8 @@ use crate::math::vec3;
 /// (woody-experimental, `cWoodenDevice`). Zero counts is the calibration pose: first link upright, second level.
 /// Directions are those of the driver's USB variant, in which the turntable's encoder counts against its motor.
 /// At the workspace centre the first link's motor is at full duty with 4.8 N along x; along y and z 5 N are within reach.
+/// Link masses 170 and 110 g with centres at 51 and 91 mm, from the same driver; its gravity compensation lifts the second
+/// link at the sum of both centres instead of at the first link's end, which is not followed here.
 /// The joint range and the greatest rate are ours: wide enough for its workspace and for a hand at 3 m/s.
 pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
@@ -17,6 +20,7 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
         first_link: 0.205,
         second_link: 0.245,
         workspace_centre: vec3(0.220, 0.0, 0.080),
+        mass_moments: [0.170 * 0.051 + 0.110 * 0.205, 0.110 * 0.091],
     },
     encoders: [
         Encoder::geared(2_000.0, -16.0, 0.0),
@@ -28,7 +32,9 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
         Motor::current_driven(0.0259, 3.0, -12.0),
         Motor::current_driven(0.0259, 3.0, 12.0),
     ],
+    feeds: [Feed::Current; 3],
     joint_range: [[-1.6, 1.6], [-0.8, 2.2], [-1.2, 1.8]],
+    least_margin: 0.05,
     greatest_joint_rate: 25.0,
     greatest_force: 5.0,
     greatest_stiffness: 1_000.0,
@@ -37,8 +43,8 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Kinematics;
     use super::*;
+    use crate::device::Kinematics;
 
     #[test]
     fn wooden_haptics_resolves_what_is_published() {

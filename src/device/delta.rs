@@ -1,0 +1,165 @@
+//! The three-legged delta of Stamper's kind, as in the Novint Falcon.
+
+use super::{GRAVITY, Kinematics, ProbePose};
+use crate::math::{Vec3, atan2, sin_cos, sqrt, vec3};
+
+/// Newton steps after the closed-form start. On the Falcon, over its workspace, the start is off by 2.9 mm, and steps leave
+/// 50 µm, then 20 nm, then roundings.
+const REFINEMENTS: usize = 3;
+
+/// Three legs about the z axis, each a thigh on a motor and a shin that is a parallelogram on two short stubs.
+///
+/// Joint angles, radians: each thigh's, zero when it points outward, positive towards +z, where the probe is. A leg's own
+/// frame has u outward along its `direction`, v to the left of it seen from +z, and w along z; there, with the probe at
+/// `(u, v, w)` of it, the leg closes when
+/// `√((u − reach − a cos θ)² + (w − a sin θ)²) = stub + √(b² − (v − side)²)` (Stamper 1997).
+/// Without stubs that is a sphere about the knee, and three spheres meet in closed form; with them the forward map starts
+/// there and takes a fixed number of Newton steps.
+///
+/// The Jacobian follows from the legs' unit shins `sᵢ`: `sᵢ · Ṗ = cᵢ θ̇ᵢ`, with `cᵢ` the shin's share of the knee's speed.
+///
+/// The frame: z out of the base towards the probe, x and y as the legs' directions say, origin in the workspace centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Delta {
+    /// Length of a thigh, `a`, metres.
+    pub thigh: f32,
+    /// Length of a shin, the long side of the parallelogram, `b`, metres.
+    pub shin: f32,
+    /// Length of both stubs together, metres.
+    pub stub: f32,
+    /// From the axis out to a hip, less the same from the probe to the end of a shin, metres.
+    pub reach: f32,
+    /// The same difference to the left of a leg, metres.
+    pub side: f32,
+    /// Cosine and sine of each leg's direction about z.
+    pub directions: [[f32; 2]; 3],
+    /// The centre of the workspace, metres from the middle of the base.
+    pub workspace_centre: Vec3,
+    /// Which way is up, a unit vector.
+    pub up: Vec3,
+    /// Mass that hangs on the probe, half the shins included, kg; zero if not known.
+    pub carried_mass: f32,
+    /// Mass of a thigh, with the other half of its shin at the knee, times the distance of the centre from the hip, kg·m.
+    pub thigh_moment: f32,
+}
+
+/// A leg at one angle: the knee brought in by what the probe's plate sticks out, and its speed per radian.
+#[derive(Clone, Copy)]
+struct Leg {
+    outward: Vec3,
+    left: Vec3,
+    knee: Vec3,
+    turn: Vec3,
+}
+
+/// How far a leg is from closing, metres; its unit shin; and the speed of the probe along the shin per radian.
+struct Gap {
+    gap: f32,
+    shin: Vec3,
+    share: f32,
+}
+
+impl Delta {
+    #[inline]
+    fn leg(&self, [cosine, sine]: [f32; 2], angle: f32) -> Leg {
+        let (outward, left) = (vec3(cosine, sine, 0.0), vec3(-sine, cosine, 0.0));
+        let (sin, cos) = sin_cos(angle);
+        Leg {
+            outward,
+            left,
+            knee: outward * (self.reach + self.thigh * cos) + left * self.side + vec3(0.0, 0.0, self.thigh * sin),
+            turn: vec3(0.0, 0.0, self.thigh * cos) - outward * (self.thigh * sin),
+        }
+    }
+
+    /// Where three spheres about the knees meet on the far side; `None` where they do not.
+    #[inline]
+    fn meet(&self, [a, b, c]: [Vec3; 3]) -> Option<Vec3> {
+        let (e, f) = (b - a, c - a);
+        let normal = e.cross(f);
+        let square = normal.length_squared();
+        let to_middle = (normal.cross(e) * f.length_squared() + f.cross(normal) * e.length_squared()) / (2.0 * square);
+        let radius = self.shin + self.stub;
+        let height = (radius * radius - to_middle.length_squared()) / square;
+        // Written so that NaN takes this branch too.
+        if !(height > 0.0 && height < f32::INFINITY) {
+            return None;
+        }
+        let rise = sqrt(height);
+        Some(a + to_middle + normal * if normal.z < 0.0 { -rise } else { rise })
+    }
+
+    #[inline]
+    fn gap(&self, leg: &Leg, probe: Vec3) -> Gap {
+        let q = probe - leg.knee;
+        let sideways = q.dot(leg.left);
+        let plane = leg.outward * q.dot(leg.outward) + vec3(0.0, 0.0, q.z);
+        let distance = sqrt(plane.length_squared());
+        let forward = plane / distance;
+        let span = sqrt(self.shin * self.shin - sideways * sideways);
+        Gap {
+            gap: (distance - self.stub - span) * (span / self.shin),
+            shin: (forward * span + leg.left * sideways) / self.shin,
+            share: forward.dot(leg.turn) * (span / self.shin),
+        }
+    }
+
+    /// The joint angles that put the probe at a position of the device's frame, knees out; `None` where a leg does not
+    /// reach. Closed form: cosine rule in each leg's plane.
+    pub fn angles(&self, position: Vec3) -> Option<[f32; 3]> {
+        let probe = position + self.workspace_centre;
+        let mut angles = [0.0; 3];
+        for (angle, [cosine, sine]) in angles.iter_mut().zip(self.directions) {
+            let leg = self.leg([cosine, sine], 0.0);
+            let (u, v) = (probe.dot(leg.outward) - self.reach, probe.dot(leg.left) - self.side);
+            let distance = sqrt(u * u + probe.z * probe.z);
+            let span = self.stub + sqrt(self.shin * self.shin - v * v);
+            let cosine = (self.thigh * self.thigh + distance * distance - span * span) / (2.0 * self.thigh * distance);
+            // Written so that NaN takes this branch too.
+            if !(-1.0..=1.0).contains(&cosine) {
+                return None;
+            }
+            *angle = atan2(probe.z, u) - atan2(sqrt(1.0 - cosine * cosine), cosine);
+        }
+        Some(angles)
+    }
+}
+
+impl Kinematics<3> for Delta {
+    #[inline]
+    fn pose(&self, [a, b, c]: [f32; 3]) -> ProbePose<3> {
+        let [to_a, to_b, to_c] = self.directions;
+        let legs = [self.leg(to_a, a), self.leg(to_b, b), self.leg(to_c, c)];
+        let Some(mut probe) = self.meet(legs.map(|leg| leg.knee)) else {
+            return ProbePose::UNREACHABLE;
+        };
+        for _ in 0..REFINEMENTS {
+            let [a, b, c] = legs.map(|leg| self.gap(&leg, probe));
+            let (bc, ca, ab) = (b.shin.cross(c.shin), c.shin.cross(a.shin), a.shin.cross(b.shin));
+            probe -= (bc * a.gap + ca * b.gap + ab * c.gap) / a.shin.dot(bc);
+        }
+        let [a, b, c] = legs.map(|leg| self.gap(&leg, probe));
+        let (bc, ca, ab) = (b.shin.cross(c.shin), c.shin.cross(a.shin), a.shin.cross(b.shin));
+        let volume = a.shin.dot(bc);
+        if !probe.is_finite() || volume == 0.0 {
+            return ProbePose::UNREACHABLE;
+        }
+        ProbePose {
+            position: probe - self.workspace_centre,
+            jacobian: [bc * (a.share / volume), ca * (b.share / volume), ab * (c.share / volume)],
+        }
+    }
+
+    #[inline]
+    fn holding_torques(&self, angles: [f32; 3]) -> [f32; 3] {
+        if self.carried_mass == 0.0 && self.thigh_moment == 0.0 {
+            return [0.0; 3];
+        }
+        let mut torques = self.pose(angles).torques(self.up * (GRAVITY * self.carried_mass));
+        for ((torque, direction), angle) in torques.iter_mut().zip(self.directions).zip(angles) {
+            let turn = self.leg(direction, angle).turn / self.thigh;
+            *torque += GRAVITY * self.thigh_moment * turn.dot(self.up);
+        }
+        torques
+    }
+}

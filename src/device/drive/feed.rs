@@ -1,0 +1,87 @@
+//! What a drive is told so that its motor gives the torque asked for.
+
+use crate::device::Duty;
+
+/// How a motor is fed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Feed {
+    /// An amplifier that controls the current: its set-point is the duty of torque itself.
+    Current,
+    /// A bridge that gives a voltage.
+    Voltage(VoltageFeed),
+}
+
+impl Feed {
+    /// What the drive is to be told for a duty of torque at a joint rate, rad/s.
+    #[inline]
+    pub fn command(&self, torque: Duty, joint_rate: f32) -> Duty {
+        match self {
+            Self::Current => torque,
+            Self::Voltage(feed) => feed.command(torque, joint_rate),
+        }
+    }
+}
+
+/// A brushed motor on a voltage: `V = R i + k N q̇`, with the back-EMF constant equal to the torque constant `k` (SI).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VoltageFeed {
+    /// Voltage at full duty of the bridge, V.
+    pub supply: f32,
+    /// Resistance of winding, brushes and bridge, `R`, ohms.
+    pub resistance: f32,
+    /// Torque constant, `k`, N·m/A, which is the back-EMF constant in V·s/rad.
+    pub torque_constant: f32,
+    /// Current that full duty of torque stands for, A.
+    pub current_at_full: f32,
+    /// Turns of the motor for one of the joint, `N`; negative where it turns the other way.
+    pub ratio: f32,
+    /// How much of the back-EMF is made up for, 0 to 1. Short of 1, so that an error in `k` or in the rate cannot drive the
+    /// motor on; what is left brakes.
+    pub back_emf_share: f32,
+}
+
+impl VoltageFeed {
+    /// The bridge's duty for a duty of torque at a joint rate, rad/s. Beyond the supply it is full scale; at a rate that is
+    /// not finite it is zero. The inductance is left out: it delays the torque by L/R, about one tick.
+    #[inline]
+    pub fn command(&self, torque: Duty, joint_rate: f32) -> Duty {
+        if !joint_rate.is_finite() {
+            return Duty::ZERO;
+        }
+        let current = torque.fraction() * self.current_at_full;
+        let back_emf = self.torque_constant * self.ratio * joint_rate * self.back_emf_share;
+        Duty::from_fraction((self.resistance * current + back_emf) / self.supply)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FEED: VoltageFeed = VoltageFeed {
+        supply: 12.0,
+        resistance: 5.0,
+        torque_constant: 0.05,
+        current_at_full: 2.0,
+        ratio: -10.0,
+        back_emf_share: 1.0,
+    };
+
+    #[test]
+    fn voltage_makes_up_for_resistance_and_back_emf() {
+        // 5 Ω · 1 A, and −10 · 0.05 V·s/rad · 4 rad/s.
+        for (torque, rate, volts) in [(0.5, 0.0, 5.0), (0.0, 4.0, -2.0), (0.5, 4.0, 3.0), (-1.0, 0.0, -10.0)] {
+            let duty = FEED.command(Duty::from_fraction(torque), rate);
+            assert!((duty.fraction() * 12.0 - volts).abs() < 1e-3, "{torque} {rate}: {duty:?}");
+        }
+    }
+
+    #[test]
+    fn what_the_supply_cannot_give_saturates_and_what_is_not_finite_is_nothing() {
+        assert_eq!(FEED.command(Duty::FULL, -100.0), Duty::FULL);
+        for rate in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            assert_eq!(FEED.command(Duty::FULL, rate), Duty::ZERO);
+        }
+        assert_eq!(Feed::Current.command(Duty(123), f32::NAN), Duty(123));
+    }
+}

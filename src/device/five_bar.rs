@@ -1,0 +1,108 @@
+//! The planar five-bar of pantographs, and of arms that drive their second link through a rod.
+
+use super::{Kinematics, ProbePose};
+use crate::math::{Vec2, Vec3, sin_cos, sqrt, vec2};
+
+/// Two cranks on fixed pivots, joined by two rods that meet at a hinge.
+///
+/// Joint angles, radians, counter-clockwise from the x axis: the first crank's about the origin, the second's about
+/// `(second_pivot, 0)`. The cranks end in the elbows `A` and `B`; the rods from there meet at the hinge `C`, on the `side` of
+/// the line from `A` to `B`. The probe sits on the first rod, `tool` from `A` towards `C`. The frame lies in the
+/// mechanism's plane; z stays zero.
+///
+/// Forward map: circles about `A` and `B` intersect. With `h = B − A`:
+/// `C = A + (L₁² − L₂² + h²)/(2 h²) · h ± √(…) · h⊥`. Jacobian: the rods keep their lengths,
+/// `(C − A)·(Ċ − Ȧ) = 0` and `(C − B)·(Ċ − Ḃ) = 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FiveBar {
+    /// The second crank's pivot on the x axis, metres.
+    pub second_pivot: f32,
+    /// Lengths of the two cranks, metres.
+    pub cranks: [f32; 2],
+    /// Lengths of the two rods, metres.
+    pub rods: [f32; 2],
+    /// Which way the rods bend: 1 puts the hinge left of the line from the first elbow to the second, −1 right.
+    pub side: f32,
+    /// The probe on the first rod, metres from its elbow towards the hinge; negative on the other side of the elbow.
+    pub tool: f32,
+    /// The centre of the workspace, metres from the first pivot.
+    pub workspace_centre: Vec2,
+}
+
+/// A point of the linkage, metres, and how it moves with each crank, metres per radian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hinge {
+    pub place: Vec2,
+    pub motion: [Vec2; 2],
+}
+
+/// The three hinges that move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Closed {
+    pub elbows: [Hinge; 2],
+    pub hinge: Hinge,
+}
+
+/// A quarter turn to the left.
+pub(super) fn left(v: Vec2) -> Vec2 {
+    vec2(-v.y, v.x)
+}
+
+impl FiveBar {
+    /// Closes the linkage; `None` where the rods cannot meet.
+    #[inline]
+    pub(super) fn close(&self, [first, second]: [f32; 2]) -> Option<Closed> {
+        let ((sin_a, cos_a), (sin_b, cos_b)) = (sin_cos(first), sin_cos(second));
+        let ([crank_a, crank_b], [rod_a, rod_b]) = (self.cranks, self.rods);
+        let a = vec2(crank_a * cos_a, crank_a * sin_a);
+        let arm_b = vec2(crank_b * cos_b, crank_b * sin_b);
+        let b = arm_b + vec2(self.second_pivot, 0.0);
+
+        let h = b - a;
+        let square = h.length_squared();
+        let along = 0.5 + 0.5 * (rod_a * rod_a - rod_b * rod_b) / square;
+        let across = rod_a * rod_a / square - along * along;
+        // Written so that NaN takes this branch too.
+        if !(across > 0.0 && across < f32::INFINITY) {
+            return None;
+        }
+        let c = a + h * along + left(h) * (self.side * sqrt(across));
+
+        let (p, q) = (c - a, c - b);
+        let lever = p.perp_dot(q);
+        let (turn_a, turn_b) = (left(a), left(arm_b));
+        Some(Closed {
+            elbows: [
+                Hinge { place: a, motion: [turn_a, Vec2::ZERO] },
+                Hinge { place: b, motion: [Vec2::ZERO, turn_b] },
+            ],
+            hinge: Hinge { place: c, motion: [left(q) * (-p.dot(turn_a) / lever), left(p) * (q.dot(turn_b) / lever)] },
+        })
+    }
+
+    /// The probe, metres from the first pivot.
+    #[inline]
+    pub(super) fn tool(&self, closed: &Closed) -> Hinge {
+        let ([elbow, _], hinge) = (&closed.elbows, &closed.hinge);
+        let [rod, _] = self.rods;
+        let share = self.tool / rod;
+        let between = |from: Vec2, to: Vec2| from + (to - from) * share;
+        let ([elbow_a, elbow_b], [hinge_a, hinge_b]) = (elbow.motion, hinge.motion);
+        Hinge {
+            place: between(elbow.place, hinge.place),
+            motion: [between(elbow_a, hinge_a), between(elbow_b, hinge_b)],
+        }
+    }
+}
+
+impl Kinematics<2> for FiveBar {
+    #[inline]
+    fn pose(&self, angles: [f32; 2]) -> ProbePose<2> {
+        let Some(closed) = self.close(angles) else {
+            return ProbePose::UNREACHABLE;
+        };
+        let tool = self.tool(&closed);
+        let flat = |v: Vec2| Vec3::new(v.x, v.y, 0.0);
+        ProbePose { position: flat(tool.place - self.workspace_centre), jacobian: tool.motion.map(flat) }
+    }
+}

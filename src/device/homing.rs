@@ -1,0 +1,320 @@
+//! Where the joints are to begin with: from raw counts to calibrated encoders.
+
+use super::{Counts, Encoder};
+use thiserror::Error;
+
+/// What is known of the joints at a pose that can be recognised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reference<const JOINTS: usize> {
+    /// The hand holds the device still in a mechanical reference pose, at these joint angles, radians.
+    Pose([f32; JOINTS]),
+    /// As a pose, with absolute sensors that must read these counts there, give or take the tolerance: what is kept from
+    /// assembly tells a device that was put down wrong, or put together wrong.
+    KnownPose {
+        /// Joint angles at the pose, radians.
+        angles: [f32; JOINTS],
+        /// What the sensors read there.
+        counts: [Counts; JOINTS],
+        /// How far off they may be, counts.
+        tolerance: u32,
+    },
+    /// Each joint passes its index mark once, at this joint angle, radians; the hand moves the device about meanwhile.
+    Index([f32; JOINTS]),
+}
+
+/// How a device finds its joint angles. Constant, in flash.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Homing<const JOINTS: usize> {
+    encoders: [Encoder; JOINTS],
+    reference: Reference<JOINTS>,
+    still_ticks: u32,
+    still_counts: u32,
+    timeout_ticks: u32,
+}
+
+/// Which number of the homing is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum HomingError {
+    /// A reference angle is not finite.
+    #[error("a reference angle is not finite")]
+    Angle,
+    /// It must hold still for at least a tick.
+    #[error("it must hold still for at least a tick")]
+    StillTicks,
+    /// The time allowed is too short to hold still in.
+    #[error("the timeout is not longer than the time to hold still")]
+    TimeoutTicks,
+}
+
+/// What a tick of homing starts from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HomingInput<const JOINTS: usize> {
+    /// This tick's counts; `None` if a sensor failed.
+    pub counts: Option<[Counts; JOINTS]>,
+    /// The counts at which a joint passed its index mark, if it did since the last tick.
+    pub index: [Option<Counts>; JOINTS],
+}
+
+/// Why homing was refused. Latched: start again from [`HomingState::default`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum Refusal {
+    /// The time is over and the device never held still long enough.
+    #[error("the device was moving")]
+    Moving,
+    /// The time is over and a joint has not passed its index mark.
+    #[error("a joint did not pass its index mark")]
+    NoIndex,
+    /// A sensor failed.
+    #[error("a sensor failed")]
+    Sensor,
+    /// It held still, but elsewhere than at the reference.
+    #[error("a sensor reads something else than at the reference pose")]
+    OutOfTolerance,
+}
+
+/// How far homing has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HomingProgress<const JOINTS: usize> {
+    /// Not there yet.
+    Waiting,
+    /// The encoders, calibrated.
+    Done([Encoder; JOINTS]),
+    /// It will not be done.
+    Refused(Refusal),
+}
+
+/// What changes from tick to tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HomingState<const JOINTS: usize> {
+    ticks: u32,
+    still: u32,
+    /// What the device moved away from last.
+    anchor: Option<[Counts; JOINTS]>,
+    marks: [Option<Counts>; JOINTS],
+    progress: HomingProgress<JOINTS>,
+}
+
+impl<const JOINTS: usize> Default for HomingState<JOINTS> {
+    fn default() -> Self {
+        Self { ticks: 0, still: 0, anchor: None, marks: [None; JOINTS], progress: HomingProgress::Waiting }
+    }
+}
+
+impl<const JOINTS: usize> HomingState<JOINTS> {
+    /// How far homing has come.
+    pub const fn progress(&self) -> HomingProgress<JOINTS> {
+        self.progress
+    }
+}
+
+/// Joint angle at zero counts, if the joint is at `angle` at `counts`.
+fn calibrated(encoder: Encoder, angle: f32, counts: Counts) -> Encoder {
+    Encoder { angle_at_zero: angle - counts.0 as f32 * encoder.radians_per_count, ..encoder }
+}
+
+impl<const JOINTS: usize> Homing<JOINTS> {
+    /// Homing of a device with these encoders, whose angles at zero counts are found out. Held still is: within
+    /// `still_counts` of one reading for `still_ticks` ticks; `timeout_ticks` after the start it is too late.
+    ///
+    /// # Errors
+    /// The number that makes no sense.
+    pub const fn try_new(
+        encoders: [Encoder; JOINTS],
+        reference: Reference<JOINTS>,
+        still_ticks: u32,
+        still_counts: u32,
+        timeout_ticks: u32,
+    ) -> Result<Self, HomingError> {
+        let (Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles)) = &reference;
+        let mut joint = 0;
+        while joint < JOINTS {
+            if !angles[joint].is_finite() {
+                return Err(HomingError::Angle);
+            }
+            joint += 1;
+        }
+        if still_ticks == 0 {
+            return Err(HomingError::StillTicks);
+        }
+        if timeout_ticks <= still_ticks {
+            return Err(HomingError::TimeoutTicks);
+        }
+        Ok(Self { encoders, reference, still_ticks, still_counts, timeout_ticks })
+    }
+
+    /// One tick. Once done or refused, nothing changes any more.
+    pub fn tick(&self, state: &mut HomingState<JOINTS>, input: HomingInput<JOINTS>) -> HomingProgress<JOINTS> {
+        if state.progress == HomingProgress::Waiting {
+            state.progress = self.next(state, input);
+            state.ticks = state.ticks.saturating_add(1);
+        }
+        state.progress
+    }
+
+    fn next(&self, state: &mut HomingState<JOINTS>, input: HomingInput<JOINTS>) -> HomingProgress<JOINTS> {
+        let Some(counts) = input.counts else {
+            return HomingProgress::Refused(Refusal::Sensor);
+        };
+        let too_late = state.ticks.saturating_add(1) >= self.timeout_ticks;
+        if let Reference::Index(angles) = &self.reference {
+            for (mark, index) in state.marks.iter_mut().zip(input.index) {
+                // The first pass counts; a later one says nothing new.
+                *mark = mark.or(index);
+            }
+            let mut encoders = self.encoders;
+            let mut missing = false;
+            for ((encoder, mark), angle) in encoders.iter_mut().zip(state.marks).zip(angles) {
+                match mark {
+                    Some(mark) => *encoder = calibrated(*encoder, *angle, mark),
+                    None => missing = true,
+                }
+            }
+            return match (missing, too_late) {
+                (false, _) => HomingProgress::Done(encoders),
+                (true, true) => HomingProgress::Refused(Refusal::NoIndex),
+                (true, false) => HomingProgress::Waiting,
+            };
+        }
+
+        let within = |reach: u32, from: &[Counts; JOINTS]| {
+            counts.iter().zip(from).all(|(Counts(now), Counts(then))| now.abs_diff(*then) <= reach)
+        };
+        if state.anchor.as_ref().is_some_and(|anchor| within(self.still_counts, anchor)) {
+            state.still = state.still.saturating_add(1);
+        } else {
+            state.anchor = Some(counts);
+            state.still = 0;
+        }
+        if state.still < self.still_ticks {
+            return if too_late { HomingProgress::Refused(Refusal::Moving) } else { HomingProgress::Waiting };
+        }
+        let (Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles)) =
+            &self.reference;
+        if let Reference::KnownPose { counts: known, tolerance, .. } = &self.reference
+            && !within(*tolerance, known)
+        {
+            return HomingProgress::Refused(Refusal::OutOfTolerance);
+        }
+        let mut encoders = self.encoders;
+        for ((encoder, angle), counts) in encoders.iter_mut().zip(angles).zip(counts) {
+            *encoder = calibrated(*encoder, *angle, counts);
+        }
+        HomingProgress::Done(encoders)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ENCODERS: [Encoder; 2] = [Encoder::geared(1_000.0, 1.0, 0.0), Encoder::geared(1_000.0, -2.0, 9.0)];
+    const ANGLES: [f32; 2] = [0.5, -0.25];
+
+    fn homing(reference: Reference<2>) -> Homing<2> {
+        Homing::try_new(ENCODERS, reference, 5, 1, 50).unwrap()
+    }
+
+    fn at(counts: [i32; 2]) -> HomingInput<2> {
+        HomingInput { counts: Some(counts.map(Counts)), index: [None; 2] }
+    }
+
+    /// Runs the inputs to the end, and gives the tick after which nothing is waited for any more.
+    fn run(homing: &Homing<2>, input: impl Fn(u32) -> HomingInput<2>) -> (u32, HomingProgress<2>) {
+        let mut state = HomingState::default();
+        let mut end = None;
+        for tick in 0..100 {
+            let progress = homing.tick(&mut state, input(tick));
+            match end {
+                None if progress != HomingProgress::Waiting => end = Some((tick, progress)),
+                Some((_, first)) => assert_eq!(progress, first, "latched"),
+                None => {}
+            }
+        }
+        end.expect("it ends by the timeout")
+    }
+
+    fn angles(progress: HomingProgress<2>, counts: [i32; 2]) -> [f32; 2] {
+        let HomingProgress::Done(encoders) = progress else { panic!("{progress:?}") };
+        let [first, second] = counts;
+        [encoders[0].angle(Counts(first)), encoders[1].angle(Counts(second))]
+    }
+
+    #[test]
+    fn held_still_the_reference_pose_is_what_the_encoders_then_say() {
+        // It moves for ten ticks, then trembles by a count.
+        let (tick, progress) = run(&homing(Reference::Pose(ANGLES)), |tick| {
+            at(if tick < 10 { [7 * tick as i32, 0] } else { [700 + (tick % 2) as i32, -300] })
+        });
+        // Anchored at tick 10, still for the five after it.
+        assert_eq!(tick, 15);
+        for (angle, expected) in angles(progress, [701, -300]).into_iter().zip(ANGLES) {
+            // Roundings of 4.4 rad.
+            assert!((angle - expected).abs() < 1e-6, "{angle} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_device_that_never_rests_is_refused_when_the_time_is_over() {
+        let drift = run(&homing(Reference::Pose(ANGLES)), |tick| at([tick as i32, 0]));
+        assert_eq!(drift, (49, HomingProgress::Refused(Refusal::Moving)));
+    }
+
+    #[test]
+    fn a_device_put_down_elsewhere_is_refused() {
+        let known = Reference::KnownPose { angles: ANGLES, counts: [Counts(100), Counts(-100)], tolerance: 3 };
+        let (_, good) = run(&homing(known), |_| at([103, -97]));
+        assert!(matches!(good, HomingProgress::Done(_)));
+        assert_eq!(run(&homing(known), |_| at([104, -97])), (5, HomingProgress::Refused(Refusal::OutOfTolerance)));
+    }
+
+    #[test]
+    fn a_sensor_that_fails_is_refused_at_once() {
+        let input = |tick| HomingInput { counts: (tick != 3).then_some([Counts(0); 2]), index: [None; 2] };
+        for reference in [Reference::Pose(ANGLES), Reference::Index(ANGLES)] {
+            assert_eq!(run(&homing(reference), input), (3, HomingProgress::Refused(Refusal::Sensor)));
+        }
+    }
+
+    #[test]
+    fn each_joint_passes_its_index_once_or_is_refused() {
+        let input = |joints: usize| {
+            move |tick: u32| {
+                let mut input = at([tick as i32 * 10, 0]);
+                for (joint, mark) in input.index.iter_mut().enumerate().take(joints) {
+                    // A second pass elsewhere must not count.
+                    *mark = match tick {
+                        7 => Some(Counts(40 + joint as i32)),
+                        9 => Some(Counts(900)),
+                        _ => None,
+                    };
+                }
+                input
+            }
+        };
+        let homing = homing(Reference::Index(ANGLES));
+        let (tick, progress) = run(&homing, input(2));
+        assert_eq!(tick, 7);
+        for (angle, expected) in angles(progress, [40, 41]).into_iter().zip(ANGLES) {
+            assert!((angle - expected).abs() < 1e-6);
+        }
+        assert_eq!(run(&homing, input(1)), (49, HomingProgress::Refused(Refusal::NoIndex)));
+    }
+
+    #[test]
+    fn numbers_that_make_no_sense_are_refused() {
+        let with = |angle: f32, still, timeout| {
+            Homing::try_new(ENCODERS, Reference::Pose([angle, 0.0]), still, 1, timeout).unwrap_err()
+        };
+        assert_eq!(with(f32::NAN, 5, 50), HomingError::Angle);
+        assert_eq!(with(0.0, 0, 50), HomingError::StillTicks);
+        assert_eq!(with(0.0, 5, 5), HomingError::TimeoutTicks);
+    }
+
+    #[test]
+    fn counts_at_the_ends_of_their_range_are_far_apart_and_no_panic() {
+        let (_, progress) = run(&homing(Reference::Pose(ANGLES)), |tick| {
+            at(if tick % 2 == 0 { [i32::MIN, i32::MAX] } else { [i32::MAX, i32::MIN] })
+        });
+        assert_eq!(progress, HomingProgress::Refused(Refusal::Moving));
+    }
+}

@@ -1,0 +1,106 @@
+//! The three-joint arm whose second link is driven by a crank and a rod, as in Polhem.
+
+use super::five_bar::{Closed, left};
+use super::{FiveBar, GRAVITY, Kinematics, ProbePose};
+use crate::math::{Vec2, Vec3, sin_cos, vec3};
+
+/// A link's mass and where its centre lies in the link's own frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkMass {
+    /// Mass, kg; zero if not known.
+    pub mass: f32,
+    /// The centre, metres along the link from its first hinge.
+    pub along: f32,
+    /// The centre, metres to the left of that direction.
+    pub across: f32,
+}
+
+impl LinkMass {
+    /// A link that weighs nothing.
+    pub const NONE: Self = Self { mass: 0.0, along: 0.0, across: 0.0 };
+}
+
+/// A turntable that carries an upright [`FiveBar`].
+///
+/// Joint angles, radians: `a` turns the table about the vertical z axis; the other two are the cranks', counter-clockwise
+/// from the horizontal. The five-bar's x is the distance from the turntable's axis less `pivot_reach`, its y the height:
+/// `x = r cos a`, `y = r sin a`, `z = h`, less the workspace centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkageArm {
+    /// The linkage in the upright plane. Its own workspace centre is not used.
+    pub linkage: FiveBar,
+    /// From the turntable's axis to the first crank's pivot, metres.
+    pub pivot_reach: f32,
+    /// The centre of the workspace, metres from the foot of the first crank's pivot on the axis.
+    pub workspace_centre: Vec3,
+    /// First crank, second crank, first rod (with all it carries, direction from its elbow to the probe), second rod
+    /// (direction from its elbow to the hinge).
+    pub masses: [LinkMass; 4],
+}
+
+impl LinkageArm {
+    /// How the height of a link's centre changes with the cranks, metres per radian. The link starts at a point that moves
+    /// with `start`, and points along `span` from there, whose end moves `sweep` faster than its start.
+    fn lift(link: &LinkMass, start: [Vec2; 2], span: Vec2, sweep: [Vec2; 2]) -> [f32; 2] {
+        // A rigid link turns by `span⊥ · sweep / span²`, and its centre's height changes with the offset's own x.
+        let length = span.length();
+        let forward = span / length;
+        let offset = forward * link.along + left(forward) * link.across;
+        let rate = |sweep: Vec2| left(span).dot(sweep) / (length * length);
+        let ([start_a, start_b], [sweep_a, sweep_b]) = (start, sweep);
+        [start_a.y + rate(sweep_a) * offset.x, start_b.y + rate(sweep_b) * offset.x]
+    }
+
+    fn weight(&self, closed: &Closed) -> [f32; 2] {
+        let [elbow_a, elbow_b] = closed.elbows;
+        let (tool, hinge) = (self.linkage.tool(closed), closed.hinge);
+        let pivot_b = Vec2::new(self.linkage.second_pivot, 0.0);
+        let less = |[a, b]: [Vec2; 2], [c, d]: [Vec2; 2]| [a - c, b - d];
+        let fixed = [Vec2::ZERO; 2];
+        let [crank_a, crank_b, rod_a, rod_b] = &self.masses;
+        let lifts = [
+            (crank_a.mass, Self::lift(crank_a, fixed, elbow_a.place, elbow_a.motion)),
+            (crank_b.mass, Self::lift(crank_b, fixed, elbow_b.place - pivot_b, elbow_b.motion)),
+            (
+                rod_a.mass,
+                Self::lift(rod_a, elbow_a.motion, tool.place - elbow_a.place, less(tool.motion, elbow_a.motion)),
+            ),
+            (
+                rod_b.mass,
+                Self::lift(rod_b, elbow_b.motion, hinge.place - elbow_b.place, less(hinge.motion, elbow_b.motion)),
+            ),
+        ];
+        lifts.into_iter().fold([0.0; 2], |[sum_a, sum_b], (mass, [lift_a, lift_b])| {
+            [sum_a + GRAVITY * mass * lift_a, sum_b + GRAVITY * mass * lift_b]
+        })
+    }
+}
+
+impl Kinematics<3> for LinkageArm {
+    #[inline]
+    fn pose(&self, [a, b, c]: [f32; 3]) -> ProbePose<3> {
+        let Some(closed) = self.linkage.close([b, c]) else {
+            return ProbePose::UNREACHABLE;
+        };
+        let tool = self.linkage.tool(&closed);
+        let (sin_a, cos_a) = sin_cos(a);
+        let reach = self.pivot_reach + tool.place.x;
+        let stand = |v: Vec2| vec3(v.x * cos_a, v.x * sin_a, v.y);
+        let [motion_b, motion_c] = tool.motion;
+        ProbePose {
+            position: stand(Vec2::new(reach, tool.place.y)) - self.workspace_centre,
+            jacobian: [vec3(-reach * sin_a, reach * cos_a, 0.0), stand(motion_b), stand(motion_c)],
+        }
+    }
+
+    #[inline]
+    fn holding_torques(&self, [_, b, c]: [f32; 3]) -> [f32; 3] {
+        match self.linkage.close([b, c]) {
+            Some(closed) => {
+                let [first, second] = self.weight(&closed);
+                [0.0, first, second]
+            }
+            None => [0.0; 3],
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! The one-joint paddle of the Hapkit kind.
+
+use super::{GRAVITY, Kinematics, ProbePose};
+use crate::math::{sin_cos, vec3};
+
+/// A handle on one axis.
+///
+/// Joint angle, radians: zero with the handle upright, positive towards x. The probe's place is the arc the handle has
+/// gone, as such devices are programmed: `x = r θ`, so that one dimension stays one. The frame's x axis points the way the
+/// handle goes; y and z stay zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paddle {
+    /// From the axis to the hand, `r`, metres.
+    pub handle: f32,
+    /// Mass of the paddle times the height of its centre over the axis, kg·m; zero if it is balanced or not known.
+    pub mass_moment: f32,
+}
+
+impl Kinematics<1> for Paddle {
+    #[inline]
+    fn pose(&self, [angle]: [f32; 1]) -> ProbePose<1> {
+        ProbePose { position: vec3(self.handle * angle, 0.0, 0.0), jacobian: [vec3(self.handle, 0.0, 0.0)] }
+    }
+
+    #[inline]
+    fn holding_torques(&self, [angle]: [f32; 1]) -> [f32; 1] {
+        // The weight tips the paddle over; the torque that holds it goes the other way.
+        [-GRAVITY * self.mass_moment * sin_cos(angle).0]
+    }
+}

@@ -1,0 +1,85 @@
+//! Where the probe is and how it moves with the joints.
+
+use crate::math::{Vec3, sqrt};
+
+/// Where the probe is and how it moves with each joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProbePose<const JOINTS: usize> {
+    /// The probe's position in the device's frame, metres from the centre of its workspace.
+    pub position: Vec3,
+    /// The Jacobian's columns `∂position/∂angle`, metres per radian.
+    pub jacobian: [Vec3; JOINTS],
+}
+
+impl<const JOINTS: usize> ProbePose<JOINTS> {
+    /// What a mechanism that cannot be closed answers: NaN throughout, the same bits on every machine.
+    pub const UNREACHABLE: Self = Self { position: Vec3::NAN, jacobian: [Vec3::NAN; JOINTS] };
+
+    /// The probe's velocity, m/s, from the joint rates, rad/s.
+    pub fn velocity(&self, joint_rates: [f32; JOINTS]) -> Vec3 {
+        self.jacobian.iter().zip(joint_rates).fold(Vec3::ZERO, |sum, (column, rate)| sum + *column * rate)
+    }
+
+    /// The joint torques, N·m, that hold a force at the probe, N: `τ = Jᵀ F`.
+    pub fn torques(&self, force: Vec3) -> [f32; JOINTS] {
+        self.jacobian.map(|column| column.dot(force))
+    }
+
+    /// How far from a singularity, m/rad: a lower bound of the Jacobian's least singular value, exact for one joint.
+    ///
+    /// However the joints turn, a unit of joint rates moves the probe at least this fast; a joint torque of 1 N·m can press
+    /// with at most its inverse, in newtons. From `σ₁σ₂σ₃ = |det J|` and `σ₁σ₂ ≤ (σ₁² + σ₂²)/2`:
+    /// `σ₃ ≥ 2 |det J| / ‖J‖²`; for two joints `σ₂ ≥ |j₁ × j₂| / ‖J‖` (Frobenius norms). Zero at a singularity and where
+    /// the pose is not finite, and for more than three joints.
+    pub fn singularity_margin(&self) -> f32 {
+        let squares = self.jacobian.iter().fold(0.0, |sum, column| sum + column.length_squared());
+        let margin = match self.jacobian.as_slice() {
+            [only] => sqrt(only.length_squared()),
+            [a, b] => sqrt(a.cross(*b).length_squared()) / sqrt(squares),
+            [a, b, c] => 2.0 * a.dot(b.cross(*c)).abs() / squares,
+            _ => 0.0,
+        };
+        if margin.is_finite() && self.position.is_finite() { margin } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec3;
+
+    fn margin<const JOINTS: usize>(jacobian: [Vec3; JOINTS]) -> f32 {
+        ProbePose { position: Vec3::ZERO, jacobian }.singularity_margin()
+    }
+
+    #[test]
+    fn margin_is_exact_where_columns_are_square_and_alike() {
+        let (x, y, z) = (vec3(0.1, 0.0, 0.0), vec3(0.0, 0.1, 0.0), vec3(0.0, 0.0, 0.1));
+        // Singular values 0.1 each: 2 · 10⁻³ / 0.03, 10⁻² / (√2 · 0.1), and 0.1 itself; a few roundings.
+        for (found, expected) in [(margin([x, y, z]), 2e-3 / 0.03), (margin([x, y]), 0.070_710_68), (margin([z]), 0.1)]
+        {
+            assert!((found - expected).abs() < 1e-7, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn margin_never_exceeds_the_least_motion_of_a_unit_of_rates() {
+        let jacobian = [vec3(0.02, 0.1, -0.03), vec3(0.09, -0.02, 0.05), vec3(0.04, 0.05, 0.11)];
+        let pose = ProbePose { position: Vec3::ZERO, jacobian };
+        let mut least = f32::INFINITY;
+        for n in 0..100_000 {
+            let (turn, tilt) = (n as f32 * 2.399_963, 1.0 - 2.0 * (n as f32 + 0.5) / 100_000.0);
+            let across = (1.0 - tilt * tilt).sqrt();
+            least = least.min(pose.velocity([across * turn.cos(), across * turn.sin(), tilt]).length());
+        }
+        let margin = pose.singularity_margin();
+        assert!(margin <= least && margin > 0.4 * least, "{margin} {least}");
+    }
+
+    #[test]
+    fn a_singular_or_impossible_pose_has_no_margin() {
+        let (x, y) = (vec3(0.1, 0.0, 0.0), vec3(0.0, 0.1, 0.0));
+        assert_eq!([margin([x, y, x + y]), margin([x, -x]), margin([Vec3::ZERO; 3])], [0.0; 3]);
+        assert_eq!(ProbePose::<2>::UNREACHABLE.singularity_margin(), 0.0);
+    }
+}

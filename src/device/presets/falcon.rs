@@ -1,0 +1,63 @@
+//! Novint Falcon.
+
+use crate::device::drive::Feed;
+use crate::device::{Delta, Device, Encoder, Motor};
+use crate::math::vec3;
+
+/// Cosine and sine of 15°.
+const COS_15: f32 = 0.965_925_8;
+const SIN_15: f32 = 0.258_819_04;
+const HALF_ROOT: f32 = core::f32::consts::FRAC_1_SQRT_2;
+
+/// Arm's drum over motor shaft.
+const RATIO: f32 = 0.110 / 0.014_25;
+
+/// Novint Falcon, a delta that stands on its side.
+///
+/// Stamper's lengths in mm: a 60, b 102.5, c 14.43, d = e 11.25, f −25, r 40, s −23.09; legs at 90°, −30° and −150°, each
+/// plus 15°; drum 110 mm on a shaft of 14.25 mm; 320 lines, four counts each: 38 µm at a thigh's end; 35° at zero counts.
+/// Source: libnifalcon, `FalconGeometry.h`; its Jacobian has `sin² θ₂` where `sin θ₂ sin θ₃` belongs and is not followed.
+/// 8.9 N, 3,000 N/m and 20 N·s/m: CHAI3D.
+/// The frame is libnifalcon's: seen from the front x to the right, y up, z towards the hand; the origin is moved to the
+/// middle of the workspace, 120 mm before the base.
+/// Assumed: torque of the motors, such that they give 8.9 N in every direction there; the weight is not known and left out.
+pub const NOVINT_FALCON: Device<Delta, 3> = Device {
+    kinematics: Delta {
+        thigh: 0.060,
+        shin: 0.102_5,
+        stub: 0.011_25 + 0.011_25,
+        reach: 0.040 - 0.014_43,
+        side: -0.023_09 + 0.025,
+        directions: [[-SIN_15, COS_15], [COS_15, -SIN_15], [-HALF_ROOT, -HALF_ROOT]],
+        workspace_centre: vec3(0.0, 0.0, 0.120),
+        up: vec3(0.0, 1.0, 0.0),
+        carried_mass: 0.0,
+        thigh_moment: 0.0,
+    },
+    encoders: [Encoder::geared(1_280.0, RATIO, 35.0 * core::f32::consts::PI / 180.0); 3],
+    motors: [Motor { torque_at_full: 0.53 }; 3],
+    feeds: [Feed::Current; 3],
+    joint_range: [[-0.75, 1.4]; 3],
+    least_margin: 0.010,
+    greatest_joint_rate: 60.0,
+    greatest_force: 8.9,
+    greatest_stiffness: 3_000.0,
+    greatest_damping: 20.0,
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::Kinematics;
+    use crate::math::Vec3;
+
+    #[test]
+    fn the_published_force_is_within_reach_at_the_workspace_centre() {
+        let delta = NOVINT_FALCON.kinematics;
+        let pose = delta.pose(delta.angles(Vec3::ZERO).unwrap());
+        for axis in [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)] {
+            let torques = pose.torques(axis * NOVINT_FALCON.greatest_force);
+            assert!(torques.iter().all(|torque| torque.abs() <= 0.53), "{axis}: {torques:?}");
+        }
+    }
+}
