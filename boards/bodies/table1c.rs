@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake table1c.toml --out table1c.rs
-// Table format 1. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
+// Table format 2. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
 
 // Patch 0, "S".
 #[rustfmt::skip]
@@ -99,10 +99,19 @@ pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
         &PATCH_0_BREAKS_U,
         &PATCH_0_BREAKS_V,
         palpate::patch::Coefficients::Polynomial(&PATCH_0_COEFFICIENTS),
-        palpate::patch::SecondDerivativeBounds {
-            uu: 0.50911695,
-            uv: 7.01481e-10,
-            vv: 0.45000005,
+        palpate::patch::ShapeBounds {
+            second_derivatives: palpate::patch::SecondDerivativeBounds {
+                uu: 0.50911695,
+                uv: 7.01481e-10,
+                vv: 0.45000005,
+            },
+            curvature: palpate::patch::Curvature {
+                least: -2.959249e-10,
+                greatest: 70.97095,
+            },
+            least_stretch: 0.0035884618,
+            greatest_stretch: 0.079200014,
+            greatest_bend: 131.06499,
         },
         palpate::patch::Orientation::Inward,
         0.1,

@@ -1,7 +1,8 @@
 //! Tables: exact shapes, the Rust source, and the committed table against its model.
 
-use palpate::patch::{Patch as _, SplinePatch};
+use palpate::patch::{Curvature, Patch as _, SplinePatch};
 use palpate_host::bake::source::{self, Origin};
+use palpate_host::bake::survey::Survey;
 use palpate_host::bake::{BakedPatch, Model};
 use std::error::Error;
 use std::fs;
@@ -43,7 +44,7 @@ fn the_compiled_table_has_the_bits_of_the_baked_patch() -> Result<(), Box<dyn Er
     let patch = BakedPatch::new(&model.patches[0])?.to_patch()?;
     let compiled: &SplinePatch = &table1c::PATCHES[0];
     assert_eq!(table1c::PATCHES.len(), model.patches.len());
-    assert_eq!(compiled.bounds(), patch.bounds());
+    assert_eq!(compiled.shape(), patch.shape());
     assert_eq!(compiled.size().to_bits(), patch.size().to_bits());
     assert_eq!((compiled.orientation(), compiled.degree()), (patch.orientation(), patch.degree()));
     for i in 0..=64_u16 {
@@ -101,6 +102,51 @@ fn a_quarter_cylinder_and_an_octant_of_a_sphere_have_their_radius_everywhere() -
                 let radius = (point.x * point.x + point.y * point.y + height * point.z * point.z).sqrt();
                 assert!((radius - 0.05).abs() < 2e-6 * 0.05, "degree {degree}: radius {radius}");
             }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_pole_has_no_bound_of_the_curvature_and_says_so() -> Result<(), Box<dyn Error>> {
+    let row = |x: f64, y: f64, w: f64| {
+        let weight = std::f64::consts::FRAC_1_SQRT_2;
+        format!("[[{x}, {y}, 0, {w}], [{x}, {y}, 50, {}], [0, 0, 50, {w}]]", w * weight)
+    };
+    let octant =
+        [row(50.0, 0.0, 1.0), row(50.0, 50.0, std::f64::consts::FRAC_1_SQRT_2), row(0.0, 50.0, 1.0)].join(", ");
+    let parsed = Model::parse(&model("mm", "[2, 2]", &octant), "octant.toml")?;
+    let baked = BakedPatch::all(&parsed, "octant.toml")?;
+    let shape = baked[0].to_patch()?.shape();
+    assert_eq!(shape.curvature, Curvature::UNBOUNDED);
+    assert!(shape.least_stretch < 1e-6 && shape.greatest_stretch < 0.02 && shape.greatest_bend.is_infinite());
+    let origin = Origin { model_file: "octant.toml", out_file: "octant.rs", model: b"" };
+    let source = source::rust_source(&origin, &baked)?;
+    assert!(source.contains("greatest: f32::INFINITY") && source.contains("least: f32::NEG_INFINITY"), "{source}");
+    let survey = Survey::new(&parsed.patches[0], &baked[0]);
+    assert_eq!(survey.convexity.to_string(), "convex: not proved (the curvature has no bound)");
+    Ok(())
+}
+
+#[test]
+fn the_shapes_of_the_models_are_proved_as_they_are_known() -> Result<(), Box<dyn Error>> {
+    // Least and greatest curvature, 1/m, where they are constant.
+    for (name, known, convexity) in [
+        ("sphere", Some([20.0, 20.0]), "convex: proved"),
+        ("cylinder", Some([0.0, 20.0]), "convex: up to rounding"),
+        ("ellipsoid", None, "convex: proved"),
+        ("table1c", None, "convex: up to rounding"),
+        ("table1", None, "convex: no"),
+    ] {
+        let parsed = Model::read(&host_folder().join(format!("models/{name}.toml")))?;
+        let baked = BakedPatch::new(&parsed.patches[0])?;
+        let survey = Survey::new(&parsed.patches[0], &baked);
+        assert!(survey.convexity.to_string().starts_with(convexity), "{name}: {}", survey.convexity);
+        let Curvature { least, greatest } = baked.shape.curvature;
+        if let Some([low, high]) = known {
+            // The slack, 2 % of the largest curvature, and the rounding of the table.
+            assert!(least <= low && low - least <= 0.0201 * high, "{name}: {least}");
+            assert!(greatest >= high * (1.0 - 1e-7) && greatest - high <= 0.0201 * high, "{name}: {greatest}");
         }
     }
     Ok(())

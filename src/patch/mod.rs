@@ -5,8 +5,10 @@
 //! A new kind of surface (a cylinder, a torus) is a new file here that implements [`Patch`].
 
 mod horner;
+mod shape;
 mod spline;
 
+pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
 pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError, span_centre};
 
 use crate::math::Vec3;
@@ -25,24 +27,6 @@ pub struct SurfacePoint {
     pub tangent_v: Vec3,
 }
 
-/// Upper bounds, over the whole patch, of the norms of the second partial derivatives.
-///
-/// They are what the controller needs to know about the shape to choose a step that provably brings the witness point
-/// nearer (see [`crate::track::certified_gain`]). The host proves them from the control points; they hold for the stored
-/// coefficients and include their rounding.
-///
-/// # Units
-/// Metres per unit of parameter squared.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SecondDerivativeBounds {
-    /// `sup ‖f_uu‖`.
-    pub uu: f32,
-    /// `sup ‖f_uv‖`.
-    pub uv: f32,
-    /// `sup ‖f_vv‖`.
-    pub vv: f32,
-}
-
 /// A parametric surface patch over `[0, 1]²`.
 pub trait Patch {
     /// The point and both tangents at `(u, v)`. Parameters outside `[0, 1]` extrapolate the nearest span; the
@@ -51,6 +35,11 @@ pub trait Patch {
 
     /// Bounds on the second derivatives over the whole patch.
     fn bounds(&self) -> SecondDerivativeBounds;
+
+    /// What else is proved of the shape; nothing, if the patch does not say.
+    fn shape(&self) -> ShapeBounds {
+        ShapeBounds::unknown(self.bounds())
+    }
 
     /// `+1` if `f_u × f_v` points out of the body, `-1` if into it.
     fn orientation(&self) -> f32;

@@ -5,7 +5,7 @@
 //! (`w x, w y, w z, w`) and divided once.
 
 use super::horner::{self, Derivatives};
-use super::{Patch, SecondDerivativeBounds, SurfacePoint};
+use super::{Patch, SecondDerivativeBounds, ShapeBounds, SurfacePoint};
 use crate::math::{Vec3, vec3};
 use thiserror::Error;
 
@@ -51,8 +51,9 @@ pub enum TableError {
     /// A coefficient is not finite.
     #[error("a coefficient is not finite")]
     CoefficientNotFinite,
-    /// A bound is negative or not finite.
-    #[error("a second-derivative bound is negative or not finite")]
+    /// A second-derivative bound is negative or not finite, or another bound is NaN or out of order. An infinite curvature or
+    /// a least stretch of 0 is accepted: it says "no bound".
+    #[error("a second-derivative bound is negative or not finite, or a bound of the shape is NaN or out of order")]
     Bounds,
     /// The size is not positive and finite.
     #[error("the size must be positive and finite")]
@@ -69,7 +70,7 @@ pub struct SplinePatch {
     breaks_u: &'static [f32],
     breaks_v: &'static [f32],
     coefficients: Coefficients,
-    bounds: SecondDerivativeBounds,
+    shape: ShapeBounds,
     orientation: Orientation,
     size: f32,
 }
@@ -84,7 +85,7 @@ impl SplinePatch {
         breaks_u: &'static [f32],
         breaks_v: &'static [f32],
         coefficients: Coefficients,
-        bounds: SecondDerivativeBounds,
+        shape: ShapeBounds,
         orientation: Orientation,
         size: f32,
     ) -> Result<Self, TableError> {
@@ -109,13 +110,13 @@ impl SplinePatch {
         if !finite {
             return Err(TableError::CoefficientNotFinite);
         }
-        if !(is_bound(bounds.uu) && is_bound(bounds.uv) && is_bound(bounds.vv)) {
+        if !shape.is_possible() {
             return Err(TableError::Bounds);
         }
         if !(size > 0.0 && size < f32::INFINITY) {
             return Err(TableError::Size);
         }
-        Ok(Self { degree, breaks_u, breaks_v, coefficients, bounds, orientation, size })
+        Ok(Self { degree, breaks_u, breaks_v, coefficients, shape, orientation, size })
     }
 
     /// [`Self::try_new`] for a `static`: a bad table does not compile.
@@ -127,11 +128,11 @@ impl SplinePatch {
         breaks_u: &'static [f32],
         breaks_v: &'static [f32],
         coefficients: Coefficients,
-        bounds: SecondDerivativeBounds,
+        shape: ShapeBounds,
         orientation: Orientation,
         size: f32,
     ) -> Self {
-        match Self::try_new(degree, breaks_u, breaks_v, coefficients, bounds, orientation, size) {
+        match Self::try_new(degree, breaks_u, breaks_v, coefficients, shape, orientation, size) {
             Ok(patch) => patch,
             Err(TableError::Degree) => panic!("degree"),
             Err(TableError::BreaksU) => panic!("breaks_u"),
@@ -177,7 +178,11 @@ impl Patch for SplinePatch {
     }
 
     fn bounds(&self) -> SecondDerivativeBounds {
-        self.bounds
+        self.shape.second_derivatives
+    }
+
+    fn shape(&self) -> ShapeBounds {
+        self.shape
     }
 
     fn orientation(&self) -> f32 {
@@ -281,8 +286,4 @@ const fn all_finite<const D: usize>(entries: &[[f32; D]]) -> bool {
         index += 1;
     }
     true
-}
-
-const fn is_bound(value: f32) -> bool {
-    value >= 0.0 && value < f32::INFINITY
 }

@@ -32,3 +32,40 @@ pub fn gradient(
     };
     [along_u + followed(0), along_v + followed(1)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec3;
+
+    /// Eq. (13), on skewed tangents: each component's motion is followed exactly where its share of the rise of the distance,
+    /// `Ψ` times the motion's component, is positive.
+    #[test]
+    fn gated_follows_what_disturbs_and_leaves_what_helps() {
+        let surface =
+            SurfacePoint { point: Vec3::ZERO, tangent_u: vec3(1.0, 0.0, 0.0), tangent_v: vec3(0.7, 1.1, 0.0) };
+        let mut reached = [0; 4];
+        for turn in 0..24 {
+            for move_turn in 0..24 {
+                let along = |turn: i32| {
+                    let (sine, cosine) = crate::math::sin_cos(turn as f32 * 0.261_8 + 0.1);
+                    vec3(cosine, sine, 0.0)
+                };
+                let errors = ProjectionErrors::new(&surface, along(turn) * 0.1);
+                let moved = along(move_turn) * 0.01;
+                let of = |kind| gradient(kind, &errors, &surface, moved, 0.25);
+                let [none, gated, full] = [FeedForward::None, FeedForward::Gated, FeedForward::Full].map(of);
+                let psi = errors.measure_numbers().unwrap();
+                let motion = [-moved.dot(surface.tangent_u), -moved.dot(surface.tangent_v)];
+                let disturbs = [0, 1].map(|axis| psi[axis] * motion[axis] > 0.0);
+                for axis in [0, 1] {
+                    assert_eq!(gated[axis], if disturbs[axis] { full[axis] } else { none[axis] });
+                    // With the gain of a quarter, three quarters of the motion are to be followed besides: three times.
+                    assert!((full[axis] - none[axis] - 3.0 * motion[axis]).abs() < 1e-6);
+                }
+                reached[usize::from(disturbs[0]) + 2 * usize::from(disturbs[1])] += 1;
+            }
+        }
+        assert!(reached.iter().all(|count| *count > 0), "{reached:?}");
+    }
+}

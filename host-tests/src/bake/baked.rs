@@ -3,8 +3,8 @@
 use super::error::{Fault, ModelError};
 use super::model::Model;
 use super::patch::NurbsPatch;
-use super::{bounds, spline};
-use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, SplinePatch, TableError};
+use super::{bounds, shape, spline};
+use palpate::patch::{Coefficients, Orientation, ShapeBounds, SplinePatch, TableError};
 
 /// The table of one patch.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +17,8 @@ pub struct BakedPatch {
     pub breaks: [Vec<f32>; 2],
     /// Coefficients of all spans, in the order of the table.
     pub coefficients: BakedCoefficients,
-    /// Proved bounds of the second derivatives, metres per unit of parameter squared.
-    pub bounds: SecondDerivativeBounds,
+    /// What is proved of its shape.
+    pub shape: ShapeBounds,
     /// Which way the outward normal points.
     pub orientation: Orientation,
     /// The largest side of the bounding box, metres.
@@ -79,14 +79,16 @@ impl BakedPatch {
         } else {
             BakedCoefficients::Polynomial(entries.map(|entry| entry.truncate().as_vec3().to_array()).collect())
         };
+        let orientation = if patch.flip { Orientation::Inward } else { Orientation::Outward };
         let bounds = bounds::prove(patch.degree, &spans.breaks, &coefficients).ok_or(Fault::NoBounds)?;
+        let shape = shape::prove(patch.degree, &spans.breaks, &coefficients, orientation, bounds);
         Ok(Self {
             name: patch.name.clone(),
             degree: patch.degree.map(|degree| degree as u8),
             breaks: spans.breaks,
             coefficients,
-            bounds,
-            orientation: if patch.flip { Orientation::Inward } else { Orientation::Outward },
+            shape: shape.ok_or(Fault::NoBounds)?,
+            orientation,
             size: patch.size() as f32,
         })
     }
@@ -114,6 +116,6 @@ impl BakedPatch {
             BakedCoefficients::Rational(entries) => Coefficients::Rational(entries.clone().leak()),
         };
         let [breaks_u, breaks_v] = self.breaks.clone().map(|breaks| -> &'static [f32] { breaks.leak() });
-        SplinePatch::try_new(self.degree, breaks_u, breaks_v, coefficients, self.bounds, self.orientation, self.size)
+        SplinePatch::try_new(self.degree, breaks_u, breaks_v, coefficients, self.shape, self.orientation, self.size)
     }
 }

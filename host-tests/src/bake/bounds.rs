@@ -156,7 +156,7 @@ impl Cell {
 }
 
 /// The distances from a span's centre that the target can ask for: its subtraction rounds by at most half of this.
-fn local_range(left: f32, right: f32) -> [f64; 2] {
+pub(super) fn local_range(left: f32, right: f32) -> [f64; 2] {
     let centre = f64::from(span_centre(left, right));
     [left, right].map(|border| (f64::from(border) - centre) * (1.0 + f64::from(f32::EPSILON)))
 }

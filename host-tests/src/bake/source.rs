@@ -11,7 +11,7 @@ use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
 
 /// Version of the form of the tables; raised when older firmware cannot take them.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 
 /// What the header says.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +82,11 @@ fn table(index: usize, patch: &BakedPatch) -> TokenStream {
         BakedCoefficients::Polynomial(_) => quote!(Polynomial),
         BakedCoefficients::Rational(_) => quote!(Rational),
     };
-    let [uu, uv, vv] = [patch.bounds.uu, patch.bounds.uv, patch.bounds.vv].map(number);
+    let derivatives = patch.shape.second_derivatives;
+    let [uu, uv, vv] = [derivatives.uu, derivatives.uv, derivatives.vv].map(number);
+    let [least, greatest] = [patch.shape.curvature.least, patch.shape.curvature.greatest].map(number);
+    let [least_stretch, greatest_stretch] = [patch.shape.least_stretch, patch.shape.greatest_stretch].map(number);
+    let greatest_bend = number(patch.shape.greatest_bend);
     let orientation = match patch.orientation {
         Orientation::Outward => quote!(Outward),
         Orientation::Inward => quote!(Inward),
@@ -94,7 +98,13 @@ fn table(index: usize, patch: &BakedPatch) -> TokenStream {
             &#breaks_u,
             &#breaks_v,
             palpate::patch::Coefficients::#kind(&#coefficients),
-            palpate::patch::SecondDerivativeBounds { uu: #uu, uv: #uv, vv: #vv },
+            palpate::patch::ShapeBounds {
+                second_derivatives: palpate::patch::SecondDerivativeBounds { uu: #uu, uv: #uv, vv: #vv },
+                curvature: palpate::patch::Curvature { least: #least, greatest: #greatest },
+                least_stretch: #least_stretch,
+                greatest_stretch: #greatest_stretch,
+                greatest_bend: #greatest_bend,
+            },
             palpate::patch::Orientation::#orientation,
             #size,
         )
@@ -113,8 +123,11 @@ fn rows<const D: usize>(entries: &[[f32; D]]) -> Vec<TokenStream> {
     entries.iter().map(row).collect()
 }
 
-/// A number with its sign, shortest form. Exponents keep very small ones short.
+/// A number with its sign, shortest form. Exponents keep very small ones short. A bound may be infinite.
 fn number(value: f32) -> TokenStream {
+    if value.is_infinite() {
+        return if value > 0.0 { quote!(f32::INFINITY) } else { quote!(f32::NEG_INFINITY) };
+    }
     let magnitude = value.abs();
     let digits = if magnitude == 0.0 || (1e-4..1e7).contains(&magnitude) {
         format!("{magnitude:?}")

@@ -2,12 +2,13 @@
 
 use super::baked::BakedPatch;
 use super::patch::{Axis, NurbsPatch};
-use palpate::patch::SecondDerivativeBounds;
+use super::shape::FLAT;
+use palpate::patch::ShapeBounds;
 use std::fmt;
 
 /// Whether the guarantee of the controller is proved for a patch.
 ///
-/// Nothing proves convexity, outline and normal cone yet, so every patch is at best [`Verdict::Usable`].
+/// Nothing proves outline and normal cone yet, so every patch is at best [`Verdict::Usable`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// Proved: no false equilibrium for any probe of its region.
@@ -40,6 +41,42 @@ pub enum Regularity {
     },
 }
 
+/// Whether the patch bends outward everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Convexity {
+    /// The least curvature is proved not to be negative.
+    Proved,
+    /// It is proved not to be below this, 1/m, which is nothing but rounding beside the greatest: straight somewhere, as a cylinder is.
+    UpToRounding(f32),
+    /// It is proved not to be below this, 1/m, and no sample is negative.
+    Open(f32),
+    /// A sample bends inward.
+    Disproved {
+        /// Its curvature, 1/m.
+        curvature: f64,
+        /// Where.
+        parameters: [f64; 2],
+    },
+}
+
+impl fmt::Display for Convexity {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Proved => write!(formatter, "convex: proved"),
+            Self::UpToRounding(least) => {
+                write!(formatter, "convex: up to rounding (straight somewhere; no curvature is below {least:.1e} 1/m)")
+            }
+            Self::Open(least) if least.is_finite() => {
+                write!(formatter, "convex: not proved (no curvature is below {least:.3} 1/m)")
+            }
+            Self::Open(_) => write!(formatter, "convex: not proved (the curvature has no bound)"),
+            Self::Disproved { curvature, parameters: [u, v] } => {
+                write!(formatter, "convex: no (curvature {curvature:.2} 1/m at u = {u:.3}, v = {v:.3})")
+            }
+        }
+    }
+}
+
 /// What is known of a patch.
 #[derive(Clone, Debug)]
 pub struct Survey {
@@ -58,7 +95,9 @@ pub struct Survey {
     /// Edges that are one point: `u = 0`, `u = 1`, `v = 0`, `v = 1`.
     pub poles: Vec<&'static str>,
     /// Proved.
-    pub bounds: SecondDerivativeBounds,
+    pub shape: ShapeBounds,
+    /// Proved or disproved.
+    pub convexity: Convexity,
     /// Bytes in flash.
     pub bytes: TableBytes,
     /// What follows.
@@ -89,8 +128,8 @@ impl TableBytes {
 const LEAST_SINE: f64 = 1e-3;
 /// An edge on which no tangent is longer than this, in sizes, is a point to `f32`.
 const POLE: f64 = 1e-6;
-/// `2 · 8 + 12 + 12 + 2 + 1 + 4` bytes, padded to words.
-const RECORD_BYTES: usize = 48;
+/// `2 · 8 + 12 + 32 + 2 + 1 + 4` bytes, padded to words.
+const RECORD_BYTES: usize = 68;
 
 impl Survey {
     /// Surveys a patch and its table.
@@ -98,7 +137,8 @@ impl Survey {
         let size = patch.size();
         let continuity = [Axis::U, Axis::V].map(|axis| patch.continuity(axis));
         let (regularity, poles) = regularity(patch, size);
-        let mut reasons = vec!["convexity, outline and normal cone are not proved".to_owned()];
+        let convexity = convexity(patch, baked);
+        let mut reasons = vec!["outline and normal cone are not proved".to_owned()];
         for (axis, continuity) in [Axis::U, Axis::V].into_iter().zip(continuity) {
             if continuity == Some(0) {
                 reasons.push(format!("a knot along {axis} may be a crease: the bounds hold on either side of it only"));
@@ -121,11 +161,42 @@ impl Survey {
             continuity,
             regularity,
             poles,
-            bounds: baked.bounds,
+            shape: baked.shape,
+            convexity,
             bytes,
             verdict: Verdict::Usable,
             reasons,
         }
+    }
+}
+
+/// From the proved bound and, where that is negative, the samples.
+fn convexity(patch: &NurbsPatch, baked: &BakedPatch) -> Convexity {
+    let proved = baked.shape.curvature;
+    if proved.is_convex() {
+        return Convexity::Proved;
+    }
+    let size = patch.size();
+    let (mut least, mut worst, mut largest) = (f64::INFINITY, [0.0; 2], 0.0_f64);
+    patch.for_each_sample(12, |parameters, surface| {
+        // At a pole the tangents are rounding, and so would be the curvature.
+        if surface.tangent_u.cross(surface.tangent_v).length() <= POLE * size * size {
+            return true;
+        }
+        let [low, high] = surface.principal_curvatures(patch.flip);
+        if low < least {
+            (least, worst) = (low, parameters);
+        }
+        largest = largest.max(low.abs()).max(high.abs());
+        true
+    });
+    let rounding = FLAT * largest;
+    if least < -rounding {
+        Convexity::Disproved { curvature: least, parameters: worst }
+    } else if f64::from(proved.least) >= -rounding {
+        Convexity::UpToRounding(proved.least)
+    } else {
+        Convexity::Open(proved.least)
     }
 }
 

@@ -4,6 +4,7 @@ use super::output::print;
 use crate::bake::survey::{Regularity, Survey, Verdict};
 use crate::bake::{BakedPatch, Model, ModelError};
 use clap::Args;
+use palpate::track::{Integrator, PerformanceLimits};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,12 +12,28 @@ use std::process::ExitCode;
 
 /// Validates a model and says what is known of each patch.
 ///
-/// Second-derivative bounds are proved; regularity is sampled, 12 intervals a span. Convexity, outline and normal cone
-/// are not proved yet, so no patch is certified. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
+/// Bounds of the second derivatives, the curvature and the stretch are proved, and convexity where they allow it; regularity is
+/// sampled, 12 intervals a span. Outline and normal cone are not proved yet, so no patch is certified. The second table has the limits of
+/// performance for explicit Euler at --rate, a probe up to --distance away and moving at --speed. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The model file (TOML).
     model: PathBuf,
+    /// Servo rate, Hz.
+    #[arg(long, default_value_t = 4_000.0, value_parser = positive)]
+    rate: f32,
+    /// Distance of the probe from the surface, mm.
+    #[arg(long, default_value_t = 5.0, value_parser = positive)]
+    distance: f32,
+    /// Speed of the probe, m/s.
+    #[arg(long, default_value_t = 0.1, value_parser = positive)]
+    speed: f32,
+}
+
+/// A number above 0.
+fn positive(text: &str) -> Result<f32, String> {
+    let value: f32 = text.parse().map_err(|_| format!("{text:?} is not a number"))?;
+    if value > 0.0 && value < f32::INFINITY { Ok(value) } else { Err("it must be positive and finite".to_owned()) }
 }
 
 /// A model with its tables.
@@ -76,20 +93,52 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             survey.size * unit.per_metre(),
             smoothness(survey.continuity),
             regularity(&survey.regularity),
-            survey.bounds.uu,
-            survey.bounds.uv,
-            survey.bounds.vv,
+            survey.shape.second_derivatives.uu,
+            survey.shape.second_derivatives.uv,
+            survey.shape.second_derivatives.vv,
             survey.bytes.total(),
             survey.verdict
         )?;
+        writeln!(report, "    {}", survey.convexity)?;
         for reason in &survey.reasons {
             writeln!(report, "    {reason}")?;
         }
     }
+    let labels: Vec<_> = (0..surveys.len()).map(|index| loaded.model.patch_label(index)).collect();
+    limits(&mut report, arguments, &labels, &surveys)?;
     let verdict = worst(&surveys);
     writeln!(report, "{}: {verdict}", arguments.model.display())?;
     print(report.as_bytes())?;
     Ok(exit_code(verdict))
+}
+
+/// The limits of performance of each patch.
+fn limits(report: &mut String, arguments: &Arguments, labels: &[String], surveys: &[Survey]) -> std::fmt::Result {
+    let &Arguments { rate, distance, speed, .. } = arguments;
+    writeln!(report, "\nlimits at {rate} Hz, up to {distance} mm away, at {speed} m/s, explicit Euler:")?;
+    writeln!(
+        report,
+        "{:<16} {:>21} {:>19} {:>8} {:>9} {:>11} {:>7} {:>8} {:>9}",
+        "patch", "curvature/(1/m)", "tangents/m", "bend", "stable K", "monotone K", "lag/um", "bound/um", "depth/mm"
+    )?;
+    for (label, survey) in labels.iter().zip(surveys) {
+        let shape = &survey.shape;
+        let limits = PerformanceLimits::new(shape, Integrator::Euler, rate, 1e-3 * distance);
+        let gain = limits.monotone_gain(0.0);
+        writeln!(
+            report,
+            "{label:<16} {:>21} {:>19} {:>8.1} {:>9.0} {:>11.0} {:>7.2} {:>8.2} {:>9.2}",
+            format!("{:.2} to {:.2}", shape.curvature.least, shape.curvature.greatest),
+            format!("{:.4} to {:.4}", shape.least_stretch.sqrt(), shape.greatest_stretch.sqrt()),
+            shape.greatest_bend,
+            limits.stable_gain(),
+            gain,
+            1e6 * limits.lag(gain, speed),
+            1e6 * limits.lag_bound(gain, speed),
+            1e3 * limits.depth_limit()
+        )?;
+    }
+    Ok(())
 }
 
 /// The verdict on a model is that on its worst patch.

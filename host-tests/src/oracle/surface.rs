@@ -58,4 +58,24 @@ impl Surface {
             second_vv: (f_vv.xyz() - tangent_v * (2.0 * f_v.w) - point * f_vv.w) * inverse,
         }
     }
+
+    /// The unit normal `f_u × f_v`, turned round if `flip`.
+    pub fn normal(&self, flip: bool) -> DVec3 {
+        let normal = self.tangent_u.cross(self.tangent_v).normalize();
+        if flip { -normal } else { normal }
+    }
+
+    /// The principal curvatures, 1/m, least first, positive where the surface is convex seen from the side the normal
+    /// points to; NaN where the tangents span no plane. Eigenvalues of `−I⁻¹ II`.
+    pub fn principal_curvatures(&self, flip: bool) -> [f64; 2] {
+        let normal = self.normal(flip);
+        let (e, f, g) =
+            (self.tangent_u.length_squared(), self.tangent_u.dot(self.tangent_v), self.tangent_v.length_squared());
+        let [l, m, n] = [self.second_uu, self.second_uv, self.second_vv].map(|second| -normal.dot(second));
+        let determinant = e * g - f * f;
+        let mean = (e * n - 2.0 * f * m + g * l) / (2.0 * determinant);
+        let gauss = (l * n - m * m) / determinant;
+        let half = (mean * mean - gauss).max(0.0).sqrt();
+        [mean - half, mean + half]
+    }
 }

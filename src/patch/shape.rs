@@ -1,0 +1,111 @@
+//! What is proved of a patch's shape: how it bends, how it is stretched.
+
+/// Upper bounds, over the whole patch, of the norms of the second partial derivatives.
+///
+/// They are what the controller needs to know about the shape to choose a step that provably brings the witness point
+/// nearer (see [`crate::track::certified_gain`]). The host proves them from the control points; they hold for the stored
+/// coefficients and include their rounding.
+///
+/// # Units
+/// Metres per unit of parameter squared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecondDerivativeBounds {
+    /// `sup ‖f_uu‖`.
+    pub uu: f32,
+    /// `sup ‖f_uv‖`.
+    pub uv: f32,
+    /// `sup ‖f_vv‖`.
+    pub vv: f32,
+}
+
+/// Bounds of the normal curvature, over a patch or at a point of it.
+///
+/// # Units
+/// 1/m, positive where the surface is convex seen from outside the body: `1/r` on a ball, `−1/r` in a hollow of radius `r`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curvature {
+    /// Not above the least principal curvature.
+    pub least: f32,
+    /// Not below the greatest.
+    pub greatest: f32,
+}
+
+impl Curvature {
+    /// Nothing is known.
+    pub const UNBOUNDED: Self = Self { least: f32::NEG_INFINITY, greatest: f32::INFINITY };
+
+    /// The curvature of a plane.
+    pub const FLAT: Self = Self { least: 0.0, greatest: 0.0 };
+
+    /// Whether nothing bends inward: a certificate where the bounds are proved.
+    pub const fn is_convex(self) -> bool {
+        self.least >= 0.0
+    }
+}
+
+/// What is proved of a patch's shape, over the whole of it.
+///
+/// The host proves the bounds of the stored coefficients by enclosures over cells, and lies above the truth by at most a stated slack
+/// or says so. What it could not bound (the curvature near a pole, where the tangents span no plane) is infinite, and the
+/// least stretch there 0: what is computed from such a bound says "none" too, it is never wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShapeBounds {
+    /// Of the second derivatives: finite always.
+    pub second_derivatives: SecondDerivativeBounds,
+    /// Of the normal curvature with respect to the outward normal.
+    pub curvature: Curvature,
+    /// Not above the least eigenvalue of the first fundamental form `I`, m²: `wᵀ I w ≥ least_stretch · ‖w‖²`.
+    pub least_stretch: f32,
+    /// Not below its greatest eigenvalue, m².
+    pub greatest_stretch: f32,
+    /// Not below `(uu w_u² + 2 uv |w_u w_v| + vv w_v²) / (wᵀ I w)` for any change `w` of the parameters, with the bounds of
+    /// the second derivatives above: the curvature, 1/m, that the certified gain reckons with. Never below
+    /// the greatest curvature, for it counts how the parameters crowd as well.
+    pub greatest_bend: f32,
+}
+
+impl ShapeBounds {
+    /// Only the second derivatives are bounded.
+    pub const fn unknown(second_derivatives: SecondDerivativeBounds) -> Self {
+        Self {
+            second_derivatives,
+            curvature: Curvature::UNBOUNDED,
+            least_stretch: 0.0,
+            greatest_stretch: f32::INFINITY,
+            greatest_bend: f32::INFINITY,
+        }
+    }
+
+    /// Whether these can be bounds: no NaN, in order, the second derivatives finite.
+    pub(super) const fn is_possible(&self) -> bool {
+        let SecondDerivativeBounds { uu, uv, vv } = self.second_derivatives;
+        let finite = uu < f32::INFINITY && uv < f32::INFINITY && vv < f32::INFINITY;
+        let positive = uu >= 0.0 && uv >= 0.0 && vv >= 0.0 && self.least_stretch >= 0.0 && self.greatest_bend >= 0.0;
+        let curvature = self.curvature.least <= self.curvature.greatest;
+        finite && positive && curvature && self.least_stretch <= self.greatest_stretch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn impossible_bounds_are_refused_and_missing_ones_are_not() {
+        let unknown = ShapeBounds::unknown(SecondDerivativeBounds { uu: 1.0, uv: 0.0, vv: 2.0 });
+        assert!(unknown.is_possible() && !unknown.curvature.is_convex());
+        let flat = ShapeBounds { curvature: Curvature::FLAT, greatest_bend: 0.0, ..unknown };
+        assert!(flat.is_possible() && flat.curvature.is_convex());
+        let derivatives = SecondDerivativeBounds { uu: f32::INFINITY, uv: 0.0, vv: 0.0 };
+        for wrong in [
+            ShapeBounds { curvature: Curvature { least: 2.0, greatest: 1.0 }, ..unknown },
+            ShapeBounds { curvature: Curvature { least: f32::NAN, greatest: 1.0 }, ..unknown },
+            ShapeBounds { least_stretch: 2.0, greatest_stretch: 1.0, ..unknown },
+            ShapeBounds { least_stretch: f32::NAN, ..unknown },
+            ShapeBounds { greatest_bend: -1.0, ..unknown },
+            ShapeBounds::unknown(derivatives),
+        ] {
+            assert!(!wrong.is_possible(), "{wrong:?}");
+        }
+    }
+}
