@@ -12,7 +12,9 @@ mod velocity;
 pub use encoder::{Counts, Encoder};
 pub use motor::{Duty, Motor};
 pub use serial_arm::SerialArm;
-pub use velocity::VelocityFilter;
+pub use velocity::{
+    AdaptiveWindow, TrackingObserver, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState, WINDOW, Window,
+};
 
 use crate::math::Vec3;
 
