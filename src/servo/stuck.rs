@@ -35,7 +35,7 @@ mod tests {
 
     /// The tick at which it is found, the second joint moving by 0.001 rad a tick and the first as told.
     fn found(first: impl Fn(u32) -> f32, duty: i16) -> Option<u32> {
-        let mut stillness = [[0.0; 2]; 2];
+        let mut stillness = [[first(0), 0.0]; 2];
         let angles = |tick: u32| [first(tick), tick as f32 * 0.001];
         (1..1_000)
             .find(|tick| is_stuck(LIMITS, &mut stillness, angles(tick - 1), angles(*tick), [Duty(duty), Duty(duty)]))
