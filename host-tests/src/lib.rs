@@ -8,3 +8,4 @@ pub mod oracle;
 pub mod plant;
 pub mod report;
 pub mod simulation;
+pub mod zwidth;

@@ -6,3 +6,4 @@ pub mod closest;
 pub mod demo;
 pub mod sim;
 pub mod test;
+pub mod zwidth;
