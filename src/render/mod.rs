@@ -19,6 +19,6 @@ pub use contact::Contact;
 pub use coupling::{Coupling, Tool};
 pub use friction::{Anchor, Friction};
 pub use knob::{Detents, DetentsError};
-pub use passivity::{Energy, Passivity};
+pub use passivity::{Energy, Motion, Passivity};
 pub use penalty::Penalty;
 pub use texture::{Texture, Touch, grating};

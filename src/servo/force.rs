@@ -4,34 +4,25 @@ use super::{Phase, Servo, ServoState};
 use crate::device::Kinematics;
 use crate::math::{Vec3, sqrt};
 use crate::patch::Patch;
-use crate::render::{Contact, Tool, Touch, limit};
+use crate::render::{Contact, Motion, Tool, Touch, limit};
 
 impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINTS> {
-    /// The force on the probe, N. `tool` is what touches the surface, `velocity` and `moved` are the probe's (m/s, and m in this
-    /// period).
+    /// The force on the probe, N. `tool` is what touches the surface, `motion` is the probe's.
     #[inline]
-    pub(super) fn force(
-        &self,
-        state: &mut ServoState<JOINTS>,
-        tool: Tool,
-        normal: Vec3,
-        velocity: Vec3,
-        moved: Vec3,
-    ) -> Vec3 {
+    pub(super) fn force(&self, state: &mut ServoState<JOINTS>, tool: Tool, normal: Vec3, motion: &Motion) -> Vec3 {
         let surface = self.surface_force(state, tool, normal);
         let felt = match &self.rendering.coupling {
             None => surface,
             Some(coupling) => {
-                state.tool = coupling.step(&tool, state.probe, velocity, surface, self.period);
-                coupling.force(&tool, state.probe, velocity)
+                state.tool = coupling.step(&tool, state.probe, motion.velocity, surface, self.period);
+                coupling.force(&tool, state.probe, motion.velocity)
             }
         };
         let faded = limit::saturated(felt * state.fade, self.penalty.greatest_force);
         let slewed = limit::slewed(faded, state.force, self.greatest_growth);
         let Some(passivity) = &self.rendering.passivity else { return slewed };
         let touching = state.contact == Contact::Touching || self.rendering.coupling.is_some();
-        let passive = passivity.control(&mut state.energy, slewed, moved, self.rate, touching);
-        limit::saturated(passive, self.penalty.greatest_force)
+        passivity.control(&mut state.energy, slewed, motion, touching, self.penalty.greatest_force)
     }
 
     /// The surface's force on what touches it, N.

@@ -104,6 +104,7 @@ impl<const JOINTS: usize> ServoState<JOINTS> {
         hash.words([u32::from(self.anchor.point.is_some()), u32::from(self.anchor.slips)]);
         hash.vectors([self.anchor.point.unwrap_or(Vec3::ZERO), self.force]);
         hash.floats([witness.caution, self.gap, self.fade, self.energy.stored, self.energy.damping]);
+        hash.words([u32::from(self.energy.cut)]);
         for duty in self.duties {
             hash.words([duty.0 as u32]);
         }

@@ -6,7 +6,7 @@ use super::{Event, Fault, Phase, SafeOutput, Servo, ServoState};
 use crate::device::{Counts, Duty, Kinematics, ProbePose};
 use crate::math::Vec3;
 use crate::patch::Patch;
-use crate::render::{Tool, limit};
+use crate::render::{Motion, Tool, limit};
 use crate::track::{Outcome, Probe};
 
 /// What a tick starts from.
@@ -124,10 +124,11 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
         state.gap = (tool.position - state.witness.surface.point).dot(normal);
         state.contact = state.contact.next(state.gap, state.witness.mode);
         state.fade = self.next_fade(state);
+        let motion = Motion { moved, velocity, rate: self.rate };
         if let Some(passivity) = &self.rendering.passivity {
-            passivity.observe(&mut state.energy, state.force, moved, self.rate);
+            passivity.observe(&mut state.energy, state.force, &motion);
         }
-        state.force = self.force(state, tool, normal, velocity, moved);
+        state.force = self.force(state, tool, normal, &motion);
         Ok(pose.torques(state.force))
     }
 

@@ -21,7 +21,7 @@ const BROKEN: Device<SerialArm, 3> = Device {
 fn renderings() -> Vec<Rendering> {
     let friction = Friction { stiffness: 800.0, damping: 1.0, static_coefficient: 0.6, dynamic_coefficient: 0.4 };
     let wild = |touch: &palpate::render::Touch| vec3(1.0 / touch.velocity.x, touch.push * 1e30, f32::NAN);
-    let passivity = Passivity { device_damping: 0.1, greatest_damping: 8.0, quantum: 1e-4 };
+    let passivity = Passivity { device_damping: 0.1, device_friction: 0.01, greatest_damping: 8.0, resolution: 1e-4 };
     vec![
         Rendering::PLAIN,
         Rendering {

@@ -2,5 +2,8 @@
 
 mod faults;
 mod fuzz;
+mod passivity;
 mod surfaces;
+mod touch;
 mod traces;
+mod velocity;

@@ -53,3 +53,82 @@ impl Patch for Cap {
         2.0 * self.radius
     }
 }
+
+/// Table I's convex companion from its model file, in powers about the spans' centres.
+pub fn table1c() -> SplinePatch {
+    #[derive(serde::Deserialize)]
+    struct Model {
+        patch: Vec<Net>,
+    }
+    #[derive(serde::Deserialize)]
+    struct Net {
+        knots_u: Vec<f64>,
+        knots_v: Vec<f64>,
+        points: Vec<Vec<[f64; 3]>>,
+    }
+    let model: Model = toml::from_str(include_str!("../../models/table1c.toml")).unwrap();
+    let net = &model.patch[0];
+    // Quadratic basis functions by their recursion.
+    fn basis(knots: &[f64], index: usize, degree: usize, x: f64) -> f64 {
+        if degree == 0 {
+            return f64::from(knots[index] <= x && x < knots[index + 1]);
+        }
+        let part = |from: usize, to: usize, value: f64, weight: f64| {
+            let width = knots[to] - knots[from];
+            if width > 0.0 { weight / width * value } else { 0.0 }
+        };
+        part(index, index + degree, basis(knots, index, degree - 1, x), x - knots[index])
+            + part(index + 1, index + degree + 1, basis(knots, index + 1, degree - 1, x), knots[index + degree + 1] - x)
+    }
+    let surface = |u: f64, v: f64| {
+        let mut point = [0.0; 3];
+        for (i, row) in net.points.iter().enumerate() {
+            for (j, control) in row.iter().enumerate() {
+                let weight = basis(&net.knots_u, i, 2, u) * basis(&net.knots_v, j, 2, v);
+                (0..3).for_each(|axis| point[axis] += 0.01 * weight * control[axis]);
+            }
+        }
+        point
+    };
+    // Three values at −h, 0, h to the powers of a parabola.
+    let powers = |h: f64, [a, b, c]: [f64; 3]| [b, (c - a) / (2.0 * h), (a - 2.0 * b + c) / (2.0 * h * h)];
+    let breaks: &'static [f32] = Box::leak(Box::new([0.0_f32, 1.0 / 3.0, 2.0 / 3.0, 1.0]));
+    let h = 0.1;
+    let (mut coefficients, mut greatest) = (Vec::new(), [0.0_f64; 3]);
+    for (i, j) in (0..9).map(|span| (span / 3, span % 3)) {
+        let centre = |index: usize| f64::from(0.5 * (breaks[index] + breaks[index + 1]));
+        let mut rows = [[[0.0_f32; 3]; 3]; 3];
+        let mut columns = [[[0.0; 3]; 3]; 3];
+        for axis in 0..3 {
+            let value = |s: f64, t: f64| surface(centre(i) + s, centre(j) + t)[axis];
+            let along_t = [-h, 0.0, h].map(|s| powers(h, [-h, 0.0, h].map(|t| value(s, t))));
+            for power_t in 0..3 {
+                let along_s = powers(h, [0, 1, 2].map(|s: usize| along_t[s][power_t]));
+                for power_s in 0..3 {
+                    rows[power_s][power_t][axis] = along_s[power_s] as f32;
+                    columns[power_s][power_t][axis] = along_s[power_s];
+                }
+            }
+        }
+        // The derivatives' bounds from the powers' lengths, for |s|, |t| up to a sixth.
+        let length = |s: usize, t: usize| columns[s][t].iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
+        let w = 1.0 / 6.0;
+        let found = [
+            2.0 * (length(2, 0) + w * length(2, 1) + w * w * length(2, 2)),
+            length(1, 1) + 2.0 * w * (length(2, 1) + length(1, 2)) + 4.0 * w * w * length(2, 2),
+            2.0 * (length(0, 2) + w * length(1, 2) + w * w * length(2, 2)),
+        ];
+        greatest = [0, 1, 2].map(|k: usize| greatest[k].max(found[k] * 1.001));
+        coefficients.extend(rows.into_iter().flatten());
+    }
+    let [uu, uv, vv] = greatest.map(|bound| bound as f32);
+    SplinePatch::from_table(
+        [2, 2],
+        breaks,
+        breaks,
+        Coefficients::Polynomial(Box::leak(coefficients.into_boxed_slice())),
+        SecondDerivativeBounds { uu, uv, vv },
+        Orientation::Inward,
+        0.1,
+    )
+}
