@@ -90,9 +90,8 @@ mod tests {
             for row in 0..3 {
                 if row != i {
                     let factor = m[row][i] / m[i][i];
-                    for column in 0..3 {
-                        m[row][column] -= factor * m[i][column];
-                    }
+                    let pivot_row = m[i];
+                    m[row].iter_mut().zip(pivot_row).for_each(|(entry, above)| *entry -= factor * above);
                     b[row] -= factor * b[i];
                 }
             }
