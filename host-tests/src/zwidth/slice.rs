@@ -1,4 +1,4 @@
-//! A device along one direction: what is left of it when the hand moves the probe straight into a wall.
+//! A device along one direction: what a wall's push has to move.
 
 use palpate::render::bounds::DeviceFriction;
 
@@ -23,12 +23,13 @@ pub struct Slice {
 
 impl Slice {
     /// WoodenHaptics 2016 at the centre of its workspace, along the vertical: what the plant's mass matrix, friction and
-    /// encoders come to for a probe that moves straight down. The resolution is that of both links together.
+    /// encoders come to for a wall's push that nothing guides sideways, which is the lightest the probe can be. The resolution
+    /// is that of both links together.
     pub const WOODEN_HAPTICS_2016: Self = Self {
         name: "wooden-haptics-2016",
-        mass: 0.1218,
-        viscous: 0.020_66,
-        coulomb: 0.0909,
+        mass: 0.0624,
+        viscous: 0.018_51,
+        coulomb: 0.0757,
         resolution: 57.6e-6,
         greatest_force: 5.0,
         time_constant: 1.5e-4,
@@ -105,8 +106,11 @@ mod tests {
         let arm = settings.arm(0.0);
         let angles = arm.angles([0.0; 3]).unwrap();
         let jacobian = arm.jacobian(angles);
-        // Joint rates for 1 m/s along z.
-        let rates = solve(jacobian, [0.0, 0.0, 1.0]);
+        // What an impulse along z does when nothing guides the probe sideways: joint rates, scaled to 1 m/s along z.
+        let impulse = [0, 1, 2].map(|joint| jacobian[2][joint]);
+        let rates = solve(arm.mass_matrix(angles), impulse);
+        let speed: f64 = (0..3).map(|joint| jacobian[2][joint] * rates[joint]).sum();
+        let rates = rates.map(|rate| rate / speed);
         let mass = 2.0 * arm.kinetic_energy(angles, rates);
         let viscous: f64 = (0..3).map(|j| settings.joints[j].viscous_friction * rates[j] * rates[j]).sum();
         let coulomb: f64 = (0..3).map(|j| settings.joints[j].coulomb_friction * rates[j].abs()).sum();

@@ -2,6 +2,7 @@
 
 mod faults;
 mod fuzz;
+mod limits;
 mod passivity;
 mod surfaces;
 mod touch;
