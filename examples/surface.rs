@@ -1,5 +1,5 @@
-//! A three-dimensional device touches a patch: the loop as a firmware runs it, with your sensors and motors where `Arm` is.
-//! `cargo run --example surface`
+//! A three-dimensional device touches a patch: the loop as a firmware runs it, with your sensors and motors where `Arm`
+//! is. `cargo run --example surface`
 
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Counts, Duty, SerialArm};

@@ -1,8 +1,9 @@
 //! How stiff a sampled wall may be and still be passive: closed forms for a device, a rate and a delay.
 //!
-//! They are sufficient, not necessary: a device in a hand is often stable far beyond (N. Diolaiti, G. Niemeyer, F. Barbagli, J. K.
-//! Salisbury, *Stability of haptic rendering: discretization, quantization, time delay, and Coulomb effects*, IEEE Trans. Robotics
-//! 22(2), 2006, who meet the same two conditions). `cargo palpate zwidth` finds the simulated limit and draws these in.
+//! They are sufficient, not necessary: a device in a hand is often stable far beyond (N. Diolaiti, G. Niemeyer, F.
+//! Barbagli, J. K. Salisbury, *Stability of haptic rendering: discretization, quantization, time delay, and Coulomb
+//! effects*, IEEE Trans. Robotics 22(2), 2006, who meet the same two conditions). `cargo palpate zwidth` finds the
+//! simulated limit and draws these in.
 
 /// What a device brings to the stability of a wall, at the probe and along the wall's normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,25 +18,28 @@ pub struct DeviceFriction {
 
 /// The device damping a wall asks for, N·s/m: `b > K (T/2 + t_d) + |B|`.
 ///
-/// J. E. Colgate and G. Schenkel, *Passivity of a class of sampled-data systems*, 1994, for `t_d = 0`. Their criterion for a spring held back by
-/// `d` whole periods is `b > K T/2 · (cos dθ − cos (d+1)θ)/(1 − cos θ)` for all `θ`, which is greatest at `θ → 0`: `2d + 1`, hence the
-/// delay's term. A damper, behind any delay and any low-pass, asks for at most `|B|`.
+/// J. E. Colgate and G. Schenkel, *Passivity of a class of sampled-data systems*, 1994, for `t_d = 0`. Their criterion
+/// for a spring held back by `d` whole periods is `b > K T/2 · (cos dθ − cos (d+1)θ)/(1 − cos θ)` for all `θ`, which is
+/// greatest at `θ → 0`: `2d + 1`, hence the delay's term. A damper, behind any delay and any low-pass, asks for at most
+/// `|B|`.
 ///
 /// `stiffness` N/m, `damping` N·s/m, `period` and `delay` s.
 pub const fn required_damping(stiffness: f32, damping: f32, period: f32, delay: f32) -> f32 {
     stiffness * (0.5 * period + delay) + damping.abs()
 }
 
-/// The greatest stiffness that is passive, N/m: [`required_damping`] solved for `K`; 0 if the wall's damping is above the device's.
+/// The greatest stiffness that is passive, N/m: [`required_damping`] solved for `K`; 0 if the wall's damping is above
+/// the device's.
 pub const fn passive_stiffness(device_damping: f32, damping: f32, period: f32, delay: f32) -> f32 {
     let left = device_damping - damping.abs();
     if left > 0.0 { left / (0.5 * period + delay) } else { 0.0 }
 }
 
-/// `K ≤ min(2 b/T, 2 f_c/Δ)`, N/m: with quantised position the dry friction must absorb what a count's rounding gives out.
+/// `K ≤ min(2 b/T, 2 f_c/Δ)`, N/m: with quantised position the dry friction must absorb what a count's rounding gives
+/// out.
 ///
-/// J. J. Abbott and A. M. Okamura, *Effects of position quantization and sampling rate on virtual-wall passivity*, IEEE Trans. Robotics
-/// 21(5), 2005; for a wall without damping and without delay.
+/// J. J. Abbott and A. M. Okamura, *Effects of position quantization and sampling rate on virtual-wall passivity*, IEEE
+/// Trans. Robotics 21(5), 2005; for a wall without damping and without delay.
 pub const fn quantised_stiffness(device: DeviceFriction, period: f32) -> f32 {
     lesser(2.0 * device.viscous / period, 2.0 * device.coulomb / device.resolution)
 }
@@ -77,7 +81,8 @@ mod tests {
         assert!(near(device.passive_stiffness(0.0, 1e-3, 0.0), 800.0));
     }
 
-    /// The criterion itself: `b > T/2 · Re{(1 − e^{−jθ}) H}/(1 − cos θ)` for `0 < θ ≤ π`, `H = (K + B/T (1 − z⁻¹)) z⁻ᵈ`.
+    /// The criterion itself: `b > T/2 · Re{(1 − e^{−jθ}) H}/(1 − cos θ)` for `0 < θ ≤ π`, `H = (K + B/T (1 − z⁻¹))
+    /// z⁻ᵈ`.
     fn criterion(stiffness: f32, damping: f32, period: f32, delay: u32) -> f32 {
         (1..=3_000).fold(f32::NEG_INFINITY, |worst, step| {
             let theta = step as f32 * core::f32::consts::PI / 3_000.0;

@@ -2,9 +2,9 @@
 
 use crate::math::Vec3;
 
-/// The device feels the coupling alone, and the surface meets the tool: what the device can bear sets the coupling, and the
-/// surface may be as stiff as the tool's mass can follow (R. J. Adams and B. Hannaford, *Stable haptic interaction with virtual environments*, IEEE
-/// Trans. Robotics and Automation 15(3), 1999).
+/// The device feels the coupling alone, and the surface meets the tool: what the device can bear sets the coupling, and
+/// the surface may be as stiff as the tool's mass can follow (R. J. Adams and B. Hannaford, *Stable haptic interaction
+/// with virtual environments*, IEEE Trans. Robotics and Automation 15(3), 1999).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coupling {
     /// N/m.
@@ -31,8 +31,8 @@ impl Coupling {
         (tool.position - position) * self.stiffness + (tool.velocity - velocity) * self.damping
     }
 
-    /// The tool a period later, under the coupling and the surface's force on it, N: velocity first, then position with the
-    /// new velocity; the coupling's damper is taken implicitly, so that no damping is too much.
+    /// The tool a period later, under the coupling and the surface's force on it, N: velocity first, then position with
+    /// the new velocity; the coupling's damper is taken implicitly, so that no damping is too much.
     #[inline]
     pub fn step(&self, tool: &Tool, position: Vec3, velocity: Vec3, surface_force: Vec3, period: f32) -> Tool {
         let spring = (position - tool.position) * self.stiffness + surface_force + velocity * self.damping;

@@ -4,10 +4,10 @@ use crate::math::{Vec3, sqrt};
 
 /// Stick and slip along the surface.
 ///
-/// The *anchor* is where the god-object holds the surface (C. B. Zilles and J. K. Salisbury, *A constraint-based god-object
-/// method for haptic display*, 1995). While it sticks, a spring and damper pull the witness point back to it. Where the
-/// pull would leave the Coulomb cone `‖F_t‖ ≤ μ F_n` it slips: the anchor is dragged after the witness point so that the
-/// pull is `μ_d F_n`.
+/// The *anchor* is where the god-object holds the surface (C. B. Zilles and J. K. Salisbury, *A constraint-based
+/// god-object method for haptic display*, 1995). While it sticks, a spring and damper pull the witness point back to
+/// it. Where the pull would leave the Coulomb cone `‖F_t‖ ≤ μ F_n` it slips: the anchor is dragged after the witness
+/// point so that the pull is `μ_d F_n`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
     /// Stiffness along the surface while it sticks, N/m.
@@ -32,8 +32,8 @@ pub struct Anchor {
 impl Friction {
     /// The tangential force on the probe, N, and the next anchor.
     ///
-    /// `witness` is the witness point (m), `normal` its unit normal, `push` the normal force (N), `velocity` that of the probe
-    /// (m/s). `‖F_t‖ ≤ μ_s push` always; without push there is no force and no anchor.
+    /// `witness` is the witness point (m), `normal` its unit normal, `push` the normal force (N), `velocity` that of
+    /// the probe (m/s). `‖F_t‖ ≤ μ_s push` always; without push there is no force and no anchor.
     #[inline]
     pub fn pull(&self, anchor: &mut Anchor, witness: Vec3, normal: Vec3, push: f32, velocity: Vec3) -> Vec3 {
         let touching = push > 0.0;
@@ -54,7 +54,8 @@ impl Friction {
             *anchor = Anchor { point: Some(witness + stretch), slips: false };
             return pull;
         }
-        // Slipping, the damper has nothing to do: the pull is that of dry friction, and the anchor is where the spring gives it.
+        // Slipping, the damper has nothing to do: the pull is that of dry friction, and the anchor is where the spring
+        // gives it.
         let slide = self.dynamic_coefficient * push;
         let scale = slide / sqrt(squared);
         let pull = if scale.is_finite() { pull * scale } else { Vec3::ZERO };

@@ -1,4 +1,5 @@
-//! Forces for a device with one joint: detents and end walls. Angles and torques, or lengths and forces: any consistent pair.
+//! Forces for a device with one joint: detents and end walls. Angles and torques, or lengths and forces: any consistent
+//! pair.
 
 /// Detents at every `pitch`, numbered from `least` to `greatest`, with a wall beyond either end.
 #[derive(Clone, Copy, Debug, PartialEq)]

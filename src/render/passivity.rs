@@ -3,19 +3,20 @@
 use super::limit::saturated;
 use crate::math::{Vec3, saturate, sqrt};
 
-/// Time-domain passivity control of the port between probe and surface (B. Hannaford and J.-H. Ryu, *Time-domain passivity
-/// control of haptic interfaces*, IEEE Trans. Robotics and Automation 18(1), 2002).
+/// Time-domain passivity control of the port between probe and surface (B. Hannaford and J.-H. Ryu, *Time-domain
+/// passivity control of haptic interfaces*, IEEE Trans. Robotics and Automation 18(1), 2002).
 ///
-/// The *observer* sums what the surface took: `E += −F·Δx + b ‖Δx‖²/T + f_c ‖Δx‖`, with the force held over the period, the probe's
-/// move in it, and the device's own friction, which pays for some of what sampling gives out.
+/// The *observer* sums what the surface took: `E += −F·Δx + b ‖Δx‖²/T + f_c ‖Δx‖`, with the force held over the period,
+/// the probe's move in it, and the device's own friction, which pays for some of what sampling gives out.
 ///
-/// The *controller* looks a period ahead at the present velocity. Where `E` would fall below half a quantum of debt it brakes with
-/// `α v`, `α = deficit/(T ‖v‖²)`. At a crawl, where velocity says little, braking cannot be relied on: so the force is also kept below
-/// `(E + quantum)/(‖Δx‖ + Δ)`, which a next move of at most a count more than this one cannot overdraw (in the manner of
-/// J.-P. Kim and J. Ryu's energy-bounding algorithm, Int. J. Robotics Research 29(6), 2010).
+/// The *controller* looks a period ahead at the present velocity. Where `E` would fall below half a quantum of debt it
+/// brakes with `α v`, `α = deficit/(T ‖v‖²)`. At a crawl, where velocity says little, braking cannot be relied on: so
+/// the force is also kept below `(E + quantum)/(‖Δx‖ + Δ)`, which a next move of at most a count more than this one
+/// cannot overdraw (in the manner of J.-P. Kim and J. Ryu's energy-bounding algorithm, Int. J. Robotics Research 29(6),
+/// 2010).
 ///
-/// The *quantum* is the work of the greatest force over one encoder count `Δ`: no observer of counts can see less. What the actuator's
-/// delay adds lies beyond the port and is not seen.
+/// The *quantum* is the work of the greatest force over one encoder count `Δ`: no observer of counts can see less. What
+/// the actuator's delay adds lies beyond the port and is not seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passivity {
     /// `b`: viscous friction the device has at least, N·s/m. 0 is the careful choice.
@@ -71,8 +72,8 @@ impl Passivity {
         energy.stored = saturate(energy.stored + friction - held.dot(motion.moved), -f32::MAX, f32::MAX);
     }
 
-    /// The force to give in place of `force`, N, at most `greatest_force`. `touching` says whether the surface is felt: out of contact a
-    /// surplus is forgotten, so that it cannot be spent later; a debt stays.
+    /// The force to give in place of `force`, N, at most `greatest_force`. `touching` says whether the surface is felt:
+    /// out of contact a surplus is forgotten, so that it cannot be spent later; a debt stays.
     #[inline]
     pub fn control(
         &self,

@@ -44,8 +44,8 @@ impl Texture {
     }
 }
 
-/// A grating of ridges across `u`, as a tangential force `−share · push · sin(2π u · ridges) · f_u/‖f_u‖`: what a height profile of the same
-/// period does to the normal (M. Minsky, *Computational haptics*, 1995).
+/// A grating of ridges across `u`, as a tangential force `−share · push · sin(2π u · ridges) · f_u/‖f_u‖`: what a
+/// height profile of the same period does to the normal (M. Minsky, *Computational haptics*, 1995).
 pub fn grating(touch: &Touch, ridges: f32, share: f32) -> Vec3 {
     let turns = touch.parameters[0] * ridges;
     // The fraction of a turn: what is left after the whole ones, by a cast that saturates.

@@ -21,7 +21,8 @@ impl Deadline {
 
 /// Decides whether the hardware watchdog may be fed: only where ticks have gone on since it was fed last.
 ///
-/// Feed it from the idle loop with this, never from the tick's own interrupt: then either of the two that hangs is found.
+/// Feed it from the idle loop with this, never from the tick's own interrupt: then either of the two that hangs is
+/// found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Heartbeat {
     ticks: u32,

@@ -80,7 +80,8 @@ impl Fault {
 
 /// Why the chip was reset, as its registers say. Kept in the state for as long as it runs.
 ///
-/// Many chips raise the brown-out flag at every power-on as well: where both flags are up, say [`ResetReason::PowerOn`].
+/// Many chips raise the brown-out flag at every power-on as well: where both flags are up, say
+/// [`ResetReason::PowerOn`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum ResetReason {

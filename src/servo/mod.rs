@@ -1,8 +1,8 @@
 //! The servo loop: one tick from encoder counts to motor duty.
 //!
 //! [`Servo`] is the configuration and lives in flash; [`ServoState`] is everything that changes and is `Copy`;
-//! [`Servo::tick`] is a function of the two and the tick's [`Input`]. Follow a tick in `tick.rs` from top to bottom. It cannot
-//! fail: it returns duties, and in its state says what it thinks of them ([`Phase`], [`Fault`]).
+//! [`Servo::tick`] is a function of the two and the tick's [`Input`]. Follow a tick in `tick.rs` from top to bottom. It
+//! cannot fail: it returns duties, and in its state says what it thinks of them ([`Phase`], [`Fault`]).
 //!
 //! # What is a fault
 //!
@@ -20,8 +20,8 @@
 //! | too much force | scaled as a whole, its direction kept | none: a limit |
 //! | force asked for inside the wall | faded in | none |
 //!
-//! A fault is latched with its tick, and the first one stands. From the very tick in which it is seen the motors are safe
-//! ([`SafeOutput`]).
+//! A fault is latched with its tick, and the first one stands. From the very tick in which it is seen the motors are
+//! safe ([`SafeOutput`]).
 
 mod config;
 mod deadline;

@@ -2,8 +2,8 @@
 
 /// The phase of the loop, in the order in which it goes through them; at most one step a tick.
 ///
-/// Force comes from [`Phase::Running`] alone. A fault leads from any phase to [`Phase::Fault`], where the motors are at zero or, if
-/// [`super::SafeOutput`] says so and the sensors can be believed, damp.
+/// Force comes from [`Phase::Running`] alone. A fault leads from any phase to [`Phase::Fault`], where the motors are at
+/// zero or, if [`super::SafeOutput`] says so and the sensors can be believed, damp.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Phase {

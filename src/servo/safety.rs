@@ -7,15 +7,16 @@ use thiserror::Error;
 pub enum SafeOutput {
     /// Nothing.
     Zero,
-    /// They brake the probe with this damping, N·s/m, in every tick whose sensors can be believed; nothing in the others.
-    /// It helps where the device would fall.
+    /// They brake the probe with this damping, N·s/m, in every tick whose sensors can be believed; nothing in the
+    /// others. It helps where the device would fall.
     Damping(f32),
 }
 
-/// When a joint sensor counts as stuck: its joint carries a load and its count stays the same, while another joint moves.
+/// When a joint sensor counts as stuck: its joint carries a load and its count stays the same, while another joint
+/// moves.
 ///
-/// A hand cannot hold a joint to a single count against a force while it moves the others. A device with one joint has no
-/// others: there this finds nothing.
+/// A hand cannot hold a joint to a single count against a force while it moves the others. A device with one joint has
+/// no others: there this finds nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StuckLimits {
     /// The least share of full duty that is a load, 0 to 1.
@@ -39,8 +40,8 @@ pub struct Safety {
     pub wait_for_homing: bool,
     /// When a sensor is stuck.
     pub stuck: Option<StuckLimits>,
-    /// CRC-32 of the patch's table ([`crate::patch::SplinePatch::table_crc`]): checked whole before the loop is armed, and again and again
-    /// after, a few words a tick. `None` checks nothing.
+    /// CRC-32 of the patch's table ([`crate::patch::SplinePatch::table_crc`]): checked whole before the loop is armed,
+    /// and again and again after, a few words a tick. `None` checks nothing.
     pub table_crc: Option<u32>,
 }
 

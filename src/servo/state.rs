@@ -68,7 +68,8 @@ pub struct ServoState<const JOINTS: usize> {
 }
 
 impl<const JOINTS: usize> ServoState<JOINTS> {
-    /// A hash of every bit of the state (FNV-1a over 32-bit words): two runs agree bit for bit if it agrees at each tick.
+    /// A hash of every bit of the state (FNV-1a over 32-bit words): two runs agree bit for bit if it agrees at each
+    /// tick.
     pub fn digest(&self) -> u32 {
         let mut hash = Fnv::new();
         let (fault, fault_tick) = self.fault.map_or((0, 0), |(fault, tick)| (fault.code(), tick));

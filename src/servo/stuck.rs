@@ -6,8 +6,8 @@ use crate::device::Duty;
 /// For each joint, the angles of all joints when its count changed last or it carried no load.
 pub type Stillness<const JOINTS: usize> = [[f32; JOINTS]; JOINTS];
 
-/// Whether a joint stood still to the count under load while another moved. `before` and `now` are the angles of the last tick and
-/// this one, `duties` what was applied between.
+/// Whether a joint stood still to the count under load while another moved. `before` and `now` are the angles of the
+/// last tick and this one, `duties` what was applied between.
 #[inline]
 pub fn is_stuck<const JOINTS: usize>(
     limits: StuckLimits,

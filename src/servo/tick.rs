@@ -26,8 +26,8 @@ pub enum Input<const JOINTS: usize> {
 }
 
 impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINTS> {
-    /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the duties in
-    /// the state are zero when this returns: apply them.
+    /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the
+    /// duties in the state are zero when this returns: apply them.
     pub fn note(&self, state: &mut ServoState<JOINTS>, event: Event) {
         match event {
             Event::LinkAlive => state.link_silence = 0,
@@ -48,8 +48,8 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
     /// One tick. The duties to apply are in the state when it returns.
     ///
-    /// Bounded work: one pose, one evaluation of the patch. No panic. Whatever the input, the duties are finite and in range;
-    /// from the tick in which a fault is seen they are safe.
+    /// Bounded work: one pose, one evaluation of the patch. No panic. Whatever the input, the duties are finite and in
+    /// range; from the tick in which a fault is seen they are safe.
     #[inline]
     pub fn tick(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) {
         self.watch(state);

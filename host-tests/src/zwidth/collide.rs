@@ -9,8 +9,9 @@ use std::collections::VecDeque;
 const SUB_STEPS: u64 = 20;
 /// How fast the probe hits the wall, m/s.
 const SPEED: f64 = 0.05;
-/// How long the collision is followed at most: so many s, so many periods of the mass on the wall and so many time constants
-/// `B/K` of a damper that only creeps. The swing is taken over windows of some s; where one shows none, all is said.
+/// How long the collision is followed at most: so many s, so many periods of the mass on the wall and so many time
+/// constants `B/K` of a damper that only creeps. The swing is taken over windows of some s; where one shows none, all
+/// is said.
 const DURATION: f64 = 1.2;
 const PERIODS: f64 = 15.0;
 const CREEPS: f64 = 12.0;
@@ -50,7 +51,8 @@ impl Loop {
 /// How a collision is pressed on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Collision {
-    /// A steady push of the hand into the wall, N. It neither damps nor stores: what settles does so by the device and the wall.
+    /// A steady push of the hand into the wall, N. It neither damps nor stores: what settles does so by the device and
+    /// the wall.
     pub push: f64,
 }
 
@@ -78,8 +80,8 @@ impl Swing {
 
 /// Hits the wall at 50 mm/s and follows the probe until it should have come to rest.
 ///
-/// Force and friction are constant over a sub-step, in which the motion is then exact; the sub-step in which the probe stops
-/// is the one where friction is below its limit.
+/// Force and friction are constant over a sub-step, in which the motion is then exact; the sub-step in which the probe
+/// stops is the one where friction is below its limit.
 pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) -> Swing {
     let step = 1.0 / (servo.rate * SUB_STEPS as f64);
     let encoder = Encoder { radians_per_count: slice.resolution as f32, angle_at_zero: 0.0 };
@@ -167,7 +169,7 @@ mod tests {
 
     #[test]
     fn without_friction_and_wall_damping_a_sampled_wall_gives_out_energy() {
-        // Colgate and Schenkel: nothing but the device's own damping pays for sampling. Ten times slower, as it should be.
+        // Colgate and Schenkel: nothing but the device's own damping pays for sampling.
         let slice = Slice { viscous: 0.0, coulomb: 0.0, ..Slice::WOODEN_HAPTICS_2016 };
         let swing = collide(&slice, Wall { stiffness: 400.0, damping: 0.0 }, &SERVO, Collision::default());
         assert!(!swing.has_decayed(), "{swing:?}");

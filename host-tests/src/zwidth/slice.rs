@@ -22,9 +22,9 @@ pub struct Slice {
 }
 
 impl Slice {
-    /// WoodenHaptics 2016 at the centre of its workspace, along the vertical: what the plant's mass matrix, friction and
-    /// encoders come to for a wall's push that nothing guides sideways, which is the lightest the probe can be. The resolution
-    /// is that of both links together.
+    /// WoodenHaptics 2016 at the centre of its workspace, along the vertical: what the plant's mass matrix, friction
+    /// and encoders come to for a wall's push that nothing guides sideways, which is the lightest the probe can be. The
+    /// resolution is that of both links together.
     pub const WOODEN_HAPTICS_2016: Self = Self {
         name: "wooden-haptics-2016",
         mass: 0.0624,
@@ -35,8 +35,9 @@ impl Slice {
         time_constant: 1.5e-4,
     };
 
-    /// Hapkit, at the handle. Published: 16 µm, 8 N. Assumed: 50 g at the handle (sector, handle and a small motor's rotor through 17:1),
-    /// 0.1 N·s/m and 0.3 N of friction, a voltage drive with an electrical time constant of 0.2 ms.
+    /// Hapkit, at the handle. Published: 16 µm, 8 N. Assumed: 50 g at the handle (sector, handle and a small motor's
+    /// rotor through 17:1), 0.1 N·s/m and 0.3 N of friction, a voltage drive with an electrical time constant of 0.2
+    /// ms.
     pub const HAPKIT: Self = Self {
         name: "hapkit",
         mass: 0.050,
@@ -47,8 +48,8 @@ impl Slice {
         time_constant: 2e-4,
     };
 
-    /// Novint Falcon. Published: friction 1.2 N along two axes, 38–65 µm, 8 N. Assumed: 0.2 kg, 1 N·s/m (20 N·s/m of wall damping are in
-    /// use on it), a drive of 0.2 ms.
+    /// Novint Falcon. Published: friction 1.2 N along two axes, 38–65 µm, 8 N. Assumed: 0.2 kg, 1 N·s/m (20 N·s/m of
+    /// wall damping are in use on it), a drive of 0.2 ms.
     pub const FALCON: Self = Self {
         name: "falcon",
         mass: 0.2,

@@ -12,7 +12,8 @@ pub const DELAYS: [f64; 3] = [0.5, 1.0, 2.0];
 pub const DAMPINGS: [f64; 11] = [0.0, 0.01, 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// The stiffness below which a wall is not worth the name, and the one above which nobody asks, N/m.
 const STIFFNESSES: [f64; 2] = [30.0, 1e6];
-/// Steps a decade from one stiffness to the next; then halvings between the last that held and the first that did not: 1.8 %.
+/// Steps a decade from one stiffness to the next; then halvings between the last that held and the first that did not:
+/// 1.8 %.
 const STEPS_A_DECADE: f64 = 8.0;
 const HALVINGS: usize = 4;
 

@@ -97,7 +97,8 @@ fn safety(output: SafeOutput) -> Safety {
 
 /// What injecting a fault came to.
 enum Seen {
-    /// A tick was run, or an event noted, in which it must have been seen; whether the sensors of that tick are to be believed.
+    /// A tick was run, or an event noted, in which it must have been seen; whether the sensors of that tick are to be
+    /// believed.
     Now { believable: bool },
     /// In this phase it cannot be seen, and why that does no harm.
     Not,

@@ -59,7 +59,8 @@ fn fuzz<P: Patch>(
     ticks: u64,
     seed: u64,
 ) -> Tally {
-    // The wall lies where counts of zero put the probe, so that a walk about zero touches it: height 285 mm less 80 mm, reach 245 mm less 220.
+    // The wall lies where counts of zero put the probe, so that a walk about zero touches it: height 285 mm less 80 mm,
+    // reach 245 mm less 220.
     let settings = Settings { body_origin: vec3(0.025, 0.0, 0.205), ..SETTINGS };
     let safety = Safety { output, ..Safety::DEFAULT };
     let servo = Servo::try_new(device, patch, Controller::CERTIFIED, settings).unwrap();

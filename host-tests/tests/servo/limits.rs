@@ -23,7 +23,8 @@ impl HandPath for Hit {
     }
 }
 
-/// The swing of the probe's height at the end, in counts along the vertical, of a wall pressed by a soft hand that hardly damps.
+/// The swing of the probe's height at the end, in counts along the vertical, of a wall pressed by a soft hand that
+/// hardly damps.
 fn swing(stiffness: f32, damping: f32, rate: f64) -> f64 {
     let settings = Settings {
         rate: rate as f32,

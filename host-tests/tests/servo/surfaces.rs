@@ -18,7 +18,8 @@ pub static WALL: SplinePatch = SplinePatch::from_table(
     0.16,
 );
 
-/// A ball's cap with its top in the origin, by stereographic projection from the opposite pole: `(u, v) ∈ [0, 1]²` is a square around the top.
+/// A ball's cap with its top in the origin, by stereographic projection from the opposite pole: `(u, v) ∈ [0, 1]²` is a
+/// square around the top.
 #[derive(Clone, Copy, Debug)]
 pub struct Cap {
     /// Metres.
@@ -40,7 +41,8 @@ impl Patch for Cap {
     }
 
     fn bounds(&self) -> SecondDerivativeBounds {
-        // Second derivatives of stereographic projection of the unit ball are at most 4 (at the middle) in each direction.
+        // Second derivatives of stereographic projection of the unit ball are at most 4 (at the middle) in each
+        // direction.
         SecondDerivativeBounds { uu: 4.0 * self.radius, uv: 4.0 * self.radius, vv: 4.0 * self.radius }
     }
 

@@ -152,7 +152,8 @@ fn pressing_gives_stiffness_times_depth_and_no_limit_cycle() {
     println!("worst deviation {:.2} %", worst * 100.0);
 }
 
-/// The greatest speed of the probe, m/s, and the greatest growth of the force in a tick, N, once force is asked for 5 mm inside the wall.
+/// The greatest speed of the probe, m/s, and the greatest growth of the force in a tick, N, once force is asked for 5
+/// mm inside the wall.
 fn enabled_inside(soft_start: f32) -> (f64, f32) {
     let settings = Settings {
         rate: RATE as f32,

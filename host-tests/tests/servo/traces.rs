@@ -1,5 +1,5 @@
-//! A stretch of a servo's life with the simulated device, to inject faults into: what the sensors said, and the state before
-//! each tick.
+//! A stretch of a servo's life with the simulated device, to inject faults into: what the sensors said, and the state
+//! before each tick.
 
 use palpate::device::{Counts, Kinematics};
 use palpate::patch::Patch;

@@ -6,9 +6,10 @@ pub const WINDOW: usize = 16;
 /// The slope of the longest line from the newest position to one at most [`WINDOW`] periods back that passes all
 /// positions between within a band of one count.
 ///
-/// F. Janabi-Sharifi, V. Hayward, C.-S. J. Chen, *Discrete-time adaptive windowing for velocity estimation*, IEEE Trans. Control
-/// Systems Technology 8(6), 2000: the end-fit form. There every line is checked against every point; here the slopes that each
-/// point allows are intersected as the window grows, which gives the same window in one pass of at most [`WINDOW`] steps.
+/// F. Janabi-Sharifi, V. Hayward, C.-S. J. Chen, *Discrete-time adaptive windowing for velocity estimation*, IEEE
+/// Trans. Control Systems Technology 8(6), 2000: the end-fit form. There every line is checked against every point;
+/// here the slopes that each point allows are intersected as the window grows, which gives the same window in one pass
+/// of at most [`WINDOW`] steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveWindow {
     count: f32,
@@ -64,8 +65,8 @@ const RECIPROCALS: [f32; WINDOW] = {
 impl AdaptiveWindow {
     /// A window for positions of `count` a step, in the unit of position, sampled at `rate` Hz.
     pub const fn new(count: f32, rate: f32) -> Self {
-        // Of either sign, by the encoder's direction. Whole counts put many points on the very edge of the band: a thousandth
-        // more, so that rounding does not decide.
+        // Of either sign, by the encoder's direction. Whole counts put many points on the very edge of the band: a
+        // thousandth more, so that rounding does not decide.
         Self { count: count.abs() * 1.001, rate }
     }
 

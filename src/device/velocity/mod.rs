@@ -1,7 +1,7 @@
 //! Velocity from encoder positions. None is best at all gains, so there are three and a default.
 //!
-//! Measured on a simulated hand's motion at 4 kHz and 57.6 µm a count, slow (20 mm/s at most); the stiffest wall is that of the
-//! WoodenHaptics arm along one direction at 8 N·s/m (the servo test `velocity` of `host-tests` prints it):
+//! Measured on a simulated hand's motion at 4 kHz and 57.6 µm a count, slow (20 mm/s at most); the stiffest wall is
+//! that of the WoodenHaptics arm along one direction at 8 N·s/m (the servo test `velocity` of `host-tests` prints it):
 //!
 //! | method | delay | noise | stiffest wall | instructions a joint, about |
 //! |---|---|---|---|---|
@@ -9,8 +9,8 @@
 //! | [`TrackingObserver`], same delay | 0.73 ms | 12 mm/s | 13.8 kN/m | 9 |
 //! | [`AdaptiveWindow`]: longest line through the last counts | 1.85 ms | 5.7 mm/s | 10.4 kN/m | 15 to 130 |
 //!
-//! The default is the low-pass: delay is what limits the wall, it has as little of it as the observer, and it is the cheapest. Take the
-//! window where damping is heard as a hum in slow motion.
+//! The default is the low-pass: delay is what limits the wall, it has as little of it as the observer, and it is the
+//! cheapest. Take the window where damping is heard as a hum in slow motion.
 
 mod adaptive_window;
 mod low_pass;
@@ -60,8 +60,9 @@ pub enum VelocityState {
 }
 
 impl VelocityEstimator {
-    /// An estimator for positions sampled at `rate` (Hz). `corner` (Hz) sets the delay of the low-pass and of the observer
-    /// to the same `1/(2π corner)`; `count` is one encoder count in the unit of position, which the window allows for.
+    /// An estimator for positions sampled at `rate` (Hz). `corner` (Hz) sets the delay of the low-pass and of the
+    /// observer to the same `1/(2π corner)`; `count` is one encoder count in the unit of position, which the window
+    /// allows for.
     pub const fn new(method: VelocityMethod, corner: f32, rate: f32, count: f32) -> Self {
         match method {
             VelocityMethod::LowPass => Self::LowPass(VelocityFilter::new(corner, rate)),

@@ -18,8 +18,8 @@ pub struct TrackingObserver {
 impl TrackingObserver {
     /// An observer of corner frequency `corner` for positions sampled at `rate`, both Hz.
     ///
-    /// `ω h` is held to 0.5, where the discrete loop is still well damped: `z² − (2 − 2ωh − ω²h²) z + 1 − 2ωh` is stable for
-    /// `ωh < 0.83`.
+    /// `ω h` is held to 0.5, where the discrete loop is still well damped: `z² − (2 − 2ωh − ω²h²) z + 1 − 2ωh` is
+    /// stable for `ωh < 0.83`.
     pub const fn new(corner: f32, rate: f32) -> Self {
         let omega_period = core::f32::consts::TAU * corner / rate;
         let omega_period = if omega_period < 0.5 { omega_period } else { 0.5 };
