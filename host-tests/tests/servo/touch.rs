@@ -5,8 +5,8 @@ use palpate::device::Counts;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::math::{Vec3, vec3};
 use palpate::patch::Patch;
-use palpate::render::Contact;
-use palpate::servo::{Input, Phase, Servo, ServoState, Settings};
+use palpate::render::{Contact, Coupling, Friction};
+use palpate::servo::{Input, Phase, Rendering, Servo, ServoState, Settings};
 use palpate::track::{Controller, Probe, Witness};
 use palpate_host::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 
@@ -62,8 +62,8 @@ struct Held {
 }
 
 /// Presses at a place of a patch for 1.6 s and looks at the last 0.4 s.
-fn press<P: Patch>(patch: &P, settings: Settings, [u, v]: [f32; 2], aim: f64) -> Held {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, patch, Controller::CERTIFIED, settings);
+fn press<P: Patch>(patch: &P, settings: Settings, rendering: Rendering, [u, v]: [f32; 2], aim: f64) -> Held {
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, patch, Controller::CERTIFIED, settings).rendering(rendering);
     let witness = Witness::at(patch, u, v);
     let normal = witness.normal(patch).unwrap();
     let origin = settings.body_origin;
@@ -132,9 +132,9 @@ fn pressing_gives_stiffness_times_depth_and_no_limit_cycle() {
             let aim = 3.2 / f64::from(stiffness) + 3.2 / 300.0;
             let gains = |settings| Settings { stiffness, damping, ..settings };
             for (name, held) in [
-                ("wall", press(&WALL, gains(base), place, aim)),
-                ("cap", press(&cap, gains(base), place, aim)),
-                ("table1c", press(&table, gains(middle), place, aim)),
+                ("wall", press(&WALL, gains(base), Rendering::PLAIN, place, aim)),
+                ("cap", press(&cap, gains(base), Rendering::PLAIN, place, aim)),
+                ("table1c", press(&table, gains(middle), Rendering::PLAIN, place, aim)),
             ] {
                 println!(
                     "{name:<10}{stiffness:>10}{damping:>10}{:>12.3}{:>12.3}{:>10.4}{:>8}",
@@ -150,6 +150,20 @@ fn pressing_gives_stiffness_times_depth_and_no_limit_cycle() {
         }
     }
     println!("worst deviation {:.2} %", worst * 100.0);
+}
+
+#[test]
+fn through_a_virtual_coupling_both_springs_share_the_depth() {
+    let settings = Settings { stiffness: 1_000.0, ..crate::traces::SETTINGS };
+    let coupling = Coupling { stiffness: 1_500.0, damping: 3.0, mass: 0.02 };
+    let friction = Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 };
+    for friction in [None, Some(friction)] {
+        let rendering = Rendering { coupling: Some(coupling), friction, ..Rendering::PLAIN };
+        let held = press(&WALL, settings, rendering, [0.5, 0.5], 0.016);
+        println!("depth {:.3} mm, force {:.3} N, {} counts", held.depth * 1e3, held.force, held.swing);
+        // In series: 1,500 / 2,500 of the wall's stiffness, to the 2 % that hold without a coupling.
+        assert!((held.ratio / 0.6 - 1.0).abs() < 0.02 && held.swing <= 2, "{} {}", held.ratio, held.swing);
+    }
 }
 
 /// The greatest speed of the probe, m/s, and the greatest growth of the force in a tick, N, once force is asked for 5
@@ -215,4 +229,11 @@ fn a_start_inside_the_wall_gives_no_force() {
     }
     assert!(state.gap < -0.004 && state.phase == Phase::Running, "{state:?}");
     assert_eq!(state.force, Vec3::ZERO);
+}
+
+#[test]
+fn the_state_is_small() {
+    // What a board has to keep in RAM; most of it is the witness point and what the estimators remember.
+    println!("{} bytes", size_of::<ServoState<3>>());
+    assert!(size_of::<ServoState<3>>() <= 512);
 }
