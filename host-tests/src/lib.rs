@@ -2,10 +2,13 @@
 //! prints the figures. The binary `palpate` is a thin front on this library; the tests use it directly.
 
 pub mod bake;
+pub mod closest;
 pub mod commands;
 pub mod firmware;
+pub mod generate;
 pub mod oracle;
 pub mod plant;
+pub mod queries;
 pub mod report;
 pub mod simulation;
 pub mod zwidth;

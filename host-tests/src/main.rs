@@ -1,7 +1,7 @@
 //! The host tool of palpate: `cargo palpate COMMAND`.
 
 use clap::{Parser, Subcommand};
-use palpate_host::commands::{bake, check, closest, demo, sim, test, zwidth};
+use palpate_host::commands::{bake, check, closest, demo, firmware, sim, test, zwidth};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -19,6 +19,7 @@ enum Command {
     Bake(bake::Arguments),
     Closest(closest::Arguments),
     Sim(sim::Arguments),
+    Firmware(firmware::Arguments),
     Zwidth(zwidth::Arguments),
 }
 
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
         Command::Bake(arguments) => bake::run(&arguments),
         Command::Closest(arguments) => closest::run(&arguments),
         Command::Sim(arguments) => sim::run(&arguments),
+        Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
     };
     // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).

@@ -7,7 +7,7 @@
 mod horner;
 mod spline;
 
-pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError};
+pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError, span_centre};
 
 use crate::math::Vec3;
 

@@ -22,10 +22,11 @@ pub struct Controller {
     pub integrator: Integrator,
 }
 
-/// A rise of the squared distance is rounding as long as it is below this many units in the last place of the
-/// coordinates, times the distance. Horner's rule at degree 5 in both parameters rounds about 20 times a coordinate, at
-/// both ends of a step; 32 halves (a rise `δ` of the distance shows as `2 R δ`) leave a margin and are 2 µm on a body of 1 m.
-const ROUNDING: f32 = 32.0 * f32::EPSILON;
+/// A rise of the squared distance is rounding as long as it is below this many units in the last place of the coordinates
+/// and the size (partial sums are as large as either), times the distance. Horner's rule at degree 5 in both
+/// parameters rounds about 20 times a coordinate, at both ends of a step, and uneven weights double it; a rise `δ` of the
+/// distance shows as `2 R δ`. So `V` may rise by 32 units in the last place, 4 µm on a body of 1 m.
+const ROUNDING: f32 = 64.0 * f32::EPSILON;
 /// Caution never goes below this, so that a witness point is never stuck for good.
 const LEAST_CAUTION: f32 = 1.0 / 1024.0;
 
@@ -72,16 +73,17 @@ impl Controller {
             });
         let parameters = boundary::advance(witness.parameters, change, gain);
         let surface = patch.evaluate(parameters[0], parameters[1]);
-        let outcome =
-            if self.is_guarded() && rises(&witness.surface, &surface, probe.position, squared, distance_before) {
-                witness.caution = (0.5 * witness.caution).max(LEAST_CAUTION);
-                Outcome::Undone
-            } else {
-                witness.caution = (2.0 * witness.caution).min(1.0);
-                witness.parameters = parameters;
-                witness.surface = surface;
-                Outcome::Moved
-            };
+        let outcome = if self.is_guarded()
+            && rises(&witness.surface, &surface, probe.position, squared, distance_before, patch.size())
+        {
+            witness.caution = (0.5 * witness.caution).max(LEAST_CAUTION);
+            Outcome::Undone
+        } else {
+            witness.caution = (2.0 * witness.caution).min(1.0);
+            witness.parameters = parameters;
+            witness.surface = surface;
+            Outcome::Moved
+        };
         Step { distance_before, residual: sqrt(plain.slope), gain, outcome }
     }
 
@@ -128,12 +130,12 @@ impl Controller {
 
 /// Whether the squared distance rose by more than rounding. Written so that NaN counts as a rise.
 #[inline]
-fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, distance: f32) -> bool {
+fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, distance: f32, size: f32) -> bool {
     let now = (after.point - probe).length_squared();
     if now <= squared {
         return false;
     }
-    let coordinates = (before.point.abs() + probe.abs()).max_element();
+    let coordinates = (before.point.abs() + probe.abs()).max_element() + size;
     let within_rounding = now - squared <= ROUNDING * coordinates * distance;
     !within_rounding
 }

@@ -1,1 +1,21 @@
-//! Placeholder.
+//! From a model file to tables in flash.
+//!
+//! The way of a patch: [`Model`] (the file, checked, in metres and `f64`) → [`spline`] (its polynomial spans, rounded
+//! once to `f32`) → [`bounds`] (what is proved of those very `f32` numbers) → [`BakedPatch`] → [`source`] (Rust).
+//! [`survey`] says what is known of a patch and what is not.
+
+mod baked;
+mod bernstein;
+pub mod bounds;
+mod error;
+mod knots;
+mod model;
+mod patch;
+pub mod source;
+pub mod spline;
+pub mod survey;
+
+pub use baked::{BakedCoefficients, BakedPatch};
+pub use error::{Fault, ModelError};
+pub use model::{Model, Unit};
+pub use patch::{Axis, NurbsPatch};

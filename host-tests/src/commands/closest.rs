@@ -1,16 +1,99 @@
 //! `palpate closest`: closest points with the firmware's own code.
 
-use clap::Args;
+use super::check::Loaded;
+use super::output::{print, write_whole};
+use crate::closest::{Found, Solver, Status};
+use crate::queries;
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Closest points with the firmware's own code.
+/// Closest points with the firmware's own code, in single precision.
+///
+/// Reads the columns qx,qy,qz (others are ignored, lines that begin with # too), in the unit of the model; writes a row
+/// for a query, in their order: patch,u,v,px,py,pz,gap,steps,status. patch is the patch's name, or its index if it has
+/// none; gap is the distance from the query to p (models are open surfaces: never negative); steps counts the
+/// evaluations of patches spent.
+///
+/// cold takes every row by itself: on every patch the controller runs from 9 starts (3 x 3, at u, v = 1/6, 1/2, 5/6),
+/// each until it has converged or made 1000 steps, and the nearest end is kept; status is converged or step-limit.
+///
+/// track takes rows as successive servo ticks of one probe: the first row is cold and picks the patch, each other row is
+/// --ticks controller steps on that patch; status is tracking.
 #[derive(Args, Debug)]
-pub struct Arguments {}
+pub struct Arguments {
+    /// The model file (TOML).
+    #[arg(long)]
+    model: PathBuf,
+    /// The queries (CSV with a header).
+    #[arg(long, value_name = "IN.csv")]
+    queries: PathBuf,
+    /// How rows hang together.
+    #[arg(long, value_enum, default_value_t = Mode::Cold)]
+    mode: Mode,
+    /// Controller steps a row; for --mode track.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    ticks: u32,
+    /// Where to write; standard output without it.
+    #[arg(long, value_name = "OUT.csv")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Mode {
+    /// Every row by itself.
+    Cold,
+    /// Rows are successive ticks of one probe.
+    Track,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 /// What went wrong, for the person at the terminal.
-pub fn run(_arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    anyhow::bail!("not built yet")
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let loaded = Loaded::read(&arguments.model)?;
+    let patches = loaded.baked.iter().map(crate::bake::BakedPatch::to_patch).collect::<Result<Vec<_>, _>>()?;
+    let solver = Solver::new(&patches);
+    let per_metre = loaded.model.unit.per_metre();
+    let queries = queries::read(&arguments.queries, per_metre)?;
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status"])?;
+    let mut previous: Option<Found> = None;
+    for query in queries {
+        let found = match (arguments.mode, &previous) {
+            (Mode::Track, Some(previous)) => solver.track(previous, query.probe, arguments.ticks),
+            _ => solver.cold(query.probe),
+        }
+        .context("the model has no patch")?;
+        let point = found.witness.surface.point.as_dvec3() * per_metre;
+        let [u, v] = found.witness.parameters.map(f64::from);
+        let numbers = [u, v, point.x, point.y, point.z, point.distance(query.given)].map(significant);
+        let status = match found.status {
+            Status::Converged => "converged",
+            Status::StepLimit => "step-limit",
+            Status::Tracking => "tracking",
+        };
+        let (label, steps) = (loaded.model.patch_label(found.patch), found.evaluations.to_string());
+        let fields = [label.as_str()].into_iter().chain(numbers.iter().map(String::as_str)).chain([&*steps, status]);
+        writer.write_record(fields)?;
+        previous = Some(found);
+    }
+    let text = writer.into_inner()?;
+    match &arguments.out {
+        Some(path) => write_whole(path, &text)?,
+        None => print(&text)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Nine significant digits: enough to tell any two `f32` apart.
+fn significant(value: f64) -> String {
+    let scientific = format!("{value:.8e}");
+    let exponent: i32 = scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
+    if value == 0.0 || !(-5..9).contains(&exponent) {
+        return scientific;
+    }
+    format!("{value:.*}", (8 - exponent) as usize)
 }

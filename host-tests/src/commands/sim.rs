@@ -1,16 +1,71 @@
-//! `palpate sim`: runs the servo loop, compiled for the host, against the simulated device.
+//! `palpate sim`: the servo loop, compiled for the host, against the simulated device.
 
+use super::options::{Scene, SceneOptions};
+use super::progress;
+use crate::report::Summary;
+use crate::simulation::{self, HostLoop, Trace};
+use anyhow::Context;
 use clap::Args;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Runs the servo loop, compiled for the host, against the simulated device.
 #[derive(Args, Debug)]
-pub struct Arguments {}
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// Records every tick to this CSV file
+    #[arg(long, value_name = "OUT")]
+    csv: Option<PathBuf>,
+}
 
 /// Runs the command.
 ///
 /// # Errors
 /// What went wrong, for the person at the terminal.
-pub fn run(_arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    anyhow::bail!("not built yet")
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let scene = arguments.scene.scene()?;
+    let trace = run_on_host(&arguments.scene, &scene)?;
+    print!("{}", Summary::new(&trace));
+    if let Some(path) = &arguments.csv {
+        write_csv(&trace, path).with_context(|| format!("cannot write {}", path.display()))?;
+        println!("  {:<20} {}", "recorded to", path.display());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Runs a scene's loop, compiled for the host.
+///
+/// # Errors
+/// What the settings or the plant refuse.
+pub fn run_on_host(options: &SceneOptions, scene: &Scene) -> anyhow::Result<Trace> {
+    let mut plant = options.plant(scene)?;
+    let mut servo = HostLoop::new(scene.servo()?);
+    let bar = progress::ticks(scene.ticks);
+    let rate = f64::from(scene.settings.rate);
+    let trace = simulation::run(&mut servo, &mut plant, rate, scene.ticks, scene.enable_at, |done| bar.tell(done))?;
+    Ok(trace)
+}
+
+/// One row a tick; SI units.
+fn write_csv(trace: &Trace, path: &Path) -> anyhow::Result<()> {
+    let mut writer = csv::Writer::from_path(path)?;
+    writer.write_record([
+        "time", "count_a", "count_b", "count_c", "duty_a", "duty_b", "duty_c", "phase", "fault", "mode", "contact",
+        "u", "v", "probe_x", "probe_y", "probe_z", "gap", "force_x", "force_y", "force_z",
+    ])?;
+    for sample in &trace.samples {
+        let report = &sample.report;
+        let mut row = vec![sample.time.to_string()];
+        row.extend(sample.sensors.counts.map(|count| count.to_string()));
+        row.extend(report.duties.map(|duty| duty.to_string()));
+        row.extend([report.phase, report.fault, report.mode, report.contact].map(|number| number.to_string()));
+        row.extend(report.parameters.map(|parameter| parameter.to_string()));
+        row.extend(report.probe.map(|component| component.to_string()));
+        row.push(report.gap.to_string());
+        row.extend(report.force.map(|component| component.to_string()));
+        writer.write_record(row)?;
+    }
+    writer.flush()?;
+    Ok(())
 }

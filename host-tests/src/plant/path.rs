@@ -135,6 +135,7 @@ fn validate(settings: &TouchingSettings) -> Result<(), PathError> {
         ("duration", settings.duration, settings.duration > 0.0 && settings.duration <= 3_600.0),
         ("touches", f64::from(settings.touches), settings.touches > 0),
         ("start_height", settings.start_height, settings.start_height >= 0.0 && settings.start_height.is_finite()),
+        ("pressed_reach", settings.pressed_reach, (0.0..=1.0).contains(&settings.pressed_reach)),
         ("press_depth", least, least.is_finite() && least <= most),
         ("press_depth", most, most.is_finite()),
         ("greatest_speed", settings.greatest_speed, settings.greatest_speed > 0.0),

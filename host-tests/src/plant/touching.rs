@@ -1,7 +1,6 @@
 //! What a touching hand does: where on the surface it is, and how high over it, drawn from a seed.
 
-use rand::{Rng, SeedableRng};
-use rand_pcg::Pcg64;
+use crate::generate::Random;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// What the hand does.
@@ -15,6 +14,9 @@ pub struct TouchingSettings {
     pub start_height: f64,
     /// Least and greatest depth the hand aims at below the surface, m. The probe goes as deep as the surface lets it.
     pub press_depth: [f64; 2],
+    /// How far towards the borders the hand slides while it presses, 0 (the middle) to 1 (border to border). In the air it
+    /// goes to the borders.
+    pub pressed_reach: f64,
     /// Greatest speed of the point aimed at, m/s. Sliding is slowed down until it holds.
     pub greatest_speed: f64,
 }
@@ -22,7 +24,14 @@ pub struct TouchingSettings {
 impl Default for TouchingSettings {
     /// 5 s, 6 touches from 10 mm, aiming 3 to 8 mm deep (with 300 N/m, 1 to 2.5 N), at most 0.5 m/s.
     fn default() -> Self {
-        Self { duration: 5.0, touches: 6, start_height: 0.010, press_depth: [0.003, 0.008], greatest_speed: 0.5 }
+        Self {
+            duration: 5.0,
+            touches: 6,
+            start_height: 0.010,
+            press_depth: [0.003, 0.008],
+            pressed_reach: 1.0,
+            greatest_speed: 0.5,
+        }
     }
 }
 
@@ -38,10 +47,8 @@ pub(super) struct Motion {
 
 impl Motion {
     pub(super) fn draw(settings: TouchingSettings, seed: u64) -> Self {
-        let mut random = Pcg64::seed_from_u64(seed);
-        // 53 bits to [low, high): our own, so that the sequence does not hang on another library's choice.
-        let mut uniform =
-            |low: f64, high: f64| low + (high - low) * ((random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64);
+        let mut random = Random::new(seed);
+        let mut uniform = |low, high| random.between(low, high);
         // About one sweep to and fro in two seconds, u and v at ratios that do not close the figure.
         let slides = [(); 2].map(|()| [uniform(0.35, 0.6), uniform(0.0, TAU), uniform(0.3, 0.6), uniform(0.0, TAU)]);
         let [least, most] = settings.press_depth;
@@ -64,7 +71,11 @@ impl Motion {
         let [frequency, phase, ratio, wobble_phase] = self.slides[axis];
         let turns = TAU * frequency * pace * time;
         let wave = (turns + phase + WOBBLE * (ratio * turns + wobble_phase).sin()).sin();
-        0.5 + 0.5 * (FRAC_PI_2 * wave).sin()
+        // A hand that starts on the surface is never aloft.
+        let aloft = (self.height(time) / self.settings.start_height.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let pressed = self.settings.pressed_reach;
+        let reach = pressed + (1.0 - pressed) * ease(aloft);
+        0.5 + 0.5 * reach * (FRAC_PI_2 * wave).sin()
     }
 
     /// Height over the surface, m, negative where the hand presses. A touch is 30 % down, 40 % pressed, 30 % up.

@@ -1,0 +1,12 @@
+//! The way to the host. What carries the bytes is chosen by the binary: `uart` or `fifo`.
+
+use palpate::wire::{Sensors, frame::Received};
+
+/// Carries frames between this board and the host.
+pub trait Link {
+    /// The next frame, or `None` if none came in time. Waits for a bounded time.
+    fn receive(&mut self) -> Option<Received<Sensors>>;
+
+    /// Sends a frame, whole.
+    fn send(&mut self, frame: &[u8]);
+}

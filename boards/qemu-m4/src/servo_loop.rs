@@ -1,0 +1,72 @@
+//! One tick: a frame in, the servo, a frame out. The timer's interrupt calls it.
+
+use cortex_m::peripheral::SYST;
+use palpate::device::Counts;
+use palpate::servo::{Input, ServoState};
+use palpate::wire::frame::{self, MAX_FRAME, Received};
+use palpate::wire::{Report, Sensors};
+
+use crate::body::SERVO;
+use crate::link::Link;
+use crate::timer::InstructionCounter;
+
+/// Ticks in a row without any frame after which the host is taken for gone and the emulator ends, so that none is left
+/// running. A real device stays, with its motors off.
+const SILENT_TICKS: u32 = 5;
+
+/// Frames looked at in one tick while late ones come.
+const FRAMES_A_TICK: u32 = 4;
+
+/// The servo loop over a link.
+pub struct ServoLoop<L> {
+    link: L,
+    state: ServoState<3>,
+    counter: InstructionCounter,
+    silent_ticks: u32,
+}
+
+impl<L: Link> ServoLoop<L> {
+    /// A loop before its first tick.
+    pub fn new(link: L, systick: SYST) -> Self {
+        Self { link, state: SERVO.start(), counter: InstructionCounter::new(systick), silent_ticks: 0 }
+    }
+
+    /// One tick.
+    pub fn tick(&mut self) {
+        let input = self.input();
+        let state = &mut self.state;
+        let ((), instructions) = self.counter.count(|| SERVO.tick(state, input));
+        // On a real board `state.duties` goes to the PWM here, before anything else.
+        let mut buffer = [0; MAX_FRAME];
+        if let Ok(frame) = frame::pack(&Report::new(state, instructions), &mut buffer) {
+            self.link.send(frame);
+        }
+        if self.silent_ticks >= SILENT_TICKS {
+            semihosting::process::exit(0);
+        }
+    }
+
+    /// What the host says in this tick.
+    fn input(&mut self) -> Input<3> {
+        let mut late = false;
+        for _ in 0..FRAMES_A_TICK {
+            let received = self.link.receive();
+            self.silent_ticks = if received.is_none() { self.silent_ticks + 1 } else { 0 };
+            match received {
+                Some(Received::Message(sensors)) if sensors.tick == self.state.ticks => {
+                    return if late { Input::Lost } else { input_of(sensors) };
+                }
+                // The frame of another tick counts as lost. Reading on finds the right one behind it, else every later
+                // one would be late too.
+                Some(Received::Message(_)) => late = true,
+                Some(Received::Damaged) => return Input::Damaged,
+                Some(Received::Empty) | None => return Input::Lost,
+            }
+        }
+        Input::Lost
+    }
+}
+
+fn input_of(sensors: Sensors) -> Input<3> {
+    Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable }
+}

@@ -1,0 +1,12 @@
+// The settings of the demo. Copy this file, change it, and name yours in PALPATE_SETTINGS.
+
+/// 4 kHz, 600 N/m: well inside what the device takes; see `palpate::servo::Settings` for what each entry is.
+pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
+    rate: 4_000.0,
+    stiffness: 600.0,
+    damping: 2.0,
+    greatest_force: 5.0,
+    velocity_corner: 200.0,
+    soft_start: 0.2,
+    body_origin: palpate::math::vec3(-0.05, -0.05, -0.06),
+};

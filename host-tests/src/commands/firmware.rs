@@ -1,0 +1,40 @@
+//! `palpate firmware`: cargo for the emulated board.
+
+use crate::firmware::{Progress, SetUpError, Toolchain, board};
+use anyhow::Context;
+use clap::Args;
+use std::process::{Command, ExitCode};
+
+/// Runs cargo in the emulated board's folder, with a compiler for its target: set up if it is missing.
+///
+/// `palpate firmware build --release` builds the images as `demo` and `test` do.
+#[derive(Args, Debug)]
+#[command(trailing_var_arg = true)]
+pub struct Arguments {
+    /// What cargo is to do, such as `build --release` or `clippy`.
+    #[arg(required = true, allow_hyphen_values = true)]
+    cargo: Vec<String>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let progress = Progress::new();
+    let toolchain = Toolchain::set_up(&progress)?;
+    let mut command = command(&toolchain, &arguments.cargo, &progress)?;
+    let status = command.current_dir(board()).status().with_context(|| format!("{command:?}"))?;
+    Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+fn command(toolchain: &Toolchain, words: &[String], progress: &Progress) -> Result<Command, SetUpError> {
+    let (mut command, rest) = match words {
+        [first, rest @ ..] if first == "clippy" => (toolchain.clippy(progress)?, rest),
+        all => (toolchain.cargo(), all),
+    };
+    command.args(rest);
+    // After `--` come the linter's arguments, not cargo's: the folder is named by the environment.
+    command.env("CARGO_TARGET_DIR", toolchain.target_folder());
+    Ok(command)
+}

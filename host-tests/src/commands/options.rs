@@ -1,0 +1,218 @@
+//! What `demo` and `sim` share: the scene, and how it is set up from the command line.
+
+use crate::bake::source::Origin;
+use crate::bake::{BakedPatch, Model, NurbsPatch};
+use crate::oracle::Surface;
+use crate::plant::{HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
+use anyhow::{Context, bail};
+use clap::{Args, ValueEnum};
+use palpate::device::{Device, SerialArm, presets};
+use palpate::math::{Vec3, vec3};
+use palpate::patch::{Patch, SplinePatch};
+use palpate::servo::{Servo, Settings};
+use palpate::track::Controller;
+use std::path::PathBuf;
+
+/// The devices by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DeviceName {
+    /// WoodenHaptics as published in 2016: 3-D serial arm.
+    #[value(name = "woodenhaptics-2016")]
+    WoodenHaptics2016,
+}
+
+impl DeviceName {
+    /// What the servo knows of the device.
+    pub fn device(self) -> &'static Device<SerialArm, 3> {
+        match self {
+            Self::WoodenHaptics2016 => &presets::WOODEN_HAPTICS_2016,
+        }
+    }
+
+    fn plant(self) -> PlantSettings {
+        match self {
+            Self::WoodenHaptics2016 => PlantSettings::wooden_haptics_2016(),
+        }
+    }
+}
+
+/// The scene: which surface, which device, how it is to feel, and the hand.
+#[derive(Args, Debug, Clone)]
+pub struct SceneOptions {
+    /// Model file of the surface
+    #[arg(long, default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/models/table1c.toml"), hide_default_value = true)]
+    pub model: PathBuf,
+    /// Which patch of the model, by name or number; the first if not given
+    #[arg(long)]
+    pub patch: Option<String>,
+    /// The device
+    #[arg(long, value_enum, default_value_t = DeviceName::WoodenHaptics2016)]
+    pub device: DeviceName,
+    /// Servo rate, Hz
+    #[arg(long, default_value_t = 4_000.0)]
+    pub rate: f32,
+    /// Seconds to simulate
+    #[arg(long, default_value_t = 5.0)]
+    pub seconds: f64,
+    /// Seed of the hand's path
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Stiffness of the surface, N/m
+    #[arg(long, default_value_t = 1_000.0)]
+    pub stiffness: f32,
+    /// Damping of the surface, N·s/m
+    #[arg(long, default_value_t = 2.0)]
+    pub damping: f32,
+    /// Greatest force, N; the device's own limit holds besides
+    #[arg(long, default_value_t = 5.0)]
+    pub greatest_force: f32,
+    /// Corner frequency of the velocity filter, Hz
+    #[arg(long, default_value_t = 150.0)]
+    pub velocity_corner: f32,
+    /// Seconds over which the force is faded in
+    #[arg(long, default_value_t = 0.1)]
+    pub soft_start: f32,
+    /// Where the model's origin lies in the device's workspace: x,y,z in mm from its centre; centres the patch if not given
+    #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
+    pub at: Option<Vec<f32>>,
+}
+
+/// A scene that is ready to run.
+pub struct Scene {
+    /// The model file's bytes.
+    model_file: Vec<u8>,
+    /// Its name, without its directory.
+    model_name: String,
+    /// The patch that is touched, in double precision.
+    pub surface: NurbsPatch,
+    /// Its table.
+    pub baked: BakedPatch,
+    /// The patch as the servo sees it.
+    pub patch: &'static SplinePatch,
+    /// The device as the servo sees it.
+    pub device: &'static Device<SerialArm, 3>,
+    /// The loop's settings.
+    pub settings: Settings,
+    /// Ticks to run.
+    pub ticks: u32,
+    /// The tick at which force is asked for: the witness point has converged by then.
+    pub enable_at: u32,
+}
+
+impl SceneOptions {
+    /// Reads the model and checks every option.
+    ///
+    /// # Errors
+    /// What is wrong, naming the file or the option.
+    pub fn scene(&self) -> anyhow::Result<Scene> {
+        let model = Model::read(&self.model)?;
+        let index = self.patch_index(&model)?;
+        let baked = BakedPatch::all(&model, &self.model.display().to_string())?.swap_remove(index);
+        let surface = model.patches[index].clone();
+        let patch: &'static SplinePatch = Box::leak(Box::new(baked.to_patch()?));
+        let body_origin = match self.at.as_deref() {
+            Some(&[x, y, z]) => vec3(x, y, z) * 1e-3,
+            _ => -centre(patch),
+        };
+        let settings = Settings {
+            rate: self.rate,
+            stiffness: self.stiffness,
+            damping: self.damping,
+            greatest_force: self.greatest_force,
+            velocity_corner: self.velocity_corner,
+            soft_start: self.soft_start,
+            body_origin,
+        };
+        let device = self.device.device();
+        settings.check(device.greatest_stiffness, device.greatest_damping)?;
+        let ticks = self.seconds * f64::from(self.rate);
+        if !(ticks >= 1.0 && ticks <= f64::from(u32::MAX)) {
+            bail!("--seconds {} at --rate {} is not a number of ticks that can be run", self.seconds, self.rate);
+        }
+        // A tenth of a second in standby, in which the witness point converges from the middle of the patch.
+        let enable_at = (0.1 * self.rate) as u32;
+        let model_file = std::fs::read(&self.model)?;
+        let model_name = self.model_name();
+        Ok(Scene { model_file, model_name, surface, baked, patch, device, settings, ticks: ticks as u32, enable_at })
+    }
+
+    /// The simulated device with a hand that touches the scene's surface.
+    ///
+    /// # Errors
+    /// What the plant refuses.
+    pub fn plant(&self, scene: &Scene) -> anyhow::Result<Plant> {
+        let surface = scene.surface.clone();
+        let origin = scene.settings.body_origin.as_dvec3();
+        let turn = if surface.flip { -1.0 } else { 1.0 };
+        let point_and_normal = move |u, v| {
+            let at = Surface::evaluate(&surface, u, v);
+            let normal = at.tangent_u.cross(at.tangent_v).normalize_or_zero() * turn;
+            ((at.point + origin).to_array(), normal.to_array())
+        };
+        // Most touches stay on the face; in the air the hand goes over the rim.
+        let touching = TouchingSettings {
+            duration: self.seconds,
+            press_depth: [0.006, 0.014],
+            pressed_reach: 0.8,
+            ..TouchingSettings::default()
+        };
+        let path = TouchingPath::new(point_and_normal, touching, self.seed).context("the hand finds no path")?;
+        Plant::new(&self.device.plant(), HandSettings::default(), Box::new(path), f64::from(self.rate))
+            .context("the simulated device cannot start here (move the model with --at)")
+    }
+
+    /// The model file's name, without its directory.
+    pub fn model_name(&self) -> String {
+        self.model.file_name().unwrap_or(self.model.as_os_str()).to_string_lossy().into_owned()
+    }
+
+    fn patch_index(&self, model: &Model) -> anyhow::Result<usize> {
+        let Some(wanted) = &self.patch else { return Ok(0) };
+        let by_name = model.patches.iter().position(|patch| patch.name.as_deref() == Some(wanted));
+        let by_number = || wanted.parse().ok().filter(|index| *index < model.patches.len());
+        by_name
+            .or_else(by_number)
+            .with_context(|| format!("{}: no patch {wanted:?} among {}", self.model.display(), model.patches.len()))
+    }
+}
+
+impl Scene {
+    /// The servo loop of this scene.
+    ///
+    /// # Errors
+    /// A setting that is refused.
+    pub fn servo(&self) -> anyhow::Result<Servo<'static, SplinePatch, SerialArm, 3>> {
+        Ok(Servo::try_new(self.device, self.patch, Controller::CERTIFIED, self.settings)?)
+    }
+}
+
+impl Scene {
+    /// Where the scene's table comes from.
+    pub fn origin(&self) -> Origin<'_> {
+        Origin { model_file: &self.model_name, out_file: "body.rs", model: &self.model_file }
+    }
+
+    /// The loop's settings as the source file that an image is built with. Every number reads back as the same `f32`.
+    pub fn settings_source(&self) -> String {
+        let Settings { rate, stiffness, damping, greatest_force, velocity_corner, soft_start, body_origin } =
+            self.settings;
+        let [x, y, z] = body_origin.to_array();
+        format!(
+            "/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
+             rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    \
+             greatest_force: {greatest_force:?},\n    velocity_corner: {velocity_corner:?},\n    \
+             soft_start: {soft_start:?},\n    body_origin: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n"
+        )
+    }
+}
+
+/// The middle of a patch's bounding box, from a grid of its points.
+fn centre(patch: &SplinePatch) -> Vec3 {
+    let grid = (0..=16).flat_map(|i| (0..=16).map(move |j| (i as f32 / 16.0, j as f32 / 16.0)));
+    let (low, high) = grid
+        .map(|(u, v)| patch.evaluate(u, v).point)
+        .fold((Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY)), |(low, high), point| {
+            (low.min(point), high.max(point))
+        });
+    0.5 * (low + high)
+}

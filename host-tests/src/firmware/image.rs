@@ -1,0 +1,111 @@
+//! Building the firmware image and measuring it.
+
+use super::process::output;
+use super::toolchain::TARGET;
+use super::{Progress, SetUpError, Toolchain, Transport, repository};
+use object::{Object, ObjectSection, SectionFlags, SectionKind, elf};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use tempfile::TempDir;
+
+/// What goes into the image.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// A baked body; the board's default if `None`.
+    pub body: Option<PathBuf>,
+    /// A settings file; the board's default if `None`.
+    pub settings: Option<PathBuf>,
+}
+
+/// An image and what it takes.
+#[derive(Clone, Debug)]
+pub struct Image {
+    /// The ELF file.
+    pub elf: PathBuf,
+    /// Bytes in flash: code, constants, and the first values of variables.
+    pub flash: u64,
+    /// Bytes of variables in RAM. The stack comes on top.
+    pub ram: u64,
+}
+
+/// The same firmware over each transport. The files are gone when this is dropped.
+#[derive(Debug)]
+pub struct Images {
+    uart: Image,
+    fifo: Image,
+    /// Keeps the files.
+    _folder: TempDir,
+}
+
+impl Images {
+    /// The image that speaks over a transport.
+    pub const fn of(&self, transport: Transport) -> &Image {
+        match transport {
+            Transport::Uart => &self.uart,
+            Transport::Fifo => &self.fifo,
+        }
+    }
+}
+
+/// The board's folder.
+pub fn board() -> PathBuf {
+    repository().join("boards/qemu-m4")
+}
+
+/// Builds the images with the body and settings of `choice`.
+///
+/// # Errors
+/// What the compiler says, or what is wrong with a file.
+pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Result<Images, SetUpError> {
+    // Another choice writes to the same place: the images are copied away before it may start.
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+
+    let target_folder = toolchain.target_folder();
+    let mut cargo = toolchain.cargo();
+    cargo.current_dir(board()).args(["build", "--release", "--bins", "--target-dir"]).arg(&target_folder);
+    for (variable, file) in [("PALPATE_BODY", &choice.body), ("PALPATE_SETTINGS", &choice.settings)] {
+        match file {
+            Some(file) => cargo.env(variable, file.canonicalize().map_err(SetUpError::io(file.display()))?),
+            None => cargo.env_remove(variable),
+        };
+    }
+    progress.during("building the firmware image", || output(&mut cargo))?;
+
+    let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
+    let built = target_folder.join(TARGET).join("release");
+    let take = |transport: Transport| {
+        let elf = folder.path().join(transport.binary());
+        fs::copy(built.join(transport.binary()), &elf).map_err(SetUpError::io(built.display()))?;
+        measure(elf)
+    };
+    Ok(Images { uart: take(Transport::Uart)?, fifo: take(Transport::Fifo)?, _folder: folder })
+}
+
+/// Adds up the sections that the linker gave an address.
+fn measure(elf: PathBuf) -> Result<Image, SetUpError> {
+    let content = fs::read(&elf).map_err(SetUpError::io(elf.display()))?;
+    let file = object::File::parse(content.as_slice()).map_err(|error| refused(&elf, &error.to_string()))?;
+    let (mut flash, mut ram) = (0, 0);
+    for section in file.sections() {
+        let SectionFlags::Elf { sh_flags, .. } = section.flags() else {
+            return Err(refused(&elf, "not an ELF file"));
+        };
+        let has = |flag| sh_flags & flag == flag;
+        if !has(elf::SHF_ALLOC) {
+            continue;
+        }
+        if section.kind() != SectionKind::UninitializedData {
+            flash += section.size();
+        }
+        if has(elf::SHF_WRITE) {
+            ram += section.size();
+        }
+    }
+    Ok(Image { elf, flash, ram })
+}
+
+fn refused(path: &Path, reason: &str) -> SetUpError {
+    SetUpError::Image { path: path.to_path_buf(), reason: reason.to_owned() }
+}

@@ -1,0 +1,81 @@
+//! The host's side of the link: sensors to the device, reports back.
+
+use palpate::wire::frame::{self, MAX_FRAME};
+use palpate::wire::{Report, Sensors};
+use std::io;
+use std::time::Duration;
+use thiserror::Error;
+
+/// Why there is no report.
+#[derive(Debug, Error)]
+pub enum LinkError {
+    /// Nothing came in time.
+    #[error("no report from the device within {0:?}")]
+    Silent(Duration),
+    /// What came is no report.
+    #[error("a damaged frame came from the device")]
+    Damaged,
+    /// The report is of another tick than the sensors.
+    #[error("the device reported tick {reported} where tick {expected} was due")]
+    OutOfStep {
+        /// The tick that was sent.
+        expected: u32,
+        /// The tick that came back.
+        reported: u32,
+    },
+    /// The device is gone.
+    #[error("the emulator ended ({status}) {output}")]
+    Ended {
+        /// How it ended.
+        status: String,
+        /// What it said.
+        output: String,
+    },
+    /// The line itself failed.
+    #[error("the line to the device: {0}")]
+    Io(#[from] io::Error),
+}
+
+/// A device at the other end of a line, in lockstep: one frame of sensors out, one report back, a tick.
+pub trait Link {
+    /// Sends bytes as they are. For whole frames use [`Self::send`].
+    ///
+    /// # Errors
+    /// If the line is broken.
+    fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError>;
+
+    /// Says nothing in this tick: the device gets no sensors and reports a lost frame.
+    ///
+    /// # Errors
+    /// If the line is broken.
+    fn stay_silent(&mut self) -> Result<(), LinkError>;
+
+    /// The next report. Waits for a bounded time.
+    ///
+    /// # Errors
+    /// If none came, or something else.
+    fn receive(&mut self) -> Result<Report, LinkError>;
+
+    /// Sends a frame of sensors.
+    ///
+    /// # Errors
+    /// If the line is broken.
+    fn send(&mut self, sensors: &Sensors) -> Result<(), LinkError> {
+        let mut buffer = [0; MAX_FRAME];
+        let frame = frame::pack(sensors, &mut buffer).map_err(io::Error::other)?;
+        self.send_bytes(frame)
+    }
+
+    /// One tick: sensors out, report back, of the same tick.
+    ///
+    /// # Errors
+    /// If there is no such report.
+    fn exchange(&mut self, sensors: &Sensors) -> Result<Report, LinkError> {
+        self.send(sensors)?;
+        let report = self.receive()?;
+        if report.tick == sensors.tick {
+            return Ok(report);
+        }
+        Err(LinkError::OutOfStep { expected: sensors.tick, reported: report.tick })
+    }
+}

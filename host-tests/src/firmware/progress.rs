@@ -1,0 +1,50 @@
+//! What is going on, for the person who waits: a spinner on a terminal, plain lines elsewhere.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::env;
+use std::io::{IsTerminal, stderr};
+use std::time::{Duration, Instant};
+
+/// Says on standard error what is being done.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    spins: bool,
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Progress {
+    /// A spinner on a terminal; lines where there is none, or in continuous integration.
+    pub fn new() -> Self {
+        Self { spins: stderr().is_terminal() && env::var_os("CI").is_none() }
+    }
+
+    /// Says something.
+    pub fn say(&self, line: &str) {
+        eprintln!("{line}");
+    }
+
+    /// Does some work, named in the present ("building the image"), and says how long it took.
+    pub fn during<T>(&self, what: &str, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = if self.spins {
+            let spinner = ProgressBar::new_spinner().with_message(what.to_owned());
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
+                spinner.set_style(style);
+            }
+            spinner.enable_steady_tick(Duration::from_millis(100));
+            let result = work();
+            spinner.finish_and_clear();
+            result
+        } else {
+            self.say(&format!("{what} ..."));
+            work()
+        };
+        self.say(&format!("{what}: {:.1} s", start.elapsed().as_secs_f32()));
+        result
+    }
+}

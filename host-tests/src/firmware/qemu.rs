@@ -1,0 +1,46 @@
+//! Where the emulator is.
+
+use super::process::{apt_install, on_path, output};
+use super::{Progress, SetUpError};
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const PROGRAM: &str = "qemu-system-arm";
+
+/// An emulator that starts.
+#[derive(Clone, Debug)]
+pub struct Qemu {
+    program: PathBuf,
+    /// What it says about its version.
+    pub version: String,
+}
+
+impl Qemu {
+    /// The emulator that `PALPATE_QEMU` names, or the one on the search path; installed if it is missing and may be.
+    ///
+    /// # Errors
+    /// [`SetUpError::NoEmulator`], with the reason.
+    pub fn set_up(progress: &Progress) -> Result<Self, SetUpError> {
+        if let Some(program) = env::var_os("PALPATE_QEMU").filter(|program| !program.is_empty()) {
+            return Self::at(PathBuf::from(program));
+        }
+        if let Some(program) = on_path(PROGRAM) {
+            return Self::at(program);
+        }
+        apt_install(&[PROGRAM], progress).map_err(SetUpError::NoEmulator)?;
+        Self::at(on_path(PROGRAM).ok_or_else(|| SetUpError::NoEmulator(format!("{PROGRAM} did not come along")))?)
+    }
+
+    fn at(program: PathBuf) -> Result<Self, SetUpError> {
+        match output(Command::new(&program).arg("--version")) {
+            Ok(said) => Ok(Self { program, version: said.lines().next().unwrap_or_default().to_owned() }),
+            Err(error) => Err(SetUpError::NoEmulator(error.to_string())),
+        }
+    }
+
+    /// The program.
+    pub fn program(&self) -> &Path {
+        &self.program
+    }
+}

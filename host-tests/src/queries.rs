@@ -1,0 +1,59 @@
+//! Query points from a CSV file.
+
+use anyhow::{Context as _, bail, ensure};
+use glam::DVec3;
+use palpate::math::Vec3;
+use std::path::Path;
+
+/// A query point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Query {
+    /// As given, in the file's unit.
+    pub given: DVec3,
+    /// As the firmware gets it, metres.
+    pub probe: Vec3,
+}
+
+/// Its square, the largest number the controller forms of it, is far below the end of `f32`, 3e38.
+const FARTHEST: f64 = 1e9;
+
+/// Reads the columns `qx`, `qy`, `qz`, in a unit that goes `per_metre` times into a metre. Lines that begin with `#` are comments.
+///
+/// # Errors
+/// What is wrong, with file and line.
+pub fn read(path: &Path, per_metre: f64) -> anyhow::Result<Vec<Query>> {
+    let file = path.display();
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_path(path)
+        .with_context(|| format!("{file}: cannot be read"))?;
+    let header = reader.headers().with_context(|| format!("{file}: cannot be read"))?.clone();
+    ensure!(!header.is_empty(), "{file}: empty: a header with qx, qy, qz is needed");
+    let mut columns = [0; 3];
+    for (column, name) in columns.iter_mut().zip(["qx", "qy", "qz"]) {
+        let position = header.iter().position(|field| field == name);
+        *column = position.with_context(|| format!("{file}: no column {name} in the header"))?;
+    }
+    let mut queries = Vec::new();
+    for record in reader.records() {
+        // The reader names the line itself.
+        let record = record.with_context(|| file.to_string())?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let mut coordinates = [0.0; 3];
+        for (coordinate, (column, name)) in coordinates.iter_mut().zip(columns.iter().zip(["qx", "qy", "qz"])) {
+            let field = record.get(*column).unwrap_or_default();
+            *coordinate = field
+                .parse::<f64>()
+                .ok()
+                .with_context(|| format!("{file}:{line}: {name} is \"{field}\", not a number"))?;
+            if !coordinate.is_finite() {
+                bail!("{file}:{line}: {name} is {coordinate}");
+            }
+            ensure!(coordinate.abs() <= FARTHEST * per_metre, "{file}:{line}: {name} is beyond {FARTHEST:e} m");
+        }
+        let given = DVec3::from_array(coordinates);
+        queries.push(Query { given, probe: (given / per_metre).as_vec3() });
+    }
+    Ok(queries)
+}

@@ -1,0 +1,39 @@
+//! The device and the host compute the same bits.
+
+use crate::path::{TICKS, sensors};
+use crate::running::{TRANSPORTS, firmware};
+use palpate::device::{Counts, SerialArm, presets::WOODEN_HAPTICS_2016};
+use palpate::patch::SplinePatch;
+use palpate::servo::{Input, Servo};
+use palpate::track::Controller;
+use palpate::wire::Report;
+use palpate_host::firmware::Link;
+
+/// The very tables and settings of the image.
+mod tables {
+    include!("../../../boards/bodies/table1c.rs");
+}
+mod settings {
+    include!("../../../boards/settings/default.rs");
+}
+
+static SERVO: Servo<'static, SplinePatch, SerialArm, 3> =
+    Servo::new(&WOODEN_HAPTICS_2016, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS);
+
+#[test]
+fn device_and_host_agree_in_every_bit_of_every_tick() {
+    let Some(firmware) = firmware("device_and_host_agree_in_every_bit_of_every_tick") else { return };
+    for transport in TRANSPORTS {
+        let mut emulator = firmware.start(transport).unwrap();
+        let mut state = SERVO.start();
+        let mut pushed = 0;
+        for tick in 0..TICKS {
+            let sensors = sensors(tick);
+            let report = emulator.exchange(&sensors).unwrap();
+            SERVO.tick(&mut state, Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable });
+            assert_eq!(report, Report::new(&state, report.instructions), "{transport:?}");
+            pushed += u32::from(report.duties != [0; 3]);
+        }
+        assert!(pushed > 100, "{transport:?}: the surface pushed back in {pushed} ticks only");
+    }
+}

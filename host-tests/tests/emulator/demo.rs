@@ -1,0 +1,51 @@
+//! The demo's own scene, whole: the host's loop and the firmware's agree bit for bit, tick by tick, while each drives the
+//! plant with its own duties.
+
+use crate::running::is_wanted;
+use clap::Parser;
+use palpate_host::commands::demo::prepare;
+use palpate_host::commands::options::{Scene, SceneOptions};
+use palpate_host::firmware::{Link, Progress, Transport};
+use palpate_host::report::Summary;
+use palpate_host::simulation::{HostLoop, Trace, run};
+
+#[derive(Parser)]
+struct Demo {
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
+    let mut plant = options.plant(scene).expect("the plant starts");
+    run(link, &mut plant, f64::from(scene.settings.rate), scene.ticks, scene.enable_at, |_| ())
+        .expect("no frame is lost")
+}
+
+#[test]
+fn host_and_firmware_agree_in_every_bit_of_every_tick_of_the_demo() {
+    if !is_wanted("the demo on the emulated board") {
+        return;
+    }
+    let Demo { options } = Demo::parse_from(["demo"]);
+    let scene = options.scene().expect("the demo's scene");
+    let firmware = prepare(&scene, &Progress::new()).expect("the image builds");
+    let mut emulator = firmware.start(Transport::Fifo).expect("the emulator starts");
+    let device = trace(&options, &scene, &mut emulator);
+    let host = trace(&options, &scene, &mut HostLoop::new(scene.servo().expect("good settings")));
+
+    for (there, here) in device.samples.iter().zip(&host.samples) {
+        assert_eq!(there.sensors, here.sensors, "the plant saw other duties before tick {}", here.report.tick);
+        assert_eq!(there.report.digest, here.report.digest, "the states differ after tick {}", here.report.tick);
+    }
+    let [device, host] = [device, host].map(|trace| Summary::new(&trace));
+    assert_eq!(device.state_hash, host.state_hash);
+    // A demo that touches nothing would agree too.
+    assert!(host.ticks == 20_000 && host.touches > 3 && host.mode_changes > 3 && host.contact_time > 1.0, "{host}");
+    // What does not hang on the compiler must stand in the README as it is printed.
+    let readme = include_str!("../../../README.md");
+    for (name, value) in device.rows().iter().filter(|(name, _)| *name != "instructions a tick") {
+        let row = format!("  {name:<20} {value}");
+        assert!(readme.contains(&row), "the README does not show {row:?}");
+    }
+    assert!(device.fault.is_none() && device.frames_lost == 0 && device.steps_undone == 0, "{device}");
+}

@@ -1,0 +1,9 @@
+//! The firmware image on the emulated board. Runs with `cargo palpate test`; plain `cargo test` says what it leaves out.
+
+mod agreement;
+mod demo;
+mod faults;
+mod image;
+mod path;
+mod round_trip;
+mod running;

@@ -1,0 +1,144 @@
+//! The firmware's numbers against golden points that were computed elsewhere, in double precision.
+
+use glam::DVec3;
+use palpate::patch::Patch as _;
+use palpate_host::bake::{BakedPatch, Model};
+use palpate_host::oracle::golden::{self, ClosestRow, EvaluationRow};
+use palpate_host::oracle::{Oracle, Surface};
+use serde::Deserialize;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The largest side of the bounding box of both patches, in their unit (cm).
+const SIZE: f64 = 10.0;
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
+}
+
+fn model_file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name)
+}
+
+/// A row that `closest` printed.
+#[derive(Deserialize)]
+struct Printed {
+    patch: String,
+    u: f64,
+    v: f64,
+    px: f64,
+    py: f64,
+    pz: f64,
+    gap: f64,
+    steps: u32,
+    status: String,
+}
+
+impl Printed {
+    fn point(&self) -> DVec3 {
+        DVec3::new(self.px, self.py, self.pz)
+    }
+}
+
+/// Runs `closest` and checks what holds for every row, in any mode.
+fn closest(model: &str, queries: &str, options: &[&str]) -> Result<Vec<(ClosestRow, Printed)>, Box<dyn Error>> {
+    let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
+        .args(["closest", "--model"])
+        .arg(model_file(model))
+        .arg("--queries")
+        .arg(data(queries))
+        .args(options)
+        .output()?;
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let printed: Vec<Printed> =
+        csv::Reader::from_reader(run.stdout.as_slice()).deserialize().collect::<Result<_, _>>()?;
+    let golden: Vec<ClosestRow> = golden::read(&data(queries))?;
+    assert_eq!(printed.len(), golden.len());
+    let model = Model::read(&model_file(model))?;
+    let patch = &model.patches[0];
+    for (golden, printed) in golden.iter().zip(&printed) {
+        assert_eq!(printed.patch, "S");
+        // p is the surface at the printed (u, v): to the accuracy of the f32 evaluation.
+        let on_surface = Surface::evaluate(patch, printed.u, printed.v).point * model.unit.per_metre();
+        assert!(on_surface.distance(printed.point()) <= 2e-6 * SIZE, "{} off the surface", golden.query());
+        // gap is the distance to the printed point, to the nine digits both are printed with.
+        let gap = printed.point().distance(golden.query());
+        assert!((gap - printed.gap).abs() <= 1e-8 * SIZE, "gap {} but distance {gap}", printed.gap);
+    }
+    Ok(golden.into_iter().zip(printed).collect())
+}
+
+/// By how much the distance to the printed point exceeds the golden one, relative to the size; negative if nearer.
+fn excess((golden, printed): &(ClosestRow, Printed)) -> f64 {
+    (printed.point().distance(golden.query()) - golden.distance) / SIZE
+}
+
+#[test]
+fn evaluation_in_single_precision_is_within_2e_6_of_the_golden_values() -> Result<(), Box<dyn Error>> {
+    let model = Model::read(&model_file("table1.toml"))?;
+    let patch = BakedPatch::new(&model.patches[0])?.to_patch()?;
+    let rows: Vec<EvaluationRow> = golden::read(&data("table1_eval.csv"))?;
+    assert_eq!(rows.len(), 100);
+    let mut worst: f64 = 0.0;
+    for row in rows {
+        let found = patch.evaluate(row.u as f32, row.v as f32);
+        // Points relative to the patch's size, tangents to their own length; the rounding of (u, v) to f32 is included.
+        let error = |found: palpate::math::Vec3, golden: DVec3, scale: f64| {
+            (found.as_dvec3() * model.unit.per_metre()).distance(golden) / scale
+        };
+        worst = worst
+            .max(error(found.point, row.point(), SIZE))
+            .max(error(found.tangent_u, row.tangent_u(), row.tangent_u().length()))
+            .max(error(found.tangent_v, row.tangent_v(), row.tangent_v().length()));
+    }
+    println!("largest relative error of evaluation: {worst:.2e}");
+    assert!(worst < 2e-6, "largest relative error {worst:e}");
+    Ok(())
+}
+
+#[test]
+fn the_oracle_agrees_with_the_golden_points() -> Result<(), Box<dyn Error>> {
+    for file in ["table1_near", "table1_box", "table1c_near", "table1c_box", "table1c_track"] {
+        let model_name = file.split('_').next().unwrap_or_default();
+        let model = Model::read(&model_file(&format!("{model_name}.toml")))?;
+        let oracle = Oracle::new(&model.patches[0]);
+        let per_metre = model.unit.per_metre();
+        for row in golden::read::<ClosestRow>(&data(&format!("{file}.csv")))? {
+            let found = oracle.closest(row.query() / per_metre);
+            let difference = found.distance * per_metre - row.distance;
+            // The golden points carry twelve digits.
+            assert!(difference.abs() <= 1e-10 * SIZE, "{file}: {}: off by {difference:e}", row.query());
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn cold_queries_find_the_closest_point_of_the_whole_patch() -> Result<(), Box<dyn Error>> {
+    for file in ["table1_near", "table1_box", "table1c_near", "table1c_box"] {
+        let model_name = file.split('_').next().unwrap_or_default();
+        let rows = closest(&format!("{model_name}.toml"), &format!("{file}.csv"), &["--mode", "cold"])?;
+        let mut steps: Vec<u32> = rows.iter().map(|(_, printed)| printed.steps).collect();
+        steps.sort_unstable();
+        let worst = rows.iter().map(|row| excess(row).abs()).fold(0.0, f64::max);
+        println!("{file}: {worst:.1e} of the size, evaluations median {} worst {}", steps[250], steps[499]);
+        assert!(worst <= 1e-5, "{file}: off by {worst:e} of the size");
+        assert!(rows.iter().all(|(_, printed)| printed.status == "converged"), "{file}");
+    }
+    Ok(())
+}
+
+#[test]
+fn tracking_follows_the_probe_with_one_step_a_row_and_better_with_four() -> Result<(), Box<dyn Error>> {
+    for (ticks, limit) in [("1", 2e-4), ("4", 1e-5)] {
+        let rows = closest("table1c.toml", "table1c_track.csv", &["--mode", "track", "--ticks", ticks])?;
+        assert_eq!(rows[0].1.status, "converged");
+        let most: u32 = ticks.parse()?;
+        assert!(rows[1..].iter().all(|(_, row)| row.status == "tracking" && row.steps <= most));
+        let worst = rows[20..].iter().map(|row| excess(row).abs()).fold(0.0, f64::max);
+        println!("track, {ticks} steps a row: {worst:.1e} of the size");
+        assert!(worst <= limit, "{ticks} steps a row: off by {worst:e} of the size");
+    }
+    Ok(())
+}
