@@ -14,3 +14,4 @@ pub mod plant;
 pub mod queries;
 pub mod report;
 pub mod simulation;
+pub mod zwidth;

@@ -27,7 +27,9 @@ pub use motor::{Duty, Motor};
 pub use paddle::Paddle;
 pub use pose::ProbePose;
 pub use serial_arm::SerialArm;
-pub use velocity::VelocityFilter;
+pub use velocity::{
+    AdaptiveWindow, TrackingObserver, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState, WINDOW, Window,
+};
 
 /// Acceleration of free fall, m/s².
 pub const GRAVITY: f32 = 9.81;

@@ -46,4 +46,10 @@ pub trait Patch {
 
     /// The largest side of the patch's bounding box, in metres: what relative tolerances are measured against.
     fn size(&self) -> f32;
+
+    /// The `index`-th word of the patch's table, for the check that flash still holds what was baked; `None` past the end, and
+    /// always for a patch without a table.
+    fn table_word(&self, _index: usize) -> Option<u32> {
+        None
+    }
 }

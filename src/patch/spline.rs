@@ -159,6 +159,36 @@ impl SplinePatch {
     }
 }
 
+impl SplinePatch {
+    /// The `index`-th word of the table: the borders along `u` and `v`, then the coefficients.
+    const fn word(&self, index: usize) -> Option<u32> {
+        let (u, v) = (self.breaks_u.len(), self.breaks_v.len());
+        let value = if index < u {
+            self.breaks_u[index]
+        } else if index < u + v {
+            self.breaks_v[index - u]
+        } else {
+            let entry = index - u - v;
+            match self.coefficients {
+                Coefficients::Polynomial(entries) if entry / 3 < entries.len() => entries[entry / 3][entry % 3],
+                Coefficients::Rational(entries) if entry / 4 < entries.len() => entries[entry / 4][entry % 4],
+                _ => return None,
+            }
+        };
+        Some(value.to_bits())
+    }
+
+    /// CRC-32 of the table. As a `const` it is computed by the compiler, from the source and not from flash.
+    pub const fn table_crc(&self) -> u32 {
+        let (mut crc, mut index) = (0, 0);
+        while let Some(word) = self.word(index) {
+            crc = crate::servo::crc32(crc, word);
+            index += 1;
+        }
+        crc
+    }
+}
+
 impl Patch for SplinePatch {
     fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
         let (span_u, s) = locate(self.breaks_u, u);
@@ -194,6 +224,10 @@ impl Patch for SplinePatch {
 
     fn size(&self) -> f32 {
         self.size
+    }
+
+    fn table_word(&self, index: usize) -> Option<u32> {
+        self.word(index)
     }
 }
 

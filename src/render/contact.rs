@@ -4,8 +4,9 @@ use crate::track::BoundaryMode;
 
 /// Contact as a state: the sign of the gap alone does not tell a probe in the wall from one that went round the rim.
 ///
-/// Contact begins when the probe crosses the surface from the front, over the face. It ends when the probe comes out again
-/// or slides over the rim. A probe that starts inside, or comes from behind, feels nothing until it has been in front.
+/// Contact begins when the probe crosses the surface from the front, over the face. It ends when the probe comes out
+/// again or slides over the rim. A probe that starts inside, or comes from behind, feels nothing until it has been in
+/// front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Contact {

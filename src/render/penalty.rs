@@ -15,8 +15,8 @@ pub struct Penalty {
 }
 
 impl Penalty {
-    /// The push along the outward normal, N, at a signed gap (m) that changes at a rate (m/s): from 0, for the wall never
-    /// pulls, to the greatest force.
+    /// The push along the outward normal, N, at a signed gap (m) that changes at a rate (m/s): from 0, for the wall
+    /// never pulls, to the greatest force.
     #[inline]
     pub fn push(&self, gap: f32, gap_rate: f32) -> f32 {
         if gap < 0.0 {

@@ -1,17 +1,51 @@
 //! The servo loop: one tick from encoder counts to motor duty.
 //!
 //! [`Servo`] is the configuration and lives in flash; [`ServoState`] is everything that changes and is `Copy`;
-//! [`Servo::tick`] is a function of the two and the tick's [`Input`]. Follow a tick in `tick.rs` from top to bottom. It cannot fail: it
-//! returns duties, and in its state says what it thinks of them ([`Phase`], [`Fault`]).
+//! [`Servo::tick`] is a function of the two and the tick's [`Input`]. Follow a tick in `tick.rs` from top to bottom. It
+//! cannot fail: it returns duties, and in its state says what it thinks of them ([`Phase`], [`Fault`]).
+//!
+//! # What is a fault
+//!
+//! | what happens | who sees it | [`Fault`] |
+//! |---|---|---|
+//! | sensor frame lost, late or damaged | [`Input::Lost`], [`Input::Damaged`] | `FrameLost`, `FrameDamaged` |
+//! | encoder absent, glitching | range and greatest joint rate of the [`crate::device::Device`] | `JointOutOfRange`, `JointJumped` |
+//! | encoder stuck | [`StuckLimits`] | `JointStuck` |
+//! | a number that is none | the gate before the motors | `NotFinite` |
+//! | tick overrun | [`Deadline`], [`Event::Overrun`] | `Overrun` |
+//! | host link lost | [`Safety::link_timeout`], [`Event::LinkAlive`] | `LinkLost` |
+//! | table corrupted or stale | [`Safety::table_crc`], at boot and in every tick | `TableCorrupt` |
+//! | reset by watchdog or brown-out | [`ResetReason`], [`Servo::start_after`] | `WatchdogReset`, `BrownOut` |
+//! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
+//! | too much force | scaled as a whole, its direction kept | none: a limit |
+//! | force asked for inside the wall | faded in | none |
+//!
+//! A fault is latched with its tick, and the first one stands. From the very tick in which it is seen the motors are
+//! safe ([`SafeOutput`]).
 
+mod config;
+mod deadline;
+mod fault;
+mod force;
 mod gate;
 mod phase;
+mod rendering;
+mod safety;
 mod sense;
 mod settings;
 mod state;
+mod stuck;
+mod table_check;
 mod tick;
 
-pub use phase::{Fault, Phase};
+pub use config::Servo;
+pub use deadline::{Deadline, Heartbeat};
+pub use fault::{Event, Fault, ResetReason};
+pub use phase::Phase;
+pub use rendering::{Rendering, RenderingError};
+pub use safety::{SafeOutput, Safety, SafetyError, StuckLimits};
 pub use settings::{Settings, SettingsError};
 pub use state::ServoState;
-pub use tick::{Input, Servo};
+pub use stuck::Stillness;
+pub use table_check::{TableCheck, crc32};
+pub use tick::Input;

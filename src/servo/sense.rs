@@ -1,18 +1,20 @@
 //! From encoder counts to joint angles that can be believed.
 
-use super::{Fault, ServoState};
-use crate::device::{Counts, Device, VelocityFilter};
+use super::stuck::is_stuck;
+use super::{Fault, ServoState, StuckLimits};
+use crate::device::{Counts, Device, VelocityEstimator};
 
 /// Takes this tick's counts into the state: joint angles and rates.
 ///
 /// # Errors
-/// The fault, if an angle lies outside the joint's range or jumped faster than the device can move. The state keeps its
-/// last good counts then.
+/// The fault, if an angle lies outside the joint's range or jumped faster than the device can move (the state keeps its
+/// last good counts then), or if a sensor is stuck.
 #[inline]
 pub fn sense<K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
-    filter: &VelocityFilter,
+    estimators: &[VelocityEstimator; JOINTS],
     greatest_move: f32,
+    stuck: Option<StuckLimits>,
     state: &mut ServoState<JOINTS>,
     counts: [Counts; JOINTS],
 ) -> Result<(), Fault> {
@@ -24,17 +26,25 @@ pub fn sense<K, const JOINTS: usize>(
     if !angles.iter().zip(&device.joint_range).all(in_range) {
         return Err(Fault::JointOutOfRange);
     }
+    let before = state.angles;
     // The first counts have nothing to have moved from.
-    if state.counts.is_some() {
+    let first = state.counts.is_none();
+    if !first {
         let believable = |(angle, last): (&f32, &f32)| (angle - last).abs() <= greatest_move;
-        if !angles.iter().zip(&state.angles).all(believable) {
+        if !angles.iter().zip(&before).all(believable) {
             return Err(Fault::JointJumped);
         }
-        for ((rate, angle), last) in state.rates.iter_mut().zip(angles).zip(state.angles) {
-            *rate = filter.next(*rate, angle - last);
+        let memories = state.rates.iter_mut().zip(&mut state.velocities).zip(estimators);
+        for (((rate, memory), estimator), (angle, last)) in memories.zip(angles.iter().zip(before)) {
+            *rate = estimator.next(memory, angle - last);
         }
     }
     state.counts = Some(counts);
     state.angles = angles;
-    Ok(())
+    match stuck {
+        Some(limits) if !first && is_stuck(limits, &mut state.stillness, before, angles, state.duties) => {
+            Err(Fault::JointStuck)
+        }
+        _ => Ok(()),
+    }
 }

@@ -1,9 +1,9 @@
 //! Everything that changes from tick to tick.
 
-use super::{Fault, Phase};
-use crate::device::{Counts, Duty};
+use super::{Fault, Phase, ResetReason, Stillness, TableCheck};
+use crate::device::{Counts, Duty, VelocityState};
 use crate::math::Vec3;
-use crate::render::Contact;
+use crate::render::{Anchor, Contact, Energy, Tool};
 use crate::track::Witness;
 
 /// The state of the loop after a tick. A plain value: copy it, compare it, keep it in RAM.
@@ -13,55 +13,99 @@ pub struct ServoState<const JOINTS: usize> {
     pub phase: Phase,
     /// What stopped it, and at which tick. Latched.
     pub fault: Option<(Fault, u32)>,
+    /// Why the chip was reset before the loop began.
+    pub reset: ResetReason,
     /// Ticks done.
     pub ticks: u32,
     /// Frames lost, late or damaged so far.
     pub frames_lost: u32,
+    /// Ticks that overran so far.
+    pub overruns: u32,
+    /// Ticks that overran in a row.
+    pub overruns_in_a_row: u32,
+    /// Whether an overrun was noted since the last tick.
+    pub overran: bool,
+    /// Ticks since the host was heard.
+    pub link_silence: u32,
+    /// Ticks of believable sensors so far, while calibrating.
+    pub settled: u32,
+    /// Whether the device is homed.
+    pub homed: bool,
+    /// How far the check of the tables has come.
+    pub table_check: TableCheck,
     /// Controller steps that were undone because the distance would have risen.
     pub steps_undone: u32,
     /// The last good encoder counts; `None` before the first.
     pub counts: Option<[Counts; JOINTS]>,
     /// Joint angles, radians.
     pub angles: [f32; JOINTS],
-    /// Joint rates, rad/s, filtered.
+    /// Joint rates, rad/s, as estimated.
     pub rates: [f32; JOINTS],
+    /// What the velocity estimators remember.
+    pub velocities: [VelocityState; JOINTS],
+    /// Since when each joint has not moved under load.
+    pub stillness: Stillness<JOINTS>,
     /// The probe in the body's frame, metres.
     pub probe: Vec3,
+    /// The virtual tool; it is the probe unless there is a coupling.
+    pub tool: Tool,
     /// The witness point.
     pub witness: Witness,
     /// Signed gap along the outward normal, metres; negative behind the surface.
     pub gap: f32,
     /// Whether the surface is touched.
     pub contact: Contact,
+    /// Where friction holds the surface.
+    pub anchor: Anchor,
+    /// What the passivity observer counted.
+    pub energy: Energy,
     /// How far the force is faded in, 0 to 1.
     pub fade: f32,
-    /// Force on the probe, N, in the device's frame.
+    /// Force on the probe, N, in the device's frame, as the motors give it.
     pub force: Vec3,
     /// Duties now applied.
     pub duties: [Duty; JOINTS],
 }
 
 impl<const JOINTS: usize> ServoState<JOINTS> {
-    /// A hash of every bit of the state (FNV-1a over 32-bit words): two runs agree bit for bit if it agrees at each tick.
+    /// A hash of every bit of the state (FNV-1a over 32-bit words): two runs agree bit for bit if it agrees at each
+    /// tick.
     pub fn digest(&self) -> u32 {
         let mut hash = Fnv::new();
         let (fault, fault_tick) = self.fault.map_or((0, 0), |(fault, tick)| (fault.code(), tick));
         hash.words([self.phase as u32, u32::from(fault), fault_tick, self.ticks]);
+        hash.words([self.reset as u32, self.overruns, self.overruns_in_a_row, u32::from(self.overran)]);
+        hash.words([self.link_silence, self.settled, u32::from(self.homed)]);
+        hash.words([self.table_check.word, self.table_check.crc, self.table_check.passes]);
         hash.words([self.frames_lost, self.steps_undone, u32::from(self.counts.is_some())]);
         for counts in self.counts.iter().flatten() {
             hash.words([counts.0 as u32]);
         }
         hash.floats(self.angles);
         hash.floats(self.rates);
-        hash.floats(self.probe.to_array());
+        for velocity in &self.velocities {
+            match velocity {
+                VelocityState::LowPass(velocity) => hash.floats([*velocity]),
+                VelocityState::Tracking { lag, velocity } => hash.floats([*lag, *velocity]),
+                VelocityState::AdaptiveWindow(window) => {
+                    let (moves, places) = window.parts();
+                    hash.floats(moves);
+                    hash.words(places.map(u32::from));
+                }
+            }
+        }
+        for still in self.stillness {
+            hash.floats(still);
+        }
+        hash.vectors([self.probe, self.tool.position, self.tool.velocity]);
         let witness = &self.witness;
         hash.floats(witness.parameters);
-        for vector in [witness.surface.point, witness.surface.tangent_u, witness.surface.tangent_v] {
-            hash.floats(vector.to_array());
-        }
+        hash.vectors([witness.surface.point, witness.surface.tangent_u, witness.surface.tangent_v]);
         hash.words([witness.mode as u32, self.contact as u32]);
-        hash.floats([witness.caution, self.gap, self.fade]);
-        hash.floats(self.force.to_array());
+        hash.words([u32::from(self.anchor.point.is_some()), u32::from(self.anchor.slips)]);
+        hash.vectors([self.anchor.point.unwrap_or(Vec3::ZERO), self.force]);
+        hash.floats([witness.caution, self.gap, self.fade, self.energy.stored, self.energy.damping]);
+        hash.words([u32::from(self.energy.cut)]);
         for duty in self.duties {
             hash.words([duty.0 as u32]);
         }
@@ -85,5 +129,11 @@ impl Fnv {
 
     fn floats<const N: usize>(&mut self, floats: [f32; N]) {
         self.words(floats.map(f32::to_bits));
+    }
+
+    fn vectors<const N: usize>(&mut self, vectors: [Vec3; N]) {
+        for vector in vectors {
+            self.floats(vector.to_array());
+        }
     }
 }

@@ -2,12 +2,12 @@
 
 use super::gate::gate;
 use super::sense::sense;
-use super::{Fault, Phase, ServoState, Settings, SettingsError};
-use crate::device::{Counts, Device, Duty, Kinematics, VelocityFilter};
+use super::{Event, Fault, Phase, SafeOutput, Servo, ServoState};
+use crate::device::{Counts, Duty, Kinematics, ProbePose};
 use crate::math::Vec3;
 use crate::patch::Patch;
-use crate::render::{Contact, Penalty};
-use crate::track::{Controller, Outcome, Probe, Witness};
+use crate::render::{Motion, Tool, limit};
+use crate::track::{Outcome, Probe};
 
 /// What a tick starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,111 +25,63 @@ pub enum Input<const JOINTS: usize> {
     Damaged,
 }
 
-/// The loop's configuration: device, surface, controller and settings. Constant, in flash.
-#[derive(Clone, Copy, Debug)]
-pub struct Servo<'a, P, K, const JOINTS: usize> {
-    device: &'a Device<K, JOINTS>,
-    patch: &'a P,
-    controller: Controller,
-    penalty: Penalty,
-    filter: VelocityFilter,
-    body_origin: Vec3,
-    period: f32,
-    greatest_move: f32,
-    fade_step: f32,
-}
-
-impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, JOINTS> {
-    /// The loop of a device that touches a patch.
-    ///
-    /// # Errors
-    /// The setting that is refused.
-    pub const fn try_new(
-        device: &'a Device<K, JOINTS>,
-        patch: &'a P,
-        controller: Controller,
-        settings: Settings,
-    ) -> Result<Self, SettingsError> {
-        if let Err(error) = settings.check(device.greatest_stiffness, device.greatest_damping) {
-            return Err(error);
-        }
-        let period = 1.0 / settings.rate;
-        let greatest_force = if settings.greatest_force < device.greatest_force {
-            settings.greatest_force
-        } else {
-            device.greatest_force
-        };
-        // A fade no longer than a tick is no fade.
-        let fade_step = if settings.soft_start > period { period / settings.soft_start } else { 1.0 };
-        Ok(Self {
-            device,
-            patch,
-            controller,
-            penalty: Penalty { stiffness: settings.stiffness, damping: settings.damping, greatest_force },
-            filter: VelocityFilter::new(settings.velocity_corner, settings.rate),
-            body_origin: settings.body_origin,
-            period,
-            greatest_move: device.greatest_joint_rate * period,
-            fade_step,
-        })
-    }
-
-    /// [`Self::try_new`] for a `static`: refused settings do not compile.
-    ///
-    /// # Panics
-    /// At compile time, naming the setting.
-    pub const fn new(device: &'a Device<K, JOINTS>, patch: &'a P, controller: Controller, settings: Settings) -> Self {
-        match Self::try_new(device, patch, controller, settings) {
-            Ok(servo) => servo,
-            Err(SettingsError::Rate) => panic!("rate"),
-            Err(SettingsError::Stiffness) => panic!("stiffness"),
-            Err(SettingsError::Damping) => panic!("damping"),
-            Err(SettingsError::GreatestForce) => panic!("greatest_force"),
-            Err(SettingsError::VelocityCorner) => panic!("velocity_corner"),
-            Err(SettingsError::SoftStart) => panic!("soft_start"),
-            Err(SettingsError::BodyOrigin) => panic!("body_origin"),
-        }
-    }
-
-    /// The state before the first tick: standby, motors at zero, the witness point in the middle of the patch.
-    pub fn start(&self) -> ServoState<JOINTS> {
-        ServoState {
-            phase: Phase::Standby,
-            fault: None,
-            ticks: 0,
-            frames_lost: 0,
-            steps_undone: 0,
-            counts: None,
-            angles: [0.0; JOINTS],
-            rates: [0.0; JOINTS],
-            probe: Vec3::ZERO,
-            witness: Witness::at(self.patch, 0.5, 0.5),
-            gap: 0.0,
-            contact: Contact::default(),
-            fade: 0.0,
-            force: Vec3::ZERO,
-            duties: [Duty::ZERO; JOINTS],
+impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINTS> {
+    /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the
+    /// duties in the state are zero when this returns: apply them.
+    pub fn note(&self, state: &mut ServoState<JOINTS>, event: Event) {
+        match event {
+            Event::LinkAlive => state.link_silence = 0,
+            Event::Homed => state.homed = true,
+            Event::HomingRefused => stop(state, Fault::Homing),
+            Event::DriveFault => stop(state, Fault::Drive),
+            Event::Stop => stop(state, Fault::Stopped),
+            Event::Overrun => {
+                state.overran = true;
+                state.overruns = state.overruns.saturating_add(1);
+                state.overruns_in_a_row = state.overruns_in_a_row.saturating_add(1);
+                if state.overruns_in_a_row > self.safety.overruns_allowed {
+                    stop(state, Fault::Overrun);
+                }
+            }
         }
     }
 
     /// One tick. The duties to apply are in the state when it returns.
     ///
-    /// Bounded work: one pose, one evaluation of the patch. No panic. Whatever the input, the duties are finite and in range; from the
-    /// tick in which a fault is seen they are zero.
+    /// Bounded work: one pose, one evaluation of the patch. No panic. Whatever the input, the duties are finite and in
+    /// range; from the tick in which a fault is seen they are safe.
     #[inline]
     pub fn tick(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) {
+        self.watch(state);
         let torques = self.feel(state, input);
-        let gated = torques.and_then(|torques| gate(state.phase, &self.device.motors, torques));
-        match gated {
-            Ok(duties) => state.duties = duties,
-            Err(fault) => {
-                state.phase = Phase::Fault;
-                state.fault = state.fault.or(Some((fault, state.ticks)));
-                state.force = Vec3::ZERO;
-                state.duties = [Duty::ZERO; JOINTS];
+        let damps = matches!(self.safety.output, SafeOutput::Damping(_)) && state.phase == Phase::Fault;
+        let live = state.phase == Phase::Running || damps;
+        match torques.and_then(|torques| gate(live, &self.device.motors, torques)) {
+            Ok((duties, scale)) => {
+                state.duties = self.device.feed(live, duties, state.rates);
+                state.force *= scale;
             }
+            Err(fault) => stop(state, fault),
         }
         state.ticks = state.ticks.wrapping_add(1);
+    }
+
+    /// What can be wrong whatever the sensors say.
+    #[inline]
+    fn watch(&self, state: &mut ServoState<JOINTS>) {
+        if !state.overran {
+            state.overruns_in_a_row = 0;
+        }
+        state.overran = false;
+        state.link_silence = state.link_silence.saturating_add(1);
+        if state.link_silence > self.link_ticks {
+            stop(state, Fault::LinkLost);
+        }
+        if let Some(expected) = self.safety.table_crc
+            && !state.table_check.step(self.patch, expected)
+        {
+            stop(state, Fault::TableCorrupt);
+        }
     }
 
     /// From the input to joint torques, N·m.
@@ -137,47 +89,91 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
     fn feel(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) -> Result<[f32; JOINTS], Fault> {
         let (counts, enable) = match input {
             Input::Sensors { counts, enable } => (counts, enable),
-            Input::Lost => return Err(Self::count_lost(state, Fault::FrameLost)),
-            Input::Damaged => return Err(Self::count_lost(state, Fault::FrameDamaged)),
+            Input::Lost => return Err(count_lost(state, Fault::FrameLost)),
+            Input::Damaged => return Err(count_lost(state, Fault::FrameDamaged)),
         };
-        if state.phase != Phase::Fault {
-            state.phase = if enable { Phase::Running } else { Phase::Standby };
-        }
 
         // Counts → joint angles → probe.
-        sense(self.device, &self.filter, self.greatest_move, state, counts)?;
+        let first = state.counts.is_none();
+        sense(self.device, &self.estimators, self.greatest_move, self.safety.stuck, state, counts)?;
         let pose = self.device.kinematics.pose(state.angles);
-        state.probe = pose.position - self.body_origin;
+        let probe = pose.position - self.settings.body_origin;
+        let moved = if first { Vec3::ZERO } else { probe - state.probe };
+        let velocity = pose.velocity(state.rates);
+        if !(probe.is_finite() && velocity.is_finite()) {
+            return Err(Fault::NotFinite);
+        }
+        state.probe = probe;
+        if state.phase == Phase::Fault {
+            return Ok(self.safe_torques(state, &pose, velocity));
+        }
+        state.phase = self.next_phase(state, enable);
 
-        // Probe → witness point.
-        let probe = Probe { position: state.probe, velocity: pose.velocity(state.rates) };
-        let step = self.controller.step(self.patch, &mut state.witness, probe, self.period);
+        // Probe, or the virtual tool it pulls → witness point.
+        let held = Tool { position: probe, velocity };
+        let pulls = self.rendering.coupling.is_some() && state.phase == Phase::Running;
+        let tool = if pulls { state.tool } else { held };
+        state.tool = tool;
+        let target = Probe { position: tool.position, velocity: tool.velocity };
+        let step = self.controller.step(self.patch, &mut state.witness, target, self.period);
         state.steps_undone = state.steps_undone.wrapping_add(u32::from(step.outcome == Outcome::Undone));
 
         // Witness point → gap → force → torques.
         let normal = state.witness.normal(self.patch).unwrap_or(Vec3::ZERO);
-        state.gap = (state.probe - state.witness.surface.point).dot(normal);
+        state.gap = (tool.position - state.witness.surface.point).dot(normal);
         state.contact = state.contact.next(state.gap, state.witness.mode);
         state.fade = self.next_fade(state);
-        let push = match state.contact {
-            Contact::Touching => self.penalty.push(state.gap, probe.velocity.dot(normal)),
-            Contact::Behind | Contact::InFront => 0.0,
-        };
-        state.force = normal * (push * state.fade);
+        let motion = Motion { moved, velocity, rate: self.rate };
+        if let Some(passivity) = &self.rendering.passivity {
+            passivity.observe(&mut state.energy, state.force, &motion);
+        }
+        state.force = self.force(state, tool, normal, &motion);
         Ok(pose.torques(state.force))
     }
 
-    /// The force comes up slowly after each start, so that nothing kicks.
+    /// At most one step a tick; [`Phase::Fault`] is never left.
     #[inline]
-    fn next_fade(&self, state: &ServoState<JOINTS>) -> f32 {
+    fn next_phase(&self, state: &mut ServoState<JOINTS>, enable: bool) -> Phase {
         match state.phase {
-            Phase::Running => (state.fade + self.fade_step).min(1.0),
-            Phase::Standby | Phase::Fault => 0.0,
+            Phase::Reset => Phase::Calibrate,
+            Phase::Calibrate => {
+                state.settled = state.settled.saturating_add(1);
+                let checked = self.safety.table_crc.is_none() || state.table_check.passes > 0;
+                let ready = state.settled >= self.safety.settle_ticks && state.homed && checked;
+                if ready { Phase::Armed } else { Phase::Calibrate }
+            }
+            Phase::Armed | Phase::Running => {
+                if enable {
+                    Phase::Running
+                } else {
+                    Phase::Armed
+                }
+            }
+            Phase::Fault => Phase::Fault,
         }
     }
 
-    fn count_lost(state: &mut ServoState<JOINTS>, fault: Fault) -> Fault {
-        state.frames_lost = state.frames_lost.wrapping_add(1);
-        fault
+    /// What the motors do after a fault, in a tick whose sensors can be believed.
+    #[inline]
+    fn safe_torques(&self, state: &mut ServoState<JOINTS>, pose: &ProbePose<JOINTS>, velocity: Vec3) -> [f32; JOINTS] {
+        state.force = match self.safety.output {
+            SafeOutput::Zero => Vec3::ZERO,
+            SafeOutput::Damping(damping) => limit::saturated(velocity * -damping, self.penalty.greatest_force),
+        };
+        pose.torques(state.force)
     }
+}
+
+/// Latches a fault; the first one stands. Motors at zero.
+fn stop<const JOINTS: usize>(state: &mut ServoState<JOINTS>, fault: Fault) {
+    state.phase = Phase::Fault;
+    state.fault = state.fault.or(Some((fault, state.ticks)));
+    state.force = Vec3::ZERO;
+    state.fade = 0.0;
+    state.duties = [Duty::ZERO; JOINTS];
+}
+
+fn count_lost<const JOINTS: usize>(state: &mut ServoState<JOINTS>, fault: Fault) -> Fault {
+    state.frames_lost = state.frames_lost.wrapping_add(1);
+    fault
 }

@@ -11,3 +11,4 @@ mod output;
 pub mod progress;
 pub mod sim;
 pub mod test;
+pub mod zwidth;

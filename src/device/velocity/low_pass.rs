@@ -1,4 +1,4 @@
-//! Velocity from position: first difference and a one-pole low-pass.
+//! First difference and a one-pole low-pass.
 
 /// `y += α (Δx / h − y)` with `α = 2π f h / (1 + 2π f h)`, the backward-Euler low-pass of corner frequency `f`.
 #[derive(Clone, Copy, Debug, PartialEq)]

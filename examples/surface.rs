@@ -1,0 +1,98 @@
+//! A three-dimensional device touches a patch: the loop as a firmware runs it, with your sensors and motors where `Arm`
+//! is. `cargo run --example surface`
+
+use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
+use palpate::device::{Counts, Duty, SerialArm};
+use palpate::math::vec3;
+use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+use palpate::render::Friction;
+use palpate::servo::{Event, Input, Phase, Rendering, SafeOutput, Safety, Servo, Settings};
+use palpate::track::Controller;
+
+/// A shallow bowl, 10 cm square: z = 2 (x² + y²) in metres. `cargo palpate bake` writes such tables from your model.
+static BREAKS: [f32; 2] = [0.0, 1.0];
+static BOWL: [[f32; 3]; 9] = [
+    [0.0, 0.0, 0.0],
+    [0.0, 0.1, 0.0],
+    [0.0, 0.0, 0.02],
+    [0.1, 0.0, 0.0],
+    [0.0; 3],
+    [0.0; 3],
+    [0.0, 0.0, 0.02],
+    [0.0; 3],
+    [0.0; 3],
+];
+static PATCH: SplinePatch = SplinePatch::from_table(
+    [2, 2],
+    &BREAKS,
+    &BREAKS,
+    Coefficients::Polynomial(&BOWL),
+    ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.04, uv: 0.0, vv: 0.04 }),
+    Orientation::Outward,
+    0.1,
+);
+
+/// All of it is checked when it is compiled, and lies in flash.
+static SERVO: Servo<'static, SplinePatch, SerialArm, 3> = Servo::new(
+    &DEVICE,
+    &PATCH,
+    Controller::CERTIFIED,
+    Settings {
+        rate: 4_000.0,
+        stiffness: 800.0,
+        damping: 2.0,
+        greatest_force: 4.0,
+        velocity_corner: 200.0,
+        soft_start: 0.2,
+        body_origin: vec3(0.0, 0.0, 0.0),
+    },
+)
+.rendering(Rendering {
+    friction: Some(Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 }),
+    ..Rendering::PLAIN
+})
+.safety(Safety { output: SafeOutput::Damping(2.0), table_crc: Some(PATCH.table_crc()), ..Safety::DEFAULT });
+
+fn main() {
+    let mut state = SERVO.start();
+    let mut arm = Arm { counts: [0.0, -1_314.0, 3_300.0] };
+    for tick in 0..6_000 {
+        // On a board: read the encoders, or say that they did not answer.
+        let counts = arm.counts.map(|count| Counts(count as i32));
+        let input = if tick < 5_000 { Input::Sensors { counts, enable: true } } else { Input::Lost };
+        SERVO.tick(&mut state, input);
+        // On a board: write the duties to the PWM, and note what happened outside the tick.
+        arm.follow(state.duties);
+        if tick == 4_999 {
+            SERVO.note(&mut state, Event::LinkAlive);
+        }
+        if tick % 500 == 499 {
+            let force = state.force;
+            println!(
+                "{:.3} s {:?}: gap {:6.3} mm, force {force:.3} N",
+                f64::from(tick + 1) / 4e3,
+                state.phase,
+                state.gap * 1e3
+            );
+        }
+    }
+    if let (Phase::Fault, Some((fault, tick))) = (state.phase, state.fault) {
+        println!(
+            "stopped: fault {}, {fault}, at tick {tick}; duties {:?}",
+            fault.code(),
+            state.duties.map(|duty| duty.0)
+        );
+    }
+}
+
+/// The simulated stand-in for your hardware: a hand that lowers the probe and slides it, come what may.
+struct Arm {
+    counts: [f32; 3],
+}
+
+impl Arm {
+    fn follow(&mut self, _duties: [Duty; 3]) {
+        self.counts[0] += 0.02;
+        self.counts[2] += if self.counts[2] < 3_520.0 { 0.1 } else { 0.0 };
+    }
+}

@@ -1,0 +1,10 @@
+//! The servo loop against the simulated device, against faults and against arbitrary sensors.
+
+mod faults;
+mod fuzz;
+mod limits;
+mod passivity;
+mod surfaces;
+mod touch;
+mod traces;
+mod velocity;

@@ -1,0 +1,195 @@
+//! The loop's configuration, checked when it is built, and the state it starts from.
+
+use super::{
+    Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError, TableCheck,
+};
+use crate::device::{Device, Duty, Kinematics, VelocityEstimator};
+use crate::math::Vec3;
+use crate::patch::Patch;
+use crate::render::{Anchor, Contact, Energy, Penalty, Tool};
+use crate::track::{Controller, Witness};
+
+/// The loop's configuration: device, surface, controller and settings. Constant, in flash.
+#[derive(Clone, Copy, Debug)]
+pub struct Servo<'a, P, K, const JOINTS: usize> {
+    pub(super) device: &'a Device<K, JOINTS>,
+    pub(super) patch: &'a P,
+    pub(super) controller: Controller,
+    pub(super) penalty: Penalty,
+    pub(super) estimators: [VelocityEstimator; JOINTS],
+    pub(super) rendering: Rendering,
+    pub(super) safety: Safety,
+    pub(super) settings: Settings,
+    pub(super) rate: f32,
+    pub(super) period: f32,
+    pub(super) greatest_move: f32,
+    pub(super) greatest_growth: f32,
+    pub(super) fade_step: f32,
+    pub(super) link_ticks: u32,
+}
+
+impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, JOINTS> {
+    /// The loop of a device that touches a patch, with [`Rendering::PLAIN`] and [`Safety::DEFAULT`].
+    ///
+    /// # Errors
+    /// The setting that is refused.
+    pub const fn try_new(
+        device: &'a Device<K, JOINTS>,
+        patch: &'a P,
+        controller: Controller,
+        settings: Settings,
+    ) -> Result<Self, SettingsError> {
+        if let Err(error) = settings.check(device.greatest_stiffness, device.greatest_damping) {
+            return Err(error);
+        }
+        let period = 1.0 / settings.rate;
+        let greatest_force = if settings.greatest_force < device.greatest_force {
+            settings.greatest_force
+        } else {
+            device.greatest_force
+        };
+        let servo = Self {
+            device,
+            patch,
+            controller,
+            penalty: Penalty { stiffness: settings.stiffness, damping: settings.damping, greatest_force },
+            // Any: the rendering below sets them.
+            estimators: [VelocityEstimator::new(Rendering::PLAIN.velocity, 1.0, 1.0, 0.0); JOINTS],
+            rendering: Rendering::PLAIN,
+            safety: Safety::DEFAULT,
+            settings,
+            rate: settings.rate,
+            period,
+            greatest_move: device.greatest_joint_rate * period,
+            greatest_growth: f32::INFINITY,
+            // A fade no longer than a tick is no fade.
+            fade_step: if settings.soft_start > period { period / settings.soft_start } else { 1.0 },
+            link_ticks: u32::MAX,
+        };
+        Ok(servo.set_rendering(Rendering::PLAIN))
+    }
+
+    /// [`Self::try_new`] for a `static`: refused settings do not compile.
+    ///
+    /// # Panics
+    /// At compile time, naming the setting.
+    pub const fn new(device: &'a Device<K, JOINTS>, patch: &'a P, controller: Controller, settings: Settings) -> Self {
+        match Self::try_new(device, patch, controller, settings) {
+            Ok(servo) => servo,
+            Err(SettingsError::Rate) => panic!("rate"),
+            Err(SettingsError::Stiffness) => panic!("stiffness"),
+            Err(SettingsError::Damping) => panic!("damping"),
+            Err(SettingsError::GreatestForce) => panic!("greatest_force"),
+            Err(SettingsError::VelocityCorner) => panic!("velocity_corner"),
+            Err(SettingsError::SoftStart) => panic!("soft_start"),
+            Err(SettingsError::BodyOrigin) => panic!("body_origin"),
+        }
+    }
+
+    /// The same loop with this rendering.
+    ///
+    /// # Errors
+    /// The choice that is refused.
+    pub const fn try_rendering(self, rendering: Rendering) -> Result<Self, RenderingError> {
+        match rendering.check(self.penalty.stiffness, self.period) {
+            Ok(()) => Ok(self.set_rendering(rendering)),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// [`Self::try_rendering`] for a `static`.
+    ///
+    /// # Panics
+    /// At compile time, naming the choice.
+    pub const fn rendering(self, rendering: Rendering) -> Self {
+        match self.try_rendering(rendering) {
+            Ok(servo) => servo,
+            Err(RenderingError::Friction) => panic!("friction"),
+            Err(RenderingError::Texture) => panic!("texture"),
+            Err(RenderingError::Coupling) => panic!("coupling"),
+            Err(RenderingError::Passivity) => panic!("passivity"),
+            Err(RenderingError::Slew) => panic!("greatest_slew"),
+        }
+    }
+
+    const fn set_rendering(mut self, rendering: Rendering) -> Self {
+        let mut joint = 0;
+        while joint < JOINTS {
+            let count = self.device.encoders[joint].radians_per_count;
+            self.estimators[joint] =
+                VelocityEstimator::new(rendering.velocity, self.settings.velocity_corner, self.rate, count);
+            joint += 1;
+        }
+        self.greatest_growth = rendering.greatest_slew * self.period;
+        self.rendering = rendering;
+        self
+    }
+
+    /// The same loop with these limits.
+    ///
+    /// # Errors
+    /// The limit that is refused.
+    pub const fn try_safety(mut self, safety: Safety) -> Result<Self, SafetyError> {
+        match safety.check(self.device.greatest_damping) {
+            Ok(()) => {
+                // The cast saturates: ∞ is 2³² ticks, which is never.
+                self.link_ticks = (safety.link_timeout * self.rate) as u32;
+                self.safety = safety;
+                Ok(self)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// [`Self::try_safety`] for a `static`.
+    ///
+    /// # Panics
+    /// At compile time, naming the limit.
+    pub const fn safety(self, safety: Safety) -> Self {
+        match self.try_safety(safety) {
+            Ok(servo) => servo,
+            Err(SafetyError::Damping) => panic!("output"),
+            Err(SafetyError::LinkTimeout) => panic!("link_timeout"),
+            Err(SafetyError::Stuck) => panic!("stuck"),
+        }
+    }
+
+    /// The state before the first tick after power-on: motors at zero, the witness point in the middle of the patch.
+    pub fn start(&self) -> ServoState<JOINTS> {
+        self.start_after(ResetReason::PowerOn)
+    }
+
+    /// The state before the first tick after a reset. One by the watchdog or a brown-out is a fault from the start.
+    pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS> {
+        ServoState {
+            phase: if reset.fault().is_some() { Phase::Fault } else { Phase::Reset },
+            fault: reset.fault().map(|fault| (fault, 0)),
+            reset,
+            ticks: 0,
+            frames_lost: 0,
+            overruns: 0,
+            overruns_in_a_row: 0,
+            overran: false,
+            link_silence: 0,
+            settled: 0,
+            homed: !self.safety.wait_for_homing,
+            table_check: TableCheck::default(),
+            steps_undone: 0,
+            counts: None,
+            angles: [0.0; JOINTS],
+            rates: [0.0; JOINTS],
+            velocities: self.estimators.map(|estimator| estimator.start()),
+            stillness: [[0.0; JOINTS]; JOINTS],
+            probe: Vec3::ZERO,
+            tool: Tool::default(),
+            witness: Witness::at(self.patch, 0.5, 0.5),
+            gap: 0.0,
+            contact: Contact::default(),
+            anchor: Anchor::default(),
+            energy: Energy::default(),
+            fade: 0.0,
+            force: Vec3::ZERO,
+            duties: [Duty::ZERO; JOINTS],
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Why the loop stopped, why the chip was reset, and what the board has to tell the loop.
+
+/// What stopped the loop. The number is the code in a report, 0 there means none; the word is its `Display`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[repr(u8)]
+pub enum Fault {
+    /// No sensor frame came for a tick, or one for another tick.
+    #[error("sensor frame lost or late")]
+    FrameLost = 1,
+    /// A sensor frame came damaged: parity, CRC or the sensor's own error flag.
+    #[error("sensor frame damaged")]
+    FrameDamaged = 2,
+    /// A joint angle is outside the device's range.
+    #[error("joint angle out of range")]
+    JointOutOfRange = 3,
+    /// A joint angle jumped faster than any hand moves.
+    #[error("joint angle jumped")]
+    JointJumped = 4,
+    /// A force or torque came out that is not a finite number.
+    #[error("force not finite")]
+    NotFinite = 5,
+    /// A joint under load did not move by a single count while the others did.
+    #[error("joint sensor stuck")]
+    JointStuck = 6,
+    /// A tick took longer than its period.
+    #[error("tick overrun")]
+    Overrun = 7,
+    /// The host that watches over the device fell silent.
+    #[error("host link lost")]
+    LinkLost = 8,
+    /// The tables in flash are not those that were baked.
+    #[error("table corrupted")]
+    TableCorrupt = 9,
+    /// The watchdog had reset the chip: the program had hung.
+    #[error("reset by the watchdog")]
+    WatchdogReset = 10,
+    /// The supply had broken down: under load it would again.
+    #[error("reset by a brown-out")]
+    BrownOut = 11,
+    /// A motor driver reports a fault of its own.
+    #[error("motor driver fault")]
+    Drive = 12,
+    /// Homing refused to say where the joints are.
+    #[error("homing refused")]
+    Homing = 13,
+    /// Somebody pressed stop.
+    #[error("stopped by hand")]
+    Stopped = 14,
+}
+
+impl Fault {
+    /// Every fault, in the order of its code.
+    pub const ALL: [Self; 14] = [
+        Self::FrameLost,
+        Self::FrameDamaged,
+        Self::JointOutOfRange,
+        Self::JointJumped,
+        Self::NotFinite,
+        Self::JointStuck,
+        Self::Overrun,
+        Self::LinkLost,
+        Self::TableCorrupt,
+        Self::WatchdogReset,
+        Self::BrownOut,
+        Self::Drive,
+        Self::Homing,
+        Self::Stopped,
+    ];
+
+    /// The code in a report, from 1.
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
+
+    /// The fault of a code; `None` for 0 and for codes that are not ours.
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.into_iter().find(|fault| fault.code() == code)
+    }
+}
+
+/// Why the chip was reset, as its registers say. Kept in the state for as long as it runs.
+///
+/// Many chips raise the brown-out flag at every power-on as well: where both flags are up, say
+/// [`ResetReason::PowerOn`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum ResetReason {
+    /// Power was switched on.
+    #[default]
+    PowerOn = 0,
+    /// The reset pin, or a debugger.
+    Pin = 1,
+    /// The program asked for it.
+    Software = 2,
+    /// A watchdog ran out. The loop starts in [`Fault::WatchdogReset`].
+    Watchdog = 3,
+    /// The supply broke down. The loop starts in [`Fault::BrownOut`].
+    BrownOut = 4,
+    /// The board cannot tell.
+    Unknown = 5,
+}
+
+impl ResetReason {
+    /// The fault that this reset is.
+    pub const fn fault(self) -> Option<Fault> {
+        match self {
+            Self::Watchdog => Some(Fault::WatchdogReset),
+            Self::BrownOut => Some(Fault::BrownOut),
+            Self::PowerOn | Self::Pin | Self::Software | Self::Unknown => None,
+        }
+    }
+}
+
+/// What happens outside a tick and matters to the loop: see [`super::Servo::note`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// The host said something: the link is alive.
+    LinkAlive,
+    /// A tick took longer than its period (see [`super::Deadline`]).
+    Overrun,
+    /// A motor driver reports a fault.
+    DriveFault,
+    /// Homing is done: counts are angles now.
+    Homed,
+    /// Homing was refused.
+    HomingRefused,
+    /// Stop.
+    Stop,
+}

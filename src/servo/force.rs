@@ -1,0 +1,66 @@
+//! From the witness point to the force on the probe.
+
+use super::{Phase, Servo, ServoState};
+use crate::device::Kinematics;
+use crate::math::{Vec3, sqrt};
+use crate::patch::Patch;
+use crate::render::{Contact, Motion, Tool, Touch, limit};
+
+impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINTS> {
+    /// The force on the probe, N. `tool` is what touches the surface, `motion` is the probe's.
+    #[inline]
+    pub(super) fn force(&self, state: &mut ServoState<JOINTS>, tool: Tool, normal: Vec3, motion: &Motion) -> Vec3 {
+        let surface = self.surface_force(state, tool, normal);
+        let felt = match &self.rendering.coupling {
+            None => surface,
+            Some(coupling) => {
+                state.tool = coupling.step(&tool, state.probe, motion.velocity, surface, self.period);
+                coupling.force(&tool, state.probe, motion.velocity)
+            }
+        };
+        let faded = limit::saturated(felt * state.fade, self.penalty.greatest_force);
+        let slewed = limit::slewed(faded, state.force, self.greatest_growth);
+        let Some(passivity) = &self.rendering.passivity else { return slewed };
+        let touching = state.contact == Contact::Touching || self.rendering.coupling.is_some();
+        passivity.control(&mut state.energy, slewed, motion, touching, self.penalty.greatest_force)
+    }
+
+    /// The surface's force on what touches it, N.
+    #[inline]
+    fn surface_force(&self, state: &mut ServoState<JOINTS>, tool: Tool, normal: Vec3) -> Vec3 {
+        let push = match state.contact {
+            Contact::Touching => self.penalty.push(state.gap, tool.velocity.dot(normal)),
+            Contact::Behind | Contact::InFront => 0.0,
+        };
+        let mut force = normal * push;
+        let surface = &state.witness.surface;
+        if let Some(friction) = &self.rendering.friction {
+            force += friction.pull(&mut state.anchor, surface.point, normal, push, tool.velocity);
+        }
+        if let Some(texture) = &self.rendering.texture
+            && push > 0.0
+        {
+            let squared = surface.tangent_u.length_squared();
+            let inverse = if squared > f32::MIN_POSITIVE { 1.0 / sqrt(squared) } else { 0.0 };
+            force += texture.bounded(&Touch {
+                parameters: state.witness.parameters,
+                point: surface.point,
+                normal,
+                along_u: surface.tangent_u * inverse,
+                velocity: tool.velocity,
+                push,
+            });
+        }
+        force
+    }
+
+    /// The force comes up slowly after each start, so that nothing kicks.
+    #[inline]
+    pub(super) fn next_fade(&self, state: &ServoState<JOINTS>) -> f32 {
+        if state.phase != Phase::Running {
+            return 0.0;
+        }
+        let fade = state.fade + self.fade_step;
+        if fade < 1.0 { fade } else { 1.0 }
+    }
+}
