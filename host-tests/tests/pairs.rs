@@ -31,7 +31,7 @@ struct Body {
 impl Body {
     fn draw(kind: Kind, random: &mut Random) -> Self {
         let drawn = ConvexPatch::draw(kind, random);
-        let patch = BakedPatch::new(&drawn.surface).expect("it bakes").to_patch().expect("its table is good");
+        let patch = BakedPatch::without_shape(&drawn.surface).expect("it bakes").to_patch().expect("its table is good");
         let grid = || (0..=8).map(|index| f64::from(index) / 8.0);
         let curvature = grid().flat_map(|u| grid().map(move |v| (u, v))).map(|(u, v)| greatest_curvature(&drawn, u, v));
         // A grid misses the very greatest; smooth shapes of this kind by less than a tenth.
@@ -198,7 +198,7 @@ fn sphere_cap(radius: f64) -> SplinePatch {
         let square = s * s + t * t;
         (DVec3::new(2.0 * s, 2.0 * t, 1.0 - square) * radius).extend(1.0 + square)
     });
-    BakedPatch::new(&surface).expect("it bakes").to_patch().expect("its table is good")
+    BakedPatch::without_shape(&surface).expect("it bakes").to_patch().expect("its table is good")
 }
 
 #[test]

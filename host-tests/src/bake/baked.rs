@@ -65,6 +65,18 @@ impl BakedPatch {
     /// # Errors
     /// [`Fault::Uneven`] where the weights or knots do not fit `f32`.
     pub fn new(patch: &NurbsPatch) -> Result<Self, Fault> {
+        let baked = Self::without_shape(patch)?;
+        let bounds = baked.shape.second_derivatives;
+        let shape = shape::prove(patch.degree, &baked.breaks, &baked.coefficients, baked.orientation, bounds);
+        Ok(Self { shape: shape.ok_or(Fault::NoBounds)?, ..baked })
+    }
+
+    /// Bakes one patch with the bounds that the controller's gain needs and no others: curvature and stretch are proved by a
+    /// search that takes seconds on some patches, and a sweep over thousands does without.
+    ///
+    /// # Errors
+    /// [`Fault::Uneven`] where the weights or knots do not fit `f32`.
+    pub fn without_shape(patch: &NurbsPatch) -> Result<Self, Fault> {
         let spans = spline::extract(patch).map_err(|spline::UnevenSpan([u, v])| Fault::Uneven { u, v })?;
         let spans_v = spans.breaks[1].len() - 1;
         for (span, powers) in spans.powers.iter().enumerate() {
@@ -81,13 +93,12 @@ impl BakedPatch {
         };
         let orientation = if patch.flip { Orientation::Inward } else { Orientation::Outward };
         let bounds = bounds::prove(patch.degree, &spans.breaks, &coefficients).ok_or(Fault::NoBounds)?;
-        let shape = shape::prove(patch.degree, &spans.breaks, &coefficients, orientation, bounds);
         Ok(Self {
             name: patch.name.clone(),
             degree: patch.degree.map(|degree| degree as u8),
             breaks: spans.breaks,
             coefficients,
-            shape: shape.ok_or(Fault::NoBounds)?,
+            shape: ShapeBounds::unknown(bounds),
             orientation,
             size: patch.size() as f32,
         })

@@ -134,7 +134,9 @@ fn fuzz<P: Patch>(
     tally
 }
 
-fn run(ticks: u64) {
+#[test]
+fn ten_million_ticks_of_arbitrary_sensors_give_no_bad_output() {
+    let ticks = 10_000_000;
     let renderings = renderings();
     let cases = renderings.len() as u64 * 4;
     for (index, rendering) in renderings.into_iter().enumerate() {
@@ -153,15 +155,4 @@ fn run(ticks: u64) {
         let tally = fuzz(&BROKEN, &WALL, rendering, SafeOutput::Damping(5.0), 20_000, 99);
         assert_eq!(tally.driven, 0, "motors without a torque are a fault, not a duty");
     }
-}
-
-#[test]
-fn a_million_ticks_of_arbitrary_sensors_give_no_bad_output() {
-    run(1_000_000);
-}
-
-#[test]
-#[ignore = "the long form: ten million ticks"]
-fn ten_million_ticks_of_arbitrary_sensors_give_no_bad_output() {
-    run(10_000_000);
 }
