@@ -36,6 +36,9 @@ impl DeviceName {
     }
 }
 
+/// How often the hand touches: a stroke of 0.8 s.
+const TOUCHES_A_SECOND: f64 = 1.2;
+
 /// The scene: which surface, which device, how it is to feel, and the hand.
 #[derive(Args, Debug, Clone)]
 pub struct SceneOptions {
@@ -150,8 +153,11 @@ impl SceneOptions {
             ((at.point + origin).to_array(), normal.to_array())
         };
         // Most touches stay on the face; in the air the hand goes over the rim.
+        // A short run sees the start of a path that a hand could follow.
+        let duration = self.seconds.max(1.0);
         let touching = TouchingSettings {
-            duration: self.seconds,
+            duration,
+            touches: (TOUCHES_A_SECOND * duration).round() as u32,
             press_depth: [0.006, 0.014],
             pressed_reach: 0.8,
             ..TouchingSettings::default()
