@@ -7,7 +7,7 @@ use palpate_host::commands::demo::prepare;
 use palpate_host::commands::options::{Scene, SceneOptions};
 use palpate_host::firmware::{Link, Progress, Transport};
 use palpate_host::report::Summary;
-use palpate_host::simulation::{HostLoop, Trace, run};
+use palpate_host::simulation::{Trace, run};
 
 #[derive(Parser)]
 struct Demo {
@@ -31,7 +31,7 @@ fn host_and_firmware_agree_in_every_bit_of_every_tick_of_the_demo() {
     let firmware = prepare(&scene, &Progress::new()).expect("the image builds");
     let mut emulator = firmware.start(Transport::Fifo).expect("the emulator starts");
     let device = trace(&options, &scene, &mut emulator);
-    let host = trace(&options, &scene, &mut HostLoop::new(scene.servo().expect("good settings")));
+    let host = trace(&options, &scene, scene.host_loop().expect("good settings").as_mut());
 
     for (there, here) in device.samples.iter().zip(&host.samples) {
         assert_eq!(there.sensors, here.sensors, "the plant saw other duties before tick {}", here.report.tick);
