@@ -36,6 +36,11 @@ pub struct Limit {
     pub passive: f64,
 }
 
+/// Whether a stiffness, N/m, is where the search ended while every wall still held: the limit is there or above.
+pub fn is_open_end(stiffness: f64) -> bool {
+    stiffness * 10_f64.powf(1.0 / STEPS_A_DECADE) > STIFFNESSES[1]
+}
+
 /// The greatest stiffness, N/m, below which every wall that was tried comes to rest.
 pub fn greatest_stiffness(slice: &Slice, damping: f64, servo: &Loop) -> f64 {
     let holds = |stiffness: f64| {

@@ -2,7 +2,7 @@
 
 use super::{best, sweep_with_bar};
 use crate::devices::DeviceName;
-use crate::zwidth::{Loop, Slice};
+use crate::zwidth::{Loop, Slice, is_open_end};
 
 /// The delay of the simulated devices, periods: a tick's duty takes effect at the next.
 const DELAY: f64 = 1.0;
@@ -12,7 +12,9 @@ const DELAY: f64 = 1.0;
 /// # Errors
 /// If the progress bar cannot be drawn.
 pub fn print(rates: &[f64], like: Loop) -> anyhow::Result<()> {
-    println!("greatest stiffness of any damping, N/m, behind {DELAY} period: simulated (passive, without damping)");
+    println!(
+        "greatest stiffness of any damping, N/m, behind {DELAY} period: simulated (passive, without damping); ≥: the search ends"
+    );
     print!("{:<20}{:>8}{:>9}{:>8}{:>6}", "device", "kg", "N·s/m", "N", "µm");
     rates.iter().for_each(|rate| print!("{:>18}", format!("{} kHz", rate / 1_000.0)));
     let ends = rates.first().zip(rates.last()).filter(|(first, last)| first < last);
@@ -33,10 +35,14 @@ pub fn print(rates: &[f64], like: Loop) -> anyhow::Result<()> {
         );
         for rate in rates {
             let [simulated, passive] = best(&limits, *rate, DELAY);
-            print!("{:>18}", format!("{simulated:.0} ({passive:.1})"));
+            print!(
+                "{:>18}",
+                format!("{}{simulated:.0} ({passive:.1})", if is_open_end(simulated) { "≥ " } else { "" })
+            );
         }
         if let Some((first, last)) = ends {
-            print!("{:>14.2}", best(&limits, *last, DELAY)[0] / best(&limits, *first, DELAY)[0]);
+            let [low, high] = [first, last].map(|rate| best(&limits, *rate, DELAY)[0]);
+            print!("{:>14}", format!("{}{:.2}", if is_open_end(high) { "≥ " } else { "" }, high / low));
         }
         println!();
         if let Some(low) = limits.iter().find(|limit| limit.simulated < limit.passive * 0.98) {
