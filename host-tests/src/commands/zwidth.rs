@@ -3,7 +3,7 @@
 mod summary;
 
 use crate::devices::DeviceName;
-use crate::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, plot, sweep};
+use crate::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words, plot, sweep};
 use anyhow::Context;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -120,7 +120,7 @@ fn print_table(slice: &Slice, device: DeviceName, arguments: &Arguments, rates: 
         for damping in DAMPINGS {
             print!("{damping:>19}");
             let row = limits.iter().filter(|limit| limit.rate == *rate && limit.damping == damping);
-            row.for_each(|limit| print!("{:>22}", format!("{:.0} ({:.1})", limit.simulated, limit.passive)));
+            row.for_each(|limit| print!("{:>22}", format!("{} ({:.1})", in_words(limit.simulated), limit.passive)));
             println!();
         }
     }
@@ -128,7 +128,7 @@ fn print_table(slice: &Slice, device: DeviceName, arguments: &Arguments, rates: 
     for delay in DELAYS {
         let best = |rate: f64| best(limits, rate, delay)[0];
         print!("delay {delay} T: greatest at any damping");
-        rates.iter().for_each(|rate| print!("  {} kHz {:.0} N/m", rate / 1_000.0, best(*rate)));
+        rates.iter().for_each(|rate| print!("  {} kHz {} N/m", rate / 1_000.0, in_words(best(*rate))));
         if rates.contains(&1_000.0) && rates.contains(&8_000.0) {
             print!("  8 kHz : 1 kHz = {:.2}", best(8_000.0) / best(1_000.0));
         }

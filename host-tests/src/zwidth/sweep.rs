@@ -36,9 +36,10 @@ pub struct Limit {
     pub passive: f64,
 }
 
-/// Whether a stiffness, N/m, is where the search ended while every wall still held: the limit is there or above.
-pub fn is_open_end(stiffness: f64) -> bool {
-    stiffness * 10_f64.powf(1.0 / STEPS_A_DECADE) > STIFFNESSES[1]
+/// A limit, N/m, in words: with ≥ where the search ended while every wall still held.
+pub fn in_words(stiffness: f64) -> String {
+    let open = stiffness * 10_f64.powf(1.0 / STEPS_A_DECADE) > STIFFNESSES[1];
+    format!("{}{stiffness:.0}", if open { "≥ " } else { "" })
 }
 
 /// The greatest stiffness, N/m, below which every wall that was tried comes to rest.
@@ -136,6 +137,12 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_limit_that_was_not_found_says_so() {
+        // 30 N/m and eight steps a decade: 948,683 is the last below a million.
+        assert_eq!([5_530.0, 30.0 * 10_f64.powf(4.5)].map(in_words), ["5530", "≥ 948683"]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::{best, sweep_with_bar};
 use crate::devices::DeviceName;
-use crate::zwidth::{Loop, Slice, is_open_end};
+use crate::zwidth::{Loop, Slice, in_words};
 
 /// The delay of the simulated devices, periods: a tick's duty takes effect at the next.
 const DELAY: f64 = 1.0;
@@ -35,14 +35,11 @@ pub fn print(rates: &[f64], like: Loop) -> anyhow::Result<()> {
         );
         for rate in rates {
             let [simulated, passive] = best(&limits, *rate, DELAY);
-            print!(
-                "{:>18}",
-                format!("{}{simulated:.0} ({passive:.1})", if is_open_end(simulated) { "≥ " } else { "" })
-            );
+            print!("{:>18}", format!("{} ({passive:.1})", in_words(simulated)));
         }
         if let Some((first, last)) = ends {
             let [low, high] = [first, last].map(|rate| best(&limits, *rate, DELAY)[0]);
-            print!("{:>14}", format!("{}{:.2}", if is_open_end(high) { "≥ " } else { "" }, high / low));
+            print!("{:>14.2}", high / low);
         }
         println!();
         if let Some(low) = limits.iter().find(|limit| limit.simulated < limit.passive * 0.98) {
