@@ -1,5 +1,8 @@
 // The settings of the demo. Copy this file, change it, and name yours in PALPATE_SETTINGS.
 
+// The device: its mechanism's type and its constant.
+pub use palpate::device::{SerialArm as Mechanism, presets::WOODEN_HAPTICS_2016 as DEVICE};
+
 /// 4 kHz, 600 N/m: well inside what the device takes; see `palpate::servo::Settings` for what each entry is.
 pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
     rate: 4_000.0,

@@ -5,6 +5,7 @@ pub mod bake;
 pub mod baselines;
 pub mod closest;
 pub mod commands;
+pub mod devices;
 mod drawing;
 pub mod figures;
 pub mod firmware;

@@ -1,6 +1,5 @@
 //! What is felt and how: tables and settings in flash, chosen when the image is built (see `build.rs`).
 
-use palpate::device::{SerialArm, presets::WOODEN_HAPTICS_2016};
 use palpate::patch::SplinePatch;
 use palpate::servo::Servo;
 use palpate::track::Controller;
@@ -10,7 +9,7 @@ mod tables {
     include!(env!("PALPATE_BODY_FILE"));
 }
 
-/// The settings of the loop.
+/// The settings of the loop, and its device.
 mod settings {
     include!(env!("PALPATE_SETTINGS_FILE"));
 }
@@ -18,5 +17,5 @@ mod settings {
 pub use settings::SETTINGS;
 
 /// Everything the servo knows, in flash.
-pub static SERVO: Servo<'static, SplinePatch, SerialArm, 3> =
-    Servo::new(&WOODEN_HAPTICS_2016, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS);
+pub static SERVO: Servo<'static, SplinePatch, settings::Mechanism, 3> =
+    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS);

@@ -2,39 +2,23 @@
 
 use crate::bake::source::Origin;
 use crate::bake::{BakedPatch, Model, NurbsPatch};
+use crate::devices::{DeviceName, Preset};
+use crate::firmware::Link;
 use crate::oracle::Surface;
-use crate::plant::{HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
+use crate::plant::{HandSettings, Plant, TouchingPath, TouchingSettings};
+use crate::simulation::HostLoop;
 use anyhow::{Context, bail};
-use clap::{Args, ValueEnum};
-use palpate::device::{Device, SerialArm, presets};
+use clap::Args;
+use palpate::device::{Device, Kinematics};
 use palpate::math::{Vec3, vec3};
 use palpate::patch::{Patch, SplinePatch};
 use palpate::servo::{Servo, Settings};
 use palpate::track::Controller;
 use std::path::PathBuf;
 
-/// The devices by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum DeviceName {
-    /// WoodenHaptics as published in 2016: 3-D serial arm.
-    #[value(name = "woodenhaptics-2016")]
-    WoodenHaptics2016,
-}
-
-impl DeviceName {
-    /// What the servo knows of the device.
-    pub fn device(self) -> &'static Device<SerialArm, 3> {
-        match self {
-            Self::WoodenHaptics2016 => &presets::WOODEN_HAPTICS_2016,
-        }
-    }
-
-    fn plant(self) -> PlantSettings {
-        match self {
-            Self::WoodenHaptics2016 => PlantSettings::wooden_haptics_2016(),
-        }
-    }
-}
+/// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every preset holds it without a limit cycle.
+const STIFFNESS: f32 = 1_000.0;
+const DAMPING: f32 = 2.0;
 
 /// How often the hand touches: a stroke of 0.8 s.
 const TOUCHES_A_SECOND: f64 = 1.2;
@@ -48,7 +32,7 @@ pub struct SceneOptions {
     /// Which patch of the model, by name or number; the first if not given
     #[arg(long)]
     pub patch: Option<String>,
-    /// The device
+    /// The device; a surface is felt with three joints
     #[arg(long, value_enum, default_value_t = DeviceName::WoodenHaptics2016)]
     pub device: DeviceName,
     /// Servo rate, Hz
@@ -60,12 +44,12 @@ pub struct SceneOptions {
     /// Seed of the hand's path
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Stiffness of the surface, N/m
-    #[arg(long, default_value_t = 1_000.0)]
-    pub stiffness: f32,
-    /// Damping of the surface, N·s/m
-    #[arg(long, default_value_t = 2.0)]
-    pub damping: f32,
+    /// Stiffness of the surface, N/m; 1,000, or what the device takes if that is less
+    #[arg(long)]
+    pub stiffness: Option<f32>,
+    /// Damping of the surface, N·s/m; 2, or what the device takes if that is less
+    #[arg(long)]
+    pub damping: Option<f32>,
     /// Greatest force, N; the device's own limit holds besides
     #[arg(long, default_value_t = 5.0)]
     pub greatest_force: f32,
@@ -92,8 +76,8 @@ pub struct Scene {
     pub baked: BakedPatch,
     /// The patch as the servo sees it.
     pub patch: &'static SplinePatch,
-    /// The device as the servo sees it.
-    pub device: &'static Device<SerialArm, 3>,
+    /// The device.
+    pub device: DeviceName,
     /// The loop's settings.
     pub settings: Settings,
     /// Ticks to run.
@@ -117,17 +101,23 @@ impl SceneOptions {
             Some(&[x, y, z]) => vec3(x, y, z) * 1e-3,
             _ => -centre(patch),
         };
+        let device = self.device;
+        if device.source().is_none() {
+            bail!("{} has too few joints to feel a surface in space; see zwidth", device.name());
+        }
+        let limits = device.preset().limits();
         let settings = Settings {
             rate: self.rate,
-            stiffness: self.stiffness,
-            damping: self.damping,
+            stiffness: self.stiffness.unwrap_or(STIFFNESS.min(limits.stiffness)),
+            damping: self.damping.unwrap_or(DAMPING.min(limits.damping)),
             greatest_force: self.greatest_force,
             velocity_corner: self.velocity_corner,
             soft_start: self.soft_start,
             body_origin,
         };
-        let device = self.device.device();
-        settings.check(device.greatest_stiffness, device.greatest_damping)?;
+        settings.check(limits.stiffness, limits.damping).with_context(|| {
+            format!("{}: up to {} N/m and {} N·s/m", device.name(), limits.stiffness, limits.damping)
+        })?;
         let ticks = self.seconds * f64::from(self.rate);
         if !(ticks >= 1.0 && ticks <= f64::from(u32::MAX)) {
             bail!("--seconds {} at --rate {} is not a number of ticks that can be run", self.seconds, self.rate);
@@ -183,12 +173,22 @@ impl SceneOptions {
 }
 
 impl Scene {
-    /// The servo loop of this scene.
+    /// The servo loop of this scene, compiled for the host.
     ///
     /// # Errors
     /// A setting that is refused.
-    pub fn servo(&self) -> anyhow::Result<Servo<'static, SplinePatch, SerialArm, 3>> {
-        Ok(Servo::try_new(self.device, self.patch, Controller::CERTIFIED, self.settings)?)
+    pub fn host_loop(&self) -> anyhow::Result<Box<dyn Link>> {
+        match self.device.preset() {
+            Preset::SerialArm(device) => self.host_loop_of(device),
+            Preset::LinkageArm(device) => self.host_loop_of(device),
+            Preset::Delta(device) => self.host_loop_of(device),
+            Preset::FiveBar(_) | Preset::Paddle(_) => bail!("{} has too few joints", self.device.name()),
+        }
+    }
+
+    fn host_loop_of<K: Kinematics<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
+        let servo = Servo::try_new(device, self.patch, Controller::CERTIFIED, self.settings)?;
+        Ok(Box::new(HostLoop::new(servo)))
     }
 }
 
@@ -198,13 +198,15 @@ impl Scene {
         Origin { model_file: &self.model_name, out_file: "body.rs", model: &self.model_file }
     }
 
-    /// The loop's settings as the source file that an image is built with. Every number reads back as the same `f32`.
+    /// The loop's settings and device as the source file that an image is built with. Every number reads back as the same `f32`.
     pub fn settings_source(&self) -> String {
         let Settings { rate, stiffness, damping, greatest_force, velocity_corner, soft_start, body_origin } =
             self.settings;
         let [x, y, z] = body_origin.to_array();
+        // A scene has three joints.
+        let [mechanism, device] = self.device.source().unwrap_or_default();
         format!(
-            "/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
+            "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE}};\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
              rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    \
              greatest_force: {greatest_force:?},\n    velocity_corner: {velocity_corner:?},\n    \
              soft_start: {soft_start:?},\n    body_origin: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n"

@@ -3,7 +3,7 @@
 use super::options::{Scene, SceneOptions};
 use super::progress;
 use crate::report::Summary;
-use crate::simulation::{self, HostLoop, Trace};
+use crate::simulation::{self, Trace};
 use anyhow::Context;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -40,10 +40,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 /// What the settings or the plant refuse.
 pub fn run_on_host(options: &SceneOptions, scene: &Scene) -> anyhow::Result<Trace> {
     let mut plant = options.plant(scene)?;
-    let mut servo = HostLoop::new(scene.servo()?);
+    let mut servo = scene.host_loop()?;
     let bar = progress::ticks(scene.ticks);
     let rate = f64::from(scene.settings.rate);
-    let trace = simulation::run(&mut servo, &mut plant, rate, scene.ticks, scene.enable_at, |done| bar.tell(done))?;
+    let trace = simulation::run(servo.as_mut(), &mut plant, rate, scene.ticks, scene.enable_at, |done| bar.tell(done))?;
     Ok(trace)
 }
 

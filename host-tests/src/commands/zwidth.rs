@@ -1,7 +1,11 @@
 //! `palpate zwidth`: the greatest stiffness against damping, for a device, its rates and delays.
 
-use crate::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, plot, sweep};
+mod summary;
+
+use crate::devices::DeviceName;
+use crate::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words, plot, sweep};
 use anyhow::Context;
+use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use palpate::device::VelocityMethod;
@@ -11,8 +15,8 @@ use std::process::ExitCode;
 /// Finds how stiff and how damped a virtual wall may be on a device: a table, and a plot with the passive bound.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The device: wooden-haptics-2016, hapkit or falcon.
-    #[arg(long, default_value = "wooden-haptics-2016")]
+    /// The device; `all` prints what is greatest for each.
+    #[arg(long, default_value = "woodenhaptics-2016", value_parser = names())]
     device: String,
     /// One servo rate, Hz; all of 1, 2, 4 and 8 kHz unless given.
     #[arg(long)]
@@ -23,7 +27,7 @@ pub struct Arguments {
     /// Corner frequency of the velocity estimator, Hz.
     #[arg(long, default_value_t = 200.0)]
     corner: f64,
-    /// Where the plot goes.
+    /// Where the plot goes; there is none of all devices.
     #[arg(long, default_value = "palpate-report/zwidth.svg")]
     plot: PathBuf,
 }
@@ -50,10 +54,6 @@ impl Velocity {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let slice = Slice::named(&arguments.device).with_context(|| {
-        let names = Slice::ALL.map(|slice| slice.name).join(", ");
-        format!("no device is called {}; there are {names}", arguments.device)
-    })?;
     let positive = |value: f64| value.is_finite() && value > 0.0;
     anyhow::ensure!(
         arguments.rate.is_none_or(|rate| positive(rate) && rate <= 100_000.0),
@@ -62,11 +62,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     anyhow::ensure!(positive(arguments.corner), "the corner must be above 0 Hz");
     let rates = arguments.rate.map_or(RATES.to_vec(), |rate| vec![rate]);
     let like = Loop { rate: 0.0, delay_periods: 0.0, velocity: arguments.velocity.method(), corner: arguments.corner };
-    let progress = ProgressBar::new((rates.len() * DELAYS.len() * DAMPINGS.len()) as u64);
-    progress.set_style(ProgressStyle::with_template("{bar:40} {pos}/{len} walls, {eta} left")?);
-    let limits = sweep(&slice, &rates, like, || progress.inc(1));
-    progress.finish_and_clear();
-    print_table(&slice, arguments, &rates, &limits);
+    let Ok(device) = DeviceName::from_str(&arguments.device, false) else {
+        summary::print(&rates, like)?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let slice = Slice::of(device);
+    let limits = sweep_with_bar(&slice, &rates, &DELAYS, like)?;
+    print_table(&slice, device, arguments, &rates, &limits);
     if let Some(folder) = arguments.plot.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     }
@@ -75,9 +77,30 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn print_table(slice: &Slice, arguments: &Arguments, rates: &[f64], limits: &[Limit]) {
+/// Every device's name, and `all`.
+fn names() -> PossibleValuesParser {
+    PossibleValuesParser::new(DeviceName::ALL.map(DeviceName::name).into_iter().chain(["all"]))
+}
+
+fn sweep_with_bar(slice: &Slice, rates: &[f64], delays: &[f64], like: Loop) -> anyhow::Result<Vec<Limit>> {
+    let progress = ProgressBar::new((rates.len() * delays.len() * DAMPINGS.len()) as u64);
+    progress.set_style(ProgressStyle::with_template("{bar:40} {pos}/{len} walls, {eta} left")?);
+    let limits = sweep(slice, rates, delays, like, || progress.inc(1));
+    progress.finish_and_clear();
+    Ok(limits)
+}
+
+/// The greatest stiffness at a rate and a delay, of any damping: simulated, and passive.
+fn best(limits: &[Limit], rate: f64, delay: f64) -> [f64; 2] {
+    let here = limits.iter().filter(|limit| limit.rate == rate && limit.delay_periods == delay);
+    here.fold([0.0, 0.0], |[simulated, passive], limit| {
+        [f64::max(simulated, limit.simulated), f64::max(passive, limit.passive)]
+    })
+}
+
+fn print_table(slice: &Slice, device: DeviceName, arguments: &Arguments, rates: &[f64], limits: &[Limit]) {
     println!(
-        "{}: {} kg, {} N·s/m, {} N of dry friction, {:.0} µm; velocity {:?}, {} Hz",
+        "{}: {:.4} kg, {:.3} N·s/m, {:.3} N of dry friction, {:.0} µm; velocity {:?}, {} Hz",
         slice.name,
         slice.mass,
         slice.viscous,
@@ -86,7 +109,10 @@ fn print_table(slice: &Slice, arguments: &Arguments, rates: &[f64], limits: &[Li
         arguments.velocity,
         arguments.corner
     );
-    println!("greatest stiffness, N/m, simulated (passive bound), hit at 50 mm/s and pressed with 0.3 and 1 N");
+    println!("{}", device.assumed());
+    println!(
+        "greatest stiffness, N/m, simulated (passive bound), hit at 50 mm/s and pressed with 0.3 and 1 N, or 1.5 times dry friction"
+    );
     for rate in rates {
         print!("\n{:>5} kHz  B, N·s/m", rate / 1_000.0);
         DELAYS.iter().for_each(|delay| print!("{:>22}", format!("delay {delay} T")));
@@ -94,18 +120,15 @@ fn print_table(slice: &Slice, arguments: &Arguments, rates: &[f64], limits: &[Li
         for damping in DAMPINGS {
             print!("{damping:>19}");
             let row = limits.iter().filter(|limit| limit.rate == *rate && limit.damping == damping);
-            row.for_each(|limit| print!("{:>22}", format!("{:.0} ({:.1})", limit.simulated, limit.passive)));
+            row.for_each(|limit| print!("{:>22}", format!("{} ({:.1})", in_words(limit.simulated), limit.passive)));
             println!();
         }
     }
     println!();
     for delay in DELAYS {
-        let best = |rate: f64| {
-            let here = limits.iter().filter(|limit| limit.rate == rate && limit.delay_periods == delay);
-            here.map(|limit| limit.simulated).fold(0.0, f64::max)
-        };
+        let best = |rate: f64| best(limits, rate, delay)[0];
         print!("delay {delay} T: greatest at any damping");
-        rates.iter().for_each(|rate| print!("  {} kHz {:.0} N/m", rate / 1_000.0, best(*rate)));
+        rates.iter().for_each(|rate| print!("  {} kHz {} N/m", rate / 1_000.0, in_words(best(*rate))));
         if rates.contains(&1_000.0) && rates.contains(&8_000.0) {
             print!("  8 kHz : 1 kHz = {:.2}", best(8_000.0) / best(1_000.0));
         }

@@ -37,12 +37,13 @@ pub use settings::{ArmSettings, Direction, JointSettings, MechanismSettings, Pla
 pub use touching::TouchingSettings;
 pub use validate::PlantError;
 pub use vector::{Matrix, Vector};
+pub(crate) use vector::{dot, inverse, scaled, times};
 
 use encoder::FaultyEncoder;
 use mechanics::Mechanics;
 use motor::Drives;
 use validate::validate;
-use vector::{difference, dot};
+use vector::difference;
 
 /// The device in a hand.
 pub struct Plant {

@@ -147,12 +147,13 @@ pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::devices::DeviceName;
 
     const SERVO: Loop = Loop { rate: 4_000.0, delay_periods: 1.0, velocity: VelocityMethod::LowPass, corner: 200.0 };
 
     #[test]
     fn a_soft_wall_stops_the_probe_where_the_push_is_balanced() {
-        let slice = Slice::WOODEN_HAPTICS_2016;
+        let slice = Slice::of(DeviceName::WoodenHaptics2016);
         let swing = collide(&slice, Wall { stiffness: 400.0, damping: 2.0 }, &SERVO, Collision::default());
         assert!(swing.has_decayed(), "{swing:?}");
         // 1 N on 400 N/m, give or take the dry friction and a count.
@@ -162,7 +163,7 @@ mod tests {
 
     #[test]
     fn a_wall_far_too_stiff_never_comes_to_rest() {
-        let slice = Slice::WOODEN_HAPTICS_2016;
+        let slice = Slice::of(DeviceName::WoodenHaptics2016);
         let swing = collide(&slice, Wall { stiffness: 50_000.0, damping: 0.0 }, &SERVO, Collision::default());
         assert!(swing.counts > 10.0, "{swing:?}");
     }
@@ -170,7 +171,7 @@ mod tests {
     #[test]
     fn without_friction_and_wall_damping_a_sampled_wall_gives_out_energy() {
         // Colgate and Schenkel: nothing but the device's own damping pays for sampling.
-        let slice = Slice { viscous: 0.0, coulomb: 0.0, ..Slice::WOODEN_HAPTICS_2016 };
+        let slice = Slice { viscous: 0.0, coulomb: 0.0, ..Slice::of(DeviceName::WoodenHaptics2016) };
         let swing = collide(&slice, Wall { stiffness: 400.0, damping: 0.0 }, &SERVO, Collision::default());
         assert!(!swing.has_decayed(), "{swing:?}");
     }

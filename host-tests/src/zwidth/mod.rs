@@ -12,4 +12,4 @@ mod sweep;
 pub use collide::{Collision, Loop, Swing, Wall, collide};
 pub use plot::plot;
 pub use slice::Slice;
-pub use sweep::{DAMPINGS, DELAYS, Limit, RATES, greatest_stiffness, sweep};
+pub use sweep::{DAMPINGS, DELAYS, Limit, RATES, greatest_stiffness, in_words, sweep};

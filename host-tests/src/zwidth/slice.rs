@@ -1,5 +1,8 @@
 //! A device along one direction: what a wall's push has to move.
 
+use crate::devices::DeviceName;
+use crate::plant::{Amplifier, JointSettings, dot, inverse, scaled, times};
+use palpate::device::drive::Feed;
 use palpate::render::bounds::DeviceFriction;
 
 /// One mass with friction, an encoder and a force source.
@@ -22,50 +25,43 @@ pub struct Slice {
 }
 
 impl Slice {
-    /// WoodenHaptics 2016 at the centre of its workspace, along the vertical: what the plant's mass matrix, friction
-    /// and encoders come to for a wall's push that nothing guides sideways, which is the lightest the probe can be. The
-    /// resolution is that of both links together.
-    pub const WOODEN_HAPTICS_2016: Self = Self {
-        name: "wooden-haptics-2016",
-        mass: 0.0624,
-        viscous: 0.018_51,
-        coulomb: 0.0757,
-        resolution: 57.6e-6,
-        greatest_force: 5.0,
-        time_constant: 1.5e-4,
-    };
+    /// A device at the middle of its workspace: along z, the vertical (the Falcon's axis); of two joints along y, away from
+    /// the pivots; of one along x.
+    ///
+    /// Mass, friction and encoders are the simulated device's for a push that nothing guides sideways, which is the lightest
+    /// the probe can be. The resolution is that of all joints together. On a bridge, back-EMF brakes as far as the preset
+    /// does not make up for it. Limits are the preset's.
+    ///
+    /// # Panics
+    /// If the device cannot be at the middle of its own workspace.
+    pub fn of(device: DeviceName) -> Self {
+        let settings = device.plant();
+        let mechanism = settings.mechanism(0.0);
+        let angles = mechanism.angles([0.0; 3]).expect("the middle of the workspace is within reach");
+        let along = mechanism.jacobian(angles)[mechanism.joints() - 1];
+        // An impulse along the direction, and what it does: joint rates, scaled to 1 m/s.
+        let free = times(&inverse(&mechanism.mass_matrix(angles)), along);
+        let mass = 1.0 / dot(along, free);
+        let rates = scaled(free, mass);
 
-    /// Hapkit, at the handle. Published: 16 µm, 8 N. Assumed: 50 g at the handle (sector, handle and a small motor's
-    /// rotor through 17:1), 0.1 N·s/m and 0.3 N of friction, a voltage drive with an electrical time constant of 0.2
-    /// ms.
-    pub const HAPKIT: Self = Self {
-        name: "hapkit",
-        mass: 0.050,
-        viscous: 0.1,
-        coulomb: 0.3,
-        resolution: 16e-6,
-        greatest_force: 8.0,
-        time_constant: 2e-4,
-    };
-
-    /// Novint Falcon. Published: friction 1.2 N along two axes, 38–65 µm, 8 N. Assumed: 0.2 kg, 1 N·s/m (20 N·s/m of
-    /// wall damping are in use on it), a drive of 0.2 ms.
-    pub const FALCON: Self = Self {
-        name: "falcon",
-        mass: 0.2,
-        viscous: 1.0,
-        coulomb: 1.2,
-        resolution: 50e-6,
-        greatest_force: 8.0,
-        time_constant: 2e-4,
-    };
-
-    /// Every slice.
-    pub const ALL: [Self; 3] = [Self::WOODEN_HAPTICS_2016, Self::HAPKIT, Self::FALCON];
-
-    /// The slice of a name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|slice| slice.name == name)
+        let mut slice = Self {
+            name: device.name(),
+            mass,
+            viscous: 0.0,
+            coulomb: 0.0,
+            resolution: 0.0,
+            greatest_force: f64::from(device.preset().limits().force),
+            time_constant: 0.0,
+        };
+        let joints = settings.joints.iter().zip(settings.encoders()).zip(device.preset().feeds());
+        for (index, ((joint, encoder), feed)) in joints.enumerate() {
+            let (constant, braking) = force_source(joint, feed, settings.current_time_constant);
+            slice.viscous += (joint.viscous_friction + braking) * rates[index] * rates[index];
+            slice.coulomb += joint.coulomb_friction * rates[index].abs();
+            slice.resolution += (along[index] / encoder.counts_per_radian).abs();
+            slice.time_constant = slice.time_constant.max(constant);
+        }
+        slice
     }
 
     /// What the library's bounds want to know.
@@ -78,55 +74,63 @@ impl Slice {
     }
 }
 
+/// The time constant of what feeds a joint, s, and how much of the motor's back-EMF is left to brake it, N·m·s.
+fn force_source(joint: &JointSettings, feed: &Feed, current_loop: f64) -> (f64, f64) {
+    match (joint.amplifier, feed) {
+        (Amplifier::Voltage(winding), Feed::Voltage(feed)) => {
+            let constant = joint.torque_constant * joint.ratio;
+            let left = 1.0 - f64::from(feed.back_emf_share);
+            (winding.inductance / winding.resistance, left * constant * constant / winding.resistance)
+        }
+        _ => (current_loop, 0.0),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::Mechanism as _;
-    use crate::plant::{PlantSettings, Vector};
-
-    /// Solves the 3 × 3 system by elimination.
-    fn solve(mut m: [[f64; 3]; 3], mut b: Vector) -> Vector {
-        for i in 0..3 {
-            let pivot = (i..3).max_by(|p, q| m[*p][i].abs().total_cmp(&m[*q][i].abs())).unwrap();
-            m.swap(i, pivot);
-            b.swap(i, pivot);
-            for row in 0..3 {
-                if row != i {
-                    let factor = m[row][i] / m[i][i];
-                    let pivot_row = m[i];
-                    m[row].iter_mut().zip(pivot_row).for_each(|(entry, above)| *entry -= factor * above);
-                    b[row] -= factor * b[i];
-                }
-            }
-        }
-        core::array::from_fn(|i| b[i] / m[i][i])
-    }
 
     #[test]
-    fn wooden_haptics_is_what_the_plant_comes_to() {
-        let settings = PlantSettings::wooden_haptics_2016();
-        let arm = settings.arm(0.0);
-        let angles = arm.angles([0.0; 3]).unwrap();
-        let jacobian = arm.jacobian(angles);
-        // What an impulse along z does when nothing guides the probe sideways: joint rates, scaled to 1 m/s along z.
-        let impulse = [0, 1, 2].map(|joint| jacobian[2][joint]);
-        let rates = solve(arm.mass_matrix(angles), impulse);
-        let speed: f64 = (0..3).map(|joint| jacobian[2][joint] * rates[joint]).sum();
-        let rates = rates.map(|rate| rate / speed);
-        let mass = 2.0 * arm.kinetic_energy(angles, rates);
-        let viscous: f64 = (0..3).map(|j| settings.joints[j].viscous_friction * rates[j] * rates[j]).sum();
-        let coulomb: f64 = (0..3).map(|j| settings.joints[j].coulomb_friction * rates[j].abs()).sum();
-        let resolution: f64 = (0..3).map(|j| (jacobian[2][j] / settings.encoders()[j].counts_per_radian).abs()).sum();
-        let slice = Slice::WOODEN_HAPTICS_2016;
+    fn wooden_haptics_is_what_was_worked_out_from_its_drawing() {
+        let slice = Slice::of(DeviceName::WoodenHaptics2016);
         for (found, stated) in [
-            (mass, slice.mass),
-            (viscous, slice.viscous),
-            (coulomb, slice.coulomb),
-            (resolution, slice.resolution),
-            (settings.current_time_constant, slice.time_constant),
+            (slice.mass, 0.0624),
+            (slice.viscous, 0.018_51),
+            (slice.coulomb, 0.0757),
+            (slice.resolution, 57.6e-6),
+            (slice.greatest_force, 5.0),
+            (slice.time_constant, 1.5e-4),
         ] {
             // Stated to about three digits.
             assert!((found / stated - 1.0).abs() < 0.005, "{found} {stated}");
+        }
+    }
+
+    #[test]
+    fn the_paddle_is_a_lever() {
+        let slice = Slice::of(DeviceName::Hapkit);
+        let (handle, ratio) = (0.065_659_f64, 0.073_152_f64 / 0.004_191);
+        let inertia = 1e-4 + 5e-7 * ratio * ratio;
+        // A fifth of the back-EMF is left to brake; L/R = 1 mH / 10 Ω.
+        let braking = 0.2 * (0.025 * ratio).powi(2) / 10.0;
+        for (found, expected) in [
+            (slice.mass, inertia / (handle * handle)),
+            (slice.viscous, (2e-4 + braking) / (handle * handle)),
+            (slice.coulomb, 2e-3 / handle),
+            (slice.resolution, handle * std::f64::consts::PI / 18.0 / 726.6),
+            (slice.time_constant, 1e-4),
+        ] {
+            // The preset's share is an f32.
+            assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn no_slice_lacks_mass_or_friction() {
+        for slice in DeviceName::ALL.map(Slice::of) {
+            assert!(slice.mass > 0.01 && slice.mass < 1.0, "{slice:?}");
+            assert!(slice.viscous > 0.0 && slice.coulomb > 0.0 && slice.time_constant > 0.0, "{slice:?}");
+            assert!(slice.resolution > 5e-6 && slice.resolution < 2e-4, "{slice:?}");
         }
     }
 }

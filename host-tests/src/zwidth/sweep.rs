@@ -12,6 +12,10 @@ pub const DELAYS: [f64; 3] = [0.5, 1.0, 2.0];
 pub const DAMPINGS: [f64; 11] = [0.0, 0.01, 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// The stiffness below which a wall is not worth the name, and the one above which nobody asks, N/m.
 const STIFFNESSES: [f64; 2] = [30.0, 1e6];
+/// Steady pushes into the wall, N; and the least, as a multiple of dry friction: a probe that friction alone holds away from
+/// the wall does not try it.
+const PUSHES: [f64; 2] = [0.3, 1.0];
+const PUSH_OVER_FRICTION: f64 = 1.5;
 /// Steps a decade from one stiffness to the next; then halvings between the last that held and the first that did not:
 /// 1.8 %.
 const STEPS_A_DECADE: f64 = 8.0;
@@ -32,10 +36,16 @@ pub struct Limit {
     pub passive: f64,
 }
 
+/// A limit, N/m, in words: with ≥ where the search ended while every wall still held.
+pub fn in_words(stiffness: f64) -> String {
+    let open = stiffness * 10_f64.powf(1.0 / STEPS_A_DECADE) > STIFFNESSES[1];
+    format!("{}{stiffness:.0}", if open { "≥ " } else { "" })
+}
+
 /// The greatest stiffness, N/m, below which every wall that was tried comes to rest.
 pub fn greatest_stiffness(slice: &Slice, damping: f64, servo: &Loop) -> f64 {
     let holds = |stiffness: f64| {
-        let pushes = [0.3, 1.0].map(|push| Collision { push });
+        let pushes = PUSHES.map(|push| Collision { push: push.max(slice.coulomb * PUSH_OVER_FRICTION) });
         pushes.into_iter().all(|push| collide(slice, Wall { stiffness, damping }, servo, push).has_decayed())
     };
     let ratio = 10_f64.powf(1.0 / STEPS_A_DECADE);
@@ -61,11 +71,11 @@ pub fn greatest_stiffness(slice: &Slice, damping: f64, servo: &Loop) -> f64 {
     below
 }
 
-/// The limits for every damping and delay at these rates, on all cores. `done` is called after each.
-pub fn sweep(slice: &Slice, rates: &[f64], like: Loop, done: impl Fn() + Sync) -> Vec<Limit> {
+/// The limits for every damping at these rates and delays (in periods), on all cores. `done` is called after each.
+pub fn sweep(slice: &Slice, rates: &[f64], delays: &[f64], like: Loop, done: impl Fn() + Sync) -> Vec<Limit> {
     let mut points = Vec::new();
     for rate in rates {
-        for delay_periods in DELAYS {
+        for &delay_periods in delays {
             for damping in DAMPINGS {
                 points.push((Loop { rate: *rate, delay_periods, ..like }, damping));
             }
@@ -105,6 +115,7 @@ pub fn sweep(slice: &Slice, rates: &[f64], like: Loop, done: impl Fn() + Sync) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::devices::DeviceName;
     use palpate::device::VelocityMethod;
 
     const LIKE: Loop = Loop { rate: 0.0, delay_periods: 0.0, velocity: VelocityMethod::LowPass, corner: 200.0 };
@@ -112,9 +123,9 @@ mod tests {
     #[test]
     fn the_simulated_limit_is_never_below_the_passive_bound() {
         // Devices with enough viscous friction that the bound means something, too.
-        let viscous = Slice { viscous: 2.0, coulomb: 0.5, ..Slice::WOODEN_HAPTICS_2016 };
+        let viscous = Slice { viscous: 2.0, coulomb: 0.5, ..Slice::of(DeviceName::WoodenHaptics2016) };
         let light = Slice { mass: 0.02, viscous: 0.5, coulomb: 0.2, resolution: 10e-6, ..viscous };
-        for slice in Slice::ALL.into_iter().chain([viscous, light]) {
+        for slice in DeviceName::ALL.map(Slice::of).into_iter().chain([viscous, light]) {
             for (rate, delay_periods) in [(1_000.0, 0.5), (1_000.0, 2.0), (2_000.0, 1.0), (4_000.0, 1.0)] {
                 for damping in [0.0, 0.01, 0.1, 0.5, 1.0] {
                     let servo = Loop { rate, delay_periods, ..LIKE };
@@ -129,11 +140,17 @@ mod tests {
     }
 
     #[test]
+    fn a_limit_that_was_not_found_says_so() {
+        // 30 N/m and eight steps a decade: 948,683 is the last below a million.
+        assert_eq!([5_530.0, 30.0 * 10_f64.powf(4.5)].map(in_words), ["5530", "≥ 948683"]);
+    }
+
+    #[test]
     fn eight_kilohertz_allow_a_stiffer_wall_than_one() {
         let greatest = |rate| {
             let servo = Loop { rate, delay_periods: 1.0, ..LIKE };
             DAMPINGS
-                .map(|damping| greatest_stiffness(&Slice::WOODEN_HAPTICS_2016, damping, &servo))
+                .map(|damping| greatest_stiffness(&Slice::of(DeviceName::WoodenHaptics2016), damping, &servo))
                 .into_iter()
                 .fold(0.0, f64::max)
         };

@@ -2,7 +2,7 @@
 
 use crate::path::{TICKS, sensors};
 use crate::running::{TRANSPORTS, firmware};
-use palpate::device::{Counts, SerialArm, presets::WOODEN_HAPTICS_2016};
+use palpate::device::Counts;
 use palpate::patch::SplinePatch;
 use palpate::servo::{Input, Servo};
 use palpate::track::Controller;
@@ -17,8 +17,8 @@ mod settings {
     include!("../../../boards/settings/default.rs");
 }
 
-static SERVO: Servo<'static, SplinePatch, SerialArm, 3> =
-    Servo::new(&WOODEN_HAPTICS_2016, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS);
+static SERVO: Servo<'static, SplinePatch, settings::Mechanism, 3> =
+    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS);
 
 #[test]
 fn device_and_host_agree_in_every_bit_of_every_tick() {

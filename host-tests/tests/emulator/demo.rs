@@ -7,7 +7,7 @@ use palpate_host::commands::demo::prepare;
 use palpate_host::commands::options::{Scene, SceneOptions};
 use palpate_host::firmware::{Link, Progress, Transport};
 use palpate_host::report::Summary;
-use palpate_host::simulation::{HostLoop, Trace, run};
+use palpate_host::simulation::{Trace, run};
 
 #[derive(Parser)]
 struct Demo {
@@ -21,22 +21,42 @@ fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
         .expect("no frame is lost")
 }
 
+/// The firmware's trace and the host's of a scene from the command line, the same in every bit of every tick.
+fn traces(arguments: &[&str]) -> [Trace; 2] {
+    let Demo { options } = Demo::parse_from(arguments);
+    let scene = options.scene().expect("the demo's scene");
+    let firmware = prepare(&scene, &Progress::new()).expect("the image builds");
+    let mut emulator = firmware.start(Transport::Fifo).expect("the emulator starts");
+    let device = trace(&options, &scene, &mut emulator);
+    let host = trace(&options, &scene, scene.host_loop().expect("good settings").as_mut());
+
+    assert_eq!(device.samples.len(), host.samples.len());
+    for (there, here) in device.samples.iter().zip(&host.samples) {
+        assert_eq!(there.sensors, here.sensors, "the plant saw other duties before tick {}", here.report.tick);
+        assert_eq!(there.report.digest, here.report.digest, "the states differ after tick {}", here.report.tick);
+    }
+    [device, host]
+}
+
+#[test]
+fn every_device_of_three_joints_touches_alike_on_host_and_board() {
+    if !is_wanted("the other devices on the emulated board") {
+        return;
+    }
+    // The hand needs two seconds for its touches.
+    for name in ["polhem-v2", "phantom-premium", "falcon"] {
+        let [board, _] = traces(&["demo", "--device", name, "--seconds", "2"]).map(|trace| Summary::new(&trace));
+        assert!(board.touches > 0 && board.fault.is_none() && board.steps_undone == 0, "{name}: {board}");
+        println!("{name}: {:?}", board.rows());
+    }
+}
+
 #[test]
 fn host_and_firmware_agree_in_every_bit_of_every_tick_of_the_demo() {
     if !is_wanted("the demo on the emulated board") {
         return;
     }
-    let Demo { options } = Demo::parse_from(["demo"]);
-    let scene = options.scene().expect("the demo's scene");
-    let firmware = prepare(&scene, &Progress::new()).expect("the image builds");
-    let mut emulator = firmware.start(Transport::Fifo).expect("the emulator starts");
-    let device = trace(&options, &scene, &mut emulator);
-    let host = trace(&options, &scene, &mut HostLoop::new(scene.servo().expect("good settings")));
-
-    for (there, here) in device.samples.iter().zip(&host.samples) {
-        assert_eq!(there.sensors, here.sensors, "the plant saw other duties before tick {}", here.report.tick);
-        assert_eq!(there.report.digest, here.report.digest, "the states differ after tick {}", here.report.tick);
-    }
+    let [device, host] = traces(&["demo"]);
     let [device, host] = [device, host].map(|trace| Summary::new(&trace));
     assert_eq!(device.state_hash, host.state_hash);
     // A demo that touches nothing would agree too.

@@ -6,6 +6,7 @@ use palpate::device::{Counts, Device, SerialArm, VelocityMethod};
 use palpate::math::Vec3;
 use palpate::servo::{Input, Servo, Settings};
 use palpate::track::Controller;
+use palpate_host::devices::DeviceName;
 use palpate_host::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use palpate_host::zwidth::{Loop, Slice, greatest_stiffness};
 
@@ -51,14 +52,14 @@ fn swing(stiffness: f32, damping: f32, rate: f64) -> f64 {
             highest = highest.max(plant.position()[2]);
         }
     }
-    (highest - lowest) / Slice::WOODEN_HAPTICS_2016.resolution
+    (highest - lowest) / Slice::of(DeviceName::WoodenHaptics2016).resolution
 }
 
 #[test]
 fn the_arm_holds_below_the_slice_s_limit_and_swings_above_it() {
     for (rate, damping) in [(1_000.0, 0.0), (1_000.0, 2.0), (4_000.0, 0.0), (4_000.0, 4.0)] {
         let servo = Loop { rate, delay_periods: 1.0, velocity: VelocityMethod::LowPass, corner: 200.0 };
-        let limit = greatest_stiffness(&Slice::WOODEN_HAPTICS_2016, damping, &servo);
+        let limit = greatest_stiffness(&Slice::of(DeviceName::WoodenHaptics2016), damping, &servo);
         let swings = [0.5, 0.7, 1.0, 1.4, 2.0, 3.0].map(|share| swing((limit * share) as f32, damping as f32, rate));
         println!(
             "{rate} Hz, {damping} N·s/m: the slice's limit {limit:.0} N/m; swings at 0.5 to 3 times it {swings:.1?} counts"

@@ -1,6 +1,7 @@
 //! Which velocity estimator: noise against delay on quantised motion, and what each does for the stiffest wall.
 
 use palpate::device::{VelocityEstimator, VelocityMethod};
+use palpate_host::devices::DeviceName;
 use palpate_host::zwidth::{Loop, Slice, greatest_stiffness};
 use std::f64::consts::TAU;
 
@@ -58,7 +59,7 @@ fn the_default_is_chosen_by_what_is_printed_here() {
     ] {
         let (slow, fast) = (measure(method, corner, 0.02), measure(method, corner, 0.3));
         let servo = Loop { rate: RATE, delay_periods: 1.0, velocity: method, corner };
-        let stiffest = greatest_stiffness(&Slice::WOODEN_HAPTICS_2016, 8.0, &servo);
+        let stiffest = greatest_stiffness(&Slice::of(DeviceName::WoodenHaptics2016), 8.0, &servo);
         let cell = |(delay, noise): (f64, f64)| format!("{:.2} ms, {noise:.1} mm/s", delay * 1e3);
         println!("{:<28}{:>22}{:>22}{:>10.0} N/m", format!("{method:?} {corner} Hz"), cell(slow), cell(fast), stiffest);
         rows.push((method, corner, slow, fast, stiffest));
