@@ -10,7 +10,7 @@
 //! |---|---|---|
 //! | sensor frame lost, late or damaged | [`Input::Lost`], [`Input::Damaged`] | `FrameLost`, `FrameDamaged` |
 //! | encoder absent, glitching | range and greatest joint rate of the [`crate::device::Device`] | `JointOutOfRange`, `JointJumped` |
-//! | encoder stuck | [`StuckLimits`] | `JointStuck` |
+//! | encoder stuck | [`Safety::stuck`], where chosen | `JointStuck` |
 //! | a number that is none | the gate before the motors | `NotFinite` |
 //! | tick overrun | [`Deadline`], [`Event::Overrun`] | `Overrun` |
 //! | host link lost | [`Safety::link_timeout`], [`Event::LinkAlive`] | `LinkLost` |

@@ -15,8 +15,9 @@ pub enum SafeOutput {
 /// When a joint sensor counts as stuck: its joint carries a load and its count stays the same, while another joint
 /// moves.
 ///
-/// A hand cannot hold a joint to a single count against a force while it moves the others. A device with one joint has
-/// no others: there this finds nothing.
+/// A hand cannot hold a joint to a single count against a force while it moves the others, but the joint's own dry friction
+/// can, and a parallel mechanism has motions that leave a joint where it is. So it is off unless chosen, for a device on which
+/// it has been tried. A device with one joint has no others: there this finds nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StuckLimits {
     /// The least share of full duty that is a load, 0 to 1.
@@ -60,14 +61,14 @@ pub enum SafetyError {
 }
 
 impl Safety {
-    /// Zero output, no overrun allowed, no host, 0.2 rad of travel under a tenth of full duty, no table check.
+    /// Zero output, no overrun allowed, no host, no watch for stuck sensors, no table check.
     pub const DEFAULT: Self = Self {
         output: SafeOutput::Zero,
         overruns_allowed: 0,
         link_timeout: f32::INFINITY,
         settle_ticks: 1,
         wait_for_homing: false,
-        stuck: Some(StuckLimits { load: 0.1, travel: 0.2 }),
+        stuck: None,
         table_crc: None,
     };
 

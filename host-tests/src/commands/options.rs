@@ -5,7 +5,7 @@ use crate::bake::{BakedPatch, Model, NurbsPatch};
 use crate::devices::{DeviceName, Preset};
 use crate::firmware::Link;
 use crate::oracle::Surface;
-use crate::plant::{HandSettings, Plant, TouchingPath, TouchingSettings};
+use crate::plant::{HandSettings, PathError, Plant, TouchingPath, TouchingSettings};
 use crate::simulation::HostLoop;
 use anyhow::{Context, bail};
 use clap::Args;
@@ -142,17 +142,24 @@ impl SceneOptions {
             let normal = at.tangent_u.cross(at.tangent_v).normalize_or_zero() * turn;
             ((at.point + origin).to_array(), normal.to_array())
         };
-        // Most touches stay on the face; in the air the hand goes over the rim.
         // A short run sees the start of a path that a hand could follow.
         let duration = self.seconds.max(1.0);
-        let touching = TouchingSettings {
-            duration,
-            touches: (TOUCHES_A_SECOND * duration).round() as u32,
-            press_depth: [0.006, 0.014],
-            pressed_reach: 0.8,
-            ..TouchingSettings::default()
+        let most_touches = (TOUCHES_A_SECOND * duration).round() as u32;
+        let path_of = |touches| {
+            // Most touches stay on the face; in the air the hand goes over the rim.
+            let touching = TouchingSettings {
+                duration,
+                touches,
+                press_depth: [0.006, 0.014],
+                pressed_reach: 0.8,
+                ..TouchingSettings::default()
+            };
+            TouchingPath::new(&point_and_normal, touching, self.seed)
         };
-        let path = TouchingPath::new(point_and_normal, touching, self.seed).context("the hand finds no path")?;
+        // Where a surface or a seed asks for more speed than a hand has, it touches less often.
+        let is_too_fast = |path: &Result<_, PathError>| matches!(path, Err(PathError::TooFast { .. }));
+        let slower = (1..=most_touches).rev().map(path_of).find(|path| !is_too_fast(path));
+        let path = slower.unwrap_or_else(|| path_of(1)).context("the hand finds no path")?;
         Plant::new(&self.device.plant(), HandSettings::default(), Box::new(path), f64::from(self.rate))
             .context("the simulated device cannot start here (move the model with --at)")
     }

@@ -6,7 +6,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Device, Duty, Kinematics, ProbePose, SerialArm};
 use palpate::math::Vec3;
 use palpate::patch::{Patch, SecondDerivativeBounds, SplinePatch, SurfacePoint};
-use palpate::servo::{Event, Fault, Input, Phase, ResetReason, SafeOutput, Safety, Servo, ServoState};
+use palpate::servo::{Event, Fault, Input, Phase, ResetReason, SafeOutput, Safety, Servo, ServoState, StuckLimits};
 use palpate::track::Controller;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -85,6 +85,9 @@ fn decayed() -> Decayed {
     Decayed { wall: &WALL, bit: Cell::new(None) }
 }
 
+/// Fits this arm: its dry friction is below a hundredth of full duty.
+const STUCK: Option<StuckLimits> = Some(StuckLimits { load: 0.1, travel: 0.2 });
+
 fn safety(output: SafeOutput) -> Safety {
     Safety {
         output,
@@ -93,7 +96,7 @@ fn safety(output: SafeOutput) -> Safety {
         settle_ticks: 200,
         wait_for_homing: true,
         table_crc: Some(WALL.table_crc()),
-        ..Safety::DEFAULT
+        stuck: STUCK,
     }
 }
 
@@ -322,7 +325,8 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
 #[test]
 fn a_stuck_encoder_is_found_while_the_others_go_on() {
     // The turntable sweeps over the wall under load while the first link's encoder says the same again and again.
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::CERTIFIED, SETTINGS);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::CERTIFIED, SETTINGS)
+        .safety(Safety { stuck: STUCK, ..Safety::DEFAULT });
     let mut state = servo.start();
     let counts = |tick: i32| {
         // At (0.22, 0) over the foot, 3 mm below the wall, sweeping 0.5 rad a second; the second link's count lives on.

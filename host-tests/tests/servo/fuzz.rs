@@ -7,7 +7,7 @@ use palpate::device::{Counts, Device, Duty, Motor, SerialArm, VelocityMethod};
 use palpate::math::{Vec3, vec3};
 use palpate::patch::Patch;
 use palpate::render::{Coupling, Friction, Passivity, Texture, grating};
-use palpate::servo::{Event, Input, Phase, Rendering, ResetReason, SafeOutput, Safety, Servo, Settings};
+use palpate::servo::{Event, Input, Phase, Rendering, ResetReason, SafeOutput, Safety, Servo, Settings, StuckLimits};
 use palpate::track::Controller;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -62,7 +62,8 @@ fn fuzz<P: Patch>(
     // The wall lies where counts of zero put the probe, so that a walk about zero touches it: height 285 mm less 80 mm,
     // reach 245 mm less 220.
     let settings = Settings { body_origin: vec3(0.025, 0.0, 0.205), ..SETTINGS };
-    let safety = Safety { output, ..Safety::DEFAULT };
+    let stuck = Some(StuckLimits { load: 0.1, travel: 0.2 });
+    let safety = Safety { output, stuck, ..Safety::DEFAULT };
     let servo = Servo::try_new(device, patch, Controller::CERTIFIED, settings).unwrap();
     let servo = servo.try_rendering(rendering).unwrap().try_safety(safety).unwrap();
     let mut random = Pcg64::seed_from_u64(seed);
