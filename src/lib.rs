@@ -1,6 +1,7 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
+pub mod body;
 pub mod device;
 pub mod math;
 pub mod patch;

@@ -9,6 +9,7 @@ mod shape;
 mod spline;
 
 pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
+pub(crate) use spline::breaks_are_valid;
 pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError, span_centre};
 
 use crate::math::Vec3;

@@ -292,7 +292,7 @@ fn divide_by_weight(d: &Derivatives<4>) -> SurfacePoint {
     SurfacePoint { point, tangent_u: (a_u - point * w_u) * inverse, tangent_v: (a_v - point * w_v) * inverse }
 }
 
-const fn breaks_are_valid(breaks: &[f32]) -> bool {
+pub(crate) const fn breaks_are_valid(breaks: &[f32]) -> bool {
     if breaks.len() < 2 || breaks.len() > MAX_SPANS + 1 || breaks[0] != 0.0 || breaks[breaks.len() - 1] != 1.0 {
         return false;
     }

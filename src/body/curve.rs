@@ -1,0 +1,103 @@
+//! Border curves: polynomial spans in one parameter, kept like those of a patch.
+
+use crate::math::{Vec3, vec3};
+use crate::patch::{Coefficients, MAX_SPANS, span_centre};
+
+/// The highest degree of a curve: the cross derivative of a rational patch of degree 5 has twice its degree.
+pub const MAX_CURVE_DEGREE: usize = 10;
+
+/// A point of a curve with its tangent: one evaluation.
+///
+/// # Units
+/// Metres; the tangent in metres per unit of parameter, *not* normalised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// `c(t)`.
+    pub point: Vec3,
+    /// `c' = dc/dt`.
+    pub tangent: Vec3,
+}
+
+/// A piecewise polynomial or rational curve over `[0, 1]`, as a table in flash.
+///
+/// # Shapes
+/// `breaks` are the span borders, rising from 0 to 1. Span `i` has `degree + 1` coefficients, entry `k` the power `k` of the
+/// distance from the span's centre.
+#[derive(Clone, Copy, Debug)]
+pub struct SplineCurve {
+    /// 1 to [`MAX_CURVE_DEGREE`]; 0 is a constant.
+    pub degree: u8,
+    /// Span borders.
+    pub breaks: &'static [f32],
+    /// Coefficients of all spans.
+    pub coefficients: Coefficients,
+    /// `sup ‖c''‖`, metres per unit of parameter squared, rounding included; what the certified step along the curve needs.
+    pub second_derivative: f32,
+}
+
+impl SplineCurve {
+    /// Whether borders and coefficients fit together and are finite.
+    pub(super) const fn is_valid(&self) -> bool {
+        let count = match self.coefficients {
+            Coefficients::Polynomial(entries) => entries.len(),
+            Coefficients::Rational(entries) => entries.len(),
+        };
+        let spans = self.breaks.len().wrapping_sub(1);
+        if spans == 0 || spans > MAX_SPANS || self.degree as usize > MAX_CURVE_DEGREE {
+            return false;
+        }
+        let bounded = self.second_derivative >= 0.0 && self.second_derivative < f32::INFINITY;
+        bounded && count == spans * (self.degree as usize + 1) && crate::patch::breaks_are_valid(self.breaks)
+    }
+
+    /// The point and the tangent at `t`. Parameters outside `[0, 1]` extrapolate the nearest span; the tracker never asks
+    /// for them.
+    #[inline]
+    pub fn evaluate(&self, t: f32) -> CurvePoint {
+        let (span, s) = locate(self.breaks, t);
+        match self.coefficients {
+            Coefficients::Polynomial(entries) => {
+                let (value, along) = self.span(entries, span, s);
+                CurvePoint { point: Vec3::from_array(value), tangent: Vec3::from_array(along) }
+            }
+            Coefficients::Rational(entries) => {
+                let ([x, y, z, w], [x_t, y_t, z_t, w_t]) = self.span(entries, span, s);
+                let inverse = 1.0 / w;
+                let point = vec3(x, y, z) * inverse;
+                CurvePoint { point, tangent: (vec3(x_t, y_t, z_t) - point * w_t) * inverse }
+            }
+        }
+    }
+
+    /// Value and derivative on one span.
+    #[inline]
+    fn span<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32) -> ([f32; D], [f32; D]) {
+        let order = self.degree as usize + 1;
+        // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the tick.
+        let powers = entries.get(span * order..(span + 1) * order).unwrap_or(&[]);
+        let (mut value, mut along) = ([0.0; D], [0.0; D]);
+        for coefficient in powers.iter().rev() {
+            for component in 0..D {
+                along[component] = along[component] * s + value[component];
+                value[component] = value[component] * s + coefficient[component];
+            }
+        }
+        (value, along)
+    }
+}
+
+/// The span that holds `parameter`, and the distance from its centre. Bisection, at most log₂ of [`MAX_SPANS`] rounds.
+#[inline]
+fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
+    let (mut low, mut high) = (0, breaks.len().saturating_sub(1));
+    while high - low > 1 {
+        let middle = (low + high) / 2;
+        if breaks.get(middle).is_some_and(|border| parameter >= *border) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let (Some(left), Some(right)) = (breaks.get(low), breaks.get(high)) else { return (0, 0.0) };
+    (low, parameter - span_centre(*left, *right))
+}

@@ -1,0 +1,128 @@
+//! Faces, edges and vertices, and the surfaces that separate their Voronoi regions.
+
+use super::curve::SplineCurve;
+use crate::math::Vec3;
+use crate::patch::SplinePatch;
+
+/// A feature of a body: what owns the closest point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// The inside of a patch, by index.
+    Face(u16),
+    /// The inside of a border curve.
+    Edge(u16),
+    /// A point where edges meet, or a pole.
+    Vertex(u16),
+}
+
+/// A patch with its four sides.
+#[derive(Clone, Copy, Debug)]
+pub struct Face {
+    /// The surface.
+    pub patch: SplinePatch,
+    /// The borders `u = 0`, `u = 1`, `v = 0`, `v = 1`, in this order.
+    pub sides: [Side; 4],
+}
+
+/// What lies along one border of a face.
+#[derive(Clone, Copy, Debug)]
+pub enum Side {
+    /// An edge.
+    Edge {
+        /// Its index.
+        edge: u16,
+        /// Whether the edge runs against the face's own parameter along this border.
+        reversed: bool,
+        /// Where the face's Voronoi region ends.
+        separator: Separator,
+    },
+    /// The border is one point.
+    Pole {
+        /// The vertex.
+        vertex: u16,
+    },
+}
+
+/// The surface that separates a face's Voronoi region from what lies beyond one of its edges: the ruled surface
+/// `c(t) + s N(t)` of edge curve and face normal (theory §9).
+///
+/// With `m` the face's outward conormal (in its tangent plane, normal to the edge), a probe `Q` has left the face iff
+/// `(Q − c(t*)) · m(t*) > 0` at the parameter `t*` of the edge closest to `Q`.
+#[derive(Clone, Copy, Debug)]
+pub enum Separator {
+    /// A plane: the edge is straight and the face's normal constant along it. Left iff `normal · Q > offset`.
+    Plane {
+        /// Unit vector out of the face's region.
+        normal: Vec3,
+        /// Metres.
+        offset: f32,
+    },
+    /// The face's derivative across the border, out of the face, in the edge's parameter: `±f_u` or `±f_v` times any positive
+    /// function. The conormal is its part normal to the edge. Exact: a polynomial of the patch's own numbers.
+    Ruled(SplineCurve),
+}
+
+/// How the faces of an edge stand to each other, seen from outside the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum EdgeKind {
+    /// A ridge all along: only probes outside are closest to it.
+    Convex = 0,
+    /// The normals agree all along: no probe has it for its own, the faces hand over directly.
+    Smooth = 1,
+    /// A valley all along: only probes inside are held by it.
+    Reflex = 2,
+    /// It changes along the way.
+    Mixed = 3,
+    /// The border of an open body: one face only.
+    Open = 4,
+}
+
+/// A border curve.
+#[derive(Clone, Copy, Debug)]
+pub struct Edge {
+    /// The curve, never one point.
+    pub curve: SplineCurve,
+    /// The faces on it: two (of which both may be the same face), or one and [`EdgeFace::NONE`] for an open border.
+    pub faces: [EdgeFace; 2],
+    /// The vertices at `t = 0` and `t = 1`.
+    pub ends: [u16; 2],
+    /// How the faces meet.
+    pub kind: EdgeKind,
+}
+
+/// One face of an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EdgeFace {
+    /// Index of the face.
+    pub face: u16,
+    /// Which of its sides the edge is.
+    pub side: u8,
+}
+
+impl EdgeFace {
+    /// No face: beyond an open border.
+    pub const NONE: Self = Self { face: u16::MAX, side: 0 };
+}
+
+/// A point where edges meet.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertex {
+    /// Where, metres.
+    pub point: Vec3,
+    /// Its spokes: `first_spoke .. first_spoke + spokes` of the body's list.
+    pub first_spoke: u16,
+    /// How many edges end here.
+    pub spokes: u16,
+}
+
+/// One end of an edge, seen from its vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Spoke {
+    /// Unit tangent of the edge, away from the vertex.
+    pub direction: Vec3,
+    /// The edge.
+    pub edge: u16,
+    /// Whether it is the end `t = 1`.
+    pub at_upper_end: bool,
+}

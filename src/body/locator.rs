@@ -1,0 +1,109 @@
+//! The locator: an octree in flash that says which parts of which faces can own the closest point of a probe.
+//!
+//! A leaf is a list of candidates, each a rectangle of the parameters of one face. The host proves, where it can, that the closest
+//! point of every probe of the cell lies in one of them, and that the distance has one minimum in each.
+
+use crate::math::Vec3;
+
+/// Depth of the octree at most.
+pub const MAX_DEPTH: usize = 10;
+/// Rectangles of candidates have their corners on a grid of this many intervals.
+pub const GRID: u32 = 31;
+/// Faces a body may have: what an entry's ten bits can name.
+pub const MAX_FACES: usize = 1 << 10;
+/// The flag of a leaf among the children of a node.
+pub const LEAF: u16 = 0x8000;
+
+/// The octree.
+#[derive(Clone, Copy, Debug)]
+pub struct Locator {
+    /// The lower corner of the root cube, metres, in the body's frame.
+    pub corner: Vec3,
+    /// The root cube's side, metres.
+    pub side: f32,
+    /// Inner nodes, the first is the root; child `x + 2 y + 4 z` (1 for the upper half) is the index of a node, or
+    /// [`LEAF`] and the index of the first entry of its list.
+    pub nodes: &'static [[u16; 8]],
+    /// The lists of candidates, see [`Candidate::pack`].
+    pub entries: &'static [u32],
+}
+
+/// A part of a face that can own the closest point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Candidate {
+    /// Index of the face.
+    pub face: u16,
+    /// The least `u` and `v`, in grid steps of 1/[`GRID`].
+    pub lower: [u8; 2],
+    /// The greatest.
+    pub upper: [u8; 2],
+    /// Whether half the squared distance is proved to be convex in `(u, v)` over the rectangle, for every probe of the cell: then it has
+    /// one minimum there, and every point of the rectangle gives a lower bound of it.
+    pub convex: bool,
+    /// Whether more candidates follow in the list.
+    pub more: bool,
+}
+
+impl Candidate {
+    /// As an entry: from the lowest bit 5 bits each of lower and upper `u`, lower and upper `v`, 10 of the face, convex, more.
+    pub const fn pack(&self) -> u32 {
+        let rectangle = self.lower[0] as u32
+            | (self.upper[0] as u32) << 5
+            | (self.lower[1] as u32) << 10
+            | (self.upper[1] as u32) << 15;
+        rectangle | (self.face as u32) << 20 | (self.convex as u32) << 30 | (self.more as u32) << 31
+    }
+
+    /// From an entry.
+    pub const fn unpack(entry: u32) -> Self {
+        Self {
+            face: ((entry >> 20) & (MAX_FACES as u32 - 1)) as u16,
+            lower: [(entry & GRID) as u8, ((entry >> 10) & GRID) as u8],
+            upper: [((entry >> 5) & GRID) as u8, ((entry >> 15) & GRID) as u8],
+            convex: (entry >> 30) & 1 == 1,
+            more: (entry >> 31) & 1 == 1,
+        }
+    }
+
+    /// The rectangle's corners as parameters; grid step 31 is exactly 1.
+    pub fn rectangle(&self) -> [[f32; 2]; 2] {
+        let parameters = |corner: [u8; 2]| corner.map(|step| f32::from(step) / GRID as f32);
+        [parameters(self.lower), parameters(self.upper)]
+    }
+}
+
+impl Locator {
+    /// The index of the first entry for a probe; one outside the root cube gets the list of the nearest cell, which is then not
+    /// proved to be complete. At most [`MAX_DEPTH`] rounds.
+    #[inline]
+    pub fn list(&self, probe: Vec3) -> usize {
+        let mut centre = self.corner + Vec3::splat(0.5 * self.side);
+        let mut quarter = 0.25 * self.side;
+        let mut node = 0;
+        for _ in 0..MAX_DEPTH {
+            let upper = [probe.x >= centre.x, probe.y >= centre.y, probe.z >= centre.z];
+            let child = usize::from(upper[0]) | usize::from(upper[1]) << 1 | usize::from(upper[2]) << 2;
+            let Some(code) = self.nodes.get(node).and_then(|children| children.get(child)) else { return 0 };
+            if code & LEAF != 0 {
+                return usize::from(code & !LEAF);
+            }
+            node = usize::from(*code);
+            centre += Vec3::from_array(upper.map(|upper| if upper { quarter } else { -quarter }));
+            quarter *= 0.5;
+        }
+        0
+    }
+
+    /// Whether the root cube holds the probe.
+    #[inline]
+    pub fn holds(&self, probe: Vec3) -> bool {
+        let within = |x: f32, low: f32| x >= low && x - low <= self.side;
+        within(probe.x, self.corner.x) && within(probe.y, self.corner.y) && within(probe.z, self.corner.z)
+    }
+
+    /// The candidate at an index of the entries; `None` past their end.
+    #[inline]
+    pub fn candidate(&self, index: usize) -> Option<Candidate> {
+        self.entries.get(index).map(|entry| Candidate::unpack(*entry))
+    }
+}

@@ -1,0 +1,15 @@
+//! The top level: bodies of several patches.
+//!
+//! *Features* are faces (patches), edges (border curves) and vertices. The space around a body falls into their Voronoi regions: a
+//! feature's region is where it owns the closest point. Membership depends on the probe alone (theory §9). [`Body`] holds the tables
+//! that the host has baked; [`Locator`] gives a global start in bounded time (theory §10).
+
+mod curve;
+mod feature;
+mod locator;
+mod table;
+
+pub use curve::{CurvePoint, MAX_CURVE_DEGREE, SplineCurve};
+pub use feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Separator, Side, Spoke, Vertex};
+pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES};
+pub use table::{Body, BodyError};

@@ -1,0 +1,278 @@
+//! A body as tables in flash, checked when it is built.
+
+use super::feature::{Edge, EdgeFace, Face, Separator, Side, Spoke, Vertex};
+use super::locator::{Candidate, LEAF, Locator, MAX_FACES};
+use crate::math::Vec3;
+use thiserror::Error;
+
+/// A body of several patches: features, the surfaces that separate their Voronoi regions, and a locator.
+#[derive(Clone, Copy, Debug)]
+pub struct Body {
+    pub(super) faces: &'static [Face],
+    pub(super) edges: &'static [Edge],
+    pub(super) vertices: &'static [Vertex],
+    pub(super) spokes: &'static [Spoke],
+    pub(super) locator: Locator,
+    pub(super) size: f32,
+    pub(super) is_convex: bool,
+}
+
+/// Why a body's tables are refused. In a `static` it is a compile error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum BodyError {
+    /// There is no face, or more than [`MAX_FACES`].
+    #[error("a body has 1 to 1024 faces")]
+    Faces,
+    /// A side names an edge or a vertex that is not there, or its separator is not finite or of the wrong length.
+    #[error("side {side} of face {face} names no edge or vertex of the body, or its separator is malformed")]
+    Side {
+        /// The face.
+        face: u16,
+        /// Which side.
+        side: u8,
+    },
+    /// An edge's curve is malformed, or it names a face or vertex that is not there, or a face's side names it not back.
+    #[error("edge {edge} has a malformed curve or does not fit its faces and vertices")]
+    Edge {
+        /// The edge.
+        edge: u16,
+    },
+    /// A vertex is not finite, or its spokes are not there.
+    #[error("vertex {vertex} is not finite or names spokes that are not there")]
+    Vertex {
+        /// The vertex.
+        vertex: u16,
+    },
+    /// A spoke names no edge, or its direction is not finite.
+    #[error("spoke {spoke} names no edge of the body or is not finite")]
+    Spoke {
+        /// Its index.
+        spoke: u16,
+    },
+    /// The root cube is not finite, or there is no node.
+    #[error("the locator's cube must be finite and have a root")]
+    LocatorCube,
+    /// A node names a node before itself or past the end, or an entry past the end.
+    #[error("locator node {node} names a child that is not there")]
+    LocatorNode {
+        /// The node.
+        node: u16,
+    },
+    /// An entry names no face, its rectangle is empty, or a list runs past the end.
+    #[error("locator entry {entry} names no face, has no rectangle or no end")]
+    LocatorEntry {
+        /// The entry.
+        entry: u16,
+    },
+    /// The size is not positive and finite.
+    #[error("the size must be positive and finite")]
+    Size,
+}
+
+impl Body {
+    /// Checks the tables and takes them. `is_convex` says that no closest point but the global one exists for a probe outside
+    /// (theory §8); `size` is the largest side of the bounding box, metres.
+    ///
+    /// # Errors
+    /// The first thing wrong.
+    pub const fn try_new(
+        faces: &'static [Face],
+        edges: &'static [Edge],
+        vertices: &'static [Vertex],
+        spokes: &'static [Spoke],
+        locator: Locator,
+        size: f32,
+        is_convex: bool,
+    ) -> Result<Self, BodyError> {
+        if faces.is_empty() || faces.len() > MAX_FACES {
+            return Err(BodyError::Faces);
+        }
+        if !(size > 0.0 && size < f32::INFINITY) {
+            return Err(BodyError::Size);
+        }
+        let body = Self { faces, edges, vertices, spokes, locator, size, is_convex };
+        if let Err(error) = body.check_features() {
+            return Err(error);
+        }
+        match body.check_locator() {
+            Ok(()) => Ok(body),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// [`Self::try_new`] for a `static`: a bad table does not compile.
+    ///
+    /// # Panics
+    /// At compile time, naming the kind of table.
+    pub const fn from_tables(
+        faces: &'static [Face],
+        edges: &'static [Edge],
+        vertices: &'static [Vertex],
+        spokes: &'static [Spoke],
+        locator: Locator,
+        size: f32,
+        is_convex: bool,
+    ) -> Self {
+        match Self::try_new(faces, edges, vertices, spokes, locator, size, is_convex) {
+            Ok(body) => body,
+            Err(BodyError::Faces) => panic!("faces"),
+            Err(BodyError::Side { .. }) => panic!("side"),
+            Err(BodyError::Edge { .. }) => panic!("edge"),
+            Err(BodyError::Vertex { .. }) => panic!("vertex"),
+            Err(BodyError::Spoke { .. }) => panic!("spoke"),
+            Err(BodyError::LocatorCube) => panic!("locator: cube"),
+            Err(BodyError::LocatorNode { .. }) => panic!("locator: node"),
+            Err(BodyError::LocatorEntry { .. }) => panic!("locator: entry"),
+            Err(BodyError::Size) => panic!("size"),
+        }
+    }
+
+    /// The faces.
+    pub const fn faces(&self) -> &'static [Face] {
+        self.faces
+    }
+
+    /// The edges.
+    pub const fn edges(&self) -> &'static [Edge] {
+        self.edges
+    }
+
+    /// The vertices.
+    pub const fn vertices(&self) -> &'static [Vertex] {
+        self.vertices
+    }
+
+    /// The spokes of all vertices.
+    pub const fn spokes(&self) -> &'static [Spoke] {
+        self.spokes
+    }
+
+    /// The locator.
+    pub const fn locator(&self) -> &Locator {
+        &self.locator
+    }
+
+    /// The largest side of the bounding box, metres.
+    pub const fn size(&self) -> f32 {
+        self.size
+    }
+
+    /// Whether a probe outside has no nearest point but the closest one.
+    pub const fn is_convex(&self) -> bool {
+        self.is_convex
+    }
+
+    const fn check_features(&self) -> Result<(), BodyError> {
+        let mut face = 0;
+        while face < self.faces.len() {
+            let mut side = 0;
+            while side < 4 {
+                let fits = match &self.faces[face].sides[side] {
+                    Side::Pole { vertex } => (*vertex as usize) < self.vertices.len(),
+                    Side::Edge { edge, separator, .. } => {
+                        let known = (*edge as usize) < self.edges.len();
+                        known && self.names_back(*edge, face, side) && separator.is_valid()
+                    }
+                };
+                if !fits {
+                    return Err(BodyError::Side { face: face as u16, side: side as u8 });
+                }
+                side += 1;
+            }
+            face += 1;
+        }
+        let mut index = 0;
+        while index < self.edges.len() {
+            let edge = &self.edges[index];
+            let ends = (edge.ends[0] as usize) < self.vertices.len() && (edge.ends[1] as usize) < self.vertices.len();
+            let faces =
+                self.is_side(edge.faces[0], index) && (is_none(edge.faces[1]) || self.is_side(edge.faces[1], index));
+            if !(edge.curve.is_valid() && ends && faces) {
+                return Err(BodyError::Edge { edge: index as u16 });
+            }
+            index += 1;
+        }
+        let mut index = 0;
+        while index < self.vertices.len() {
+            let Vertex { point, first_spoke, spokes } = self.vertices[index];
+            if !(is_finite(point) && first_spoke as usize + spokes as usize <= self.spokes.len()) {
+                return Err(BodyError::Vertex { vertex: index as u16 });
+            }
+            index += 1;
+        }
+        let mut index = 0;
+        while index < self.spokes.len() {
+            let spoke = &self.spokes[index];
+            if !(is_finite(spoke.direction) && (spoke.edge as usize) < self.edges.len()) {
+                return Err(BodyError::Spoke { spoke: index as u16 });
+            }
+            index += 1;
+        }
+        Ok(())
+    }
+
+    /// Whether an edge names a side of a face.
+    const fn names_back(&self, edge: u16, face: usize, side: usize) -> bool {
+        let [first, second] = self.edges[edge as usize].faces;
+        (first.face as usize == face && first.side as usize == side)
+            || (second.face as usize == face && second.side as usize == side)
+    }
+
+    /// Whether what an edge names is a side that names the edge.
+    const fn is_side(&self, of: EdgeFace, index: usize) -> bool {
+        if of.face as usize >= self.faces.len() || of.side >= 4 {
+            return false;
+        }
+        matches!(self.faces[of.face as usize].sides[of.side as usize], Side::Edge { edge, .. } if edge as usize == index)
+    }
+
+    const fn check_locator(&self) -> Result<(), BodyError> {
+        let Locator { corner, side, nodes, entries } = self.locator;
+        if !(is_finite(corner) && side > 0.0 && side < f32::INFINITY) || nodes.is_empty() || entries.is_empty() {
+            return Err(BodyError::LocatorCube);
+        }
+        let mut node = 0;
+        while node < nodes.len() {
+            let mut child = 0;
+            while child < 8 {
+                let code = nodes[node][child];
+                let target = (code & !LEAF) as usize;
+                // Children come after their parents, so that a descent ends.
+                let fits =
+                    if code & LEAF != 0 { target < entries.len() } else { target > node && target < nodes.len() };
+                if !fits {
+                    return Err(BodyError::LocatorNode { node: node as u16 });
+                }
+                child += 1;
+            }
+            node += 1;
+        }
+        let mut index = 0;
+        while index < entries.len() {
+            let Candidate { face, lower, upper, more, .. } = Candidate::unpack(entries[index]);
+            let rectangle = lower[0] <= upper[0] && lower[1] <= upper[1];
+            if !(rectangle && (face as usize) < self.faces.len() && (!more || index + 1 < entries.len())) {
+                return Err(BodyError::LocatorEntry { entry: index as u16 });
+            }
+            index += 1;
+        }
+        Ok(())
+    }
+}
+
+impl Separator {
+    const fn is_valid(&self) -> bool {
+        match self {
+            Self::Plane { normal, offset } => is_finite(*normal) && offset.is_finite(),
+            Self::Ruled(curve) => curve.is_valid(),
+        }
+    }
+}
+
+const fn is_none(of: EdgeFace) -> bool {
+    of.face == EdgeFace::NONE.face
+}
+
+const fn is_finite(vector: Vec3) -> bool {
+    vector.x.is_finite() && vector.y.is_finite() && vector.z.is_finite()
+}
