@@ -4,10 +4,12 @@
 //! 1 to 5, kept as polynomial spans so that the target evaluates by Horner's rule and never by de Boor's recursion.
 //! A new kind of surface (a cylinder, a torus) is a new file here that implements [`Patch`].
 
+mod curved;
 mod horner;
 mod shape;
 mod spline;
 
+pub use curved::CurvedPoint;
 pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
 pub(crate) use spline::breaks_are_valid;
 pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError, span_centre};

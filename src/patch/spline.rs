@@ -66,10 +66,10 @@ pub enum TableError {
 /// `breaks_u` and `breaks_v` are the span borders, from 0 to 1; see [`Coefficients`] for the rest.
 #[derive(Clone, Copy, Debug)]
 pub struct SplinePatch {
-    degree: [u8; 2],
-    breaks_u: &'static [f32],
-    breaks_v: &'static [f32],
-    coefficients: Coefficients,
+    pub(super) degree: [u8; 2],
+    pub(super) breaks_u: &'static [f32],
+    pub(super) breaks_v: &'static [f32],
+    pub(super) coefficients: Coefficients,
     shape: ShapeBounds,
     orientation: Orientation,
     size: f32,
@@ -261,7 +261,7 @@ impl SplinePatch {
 
 /// The span that holds `parameter`, and the distance from the span's centre.
 #[inline]
-fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
+pub(super) fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
     // Bisection; at most log2(MAX_SPANS) rounds. On a border the upper span is taken, at 1 the last.
     let mut low = 0;
     let mut high = breaks.len() - 1;
