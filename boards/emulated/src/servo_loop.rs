@@ -6,6 +6,7 @@ use palpate::servo::{Input, ServoState};
 use palpate::wire::frame::{self, MAX_FRAME, Received};
 use palpate::wire::{Report, Sensors};
 
+use crate::board::Board;
 use crate::body::SERVO;
 use crate::link::Link;
 use crate::timer::InstructionCounter;
@@ -27,8 +28,8 @@ pub struct ServoLoop<L> {
 
 impl<L: Link> ServoLoop<L> {
     /// A loop before its first tick.
-    pub fn new(link: L, systick: SYST) -> Self {
-        Self { link, state: SERVO.start(), counter: InstructionCounter::new(systick), silent_ticks: 0 }
+    pub fn new(board: &Board, link: L, systick: SYST) -> Self {
+        Self { link, state: SERVO.start(), counter: InstructionCounter::new(board, systick), silent_ticks: 0 }
     }
 
     /// One tick.
