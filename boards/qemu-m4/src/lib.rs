@@ -13,6 +13,7 @@ pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;
 mod panic;
+pub mod reset;
 pub mod servo_loop;
 pub mod timer;
 pub mod vectors;

@@ -8,6 +8,9 @@ use crate::vectors::Interrupt;
 /// The clock of the core, of its timers and of SysTick, Hz.
 pub const CLOCK: u32 = 25_000_000;
 
+/// Instructions in a second of the emulator's time under `-icount shift=6`: 64 ns each. On a real core, cycles: the clock.
+pub const INSTRUCTIONS_A_SECOND: f32 = 15_625_000.0;
+
 /// The registers of an APB timer (Arm CMSDK technical reference, "APB timer").
 #[repr(C)]
 struct Registers {
