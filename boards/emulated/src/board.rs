@@ -1,5 +1,7 @@
 //! Where one emulated board differs from another.
 
+use crate::reset::ResetRegister;
+
 /// What a board's own crate says about it.
 #[derive(Clone, Copy, Debug)]
 pub struct Board {
@@ -11,4 +13,6 @@ pub struct Board {
     pub timer_interrupt: u16,
     /// Address of the first APB UART.
     pub uart: usize,
+    /// Why the chip was reset.
+    pub reset: ResetRegister,
 }

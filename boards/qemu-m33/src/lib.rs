@@ -6,10 +6,17 @@
 #![no_std]
 
 use palpate_emulated::board::Board;
+use palpate_emulated::reset::ResetRegister;
 use palpate_emulated::vectors::{self, INTERRUPTS, Vector};
 
 /// The board (application note AN505; the secure aliases of its peripherals).
-pub const BOARD: Board = Board { clock: 20_000_000, timer: 0x5000_0000, timer_interrupt: 3, uart: 0x5020_0000 };
+pub const BOARD: Board = Board {
+    clock: 20_000_000,
+    timer: 0x5000_0000,
+    timer_interrupt: 3,
+    uart: 0x5020_0000,
+    reset: ResetRegister::SSE_200,
+};
 
 /// Read by the core, from where the linker script of cortex-m-rt puts it.
 #[doc(hidden)]

@@ -6,10 +6,17 @@
 #![no_std]
 
 use palpate_emulated::board::Board;
+use palpate_emulated::reset::ResetRegister;
 use palpate_emulated::vectors::{self, INTERRUPTS, Vector};
 
 /// The board (application note AN500).
-pub const BOARD: Board = Board { clock: 25_000_000, timer: 0x4000_0000, timer_interrupt: 8, uart: 0x4000_4000 };
+pub const BOARD: Board = Board {
+    clock: 25_000_000,
+    timer: 0x4000_0000,
+    timer_interrupt: 8,
+    uart: 0x4000_4000,
+    reset: ResetRegister::DESIGN_KIT,
+};
 
 /// Read by the core, from where the linker script of cortex-m-rt puts it.
 #[doc(hidden)]

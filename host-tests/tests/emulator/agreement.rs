@@ -4,7 +4,7 @@ use crate::path::{TICKS, sensors};
 use crate::running::{TRANSPORTS, firmware_of};
 use palpate::device::Counts;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Input, Servo};
+use palpate::servo::{Event, Input, Servo};
 use palpate::track::Controller;
 use palpate::wire::Report;
 use palpate_host::firmware::{Board, Link};
@@ -18,7 +18,8 @@ mod settings {
 }
 
 static SERVO: Servo<'static, SplinePatch, settings::Mechanism, 3> =
-    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS);
+    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS)
+        .safety(settings::SAFETY);
 
 #[test]
 fn every_board_and_the_host_agree_in_every_bit_of_every_tick() {
@@ -38,6 +39,7 @@ fn agrees(board: Board) {
         for tick in 0..TICKS {
             let sensors = sensors(tick);
             let report = emulator.exchange(&sensors).unwrap();
+            SERVO.note(&mut state, Event::LinkAlive);
             SERVO.tick(&mut state, Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable });
             assert_eq!(report, Report::new(&state, report.instructions), "{board:?}, {transport:?}");
             pushed += u32::from(report.duties != [0; 3]);
