@@ -9,6 +9,7 @@
 #![no_std]
 
 pub mod body;
+pub mod budget;
 pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;

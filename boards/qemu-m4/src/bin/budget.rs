@@ -1,0 +1,17 @@
+//! Counts the instructions of the hot path and prints them on the host's console, then ends the emulator.
+
+#![no_std]
+#![no_main]
+
+use cortex_m::peripheral::Peripherals;
+use cortex_m_rt::entry;
+use palpate_qemu_m4::budget;
+use palpate_qemu_m4::timer::InstructionCounter;
+
+#[entry]
+fn main() -> ! {
+    if let Some(core) = Peripherals::take() {
+        budget::run(&mut InstructionCounter::new(core.SYST));
+    }
+    semihosting::process::exit(0)
+}
