@@ -15,6 +15,7 @@ mod settings {
 }
 
 pub use settings::{SAFETY, SETTINGS};
+pub use tables::PATCHES as BODY;
 
 /// Everything the servo knows, in flash.
 pub static SERVO: Servo<'static, SplinePatch, settings::Mechanism, 3> =

@@ -10,6 +10,7 @@
 
 pub mod board;
 pub mod body;
+pub mod budget;
 pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;
