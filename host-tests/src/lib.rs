@@ -2,8 +2,8 @@
 //! prints the figures. The binary `palpate` is a thin front on this library; the tests use it directly.
 
 pub mod bake;
-pub mod bodies;
 pub mod baselines;
+pub mod bodies;
 pub mod closest;
 pub mod commands;
 pub mod devices;

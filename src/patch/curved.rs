@@ -1,7 +1,7 @@
 //! A point with both tangents and all second derivatives: what a cold start needs, and the tick does not.
 
 use super::SurfacePoint;
-use super::spline::{Coefficients, SplinePatch, locate};
+use super::spline::{Coefficients, SplinePatch};
 use crate::math::{Vec3, vec3};
 
 /// A point of a patch with its derivatives up to the second: one evaluation, at about twice the cost of the first derivatives alone.
@@ -33,10 +33,8 @@ struct Taylor<const D: usize> {
 impl SplinePatch {
     /// The point and its derivatives up to the second at `(u, v)`, by Horner's rule on the span that holds it.
     pub fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
-        let (span_u, s) = locate(self.breaks_u, u);
-        let (span_v, t) = locate(self.breaks_v, v);
-        let span = span_u * (self.breaks_v.len() - 1) + span_v;
-        match self.coefficients {
+        let (span, [s, t]) = self.locate(u, v);
+        match self.spans.coefficients() {
             Coefficients::Polynomial(entries) => {
                 let d = self.taylor(entries, span, s, t);
                 let [tangent_u, tangent_v] = d.along.map(Vec3::from_array);

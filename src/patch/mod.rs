@@ -7,6 +7,7 @@
 mod curved;
 mod horner;
 mod shape;
+mod spans;
 mod spline;
 
 pub use curved::CurvedPoint;
@@ -28,6 +29,11 @@ pub struct SurfacePoint {
     pub tangent_u: Vec3,
     /// `f_v = ∂f/∂v`.
     pub tangent_v: Vec3,
+}
+
+impl SurfacePoint {
+    /// Zero throughout: what a table without coefficients would give, if there were one.
+    const NOWHERE: Self = Self { point: Vec3::ZERO, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
 }
 
 /// A parametric surface patch over `[0, 1]²`.

@@ -18,6 +18,8 @@ impl Report {
             phase: state.phase as u8,
             fault,
             fault_tick,
+            reset: state.reset as u8,
+            overruns: state.overruns,
             mode: state.witness.witness().mode as u8,
             contact: state.contact as u8,
             parameters: state.witness.witness().parameters,

@@ -48,7 +48,8 @@ impl<'a> BodyOracle<'a> {
     /// The truth about a probe, metres.
     pub fn closest(&self, probe: DVec3) -> Truth {
         let feet: Vec<_> = self.oracles.iter().map(|oracle| oracle.closest(probe)).collect();
-        let nearest = (0..feet.len()).fold(0, |best, index| if feet[index].distance < feet[best].distance { index } else { best });
+        let nearest = (0..feet.len())
+            .fold(0, |best, index| if feet[index].distance < feet[best].distance { index } else { best });
         let height = |(patch, foot): (&NurbsPatch, &ClosestPoint)| {
             let [u, v] = foot.parameters;
             (probe - foot.point).dot(Surface::evaluate(patch, u, v).normal(patch.flip))

@@ -18,7 +18,11 @@ fn check(scene: &Scene, name: &str, what: &str, probes: impl Iterator<Item = Vec
         dearest = dearest.max(located.evaluations);
         total += u64::from(located.evaluations);
         incomplete += u32::from(!located.complete);
-        assert!(off < tolerance, "{name}: {probe} is off by {off:e} of the size: {located:?}, {:?}", truth.feet[truth.nearest]);
+        assert!(
+            off < tolerance,
+            "{name}: {probe} is off by {off:e} of the size: {located:?}, {:?}",
+            truth.feet[truth.nearest]
+        );
     }
     println!(
         "{name}, {what}: {count} probes, off by {worst:.1e} of the size at most, {dearest} evaluations at most, {:.1} in the mean, \
@@ -35,7 +39,8 @@ fn behind(scene: &Scene, count: u32) -> impl Iterator<Item = Vec3> {
     let mut random = Random::new(11);
     let size = f64::from(scene.body.size());
     let pick = move || {
-        let patch = &scene.patches[(random.between(0.0, scene.patches.len() as f64) as usize).min(scene.patches.len() - 1)];
+        let patch =
+            &scene.patches[(random.between(0.0, scene.patches.len() as f64) as usize).min(scene.patches.len() - 1)];
         let surface = Surface::evaluate(patch, random.between(0.0, 1.0), random.between(0.0, 1.0));
         let normal = surface.normal(patch.flip);
         let depth = 0.2 * size * random.between(0.0, 1.0);

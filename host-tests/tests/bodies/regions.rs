@@ -23,7 +23,12 @@ fn check(name: &str) {
             continue;
         }
         let expected = scene.owner(&truth, END);
-        assert_eq!(claims.features.len(), 1, "{name}: {probe} is claimed by {:?}, closest is {expected:?}", claims.features);
+        assert_eq!(
+            claims.features.len(),
+            1,
+            "{name}: {probe} is claimed by {:?}, closest is {expected:?}",
+            claims.features
+        );
         assert!(expected.contains(&claims.features[0]), "{name}: {probe}: {:?}, not {expected:?}", claims.features[0]);
         let kind = match claims.features[0] {
             Feature::Face(_) => "faces",

@@ -36,9 +36,11 @@ impl Scene {
         let mut random = Random::new(seed);
         let margin = 0.5 * (self.high - self.low).max_element();
         let (low, span) = (self.low - margin, self.high - self.low + 2.0 * margin);
-        std::iter::repeat_with(move || low + span * DVec3::from_array(std::array::from_fn(|_| random.between(0.0, 1.0))))
-            .map(|probe| probe.as_vec3())
-            .take(count as usize)
+        std::iter::repeat_with(move || {
+            low + span * DVec3::from_array(std::array::from_fn(|_| random.between(0.0, 1.0)))
+        })
+        .map(|probe| probe.as_vec3())
+        .take(count as usize)
     }
 
     /// Those of a closed convex body that are outside.

@@ -78,7 +78,9 @@ fn check(name: &str) {
     );
     // 64 units of the coordinates, as the tracker allows.
     assert!(worst_rise < 64.0 * f32::EPSILON * 2.0, "{name}: rise {worst_rise:e}");
-    assert!(visited.iter().any(|code| *code == Feature::Face(0).code()) && visited.len() > scene.body.faces().len() / 2);
+    assert!(
+        visited.iter().any(|code| *code == Feature::Face(0).code()) && visited.len() > scene.body.faces().len() / 2
+    );
 }
 
 #[test]
