@@ -43,6 +43,16 @@ pub fn prove(
     Some(SecondDerivativeBounds { uu: bound([0, 0])?, uv: bound([0, 1])?, vv: bound([1, 1])? })
 }
 
+/// The bound `sup ‖c''‖` of a curve, which is a surface that does not change along `v`; `None` as of [`prove`]. A polynomial curve may be of degree
+/// 10: two differences are then up to 4 · 10 · 9 times the coefficients, still within the `100 · 10` that [`ROUNDING`] reckons with.
+pub fn prove_curve(degree: usize, breaks: &[f32], coefficients: &BakedCoefficients) -> Option<f32> {
+    if degree == 0 {
+        return Some(0.0);
+    }
+    let breaks = [breaks.to_vec(), vec![0.0, 1.0]];
+    supremum([degree, 0], &breaks, coefficients, [0, 0]).and_then(round_up)
+}
+
 /// `N` and `w³` on one cell.
 struct Cell {
     field: Bernstein<4>,
@@ -110,7 +120,8 @@ fn supremum(
                 bound = bound.max(upper);
                 continue;
             }
-            let axis = cell.halvings % 2;
+            // A curve has nothing to halve along v.
+            let axis = if degree[1] == 0 { 0 } else { cell.halvings % 2 };
             let halves = cell.field.halves(axis);
             open.extend(halves.map(|field| Cell { field, rounding: cell.rounding, halvings: cell.halvings + 1 }));
         }

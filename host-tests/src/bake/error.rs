@@ -1,6 +1,7 @@
 //! What can be wrong with a model file, as the person who wrote it reads it.
 
 use super::patch::Axis;
+use super::topology::SeamFault;
 use palpate::patch::{MAX_DEGREE, MAX_SPANS};
 use thiserror::Error;
 
@@ -58,6 +59,14 @@ pub enum ModelError {
         patch: String,
         /// What is wrong.
         fault: Fault,
+    },
+    /// The patches do not make a body.
+    #[error("{file}: {fault}")]
+    Seam {
+        /// The file.
+        file: String,
+        /// What is wrong between its patches.
+        fault: SeamFault,
     },
 }
 

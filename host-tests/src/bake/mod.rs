@@ -6,6 +6,7 @@
 
 mod baked;
 mod bernstein;
+pub mod body;
 pub mod bounds;
 mod cell;
 mod error;
@@ -16,10 +17,14 @@ mod patch;
 pub mod shape;
 pub mod source;
 pub mod spline;
+pub mod split;
 pub mod survey;
+pub mod topology;
 mod tracked;
 
 pub use baked::{BakedCoefficients, BakedPatch};
+pub use bernstein::product_share as bernstein_product_share;
+pub use body::BakedBody;
 pub use error::{Fault, ModelError};
 pub use model::{Model, Unit};
 pub use patch::{Axis, NurbsPatch};
