@@ -19,34 +19,10 @@ struct Known {
 
 const KNOWN: &[Known] = &[
     // A cuboid: 12 sharp edges, those of the dome too.
-    Known {
-        file: "capped_box",
-        faces: 6,
-        edges: [12, 0, 0, 0, 0],
-        vertices: 8,
-        poles: 0,
-        pieces: 1,
-        is_convex: true,
-    },
-    Known {
-        file: "thin_plate",
-        faces: 6,
-        edges: [12, 0, 0, 0, 0],
-        vertices: 8,
-        poles: 0,
-        pieces: 1,
-        is_convex: true,
-    },
+    Known { file: "capped_box", faces: 6, edges: [12, 0, 0, 0, 0], vertices: 8, poles: 0, pieces: 1, is_convex: true },
+    Known { file: "thin_plate", faces: 6, edges: [12, 0, 0, 0, 0], vertices: 8, poles: 0, pieces: 1, is_convex: true },
     // A cube blown up: nothing is sharp.
-    Known {
-        file: "sphere_body",
-        faces: 6,
-        edges: [0, 12, 0, 0, 0],
-        vertices: 8,
-        poles: 0,
-        pieces: 1,
-        is_convex: true,
-    },
+    Known { file: "sphere_body", faces: 6, edges: [0, 12, 0, 0, 0], vertices: 8, poles: 0, pieces: 1, is_convex: true },
     Known {
         file: "ellipsoid_body",
         faces: 6,
@@ -83,8 +59,7 @@ fn bake(file: &str) -> Result<BakedBody, Box<dyn Error>> {
     Ok(BakedBody::new(&Model::read(&path)?, &format!("{file}.toml"))?)
 }
 
-const KINDS: [EdgeKind; 5] =
-    [EdgeKind::Convex, EdgeKind::Smooth, EdgeKind::Reflex, EdgeKind::Mixed, EdgeKind::Open];
+const KINDS: [EdgeKind; 5] = [EdgeKind::Convex, EdgeKind::Smooth, EdgeKind::Reflex, EdgeKind::Mixed, EdgeKind::Open];
 
 #[test]
 fn features_are_those_of_the_shape() -> Result<(), Box<dyn Error>> {
@@ -120,7 +95,13 @@ fn features_are_those_of_the_shape() -> Result<(), Box<dyn Error>> {
 fn teapot() -> Result<(), Box<dyn Error>> {
     let body = bake("teapot")?;
     let topology = &body.topology;
-    println!("{:?} v {} chi {} comps {}", KINDS.map(|kind| topology.count(kind)), body.vertices.len(), topology.euler_characteristic(), topology.components());
+    println!(
+        "{:?} v {} chi {} comps {}",
+        KINDS.map(|kind| topology.count(kind)),
+        body.vertices.len(),
+        topology.euler_characteristic(),
+        topology.components()
+    );
     body.to_body()?;
     Ok(())
 }
