@@ -13,3 +13,7 @@ pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
     soft_start: 0.2,
     body_origin: palpate::math::vec3(-0.05, -0.05, -0.06),
 };
+
+/// A host that is silent for 100 ms is gone.
+pub const SAFETY: palpate::servo::Safety =
+    palpate::servo::Safety { link_timeout: 0.1, ..palpate::servo::Safety::DEFAULT };

@@ -1,42 +1,41 @@
-//! Closest points of a model with the firmware's own controller: from a few starts on every patch, or tick after tick.
+//! Closest points of a model with the firmware's own code: from a standing start, or tick after tick.
 
+use crate::bake::BakedBody;
+use palpate::body::{Body, BodyWitness, Edge, EdgeFace, Face, Feature, Side};
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
-use palpate::track::{Controller, Outcome, Probe, Witness};
-
-/// Starts on each patch, along each parameter: until a locator picks one, they stand in for it.
-const STARTS: [f32; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
-/// Steps from one start. A far probe needs a few hundred: the certified gain falls with the distance.
-const STEP_LIMIT: u32 = 1000;
-/// Converged: what the controller still asks for, relative to the patch's size plus the distance. The distance is then off by less,
-/// and f32 rounds the correction at a few times 1e-7 of these lengths.
-const CONVERGED: f32 = 1e-6;
+use palpate::track::{Controller, Probe, Witness};
 
 /// Finds closest points.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Solver<'a> {
-    patches: &'a [SplinePatch],
-    controller: Controller,
+    body: &'a Body,
+    baked: &'a BakedBody,
+    is_closed: bool,
 }
 
 /// How a closest point was come by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Cold: the controller asks for no more.
+    /// Cold: every candidate was searched to its end.
     Converged,
-    /// Cold: the start that came nearest was stopped.
+    /// Cold: the evaluations were used up.
     StepLimit,
     /// One row of a track.
     Tracking,
 }
 
-/// A closest point.
+/// A closest point, in the model's terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
-    /// Index of the patch.
+    /// Index of the model's patch; a point that several share is on any of them.
     pub patch: usize,
-    /// The witness point on it.
-    pub witness: Witness,
+    /// `(u, v)` on it.
+    pub parameters: [f64; 2],
+    /// The point, metres.
+    pub point: Vec3,
+    /// Whether the probe is inside a closed body.
+    pub is_inside: bool,
     /// Evaluations of patches spent.
     pub evaluations: u32,
     /// How.
@@ -44,55 +43,125 @@ pub struct Found {
 }
 
 impl<'a> Solver<'a> {
-    /// Over these patches, with the certified gain.
-    pub const fn new(patches: &'a [SplinePatch]) -> Self {
-        Self { patches, controller: Controller::CERTIFIED }
+    /// For a body and the tables it was made of.
+    pub fn new(body: &'a Body, baked: &'a BakedBody) -> Self {
+        Self { body, baked, is_closed: baked.topology.is_closed() }
     }
 
-    /// The nearest end of all starts on all patches; `None` without patches. `probe` in metres.
-    pub fn cold(&self, probe: Vec3) -> Option<Found> {
-        let mut best: Option<(f32, Found)> = None;
-        let mut evaluations = 0;
-        for (index, patch) in self.patches.iter().enumerate() {
-            for start_u in STARTS {
-                for start_v in STARTS {
-                    let mut witness = Witness::at(patch, start_u, start_v);
-                    let (steps, status) = self.settle(patch, &mut witness, probe);
-                    evaluations += 1 + steps;
-                    let distance = witness.surface.point.distance(probe);
-                    if best.is_none_or(|(least, _)| distance < least) {
-                        best = Some((distance, Found { patch: index, witness, evaluations, status }));
-                    }
-                }
-            }
+    /// The closest point from a standing start, and the state to track on from. `probe` in metres.
+    pub fn cold(&self, probe: Vec3) -> (Found, BodyWitness) {
+        let mut state = self.body.start();
+        // The same search, one evaluation a tick; it ends within the bound of `Body::locate`.
+        let located = self.body.locate(probe);
+        while !state.is_located {
+            self.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), 1.0);
         }
-        best.map(|(_, found)| Found { evaluations, ..found })
+        let status = if located.complete { Status::Converged } else { Status::StepLimit };
+        let face = usize::from(located.face);
+        let [u, v] = located.parameters;
+        let point = Witness::at(&self.body.faces()[face].patch, u, v).surface.point;
+        let found = self.found(face, located.parameters, point, probe);
+        (Found { evaluations: u32::from(located.evaluations), status, ..found }, state)
     }
 
-    /// Follows a probe that has moved: `ticks` steps on the patch it was on. `probe` in metres.
-    pub fn track(&self, previous: &Found, probe: Vec3, ticks: u32) -> Option<Found> {
-        let patch = self.patches.get(previous.patch)?;
-        let mut witness = previous.witness;
+    /// Follows a probe that has moved: `ticks` ticks of the tracker. `probe` in metres.
+    pub fn track(&self, state: &mut BodyWitness, probe: Vec3, ticks: u32) -> Found {
         let mut evaluations = 0;
         for _ in 0..ticks {
             // The gain is certified, not a rate: the period does not matter.
-            let step = self.controller.step(patch, &mut witness, Probe::at(probe), 1.0);
-            evaluations += u32::from(step.outcome != Outcome::AtRest);
+            let step = self.body.step(&Controller::CERTIFIED, state, Probe::at(probe), 1.0);
+            evaluations += u32::from(step.evaluations);
         }
-        Some(Found { patch: previous.patch, witness, evaluations, status: Status::Tracking })
+        let (face, parameters) = self.on_a_face(state);
+        let found = self.found(face, parameters, state.witness.surface.point, probe);
+        Found { evaluations, ..found }
     }
 
-    /// Steps until the controller asks for no more; the evaluations spent.
-    fn settle(&self, patch: &SplinePatch, witness: &mut Witness, probe: Vec3) -> (u32, Status) {
-        for steps in 0..STEP_LIMIT {
-            let step = self.controller.step(patch, witness, Probe::at(probe), 1.0);
-            if step.outcome == Outcome::AtRest {
-                return (steps, Status::Converged);
-            }
-            if step.residual <= CONVERGED * (patch.size() + step.distance_before) {
-                return (steps + 1, Status::Converged);
-            }
+    fn found(&self, face: usize, parameters: [f32; 2], point: Vec3, probe: Vec3) -> Found {
+        let source = &self.baked.faces[face].source;
+        Found {
+            patch: source.patch,
+            parameters: source.parameters(parameters.map(f64::from)),
+            point,
+            is_inside: self.is_closed && self.is_behind(face, parameters, point, probe),
+            evaluations: 0,
+            status: Status::Tracking,
         }
-        (STEP_LIMIT, Status::StepLimit)
     }
+
+    /// A witness point on an edge or a vertex lies on a face, too.
+    fn on_a_face(&self, state: &BodyWitness) -> (usize, [f32; 2]) {
+        let edge = match state.feature {
+            Feature::Face(face) => return (usize::from(face), state.witness.parameters),
+            Feature::Edge(edge) => Some((edge, state.witness.parameters[0])),
+            Feature::Vertex(vertex) => {
+                let end = |(index, edge): (usize, &Edge)| {
+                    let t = if edge.ends[0] == vertex { 0.0 } else { 1.0 };
+                    edge.ends.contains(&vertex).then_some((index as u16, t))
+                };
+                self.body.edges().iter().enumerate().find_map(end)
+            }
+        };
+        let Some((edge, t)) = edge else { return (0, [0.5; 2]) };
+        let of = self.body.edges()[usize::from(edge)].faces[0];
+        let face = usize::from(of.face);
+        (face, on_side(&self.body.faces()[face], of.side, t))
+    }
+
+    /// Behind the surface at its closest point: by the sum of the normals of the faces that meet there, at a corner each weighted with the
+    /// angle it fills (J. Bærentzen and H. Aanæs, *Signed distance computation using the angle weighted pseudonormal*, 2005).
+    fn is_behind(&self, face: usize, [u, v]: [f32; 2], point: Vec3, probe: Vec3) -> bool {
+        let faces = self.body.faces();
+        let at = [u <= END, u >= 1.0 - END, v <= END, v >= 1.0 - END];
+        let sides = faces[face].sides.iter().zip(at).filter_map(|(side, at)| at.then_some(side));
+        let sum: Vec3 = match *sides.collect::<Vec<_>>() {
+            [] => normal(&faces[face].patch, [u, v]),
+            [Side::Edge { edge, reversed, .. }] => {
+                let along = if at[0] || at[1] { v } else { u };
+                let t = if *reversed { 1.0 - along } else { along };
+                let beside = |of: EdgeFace| faces.get(usize::from(of.face)).map(|face| (face, of.side));
+                let both = self.body.edges()[usize::from(*edge)].faces.into_iter().filter_map(beside);
+                both.map(|(face, side)| normal(&face.patch, on_side(face, side, t))).sum()
+            }
+            _ => faces.iter().map(|face| corners(&face.patch, point, self.body.size())).sum(),
+        };
+        sum.dot(probe - point) < 0.0
+    }
+}
+
+/// This near a border a point lies on it.
+const END: f32 = 1e-6;
+/// A corner's normal and tangents are taken this far inside: at a pole there are none.
+const INSET: f32 = 1e-3;
+
+fn normal(patch: &SplinePatch, [u, v]: [f32; 2]) -> Vec3 {
+    Witness::at(patch, u, v).normal(patch).unwrap_or(Vec3::ZERO)
+}
+
+/// The parameters of a face at the parameter of an edge along one of its sides.
+fn on_side(face: &Face, side: u8, t: f32) -> [f32; 2] {
+    let reversed = matches!(face.sides[usize::from(side)], Side::Edge { reversed: true, .. });
+    let along = if reversed { 1.0 - t } else { t };
+    match side {
+        0 => [0.0, along],
+        1 => [1.0, along],
+        2 => [along, 0.0],
+        _ => [along, 1.0],
+    }
+}
+
+/// The normals at those corners of a patch that lie at a point, each times the angle there.
+fn corners(patch: &SplinePatch, point: Vec3, size: f32) -> Vec3 {
+    let mut sum = Vec3::ZERO;
+    for (u, v) in [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)] {
+        if patch.evaluate(u, v).point.distance(point) > 1e-5 * size {
+            continue;
+        }
+        let inside = [u, v].map(|parameter| INSET + parameter * (1.0 - 2.0 * INSET));
+        let surface = patch.evaluate(inside[0], inside[1]);
+        let inward = |tangent: Vec3, parameter: f32| if parameter > 0.5 { -tangent } else { tangent };
+        let angle = inward(surface.tangent_u, u).angle_between(inward(surface.tangent_v, v));
+        sum += normal(patch, inside) * angle;
+    }
+    sum
 }

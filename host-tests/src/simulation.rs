@@ -4,7 +4,7 @@ use crate::firmware::{Link, LinkError};
 use crate::plant::Plant;
 use palpate::device::{Counts, Kinematics};
 use palpate::patch::Patch;
-use palpate::servo::{Input, Servo, ServoState};
+use palpate::servo::{Event, Input, Servo, ServoState};
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::{Report, Sensors};
 use std::time::Duration;
@@ -34,7 +34,11 @@ impl<'a, P: Patch, K: Kinematics<3>> HostLoop<'a, P, K> {
 impl<P: Patch, K: Kinematics<3>> Link for HostLoop<'_, P, K> {
     fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         for byte in bytes {
-            match self.receiver.feed(*byte) {
+            let received = self.receiver.feed(*byte);
+            if matches!(received, Some(Received::Message(_) | Received::Empty)) {
+                self.servo.note(&mut self.state, Event::LinkAlive);
+            }
+            match received {
                 Some(Received::Message(sensors)) if sensors.tick == self.state.ticks => {
                     self.tick(Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable });
                 }

@@ -114,6 +114,8 @@ pub struct Vertex {
     pub first_spoke: u16,
     /// How many edges end here.
     pub spokes: u16,
+    /// Whether it lies on the border of an open body.
+    pub is_open: bool,
 }
 
 /// One end of an edge, seen from its vertex.

@@ -4,12 +4,18 @@
 //! feature's region is where it owns the closest point. Membership depends on the probe alone (theory §9). [`Body`] holds the tables
 //! that the host has baked; [`Locator`] gives a global start in bounded time (theory §10).
 
+mod along;
 mod curve;
 mod feature;
 mod locator;
+mod minimise;
+mod search;
 mod table;
+mod tracker;
 
 pub use curve::{CurvePoint, MAX_CURVE_DEGREE, SplineCurve};
 pub use feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Separator, Side, Spoke, Vertex};
 pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES};
+pub use search::{Located, MOST_EVALUATIONS, MOST_EVALUATIONS_CONVEX, Search};
 pub use table::{Body, BodyError};
+pub use tracker::{BodyStep, BodyWitness};

@@ -194,7 +194,7 @@ impl Body {
         }
         let mut index = 0;
         while index < self.vertices.len() {
-            let Vertex { point, first_spoke, spokes } = self.vertices[index];
+            let Vertex { point, first_spoke, spokes, .. } = self.vertices[index];
             if !(is_finite(point) && first_spoke as usize + spokes as usize <= self.spokes.len()) {
                 return Err(BodyError::Vertex { vertex: index as u16 });
             }

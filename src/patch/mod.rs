@@ -4,10 +4,13 @@
 //! 1 to 5, kept as polynomial spans so that the target evaluates by Horner's rule and never by de Boor's recursion.
 //! A new kind of surface (a cylinder, a torus) is a new file here that implements [`Patch`].
 
+mod curved;
 mod horner;
 mod shape;
+mod spans;
 mod spline;
 
+pub use curved::CurvedPoint;
 pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
 pub(crate) use spline::breaks_are_valid;
 pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError, span_centre};
@@ -26,6 +29,11 @@ pub struct SurfacePoint {
     pub tangent_u: Vec3,
     /// `f_v = ∂f/∂v`.
     pub tangent_v: Vec3,
+}
+
+impl SurfacePoint {
+    /// Zero throughout: what a table without coefficients would give, if there were one.
+    const NOWHERE: Self = Self { point: Vec3::ZERO, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
 }
 
 /// A parametric surface patch over `[0, 1]²`.

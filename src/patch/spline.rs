@@ -4,9 +4,8 @@
 //! (`s = u - centre`), which keeps Horner's rule well conditioned in `f32`. Rational patches are kept homogeneous
 //! (`w x, w y, w z, w`) and divided once.
 
-use super::horner::{self, Derivatives};
+use super::spans::{Spans, locate};
 use super::{Patch, SecondDerivativeBounds, ShapeBounds, SurfacePoint};
-use crate::math::{Vec3, vec3};
 use thiserror::Error;
 
 /// The highest degree along either parameter.
@@ -66,10 +65,10 @@ pub enum TableError {
 /// `breaks_u` and `breaks_v` are the span borders, from 0 to 1; see [`Coefficients`] for the rest.
 #[derive(Clone, Copy, Debug)]
 pub struct SplinePatch {
-    degree: [u8; 2],
+    pub(super) spans: Spans,
+    pub(super) degree: [u8; 2],
     breaks_u: &'static [f32],
     breaks_v: &'static [f32],
-    coefficients: Coefficients,
     shape: ShapeBounds,
     orientation: Orientation,
     size: f32,
@@ -116,7 +115,7 @@ impl SplinePatch {
         if !(size > 0.0 && size < f32::INFINITY) {
             return Err(TableError::Size);
         }
-        Ok(Self { degree, breaks_u, breaks_v, coefficients, shape, orientation, size })
+        Ok(Self { spans: Spans::new(degree, coefficients), degree, breaks_u, breaks_v, shape, orientation, size })
     }
 
     /// [`Self::try_new`] for a `static`: a bad table does not compile.
@@ -151,7 +150,7 @@ impl SplinePatch {
 
     /// Bytes of table this patch keeps in flash.
     pub const fn table_bytes(&self) -> usize {
-        let coefficients = match self.coefficients {
+        let coefficients = match self.spans.coefficients() {
             Coefficients::Polynomial(entries) => entries.len() * 12,
             Coefficients::Rational(entries) => entries.len() * 16,
         };
@@ -169,7 +168,7 @@ impl SplinePatch {
             self.breaks_v[index - u]
         } else {
             let entry = index - u - v;
-            match self.coefficients {
+            match self.spans.coefficients() {
                 Coefficients::Polynomial(entries) if entry / 3 < entries.len() => entries[entry / 3][entry % 3],
                 Coefficients::Rational(entries) if entry / 4 < entries.len() => entries[entry / 4][entry % 4],
                 _ => return None,
@@ -190,21 +189,9 @@ impl SplinePatch {
 }
 
 impl Patch for SplinePatch {
+    #[inline]
     fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
-        let (span_u, s) = locate(self.breaks_u, u);
-        let (span_v, t) = locate(self.breaks_v, v);
-        let span = span_u * (self.breaks_v.len() - 1) + span_v;
-        match self.coefficients {
-            Coefficients::Polynomial(entries) => {
-                let d = self.evaluate_span(entries, span, s, t);
-                SurfacePoint {
-                    point: Vec3::from_array(d.value),
-                    tangent_u: Vec3::from_array(d.along_s),
-                    tangent_v: Vec3::from_array(d.along_t),
-                }
-            }
-            Coefficients::Rational(entries) => divide_by_weight(&self.evaluate_span(entries, span, s, t)),
-        }
+        self.spans.evaluate(self, u, v)
     }
 
     fn bounds(&self) -> SecondDerivativeBounds {
@@ -232,64 +219,18 @@ impl Patch for SplinePatch {
 }
 
 impl SplinePatch {
-    /// Evaluates one span. The degree along `v` picks a loop that is unrolled for it.
+    /// The span that holds `(u, v)`, and where in it, from its centre.
     #[inline(always)]
-    fn evaluate_span<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32, t: f32) -> Derivatives<D> {
-        match self.degree[1] {
-            1 => self.evaluate_rows::<D, 2>(entries, span, s, t),
-            2 => self.evaluate_rows::<D, 3>(entries, span, s, t),
-            3 => self.evaluate_rows::<D, 4>(entries, span, s, t),
-            4 => self.evaluate_rows::<D, 5>(entries, span, s, t),
-            _ => self.evaluate_rows::<D, 6>(entries, span, s, t),
-        }
+    pub(super) fn locate(&self, u: f32, v: f32) -> (usize, [f32; 2]) {
+        let (span_u, s) = locate(self.breaks_u, u);
+        let (span_v, t) = locate(self.breaks_v, v);
+        (span_u * (self.breaks_v.len() - 1) + span_v, [s, t])
     }
-
-    fn evaluate_rows<const D: usize, const Q: usize>(
-        &self,
-        entries: &[[f32; D]],
-        span: usize,
-        s: f32,
-        t: f32,
-    ) -> Derivatives<D> {
-        let rows = self.degree[0] as usize + 1;
-        let (all_rows, _) = entries.as_chunks::<Q>();
-        // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the tick.
-        let span_rows = all_rows.get(span * rows..(span + 1) * rows).unwrap_or(&[]);
-        horner::evaluate(span_rows, s, t)
-    }
-}
-
-/// The span that holds `parameter`, and the distance from the span's centre.
-#[inline]
-fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
-    // Bisection; at most log2(MAX_SPANS) rounds. On a border the upper span is taken, at 1 the last.
-    let mut low = 0;
-    let mut high = breaks.len() - 1;
-    while high - low > 1 {
-        let middle = (low + high) / 2;
-        if breaks.get(middle).is_some_and(|border| parameter >= *border) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let (Some(left), Some(right)) = (breaks.get(low), breaks.get(high)) else { return (0, 0.0) };
-    (low, parameter - span_centre(*left, *right))
 }
 
 /// The centre a span's powers are taken about. The host expands about this very `f32`.
 pub const fn span_centre(left: f32, right: f32) -> f32 {
     0.5 * (left + right)
-}
-
-/// The quotient rule: `P = A / w`, `P_u = (A_u - w_u P) / w`.
-#[inline(always)]
-fn divide_by_weight(d: &Derivatives<4>) -> SurfacePoint {
-    let split = |[x, y, z, w]: [f32; 4]| (vec3(x, y, z), w);
-    let ((a, w), (a_u, w_u), (a_v, w_v)) = (split(d.value), split(d.along_s), split(d.along_t));
-    let inverse = 1.0 / w;
-    let point = a * inverse;
-    SurfacePoint { point, tangent_u: (a_u - point * w_u) * inverse, tangent_v: (a_v - point * w_v) * inverse }
 }
 
 pub(crate) const fn breaks_are_valid(breaks: &[f32]) -> bool {

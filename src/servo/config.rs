@@ -1,19 +1,19 @@
 //! The loop's configuration, checked when it is built, and the state it starts from.
 
 use super::{
-    Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError, TableCheck,
+    Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError, Surface,
+    TableCheck,
 };
 use crate::device::{Device, Duty, Kinematics, VelocityEstimator};
 use crate::math::Vec3;
-use crate::patch::Patch;
 use crate::render::{Anchor, Contact, Energy, Penalty, Tool};
-use crate::track::{Controller, Witness};
+use crate::track::Controller;
 
 /// The loop's configuration: device, surface, controller and settings. Constant, in flash.
 #[derive(Clone, Copy, Debug)]
-pub struct Servo<'a, P, K, const JOINTS: usize> {
+pub struct Servo<'a, S, K, const JOINTS: usize> {
     pub(super) device: &'a Device<K, JOINTS>,
-    pub(super) patch: &'a P,
+    pub(super) surface: &'a S,
     pub(super) controller: Controller,
     pub(super) penalty: Penalty,
     pub(super) estimators: [VelocityEstimator; JOINTS],
@@ -28,14 +28,14 @@ pub struct Servo<'a, P, K, const JOINTS: usize> {
     pub(super) link_ticks: u32,
 }
 
-impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, JOINTS> {
-    /// The loop of a device that touches a patch, with [`Rendering::PLAIN`] and [`Safety::DEFAULT`].
+impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K, JOINTS> {
+    /// The loop of a device that touches a patch or a body, with [`Rendering::PLAIN`] and [`Safety::DEFAULT`].
     ///
     /// # Errors
     /// The setting that is refused.
     pub const fn try_new(
         device: &'a Device<K, JOINTS>,
-        patch: &'a P,
+        surface: &'a S,
         controller: Controller,
         settings: Settings,
     ) -> Result<Self, SettingsError> {
@@ -50,7 +50,7 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
         };
         let servo = Self {
             device,
-            patch,
+            surface,
             controller,
             penalty: Penalty { stiffness: settings.stiffness, damping: settings.damping, greatest_force },
             // Any: the rendering below sets them.
@@ -73,8 +73,13 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
     ///
     /// # Panics
     /// At compile time, naming the setting.
-    pub const fn new(device: &'a Device<K, JOINTS>, patch: &'a P, controller: Controller, settings: Settings) -> Self {
-        match Self::try_new(device, patch, controller, settings) {
+    pub const fn new(
+        device: &'a Device<K, JOINTS>,
+        surface: &'a S,
+        controller: Controller,
+        settings: Settings,
+    ) -> Self {
+        match Self::try_new(device, surface, controller, settings) {
             Ok(servo) => servo,
             Err(SettingsError::Rate) => panic!("rate"),
             Err(SettingsError::Stiffness) => panic!("stiffness"),
@@ -154,13 +159,13 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
         }
     }
 
-    /// The state before the first tick after power-on: motors at zero, the witness point in the middle of the patch.
-    pub fn start(&self) -> ServoState<JOINTS> {
+    /// The state before the first tick after power-on: motors at zero, the witness point at rest.
+    pub fn start(&self) -> ServoState<JOINTS, S::Witness> {
         self.start_after(ResetReason::PowerOn)
     }
 
     /// The state before the first tick after a reset. One by the watchdog or a brown-out is a fault from the start.
-    pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS> {
+    pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS, S::Witness> {
         ServoState {
             phase: if reset.fault().is_some() { Phase::Fault } else { Phase::Reset },
             fault: reset.fault().map(|fault| (fault, 0)),
@@ -182,7 +187,7 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
             stillness: [[0.0; JOINTS]; JOINTS],
             probe: Vec3::ZERO,
             tool: Tool::default(),
-            witness: Witness::at(self.patch, 0.5, 0.5),
+            witness: self.surface.rest(),
             gap: 0.0,
             contact: Contact::default(),
             anchor: Anchor::default(),

@@ -1,15 +1,20 @@
 //! From the witness point to the force on the probe.
 
-use super::{Phase, Servo, ServoState};
+use super::{Phase, Servo, ServoState, Surface, Tracked as _};
 use crate::device::Kinematics;
 use crate::math::{Vec3, sqrt};
-use crate::patch::Patch;
 use crate::render::{Contact, Motion, Tool, Touch, limit};
 
-impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINTS> {
+impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOINTS> {
     /// The force on the probe, N. `tool` is what touches the surface, `motion` is the probe's.
     #[inline]
-    pub(super) fn force(&self, state: &mut ServoState<JOINTS>, tool: Tool, normal: Vec3, motion: &Motion) -> Vec3 {
+    pub(super) fn force(
+        &self,
+        state: &mut ServoState<JOINTS, S::Witness>,
+        tool: Tool,
+        normal: Vec3,
+        motion: &Motion,
+    ) -> Vec3 {
         let surface = self.surface_force(state, tool, normal);
         let felt = match &self.rendering.coupling {
             None => surface,
@@ -27,13 +32,14 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
     /// The surface's force on what touches it, N.
     #[inline]
-    fn surface_force(&self, state: &mut ServoState<JOINTS>, tool: Tool, normal: Vec3) -> Vec3 {
+    fn surface_force(&self, state: &mut ServoState<JOINTS, S::Witness>, tool: Tool, normal: Vec3) -> Vec3 {
         let push = match state.contact {
             Contact::Touching => self.penalty.push(state.gap, tool.velocity.dot(normal)),
             Contact::Behind | Contact::InFront => 0.0,
         };
         let mut force = normal * push;
-        let surface = &state.witness.surface;
+        let witness = *state.witness.witness();
+        let surface = &witness.surface;
         if let Some(friction) = &self.rendering.friction {
             force += friction.pull(&mut state.anchor, surface.point, normal, push, tool.velocity);
         }
@@ -43,7 +49,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
             let squared = surface.tangent_u.length_squared();
             let inverse = if squared > f32::MIN_POSITIVE { 1.0 / sqrt(squared) } else { 0.0 };
             force += texture.bounded(&Touch {
-                parameters: state.witness.parameters,
+                parameters: witness.parameters,
                 point: surface.point,
                 normal,
                 along_u: surface.tangent_u * inverse,
@@ -56,7 +62,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
     /// The force comes up slowly after each start, so that nothing kicks.
     #[inline]
-    pub(super) fn next_fade(&self, state: &ServoState<JOINTS>) -> f32 {
+    pub(super) fn next_fade(&self, state: &ServoState<JOINTS, S::Witness>) -> f32 {
         if state.phase != Phase::Running {
             return 0.0;
         }

@@ -35,6 +35,7 @@ mod sense;
 mod settings;
 mod state;
 mod stuck;
+mod surface;
 mod table_check;
 mod tick;
 
@@ -47,5 +48,6 @@ pub use safety::{SafeOutput, Safety, SafetyError, StuckLimits};
 pub use settings::{Settings, SettingsError};
 pub use state::ServoState;
 pub use stuck::Stillness;
+pub use surface::{Surface, Touched, Tracked};
 pub use table_check::{TableCheck, crc32};
 pub use tick::Input;

@@ -10,12 +10,12 @@ use crate::device::{Counts, Device, VelocityEstimator};
 /// The fault, if an angle lies outside the joint's range or jumped faster than the device can move (the state keeps its
 /// last good counts then), or if a sensor is stuck.
 #[inline]
-pub fn sense<K, const JOINTS: usize>(
+pub fn sense<W, K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     estimators: &[VelocityEstimator; JOINTS],
     greatest_move: f32,
     stuck: Option<StuckLimits>,
-    state: &mut ServoState<JOINTS>,
+    state: &mut ServoState<JOINTS, W>,
     counts: [Counts; JOINTS],
 ) -> Result<(), Fault> {
     let mut angles = [0.0; JOINTS];

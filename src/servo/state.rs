@@ -1,6 +1,6 @@
 //! Everything that changes from tick to tick.
 
-use super::{Fault, Phase, ResetReason, Stillness, TableCheck};
+use super::{Fault, Phase, ResetReason, Stillness, TableCheck, Tracked};
 use crate::device::{Counts, Duty, VelocityState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Contact, Energy, Tool};
@@ -8,7 +8,7 @@ use crate::track::Witness;
 
 /// The state of the loop after a tick. A plain value: copy it, compare it, keep it in RAM.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ServoState<const JOINTS: usize> {
+pub struct ServoState<const JOINTS: usize, W = Witness> {
     /// What the loop is doing.
     pub phase: Phase,
     /// What stopped it, and at which tick. Latched.
@@ -50,7 +50,7 @@ pub struct ServoState<const JOINTS: usize> {
     /// The virtual tool; it is the probe unless there is a coupling.
     pub tool: Tool,
     /// The witness point.
-    pub witness: Witness,
+    pub witness: W,
     /// Signed gap along the outward normal, metres; negative behind the surface.
     pub gap: f32,
     /// Whether the surface is touched.
@@ -67,7 +67,7 @@ pub struct ServoState<const JOINTS: usize> {
     pub duties: [Duty; JOINTS],
 }
 
-impl<const JOINTS: usize> ServoState<JOINTS> {
+impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
     /// A hash of every bit of the state (FNV-1a over 32-bit words): two runs agree bit for bit if it agrees at each
     /// tick.
     pub fn digest(&self) -> u32 {
@@ -98,13 +98,11 @@ impl<const JOINTS: usize> ServoState<JOINTS> {
             hash.floats(still);
         }
         hash.vectors([self.probe, self.tool.position, self.tool.velocity]);
-        let witness = &self.witness;
-        hash.floats(witness.parameters);
-        hash.vectors([witness.surface.point, witness.surface.tangent_u, witness.surface.tangent_v]);
-        hash.words([witness.mode as u32, self.contact as u32]);
+        self.witness.for_each_word(|word| hash.words([word]));
+        hash.words([self.contact as u32]);
         hash.words([u32::from(self.anchor.point.is_some()), u32::from(self.anchor.slips)]);
         hash.vectors([self.anchor.point.unwrap_or(Vec3::ZERO), self.force]);
-        hash.floats([witness.caution, self.gap, self.fade, self.energy.stored, self.energy.damping]);
+        hash.floats([self.gap, self.fade, self.energy.stored, self.energy.damping]);
         hash.words([u32::from(self.energy.cut)]);
         for duty in self.duties {
             hash.words([duty.0 as u32]);

@@ -1,6 +1,6 @@
 //! The tables in flash are read over and over, a few words a tick, and their CRC compared.
 
-use crate::patch::Patch;
+use super::Surface;
 
 /// Words read a tick. Each costs about 50 instructions; 250 words of a small patch are read in 32 ticks.
 const WORDS: usize = 8;
@@ -19,9 +19,9 @@ pub struct TableCheck {
 impl TableCheck {
     /// Reads on. False if the table was read to its end and its CRC is not the expected one.
     #[inline]
-    pub fn step<P: Patch>(&mut self, patch: &P, expected: u32) -> bool {
+    pub fn step<S: Surface>(&mut self, surface: &S, expected: u32) -> bool {
         for _ in 0..WORDS {
-            if let Some(word) = patch.table_word(self.word as usize) {
+            if let Some(word) = surface.table_word(self.word as usize) {
                 self.crc = crc32(self.crc, word);
                 self.word += 1;
             } else {

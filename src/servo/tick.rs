@@ -2,12 +2,11 @@
 
 use super::gate::gate;
 use super::sense::sense;
-use super::{Event, Fault, Phase, SafeOutput, Servo, ServoState};
+use super::{Event, Fault, Phase, SafeOutput, Servo, ServoState, Surface};
 use crate::device::{Counts, Duty, Kinematics, ProbePose};
 use crate::math::Vec3;
-use crate::patch::Patch;
 use crate::render::{Motion, Tool, limit};
-use crate::track::{Outcome, Probe};
+use crate::track::Probe;
 
 /// What a tick starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,10 +24,10 @@ pub enum Input<const JOINTS: usize> {
     Damaged,
 }
 
-impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINTS> {
+impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOINTS> {
     /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the
     /// duties in the state are zero when this returns: apply them.
-    pub fn note(&self, state: &mut ServoState<JOINTS>, event: Event) {
+    pub fn note(&self, state: &mut ServoState<JOINTS, S::Witness>, event: Event) {
         match event {
             Event::LinkAlive => state.link_silence = 0,
             Event::Homed => state.homed = true,
@@ -48,10 +47,10 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
     /// One tick. The duties to apply are in the state when it returns.
     ///
-    /// Bounded work: one pose, one evaluation of the patch. No panic. Whatever the input, the duties are finite and in
+    /// Bounded work: one pose, one step of the surface's tracker. No panic. Whatever the input, the duties are finite and in
     /// range; from the tick in which a fault is seen they are safe.
     #[inline]
-    pub fn tick(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) {
+    pub fn tick(&self, state: &mut ServoState<JOINTS, S::Witness>, input: Input<JOINTS>) {
         self.watch(state);
         let torques = self.feel(state, input);
         let damps = matches!(self.safety.output, SafeOutput::Damping(_)) && state.phase == Phase::Fault;
@@ -68,7 +67,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
     /// What can be wrong whatever the sensors say.
     #[inline]
-    fn watch(&self, state: &mut ServoState<JOINTS>) {
+    fn watch(&self, state: &mut ServoState<JOINTS, S::Witness>) {
         if !state.overran {
             state.overruns_in_a_row = 0;
         }
@@ -78,7 +77,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
             stop(state, Fault::LinkLost);
         }
         if let Some(expected) = self.safety.table_crc
-            && !state.table_check.step(self.patch, expected)
+            && !state.table_check.step(self.surface, expected)
         {
             stop(state, Fault::TableCorrupt);
         }
@@ -86,7 +85,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
     /// From the input to joint torques, N·m.
     #[inline]
-    fn feel(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) -> Result<[f32; JOINTS], Fault> {
+    fn feel(&self, state: &mut ServoState<JOINTS, S::Witness>, input: Input<JOINTS>) -> Result<[f32; JOINTS], Fault> {
         let (counts, enable) = match input {
             Input::Sensors { counts, enable } => (counts, enable),
             Input::Lost => return Err(count_lost(state, Fault::FrameLost)),
@@ -115,25 +114,23 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
         let tool = if pulls { state.tool } else { held };
         state.tool = tool;
         let target = Probe { position: tool.position, velocity: tool.velocity };
-        let step = self.controller.step(self.patch, &mut state.witness, target, self.period);
-        state.steps_undone = state.steps_undone.wrapping_add(u32::from(step.outcome == Outcome::Undone));
+        let touched = self.surface.follow(&self.controller, &mut state.witness, target, state.contact, self.period);
+        state.steps_undone = state.steps_undone.wrapping_add(u32::from(touched.undone));
 
-        // Witness point → gap → force → torques.
-        let normal = state.witness.normal(self.patch).unwrap_or(Vec3::ZERO);
-        state.gap = (tool.position - state.witness.surface.point).dot(normal);
-        state.contact = state.contact.next(state.gap, state.witness.mode);
+        // Gap → force → torques.
+        (state.gap, state.contact) = (touched.gap, touched.contact);
         state.fade = self.next_fade(state);
         let motion = Motion { moved, velocity, rate: self.rate };
         if let Some(passivity) = &self.rendering.passivity {
             passivity.observe(&mut state.energy, state.force, &motion);
         }
-        state.force = self.force(state, tool, normal, &motion);
+        state.force = self.force(state, tool, touched.normal, &motion);
         Ok(pose.torques(state.force))
     }
 
     /// At most one step a tick; [`Phase::Fault`] is never left.
     #[inline]
-    fn next_phase(&self, state: &mut ServoState<JOINTS>, enable: bool) -> Phase {
+    fn next_phase(&self, state: &mut ServoState<JOINTS, S::Witness>, enable: bool) -> Phase {
         match state.phase {
             Phase::Reset => Phase::Calibrate,
             Phase::Calibrate => {
@@ -155,7 +152,12 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
     /// What the motors do after a fault, in a tick whose sensors can be believed.
     #[inline]
-    fn safe_torques(&self, state: &mut ServoState<JOINTS>, pose: &ProbePose<JOINTS>, velocity: Vec3) -> [f32; JOINTS] {
+    fn safe_torques(
+        &self,
+        state: &mut ServoState<JOINTS, S::Witness>,
+        pose: &ProbePose<JOINTS>,
+        velocity: Vec3,
+    ) -> [f32; JOINTS] {
         state.force = match self.safety.output {
             SafeOutput::Zero => Vec3::ZERO,
             SafeOutput::Damping(damping) => limit::saturated(velocity * -damping, self.penalty.greatest_force),
@@ -165,7 +167,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 }
 
 /// Latches a fault; the first one stands. Motors at zero.
-fn stop<const JOINTS: usize>(state: &mut ServoState<JOINTS>, fault: Fault) {
+fn stop<W, const JOINTS: usize>(state: &mut ServoState<JOINTS, W>, fault: Fault) {
     state.phase = Phase::Fault;
     state.fault = state.fault.or(Some((fault, state.ticks)));
     state.force = Vec3::ZERO;
@@ -173,7 +175,7 @@ fn stop<const JOINTS: usize>(state: &mut ServoState<JOINTS>, fault: Fault) {
     state.duties = [Duty::ZERO; JOINTS];
 }
 
-fn count_lost<const JOINTS: usize>(state: &mut ServoState<JOINTS>, fault: Fault) -> Fault {
+fn count_lost<W, const JOINTS: usize>(state: &mut ServoState<JOINTS, W>, fault: Fault) -> Fault {
     state.frames_lost = state.frames_lost.wrapping_add(1);
     fault
 }

@@ -147,6 +147,8 @@ mod tests {
         phase: u8::MAX,
         fault: u8::MAX,
         fault_tick: u32::MAX,
+        reset: u8::MAX,
+        overruns: u32::MAX,
         mode: u8::MAX,
         contact: u8::MAX,
         parameters: [-1.5; 2],
@@ -174,6 +176,17 @@ mod tests {
             let frame = pack(&sensors, &mut buffer).unwrap();
             assert_eq!(feed(&mut receiver, frame), (1, Some(Received::Message(sensors))));
         }
+    }
+
+    #[test]
+    fn the_bytes_are_those_of_the_table() {
+        let mut buffer = [0; MAX_FRAME];
+        // By hand: 70,000 = 4·16,384 + 34·128 + 112; −1 is 1, 0 is 0, 2³¹ − 1 is 2³² − 2; true. The CRC by any tool.
+        let message = [0xf0, 0xa2, 0x04, 1, 0, 0xfe, 0xff, 0xff, 0xff, 0x0f, 1];
+        let [a, b, c, d] = CHECKSUM.checksum(&message).to_le_bytes();
+        assert!(![a, b, c, d].contains(&0));
+        let expected = [5, 0xf0, 0xa2, 0x04, 1, 11, 0xfe, 0xff, 0xff, 0xff, 0x0f, 1, a, b, c, d, 0];
+        assert_eq!(pack(&SENSORS, &mut buffer), Ok(&expected[..]));
     }
 
     #[test]

@@ -26,6 +26,10 @@ pub struct Report {
     pub fault: u8,
     /// The tick at which the fault was seen.
     pub fault_tick: u32,
+    /// [`crate::servo::ResetReason`] as its number: why the chip was reset before the loop began.
+    pub reset: u8,
+    /// Ticks that overran so far.
+    pub overruns: u32,
     /// [`crate::track::BoundaryMode`] as its number.
     pub mode: u8,
     /// [`crate::render::Contact`] as its number.

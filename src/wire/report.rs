@@ -2,11 +2,11 @@
 
 use super::Report;
 use crate::device::Duty;
-use crate::servo::ServoState;
+use crate::servo::{ServoState, Tracked};
 
 impl Report {
     /// What to say of a tick once it is done. `instructions` is what the board counted, 0 where it cannot.
-    pub fn new<const JOINTS: usize>(state: &ServoState<JOINTS>, instructions: u32) -> Self {
+    pub fn new<const JOINTS: usize, W: Tracked>(state: &ServoState<JOINTS, W>, instructions: u32) -> Self {
         let (fault, fault_tick) = state.fault.map_or((0, 0), |(fault, tick)| (fault.code(), tick));
         let mut duties = [0; 3];
         for (said, Duty(duty)) in duties.iter_mut().zip(state.duties) {
@@ -18,9 +18,11 @@ impl Report {
             phase: state.phase as u8,
             fault,
             fault_tick,
-            mode: state.witness.mode as u8,
+            reset: state.reset as u8,
+            overruns: state.overruns,
+            mode: state.witness.witness().mode as u8,
             contact: state.contact as u8,
-            parameters: state.witness.parameters,
+            parameters: state.witness.witness().parameters,
             probe: state.probe.to_array(),
             gap: state.gap,
             force: state.force.to_array(),

@@ -2,9 +2,8 @@
 
 use super::check::Loaded;
 use super::output::{print, write_whole};
-use crate::closest::{Found, Solver, Status};
+use crate::closest::{Solver, Status};
 use crate::queries;
-use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -13,14 +12,14 @@ use std::process::ExitCode;
 ///
 /// Reads the columns qx,qy,qz (others are ignored, lines that begin with # too), in the unit of the model; writes a row
 /// for a query, in their order: patch,u,v,px,py,pz,gap,steps,status. patch is the patch's name, or its index if it has
-/// none; gap is the distance from the query to p (models are open surfaces: never negative); steps counts the
+/// none; gap is the distance from the query to p, negative when the query is inside a closed body; steps counts the
 /// evaluations of patches spent.
 ///
-/// cold takes every row by itself: on every patch the controller runs from 9 starts (3 x 3, at u, v = 1/6, 1/2, 5/6),
-/// each until it has converged or made 1000 steps, and the nearest end is kept; status is converged or step-limit.
+/// cold takes every row by itself: the locator's table names the parts of patches that can own the closest point, a second-order
+/// search runs in each; status is converged, or step-limit if the evaluations were used up.
 ///
-/// track takes rows as successive servo ticks of one probe: the first row is cold and picks the patch, each other row is
-/// --ticks controller steps on that patch; status is tracking.
+/// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is
+/// --ticks ticks of the tracker; status is tracking.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The model file (TOML).
@@ -54,22 +53,28 @@ enum Mode {
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let loaded = Loaded::read(&arguments.model)?;
-    let patches = loaded.baked.iter().map(crate::bake::BakedPatch::to_patch).collect::<Result<Vec<_>, _>>()?;
-    let solver = Solver::new(&patches);
+    let body = loaded.body.to_body()?;
+    let solver = Solver::new(&body, &loaded.body);
     let per_metre = loaded.model.unit.per_metre();
     let queries = queries::read(&arguments.queries, per_metre)?;
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status"])?;
-    let mut previous: Option<Found> = None;
+    let mut state = None;
     for query in queries {
-        let found = match (arguments.mode, &previous) {
-            (Mode::Track, Some(previous)) => solver.track(previous, query.probe, arguments.ticks),
-            _ => solver.cold(query.probe),
-        }
-        .context("the model has no patch")?;
-        let point = found.witness.surface.point.as_dvec3() * per_metre;
-        let [u, v] = found.witness.parameters.map(f64::from);
-        let numbers = [u, v, point.x, point.y, point.z, point.distance(query.given)].map(significant);
+        let found = match (arguments.mode, &mut state) {
+            (Mode::Track, Some(state)) => solver.track(state, query.probe, arguments.ticks),
+            (Mode::Track, None) => {
+                let (found, start) = solver.cold(query.probe);
+                state = Some(start);
+                found
+            }
+            (Mode::Cold, _) => solver.cold(query.probe).0,
+        };
+        let point = found.point.as_dvec3() * per_metre;
+        let [u, v] = found.parameters;
+        let distance = point.distance(query.given);
+        let gap = if found.is_inside { -distance } else { distance };
+        let numbers = [u, v, point.x, point.y, point.z, gap].map(significant);
         let status = match found.status {
             Status::Converged => "converged",
             Status::StepLimit => "step-limit",
@@ -78,7 +83,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let (label, steps) = (loaded.model.patch_label(found.patch), found.evaluations.to_string());
         let fields = [label.as_str()].into_iter().chain(numbers.iter().map(String::as_str)).chain([&*steps, status]);
         writer.write_record(fields)?;
-        previous = Some(found);
     }
     let text = writer.into_inner()?;
     match &arguments.out {

@@ -3,7 +3,7 @@
 use super::options::{Scene, SceneOptions};
 use super::{progress, sim};
 use crate::bake::source::rust_source;
-use crate::firmware::{self, Choice, Firmware, Progress, SetUpError, Transport};
+use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
 use crate::report::{Page, Summary, plots, write_page};
 use crate::simulation::{self, Trace};
 use anyhow::Context;
@@ -17,6 +17,9 @@ use std::process::ExitCode;
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneOptions,
+    /// The emulated board
+    #[arg(long, value_enum, default_value_t)]
+    board: Board,
     /// What carries the frames: `fifo` is fast, `uart` is the board's real link
     #[arg(long, value_enum, default_value_t = Carrier::Fifo)]
     transport: Carrier,
@@ -74,7 +77,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 /// On the emulated board, or on the host where no emulator can be had.
 fn on_board(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Run> {
     let progress = Progress::new();
-    match prepare(scene, &progress) {
+    match prepare(arguments.board, scene, &progress) {
         Ok(firmware) => run_firmware(arguments, scene, &firmware),
         Err(Preparation::SetUp(error @ (SetUpError::NoEmulator(_) | SetUpError::NoToolchain(_)))) => {
             eprintln!("{error}");
@@ -99,10 +102,10 @@ pub enum Preparation {
 ///
 /// # Errors
 /// What was missing or failed.
-pub fn prepare(scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
+pub fn prepare(board: Board, scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
     let folder = write_tables(scene).map_err(Preparation::Tables)?;
     let choice =
-        Choice { body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };
+        Choice { board, body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };
     firmware::prepare(&choice, progress).map_err(Preparation::SetUp)
 }
 
@@ -128,7 +131,8 @@ fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> an
     drop(bar);
     let image = firmware.images.of(transport);
     let sizes = vec![("flash", format!("{} bytes", image.flash)), ("RAM, static", format!("{} bytes", image.ram))];
-    let on = format!("firmware on an emulated Cortex-M4F (mps2-an386) over {}", transport.binary());
+    let (core, machine) = (arguments.board.core(), arguments.board.machine());
+    let on = format!("firmware on an emulated {core} ({machine}) over {}", transport.binary());
     Ok(Run { trace, on, sizes })
 }
 

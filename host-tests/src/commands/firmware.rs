@@ -1,16 +1,19 @@
-//! `palpate firmware`: cargo for the emulated board.
+//! `palpate firmware`: cargo for the emulated boards.
 
-use crate::firmware::{Progress, SetUpError, Toolchain, board};
+use crate::firmware::{Board, Progress, SetUpError, Toolchain};
 use anyhow::Context;
 use clap::Args;
 use std::process::{Command, ExitCode};
 
-/// Runs cargo in the emulated board's folder, with a compiler for its target: set up if it is missing.
+/// Runs cargo in an emulated board's folder, with a compiler for its target: set up if it is missing.
 ///
 /// `palpate firmware build --release` builds the images as `demo` and `test` do.
 #[derive(Args, Debug)]
 #[command(trailing_var_arg = true)]
 pub struct Arguments {
+    /// The board
+    #[arg(long, value_enum, default_value_t)]
+    board: Board,
     /// What cargo is to do, such as `build --release` or `clippy`.
     #[arg(required = true, allow_hyphen_values = true)]
     cargo: Vec<String>,
@@ -22,9 +25,9 @@ pub struct Arguments {
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
-    let toolchain = Toolchain::set_up(&progress)?;
+    let toolchain = Toolchain::set_up(arguments.board.target(), &progress)?;
     let mut command = command(&toolchain, &arguments.cargo, &progress)?;
-    let status = command.current_dir(board()).status().with_context(|| format!("{command:?}"))?;
+    let status = command.current_dir(arguments.board.folder()).status().with_context(|| format!("{command:?}"))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 

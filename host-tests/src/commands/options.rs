@@ -12,13 +12,16 @@ use clap::Args;
 use palpate::device::{Device, Kinematics};
 use palpate::math::{Vec3, vec3};
 use palpate::patch::{Patch, SplinePatch};
-use palpate::servo::{Servo, Settings};
+use palpate::servo::{Safety, Servo, Settings};
 use palpate::track::Controller;
 use std::path::PathBuf;
 
 /// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every preset holds it without a limit cycle.
 const STIFFNESS: f32 = 1_000.0;
 const DAMPING: f32 = 2.0;
+
+/// The limits of a loop with a host at its link, which is gone when it is silent for 100 ms.
+const SAFETY: Safety = Safety { link_timeout: 0.1, ..Safety::DEFAULT };
 
 /// How often the hand touches: a stroke of 0.8 s.
 const TOUCHES_A_SECOND: f64 = 1.2;
@@ -194,7 +197,7 @@ impl Scene {
     }
 
     fn host_loop_of<K: Kinematics<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
-        let servo = Servo::try_new(device, self.patch, Controller::CERTIFIED, self.settings)?;
+        let servo = Servo::try_new(device, self.patch, Controller::CERTIFIED, self.settings)?.try_safety(SAFETY)?;
         Ok(Box::new(HostLoop::new(servo)))
     }
 }
@@ -210,13 +213,15 @@ impl Scene {
         let Settings { rate, stiffness, damping, greatest_force, velocity_corner, soft_start, body_origin } =
             self.settings;
         let [x, y, z] = body_origin.to_array();
+        let link_timeout = SAFETY.link_timeout;
         // A scene has three joints.
         let [mechanism, device] = self.device.source().unwrap_or_default();
         format!(
             "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE}};\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
              rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    \
              greatest_force: {greatest_force:?},\n    velocity_corner: {velocity_corner:?},\n    \
-             soft_start: {soft_start:?},\n    body_origin: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n"
+             soft_start: {soft_start:?},\n    body_origin: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n/// Its limits.\n\
+             pub const SAFETY: palpate::servo::Safety =\n    palpate::servo::Safety {{ link_timeout: {link_timeout:?}, ..palpate::servo::Safety::DEFAULT }};\n"
         )
     }
 }

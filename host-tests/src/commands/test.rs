@@ -1,6 +1,6 @@
 //! `palpate test`: sets up what it needs and runs every test.
 
-use crate::firmware::{self, Choice, Progress, Transport, WITH_FIRMWARE};
+use crate::firmware::{self, Board, Choice, Progress, Transport, WITH_FIRMWARE};
 use anyhow::Context;
 use clap::Args;
 use std::env;
@@ -28,17 +28,19 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     cargo.current_dir(firmware::repository()).args(["test", "--workspace"]).args(&arguments.cargo_test);
     cargo.env_remove(WITH_FIRMWARE);
     if !arguments.without_emulator {
-        let ready = firmware::prepare(&Choice::default(), &progress)
-            .context("the tests on the emulated board cannot run (--without-emulator leaves them out)")?;
-        progress.say(&ready.qemu.version);
-        for transport in [Transport::Uart, Transport::Fifo] {
-            let image = ready.images.of(transport);
-            progress.say(&format!(
-                "image {}: {} bytes of flash, {} bytes of RAM",
-                transport.binary(),
-                image.flash,
-                image.ram
-            ));
+        for board in Board::ALL {
+            let ready = firmware::prepare(&Choice { board, ..Choice::default() }, &progress)
+                .context("the tests on the emulated boards cannot run (--without-emulator leaves them out)")?;
+            progress.say(&format!("{}: {}", board.core(), ready.qemu.version));
+            for transport in [Transport::Uart, Transport::Fifo] {
+                let image = ready.images.of(transport);
+                progress.say(&format!(
+                    "image {}: {} bytes of flash, {} bytes of RAM",
+                    transport.binary(),
+                    image.flash,
+                    image.ram
+                ));
+            }
         }
         cargo.env(WITH_FIRMWARE, "1");
     }

@@ -1,9 +1,9 @@
-//! Debian's Rust for the board: its packages bring a compiler and the library's source, but no library for the target.
+//! Debian's Rust for the boards: its packages bring a compiler and the library's source, but no library for their targets.
 //! That is built once and kept in a cache.
 
 use super::process::{apt_install, existing, output};
-use super::toolchain::{TARGET, has_core};
-use super::{Progress, SetUpError, Toolchain, without_outer_cargo};
+use super::toolchain::{Way, has_core};
+use super::{Progress, SetUpError, without_outer_cargo};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
@@ -17,19 +17,19 @@ const LEAST_MINOR: u32 = 88;
 const LAYOUT: u32 = 1;
 
 /// Installs what is missing and builds the library, unless the cache holds it.
-pub(super) fn set_up(progress: &Progress) -> Result<Toolchain, SetUpError> {
-    install_missing(progress)?;
+pub(super) fn set_up(target: &str, progress: &Progress) -> Result<Way, SetUpError> {
+    install_missing(target, progress)?;
     let missing =
         |what: &str| SetUpError::NoToolchain(format!("{what} is still missing after installing the packages"));
     let compiler = Compiler::find().ok_or_else(|| missing("a recent /usr/bin/rustc with its library's source"))?;
     let linker = find_linker().ok_or_else(|| missing("the linker lld"))?;
-    let sysroot = cache_folder()?.join(format!("debian-rust-{}-{TARGET}", compiler.release));
+    let sysroot = cache_folder()?.join(format!("debian-rust-{}-{target}", compiler.release));
     let stamp = format!("layout {LAYOUT}\n{}", compiler.version);
-    if !is_built(&sysroot, &stamp) {
-        let what = format!("building the library for {TARGET}, once, into {}", sysroot.display());
-        progress.during(&what, || build(&sysroot, &stamp))?;
+    if !is_built(target, &sysroot, &stamp) {
+        let what = format!("building the library for {target}, once, into {}", sysroot.display());
+        progress.during(&what, || build(target, &sysroot, &stamp))?;
     }
-    Ok(Toolchain::Debian { sysroot, linker })
+    Ok(Way::Debian { sysroot, linker })
 }
 
 /// Installs Debian's clippy if it is missing.
@@ -40,7 +40,7 @@ pub(super) fn set_up_clippy(progress: &Progress) -> Result<(), SetUpError> {
     apt_install(&["rust-web-clippy"], progress).map_err(SetUpError::NoToolchain)
 }
 
-fn install_missing(progress: &Progress) -> Result<(), SetUpError> {
+fn install_missing(target: &str, progress: &Progress) -> Result<(), SetUpError> {
     let mut packages = Vec::new();
     if Compiler::find().is_none() {
         packages.extend(["rustc-web", "cargo-web", "rust-web-src"]);
@@ -52,7 +52,7 @@ fn install_missing(progress: &Progress) -> Result<(), SetUpError> {
         return Ok(());
     }
     apt_install(&packages, progress).map_err(|error| {
-        SetUpError::NoToolchain(format!("{error}\nwith rustup: rustup target add {TARGET}\nwith Debian: see above"))
+        SetUpError::NoToolchain(format!("{error}\nwith rustup: rustup target add {target}\nwith Debian: see above"))
     })
 }
 
@@ -98,37 +98,38 @@ fn cache_folder() -> Result<PathBuf, SetUpError> {
     std::path::absolute(&folder).map_err(SetUpError::io(folder.display()))
 }
 
-fn library_folder(sysroot: &Path) -> PathBuf {
-    sysroot.join("lib/rustlib").join(TARGET).join("lib")
+fn library_folder(target: &str, sysroot: &Path) -> PathBuf {
+    sysroot.join("lib/rustlib").join(target).join("lib")
 }
 
-fn is_built(sysroot: &Path, stamp: &str) -> bool {
-    fs::read_to_string(sysroot.join("stamp")).is_ok_and(|found| found == stamp) && has_core(&library_folder(sysroot))
+fn is_built(target: &str, sysroot: &Path, stamp: &str) -> bool {
+    fs::read_to_string(sysroot.join("stamp")).is_ok_and(|found| found == stamp)
+        && has_core(&library_folder(target, sysroot))
 }
 
 /// Builds the library in a folder of its own and moves it into place whole: an interrupted build leaves nothing that
 /// could be taken for a library.
-fn build(sysroot: &Path, stamp: &str) -> Result<(), SetUpError> {
+fn build(target: &str, sysroot: &Path, stamp: &str) -> Result<(), SetUpError> {
     let cache = sysroot.parent().unwrap_or(sysroot);
     fs::create_dir_all(cache).map_err(SetUpError::io(cache.display()))?;
     let work =
         tempfile::Builder::new().prefix("building-").tempdir_in(cache).map_err(SetUpError::io(cache.display()))?;
     let finished = work.path().join("sysroot");
-    let library = library_folder(&finished);
-    compile(work.path(), &library)?;
+    let library = library_folder(target, &finished);
+    compile(target, work.path(), &library)?;
     fs::write(finished.join("stamp"), stamp).map_err(SetUpError::io(finished.display()))?;
     if sysroot.exists() {
         fs::remove_dir_all(sysroot).map_err(SetUpError::io(sysroot.display()))?;
     }
     match fs::rename(&finished, sysroot) {
         // Another process was quicker.
-        Err(_) if is_built(sysroot, stamp) => Ok(()),
+        Err(_) if is_built(target, sysroot, stamp) => Ok(()),
         moved => moved.map_err(SetUpError::io(sysroot.display())),
     }
 }
 
 /// Compiles the library by way of an empty package that needs it, and copies what came of it.
-fn compile(work: &Path, library: &Path) -> Result<(), SetUpError> {
+fn compile(target: &str, work: &Path, library: &Path) -> Result<(), SetUpError> {
     const MANIFEST: &str = "[package]\nname = \"seed\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
                             [lib]\npath = \"lib.rs\"\n[profile.release]\ndebug = 1\n[workspace]\n";
     let seed = work.join("seed");
@@ -145,11 +146,11 @@ fn compile(work: &Path, library: &Path) -> Result<(), SetUpError> {
             .env("RUSTC_BOOTSTRAP", "1")
             .env("RUSTFLAGS", "-Cembed-bitcode=yes -Zforce-unstable-if-unmarked")
             .current_dir(&seed)
-            .args(["build", "--release", "--target", TARGET, "--target-dir", "target"])
+            .args(["build", "--release", "--target", target, "--target-dir", "target"])
             .args(["-Zbuild-std=core,alloc,compiler_builtins", "-Zbuild-std-features=compiler-builtins-mem"]),
     )?;
     fs::create_dir_all(library).map_err(SetUpError::io(library.display()))?;
-    let built = seed.join("target").join(TARGET).join("release/deps");
+    let built = seed.join("target").join(target).join("release/deps");
     for entry in fs::read_dir(&built).map_err(SetUpError::io(built.display()))?.flatten() {
         let name = entry.file_name();
         let shown = name.to_string_lossy();

@@ -69,7 +69,7 @@ impl Emulator {
             .stderr(File::create(folder.path().join("said"))?)
             // One instruction is 64 ns of emulated time whatever the host does, and time that is slept is skipped: every
             // run is the same, and instructions can be counted.
-            .args(["-machine", "mps2-an386", "-icount", "shift=6,sleep=off"])
+            .args(["-machine", image.board.machine(), "-icount", "shift=6,sleep=off"])
             .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])
             .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
             .arg(&image.elf);

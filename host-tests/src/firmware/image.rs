@@ -1,8 +1,7 @@
 //! Building the firmware image and measuring it.
 
 use super::process::output;
-use super::toolchain::TARGET;
-use super::{Progress, SetUpError, Toolchain, Transport, repository};
+use super::{Board, Progress, SetUpError, Toolchain, Transport};
 use object::{Object, ObjectSection, SectionFlags, SectionKind, elf};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,6 +11,8 @@ use tempfile::TempDir;
 /// What goes into the image.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
+    /// The board.
+    pub board: Board,
     /// A baked body; the board's default if `None`.
     pub body: Option<PathBuf>,
     /// A settings file; the board's default if `None`.
@@ -21,6 +22,8 @@ pub struct Choice {
 /// An image and what it takes.
 #[derive(Clone, Debug)]
 pub struct Image {
+    /// What it runs on.
+    pub board: Board,
     /// The ELF file.
     pub elf: PathBuf,
     /// Bytes in flash: code, constants, and the first values of variables.
@@ -48,11 +51,6 @@ impl Images {
     }
 }
 
-/// The board's folder.
-pub fn board() -> PathBuf {
-    repository().join("boards/qemu-m4")
-}
-
 /// Builds the images with the body and settings of `choice`.
 ///
 /// # Errors
@@ -64,7 +62,7 @@ pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Res
 
     let target_folder = toolchain.target_folder();
     let mut cargo = toolchain.cargo();
-    cargo.current_dir(board()).args(["build", "--release", "--bins", "--target-dir"]).arg(&target_folder);
+    cargo.current_dir(choice.board.folder()).args(["build", "--release", "--bins", "--target-dir"]).arg(&target_folder);
     for (variable, file) in [("PALPATE_BODY", &choice.body), ("PALPATE_SETTINGS", &choice.settings)] {
         match file {
             Some(file) => cargo.env(variable, file.canonicalize().map_err(SetUpError::io(file.display()))?),
@@ -74,17 +72,17 @@ pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Res
     progress.during("building the firmware image", || output(&mut cargo))?;
 
     let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
-    let built = target_folder.join(TARGET).join("release");
+    let built = target_folder.join(toolchain.target()).join("release");
     let take = |transport: Transport| {
         let elf = folder.path().join(transport.binary());
         fs::copy(built.join(transport.binary()), &elf).map_err(SetUpError::io(built.display()))?;
-        measure(elf)
+        measure(choice.board, elf)
     };
     Ok(Images { uart: take(Transport::Uart)?, fifo: take(Transport::Fifo)?, _folder: folder })
 }
 
 /// Adds up the sections that the linker gave an address.
-fn measure(elf: PathBuf) -> Result<Image, SetUpError> {
+fn measure(board: Board, elf: PathBuf) -> Result<Image, SetUpError> {
     let content = fs::read(&elf).map_err(SetUpError::io(elf.display()))?;
     let file = object::File::parse(content.as_slice()).map_err(|error| refused(&elf, &error.to_string()))?;
     let (mut flash, mut ram) = (0, 0);
@@ -103,7 +101,7 @@ fn measure(elf: PathBuf) -> Result<Image, SetUpError> {
             ram += section.size();
         }
     }
-    Ok(Image { elf, flash, ram })
+    Ok(Image { board, elf, flash, ram })
 }
 
 fn refused(path: &Path, reason: &str) -> SetUpError {

@@ -1,4 +1,4 @@
-//! The firmware on the emulated board: set-up, image, emulator and the link to it.
+//! The firmware on the emulated boards: set-up, image, emulator and the link to it.
 //!
 //! ```no_run
 //! use palpate_host::firmware::{self, Link, Transport};
@@ -10,6 +10,7 @@
 //! # }
 //! ```
 
+mod board;
 mod debian;
 mod emulator;
 mod image;
@@ -19,8 +20,9 @@ mod progress;
 mod qemu;
 mod toolchain;
 
+pub use board::Board;
 pub use emulator::{Emulator, Transport};
-pub use image::{Choice, Image, Images, board};
+pub use image::{Choice, Image, Images};
 pub use link::{Link, LinkError};
 pub use process::{SetUpError, without_outer_cargo};
 pub use progress::Progress;
@@ -64,7 +66,7 @@ impl Firmware {
 /// wrong.
 pub fn prepare(choice: &Choice, progress: &Progress) -> Result<Firmware, SetUpError> {
     let qemu = Qemu::set_up(progress)?;
-    let toolchain = Toolchain::set_up(progress)?;
+    let toolchain = Toolchain::set_up(choice.board.target(), progress)?;
     let images = image::build(&toolchain, choice, progress)?;
     Ok(Firmware { qemu, images })
 }

@@ -6,12 +6,16 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-/// The board's target.
-pub const TARGET: &str = "thumbv7em-none-eabihf";
-
-/// How the board's code is compiled.
+/// How a board's code is compiled.
 #[derive(Clone, Debug)]
-pub enum Toolchain {
+pub struct Toolchain {
+    target: &'static str,
+    way: Way,
+}
+
+/// The way to a compiler.
+#[derive(Clone, Debug)]
+pub(super) enum Way {
     /// The Rust at hand has the target's library.
     Installed,
     /// Debian's Rust with a library for the target, built here.
@@ -28,18 +32,25 @@ impl Toolchain {
     ///
     /// # Errors
     /// Why none of them is open.
-    pub fn set_up(progress: &Progress) -> Result<Self, SetUpError> {
-        if has_target() || (rustup_adds_target(progress) && has_target()) {
-            return Ok(Self::Installed);
-        }
-        debian::set_up(progress)
+    pub fn set_up(target: &'static str, progress: &Progress) -> Result<Self, SetUpError> {
+        let way = if has_target(target) || (rustup_adds_target(target, progress) && has_target(target)) {
+            Way::Installed
+        } else {
+            debian::set_up(target, progress)?
+        };
+        Ok(Self { target, way })
+    }
+
+    /// What it compiles for.
+    pub const fn target(&self) -> &'static str {
+        self.target
     }
 
     /// Where it builds: what one toolchain has built is no use to another.
     pub fn target_folder(&self) -> PathBuf {
-        repository().join("target/firmware").join(match self {
-            Self::Installed => "installed",
-            Self::Debian { .. } => "debian",
+        repository().join("target/firmware").join(match self.way {
+            Way::Installed => "installed",
+            Way::Debian { .. } => "debian",
         })
     }
 
@@ -53,11 +64,11 @@ impl Toolchain {
     /// # Errors
     /// If Debian's clippy is not there and cannot be installed.
     pub fn clippy(&self, progress: &Progress) -> Result<Command, SetUpError> {
-        if let Self::Debian { .. } = self {
+        if let Way::Debian { .. } = self.way {
             debian::set_up_clippy(progress)?;
         }
         let mut command = self.program("cargo", debian::CARGO_CLIPPY);
-        if let Self::Debian { .. } = self {
+        if let Way::Debian { .. } = self.way {
             // cargo would look for the subcommand among rustup's first.
             command.env("CARGO", debian::CARGO);
         }
@@ -66,21 +77,25 @@ impl Toolchain {
     }
 
     fn program(&self, installed: &str, of_debian: &str) -> Command {
-        match self {
-            Self::Installed => {
+        match &self.way {
+            Way::Installed => {
                 let mut command = Command::new(installed);
                 without_outer_cargo(&mut command);
                 command
             }
-            Self::Debian { sysroot, linker } => {
+            Way::Debian { sysroot, linker } => {
                 let mut command = Command::new(of_debian);
                 // These flags are for the target only, and part of cargo's fingerprint: what was built with another
                 // library is built again.
+                let variable = |what: &str| {
+                    let target = self.target.to_uppercase().replace(['-', '.'], "_");
+                    format!("CARGO_TARGET_{target}_{what}")
+                };
                 without_outer_cargo(&mut command)
                     .env_remove("RUSTUP_TOOLCHAIN")
                     .env("RUSTC", debian::RUSTC)
-                    .env("CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER", linker)
-                    .env("CARGO_TARGET_THUMBV7EM_NONE_EABIHF_RUSTFLAGS", format!("--sysroot={}", sysroot.display()));
+                    .env(variable("LINKER"), linker)
+                    .env(variable("RUSTFLAGS"), format!("--sysroot={}", sysroot.display()));
                 command
             }
         }
@@ -88,9 +103,9 @@ impl Toolchain {
 }
 
 /// Whether the Rust at hand has the target's library.
-fn has_target() -> bool {
+fn has_target(target: &str) -> bool {
     let mut rustc = Command::new("rustc");
-    let folder = output(without_outer_cargo(&mut rustc).args(["--print", "target-libdir", "--target", TARGET]));
+    let folder = output(without_outer_cargo(&mut rustc).args(["--print", "target-libdir", "--target", target]));
     folder.is_ok_and(|folder| has_core(Path::new(folder.trim())))
 }
 
@@ -101,12 +116,12 @@ pub(super) fn has_core(folder: &Path) -> bool {
 }
 
 /// Asks rustup for the target, if there is a rustup that may install.
-fn rustup_adds_target(progress: &Progress) -> bool {
+fn rustup_adds_target(target: &str, progress: &Progress) -> bool {
     if on_path("rustup").is_none() || env::var_os("RUSTUP_AUTO_INSTALL").is_some_and(|value| value == "0") {
         return false;
     }
-    let add = || output(Command::new("rustup").args(["target", "add", TARGET]));
-    match progress.during(&format!("adding the target {TARGET} with rustup"), add) {
+    let add = || output(Command::new("rustup").args(["target", "add", target]));
+    match progress.during(&format!("adding the target {target} with rustup"), add) {
         Ok(_) => true,
         Err(error) => {
             progress.say(&format!("rustup did not add it, looking for another way: {error}"));

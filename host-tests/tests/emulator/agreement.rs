@@ -1,13 +1,13 @@
 //! The device and the host compute the same bits.
 
 use crate::path::{TICKS, sensors};
-use crate::running::{TRANSPORTS, firmware};
+use crate::running::{TRANSPORTS, firmware_of};
 use palpate::device::Counts;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Input, Servo};
+use palpate::servo::{Event, Input, Servo};
 use palpate::track::Controller;
 use palpate::wire::Report;
-use palpate_host::firmware::Link;
+use palpate_host::firmware::{Board, Link};
 
 /// The very tables and settings of the image.
 mod tables {
@@ -18,11 +18,20 @@ mod settings {
 }
 
 static SERVO: Servo<'static, SplinePatch, settings::Mechanism, 3> =
-    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS);
+    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS)
+        .safety(settings::SAFETY);
 
 #[test]
-fn device_and_host_agree_in_every_bit_of_every_tick() {
-    let Some(firmware) = firmware("device_and_host_agree_in_every_bit_of_every_tick") else { return };
+fn every_board_and_the_host_agree_in_every_bit_of_every_tick() {
+    for board in Board::ALL {
+        agrees(board);
+    }
+}
+
+fn agrees(board: Board) {
+    let Some(firmware) = firmware_of(board, "every_board_and_the_host_agree_in_every_bit_of_every_tick") else {
+        return;
+    };
     for transport in TRANSPORTS {
         let mut emulator = firmware.start(transport).unwrap();
         let mut state = SERVO.start();
@@ -30,10 +39,11 @@ fn device_and_host_agree_in_every_bit_of_every_tick() {
         for tick in 0..TICKS {
             let sensors = sensors(tick);
             let report = emulator.exchange(&sensors).unwrap();
+            SERVO.note(&mut state, Event::LinkAlive);
             SERVO.tick(&mut state, Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable });
-            assert_eq!(report, Report::new(&state, report.instructions), "{transport:?}");
+            assert_eq!(report, Report::new(&state, report.instructions), "{board:?}, {transport:?}");
             pushed += u32::from(report.duties != [0; 3]);
         }
-        assert!(pushed > 100, "{transport:?}: the surface pushed back in {pushed} ticks only");
+        assert!(pushed > 100, "{board:?}, {transport:?}: the surface pushed back in {pushed} ticks only");
     }
 }

@@ -5,7 +5,7 @@ use crate::running::is_wanted;
 use clap::Parser;
 use palpate_host::commands::demo::prepare;
 use palpate_host::commands::options::{Scene, SceneOptions};
-use palpate_host::firmware::{Link, Progress, Transport};
+use palpate_host::firmware::{Board, Link, Progress, Transport};
 use palpate_host::report::Summary;
 use palpate_host::simulation::{Trace, run};
 
@@ -25,7 +25,7 @@ fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
 fn traces(arguments: &[&str]) -> [Trace; 2] {
     let Demo { options } = Demo::parse_from(arguments);
     let scene = options.scene().expect("the demo's scene");
-    let firmware = prepare(&scene, &Progress::new()).expect("the image builds");
+    let firmware = prepare(Board::M4, &scene, &Progress::new()).expect("the image builds");
     let mut emulator = firmware.start(Transport::Fifo).expect("the emulator starts");
     let device = trace(&options, &scene, &mut emulator);
     let host = trace(&options, &scene, scene.host_loop().expect("good settings").as_mut());

@@ -2,11 +2,20 @@
 //! named, and nothing but a reset starts them again.
 
 use crate::path::{TICKS, sensors};
-use crate::running::{TRANSPORTS, firmware};
-use palpate::servo::{Fault, Phase};
+use crate::running::{TRANSPORTS, firmware, is_wanted};
+use clap::Parser;
+use palpate::servo::{Fault, Phase, ResetReason};
 use palpate::wire::Sensors;
 use palpate::wire::frame::{self, DELIMITER, MAX_FRAME};
-use palpate_host::firmware::{Emulator, Link, LinkError};
+use palpate_host::commands::demo::prepare;
+use palpate_host::commands::options::SceneOptions;
+use palpate_host::firmware::{Emulator, Link, LinkError, Progress};
+
+#[derive(Parser)]
+struct Scene {
+    #[command(flatten)]
+    options: SceneOptions,
+}
 
 /// Moves until the surface has pushed for a while, does `harm` in the place of the next tick's frame, and asserts what
 /// the device must say from then on. Gives the frames it has lost at the end.
@@ -89,6 +98,24 @@ fn a_frame_sent_twice() {
     };
     let lost = after(harm, Fault::FrameLost, "a_frame_sent_twice");
     assert!(lost.is_none_or(|lost| lost == [1, 1]));
+}
+
+/// 16 kHz leave 976 instructions a tick, fewer than a tick takes: the first one overruns.
+#[test]
+fn a_tick_that_takes_longer_than_its_period() {
+    if !is_wanted("a_tick_that_takes_longer_than_its_period") {
+        return;
+    }
+    let Scene { options } = Scene::parse_from(["scene", "--rate", "16000"]);
+    let image = prepare(&options.scene().unwrap(), &Progress::new()).expect("the image builds");
+    let mut emulator = image.start(TRANSPORTS[0]).unwrap();
+    for tick in 0..20 {
+        let report = emulator.exchange(&sensors(tick)).unwrap();
+        assert_eq!((report.fault, report.phase), (Fault::Overrun.code(), Phase::Fault as u8), "tick {tick}");
+        assert_eq!((report.duties, report.reset), ([0; 3], ResetReason::PowerOn as u8));
+        // Counted on, for as long as ticks take too long; the first that does stops the motors.
+        assert!(report.overruns >= 1 && report.overruns <= tick + 1, "{}", report.overruns);
+    }
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! The firmware, if it is to be run.
 
-use palpate_host::firmware::{self, Choice, Firmware, Progress, Transport, WITH_FIRMWARE};
+use palpate_host::firmware::{self, Board, Choice, Firmware, Progress, Transport, WITH_FIRMWARE};
 use std::env;
 use std::io::{Write, stderr};
 
 pub const TRANSPORTS: [Transport; 2] = [Transport::Uart, Transport::Fifo];
 
-/// Whether the emulated board is to be used. If not, that is said.
+/// Whether an emulated board is to be used. If not, that is said.
 pub fn is_wanted(test: &str) -> bool {
     let wanted = env::var_os(WITH_FIRMWARE).is_some();
     if !wanted {
@@ -20,9 +20,15 @@ pub fn is_wanted(test: &str) -> bool {
     wanted
 }
 
-/// The firmware, ready to start; `None` where the tests are run without.
+/// The firmware of the first board, ready to start; `None` where the tests are run without.
 pub fn firmware(test: &str) -> Option<Firmware> {
+    firmware_of(Board::default(), test)
+}
+
+/// The firmware of a board.
+pub fn firmware_of(board: Board, test: &str) -> Option<Firmware> {
     is_wanted(test).then(|| {
-        firmware::prepare(&Choice::default(), &Progress::new()).expect("everything was set up before the tests")
+        firmware::prepare(&Choice { board, ..Choice::default() }, &Progress::new())
+            .expect("everything was set up before the tests")
     })
 }

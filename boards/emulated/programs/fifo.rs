@@ -3,14 +3,15 @@
 #![no_std]
 #![no_main]
 
+use board::BOARD;
 use cortex_m::peripheral::Peripherals;
 use cortex_m_rt::entry;
-use palpate_qemu_m4::vectors::interrupt;
-use palpate_qemu_m4::{body::SETTINGS, link_semihosting::FifoLink, servo_loop::ServoLoop, timer};
+use palpate_emulated::vectors::interrupt;
+use palpate_emulated::{body::SETTINGS, link_semihosting::FifoLink, servo_loop::ServoLoop};
 
 #[entry]
 fn main() -> ! {
-    timer::start(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate);
     loop {
         cortex_m::asm::wfi();
     }
@@ -21,9 +22,9 @@ fn TIMER0() {
     // Made at the first tick, in the only place that uses it: no lock is needed to hand it over.
     static mut SERVO_LOOP: Option<ServoLoop<FifoLink>> = None;
 
-    timer::acknowledge();
+    BOARD.acknowledge_timer();
     if SERVO_LOOP.is_none() {
-        *SERVO_LOOP = Peripherals::take().map(|core| ServoLoop::new(FifoLink::open(), core.SYST));
+        *SERVO_LOOP = Peripherals::take().map(|core| ServoLoop::new(&BOARD, FifoLink::open(), core.SYST));
     }
     if let Some(servo_loop) = SERVO_LOOP {
         servo_loop.tick();

@@ -6,6 +6,7 @@ use palpate::wire::{
 };
 use vcell::VolatileCell;
 
+use crate::board::Board;
 use crate::link::Link;
 
 /// How often the line is looked at before the host is given up for this tick.
@@ -24,14 +25,13 @@ struct Registers {
     divider: VolatileCell<u32>,
 }
 
-const UART0: *const Registers = 0x4000_4000 as *const Registers;
 const TRANSMIT_FULL: u32 = 1;
 const RECEIVE_FULL: u32 = 1 << 1;
 const ENABLE_BOTH: u32 = 3;
-/// 921,600 baud, as near as 25 MHz comes; the emulator takes any, 16 is the least the hardware takes.
-const DIVIDER: u32 = 27;
+/// The emulator takes any; the board's clock comes near enough, and 16 is the least divider that the hardware takes.
+const BAUD: u32 = 921_600;
 
-/// Frames over UART0.
+/// Frames over the UART.
 pub struct UartLink {
     registers: &'static Registers,
     receiver: Receiver<Sensors>,
@@ -39,19 +39,13 @@ pub struct UartLink {
 
 impl UartLink {
     /// Switches the UART on. Make one only: two would steal each other's bytes.
-    pub fn new() -> Self {
-        // SAFETY: the address is the chip's (application note AN386), the block is there for good, and a
+    pub fn new(board: &Board) -> Self {
+        // SAFETY: the address is the chip's, the block is there for good, and a
         // `VolatileCell` may be shared.
-        let registers = unsafe { &*UART0 };
-        registers.divider.set(DIVIDER);
+        let registers = unsafe { &*(board.uart as *const Registers) };
+        registers.divider.set(board.clock / BAUD);
         registers.control.set(ENABLE_BOTH);
         Self { registers, receiver: Receiver::new() }
-    }
-}
-
-impl Default for UartLink {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

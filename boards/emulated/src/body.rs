@@ -14,8 +14,9 @@ mod settings {
     include!(env!("PALPATE_SETTINGS_FILE"));
 }
 
-pub use settings::SETTINGS;
+pub use settings::{SAFETY, SETTINGS};
+pub use tables::PATCHES as BODY;
 
 /// Everything the servo knows, in flash.
 pub static SERVO: Servo<'static, SplinePatch, settings::Mechanism, 3> =
-    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS);
+    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, SETTINGS).safety(SAFETY);

@@ -2,13 +2,14 @@
 
 use cortex_m::peripheral::SYST;
 use palpate::device::Counts;
-use palpate::servo::{Input, ServoState};
+use palpate::servo::{Deadline, Event, Input, ServoState};
 use palpate::wire::frame::{self, MAX_FRAME, Received};
 use palpate::wire::{Report, Sensors};
 
-use crate::body::SERVO;
+use crate::board::Board;
+use crate::body::{SERVO, SETTINGS};
 use crate::link::Link;
-use crate::timer::InstructionCounter;
+use crate::timer::{INSTRUCTIONS_A_SECOND, InstructionCounter};
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends, so that none is left
 /// running. A real device stays, with its motors off.
@@ -16,6 +17,9 @@ const SILENT_TICKS: u32 = 5;
 
 /// Frames looked at in one tick while late ones come.
 const FRAMES_A_TICK: u32 = 4;
+
+/// From the sensors in hand to the duties applied; waiting for the host does not count, for a real device has its sensors by it.
+const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_A_SECOND as f32, SETTINGS.rate);
 
 /// The servo loop over a link.
 pub struct ServoLoop<L> {
@@ -27,8 +31,13 @@ pub struct ServoLoop<L> {
 
 impl<L: Link> ServoLoop<L> {
     /// A loop before its first tick.
-    pub fn new(link: L, systick: SYST) -> Self {
-        Self { link, state: SERVO.start(), counter: InstructionCounter::new(systick), silent_ticks: 0 }
+    pub fn new(board: &Board, link: L, systick: SYST) -> Self {
+        Self {
+            link,
+            state: SERVO.start_after(board.reset_reason()),
+            counter: InstructionCounter::new(board, systick),
+            silent_ticks: 0,
+        }
     }
 
     /// One tick.
@@ -37,6 +46,10 @@ impl<L: Link> ServoLoop<L> {
         let state = &mut self.state;
         let ((), instructions) = self.counter.count(|| SERVO.tick(state, input));
         // On a real board `state.duties` goes to the PWM here, before anything else.
+        if DEADLINE.overrun(0, instructions) {
+            // The duties may be others after this: zero, where it is a fault.
+            SERVO.note(state, Event::Overrun);
+        }
         let mut buffer = [0; MAX_FRAME];
         if let Ok(frame) = frame::pack(&Report::new(state, instructions), &mut buffer) {
             self.link.send(frame);
@@ -52,6 +65,9 @@ impl<L: Link> ServoLoop<L> {
         for _ in 0..FRAMES_A_TICK {
             let received = self.link.receive();
             self.silent_ticks = if received.is_none() { self.silent_ticks + 1 } else { 0 };
+            if matches!(received, Some(Received::Message(_) | Received::Empty)) {
+                SERVO.note(&mut self.state, Event::LinkAlive);
+            }
             match received {
                 Some(Received::Message(sensors)) if sensors.tick == self.state.ticks => {
                     return if late { Input::Lost } else { input_of(sensors) };

@@ -1,0 +1,18 @@
+//! Counts the instructions of the hot path and prints them on the host's console, then ends the emulator.
+
+#![no_std]
+#![no_main]
+
+use board::BOARD;
+use cortex_m::peripheral::Peripherals;
+use cortex_m_rt::entry;
+use palpate_emulated::budget;
+use palpate_emulated::timer::InstructionCounter;
+
+#[entry]
+fn main() -> ! {
+    if let Some(core) = Peripherals::take() {
+        budget::run(&mut InstructionCounter::new(&BOARD, core.SYST));
+    }
+    semihosting::process::exit(0)
+}

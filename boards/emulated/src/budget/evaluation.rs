@@ -1,0 +1,36 @@
+//! One evaluation: point and both tangents.
+
+use core::hint::black_box;
+
+use palpate::patch::Patch;
+use semihosting::println;
+
+use super::patches::{POLYNOMIAL, RATIONAL};
+use super::tally::Tally;
+use crate::body::BODY;
+use crate::timer::InstructionCounter;
+
+/// Places along each parameter of a patch of several spans.
+const PLACES: u8 = 13;
+
+pub fn run(counter: &mut InstructionCounter) {
+    for (kind, patches) in [("polynomial", &POLYNOMIAL), ("rational", &RATIONAL)] {
+        for patch in black_box(patches) {
+            let (u, v) = black_box((0.3, 0.7));
+            let (point, instructions) = counter.count(|| patch.evaluate(u, v));
+            black_box(point);
+            let [degree_u, degree_v] = patch.degree();
+            println!("\"evaluation, {kind}, degree ({degree_u}, {degree_v})\" = {instructions}");
+        }
+    }
+    let mut spans = Tally::new();
+    let body = black_box(&BODY[0]);
+    for place in 0..u16::from(PLACES) * u16::from(PLACES) {
+        let at = |index: u16| f32::from(index) / f32::from(PLACES - 1);
+        let (u, v) = black_box((at(place / u16::from(PLACES)), at(place % u16::from(PLACES))));
+        let (point, instructions) = counter.count(|| body.evaluate(u, v));
+        black_box(point);
+        spans.add(instructions);
+    }
+    spans.print("evaluation, the image's body");
+}

@@ -1,0 +1,24 @@
+//! What the hot path costs, in counted instructions: the figures that `cargo palpate budgets` compares.
+//!
+//! Each figure is a line on the host's console, `name = instructions`. Everything but the counter is plain library code:
+//! another core needs its own counter and nothing else. A call counts too: what is measured is behind a function that
+//! is not inlined, and the compiler does not know its patch.
+
+mod evaluation;
+mod patches;
+mod servo;
+mod step;
+mod tally;
+
+pub use tally::Tally;
+
+use crate::timer::InstructionCounter;
+
+/// Measures and prints all figures.
+pub fn run(counter: &mut InstructionCounter) {
+    evaluation::run(counter);
+    step::run(counter);
+    servo::run(counter);
+    // The closest point of a body of several faces comes here, in a file of its own: a tick on a face, at a switch, and the
+    // worst over a walk that visits every feature.
+}

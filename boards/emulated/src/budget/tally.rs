@@ -1,0 +1,54 @@
+//! The median and the worst of many counts, without keeping them all.
+
+use semihosting::println;
+
+/// Counts above this are all in the last bin.
+const BINS: usize = 4_096;
+
+/// How often each count came.
+pub struct Tally {
+    times: [u32; BINS],
+    largest: u32,
+    total: u32,
+}
+
+impl Default for Tally {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Tally {
+    /// Nothing counted yet.
+    pub const fn new() -> Self {
+        Self { times: [0; BINS], largest: 0, total: 0 }
+    }
+
+    /// One more count.
+    pub fn add(&mut self, instructions: u32) {
+        let bin = (instructions as usize).min(BINS - 1);
+        self.times[bin] += 1;
+        self.largest = self.largest.max(instructions);
+        self.total += 1;
+    }
+
+    /// The lower median; 0 of nothing.
+    pub fn median(&self) -> u32 {
+        let mut below = 0;
+        for (bin, times) in self.times.iter().enumerate() {
+            below += times;
+            if 2 * below >= self.total && below > 0 {
+                return bin as u32;
+            }
+        }
+        0
+    }
+
+    /// Prints median and worst under this name. A figure that nothing reached is not printed: the host misses it.
+    pub fn print(&self, name: &str) {
+        if self.total > 0 {
+            println!("\"{name}, median\" = {}", self.median());
+            println!("\"{name}, worst\" = {}", self.largest);
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Time: the interrupt that paces the servo, and the counter that measures it.
+
+use cortex_m::peripheral::{NVIC, SYST, syst::SystClkSource};
+use vcell::VolatileCell;
+
+use crate::board::Board;
+use crate::vectors::Position;
+
+/// The registers of an APB timer (Arm CMSDK technical reference, "APB timer").
+#[repr(C)]
+struct Registers {
+    control: VolatileCell<u32>,
+    value: VolatileCell<u32>,
+    reload: VolatileCell<u32>,
+    interrupt: VolatileCell<u32>,
+}
+
+const ENABLE: u32 = 1;
+const ENABLE_INTERRUPT: u32 = 1 << 3;
+
+impl Board {
+    fn registers(&self) -> &'static Registers {
+        // SAFETY: the address is the chip's, the block is there for good, and a `VolatileCell` may be shared; main
+        // writes it before the interrupt is unmasked and the handler after.
+        unsafe { &*(self.timer as *const Registers) }
+    }
+
+    /// Starts the servo's interrupt, `rate` Hz.
+    pub fn start_timer(&self, rate: f32) {
+        let timer = self.registers();
+        let reload = (self.clock as f32 / rate) as u32 - 1;
+        timer.reload.set(reload);
+        timer.value.set(reload);
+        timer.control.set(ENABLE | ENABLE_INTERRUPT);
+        // SAFETY: no critical section is broken: main does nothing from here on but sleep.
+        unsafe { NVIC::unmask(Position(self.timer_interrupt)) };
+    }
+
+    /// Takes the interrupt back, so that the next period can raise it again.
+    #[inline]
+    pub fn acknowledge_timer(&self) {
+        self.registers().interrupt.set(1);
+    }
+}
+
+/// Counts instructions with SysTick, which runs freely at the core's clock.
+///
+/// Under `-icount shift=6` an instruction takes 64 ns of the emulator's time, 1.6 ticks at 25 MHz, 1.28 at 20 MHz: the
+/// count is right to one instruction, and the same in every run. On a real core the same difference is cycles, not
+/// instructions.
+pub struct InstructionCounter {
+    /// Instructions a tick of SysTick, as a fraction in lowest terms.
+    instructions_a_tick: [u32; 2],
+    overhead: u32,
+}
+
+/// Instructions in a second of the emulator's time under `-icount shift=6`: 64 ns each. On a real core, cycles: the clock.
+pub const INSTRUCTIONS_A_SECOND: u32 = 15_625_000;
+
+impl InstructionCounter {
+    /// Takes SysTick, so that nobody else sets it, starts it, and measures what measuring costs.
+    #[inline]
+    pub fn new(board: &Board, mut systick: SYST) -> Self {
+        let divisor = greatest_common_divisor(INSTRUCTIONS_A_SECOND, board.clock);
+        let instructions_a_tick = [INSTRUCTIONS_A_SECOND / divisor, board.clock / divisor];
+        systick.set_clock_source(SystClkSource::Core);
+        systick.set_reload(MASK);
+        systick.clear_current();
+        systick.enable_counter();
+        let mut counter = Self { instructions_a_tick, overhead: 0 };
+        // The second: the first may find the counter not yet reloaded.
+        counter.count(|| ());
+        counter.overhead = counter.count(|| ()).1;
+        counter
+    }
+
+    /// Runs `work` and gives how many instructions it took, the reading of the counter subtracted.
+    #[inline]
+    pub fn count<T>(&mut self, work: impl FnOnce() -> T) -> (T, u32) {
+        let before = SYST::get_current();
+        let result = work();
+        let after = SYST::get_current();
+        // SysTick counts down, 24 bits wide: right as long as the work is shorter than 0.67 s.
+        let ticks = before.wrapping_sub(after) & MASK;
+        let [instructions, of_ticks] = self.instructions_a_tick;
+        (result, (ticks * instructions / of_ticks).saturating_sub(self.overhead))
+    }
+}
+
+const MASK: u32 = 0x00ff_ffff;
+
+const fn greatest_common_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+}

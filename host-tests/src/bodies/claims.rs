@@ -1,0 +1,104 @@
+//! Which features claim a probe for their Voronoi region, by the probe alone: the tables' word, solved to the end.
+
+use super::truth::Truth;
+use palpate::body::{Body, CurvePoint, Edge, EdgeFace, Feature, Separator, Side, SplineCurve};
+use palpate::math::Vec3;
+
+/// The features that claim a probe.
+#[derive(Clone, Debug)]
+pub struct Claims {
+    /// Those that do.
+    pub features: Vec<Feature>,
+    /// The least absolute value of all tests that were decided, metres: near 0 the probe lies on a border between regions.
+    pub margin: f32,
+}
+
+/// The closest point of an edge.
+struct Foot {
+    t: f32,
+    at: CurvePoint,
+}
+
+/// Starts on an edge.
+const STARTS: u32 = 32;
+
+/// All claims on a probe outside the body. `truth` gives the heights over the faces: a face claims no probe behind it.
+pub fn claims(body: &Body, truth: &Truth, probe: Vec3) -> Claims {
+    let mut margin = f32::INFINITY;
+    let mut features = Vec::new();
+    let mut positive = |value: f32| {
+        margin = margin.min(value.abs());
+        value > 0.0
+    };
+    let feet: Vec<Foot> = body.edges().iter().map(|edge| foot(&edge.curve, probe)).collect();
+    for (index, face) in body.faces().iter().enumerate() {
+        // A pole has no height: it never decides.
+        if truth.heights[index] < 0.0 {
+            continue;
+        }
+        let left = face.sides.iter().any(|side| match side {
+            Side::Pole { .. } => false,
+            Side::Edge { edge, separator, .. } => positive(beyond(separator, &feet[usize::from(*edge)], probe)),
+        });
+        if !left {
+            features.push(Feature::Face(index as u16));
+        }
+    }
+    for (index, (edge, foot)) in body.edges().iter().zip(&feet).enumerate() {
+        let inner = foot.t > 0.0 && foot.t < 1.0;
+        let left = |of: EdgeFace, positive: &mut dyn FnMut(f32) -> bool| {
+            side_of(body, edge, of).is_none_or(|separator| positive(beyond(separator, foot, probe)))
+        };
+        if inner && edge.faces.into_iter().all(|of| left(of, &mut positive)) {
+            features.push(Feature::Edge(index as u16));
+        }
+    }
+    for (index, vertex) in body.vertices().iter().enumerate() {
+        let first = usize::from(vertex.first_spoke);
+        let spokes = &body.spokes()[first..first + usize::from(vertex.spokes)];
+        if spokes.iter().all(|spoke| !positive((probe - vertex.point).dot(spoke.direction))) {
+            features.push(Feature::Vertex(index as u16));
+        }
+    }
+    Claims { features, margin }
+}
+
+fn side_of<'a>(body: &'a Body, _: &Edge, of: EdgeFace) -> Option<&'a Separator> {
+    match body.faces().get(usize::from(of.face))?.sides.get(usize::from(of.side))? {
+        Side::Edge { separator, .. } => Some(separator),
+        Side::Pole { .. } => None,
+    }
+}
+
+/// How far the probe is beyond a separator, metres.
+fn beyond(separator: &Separator, foot: &Foot, probe: Vec3) -> f32 {
+    match separator {
+        Separator::Plane { normal, offset } => normal.dot(probe) - offset,
+        Separator::Ruled(cross) => {
+            let (cross, tangent) = (cross.evaluate(foot.t).point, foot.at.tangent);
+            let conormal = cross - tangent * (cross.dot(tangent) / tangent.length_squared());
+            (probe - foot.at.point).dot(conormal.normalize_or_zero())
+        }
+    }
+}
+
+/// The closest point of a curve: the best of many starts, by Gauss and Newton's steps halved until they help.
+fn foot(curve: &SplineCurve, probe: Vec3) -> Foot {
+    let distance = |t: f32| curve.evaluate(t).point.distance_squared(probe);
+    let starts = (0..=STARTS).map(|step| step as f32 / STARTS as f32);
+    let mut t = starts.fold(0.0, |best, t| if distance(t) < distance(best) { t } else { best });
+    for _ in 0..40 {
+        let at = curve.evaluate(t);
+        let mut change = (probe - at.point).dot(at.tangent) / at.tangent.length_squared();
+        let best = distance(t);
+        while change.abs() > 1e-8 && distance((t + change).clamp(0.0, 1.0)) > best {
+            change *= 0.5;
+        }
+        let next = (t + change).clamp(0.0, 1.0);
+        if next == t || change.abs() <= 1e-8 {
+            break;
+        }
+        t = next;
+    }
+    Foot { t, at: curve.evaluate(t) }
+}

@@ -1,0 +1,169 @@
+//! Second order: the distance from a probe to one rectangle of a patch's parameters.
+//!
+//! With `φ = ½ ‖f − Q‖²`, gradient `g` and Hessian `H = I + ΔR · D²f`, each step goes to the minimiser of
+//! `g · δ + ½ δᵀ H δ` over the rectangle, where `H` is positive definite; where it is not, `I` stands in for it (Gauss–Newton).
+//! A step that does not lower `φ` is halved.
+
+use super::locator::Candidate;
+use crate::math::Vec3;
+use crate::patch::{CurvedPoint, SplinePatch};
+
+/// Evaluations that one rectangle may cost.
+pub const MOST_EVALUATIONS: u8 = 16;
+/// A distance is found when the next step would change it by less than this, relative to the body's size: the rounding of `f32`
+/// coordinates of that size.
+const RESOLUTION: f32 = 2.0e-7;
+/// A determinant below this part of the product of the diagonal is rounding.
+const LEAST_DETERMINANT: f32 = 1.0e-4;
+/// Halvings of one step.
+const MOST_HALVINGS: u8 = 8;
+
+/// A search in one rectangle, between two evaluations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Descending {
+    /// The rectangle.
+    pub candidate: Candidate,
+    /// The best parameters so far; the seed before the first evaluation.
+    pub parameters: [f32; 2],
+    /// `φ` there, m²; infinite before the first evaluation.
+    pub half_squared: f32,
+    /// Where the next evaluation will be.
+    trial: [f32; 2],
+    halvings: u8,
+    evaluations: u8,
+}
+
+/// What an evaluation found out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// There is more to be had.
+    Falling,
+    /// The minimum of the rectangle is found.
+    Found,
+    /// The rectangle is proved to hold nothing nearer than what is known.
+    Beaten,
+    /// The evaluations are used up, or the steps too short.
+    Exhausted,
+}
+
+impl Descending {
+    /// From the middle of a candidate's rectangle.
+    pub fn new(candidate: Candidate) -> Self {
+        let [lower, upper] = candidate.rectangle();
+        let middle = [0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1])];
+        Self { candidate, parameters: middle, half_squared: f32::INFINITY, trial: middle, halvings: 0, evaluations: 0 }
+    }
+
+    /// One evaluation. `known` is the `φ` to beat, m²; `size` the body's, metres.
+    pub fn step(&mut self, patch: &SplinePatch, probe: Vec3, known: f32, size: f32) -> Progress {
+        let at = self.trial;
+        let curved = patch.evaluate_curved(at[0], at[1]);
+        self.evaluations += 1;
+        let difference = curved.surface.point - probe;
+        let half_squared = 0.5 * difference.length_squared();
+        if half_squared < self.half_squared {
+            let model = Model::new(&curved, difference);
+            let [lower, upper] = self.candidate.rectangle();
+            let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
+            // A convex function lies above its tangent plane.
+            if self.candidate.convex && half_squared + model.greatest_fall(room) > known {
+                return Progress::Beaten;
+            }
+            (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
+            let (change, fall) = model.minimiser(room);
+            let resolved = RESOLUTION * size;
+            // φ changes by d times the change of d.
+            if -fall <= resolved * (crate::math::sqrt(2.0 * half_squared) + resolved) {
+                return Progress::Found;
+            }
+            self.trial = [0, 1].map(|axis| (at[axis] + change[axis]).clamp(lower[axis], upper[axis]));
+        } else {
+            self.halvings += 1;
+            self.trial = [0, 1].map(|axis| 0.5 * (self.parameters[axis] + at[axis]));
+        }
+        let exhausted = self.evaluations >= MOST_EVALUATIONS || self.halvings >= MOST_HALVINGS;
+        if exhausted { Progress::Exhausted } else { Progress::Falling }
+    }
+}
+
+/// The quadratic model of `φ` at a point.
+struct Model {
+    gradient: [f32; 2],
+    /// `[uu, uv, vv]`, positive definite but for poles.
+    hessian: [f32; 3],
+}
+
+impl Model {
+    fn new(curved: &CurvedPoint, difference: Vec3) -> Self {
+        let surface = &curved.surface;
+        let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
+        let form = [f_u.dot(f_u), f_u.dot(f_v), f_v.dot(f_v)];
+        let bend = [curved.second_uu, curved.second_uv, curved.second_vv].map(|second| difference.dot(second));
+        let newton = [form[0] + bend[0], form[1] + bend[1], form[2] + bend[2]];
+        let gradient = [difference.dot(f_u), difference.dot(f_v)];
+        let hessian = if is_positive_definite(newton) {
+            newton
+        } else if is_positive_definite(form) {
+            form
+        } else {
+            // Near a pole: the trace is not below the greatest eigenvalue, a plain gradient step.
+            let trace = form[0] + form[2];
+            [trace, 0.0, trace]
+        };
+        Self { gradient, hessian }
+    }
+
+    /// The least value of `g · δ` with `δ` in `room`: not positive.
+    fn greatest_fall(&self, [lower, upper]: [[f32; 2]; 2]) -> f32 {
+        let along = |axis: usize| (self.gradient[axis] * lower[axis]).min(self.gradient[axis] * upper[axis]);
+        along(0) + along(1)
+    }
+
+    /// The minimiser of the model over `room`, and the model's value there. In two variables either the free minimiser lies
+    /// inside, or the best of the four sides is the minimiser.
+    fn minimiser(&self, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+        let [a, b, c] = self.hessian;
+        let [p, q] = self.gradient;
+        let determinant = a * c - b * b;
+        let free = [(b * q - c * p) / determinant, (b * p - a * q) / determinant];
+        let inside = |axis: usize| free[axis] >= lower[axis] && free[axis] <= upper[axis];
+        if determinant > 0.0 && inside(0) && inside(1) {
+            return (free, self.value(free));
+        }
+        let mut best = ([0.0; 2], 0.0);
+        for u in [lower[0], upper[0]] {
+            self.consider([u, least_of_line(q + b * u, c, [lower[1], upper[1]])], &mut best);
+        }
+        for v in [lower[1], upper[1]] {
+            self.consider([least_of_line(p + b * v, a, [lower[0], upper[0]]), v], &mut best);
+        }
+        best
+    }
+
+    fn consider(&self, change: [f32; 2], best: &mut ([f32; 2], f32)) {
+        let value = self.value(change);
+        if value < best.1 {
+            *best = (change, value);
+        }
+    }
+
+    fn value(&self, [u, v]: [f32; 2]) -> f32 {
+        let [a, b, c] = self.hessian;
+        self.gradient[0] * u + self.gradient[1] * v + 0.5 * (a * u * u + 2.0 * b * u * v + c * v * v)
+    }
+}
+
+/// The minimiser of `slope · x + ½ bend · x²` between two ends; the model's diagonal is not negative.
+fn least_of_line(slope: f32, bend: f32, [low, high]: [f32; 2]) -> f32 {
+    if bend > f32::MIN_POSITIVE {
+        (-slope / bend).clamp(low, high)
+    } else if slope > 0.0 {
+        low
+    } else {
+        high
+    }
+}
+
+fn is_positive_definite([a, b, c]: [f32; 3]) -> bool {
+    a > 0.0 && a * c - b * b > LEAST_DETERMINANT * a * c
+}

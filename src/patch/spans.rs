@@ -1,0 +1,201 @@
+//! The spans of a patch as the evaluation wants them: for the commonest degrees an array each, so that all loops are unrolled
+//! and no degree is looked at in the tick.
+
+use super::horner::{self, Derivatives};
+use super::{Coefficients, SplinePatch, SurfacePoint, span_centre};
+use crate::math::{Vec3, vec3};
+
+/// All spans of a patch.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Spans {
+    /// Degree (1, 1).
+    Bilinear(&'static [[[f32; 3]; 4]]),
+    /// Degree (2, 2).
+    Biquadratic(&'static [[[f32; 3]; 9]]),
+    /// Degree (3, 3).
+    Bicubic(&'static [[[f32; 3]; 16]]),
+    /// Degree (1, 1), rational.
+    RationalBilinear(&'static [[[f32; 4]; 4]]),
+    /// Degree (2, 2), rational.
+    RationalBiquadratic(&'static [[[f32; 4]; 9]]),
+    /// Degree (3, 3), rational.
+    RationalBicubic(&'static [[[f32; 4]; 16]]),
+    /// Any other degree: row by row.
+    Rows(&'static [[f32; 3]]),
+    /// Any other degree, rational.
+    RationalRows(&'static [[f32; 4]]),
+}
+
+impl Spans {
+    /// The coefficients, counted already, in spans.
+    pub(super) const fn new(degree: [u8; 2], coefficients: Coefficients) -> Self {
+        match (degree, coefficients) {
+            ([1, 1], Coefficients::Polynomial(entries)) => Self::Bilinear(entries.as_chunks().0),
+            ([2, 2], Coefficients::Polynomial(entries)) => Self::Biquadratic(entries.as_chunks().0),
+            ([3, 3], Coefficients::Polynomial(entries)) => Self::Bicubic(entries.as_chunks().0),
+            ([1, 1], Coefficients::Rational(entries)) => Self::RationalBilinear(entries.as_chunks().0),
+            ([2, 2], Coefficients::Rational(entries)) => Self::RationalBiquadratic(entries.as_chunks().0),
+            ([3, 3], Coefficients::Rational(entries)) => Self::RationalBicubic(entries.as_chunks().0),
+            (_, Coefficients::Polynomial(entries)) => Self::Rows(entries),
+            (_, Coefficients::Rational(entries)) => Self::RationalRows(entries),
+        }
+    }
+
+    /// The coefficients in one piece.
+    pub(super) const fn coefficients(&self) -> Coefficients {
+        match self {
+            Self::Bilinear(spans) => Coefficients::Polynomial(spans.as_flattened()),
+            Self::Biquadratic(spans) => Coefficients::Polynomial(spans.as_flattened()),
+            Self::Bicubic(spans) => Coefficients::Polynomial(spans.as_flattened()),
+            Self::RationalBilinear(spans) => Coefficients::Rational(spans.as_flattened()),
+            Self::RationalBiquadratic(spans) => Coefficients::Rational(spans.as_flattened()),
+            Self::RationalBicubic(spans) => Coefficients::Rational(spans.as_flattened()),
+            Self::Rows(entries) => Coefficients::Polynomial(entries),
+            Self::RationalRows(entries) => Coefficients::Rational(entries),
+        }
+    }
+
+    /// The point and both tangents at `(u, v)` of the patch whose spans these are.
+    #[inline]
+    pub(super) fn evaluate(&self, patch: &SplinePatch, u: f32, v: f32) -> SurfacePoint {
+        match self {
+            Self::Bilinear(spans) => whole::<3, 2, 4>(spans, patch, u, v),
+            Self::Biquadratic(spans) => whole::<3, 3, 9>(spans, patch, u, v),
+            Self::Bicubic(spans) => whole::<3, 4, 16>(spans, patch, u, v),
+            Self::RationalBilinear(spans) => whole::<4, 2, 4>(spans, patch, u, v),
+            Self::RationalBiquadratic(spans) => whole::<4, 3, 9>(spans, patch, u, v),
+            Self::RationalBicubic(spans) => whole::<4, 4, 16>(spans, patch, u, v),
+            Self::Rows(entries) => by_rows(entries, patch, u, v),
+            Self::RationalRows(entries) => by_rows(entries, patch, u, v),
+        }
+    }
+}
+
+/// Evaluates one of these spans of `N` coefficients, `Q` a row. A single one needs no search: it goes from 0 to 1.
+#[inline(always)]
+fn whole<const D: usize, const Q: usize, const N: usize>(
+    spans: &[[[f32; D]; N]],
+    patch: &SplinePatch,
+    u: f32,
+    v: f32,
+) -> SurfacePoint
+where
+    SurfacePoint: From<Derivatives<D>>,
+{
+    match spans {
+        [only] => unrolled::<D, Q, N>(only, u - 0.5, v - 0.5),
+        _ => one_of::<D, Q, N>(spans, patch, u, v),
+    }
+}
+
+/// Not inlined, as [`unrolled`]: what it saves on the stack it saves only where it is needed.
+#[inline(never)]
+fn one_of<const D: usize, const Q: usize, const N: usize>(
+    spans: &[[[f32; D]; N]],
+    patch: &SplinePatch,
+    u: f32,
+    v: f32,
+) -> SurfacePoint
+where
+    SurfacePoint: From<Derivatives<D>>,
+{
+    let (span, [s, t]) = patch.locate(u, v);
+    // The constructor counted the entries: none is missing, this only keeps a panic out of the tick.
+    spans.get(span).map_or(SurfacePoint::NOWHERE, |coefficients| unrolled::<D, Q, N>(coefficients, s, t))
+}
+
+#[inline(never)]
+fn unrolled<const D: usize, const Q: usize, const N: usize>(
+    coefficients: &[[f32; D]; N],
+    s: f32,
+    t: f32,
+) -> SurfacePoint
+where
+    SurfacePoint: From<Derivatives<D>>,
+{
+    horner::evaluate::<D, Q>(coefficients, s, t).into()
+}
+
+/// Evaluates a span of any degree: the degree along `v` picks a loop that is unrolled for it.
+#[inline(never)]
+fn by_rows<const D: usize>(entries: &[[f32; D]], patch: &SplinePatch, u: f32, v: f32) -> SurfacePoint
+where
+    SurfacePoint: From<Derivatives<D>>,
+{
+    let (span, [s, t]) = patch.locate(u, v);
+    let [degree_u, degree_v] = patch.degree();
+    let count = (usize::from(degree_u) + 1) * (usize::from(degree_v) + 1);
+    match (entries.get(span * count..).and_then(|rest| rest.get(..count)), degree_v) {
+        (Some(rows), 1) => unrolled_along_v::<D, 2>(rows, s, t),
+        (Some(rows), 2) => unrolled_along_v::<D, 3>(rows, s, t),
+        (Some(rows), 3) => unrolled_along_v::<D, 4>(rows, s, t),
+        (Some(rows), 4) => unrolled_along_v::<D, 5>(rows, s, t),
+        (Some(rows), _) => unrolled_along_v::<D, 6>(rows, s, t),
+        (None, _) => SurfacePoint::NOWHERE,
+    }
+}
+
+#[inline(never)]
+fn unrolled_along_v<const D: usize, const Q: usize>(rows: &[[f32; D]], s: f32, t: f32) -> SurfacePoint
+where
+    SurfacePoint: From<Derivatives<D>>,
+{
+    horner::evaluate::<D, Q>(rows, s, t).into()
+}
+
+/// The span between rising borders that holds `parameter`, and the distance from the span's centre. On a border it is either of
+/// the two.
+#[inline(always)]
+pub(super) fn locate(borders: &[f32], parameter: f32) -> (usize, f32) {
+    let spans = borders.len() - 1;
+    // Right where the borders are even, which is most often.
+    let guess = ((parameter * spans as f32) as usize).min(spans - 1);
+    let at = |span: usize| match borders.get(span..).and_then(|rest| rest.first_chunk()) {
+        Some([left, right]) if *left <= parameter && parameter <= *right => Some(span_centre(*left, *right)),
+        _ => None,
+    };
+    match at(guess) {
+        Some(centre) => (guess, parameter - centre),
+        None => bisect(borders, parameter),
+    }
+}
+
+/// Bisection: at most log2([`super::MAX_SPANS`]) rounds. A parameter beyond the borders is in the first or last span.
+#[inline(never)]
+fn bisect(borders: &[f32], parameter: f32) -> (usize, f32) {
+    let (mut borders, mut span) = (borders, 0);
+    while borders.len() > 2 {
+        let half = borders.len() / 2;
+        if parameter >= borders[half] {
+            borders = &borders[half..];
+            span += half;
+        } else {
+            borders = &borders[..=half];
+        }
+    }
+    let [left, right] = *borders else { return (0, 0.0) };
+    (span, parameter - span_centre(left, right))
+}
+
+impl From<Derivatives<3>> for SurfacePoint {
+    #[inline(always)]
+    fn from(d: Derivatives<3>) -> Self {
+        Self {
+            point: Vec3::from_array(d.value),
+            tangent_u: Vec3::from_array(d.along_s),
+            tangent_v: Vec3::from_array(d.along_t),
+        }
+    }
+}
+
+/// The quotient rule: `P = A / w`, `P_u = (A_u - w_u P) / w`.
+impl From<Derivatives<4>> for SurfacePoint {
+    #[inline(always)]
+    fn from(d: Derivatives<4>) -> Self {
+        let split = |[x, y, z, w]: [f32; 4]| (vec3(x, y, z), w);
+        let ((a, w), (a_u, w_u), (a_v, w_v)) = (split(d.value), split(d.along_s), split(d.along_t));
+        let inverse = 1.0 / w;
+        let point = a * inverse;
+        Self { point, tangent_u: (a_u - point * w_u) * inverse, tangent_v: (a_v - point * w_v) * inverse }
+    }
+}
