@@ -13,6 +13,7 @@ mod error;
 mod form;
 mod knots;
 mod model;
+pub mod parallel;
 mod patch;
 pub mod shape;
 pub mod source;

@@ -16,7 +16,7 @@ use super::model::Model;
 use super::patch::NurbsPatch;
 use super::split::{Piece, Provenance};
 use super::topology::{Border, BorderRole, SeamFault, Sense, Topology, bounding_box};
-use super::{BakedPatch, Fault, spline};
+use super::{BakedPatch, Fault, parallel, spline};
 use border::BorderSpans;
 use palpate::body::{Body, BodyError, Edge, EdgeFace, EdgeKind, Face, MAX_FACES, Side, Spoke, Vertex};
 use palpate::patch::TableError;
@@ -135,11 +135,8 @@ impl BakedBody {
             let patch = label(index);
             move |fault| ModelError::Patch { file: file.to_owned(), patch, fault }
         };
-        let baked: Vec<_> = patches
-            .iter()
-            .enumerate()
-            .map(|(index, patch)| BakedPatch::new(patch).map_err(patch_fault(index)))
-            .collect::<Result<_, _>>()?;
+        let bake = |index: usize, patch: &NurbsPatch| BakedPatch::new(patch).map_err(patch_fault(index));
+        let baked = parallel::map(&patches, bake).into_iter().collect::<Result<Vec<_>, _>>()?;
         let is_convex = convexity::is_convex(&topology, &patches, &baked);
         let spans: Vec<_> = patches
             .iter()

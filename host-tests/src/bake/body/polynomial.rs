@@ -1,6 +1,6 @@
 //! Piecewise polynomials of one parameter: each span in powers of the distance from its `f32` centre, as the target has it.
 
-use crate::bake::bernstein::binomial;
+use crate::bake::bernstein::{binomial, power_of};
 use palpate::patch::span_centre;
 use std::ops::{Add, Mul, Sub};
 
@@ -79,9 +79,8 @@ impl<V: Coefficient> Piecewise<V> {
             let shift = 1.0 - self.centre(own) - f64::from(span_centre(breaks[span], breaks[span + 1]));
             let powers = &self.spans[own];
             let power = |k: usize| {
-                let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-                let terms = (k..powers.len())
-                    .map(|n| powers[n] * (sign * binomial(n, k) * crate::bake::bernstein::power_of(shift, n - k)));
+                let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+                let terms = (k..powers.len()).map(|n| powers[n] * (sign * binomial(n, k) * power_of(shift, n - k)));
                 terms.fold(V::NONE, |sum, term| sum + term)
             };
             (0..powers.len()).map(power).collect()
@@ -91,9 +90,7 @@ impl<V: Coefficient> Piecewise<V> {
 
     /// The largest value that a power takes on the spans.
     fn share(&self, power: usize) -> f64 {
-        let of = |(span, powers): (usize, &Vec<V>)| {
-            powers[power].largest() * crate::bake::bernstein::power_of(self.reach(span), power)
-        };
+        let of = |(span, powers): (usize, &Vec<V>)| powers[power].largest() * power_of(self.reach(span), power);
         self.spans.iter().enumerate().map(of).fold(0.0, f64::max)
     }
 
@@ -132,7 +129,7 @@ impl<V: Coefficient> Piecewise<V> {
 
     fn share_of_span(&self, span: usize) -> f64 {
         let reach = self.reach(span);
-        let of = |(k, power): (usize, &V)| power.largest() * crate::bake::bernstein::power_of(reach, k);
+        let of = |(k, power): (usize, &V)| power.largest() * power_of(reach, k);
         self.spans[span].iter().enumerate().map(of).fold(0.0, f64::max)
     }
 }

@@ -20,6 +20,8 @@ use std::f64::consts::FRAC_PI_4;
 
 /// A complex number.
 type Complex = [f64; 2];
+/// A rotation.
+type Turn = fn([f64; 3]) -> [f64; 3];
 
 /// The homogeneous control points of the face about +z of the unit sphere.
 fn face() -> [[[f64; 4]; 5]; 5] {
@@ -94,7 +96,7 @@ pub(super) fn patches(half_axes: [f64; 3]) -> Vec<BezierPatch> {
     let net = face();
     let heaviest = net.iter().flatten().map(|[.., w]| *w).fold(0.0, f64::max);
     // Right-handed, so that the outward normal is f_u × f_v: each turns +z into another of the six directions.
-    let turns: [(&str, fn([f64; 3]) -> [f64; 3]); 6] = [
+    let turns: [(&str, Turn); 6] = [
         ("+z", |[x, y, z]| [x, y, z]),
         ("-z", |[x, y, z]| [x, -y, -z]),
         ("+x", |[x, y, z]| [z, x, y]),
