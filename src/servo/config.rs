@@ -1,7 +1,8 @@
 //! The loop's configuration, checked when it is built, and the state it starts from.
 
 use super::{
-    Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError, TableCheck,
+    Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError, Stillness,
+    TableCheck,
 };
 use crate::device::{Device, Duty, Kinematics, VelocityEstimator};
 use crate::math::Vec3;
@@ -179,7 +180,8 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
             angles: [0.0; JOINTS],
             rates: [0.0; JOINTS],
             velocities: self.estimators.map(|estimator| estimator.start()),
-            stillness: [[0.0; JOINTS]; JOINTS],
+            stillness: Stillness::START,
+            room: 1.0,
             probe: Vec3::ZERO,
             tool: Tool::default(),
             witness: Witness::at(self.patch, 0.5, 0.5),

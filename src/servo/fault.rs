@@ -46,11 +46,14 @@ pub enum Fault {
     /// Somebody pressed stop.
     #[error("stopped by hand")]
     Stopped = 14,
+    /// The joint angles are such as the mechanism cannot have: a sensor lies, or something broke.
+    #[error("pose out of the mechanism's reach")]
+    Unreachable = 15,
 }
 
 impl Fault {
     /// Every fault, in the order of its code.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::FrameLost,
         Self::FrameDamaged,
         Self::JointOutOfRange,
@@ -65,6 +68,7 @@ impl Fault {
         Self::Drive,
         Self::Homing,
         Self::Stopped,
+        Self::Unreachable,
     ];
 
     /// The code in a report, from 1.

@@ -1,20 +1,18 @@
 //! From encoder counts to joint angles that can be believed.
 
-use super::stuck::is_stuck;
-use super::{Fault, ServoState, StuckLimits};
+use super::{Fault, ServoState};
 use crate::device::{Counts, Device, VelocityEstimator};
 
 /// Takes this tick's counts into the state: joint angles and rates.
 ///
 /// # Errors
 /// The fault, if an angle lies outside the joint's range or jumped faster than the device can move (the state keeps its
-/// last good counts then), or if a sensor is stuck.
+/// last good counts then).
 #[inline]
 pub fn sense<K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     estimators: &[VelocityEstimator; JOINTS],
     greatest_move: f32,
-    stuck: Option<StuckLimits>,
     state: &mut ServoState<JOINTS>,
     counts: [Counts; JOINTS],
 ) -> Result<(), Fault> {
@@ -41,10 +39,5 @@ pub fn sense<K, const JOINTS: usize>(
     }
     state.counts = Some(counts);
     state.angles = angles;
-    match stuck {
-        Some(limits) if !first && is_stuck(limits, &mut state.stillness, before, angles, state.duties) => {
-            Err(Fault::JointStuck)
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }

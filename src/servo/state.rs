@@ -45,6 +45,9 @@ pub struct ServoState<const JOINTS: usize> {
     pub velocities: [VelocityState; JOINTS],
     /// Since when each joint has not moved under load.
     pub stillness: Stillness<JOINTS>,
+    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force is
+    /// multiplied by it.
+    pub room: f32,
     /// The probe in the body's frame, metres.
     pub probe: Vec3,
     /// The virtual tool; it is the probe unless there is a coupling.
@@ -94,9 +97,12 @@ impl<const JOINTS: usize> ServoState<JOINTS> {
                 }
             }
         }
-        for still in self.stillness {
+        hash.words([self.stillness.turn]);
+        for (still, Counts(count)) in self.stillness.since.into_iter().zip(self.stillness.counts) {
             hash.floats(still);
+            hash.words([count as u32]);
         }
+        hash.floats([self.room]);
         hash.vectors([self.probe, self.tool.position, self.tool.velocity]);
         let witness = &self.witness;
         hash.floats(witness.parameters);

@@ -25,6 +25,14 @@ pub enum Input<const JOINTS: usize> {
     Damaged,
 }
 
+/// Joint torques, N·m.
+struct Torques<const JOINTS: usize> {
+    /// Those of the force that the hand feels.
+    felt: [f32; JOINTS],
+    /// Those that carry the links.
+    weight: [f32; JOINTS],
+}
+
 impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINTS> {
     /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the
     /// duties in the state are zero when this returns: apply them.
@@ -56,7 +64,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
         let torques = self.feel(state, input);
         let damps = matches!(self.safety.output, SafeOutput::Damping(_)) && state.phase == Phase::Fault;
         let live = state.phase == Phase::Running || damps;
-        match torques.and_then(|torques| gate(live, &self.device.motors, torques)) {
+        match torques.and_then(|Torques { felt, weight }| gate(live, &self.device.motors, felt, weight)) {
             Ok((duties, scale)) => {
                 state.duties = self.device.feed(live, duties, state.rates);
                 state.force *= scale;
@@ -84,9 +92,9 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
         }
     }
 
-    /// From the input to joint torques, N·m.
+    /// From the input to joint torques.
     #[inline]
-    fn feel(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) -> Result<[f32; JOINTS], Fault> {
+    fn feel(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) -> Result<Torques<JOINTS>, Fault> {
         let (counts, enable) = match input {
             Input::Sensors { counts, enable } => (counts, enable),
             Input::Lost => return Err(count_lost(state, Fault::FrameLost)),
@@ -95,17 +103,22 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
         // Counts → joint angles → probe.
         let first = state.counts.is_none();
-        sense(self.device, &self.estimators, self.greatest_move, self.safety.stuck, state, counts)?;
-        let pose = self.device.kinematics.pose(state.angles);
+        sense(self.device, &self.estimators, self.greatest_move, state, counts)?;
+        let (pose, weight) = if self.rendering.carries_weight {
+            self.device.kinematics.held_pose(state.angles)
+        } else {
+            (self.device.kinematics.pose(state.angles), [0.0; JOINTS])
+        };
         let probe = pose.position - self.settings.body_origin;
         let moved = if first { Vec3::ZERO } else { probe - state.probe };
         let velocity = pose.velocity(state.rates);
         if !(probe.is_finite() && velocity.is_finite()) {
-            return Err(Fault::NotFinite);
+            return Err(if pose.is_reachable() { Fault::NotFinite } else { Fault::Unreachable });
         }
         state.probe = probe;
+        state.room = self.device.room(&state.angles, &pose);
         if state.phase == Phase::Fault {
-            return Ok(self.safe_torques(state, &pose, velocity));
+            return Ok(Torques { felt: self.safe_torques(state, &pose, velocity), weight: [0.0; JOINTS] });
         }
         state.phase = self.next_phase(state, enable);
 
@@ -128,7 +141,14 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
             passivity.observe(&mut state.energy, state.force, &motion);
         }
         state.force = self.force(state, tool, normal, &motion);
-        Ok(pose.torques(state.force))
+        let felt = pose.torques(state.force);
+        if let Some(limits) = self.safety.stuck
+            && state.stillness.is_broken(limits, &self.device.dry_friction, &counts, &state.angles, &felt)
+        {
+            return Err(Fault::JointStuck);
+        }
+        let fade = state.fade;
+        Ok(Torques { felt, weight: weight.map(|torque| torque * fade) })
     }
 
     /// At most one step a tick; [`Phase::Fault`] is never left.

@@ -8,3 +8,4 @@ mod surfaces;
 mod touch;
 mod traces;
 mod velocity;
+mod weight;
