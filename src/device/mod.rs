@@ -16,6 +16,7 @@ mod pose;
 pub mod presets;
 pub mod sensor;
 mod serial_arm;
+mod stop_search;
 mod velocity;
 
 pub use delta::Delta;
@@ -27,6 +28,7 @@ pub use motor::{Duty, Motor};
 pub use paddle::Paddle;
 pub use pose::ProbePose;
 pub use serial_arm::SerialArm;
+pub use stop_search::StopSearch;
 pub use velocity::{
     AdaptiveWindow, TrackingObserver, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState, WINDOW, Window,
 };

@@ -73,6 +73,10 @@ impl Plant {
         let mechanism = settings.mechanism(hand.mass);
         let position = path.target(0.0);
         let angles = mechanism.angles(position).ok_or(PlantError::OutOfReach { position })?;
+        let between = |(angle, joint): (f64, JointSettings)| joint.stops[0] <= angle && angle <= joint.stops[1];
+        if !angles.into_iter().zip(settings.joints).all(between) {
+            return Err(PlantError::OutOfReach { position });
+        }
         let sub_step = 1.0 / (rate_hz * f64::from(settings.sub_steps));
         let delay = (settings.delay_periods * f64::from(settings.sub_steps)).round() as u64;
         Ok(Self {

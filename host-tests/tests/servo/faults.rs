@@ -163,18 +163,18 @@ impl Bench<'_> {
                 Seen::Now { believable: false }
             }
             Fault::JointStuck => {
-                // Twice dry friction is a load; twice that again, so that it still is one when this count stays behind.
+                // Five times dry friction is a load; twice that, so that it still is one when this count stays behind.
                 let felt = self.device.kinematics.pose(state.angles).torques(state.force)[joint];
-                if felt.abs() < 4.0 * self.device.dry_friction[joint] || state.counts.is_none() {
+                if felt.abs() < 10.0 * self.device.dry_friction[joint] || state.counts.is_none() {
                     return Seen::Not; // without load a joint may rest
                 }
-                // The last count again, while another joint has come 0.4 rad since.
+                // The last count again, while another joint has come 0.7 rad since.
                 let mut bad = counts;
                 bad[joint] = state.counts.unwrap()[joint];
                 state.stillness.turn = joint as u32;
                 state.stillness.counts[joint] = bad[joint];
                 state.stillness.since[joint] = state.angles;
-                state.stillness.since[joint][(joint + 1) % 3] -= 0.4;
+                state.stillness.since[joint][(joint + 1) % 3] -= 0.7;
                 self.servo.tick(state, sensors(bad));
                 Seen::Now { believable: false }
             }

@@ -2,6 +2,7 @@
 
 mod faults;
 mod fuzz;
+mod homing;
 mod limits;
 mod passivity;
 mod surfaces;

@@ -13,7 +13,7 @@ fn moved(a: Vector, b: Vector) -> f64 {
     (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// How far the probe moves, m, in the half second after the hand lets go, and how far in the second half second; that is cut
+/// How far the probe moves, m, in the half second after the hand lets go, and how far in the quarter of one after it; that is cut
 /// short where it falls beyond `far`, before it hits a stop.
 fn drifts<K: Kinematics<3>>(
     device: &Device<K, 3>,
@@ -45,10 +45,10 @@ fn drifts<K: Kinematics<3>>(
         plant.position()
     };
     // The soft start is over and the hand has taken what is left.
-    let held = run(&mut plant, 2_000);
+    let held = run(&mut plant, 1_000);
     plant.hold(HandSettings::NONE);
     let half = run(&mut plant, 2_000);
-    [moved(held, half), moved(half, run(&mut plant, 2_000))]
+    [moved(held, half), moved(half, run(&mut plant, 1_000))]
 }
 
 fn holds_and_sags<K: Kinematics<3>>(name: &str, device: &Device<K, 3>, plant: PlantSettings, sag: f64) {

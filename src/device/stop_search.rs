@@ -1,0 +1,116 @@
+//! A joint that looks for its end stop: slowly, gently, and only believing what it finds if it could first move away.
+
+use super::{Counts, Encoder, Refusal};
+use crate::math::saturate;
+
+/// How a joint finds its end stop. It moves away by the clearance first, for a joint that does not come off has not found a
+/// stop but is jammed; then towards the stop until it stands still under full torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StopSearch {
+    /// Joint angle at the stop, radians.
+    pub angle: f32,
+    /// Speed towards the stop, rad/s; its sign is the way. Beyond four times this the search is refused.
+    pub speed: f32,
+    /// The greatest torque, N·m: above dry friction and weight, below what would hurt.
+    pub torque: f32,
+    /// How far it moves away first, radians. Make it all of the way to the other stop, less a little, to prove that nothing is in
+    /// between.
+    pub clearance: f32,
+    /// How far the stop may be from there, radians: beyond there is none.
+    pub travel: f32,
+}
+
+/// Seconds in which the torque grows to its limit where the joint does not move.
+const RAMP: f32 = 0.15;
+/// Share of the greatest torque that a joint at rest gets at once.
+const AT_ONCE: f32 = 0.2;
+/// How far a joint may be moved against the way it is driven, radians: less is the sag of an arm that is not held yet.
+const ASTRAY: f32 = 0.1;
+/// How much faster than asked for a joint may move.
+const HASTE: f32 = 4.0;
+
+/// What changes from tick to tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Search {
+    /// Where this stage began.
+    from: Option<Counts>,
+    /// Whether it came off.
+    cleared: bool,
+    /// Where it stands still, and for how many ticks.
+    anchor: Counts,
+    still: u32,
+    /// The torque that has grown, N·m.
+    grown: f32,
+}
+
+/// What a tick of the search came to.
+pub(super) enum Seek {
+    /// Go on with this torque, N·m.
+    Drive(f32),
+    /// The stop is at this count.
+    Found(Counts),
+    Refused(Refusal),
+}
+
+/// What a tick of the search knows of its joint.
+pub(super) struct Joint {
+    pub encoder: Encoder,
+    pub counts: Counts,
+    /// rad/s.
+    pub rate: f32,
+    /// s.
+    pub period: f32,
+}
+
+impl StopSearch {
+    pub(super) const fn is_valid(&self) -> bool {
+        let finite = self.angle.is_finite() && self.speed.is_finite() && self.torque.is_finite();
+        finite && self.speed != 0.0 && self.torque > 0.0 && self.clearance > 0.0 && self.travel > 0.0
+    }
+
+    /// One tick. Still is: within `still_counts` of one reading for `still_ticks` ticks under full torque.
+    pub(super) fn step(&self, search: &mut Search, joint: &Joint, still_ticks: u32, still_counts: u32) -> Seek {
+        let Joint { encoder, counts, rate, period } = *joint;
+        let Some(from) = search.from else {
+            (search.from, search.anchor) = (Some(counts), counts);
+            return Seek::Drive(0.0);
+        };
+        let wanted = if search.cleared { self.speed } else { -self.speed };
+        let forward = if wanted > 0.0 { 1.0 } else { -1.0 };
+        let moved = counts.0.wrapping_sub(from.0) as f32 * encoder.radians_per_count * forward;
+        if moved < -ASTRAY || rate * forward < -HASTE * self.speed.abs() {
+            return Seek::Refused(Refusal::WrongDirection);
+        }
+        if rate.abs() > HASTE * self.speed.abs() {
+            return Seek::Refused(Refusal::TooFast);
+        }
+        if search.cleared && moved > self.travel {
+            return Seek::Refused(Refusal::NoStop);
+        }
+        if !search.cleared && moved >= self.clearance {
+            *search = Search { from: Some(counts), cleared: true, anchor: counts, ..Search::default() };
+            return Seek::Drive(0.0);
+        }
+
+        // Full torque at rest in RAMP seconds; a joint that moves as fast as asked for gets what it needs for that.
+        let share = (wanted - rate) / self.speed.abs();
+        search.grown = saturate(search.grown + share * self.torque * (period / RAMP), -self.torque, self.torque);
+        let presses = search.grown * forward >= 0.99 * self.torque;
+        if presses && counts.0.abs_diff(search.anchor.0) <= still_counts {
+            search.still = search.still.saturating_add(1);
+        } else {
+            (search.anchor, search.still) = (counts, 0);
+        }
+        if search.still >= still_ticks {
+            return if search.cleared { Seek::Found(counts) } else { Seek::Refused(Refusal::Jammed) };
+        }
+        Seek::Drive(saturate(search.grown + share * self.torque * AT_ONCE, -self.torque, self.torque))
+    }
+
+    /// Every bit of the state.
+    pub(super) fn bits(search: &Search) -> [u32; 5] {
+        let Search { from, cleared, anchor, still, grown } = *search;
+        let (begun, from) = from.map_or((0, 0), |Counts(from)| (1, from));
+        [begun | u32::from(cleared) << 1, from as u32, anchor.0 as u32, still, grown.to_bits()]
+    }
+}
