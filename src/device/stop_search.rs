@@ -114,3 +114,64 @@ impl StopSearch {
         [begun | u32::from(cleared) << 1, from as u32, anchor.0 as u32, still, grown.to_bits()]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SEARCH: StopSearch = StopSearch { angle: 0.5, speed: 1.0, torque: 0.2, clearance: 0.1, travel: 1.0 };
+
+    /// Steps a joint that is said to be at these counts, mrad, at these rates, rad/s; gives what ended it, and the tick.
+    fn ends(place: impl Fn(i32) -> i32, rate: impl Fn(i32) -> f32) -> Option<(i32, Result<i32, Refusal>)> {
+        let mut search = Search::default();
+        (0..5_000).find_map(|tick| {
+            let joint = Joint {
+                encoder: Encoder { radians_per_count: 1e-3, angle_at_zero: 9.0 },
+                counts: Counts(place(tick)),
+                rate: rate(tick),
+                period: 1e-3,
+            };
+            match SEARCH.step(&mut search, &joint, 100, 1) {
+                Seek::Drive(torque) => {
+                    assert!(torque.abs() <= SEARCH.torque, "{torque}");
+                    None
+                }
+                Seek::Found(Counts(count)) => Some((tick, Ok(count))),
+                Seek::Refused(refusal) => Some((tick, Err(refusal))),
+            }
+        })
+    }
+
+    #[test]
+    fn a_stop_is_found_where_the_joint_stands_under_full_torque() {
+        // 101 mrad back, then forward to a stop at 300.
+        let found = ends(
+            |tick| if tick < 101 { -tick } else { (tick - 202).min(300) },
+            |tick| {
+                if tick < 101 {
+                    -1.0
+                } else if tick < 502 {
+                    1.0
+                } else {
+                    0.0
+                }
+            },
+        );
+        // At rest from tick 502 on: full torque after 150 more, and still for 100.
+        assert!(matches!(found, Some((740..=770, Ok(300)))), "{found:?}");
+    }
+
+    #[test]
+    fn what_cannot_be_believed_is_refused() {
+        let refusal = |place: fn(i32) -> i32, rate: f32| ends(place, |_| rate).map(|(_, end)| end.unwrap_err());
+        assert_eq!(refusal(|_| 7, 0.0), Some(Refusal::Jammed));
+        // Away is down: it goes up, or is said to go up.
+        assert_eq!(refusal(|tick| tick, 1.0), Some(Refusal::WrongDirection));
+        assert_eq!(refusal(|_| 0, 4.1), Some(Refusal::WrongDirection));
+        // Down, and faster than four times as fast.
+        assert_eq!(refusal(|_| 0, -4.1), Some(Refusal::TooFast));
+        let no_stop =
+            ends(|tick| if tick < 101 { -tick } else { tick - 202 }, |tick| if tick < 101 { -1.0 } else { 1.0 });
+        assert_eq!(no_stop.map(|(_, end)| end), Some(Err(Refusal::NoStop)));
+    }
+}

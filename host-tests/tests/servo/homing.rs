@@ -54,7 +54,6 @@ struct Run<const JOINTS: usize> {
 /// Homes, `meddle` before each tick, until the loop is armed or stopped.
 fn home<K: Kinematics<JOINTS>, const JOINTS: usize>(
     servo: &Servo<'_, palpate::patch::SplinePatch, K, JOINTS>,
-    device: &Device<K, JOINTS>,
     plant: &mut Plant,
     mut meddle: impl FnMut(u32, &mut Plant),
 ) -> Run<JOINTS> {
@@ -96,7 +95,7 @@ fn arm_servo(
 fn an_arm_finds_its_stops_and_then_its_angles() {
     let servo = arm_servo(ARM_STOPS, TICKS);
     let mut plant = start(&arm_plant(), StillHand([0.0; 3]));
-    let run = home(&servo, &WOODEN_HAPTICS_2016, &mut plant, |_, _| ());
+    let run = home(&servo, &mut plant, |_, _| ());
     let mut state = run.state;
     println!(
         "homed after {:.2} s, {:.2} N·m and {:.2} rad/s at most",
@@ -112,9 +111,9 @@ fn an_arm_finds_its_stops_and_then_its_angles() {
         let encoders = WOODEN_HAPTICS_2016.encoders;
         for joint in 0..3 {
             let off = (f64::from(state.angles[joint]) - plant.angles()[joint]).abs();
-            // The stop yields 1 mrad a N·m, and both readings, there and here, are a count.
-            let bound =
-                f64::from(ARM_STOPS[joint].torque) * 1e-3 + 1.1 * f64::from(encoders[joint].radians_per_count.abs());
+            // The stop yields 1 mrad a N·m, of which the weight adds 0.3; and both readings, there and here, are a count.
+            let bound = f64::from(ARM_STOPS[joint].torque + 0.3) * 1e-3
+                + 1.1 * f64::from(encoders[joint].radians_per_count.abs());
             assert!(off < bound, "joint {joint}: {off} rad off, bound {bound}");
         }
         plant.advance(state.duties.map(|duty| duty.0));
@@ -140,7 +139,7 @@ fn a_pantograph_finds_the_stops_its_source_states() {
     let mut settings = PlantSettings::haply_2diy_v3();
     settings.joints[0].angle_at_zero -= 0.8;
     let mut plant = start(&settings, StillHand([0.0; 3]));
-    let run = home(&servo, &HAPLY_2DIY_V3, &mut plant, |_, _| ());
+    let run = home(&servo, &mut plant, |_, _| ());
     println!(
         "homed after {:.2} s, {:.3} N·m and {:.2} rad/s at most",
         f64::from(run.ticks) / RATE,
@@ -162,7 +161,7 @@ fn refused(
 ) -> (Refusal, f64) {
     let servo = arm_servo(ARM_STOPS, timeout);
     let mut plant = start(settings, path);
-    let run = home(&servo, &WOODEN_HAPTICS_2016, &mut plant, meddle);
+    let run = home(&servo, &mut plant, meddle);
     let mut state = run.state;
     // In that very tick, named with its reason, and for good.
     assert_eq!((state.phase, state.fault.map(|(fault, _)| fault)), (Phase::Fault, Some(Fault::Homing)));
@@ -231,27 +230,6 @@ fn what_homing_will_not_believe_it_refuses_and_says_why() {
     assert_eq!(refused(&miscounting, still, TICKS, |_, _| ()).0, Refusal::WrongDirection);
 
     assert_eq!(refused(&plain, still, 2_000, |_, _| ()).0, Refusal::TooLate);
-}
-
-#[test]
-fn a_runaway_pull_along_the_way_is_too_fast() {
-    // Along the way it is driven, towards the stop: a hand that jerks it on.
-    struct Jerk;
-    impl HandPath for Jerk {
-        fn target(&self, time: f64) -> Vector {
-            [0.0, -0.05 + 0.15 * (20.0 * (time - 1.0)).clamp(0.0, 1.0), 0.0]
-        }
-        fn velocity(&self, time: f64) -> Vector {
-            [0.0, if (1.0..1.05).contains(&time) { 3.0 } else { 0.0 }, 0.0]
-        }
-    }
-    let pulled = |tick: u32, plant: &mut Plant| {
-        if tick == 3_990 {
-            plant.hold(HandSettings::default());
-        }
-    };
-    let (refusal, _) = refused(&arm_plant(), Jerk, TICKS, pulled);
-    assert_eq!(refusal, Refusal::TooFast);
 }
 
 #[test]

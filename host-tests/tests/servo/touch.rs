@@ -132,8 +132,12 @@ fn press<P: Patch, K: Kinematics<3>>(
     Held { ratio: force / (f64::from(settings.stiffness) * depth), swing, depth, force }
 }
 
-/// Presses on a wall, a cap and table1c at these places (u, v), at these stiffnesses (N/m) and dampings (N·s/m).
-fn touches_cleanly<K: Kinematics<3>>(bench: &Bench<K>, places: &[[f32; 2]], gains: &[(f32, f32)]) {
+/// Presses on a wall, a cap and table1c at [`PLACES`], with the stiffness and damping that the preset recommends at most, and with
+/// softer ones in the middle.
+fn touches_cleanly<K: Kinematics<3>>(bench: &Bench<K>, softer: &[(f32, f32)]) {
+    let recommended = (bench.device.greatest_stiffness, bench.device.greatest_damping);
+    let presses =
+        PLACES.iter().map(|place| (*place, recommended)).chain(softer.iter().map(|gains| (PLACES[0], *gains)));
     let table = table1c();
     let cap = Cap { radius: 0.06 };
     let base = Settings {
@@ -152,8 +156,8 @@ fn touches_cleanly<K: Kinematics<3>>(bench: &Bench<K>, places: &[[f32; 2]], gain
         "{}\n{:<10}{:>10}{:>10}{:>12}{:>12}{:>10}{:>8}",
         bench.name, "surface", "K, N/m", "B, N·s/m", "depth, mm", "force, N", "ratio", "swing"
     );
-    for &(stiffness, damping) in gains {
-        for &place in places {
+    for (place, (stiffness, damping)) in presses {
+        {
             // What the wall yields and what the hand does.
             let aim = bench.push / f64::from(stiffness) + bench.push / HandSettings::default().stiffness;
             let gains = |settings| Settings { stiffness, damping, ..settings };
@@ -180,41 +184,31 @@ fn touches_cleanly<K: Kinematics<3>>(bench: &Bench<K>, places: &[[f32; 2]], gain
 
 /// Places on each surface.
 const PLACES: [[f32; 2]; 4] = [[0.5, 0.5], [0.3, 0.6], [0.7, 0.4], [0.4, 0.3]];
-/// One off the middle for mechanisms whose simulation takes longest.
-const PLACE: [[f32; 2]; 1] = [[0.3, 0.6]];
-
-// At the gains that a simulation begins with, and at those that each preset's documentation gives for 4 kHz.
 
 #[test]
 fn wooden_haptics_presses_with_stiffness_times_depth_and_no_limit_cycle() {
-    touches_cleanly(&WOODEN_HAPTICS, &PLACES, &[(600.0, 2.0), (1_000.0, 2.0), (1_000.0, 8.0)]);
+    touches_cleanly(&WOODEN_HAPTICS, &[(600.0, 2.0), (1_000.0, 2.0)]);
 }
 
 #[test]
 fn polhem_presses_with_stiffness_times_depth_and_no_limit_cycle() {
     let bench = Bench { name: "Polhem v2", device: &POLHEM_V2, plant: PlantSettings::polhem_v2(), push: 4.0 };
-    touches_cleanly(&bench, &PLACE, &[(1_000.0, 2.0), (2_000.0, 5.0)]);
+    touches_cleanly(&bench, &[(1_000.0, 2.0)]);
 }
 
 #[test]
 fn phantom_presses_with_stiffness_times_depth_and_no_limit_cycle() {
     let plant = PlantSettings::phantom_premium();
     let bench = Bench { name: "Phantom Premium", device: &PHANTOM_PREMIUM, plant, push: 4.0 };
-    touches_cleanly(&bench, &PLACES, &[(1_000.0, 2.0), (1_500.0, 5.0)]);
+    touches_cleanly(&bench, &[(1_000.0, 2.0)]);
 }
 
 #[test]
 fn falcon_presses_with_stiffness_times_depth_and_no_limit_cycle() {
+    // Friction takes 1 to 3 N of the hand's push.
     let bench =
-        Bench { name: "Novint Falcon", device: &NOVINT_FALCON, plant: PlantSettings::novint_falcon(), push: 6.0 };
-    touches_cleanly(&bench, &PLACE, &[(1_000.0, 2.0), (2_000.0, 5.0)]);
-    // At the 3,000 N/m and 20 N·s/m in use on it there is no limit cycle either. But friction and the grip's weight leave 3
-    // to 4 N of the hand's push, so 1 mm and a bit, of which half a count of 65 µm is 3 %: stiffness times depth is then
-    // a matter of the encoders, and left out.
-    let settings = Settings { stiffness: 3_000.0, damping: 20.0, greatest_force: 8.9, ..crate::traces::SETTINGS };
-    let held = press(&bench, &WALL, settings, Rendering::PLAIN, [0.5, 0.5], 0.022);
-    println!("at 3,000 N/m: depth {:.3} mm, ratio {:.4}, {} counts", held.depth * 1e3, held.ratio, held.swing);
-    assert!(held.swing <= 2, "{} counts", held.swing);
+        Bench { name: "Novint Falcon", device: &NOVINT_FALCON, plant: PlantSettings::novint_falcon(), push: 8.0 };
+    touches_cleanly(&bench, &[(1_000.0, 2.0)]);
 }
 
 #[test]
