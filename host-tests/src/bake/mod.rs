@@ -11,6 +11,7 @@ mod cell;
 mod error;
 mod form;
 mod knots;
+pub mod locator;
 mod model;
 mod patch;
 pub mod shape;
