@@ -11,6 +11,7 @@ mod drawing;
 pub mod figures;
 pub mod firmware;
 pub mod generate;
+pub mod locating;
 pub mod oracle;
 pub mod plant;
 pub mod queries;

@@ -12,6 +12,7 @@ mod cell;
 mod error;
 mod form;
 mod knots;
+pub mod locator;
 mod model;
 pub mod parallel;
 mod patch;

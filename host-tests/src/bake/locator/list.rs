@@ -1,0 +1,122 @@
+//! The list of a cell: what is left of the body, in rectangles that have one minimum each.
+
+use super::faces::{Faces, Query, Region};
+use super::unique::{Minima, Rectangle, Subject, nearest};
+use palpate::body::Candidate;
+
+/// How often what is left of a face is divided for want of a proof.
+const DIVISIONS: usize = 2;
+
+/// An entry with what is proved of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub face: u16,
+    pub rectangle: Rectangle,
+    pub minima: Minima,
+    /// From the cell's centre to the minimum, metres.
+    pub distance: f64,
+}
+
+impl Entry {
+    pub(super) fn pack(&self, more: bool) -> u32 {
+        let Rectangle { lower, upper } = self.rectangle;
+        Candidate { face: self.face, lower, upper, convex: self.minima == Minima::Convex, more }.pack()
+    }
+}
+
+/// What makes lists.
+pub(super) struct Lister<'a> {
+    pub faces: &'a Faces,
+    pub query: &'a Query<'a>,
+    /// A rectangle that loses no more is good enough, metres.
+    pub tolerance: f64,
+}
+
+impl Lister<'_> {
+    pub(super) fn is_proved(&self, minima: Minima) -> bool {
+        match minima {
+            Minima::Convex | Minima::One => true,
+            Minima::Within(loss) => loss <= self.tolerance,
+            Minima::Unknown => false,
+        }
+    }
+
+    /// The entries of the regions that are left, the likeliest first.
+    pub(super) fn entries(&self, regions: &[Region<'_>]) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        for (face, regions) in by_face(regions, self.faces) {
+            let whole = self.entry(face, &regions);
+            if self.is_proved(whole.minima) {
+                entries.push(whole);
+                continue;
+            }
+            for component in components(regions, self.faces) {
+                self.divide(face, &component, DIVISIONS, &mut entries);
+            }
+        }
+        entries.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.pack(false).cmp(&b.pack(false))));
+        entries
+    }
+
+    fn divide(&self, face: u16, regions: &[Region<'_>], divisions: usize, entries: &mut Vec<Entry>) {
+        let whole = self.entry(face, regions);
+        if self.is_proved(whole.minima) || divisions == 0 || regions.len() < 2 {
+            entries.push(whole);
+            return;
+        }
+        let [low, high] = whole.rectangle.parameters();
+        let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
+        let tangents = self.faces.surfaces[usize::from(face)].evaluate(middle).first;
+        let long = [0, 1].map(|axis| (high[axis] - low[axis]) * tangents[axis].length());
+        let axis = usize::from(long[1] > long[0]);
+        let is_low = |region: &&Region<'_>| {
+            let [low, high] = region.rectangle(self.faces);
+            0.5 * (low[axis] + high[axis]) < middle[axis]
+        };
+        let (lower, upper): (Vec<_>, Vec<_>) = regions.iter().partition(is_low);
+        if lower.is_empty() || upper.is_empty() {
+            entries.push(whole);
+            return;
+        }
+        self.divide(face, &lower, divisions - 1, entries);
+        self.divide(face, &upper, divisions - 1, entries);
+    }
+
+    fn entry(&self, face: u16, regions: &[Region<'_>]) -> Entry {
+        let rectangles = regions.iter().map(|region| Rectangle::around(region.rectangle(self.faces)));
+        let rectangle = rectangles.reduce(|a, b| a.hull(&b)).unwrap_or(Rectangle { lower: [0; 2], upper: [0; 2] });
+        let least = regions.iter().map(|region| nearest(region, self.query, self.faces)).fold(f64::INFINITY, f64::min);
+        let minima = Subject { faces: self.faces, face, rectangle, query: self.query }.minima(least);
+        let [low, high] = rectangle.parameters();
+        let start = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
+        let minimum = self.faces.surfaces[usize::from(face)].descend(self.query.probes.centre, start, [low, high]);
+        Entry { face, rectangle, minima, distance: minimum.distance }
+    }
+}
+
+/// The regions of each face, by rising index.
+fn by_face<'a>(regions: &[Region<'a>], faces: &Faces) -> Vec<(u16, Vec<Region<'a>>)> {
+    let mut groups: std::collections::BTreeMap<u16, Vec<Region<'a>>> = std::collections::BTreeMap::new();
+    for region in regions {
+        groups.entry(region.face(faces)).or_default().push(*region);
+    }
+    groups.into_iter().collect()
+}
+
+/// Regions that hang together.
+fn components<'a>(regions: Vec<Region<'a>>, faces: &Faces) -> Vec<Vec<Region<'a>>> {
+    let touch = |a: &Region<'_>, b: &Region<'_>| {
+        let ([a_low, a_high], [b_low, b_high]) = (a.rectangle(faces), b.rectangle(faces));
+        (0..2).all(|axis| a_low[axis] <= b_high[axis] && b_low[axis] <= a_high[axis])
+    };
+    let mut groups: Vec<Vec<Region<'a>>> = Vec::new();
+    for region in regions {
+        let (near, far): (Vec<_>, Vec<_>) =
+            groups.into_iter().partition(|group| group.iter().any(|other| touch(&region, other)));
+        groups = far;
+        let mut joined: Vec<_> = near.into_iter().flatten().collect();
+        joined.push(region);
+        groups.push(joined);
+    }
+    groups
+}

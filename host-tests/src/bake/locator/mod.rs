@@ -1,0 +1,131 @@
+//! The locator's bake: which parts of which faces can own the closest point of a probe, proved cell by cell.
+//!
+//! # Why it is a proof
+//! The closest point of a probe lies inside a face, inside an edge or at a vertex ([`Region`](faces::Region)); those that several faces share
+//! belong to the first of them. A region is left out of a cell's list if for every probe of the cell
+//! - some point of the body is nearer than all of it (the difference of two squared distances is affine in the probe), or
+//! - the distance falls in one direction all over it, so that no point of it is even a local minimum: along the face for its inside, along the
+//!   edge or into one of its faces for an edge, into one of its faces for a vertex.
+//!
+//! All bounds are of the stored `f32` coefficients, over boxes of probes and rectangles of parameters, with the rounding of `f64` added
+//! ([`field`]). Faces meet, and poles are points, up to the rounding of the tables: comparisons count beyond [`LocatorOptions::seam`] only.
+//! What is left is gathered into rectangles, and [`unique`] proves that each has one minimum. Where that fails at the greatest depth
+//! the leaf is counted as *sampled*.
+
+mod faces;
+pub(in crate::bake) mod field;
+mod list;
+mod octree;
+mod piece;
+mod seams;
+mod stored;
+mod tables;
+mod unique;
+
+pub use seams::{BorderCorner, BorderSide, Seams};
+pub use stored::{Minimum, StoredPoint, StoredSurface};
+pub use tables::{BakedLocator, LocatorReport};
+
+use super::BakedPatch;
+use faces::Faces;
+use field::Probes;
+use glam::DVec3;
+use octree::{Octree, Search};
+use unique::Minima;
+
+/// How a locator is baked. Lengths are relative to the body's size, the largest side of its bounding box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocatorOptions {
+    /// How far the root cube reaches beyond the bounding box on every side.
+    pub margin: f64,
+    /// Entries of a list at most, unless the depth is used up.
+    pub entries: usize,
+    /// Depth of the octree.
+    pub depth: usize,
+    /// A rectangle with several minima is good enough if they differ by no more than this in distance.
+    pub tolerance: f64,
+    /// Probes that are deeper inside are located coarsely.
+    pub inside: f64,
+    /// Entries of such a list at most.
+    pub deep_entries: usize,
+    /// How far apart faces that meet, and the points of a pole, may be.
+    pub seam: f64,
+    /// Parts of faces are divided until they are this small beside the radius of the cell.
+    pub fineness: f64,
+}
+
+impl Default for LocatorOptions {
+    fn default() -> Self {
+        Self {
+            margin: 0.5,
+            entries: 4,
+            depth: 6,
+            tolerance: 1e-4,
+            inside: 0.2,
+            deep_entries: 6,
+            seam: 1e-6,
+            fineness: 0.5,
+        }
+    }
+}
+
+/// Where a cell lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The surface may pass through it, or it is inside within the depth that counts.
+    Near,
+    /// All of it is outside.
+    Outside,
+    /// All of it is deeper inside than [`LocatorOptions::inside`].
+    Deep,
+}
+
+/// A leaf of the octree.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::bake) struct Leaf {
+    pub centre: DVec3,
+    /// Half of the cell's side, metres.
+    pub half: f64,
+    pub depth: usize,
+    pub kind: Kind,
+    /// The worst of its entries.
+    pub minima: Minima,
+    pub proved: bool,
+}
+
+/// Bakes the locator of a body. `creases` holds for each face the parameters, along `u` and `v`, at which it is only C⁰. `progress`
+/// is told the depth that begins and the number of its cells. The same input gives the same tables on any number of threads.
+///
+/// `None` if a weight is not proved positive: nothing that [`BakedPatch::new`] gives.
+pub fn bake(
+    patches: &[BakedPatch],
+    seams: Seams,
+    creases: &[[Vec<f64>; 2]],
+    options: &LocatorOptions,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Option<BakedLocator> {
+    let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
+    let (low, high) = extent(&surfaces);
+    let size = (high - low).max_element();
+    // The cube as the target has it: f32 corner and side, halves of which are exact.
+    let side = (size * (1.0 + 2.0 * options.margin)) as f32;
+    let corner = (0.5 * (low + high) - 0.5 * f64::from(side)).as_vec3();
+    let root = Probes::cube(corner.as_dvec3() + 0.5 * f64::from(side), 0.5 * f64::from(side));
+    let reach = root.centre.abs().max_element() + root.half.x;
+    let faces = Faces::new(patches, seams, creases, reach)?;
+    let search = Search { faces: &faces, options, size, farthest: f64::from(side) * 3.0_f64.sqrt() };
+    let tree: Octree = search.run(root, progress);
+    Some(tables::pack(&tree, corner, side, options))
+}
+
+/// The bounding box of a grid on every face.
+fn extent(surfaces: &[StoredSurface]) -> (DVec3, DVec3) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for surface in surfaces {
+        for index in 0..33 * 33 {
+            let point = surface.evaluate([index / 33, index % 33].map(|k| f64::from(k) / 32.0)).point;
+            (low, high) = (low.min(point), high.max(point));
+        }
+    }
+    (low, high)
+}

@@ -1,0 +1,152 @@
+//! Tables of the target from the octree: lists that are equal, or the end of another, are stored once.
+
+use super::octree::{Child, Octree};
+use super::unique::Minima;
+use super::{Kind, LocatorOptions};
+use palpate::body::{LEAF, Locator};
+use palpate::math::Vec3;
+use std::collections::HashMap;
+use std::fmt;
+
+/// A locator's tables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BakedLocator {
+    /// The lower corner of the root cube, metres.
+    pub corner: Vec3,
+    /// Its side, metres.
+    pub side: f32,
+    /// Inner nodes.
+    pub nodes: Vec<[u16; 8]>,
+    /// Lists of candidates.
+    pub entries: Vec<u32>,
+    /// What is in them.
+    pub report: LocatorReport,
+}
+
+/// What a locator's tables hold and what is proved of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LocatorReport {
+    /// Leaves.
+    pub leaves: usize,
+    /// Entries of all leaves, shared ones counted for each.
+    pub listed: usize,
+    /// Entries of the longest list.
+    pub longest: usize,
+    /// Entries of the longest list of a cell that does not lie deeper inside than it needs to be located.
+    pub longest_near: usize,
+    /// Leaves by the depth of the octree.
+    pub by_depth: Vec<usize>,
+    /// Shares of the root cube's volume whose lists are proved, proved within tolerance, or only sampled.
+    pub proved: f64,
+    /// See [`Self::proved`].
+    pub within: f64,
+    /// See [`Self::proved`].
+    pub sampled: f64,
+    /// The same for what lies deeper inside than it needs to be located: part of [`Self::sampled`].
+    pub sampled_deep: f64,
+    /// Bytes in flash.
+    pub bytes: usize,
+    /// Whether nodes and entries fit their indices.
+    pub fits: bool,
+}
+
+impl fmt::Display for LocatorReport {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mean = self.listed as f64 / self.leaves as f64;
+        write!(
+            formatter,
+            "{} leaves {:?}, entries a leaf {mean:.2} in the mean, {} at most ({} not deep inside), {} bytes; \
+             of the volume {:.4} % proved, {:.4} % within tolerance, {:.4} % sampled ({:.4} % deep inside)",
+            self.leaves,
+            self.by_depth,
+            self.longest,
+            self.longest_near,
+            self.bytes,
+            100.0 * self.proved,
+            100.0 * self.within,
+            100.0 * self.sampled,
+            100.0 * self.sampled_deep,
+        )
+    }
+}
+
+impl BakedLocator {
+    /// The locator as the firmware has it; its tables stay allocated for good.
+    pub fn to_locator(&self) -> Locator {
+        Locator {
+            corner: self.corner,
+            side: self.side,
+            nodes: self.nodes.clone().leak(),
+            entries: self.entries.clone().leak(),
+        }
+    }
+}
+
+pub(super) fn pack(tree: &Octree, corner: Vec3, side: f32, options: &LocatorOptions) -> BakedLocator {
+    let lists: Vec<Vec<u32>> = tree.leaves.iter().map(|(_, entries)| list(entries)).collect();
+    // Long ones first: a short one may be the end of a long one.
+    let mut order: Vec<usize> = (0..lists.len()).collect();
+    order.sort_by(|a, b| lists[*b].len().cmp(&lists[*a].len()).then(lists[*a].cmp(&lists[*b])));
+    let mut entries = Vec::new();
+    let mut starts: HashMap<&[u32], usize> = HashMap::new();
+    for leaf in order {
+        let list = lists[leaf].as_slice();
+        if !starts.contains_key(list) {
+            for skipped in 0..list.len() {
+                starts.entry(&list[skipped..]).or_insert(entries.len() + skipped);
+            }
+            entries.extend_from_slice(list);
+        }
+    }
+    let code = |child: &Child| match child {
+        Child::Node(node) => *node as u16,
+        Child::Leaf(leaf) => LEAF | starts[lists[*leaf].as_slice()] as u16,
+    };
+    let nodes: Vec<[u16; 8]> =
+        tree.nodes.iter().map(|children| std::array::from_fn(|child| code(&children[child]))).collect();
+    let report = report(tree, &nodes, &entries, f64::from(side), options);
+    BakedLocator { corner, side, nodes, entries, report }
+}
+
+/// The likeliest first, the others in an order that lets lists share their ends.
+fn list(entries: &[super::list::Entry]) -> Vec<u32> {
+    let count = entries.len();
+    let mut codes: Vec<u32> = entries.iter().map(|entry| entry.pack(false)).collect();
+    if let Some(rest) = codes.get_mut(1..) {
+        rest.sort_unstable();
+    }
+    let more = palpate_more();
+    codes.iter().enumerate().map(|(index, code)| if index + 1 < count { code | more } else { *code }).collect()
+}
+
+/// The bit of an entry that says that more follow.
+const fn palpate_more() -> u32 {
+    1 << 31
+}
+
+fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options: &LocatorOptions) -> LocatorReport {
+    let mut report = LocatorReport { by_depth: vec![0; options.depth + 1], ..LocatorReport::default() };
+    for (leaf, list) in &tree.leaves {
+        let share = (2.0 * leaf.half / side) * (2.0 * leaf.half / side) * (2.0 * leaf.half / side);
+        report.leaves += 1;
+        report.listed += list.len();
+        report.longest = report.longest.max(list.len());
+        if leaf.kind != Kind::Deep {
+            report.longest_near = report.longest_near.max(list.len());
+        }
+        report.by_depth[leaf.depth] += 1;
+        match leaf.minima {
+            Minima::Convex | Minima::One => report.proved += share,
+            Minima::Within(_) if leaf.proved => report.within += share,
+            Minima::Within(_) | Minima::Unknown => {
+                report.sampled += share;
+                if leaf.kind == Kind::Deep {
+                    report.sampled_deep += share;
+                }
+            }
+        }
+    }
+    report.bytes = size_of_val(nodes) + size_of_val(entries);
+    report.fits = nodes.len() < usize::from(LEAF) && entries.len() < usize::from(LEAF);
+    report
+}
