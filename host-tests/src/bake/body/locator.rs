@@ -1,5 +1,8 @@
 //! The locator that needs no proof: every face is a candidate everywhere.
 
+use super::BakedFace;
+use crate::bake::locator::{self, BakedLocator, LocatorOptions, LocatorReport, Seams, StoredSurface};
+use crate::bake::{Axis, BakedPatch};
 use palpate::body::{Candidate, GRID, LEAF, Locator};
 use palpate::math::Vec3;
 
@@ -32,6 +35,30 @@ impl LocatorTable {
         };
         let entries = (0..faces).map(|face| entry(face).pack()).collect();
         Self { corner, side: (2.0 * size) as f32, nodes: vec![[LEAF; 8]], entries }
+    }
+
+    /// The locator of these faces, proved cell by cell as far as it goes; see [`locator`].
+    pub(super) fn of_faces(
+        faces: &[BakedFace],
+        size: f64,
+        options: &LocatorOptions,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> Option<(Self, LocatorReport)> {
+        let patches: Vec<BakedPatch> = faces.iter().map(|face| face.patch.clone()).collect();
+        let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
+        let seams = Seams::find(&surfaces, options.seam * size);
+        let creases: Vec<_> = faces
+            .iter()
+            .map(|face| {
+                [Axis::U, Axis::V].map(|axis| match face.surface.continuity(axis) {
+                    Some(0) => face.surface.borders(axis),
+                    _ => Vec::new(),
+                })
+            })
+            .collect();
+        let baked = locator::bake(&patches, seams, &creases, options, progress)?;
+        let BakedLocator { corner, side, nodes, entries, report } = baked;
+        report.fits.then_some((Self { corner: corner.to_array(), side, nodes, entries }, report))
     }
 
     /// The locator as the firmware has it; its numbers stay allocated for good.

@@ -12,6 +12,7 @@ pub use locator::LocatorTable;
 pub use separator::BakedSeparator;
 
 use super::error::ModelError;
+use super::locator::{LocatorOptions, LocatorReport};
 use super::model::Model;
 use super::patch::NurbsPatch;
 use super::split::{Piece, Provenance};
@@ -117,6 +118,17 @@ impl BakedBody {
     /// What is wrong with the model's patches, or between them.
     pub fn new(model: &Model, file: &str) -> Result<Self, ModelError> {
         Self::of_pieces(Piece::whole(model), model, file)
+    }
+
+    /// The same body with a locator that names for each cell of space what can own the closest point. `progress` is told the depth that
+    /// begins and the number of its cells. `None` if the tables would not fit their indices.
+    pub fn located(
+        self,
+        options: &LocatorOptions,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> Option<(Self, LocatorReport)> {
+        let (locator, report) = LocatorTable::of_faces(&self.faces, f64::from(self.size), options, progress)?;
+        Some((Self { locator, ..self }, report))
     }
 
     /// Bakes the pieces that a model was split into.
