@@ -74,6 +74,20 @@ impl Body {
         }
     }
 
+    /// The state with the witness point set down on a face, wherever the probe may be. Of parameters that are not in `[0, 1]` the
+    /// nearest that are; an index that is no face's gives [`Self::start`].
+    pub fn start_on(&self, face: u16, [u, v]: [f32; 2]) -> BodyWitness {
+        let mut state = self.start();
+        if let Some(patch) = self.faces.get(usize::from(face)).map(|face| &face.patch) {
+            let witness = Witness::at(patch, u, v);
+            // No probe yet, and so no jump of it.
+            state.probe = Vec3::NAN;
+            self.enter_face(face, witness.parameters, Some(witness), &mut state);
+            state.is_located = true;
+        }
+        state
+    }
+
     /// One tick: at most one controller step, one evaluation of a patch for the search and four of border curves. Bounded, and
     /// without a panic; a probe that is not finite changes nothing.
     ///

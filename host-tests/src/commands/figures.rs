@@ -1,15 +1,20 @@
-//! `palpate figures`: the paper's Figures 6 to 8, computed anew.
+//! `palpate figures`: the paper's Figures 3 and 6 to 9, computed anew.
 
 use super::output::write_whole;
 use super::progress;
-use crate::figures::{Options, Stage, Subject, sheets};
+use crate::bake::Model;
+use crate::figures::tour::Touring;
+use crate::figures::{Options, Stage, Subject, body_sheet, sheets};
 use anyhow::{Context as _, ensure};
 use clap::Args;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Draws the paper's Figures 6 to 8, with the numbers beside them.
+/// Draws the paper's Figures 3 and 6 to 9, with the numbers beside them.
+///
+/// Of a model of several patches: Figure 3, slices through its Voronoi regions by the tables' word, and Figure 9, a probe's way
+/// around it with u, v and the active feature. Of a model of one patch:
 ///
 /// Figure 6: a start from which the witness point meets a border, follows it and leaves it again; the one that shows it best
 /// of a fixed grid of probes and starts. Figure 7: from which of 21 x 21 starts Newton's method, with and without saturation at
@@ -20,7 +25,7 @@ use std::process::ExitCode;
 /// The same arguments write the same bytes.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Model file; its first patch is taken. Table I of the paper and its convex companion if not given
+    /// Model file. Table I of the paper, its convex companion and the capped box if not given
     #[arg(long)]
     model: Vec<PathBuf>,
     /// Folder for the files
@@ -52,19 +57,25 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     );
     let models = if arguments.model.is_empty() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
-        vec![folder.join("table1.toml"), folder.join("table1c.toml")]
+        ["table1.toml", "table1c.toml", "capped_box.toml"].map(|name| folder.join(name)).to_vec()
     } else {
         arguments.model.clone()
     };
-    let subjects = models.iter().map(|model| Subject::read(model)).collect::<anyhow::Result<Vec<_>>>()?;
+    let subjects = models.iter().map(|model| Chosen::read(model)).collect::<anyhow::Result<Vec<_>>>()?;
     fs::create_dir_all(&arguments.out)
         .with_context(|| format!("cannot make the folder {}", arguments.out.display()))?;
     let options = Options { probes: arguments.probes.into(), distances, seed: arguments.seed };
     for subject in subjects {
         let bar = progress::work();
-        let computed = sheets(&subject, options, |stage, done, all| bar.tell(name(stage), done, all))?;
+        let (title, computed) = match &subject {
+            Chosen::Patch(subject) => {
+                let computed = sheets(subject, options, |stage, done, all| bar.tell(name(stage), done, all))?;
+                (&subject.name, computed)
+            }
+            Chosen::Body(touring) => (&touring.name, vec![body_sheet(touring)?]),
+        };
         drop(bar);
-        println!("{}", subject.name);
+        println!("{title}");
         for sheet in computed {
             for (name, value) in sheet.rows {
                 println!("  {name:<28} {value}");
@@ -77,6 +88,21 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A model is a patch or a body.
+enum Chosen {
+    Patch(Box<Subject>),
+    Body(Box<Touring>),
+}
+
+impl Chosen {
+    fn read(path: &Path) -> anyhow::Result<Self> {
+        if Model::read(path)?.patches.len() > 1 {
+            return Ok(Self::Body(Box::new(Touring::read(path)?)));
+        }
+        Ok(Self::Patch(Box::new(Subject::read(path)?)))
+    }
 }
 
 const fn name(stage: Stage) -> &'static str {

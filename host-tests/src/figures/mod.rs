@@ -1,4 +1,4 @@
-//! The paper's simulation figures, computed anew: the numbers first, then what draws them.
+//! The paper's figures, computed anew: the numbers first, then what draws them.
 
 pub mod attraction;
 mod attraction_plot;
@@ -9,8 +9,10 @@ mod invariance_plot;
 mod page;
 mod sheets;
 mod subject;
+pub mod tour;
+mod tour_plot;
 pub mod tracking;
 mod tracking_plot;
 
-pub use sheets::{Options, Sheet, Stage, sheets};
+pub use sheets::{Options, Sheet, Stage, body_sheet, sheets};
 pub use subject::Subject;

@@ -4,8 +4,9 @@ use super::attraction::{Contender, seeded_targets, start_grid};
 use super::comparison::{Comparison, DRAWN};
 use super::invariance::{self, Passage};
 use super::subject::Subject;
+use super::tour::Touring;
 use super::tracking::{self, Configuration, Limit};
-use super::{attraction_plot, invariance_plot, tracking_plot};
+use super::{attraction_plot, invariance_plot, tour_plot, tracking_plot};
 use anyhow::ensure;
 use palpate::track::Integrator;
 use std::fmt::Write as _;
@@ -59,6 +60,40 @@ pub fn sheets(
         attraction(subject, options, |done, all| progress(Stage::Basins, done, all))?,
         tracking(subject)?,
     ])
+}
+
+/// Cells of a slice of Figure 3, along each side.
+const CELLS: usize = 120;
+
+/// Figures 3 and 9 of a body.
+///
+/// # Errors
+/// A drawing that failed.
+pub fn body_sheet(touring: &Touring) -> anyhow::Result<Sheet> {
+    let mut sheet = Sheet::default();
+    let slices = touring.slices(CELLS);
+    let owners: std::collections::BTreeSet<u16> =
+        slices.iter().flat_map(|slice| slice.cells.iter().flatten().flatten()).map(|feature| feature.code()).collect();
+    sheet.row("figure 3", format!("{} regions in two slices", owners.len()));
+    sheet.files.push((format!("{}-figure3.svg", touring.name), tour_plot::draw_regions(&slices)?));
+    let samples = touring.tour();
+    let features: Vec<_> = samples.chunk_by(|a, b| a.feature == b.feature).collect();
+    let settled = samples.iter().skip(100).map(|sample| sample.excess).fold(0.0, f64::max);
+    let rise = samples.iter().map(|sample| sample.rise).fold(0.0, f64::max);
+    sheet.row("figure 9", format!("{} ticks, {} features one after another", samples.len(), features.len()));
+    sheet.row("  distance too long by", format!("{:.1e} m at most after 0.1 s", settled));
+    sheet.row("  largest rise of ‖ΔR‖", format!("{rise:.1e} m in a tick, switches included"));
+    let mut csv = "time_s,qx_mm,qy_mm,qz_mm,px_mm,py_mm,pz_mm,feature,u,v,excess_mm\n".to_owned();
+    for sample in &samples {
+        let ([qx, qy, qz], [px, py, pz]) = ((sample.probe * 1e3).to_array(), (sample.witness * 1e3).to_array());
+        let ([u, v], feature, excess) = (sample.parameters, sample.feature, sample.excess * 1e3);
+        let feature = format!("{feature:?}").to_lowercase().replace('(', " ").replace(')', "");
+        let time = sample.time;
+        writeln!(csv, "{time:.3},{qx:.5},{qy:.5},{qz:.5},{px:.5},{py:.5},{pz:.5},{feature},{u:.7},{v:.7},{excess:.7}")?;
+    }
+    sheet.files.push((format!("{}-figure9.svg", touring.name), tour_plot::draw_tour(touring, &samples)?));
+    sheet.files.push((format!("{}-figure9.csv", touring.name), csv));
+    Ok(sheet)
 }
 
 fn invariance(subject: &Subject, progress: impl FnMut(usize, usize)) -> anyhow::Result<Sheet> {
