@@ -76,7 +76,8 @@ impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
         hash.words([self.phase as u32, u32::from(fault), fault_tick, self.ticks]);
         hash.words([self.reset as u32, self.overruns, self.overruns_in_a_row, u32::from(self.overran)]);
         hash.words([self.link_silence, self.settled, u32::from(self.homed)]);
-        hash.words([self.table_check.word, self.table_check.crc, self.table_check.passes]);
+        let TableCheck { place, crc, passes } = self.table_check;
+        hash.words([place.record, place.word, crc, passes]);
         hash.words([self.frames_lost, self.steps_undone, u32::from(self.counts.is_some())]);
         for counts in self.counts.iter().flatten() {
             hash.words([counts.0 as u32]);
