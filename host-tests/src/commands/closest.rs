@@ -1,7 +1,7 @@
 //! `palpate closest`: closest points with the firmware's own code.
 
-use super::check::Loaded;
 use super::output::{print, write_whole};
+use crate::bake::{BakedBody, Model};
 use crate::closest::{Solver, Status};
 use crate::queries;
 use clap::{Args, ValueEnum};
@@ -52,10 +52,11 @@ enum Mode {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let loaded = Loaded::read(&arguments.model)?;
-    let body = loaded.body.to_body()?;
-    let solver = Solver::new(&body, &loaded.body);
-    let per_metre = loaded.model.unit.per_metre();
+    let model = Model::read(&arguments.model)?;
+    let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
+    let body = baked.to_body()?;
+    let solver = Solver::new(&body, &baked);
+    let per_metre = model.unit.per_metre();
     let queries = queries::read(&arguments.queries, per_metre)?;
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status"])?;
@@ -80,7 +81,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             Status::StepLimit => "step-limit",
             Status::Tracking => "tracking",
         };
-        let (label, steps) = (loaded.model.patch_label(found.patch), found.evaluations.to_string());
+        let (label, steps) = (model.patch_label(found.patch), found.evaluations.to_string());
         let fields = [label.as_str()].into_iter().chain(numbers.iter().map(String::as_str)).chain([&*steps, status]);
         writer.write_record(fields)?;
     }

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use palpate::body::{Body, Feature, Side};
 use palpate::math::Vec3;
-use palpate_host::bake::{Model, NurbsPatch};
+use palpate_host::bake::topology::bounding_box;
+use palpate_host::bake::{BakedBody, Model, NurbsPatch};
 use palpate_host::bodies::{BodyOracle, Truth};
 use palpate_host::generate::Random;
 use std::path::Path;
@@ -24,7 +25,10 @@ impl Scene {
     pub fn load(name: &str) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.toml"));
         let model = Model::read(&path).unwrap();
-        todo!("{}", model.name)
+        let baked = BakedBody::new(&model, name).unwrap();
+        let patches: Vec<_> = baked.faces.iter().map(|face| face.surface.clone()).collect();
+        let (low, high) = bounding_box(&patches);
+        Self { patches, body: baked.to_body().unwrap(), low, high }
     }
 
     pub fn oracle(&self) -> BodyOracle<'_> {

@@ -244,7 +244,9 @@ fn vertices(topology: &Topology) -> (Vec<Vertex>, Vec<Spoke>) {
             edge: spoke.edge as u16,
             at_upper_end: spoke.at_upper_end,
         }));
-        vertices.push(Vertex { point: vertex.point.as_vec3(), first_spoke, spokes: vertex.spokes.len() as u16 });
+        let is_open = vertex.spokes.iter().any(|spoke| topology.edges[spoke.edge].partner.is_none());
+        let count = vertex.spokes.len() as u16;
+        vertices.push(Vertex { point: vertex.point.as_vec3(), first_spoke, spokes: count, is_open });
     }
     (vertices, spokes)
 }
