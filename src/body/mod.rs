@@ -12,6 +12,7 @@ mod minimise;
 mod search;
 mod table;
 mod tracker;
+mod words;
 
 pub use curve::{CurvePoint, MAX_CURVE_DEGREE, SplineCurve};
 pub use feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Separator, Side, Spoke, Vertex};
@@ -19,3 +20,4 @@ pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES};
 pub use search::{Located, MOST_EVALUATIONS, MOST_EVALUATIONS_CONVEX, Search};
 pub use table::{Body, BodyError};
 pub use tracker::{BodyStep, BodyWitness};
+pub use words::TableCursor;

@@ -12,8 +12,8 @@ mod spline;
 
 pub use curved::CurvedPoint;
 pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
-pub(crate) use spline::breaks_are_valid;
 pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError, span_centre};
+pub(crate) use spline::{breaks_are_valid, coefficient_word};
 
 use crate::math::Vec3;
 

@@ -32,6 +32,30 @@ pub enum Coefficients {
     Rational(&'static [[f32; 4]]),
 }
 
+impl Coefficients {
+    /// How many words they are.
+    pub(crate) const fn words(&self) -> usize {
+        match self {
+            Self::Polynomial(entries) => 3 * entries.len(),
+            Self::Rational(entries) => 4 * entries.len(),
+        }
+    }
+
+    /// 1 if rational.
+    pub(crate) const fn tag(&self) -> u32 {
+        matches!(self, Self::Rational(_)) as u32
+    }
+}
+
+/// The `index`-th word of coefficients.
+pub(crate) const fn coefficient_word(coefficients: Coefficients, index: usize) -> Option<u32> {
+    match coefficients {
+        Coefficients::Polynomial(entries) if index / 3 < entries.len() => Some(entries[index / 3][index % 3].to_bits()),
+        Coefficients::Rational(entries) if index / 4 < entries.len() => Some(entries[index / 4][index % 4].to_bits()),
+        _ => None,
+    }
+}
+
 /// Why a table is refused. In a `static` it is a compile error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum TableError {
@@ -159,20 +183,29 @@ impl SplinePatch {
 }
 
 impl SplinePatch {
-    /// The `index`-th word of the table: the borders along `u` and `v`, then the coefficients.
-    const fn word(&self, index: usize) -> Option<u32> {
+    /// The `index`-th word of the table: degrees and orientation, bounds, size, the borders along `u` and `v`, the coefficients.
+    pub(crate) const fn word(&self, index: usize) -> Option<u32> {
         let (u, v) = (self.breaks_u.len(), self.breaks_v.len());
-        let value = if index < u {
-            self.breaks_u[index]
-        } else if index < u + v {
-            self.breaks_v[index - u]
-        } else {
-            let entry = index - u - v;
-            match self.spans.coefficients() {
-                Coefficients::Polynomial(entries) if entry / 3 < entries.len() => entries[entry / 3][entry % 3],
-                Coefficients::Rational(entries) if entry / 4 < entries.len() => entries[entry / 4][entry % 4],
-                _ => return None,
+        let bounds = &self.shape.second_derivatives;
+        let coefficients = self.spans.coefficients();
+        let value = match index {
+            0 => {
+                let degrees = self.degree[0] as u32 | (self.degree[1] as u32) << 8;
+                return Some(degrees | coefficients.tag() << 16 | (self.orientation as u32) << 24);
             }
+            1 => return Some(u as u32 | (v as u32) << 16),
+            2 => bounds.uu,
+            3 => bounds.uv,
+            4 => bounds.vv,
+            5 => self.shape.curvature.least,
+            6 => self.shape.curvature.greatest,
+            7 => self.shape.least_stretch,
+            8 => self.shape.greatest_stretch,
+            9 => self.shape.greatest_bend,
+            10 => self.size,
+            _ if index - 11 < u => self.breaks_u[index - 11],
+            _ if index - 11 - u < v => self.breaks_v[index - 11 - u],
+            _ => return coefficient_word(coefficients, index - 11 - u - v),
         };
         Some(value.to_bits())
     }

@@ -85,7 +85,8 @@ impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
         hash.words([self.link_silence, self.settled, u32::from(self.homed)]);
         self.homing.words(|word| hash.words([word]));
         hash.floats(self.angles_at_zero);
-        hash.words([self.table_check.word, self.table_check.crc, self.table_check.passes]);
+        let TableCheck { place, crc, passes } = self.table_check;
+        hash.words([place.record, place.word, crc, passes]);
         hash.words([self.frames_lost, self.steps_undone, u32::from(self.counts.is_some())]);
         for counts in self.counts.iter().flatten() {
             hash.words([counts.0 as u32]);

@@ -1,6 +1,6 @@
 //! What the loop can touch: a patch, a body, or a surface of your own.
 
-use crate::body::{Body, BodyWitness, Feature};
+use crate::body::{Body, BodyWitness, Feature, TableCursor};
 use crate::math::Vec3;
 use crate::patch::Patch;
 use crate::render::Contact;
@@ -25,8 +25,9 @@ pub trait Surface {
         period: f32,
     ) -> Touched;
 
-    /// The `index`-th word of the tables, for the check that flash still holds what was baked; `None` past the end.
-    fn table_word(&self, index: usize) -> Option<u32>;
+    /// A word of the tables, for the check that flash still holds what was baked; `None` past the end of the cursor's record, and of the
+    /// tables. Bounded work.
+    fn table_word(&self, cursor: TableCursor) -> Option<u32>;
 }
 
 /// The state of a tracker, as the loop looks at it.
@@ -78,8 +79,8 @@ impl<P: Patch> Surface for P {
         Touched { normal, gap, contact: contact.next(gap, witness.mode), undone: step.outcome == Outcome::Undone }
     }
 
-    fn table_word(&self, index: usize) -> Option<u32> {
-        Patch::table_word(self, index)
+    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+        if cursor.record == 0 { Patch::table_word(self, cursor.word as usize) } else { None }
     }
 }
 
@@ -124,8 +125,8 @@ impl Surface for Body {
         Touched { normal, gap, contact, undone: step.outcome == Outcome::Undone }
     }
 
-    fn table_word(&self, _index: usize) -> Option<u32> {
-        None
+    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+        Self::table_word(self, cursor)
     }
 }
 

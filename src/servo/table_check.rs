@@ -1,15 +1,16 @@
 //! The tables in flash are read over and over, a few words a tick, and their CRC compared.
 
 use super::Surface;
+use crate::body::TableCursor;
 
-/// Words read a tick. Each costs about 50 instructions; 250 words of a small patch are read in 32 ticks.
+/// Words read a tick. Each costs some 50 instructions (the end of a record counts as one); the 261 words of a small patch are read in 33 ticks.
 const WORDS: usize = 8;
 
 /// How far the check has come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TableCheck {
     /// The next word.
-    pub word: u32,
+    pub place: TableCursor,
     /// The CRC so far.
     pub crc: u32,
     /// How often the whole table was found good.
@@ -21,12 +22,15 @@ impl TableCheck {
     #[inline]
     pub fn step<S: Surface>(&mut self, surface: &S, expected: u32) -> bool {
         for _ in 0..WORDS {
-            if let Some(word) = surface.table_word(self.word as usize) {
+            let found = surface.table_word(self.place);
+            if let Some(word) = found {
                 self.crc = crc32(self.crc, word);
-                self.word += 1;
+            }
+            if let Some(next) = self.place.after(found) {
+                self.place = next;
             } else {
                 let good = self.crc == expected;
-                *self = Self { word: 0, crc: 0, passes: self.passes.wrapping_add(u32::from(good)) };
+                *self = Self { passes: self.passes.wrapping_add(u32::from(good)), ..Self::default() };
                 return good;
             }
         }

@@ -11,6 +11,7 @@ pub mod bounds;
 mod cell;
 mod error;
 mod form;
+pub mod graph;
 mod knots;
 pub mod locator;
 mod model;

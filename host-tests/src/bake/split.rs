@@ -45,10 +45,10 @@ impl Piece {
 }
 
 /// What messages call a piece: its patch, and which part of it unless it is the whole.
-pub fn label(piece: &Piece, model: &Model) -> String {
-    let Provenance { patch, lower, upper } = piece.source;
+pub fn label(source: Provenance, model: &Model) -> String {
+    let Provenance { patch, lower, upper } = source;
     let name = model.patches[patch].name.as_ref().map_or_else(|| patch.to_string(), |name| format!("\"{name}\""));
-    if piece.source == Provenance::whole(patch) {
+    if source == Provenance::whole(patch) {
         return name;
     }
     format!("{name} (u {:.4} to {:.4}, v {:.4} to {:.4})", lower[0], upper[0], lower[1], upper[1])

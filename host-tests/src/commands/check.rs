@@ -1,9 +1,11 @@
 //! `palpate check`: validates a model and says what is known of each patch.
 
 use super::output::print;
+use crate::bake::body::BakedSide;
 use crate::bake::survey::{Regularity, Survey, Verdict};
-use crate::bake::{BakedPatch, Model, ModelError};
+use crate::bake::{BakedBody, Model, ModelError};
 use clap::Args;
+use palpate::body::EdgeKind;
 use palpate::track::{Integrator, PerformanceLimits};
 use std::fmt::Write as _;
 use std::fs;
@@ -40,7 +42,7 @@ fn positive(text: &str) -> Result<f32, String> {
 pub(super) struct Loaded {
     pub text: String,
     pub model: Model,
-    pub baked: Vec<BakedPatch>,
+    pub body: BakedBody,
 }
 
 impl Loaded {
@@ -49,12 +51,18 @@ impl Loaded {
         let file = path.display().to_string();
         let text = fs::read_to_string(path).map_err(|cause| ModelError::Read { file: file.clone(), cause })?;
         let model = Model::parse(&text, &file)?;
-        let baked = BakedPatch::all(&model, &file)?;
-        Ok(Self { text, model, baked })
+        let body = BakedBody::new(&model, &file)?;
+        Ok(Self { text, model, body })
     }
 
+    /// One for each face.
     pub(super) fn surveys(&self) -> Vec<Survey> {
-        self.model.patches.iter().zip(&self.baked).map(|(patch, baked)| Survey::new(patch, baked)).collect()
+        self.body.faces.iter().map(|face| Survey::new(&face.surface, &face.patch)).collect()
+    }
+
+    /// What the faces go by.
+    pub(super) fn labels(&self) -> Vec<String> {
+        self.body.labels(&self.model).iter().map(|label| label.replace('"', "")).collect()
     }
 }
 
@@ -81,12 +89,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         "f_vv/m",
         "bytes"
     )?;
-    let surveys = loaded.surveys();
+    let (surveys, labels) = (loaded.surveys(), loaded.labels());
     for (index, survey) in surveys.iter().enumerate() {
         writeln!(
             report,
             "{:<16} {:>6} {:>8} {:>10} {:>10.4} {:>10} {:>16} {:>9.3e} {:>9.3e} {:>9.3e} {:>7}  {}",
-            loaded.model.patch_label(index),
+            labels[index],
             format!("{},{}", survey.degree[0], survey.degree[1]),
             format!("{}x{}", survey.spans[0], survey.spans[1]),
             if survey.rational { "rational" } else { "polynomial" },
@@ -104,12 +112,32 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             writeln!(report, "    {reason}")?;
         }
     }
-    let labels: Vec<_> = (0..surveys.len()).map(|index| loaded.model.patch_label(index)).collect();
+    features(&mut report, &loaded.body)?;
     limits(&mut report, arguments, &labels, &surveys)?;
     let verdict = worst(&surveys);
     writeln!(report, "{}: {verdict}", arguments.model.display())?;
     print(report.as_bytes())?;
     Ok(exit_code(verdict))
+}
+
+/// How the patches hang together.
+fn features(report: &mut String, body: &BakedBody) -> std::fmt::Result {
+    let topology = &body.topology;
+    let kinds = [EdgeKind::Convex, EdgeKind::Smooth, EdgeKind::Reflex, EdgeKind::Mixed, EdgeKind::Open];
+    let [convex, smooth, reflex, mixed, open] = kinds.map(|kind| topology.count(kind));
+    let poles = body.faces.iter().flat_map(|face| &face.sides).filter(|side| matches!(side, BakedSide::Pole { .. }));
+    writeln!(
+        report,
+        "\nfeatures: {} faces; {} edges (convex {convex}, smooth {smooth}, reflex {reflex}, mixed {mixed}, open {open}; sampled); \
+         {} vertices; {} sides are poles; {} piece(s), {}; {}",
+        body.faces.len(),
+        body.edges.len(),
+        body.vertices.len(),
+        poles.count(),
+        topology.components(),
+        if topology.is_closed() { "closed" } else { "open" },
+        if body.is_convex { "convex" } else { "not known to be convex" }
+    )
 }
 
 /// The limits of performance of each patch.

@@ -10,7 +10,7 @@ use palpate::math::Vec3;
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocatorTable {
     /// The lower corner of the root cube, metres.
-    pub corner: [f32; 3],
+    pub corner: Vec3,
     /// The root cube's side, metres.
     pub side: f32,
     /// Inner nodes.
@@ -24,7 +24,7 @@ impl LocatorTable {
     /// holds the body with half its size to spare on every side.
     pub fn of_everything(faces: usize, low: [f64; 3], high: [f64; 3]) -> Self {
         let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-        let corner = [0, 1, 2].map(|axis| (0.5 * (low[axis] + high[axis]) - size) as f32);
+        let corner = Vec3::from_array([0, 1, 2].map(|axis| (0.5 * (low[axis] + high[axis]) - size) as f32));
         let all = [GRID as u8; 2];
         let entry = |face: usize| Candidate {
             face: face as u16,
@@ -64,7 +64,7 @@ impl LocatorTable {
     /// The locator as the firmware has it; its numbers stay allocated for good.
     pub fn to_locator(&self) -> Locator {
         Locator {
-            corner: Vec3::from_array(self.corner),
+            corner: self.corner,
             side: self.side,
             nodes: self.nodes.clone().leak(),
             entries: self.entries.clone().leak(),

@@ -1,12 +1,14 @@
 //! The tables of a body, on the host: [`palpate::body::Body`] with the numbers owned.
 
 mod border;
+mod bytes;
 mod convexity;
 mod curve;
 mod locator;
 mod polynomial;
 mod separator;
 
+pub use bytes::BodyBytes;
 pub use curve::BakedCurve;
 pub use locator::LocatorTable;
 pub use separator::BakedSeparator;
@@ -140,7 +142,7 @@ impl BakedBody {
         if pieces.len() > MAX_FACES {
             return Err(seam(SeamFault::TooMany { count: pieces.len(), limit: MAX_FACES }));
         }
-        let label = |index: usize| super::split::label(&pieces[index], model);
+        let label = |index: usize| super::split::label(pieces[index].source, model);
         let patches: Vec<_> = pieces.iter().map(|piece| piece.patch.clone()).collect();
         let topology = Topology::new(&patches, &label).map_err(seam)?;
         let patch_fault = |index: usize| {
@@ -201,6 +203,27 @@ impl BakedBody {
         let (low, high) = bounding_box(&patches);
         let locator = LocatorTable::of_everything(faces.len(), low.to_array(), high.to_array());
         Ok(Self { faces, edges, vertices, spokes, locator, size: topology.size as f32, is_convex, topology })
+    }
+
+    /// The span borders of all patches and curves, equal ones once, in the order in which they come.
+    pub fn distinct_breaks(&self) -> Vec<Vec<f32>> {
+        let of_patches = self.faces.iter().flat_map(|face| face.patch.breaks.iter());
+        let separators = self.faces.iter().flat_map(|face| &face.sides).filter_map(|side| match side {
+            BakedSide::Edge { separator: BakedSeparator::Ruled(curve), .. } => Some(&curve.breaks),
+            _ => None,
+        });
+        let mut distinct: Vec<Vec<f32>> = Vec::new();
+        for breaks in of_patches.chain(separators).chain(self.edges.iter().map(|edge| &edge.curve.breaks)) {
+            if !distinct.contains(breaks) {
+                distinct.push(breaks.clone());
+            }
+        }
+        distinct
+    }
+
+    /// What messages and comments call each face.
+    pub fn labels(&self, model: &Model) -> Vec<String> {
+        self.faces.iter().map(|face| super::split::label(face.source, model)).collect()
     }
 
     /// The body as the firmware has it, with the same bits. Its numbers stay allocated for good: for a host that bakes a few
