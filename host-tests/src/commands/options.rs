@@ -45,7 +45,7 @@ pub struct SceneOptions {
     #[arg(long, default_value_t = 5.0)]
     pub seconds: f64,
     /// Seed of the hand's path
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 2)]
     pub seed: u64,
     /// Stiffness of the surface, N/m; 1,000, or what the device takes if that is less
     #[arg(long)]
@@ -168,7 +168,7 @@ impl SceneOptions {
         };
         // Where the surface is larger than the workspace, it keeps to the middle of the surface.
         let (mechanism, preset) = (self.device.plant().mechanism(0.0), self.device.preset());
-        let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) == 1.0);
+        let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0);
         let path = (6..=20)
             .rev()
             .map(|share| slower(f64::from(share) / 20.0))

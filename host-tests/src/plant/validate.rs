@@ -75,8 +75,8 @@ pub(super) fn validate(plant: &PlantSettings, hand: &HandSettings, rate_hz: f64)
         not_negative("viscous_friction", joint.viscous_friction)?;
         not_negative("coulomb_friction", joint.coulomb_friction)?;
         let [least, most] = joint.stops;
-        // Written so that NaN is refused too.
-        if !(least < most) {
+        let apart = least < most;
+        if !apart {
             return Err(PlantError::NotPositive { field: "stops", value: most - least });
         }
     }

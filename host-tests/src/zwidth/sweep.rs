@@ -37,7 +37,7 @@ pub struct Limit {
 }
 
 /// The stiffness, N/m, from which on all walls are one: half a count, the least depth there is to read, asks for full force
-/// already. What lies above pushes all or nothing, whatever it is called, and the search ends there. Where even that wall comes
+/// already. What lies above pushes all or nothing, but for its damping, and the search ends there. Where even that wall comes
 /// to rest there is no greatest stiffness: dry friction takes more out of the probe in a count than full force puts in.
 pub fn all_or_nothing(slice: &Slice) -> f64 {
     2.0 * slice.greatest_force / slice.resolution

@@ -64,9 +64,9 @@ fn home<K: Kinematics<JOINTS>, const JOINTS: usize>(
         let counts = core::array::from_fn(|joint| Counts(counts[joint]));
         servo.tick(&mut run.state, Input::Sensors { counts, enable: true });
         let mut duties = [0; 3];
-        for joint in 0..JOINTS {
-            duties[joint] = run.state.duties[joint].0;
-            if run.state.phase == Phase::Calibrate && duties[joint] != 0 {
+        for (joint, duty) in duties.iter_mut().enumerate().take(JOINTS) {
+            *duty = run.state.duties[joint].0;
+            if run.state.phase == Phase::Calibrate && *duty != 0 {
                 let torque = run.state.homing.torques()[joint].abs();
                 (run.torque, run.speed) = (run.torque.max(torque), run.speed.max(plant.rates()[joint].abs()));
             }
