@@ -13,6 +13,7 @@ pub mod generate;
 pub mod oracle;
 pub mod plant;
 pub mod queries;
+pub mod race;
 pub mod report;
 pub mod simulation;
 pub mod zwidth;
