@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Standard output is CSV: `contestant,row,kind,a,b,c,nanoseconds`. `kind` is `parameters` (a, b are u, v), `point` (a, b, c in
-//! metres) or `none`; with `count` the last column is empty, and each query is one call of [`measure::counted`].
+//! metres) or `none`; with `count` the last column is empty, and each query that is counted is one call of [`measure::counted`].
 
 mod contestant;
 mod entries;

@@ -21,6 +21,8 @@ pub struct Scene {
     pub coefficients: &'static [[f32; 3]],
     /// The patch as the firmware has it.
     pub patch: SplinePatch,
+    /// Of so many queries one is counted.
+    pub stride: usize,
     /// The queries, in order.
     pub probes: Vec<Probe>,
 }
@@ -55,7 +57,10 @@ impl Scene {
             size,
         )?;
         let probe = |double: [f64; 3]| Probe { single: double.map(|value| value as f32), double };
+        let stride = *numbers::<usize>(&lines, "stride")?.first().context("stride")?;
+        ensure!(stride > 0, "stride: 0");
         Ok(Self {
+            stride,
             knots: [doubles("knots_u")?, doubles("knots_v")?],
             points: points.chunks(columns.max(1)).map(<[_]>::to_vec).collect(),
             breaks,

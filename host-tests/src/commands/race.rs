@@ -24,7 +24,10 @@ pub struct Arguments {
     /// Folder for the numbers (race.csv) and the picture (race.svg)
     #[arg(long, default_value = "palpate-report/race")]
     out: PathBuf,
-    /// Leaves the peers out, and with them most of the time
+    /// Rows of the path: how many servo ticks its 1.2 m take
+    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    rows: u32,
+    /// Leaves the peers out, and with them most of the time; palpate then has its portable square root
     #[arg(long)]
     without_peers: bool,
 }
@@ -36,12 +39,18 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
     race::set_up(&progress)?;
-    let who = if arguments.without_peers { Who::Own } else { Who::All };
-    let program = Program::build(who, &progress)?;
-    let scenes = progress.during("judging the path", Scene::all)?;
+    let own = Program::build(Who::Own, &progress)?;
+    let all = if arguments.without_peers { None } else { Some(Program::build(Who::All, &progress)?) };
+    let scenes = progress.during("judging the path", || Scene::all(arguments.rows as usize))?;
     let mut scores = Vec::new();
     for scene in &scenes {
-        scores.push(race::race(&program, scene, &progress).with_context(|| scene.title())?);
+        let mut of_scene = race::race(all.as_ref().unwrap_or(&own), scene, &progress).with_context(|| scene.title())?;
+        if all.is_some() {
+            let portable = race::with_portable_root(&own, scene, &progress).with_context(|| scene.title())?;
+            // Below palpate's own line, which is the second.
+            of_scene.splice(2..2, portable);
+        }
+        scores.push(of_scene);
     }
     for scene in &scores {
         println!("{}", race::text(scene));

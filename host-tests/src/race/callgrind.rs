@@ -8,8 +8,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The function that is one query: `measure::counted` of the contestants' program.
-const COUNTED: &str = "*palpate_race*measure*counted*";
+/// The function that is one query, for both options that name it. Two patterns, because callgrind keeps what it is told of a pattern in
+/// one place and forgets the first option when the second names the same.
+const COLLECT: &str = "palpate_race::measure::counted*";
+const DUMP: &str = "*measure::counted*";
 
 /// Installs valgrind if it is missing.
 pub(super) fn set_up(progress: &Progress) -> anyhow::Result<()> {
@@ -21,11 +23,11 @@ pub(super) fn set_up(progress: &Progress) -> anyhow::Result<()> {
         .context("valgrind is missing: it counts the instructions")
 }
 
-/// A command that counts each call of [`COUNTED`] into a part of `file`. The program and its arguments are still to be added.
+/// A command that counts each call of [`COLLECT`] into a part of `file`. The program and its arguments are still to be added.
 pub(super) fn command(file: &Path) -> Command {
     let mut command = Command::new("valgrind");
     command.args(["--quiet", "--tool=callgrind", "--combine-dumps=yes", "--compress-strings=yes"]);
-    command.arg(format!("--toggle-collect={COUNTED}")).arg(format!("--dump-after={COUNTED}"));
+    command.arg(format!("--toggle-collect={COLLECT}")).arg(format!("--dump-after={DUMP}"));
     command.arg(format!("--callgrind-out-file={}", file.display()));
     command
 }

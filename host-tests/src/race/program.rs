@@ -13,9 +13,9 @@ use std::process::Command;
 /// Who is in the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Who {
-    /// palpate and Newton's method: seconds to compile.
+    /// palpate as the library comes, with its portable square root, and Newton's method: seconds to compile.
     Own,
-    /// The peers as well: minutes.
+    /// The peers as well, and the host's instruction for the square root for palpate: minutes.
     All,
 }
 
@@ -72,7 +72,7 @@ impl Program {
         // A folder each, so that neither build throws the other's away.
         let (folder, features, what) = match who {
             Who::Own => ("own", "", "building palpate's contestants"),
-            Who::All => ("all", "peers", "building the contestants, once some minutes"),
+            Who::All => ("all", "peers,hardware-root", "building the contestants, once some minutes"),
         };
         let target = repository().join("target/race").join(folder);
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
@@ -84,14 +84,14 @@ impl Program {
         Ok(Self { path: target.join("release/palpate-race") })
     }
 
-    /// Runs all contestants by the clock.
-    pub(super) fn time(&self, scene: &Scene) -> anyhow::Result<Vec<Run>> {
+    /// Runs the contestants of these names, or all, by the clock.
+    pub(super) fn time(&self, scene: &Scene, only: &[&str]) -> anyhow::Result<Vec<Run>> {
         let folder = tempfile::tempdir()?;
         let mut command = Command::new(&self.path);
-        read(&output(add_arguments(&mut command, scene, folder.path(), "time", &[])?)?)
+        read(&output(add_arguments(&mut command, scene, folder.path(), "time", only)?)?)
     }
 
-    /// Counts the instructions of each query, for the contestants of these names or for all.
+    /// Counts the instructions of each query, or of one in [`Scene::stride`], for the contestants of these names or for all.
     ///
     /// # Errors
     /// If valgrind or the program does not run.
@@ -102,16 +102,17 @@ impl Program {
         command.arg(&self.path);
         let runs = read(&output(add_arguments(&mut command, scene, folder.path(), "count", only)?)?)?;
         let counts = callgrind::read(&file)?;
+        let each = scene.queries.len().div_ceil(scene.stride());
         ensure!(
-            counts.len() == runs.len() * scene.queries.len(),
+            counts.len() == runs.len() * each,
             "{} queries were counted, of {} contestants with {} each",
             counts.len(),
             runs.len(),
-            scene.queries.len()
+            each
         );
         let counted =
             |(run, counts): (Run, &[u64])| Counted { contestant: run.contestant, instructions: counts.to_vec() };
-        Ok(runs.into_iter().zip(counts.chunks(scene.queries.len())).map(counted).collect())
+        Ok(runs.into_iter().zip(counts.chunks(each)).map(counted).collect())
     }
 }
 

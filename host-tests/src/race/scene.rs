@@ -28,6 +28,9 @@ impl Task {
     }
 }
 
+/// As many queries as this are counted at least, if there are so many: enough for 99 %, and counting one takes milliseconds.
+const COUNTED: usize = 2_000;
+
 /// A query and how far the closest point really is, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Query {
@@ -56,13 +59,20 @@ impl Scene {
     ///
     /// # Errors
     /// A file of the project that is missing or spoilt.
-    pub fn all() -> anyhow::Result<Vec<Self>> {
+    ///
+    /// The path has `rows` rows: the fewer, the faster the probe.
+    pub fn all(rows: usize) -> anyhow::Result<Vec<Self>> {
         Ok(vec![
             Self::golden("table1", Task::Cold, "table1_near.csv")?,
             Self::golden("table1c", Task::Cold, "table1c_near.csv")?,
-            Self::along_path("table1")?,
+            Self::along_path("table1", rows)?,
             Self::golden("table1c", Task::Track, "table1c_track.csv")?,
         ])
+    }
+
+    /// Of so many queries one is counted.
+    pub fn stride(&self) -> usize {
+        (self.queries.len() / COUNTED).max(1)
     }
 
     /// What it is called in tables: `table1 cold`.
@@ -70,8 +80,11 @@ impl Scene {
         format!("{} {}", self.model, self.task.name())
     }
 
-    /// Queries and answers from a golden file.
-    fn golden(name: &str, task: Task, file: &str) -> anyhow::Result<Self> {
+    /// Queries and answers from a golden file of the tests; the model has the name of the file's first part.
+    ///
+    /// # Errors
+    /// A file of the project that is missing or spoilt.
+    pub fn golden(name: &str, task: Task, file: &str) -> anyhow::Result<Self> {
         let (model, patch, baked) = read(name)?;
         let per_metre = model.unit.per_metre();
         let rows: Vec<ClosestRow> = golden::read(&folder().join("tests/data").join(file))?;
@@ -79,12 +92,12 @@ impl Scene {
         Ok(Self { model: name.to_owned(), task, patch, queries: rows.iter().map(query).collect(), baked })
     }
 
-    /// 10,000 rows of a smooth path, judged by the oracle.
-    fn along_path(name: &str) -> anyhow::Result<Self> {
+    /// A smooth path, judged by the oracle.
+    fn along_path(name: &str, rows: usize) -> anyhow::Result<Self> {
         let (_, patch, baked) = read(name)?;
         let oracle = Oracle::new(&patch);
         let query = |probe| Query { probe, distance: oracle.closest(probe).distance };
-        let queries = path::probes(&patch).map(query).collect();
+        let queries = path::probes(&patch, rows).map(query).collect();
         Ok(Self { model: name.to_owned(), task: Task::Track, patch, queries, baked })
     }
 
@@ -109,6 +122,7 @@ impl Scene {
         line("coefficients", words(coefficients.iter().flatten()))?;
         line("bounds", words([bounds.uu, bounds.uv, bounds.vv]))?;
         line("size", self.baked.size.to_string())?;
+        line("stride", self.stride().to_string())?;
         line("probes", words(self.queries.iter().flat_map(|query| query.probe.to_array())))?;
         Ok(text)
     }

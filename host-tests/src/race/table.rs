@@ -6,6 +6,8 @@ use std::fmt::Write as _;
 
 /// palpate's name among the contestants.
 pub(super) const OURS: &str = "palpate";
+/// palpate with the square root it brings.
+pub(super) const PORTABLE: &str = "palpate-portable";
 /// The contestant that answers nothing.
 pub(super) const CALL: &str = "call";
 
@@ -15,6 +17,7 @@ pub(super) fn described(score: &Score) -> &'static str {
         (CALL, _) => "an empty call",
         (OURS, Task::Cold) => "palpate, cold",
         (OURS, Task::Track) => "palpate, one certified step",
+        (PORTABLE, _) => "  with its portable square root",
         ("newton", Task::Cold) => "Newton from the nearest of 64 cells",
         ("newton-safeguarded", Task::Cold) => "Newton safeguarded, all near cells",
         ("newton-one-step", _) => "Newton, one step",
