@@ -1,5 +1,6 @@
 //! What palpate may spend: counted instructions that must not grow.
 
+use super::judge::Spread;
 use super::program::Counted;
 use super::scene::{Scene, Task};
 use anyhow::Context as _;
@@ -27,9 +28,7 @@ pub struct Budget {
 
 /// A budget that is passed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "{contestant} on {scene}: {counted} instructions in the {which} query, over 3 % more than the budget's {budget}"
-)]
+#[error("{contestant} on {scene}: {spent} instructions in the {which} query, over 3 % more than the budget's {budget}")]
 pub struct Excess {
     /// Who.
     pub contestant: String,
@@ -38,7 +37,7 @@ pub struct Excess {
     /// `median` or `dearest`.
     pub which: &'static str,
     /// What was counted.
-    pub counted: u64,
+    pub spent: u64,
     /// What was allowed.
     pub budget: u64,
 }
@@ -72,18 +71,15 @@ impl Budget {
 
 /// What passes its budget by more than 3 %.
 pub fn excesses(budget: &Budget, scene: &Scene, counted: &Counted) -> Vec<Excess> {
-    let mut instructions = counted.instructions.clone();
-    instructions.sort_unstable();
-    let median = instructions.get(instructions.len().div_ceil(2).max(1) - 1).copied().unwrap_or(0);
-    let worst = instructions.last().copied().unwrap_or(0);
+    let Some(Spread { median, worst, .. }) = Spread::of(&counted.instructions) else { return Vec::new() };
     [("median", median, budget.median), ("dearest", worst, budget.worst)]
         .into_iter()
-        .filter(|&(_, counted, budget)| counted as f64 > MARGIN * budget as f64)
-        .map(|(which, counted_now, allowed)| Excess {
+        .filter(|&(_, spent, allowed)| spent as f64 > MARGIN * allowed as f64)
+        .map(|(which, spent, allowed)| Excess {
             contestant: counted.contestant.clone(),
             scene: scene.title(),
             which,
-            counted: counted_now,
+            spent,
             budget: allowed,
         })
         .collect()

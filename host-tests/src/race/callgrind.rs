@@ -13,9 +13,14 @@ use std::process::Command;
 const COLLECT: &str = "palpate_race::measure::counted*";
 const DUMP: &str = "*measure::counted*";
 
+/// Whether valgrind is there.
+pub(super) fn is_set_up() -> bool {
+    on_path("valgrind").is_some()
+}
+
 /// Installs valgrind if it is missing.
 pub(super) fn set_up(progress: &Progress) -> anyhow::Result<()> {
-    if on_path("valgrind").is_some() {
+    if is_set_up() {
         return Ok(());
     }
     apt_install(&["valgrind"], progress)

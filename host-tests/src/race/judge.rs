@@ -44,8 +44,9 @@ pub struct Score {
 }
 
 impl<T: Copy + PartialOrd> Spread<T> {
-    /// Of at least one value that is no NaN.
-    fn new(mut values: Vec<T>) -> Option<Self> {
+    /// Of at least one value; none may be NaN.
+    pub fn of(values: &[T]) -> Option<Self> {
+        let mut values = values.to_vec();
         values.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
         let at = |percent: usize| values.get(((values.len() * percent).div_ceil(100)).max(1) - 1).copied();
         Some(Self { median: at(50)?, most: at(99)?, worst: at(100)? })
@@ -63,6 +64,7 @@ pub(super) fn score(scene: &Scene, run: &Run, counted: &Counted) -> Score {
         .collect();
     let answered: Vec<f64> = errors.iter().copied().flatten().collect();
     let unanswered = errors.len() - answered.len();
+    let nanoseconds: Vec<u64> = run.answers.iter().filter_map(|answer| answer.nanoseconds).collect();
     let nothing = Spread { median: f64::NAN, most: f64::NAN, worst: f64::NAN };
     let zero = Spread { median: 0, most: 0, worst: 0 };
     Score {
@@ -70,10 +72,10 @@ pub(super) fn score(scene: &Scene, run: &Run, counted: &Counted) -> Score {
         task: scene.task,
         contestant: run.contestant.clone(),
         queries: scene.queries.len(),
-        instructions: Spread::new(counted.instructions.clone()).unwrap_or(zero),
-        nanoseconds: Spread::new(run.answers.iter().filter_map(|answer| answer.nanoseconds).collect()).unwrap_or(zero),
+        instructions: Spread::of(&counted.instructions).unwrap_or(zero),
+        nanoseconds: Spread::of(&nanoseconds).unwrap_or(zero),
         misses: unanswered + answered.iter().filter(|error| **error > MISS).count(),
-        error: Spread::new(answered).unwrap_or(nothing),
+        error: Spread::of(&answered).unwrap_or(nothing),
         unanswered,
     }
 }

@@ -52,6 +52,11 @@ fn measure(program: &Program, scene: &Scene, only: &[&str], progress: &Progress)
         .collect()
 }
 
+/// Whether valgrind is there.
+pub fn is_set_up() -> bool {
+    callgrind::is_set_up()
+}
+
 /// Installs valgrind if it is missing.
 ///
 /// # Errors
