@@ -6,6 +6,7 @@ use crate::scene::Scene;
 #[derive(Clone, Copy, Debug)]
 pub struct Probe {
     pub single: [f32; 3],
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers look at it"))]
     pub double: [f64; 3],
 }
 

@@ -8,6 +8,7 @@ use crate::{parry, truck};
 
 /// Every query by itself.
 pub fn cold() -> Vec<(&'static str, Enter)> {
+    #[cfg_attr(not(feature = "peers"), expect(unused_mut, reason = "only peers are added"))]
     let mut entries: Vec<(&'static str, Enter)> = vec![
         ("call", nobody),
         ("palpate", ours::cold),
@@ -26,6 +27,7 @@ pub fn cold() -> Vec<(&'static str, Enter)> {
 
 /// The probe moves a little from query to query.
 pub fn track() -> Vec<(&'static str, Enter)> {
+    #[cfg_attr(not(feature = "peers"), expect(unused_mut, reason = "only peers are added"))]
     let mut entries: Vec<(&'static str, Enter)> = vec![
         ("call", nobody),
         ("palpate", ours::track),

@@ -12,8 +12,10 @@ use std::str::FromStr;
 #[derive(Debug)]
 pub struct Scene {
     /// Knots along `u` and `v`.
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers look at it"))]
     pub knots: [Vec<f64>; 2],
     /// Control points: along `u` rows, along `v` columns.
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers look at it"))]
     pub points: Vec<Vec<[f64; 3]>>,
     /// palpate's table: span borders along `u` and `v`.
     pub breaks: [&'static [f32]; 2],
