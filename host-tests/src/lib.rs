@@ -15,6 +15,7 @@ pub mod locating;
 pub mod oracle;
 pub mod plant;
 pub mod queries;
+pub mod race;
 pub mod report;
 pub mod simulation;
 pub mod zwidth;

@@ -1,7 +1,7 @@
 //! The host tool of palpate: `cargo palpate COMMAND`.
 
 use clap::{Parser, Subcommand};
-use palpate_host::commands::{bake, check, closest, demo, figures, firmware, sim, test, zwidth};
+use palpate_host::commands::{bake, check, closest, demo, figures, firmware, race, sim, test, zwidth};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -22,6 +22,7 @@ enum Command {
     Figures(figures::Arguments),
     Firmware(firmware::Arguments),
     Zwidth(zwidth::Arguments),
+    Race(race::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
+        Command::Race(arguments) => race::run(&arguments),
     };
     // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).
     outcome.unwrap_or_else(|error| {

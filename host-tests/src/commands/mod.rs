@@ -9,6 +9,7 @@ pub mod firmware;
 pub mod options;
 mod output;
 pub mod progress;
+pub mod race;
 pub mod sim;
 pub mod test;
 pub mod zwidth;

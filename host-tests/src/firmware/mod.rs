@@ -25,6 +25,7 @@ pub use emulator::{Emulator, Transport};
 pub use image::{Choice, Image, Images};
 pub use link::{Link, LinkError};
 pub use process::{SetUpError, without_outer_cargo};
+pub(crate) use process::{apt_install, on_path, output};
 pub use progress::Progress;
 pub use qemu::Qemu;
 pub use toolchain::Toolchain;

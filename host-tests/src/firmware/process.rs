@@ -65,7 +65,7 @@ pub fn without_outer_cargo(command: &mut Command) -> &mut Command {
 }
 
 /// Runs a program quietly and gives what it wrote to its standard output.
-pub(super) fn output(command: &mut Command) -> Result<String, SetUpError> {
+pub(crate) fn output(command: &mut Command) -> Result<String, SetUpError> {
     let shown = format!("{command:?}");
     let output = command.stdin(Stdio::null()).output().map_err(SetUpError::io(&shown))?;
     if output.status.success() {
@@ -79,7 +79,7 @@ pub(super) fn output(command: &mut Command) -> Result<String, SetUpError> {
 }
 
 /// The program of this name on the search path.
-pub(super) fn on_path(name: &str) -> Option<PathBuf> {
+pub(crate) fn on_path(name: &str) -> Option<PathBuf> {
     env::split_paths(&env::var_os("PATH")?).map(|folder| folder.join(name)).find(|path| path.is_file())
 }
 
@@ -87,7 +87,7 @@ pub(super) fn on_path(name: &str) -> Option<PathBuf> {
 ///
 /// # Errors
 /// Why not, with the command that a person could run.
-pub(super) fn apt_install(packages: &[&str], progress: &Progress) -> Result<(), String> {
+pub(crate) fn apt_install(packages: &[&str], progress: &Progress) -> Result<(), String> {
     let list = packages.join(" ");
     let by_hand = format!("sudo apt-get install --no-install-recommends {list}");
     if on_path("apt-get").is_none() {

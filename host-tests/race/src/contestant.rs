@@ -1,0 +1,31 @@
+//! What takes part in the race.
+
+use crate::scene::Scene;
+
+/// A query point, metres, in both precisions: nobody pays for the conversion.
+#[derive(Clone, Copy, Debug)]
+pub struct Probe {
+    pub single: [f32; 3],
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers look at it"))]
+    pub double: [f64; 3],
+}
+
+/// What a contestant says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Answer {
+    /// It gave up.
+    Nothing,
+    /// `(u, v)` of the closest point.
+    Parameters([f64; 2]),
+    /// The closest point, metres.
+    Point([f64; 3]),
+}
+
+/// Finds closest points. One that tracks keeps its state from query to query.
+pub trait Contestant {
+    /// The answer to one query.
+    fn answer(&mut self, probe: &Probe) -> Answer;
+}
+
+/// Prepares a contestant for a scene: tables, trees and, where it tracks, the start. Nothing of it is measured.
+pub type Enter = fn(&Scene) -> anyhow::Result<Box<dyn Contestant>>;

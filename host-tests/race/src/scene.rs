@@ -1,0 +1,84 @@
+//! The scene: one polynomial patch, as control points and as palpate's table, and the probes. Lines of `key value value …`,
+//! metres; numbers are printed so that reading them gives the same bits.
+
+use crate::contestant::Probe;
+use anyhow::{Context as _, ensure};
+use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+use std::collections::HashMap;
+use std::fs;
+use std::str::FromStr;
+
+/// What all contestants get.
+#[derive(Debug)]
+pub struct Scene {
+    /// Knots along `u` and `v`.
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers look at it"))]
+    pub knots: [Vec<f64>; 2],
+    /// Control points: along `u` rows, along `v` columns.
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers look at it"))]
+    pub points: Vec<Vec<[f64; 3]>>,
+    /// palpate's table: span borders along `u` and `v`.
+    pub breaks: [&'static [f32]; 2],
+    /// palpate's table: 9 coefficients a span.
+    pub coefficients: &'static [[f32; 3]],
+    /// The patch as the firmware has it.
+    pub patch: SplinePatch,
+    /// Of so many queries one is counted.
+    pub stride: usize,
+    /// The queries, in order.
+    pub probes: Vec<Probe>,
+}
+
+impl Scene {
+    /// Reads a scene.
+    ///
+    /// # Errors
+    /// What is missing or wrong.
+    pub fn read(file: &str) -> anyhow::Result<Self> {
+        let text = fs::read_to_string(file)?;
+        let lines: HashMap<&str, &str> = text.lines().filter_map(|line| line.split_once(' ')).collect();
+        let degree = numbers::<u8>(&lines, "degree")?;
+        // Newton's method is compiled for the degree, as one would on a target.
+        ensure!(degree == [2, 2], "the race is for biquadratic patches, not degree {degree:?}");
+        let doubles = |key| numbers::<f64>(&lines, key);
+        let singles = |key| numbers::<f32>(&lines, key).map(|all| -> &'static [f32] { all.leak() });
+        let columns = *numbers::<usize>(&lines, "columns")?.first().context("columns")?;
+        let points: Vec<[f64; 3]> = triples(&doubles("points")?);
+        let breaks = [singles("breaks_u")?, singles("breaks_v")?];
+        let coefficients: &'static [[f32; 3]] = triples(singles("coefficients")?).leak();
+        let bounds = singles("bounds")?;
+        let [uu, uv, vv] = *bounds else { anyhow::bail!("bounds: three are needed") };
+        let size = *singles("size")?.first().context("size")?;
+        let patch = SplinePatch::try_new(
+            [2, 2],
+            breaks[0],
+            breaks[1],
+            Coefficients::Polynomial(coefficients),
+            ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }),
+            Orientation::Outward,
+            size,
+        )?;
+        let probe = |double: [f64; 3]| Probe { single: double.map(|value| value as f32), double };
+        let stride = *numbers::<usize>(&lines, "stride")?.first().context("stride")?;
+        ensure!(stride > 0, "stride: 0");
+        Ok(Self {
+            stride,
+            knots: [doubles("knots_u")?, doubles("knots_v")?],
+            points: points.chunks(columns.max(1)).map(<[_]>::to_vec).collect(),
+            breaks,
+            coefficients,
+            patch,
+            probes: triples(&doubles("probes")?).into_iter().map(probe).collect(),
+        })
+    }
+}
+
+fn numbers<T: FromStr>(lines: &HashMap<&str, &str>, key: &str) -> anyhow::Result<Vec<T>> {
+    let line = lines.get(key).with_context(|| format!("no line {key}"))?;
+    let number = |word: &str| word.parse::<T>().ok().with_context(|| format!("{key}: {word} is not a number"));
+    line.split_whitespace().map(number).collect()
+}
+
+fn triples<T: Copy>(flat: &[T]) -> Vec<[T; 3]> {
+    flat.chunks_exact(3).map(|triple| [triple[0], triple[1], triple[2]]).collect()
+}
