@@ -12,6 +12,7 @@ pub mod firmware;
 pub mod generate;
 pub mod oracle;
 pub mod plant;
+pub mod proof;
 pub mod queries;
 pub mod report;
 pub mod simulation;
