@@ -14,6 +14,7 @@ pub mod generate;
 pub mod locating;
 pub mod oracle;
 pub mod plant;
+pub mod proof;
 pub mod queries;
 pub mod race;
 pub mod report;

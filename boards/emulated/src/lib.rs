@@ -15,6 +15,7 @@ pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;
 pub mod panic;
+mod planted;
 pub mod reset;
 pub mod servo_loop;
 pub mod timer;

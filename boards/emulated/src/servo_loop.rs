@@ -7,7 +7,7 @@ use palpate::wire::frame::{self, MAX_FRAME, Received};
 use palpate::wire::{Report, Sensors};
 
 use crate::board::Board;
-use crate::body::{SERVO, SETTINGS};
+use crate::body::{self, SERVO, SETTINGS};
 use crate::link::Link;
 use crate::timer::{INSTRUCTIONS_A_SECOND, InstructionCounter};
 
@@ -44,7 +44,7 @@ impl<L: Link> ServoLoop<L> {
     pub fn tick(&mut self) {
         let input = self.input();
         let state = &mut self.state;
-        let ((), instructions) = self.counter.count(|| SERVO.tick(state, input));
+        let ((), instructions) = self.counter.count(|| body::tick(state, input));
         // On a real board `state.duties` goes to the PWM here, before anything else.
         if DEADLINE.overrun(0, instructions) {
             // The duties may be others after this: zero, where it is a fault.

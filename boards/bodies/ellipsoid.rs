@@ -1,0 +1,47 @@
+// Baked table, not for editing: palpate bake ellipsoid.toml --out ellipsoid.rs
+// Table format 2. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
+
+// Patch 0, "cap".
+#[rustfmt::skip]
+static PATCH_0_BREAKS_U: [f32; 2] = [0.0, 1.0];
+#[rustfmt::skip]
+static PATCH_0_BREAKS_V: [f32; 2] = [0.0, 1.0];
+#[rustfmt::skip]
+static PATCH_0_COEFFICIENTS: [[f32; 4]; 9] = [
+    [0.0, 0.0, 0.02, 0.6666667],
+    [0.0, 0.06, 0.0, 0.0],
+    [0.0, 0.0, -0.02, 0.6666667],
+    [0.08, 0.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, 0.0],
+    [0.0, 0.0, -0.02, 0.6666667],
+    [0.0, 0.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, 0.0],
+];
+
+/// All patches of the model, in the order of its file.
+#[rustfmt::skip]
+pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
+    palpate::patch::SplinePatch::from_table(
+        [2, 2],
+        &PATCH_0_BREAKS_U,
+        &PATCH_0_BREAKS_V,
+        palpate::patch::Coefficients::Rational(&PATCH_0_COEFFICIENTS),
+        palpate::patch::ShapeBounds {
+            second_derivatives: palpate::patch::SecondDerivativeBounds {
+                uu: 0.18266162,
+                uv: 0.07750345,
+                vv: 0.14129409,
+            },
+            curvature: palpate::patch::Curvature {
+                least: 7.9618325,
+                greatest: 43.74316,
+            },
+            least_stretch: 0.0018785878,
+            greatest_stretch: 0.014551159,
+            greatest_bend: 123.56153,
+        },
+        palpate::patch::Orientation::Outward,
+        0.096,
+    ),
+];

@@ -1,0 +1,41 @@
+//! Faults put into the tick on purpose, each behind a feature of its name: what looks for them in the image must find them.
+
+#[cfg(feature = "planted-alloc")]
+mod alloc;
+
+use core::hint::black_box;
+
+use palpate::servo::ServoState;
+
+/// The fault that was chosen; nothing if none was.
+#[inline]
+pub fn fault(state: &mut ServoState<3>) {
+    if cfg!(feature = "planted-panic") {
+        // A bounds check that may fail.
+        let table = black_box([1_u32, 2, 3]);
+        state.overruns ^= table[state.ticks as usize] & 0;
+    }
+    if cfg!(feature = "planted-f64") {
+        state.fade = (f64::from(state.fade) * black_box(1.0_f64)) as f32;
+    }
+    if cfg!(feature = "planted-loop") {
+        while black_box(state.ticks) == u32::MAX {}
+    }
+    if cfg!(feature = "planted-recursion") {
+        state.frames_lost += recursion(state.frames_lost) & 0;
+    }
+    if cfg!(feature = "planted-indirect") {
+        let function: fn(u32) -> u32 = black_box(|x| x);
+        state.frames_lost = function(state.frames_lost);
+    }
+    if cfg!(feature = "planted-stack") {
+        black_box([state.ticks; 512]);
+    }
+    #[cfg(feature = "planted-alloc")]
+    alloc::fault(state);
+}
+
+#[inline(never)]
+fn recursion(depth: u32) -> u32 {
+    if depth == 0 { 0 } else { black_box(recursion(black_box(depth - 1))) + 1 }
+}
