@@ -6,6 +6,7 @@
 
 use super::law::Law;
 use super::projection::ProjectionErrors;
+use crate::math::saturate;
 
 /// The active constraints. Numbers 1 to 5 are those of Eq. (1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,7 +42,7 @@ pub struct Descent {
 
 impl Descent {
     /// The best direction that the boundary allows at `(u, v)` under a law.
-    #[inline]
+    #[inline(always)]
     pub fn new(law: Law, errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
         match law {
             Law::MeasureNumbers => Self::measured(errors, parameters),
@@ -50,7 +51,7 @@ impl Descent {
     }
 
     /// `−Ψ`, or the active set of the two-variable problem.
-    #[inline]
+    #[inline(always)]
     fn measured(errors: &ProjectionErrors, [u, v]: [f32; 2]) -> Self {
         // No inverse at a pole: the plain gradient is still a descent there.
         let Some([psi_u, psi_v]) = errors.measure_numbers() else {
@@ -156,7 +157,7 @@ fn land(parameter: f32, change: f32, own_cut: f32, cut: f32) -> f32 {
     if own_cut < 1.0 && own_cut <= cut {
         if change < 0.0 { 0.0 } else { 1.0 }
     } else {
-        (parameter + cut * change).clamp(0.0, 1.0)
+        saturate(parameter + cut * change, 0.0, 1.0)
     }
 }
 

@@ -6,7 +6,7 @@ use super::law::{FeedForward, Gain, Integrator, Law};
 use super::projection::ProjectionErrors;
 use super::witness::{Outcome, Probe, Step, Witness};
 use super::{feed_forward, integrate};
-use crate::math::{Vec3, sqrt};
+use crate::math::{ROOT_EXCESS, Vec3, sqrt, sqrt_from_above};
 use crate::patch::{Patch, SurfacePoint};
 
 /// The controller's configuration. Keep it in a `static`: what is not chosen costs nothing.
@@ -62,8 +62,7 @@ impl Controller {
             }
         };
         witness.mode = descent.mode;
-        // Also false for NaN.
-        let moves = descent.slope > 0.0 && squared < f32::INFINITY;
+        let moves = is_positive(descent.slope) && squared.to_bits() < f32::INFINITY.to_bits();
         if !moves {
             let outcome = Outcome::AtRest;
             return Step { distance_squared_before: squared, residual_squared: 0.0, gain: 0.0, outcome };
@@ -133,11 +132,21 @@ impl Controller {
     }
 }
 
+/// Whether `0 < x < ∞`; false for NaN. As bits it is one comparison.
+#[inline]
+fn is_positive(x: f32) -> bool {
+    x.to_bits().wrapping_sub(1) < f32::INFINITY.to_bits() - 1
+}
+
 /// Whether the squared distance rose by more than rounding. Written so that NaN counts as a rise.
 #[inline]
 fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, size: f32) -> bool {
     let now = (after.point - probe).length_squared();
     if now <= squared {
+        return false;
+    }
+    // The size alone is most often enough, with a root that is not above the distance.
+    if now - squared <= (ROUNDING / ROOT_EXCESS) * size * sqrt_from_above(squared) {
         return false;
     }
     let coordinates = (before.point.abs() + probe.abs()).max_element() + size;

@@ -22,13 +22,12 @@ use crate::patch::SecondDerivativeBounds;
 /// the paper's limits of performance with a proved constant. The patch must be C¹ along the step; its second derivatives may jump.
 ///
 /// # Units
-/// `distance_squared` in metres squared; the gain is a pure number, `K h` with `K` in 1/s and the period `h` in s.
+/// `distance_squared` in metres squared; the gain is a pure number, `K h` with `K` in 1/s and the period `h` in s. Not above 1, but
+/// with feed-forward, where `ℓ²` may be less than `s`: there the plain gain bounds it.
 #[inline]
 pub fn certified_gain(descent: &Descent, bounds: &SecondDerivativeBounds, distance_squared: f32) -> f32 {
     let [w_u, w_v] = descent.direction;
     let bend = bounds.uu * w_u * w_u + 2.0 * bounds.uv * (w_u * w_v).abs() + bounds.vv * w_v * w_v;
     let (length, distance) = (sqrt_from_above(descent.length_squared), sqrt_from_above(distance_squared));
-    let gain = descent.slope / (descent.length_squared + bend * (bend + 2.0 * length + distance));
-    // Only feed-forward can ask for more than the whole way.
-    if gain < 1.0 { gain } else { 1.0 }
+    descent.slope / (descent.length_squared + bend * (bend + 2.0 * length + distance))
 }
