@@ -17,15 +17,16 @@ pub fn gate<const JOINTS: usize>(
     torques: [f32; JOINTS],
 ) -> Result<([Duty; JOINTS], f32), Fault> {
     let mut fractions = [0.0; JOINTS];
-    let mut largest = 1.0_f32;
+    let (mut largest, mut sum) = (1.0_f32, 0.0);
     for ((fraction, motor), torque) in fractions.iter_mut().zip(motors).zip(torques) {
         *fraction = motor.fraction(torque);
-        if !fraction.is_finite() {
-            return Err(Fault::NotFinite);
-        }
-        if fraction.abs() > largest {
-            largest = fraction.abs();
-        }
+        let size = fraction.abs();
+        sum += size;
+        largest = if size > largest { size } else { largest };
+    }
+    // Not finite where one of them is not, or where all together are beyond all bounds.
+    if !sum.is_finite() {
+        return Err(Fault::NotFinite);
     }
     if !drives {
         return Ok(([Duty::ZERO; JOINTS], 0.0));

@@ -85,7 +85,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
     }
 
     /// From the input to joint torques, N·m.
-    #[inline]
+    #[inline(always)]
     fn feel(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) -> Result<[f32; JOINTS], Fault> {
         let (counts, enable) = match input {
             Input::Sensors { counts, enable } => (counts, enable),
@@ -100,7 +100,8 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
         let probe = pose.position - self.settings.body_origin;
         let moved = if first { Vec3::ZERO } else { probe - state.probe };
         let velocity = pose.velocity(state.rates);
-        if !(probe.is_finite() && velocity.is_finite()) {
+        // The sum of all six is finite only where each is.
+        if !(probe + velocity).element_sum().is_finite() {
             return Err(Fault::NotFinite);
         }
         state.probe = probe;

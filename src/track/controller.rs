@@ -74,9 +74,7 @@ impl Controller {
             });
         let parameters = boundary::advance(witness.parameters, change, gain);
         let surface = patch.evaluate(parameters[0], parameters[1]);
-        let outcome = if self.is_guarded()
-            && rises(&witness.surface, &surface, probe.position, squared, patch.size())
-        {
+        let outcome = if self.is_guarded() && rises(&witness.surface, &surface, probe.position, squared, patch.size()) {
             witness.caution = (0.5 * witness.caution).max(LEAST_CAUTION);
             Outcome::Undone
         } else {
@@ -92,7 +90,7 @@ impl Controller {
     }
 
     /// `K h` for a direction.
-    #[inline]
+    #[inline(always)]
     fn gain_for<P: Patch>(&self, descent: &Descent, patch: &P, squared: f32, caution: f32, period: f32) -> f32 {
         let certified = || certified_gain(descent, &patch.bounds(), squared) * caution;
         match self.gain {
@@ -139,7 +137,7 @@ fn is_positive(x: f32) -> bool {
 }
 
 /// Whether the squared distance rose by more than rounding. Written so that NaN counts as a rise.
-#[inline]
+#[inline(always)]
 fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, size: f32) -> bool {
     let now = (after.point - probe).length_squared();
     if now <= squared {

@@ -24,7 +24,7 @@ use crate::patch::SecondDerivativeBounds;
 /// # Units
 /// `distance_squared` in metres squared; the gain is a pure number, `K h` with `K` in 1/s and the period `h` in s. Not above 1, but
 /// with feed-forward, where `ℓ²` may be less than `s`: there the plain gain bounds it.
-#[inline]
+#[inline(always)]
 pub fn certified_gain(descent: &Descent, bounds: &SecondDerivativeBounds, distance_squared: f32) -> f32 {
     let [w_u, w_v] = descent.direction;
     let bend = bounds.uu * w_u * w_u + 2.0 * bounds.uv * (w_u * w_v).abs() + bounds.vv * w_v * w_v;

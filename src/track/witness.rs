@@ -78,7 +78,7 @@ impl Witness {
     }
 
     /// The outward unit normal at the witness point; `None` where the tangents span no plane.
-    #[inline]
+    #[inline(always)]
     pub fn normal<P: Patch>(&self, patch: &P) -> Option<Vec3> {
         let across = self.surface.tangent_u.cross(self.surface.tangent_v);
         let squared = across.length_squared();
