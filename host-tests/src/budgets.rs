@@ -158,7 +158,8 @@ impl Budget {
             allowed: self.instructions.get(name).copied(),
         });
         let missing = self.instructions.iter().filter(|(name, _)| found.of(name).is_none());
-        let missing = missing.map(|(name, allowed)| Verdict { name: name.clone(), found: None, allowed: Some(*allowed) });
+        let missing =
+            missing.map(|(name, allowed)| Verdict { name: name.clone(), found: None, allowed: Some(*allowed) });
         counted.chain(missing).collect()
     }
 }

@@ -62,10 +62,7 @@ impl Emulator {
     pub fn start(qemu: &Qemu, image: &Image, transport: Transport) -> Result<Self, LinkError> {
         let folder = tempfile::Builder::new().prefix("palpate-link-").tempdir()?;
         let mut command = qemu.board(&image.elf);
-        command
-            .current_dir(folder.path())
-            .stdout(Stdio::null())
-            .stderr(File::create(folder.path().join("said"))?);
+        command.current_dir(folder.path()).stdout(Stdio::null()).stderr(File::create(folder.path().join("said"))?);
         let (child, to_device, from_device) = match transport {
             Transport::Uart => start_with_socket(command, &folder)?,
             Transport::Fifo => start_with_fifos(command, &folder)?,

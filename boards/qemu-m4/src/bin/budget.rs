@@ -7,11 +7,15 @@ use cortex_m::peripheral::Peripherals;
 use cortex_m_rt::entry;
 use palpate_qemu_m4::budget;
 use palpate_qemu_m4::timer::InstructionCounter;
+use semihosting::println;
 
 #[entry]
 fn main() -> ! {
     if let Some(core) = Peripherals::take() {
-        budget::run(&mut InstructionCounter::new(core.SYST));
+        if let Err(reason) = budget::run(&mut InstructionCounter::new(core.SYST)) {
+            println!("{reason}");
+            semihosting::process::exit(1);
+        }
     }
     semihosting::process::exit(0)
 }
