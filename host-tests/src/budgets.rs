@@ -115,7 +115,7 @@ pub fn measure(firmware: &Firmware) -> Result<Figures, BudgetError> {
 /// The lines `"name" = count`.
 fn figures(said: &str) -> Result<Figures, BudgetError> {
     let figure = |line: &str| {
-        let (name, count) = line.split_once(" = ")?;
+        let (name, count) = line.rsplit_once(" = ")?;
         Some((name.strip_prefix('"')?.strip_suffix('"')?.to_owned(), count.parse().ok()?))
     };
     let lines = said.lines().map(|line| figure(line).ok_or_else(|| BudgetError::Line(line.to_owned())));
@@ -178,6 +178,7 @@ mod tests {
         let fails = |text: &str| budget.compare(&figures(text).unwrap()).iter().filter(|v| v.fails()).count();
         assert_eq!(fails("\"a\" = 103\n\"b\" = 90\n"), 0);
         assert_eq!(fails("\"a\" = 104\n\"b\" = 104\n"), 2);
+        assert_eq!(figures("\"held at u = 0\" = 7\n").unwrap().of("held at u = 0"), Some(7));
         assert_eq!(fails("\"a\" = 100\n"), 1, "a figure that is gone");
         assert_eq!(fails("\"a\" = 100\n\"b\" = 100\n\"c\" = 1\n"), 1, "a figure nobody recorded");
     }

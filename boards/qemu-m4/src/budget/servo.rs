@@ -23,8 +23,9 @@ fn tick(state: &mut ServoState<3>, input: Input<3>) {
 fn counts(tick: u32) -> [Counts; 3] {
     let phase = tick as f32 * 1.5e-3;
     let wave = |rate: f32| sin_cos((phase * rate) % core::f32::consts::TAU).0;
-    // About the workspace centre: at first over the patch and through it, then beyond its corners.
-    let [a, b, c] = if tick < TICKS / 2 { [1_800.0, 1_000.0, 1_400.0] } else { [2_600.0, 1_500.0, 2_000.0] };
+    // About the workspace centre: at first over the patch and through it, growing to beyond its corners.
+    let growth = 1.0 + 0.5 * tick as f32 / TICKS as f32;
+    let [a, b, c] = [1_800.0, 1_000.0, 1_400.0].map(|travel: f32| travel * growth);
     [
         Counts((-a * wave(1.0)) as i32),
         Counts((-1_320.0 + b * wave(1.37)) as i32),
