@@ -4,6 +4,7 @@
 pub mod bake;
 pub mod baselines;
 pub mod bodies;
+pub mod budgets;
 pub mod closest;
 pub mod commands;
 pub mod devices;

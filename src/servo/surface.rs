@@ -64,7 +64,7 @@ impl<P: Patch> Surface for P {
         Witness::at(self, 0.5, 0.5)
     }
 
-    #[inline]
+    #[inline(always)]
     fn follow(
         &self,
         controller: &Controller,

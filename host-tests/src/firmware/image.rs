@@ -37,6 +37,8 @@ pub struct Image {
 pub struct Images {
     uart: Image,
     fifo: Image,
+    /// The program that counts instructions.
+    pub budget: Image,
     /// Keeps the files.
     _folder: TempDir,
 }
@@ -73,12 +75,13 @@ pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Res
 
     let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
     let built = target_folder.join(toolchain.target()).join("release");
-    let take = |transport: Transport| {
-        let elf = folder.path().join(transport.binary());
-        fs::copy(built.join(transport.binary()), &elf).map_err(SetUpError::io(built.display()))?;
+    let take = |binary: &str| {
+        let elf = folder.path().join(binary);
+        fs::copy(built.join(binary), &elf).map_err(SetUpError::io(built.display()))?;
         measure(choice.board, elf)
     };
-    Ok(Images { uart: take(Transport::Uart)?, fifo: take(Transport::Fifo)?, _folder: folder })
+    let (uart, fifo) = (take(Transport::Uart.binary())?, take(Transport::Fifo.binary())?);
+    Ok(Images { uart, fifo, budget: take("budget")?, _folder: folder })
 }
 
 /// Adds up the sections that the linker gave an address.

@@ -15,7 +15,7 @@ mod debian;
 mod emulator;
 mod image;
 mod link;
-mod process;
+pub(crate) mod process;
 mod progress;
 mod qemu;
 mod toolchain;

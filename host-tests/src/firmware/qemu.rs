@@ -1,10 +1,11 @@
 //! Where the emulator is.
 
+use super::image::Image;
 use super::process::{apt_install, on_path, output};
 use super::{Progress, SetUpError};
 use std::env;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
 
 const PROGRAM: &str = "qemu-system-arm";
 
@@ -39,8 +40,18 @@ impl Qemu {
         }
     }
 
-    /// The program.
-    pub fn program(&self) -> &Path {
-        &self.program
+    /// The command that runs an image on the emulated board.
+    ///
+    /// One instruction is 64 ns of emulated time whatever the host does, and time that is slept is skipped: every run is the
+    /// same, and instructions can be counted.
+    pub fn board(&self, image: &Image) -> Command {
+        let mut command = Command::new(&self.program);
+        command
+            .stdin(Stdio::null())
+            .args(["-machine", image.board.machine(), "-icount", "shift=6,sleep=off"])
+            .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])
+            .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
+            .arg(&image.elf);
+        command
     }
 }

@@ -1,0 +1,35 @@
+//! What the hot path costs is a budget, and some of it is promised.
+
+use crate::running::firmware;
+use palpate_host::budgets::{Budget, Core, Verdict, measure};
+
+/// A biquadratic evaluation by Horner's rule cannot do with fewer instructions: `palpate::patch` counts them.
+const EVALUATION_FLOOR: u32 = 94;
+/// The most for a servo tick of three joints.
+const SERVO_TICK: u32 = 1_000;
+
+#[test]
+fn the_hot_path_is_within_its_budget() {
+    let Some(firmware) = firmware("the_hot_path_is_within_its_budget") else { return };
+    let found = measure(&firmware).expect("the program runs to its end");
+    let verdicts = Budget::load(Core::M4).expect("the committed budget").compare(&found);
+    let over: Vec<String> = verdicts
+        .iter()
+        .filter(|verdict| verdict.fails())
+        .map(|Verdict { name, found, allowed }| format!("{name}: {found:?} instructions, {allowed:?} recorded"))
+        .collect();
+    assert!(
+        over.is_empty(),
+        "worse than the budget by more than 3 %, missing or new:\n{}\n`cargo palpate budgets` prints all; if this is meant, \
+         record it with `cargo palpate budgets --record`",
+        over.join("\n")
+    );
+
+    let of = |name: &str| found.of(name).unwrap_or_else(|| panic!("{name} is not counted"));
+    let evaluation = of("evaluation, polynomial, degree (2, 2)");
+    assert!(4 * evaluation <= 5 * EVALUATION_FLOOR, "a biquadratic evaluation takes {evaluation} instructions");
+    let (step, evaluation) = (of("step on the face, worst"), of("evaluation, the image's body, worst"));
+    assert!(step <= 2 * evaluation, "a step on the face takes {step} instructions, its evaluation {evaluation}");
+    let tick = of("servo tick, worst");
+    assert!(tick <= SERVO_TICK, "a servo tick takes {tick} instructions");
+}
