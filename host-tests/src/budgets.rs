@@ -109,7 +109,7 @@ impl Verdict {
 /// # Errors
 /// If it does not run to its end, or says something else than figures.
 pub fn measure(firmware: &Firmware) -> Result<Figures, BudgetError> {
-    figures(&output(&mut firmware.qemu.board(&firmware.images.budget.elf))?)
+    figures(&output(&mut firmware.qemu.board(&firmware.images.budget))?)
 }
 
 /// The lines `"name" = count`.

@@ -2,18 +2,14 @@
 
 use crate::contestant::{Answer, Contestant, Probe};
 use crate::scene::Scene;
+use palpate::body::Body;
 use palpate::math::Vec3;
 use palpate::patch::SplinePatch;
 use palpate::track::{self, Controller, Witness};
 
-/// The host tool's solver, the very file.
-#[path = "../../src/closest.rs"]
-#[allow(dead_code)]
-mod closest;
-
 /// Every query by itself.
 pub fn cold(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
-    Ok(Box::new(Cold { patches: [scene.patch] }))
+    Ok(Box::new(Cold { body: scene.body }))
 }
 
 /// One step of the certified controller a query, as in a servo tick; the start is cold.
@@ -24,18 +20,20 @@ pub fn track(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
 /// The closest point of the first probe: all that track start there.
 pub fn start(scene: &Scene) -> Witness {
     let first = scene.probes.first().map_or(Vec3::ZERO, |probe| Vec3::from_array(probe.single));
-    let found = closest::Solver::new(&[scene.patch]).cold(first);
-    found.map_or_else(|| Witness::at(&scene.patch, 0.5, 0.5), |found| found.witness)
+    let [u, v] = scene.body.locate(first).parameters;
+    Witness::at(&scene.patch, u, v)
 }
 
 struct Cold {
-    patches: [SplinePatch; 1],
+    body: Body,
 }
 
 impl Contestant for Cold {
     fn answer(&mut self, probe: &Probe) -> Answer {
-        let found = closest::Solver::new(&self.patches).cold(Vec3::from_array(probe.single));
-        found.map_or(Answer::Nothing, |found| point(&found.witness))
+        let located = self.body.locate(Vec3::from_array(probe.single));
+        let Some(face) = self.body.faces().get(usize::from(located.face)) else { return Answer::Nothing };
+        let [u, v] = located.parameters;
+        point(&Witness::at(&face.patch, u, v))
     }
 }
 

@@ -1,8 +1,10 @@
-//! The scene: one polynomial patch, as control points and as palpate's table, and the probes. Lines of `key value value …`,
+//! The scene: one polynomial patch, as control points and as palpate's tables, and the probes. Lines of `key value value …`,
 //! metres; numbers are printed so that reading them gives the same bits.
 
 use crate::contestant::Probe;
 use anyhow::{Context as _, ensure};
+use palpate::body::{Body, Face, Locator, Side, Vertex};
+use palpate::math::Vec3;
 use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
 use std::collections::HashMap;
 use std::fs;
@@ -23,6 +25,8 @@ pub struct Scene {
     pub coefficients: &'static [[f32; 3]],
     /// The patch as the firmware has it.
     pub patch: SplinePatch,
+    /// The patch as a body with its locator, for a cold start. Its borders play no part in that and are left out.
+    pub body: Body,
     /// Of so many queries one is counted.
     pub stride: usize,
     /// The queries, in order.
@@ -58,6 +62,7 @@ impl Scene {
             Orientation::Outward,
             size,
         )?;
+        let body = body(patch, size, &lines)?;
         let probe = |double: [f64; 3]| Probe { single: double.map(|value| value as f32), double };
         let stride = *numbers::<usize>(&lines, "stride")?.first().context("stride")?;
         ensure!(stride > 0, "stride: 0");
@@ -68,9 +73,21 @@ impl Scene {
             breaks,
             coefficients,
             patch,
+            body,
             probes: triples(&doubles("probes")?).into_iter().map(probe).collect(),
         })
     }
+}
+
+fn body(patch: SplinePatch, size: f32, lines: &HashMap<&str, &str>) -> anyhow::Result<Body> {
+    let cube = numbers::<f32>(lines, "cube")?;
+    let [x, y, z, side] = cube[..] else { anyhow::bail!("cube: four numbers are needed") };
+    let nodes: Vec<[u16; 8]> = numbers::<u16>(lines, "nodes")?.as_chunks().0.to_vec();
+    let entries = numbers::<u32>(lines, "entries")?.leak();
+    let locator = Locator { corner: Vec3::new(x, y, z), side, nodes: nodes.leak(), entries };
+    let faces = vec![Face { patch, sides: [Side::Pole { vertex: 0 }; 4] }];
+    let vertices = vec![Vertex { point: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true }];
+    Ok(Body::try_new(faces.leak(), &[], vertices.leak(), &[], locator, size, false)?)
 }
 
 fn numbers<T: FromStr>(lines: &HashMap<&str, &str>, key: &str) -> anyhow::Result<Vec<T>> {

@@ -27,7 +27,7 @@ mod tracked;
 
 pub use baked::{BakedCoefficients, BakedPatch};
 pub use bernstein::product_share as bernstein_product_share;
-pub use body::BakedBody;
+pub use body::{BakedBody, LocatorTable};
 pub use error::{Fault, ModelError};
 pub use model::{Model, Unit};
 pub use patch::{Axis, NurbsPatch};

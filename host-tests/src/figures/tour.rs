@@ -91,7 +91,7 @@ impl Touring {
     /// The probe's closed path: an ellipse in an upright plane across a corner of the body.
     pub fn path(&self, time: f64) -> DVec3 {
         let (sine, cosine) = (std::f64::consts::TAU * time / ROUND).sin_cos();
-        let across = DVec3::new(0.82, 0.57, 0.0) * (0.9 * self.reach.truncate().length());
+        let across = DVec3::new(0.82, 0.57, 0.0) * (1.6 * self.reach.truncate().length());
         self.centre + across * sine + DVec3::Z * (1.9 * self.reach.z) * cosine
     }
 

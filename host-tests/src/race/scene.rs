@@ -1,7 +1,8 @@
 //! What is raced on: a patch and its queries, with the right answers.
 
 use super::path;
-use crate::bake::{BakedCoefficients, BakedPatch, Model, NurbsPatch};
+use crate::bake::locator::LocatorOptions;
+use crate::bake::{BakedBody, BakedCoefficients, BakedPatch, LocatorTable, Model, NurbsPatch};
 use crate::oracle::Oracle;
 use crate::oracle::golden::{self, ClosestRow};
 use anyhow::{Context as _, bail};
@@ -52,6 +53,7 @@ pub struct Scene {
     /// The queries, in order.
     pub queries: Vec<Query>,
     baked: BakedPatch,
+    locator: LocatorTable,
 }
 
 impl Scene {
@@ -85,20 +87,20 @@ impl Scene {
     /// # Errors
     /// A file of the project that is missing or spoilt.
     pub fn golden(name: &str, task: Task, file: &str) -> anyhow::Result<Self> {
-        let (model, patch, baked) = read(name)?;
+        let (model, patch, baked, locator) = read(name)?;
         let per_metre = model.unit.per_metre();
         let rows: Vec<ClosestRow> = golden::read(&folder().join("tests/data").join(file))?;
         let query = |row: &ClosestRow| Query { probe: row.query() / per_metre, distance: row.distance / per_metre };
-        Ok(Self { model: name.to_owned(), task, patch, queries: rows.iter().map(query).collect(), baked })
+        Ok(Self { model: name.to_owned(), task, patch, queries: rows.iter().map(query).collect(), baked, locator })
     }
 
     /// A smooth path, judged by the oracle.
     fn along_path(name: &str, rows: usize) -> anyhow::Result<Self> {
-        let (_, patch, baked) = read(name)?;
+        let (_, patch, baked, locator) = read(name)?;
         let oracle = Oracle::new(&patch);
         let query = |probe| Query { probe, distance: oracle.closest(probe).distance };
         let queries = path::probes(&patch, rows).map(query).collect();
-        Ok(Self { model: name.to_owned(), task: Task::Track, patch, queries, baked })
+        Ok(Self { model: name.to_owned(), task: Task::Track, patch, queries, baked, locator })
     }
 
     /// The scene as the contestants' program reads it.
@@ -122,17 +124,22 @@ impl Scene {
         line("coefficients", words(coefficients.iter().flatten()))?;
         line("bounds", words([bounds.uu, bounds.uv, bounds.vv]))?;
         line("size", self.baked.size.to_string())?;
+        line("cube", words(self.locator.corner.to_array().into_iter().chain([self.locator.side])))?;
+        line("nodes", words(self.locator.nodes.iter().flatten()))?;
+        line("entries", words(&self.locator.entries))?;
         line("stride", self.stride().to_string())?;
         line("probes", words(self.queries.iter().flat_map(|query| query.probe.to_array())))?;
         Ok(text)
     }
 }
 
-fn read(name: &str) -> anyhow::Result<(Model, NurbsPatch, BakedPatch)> {
+fn read(name: &str) -> anyhow::Result<(Model, NurbsPatch, BakedPatch, LocatorTable)> {
     let model = Model::read(&folder().join("models").join(format!("{name}.toml")))?;
     let patch = model.patches.first().with_context(|| format!("{name}: no patch"))?.clone();
     let baked = BakedPatch::without_shape(&patch).with_context(|| name.to_owned())?;
-    Ok((model, patch, baked))
+    let body = BakedBody::new(&model, name)?.located(&LocatorOptions::default(), &|_, _| ());
+    let (body, _) = body.with_context(|| format!("{name}: the locator does not fit"))?;
+    Ok((model, patch, baked, body.locator))
 }
 
 fn folder() -> &'static Path {

@@ -58,7 +58,7 @@ impl LocatorTable {
             .collect();
         let baked = locator::bake(&patches, seams, &creases, options, progress)?;
         let BakedLocator { corner, side, nodes, entries, report } = baked;
-        report.fits.then_some((Self { corner: corner.to_array(), side, nodes, entries }, report))
+        report.fits.then_some((Self { corner, side, nodes, entries }, report))
     }
 
     /// The locator as the firmware has it; its numbers stay allocated for good.
