@@ -8,6 +8,7 @@ mod baked;
 mod bernstein;
 pub mod bounds;
 mod cell;
+pub mod certificate;
 mod error;
 mod form;
 mod knots;

@@ -1,10 +1,13 @@
 //! `palpate check`: validates a model and says what is known of each patch.
 
 use super::output::print;
+use crate::bake::certificate::Finding;
+use crate::bake::locator::{LocatorOptions, StoredSurface, extent};
 use crate::bake::survey::{Regularity, Survey, Verdict};
 use crate::bake::{BakedPatch, Model, ModelError};
 use clap::Args;
 use palpate::track::{Integrator, PerformanceLimits};
+use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,8 +15,8 @@ use std::process::ExitCode;
 
 /// Validates a model and says what is known of each patch.
 ///
-/// Bounds of the second derivatives, the curvature and the stretch are proved, and convexity where they allow it; regularity is
-/// sampled, 12 intervals a span. Outline and normal cone are not proved yet, so no patch is certified. The second table has the limits of
+/// A patch is certified if it is proved to be regular, convex (up to rounding), smooth, with normals less than 90° apart, and to lead every probe
+/// up to half the body's size over it to its closest point. What is not proved is sampled, and said to be. The second table has the limits of
 /// performance for explicit Euler at --rate, a probe up to --distance away and moving at --speed. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
 #[derive(Args, Debug)]
 pub struct Arguments {
@@ -54,7 +57,16 @@ impl Loaded {
     }
 
     pub(super) fn surveys(&self) -> Vec<Survey> {
-        self.model.patches.iter().zip(&self.baked).map(|(patch, baked)| Survey::new(patch, baked)).collect()
+        let range = LocatorOptions::default().margin * self.size();
+        let patches: Vec<_> = self.model.patches.iter().zip(&self.baked).collect();
+        patches.into_par_iter().map(|(patch, baked)| Survey::new(patch, baked, range)).collect()
+    }
+
+    /// The largest side of the body's bounding box, from a grid on each patch, metres.
+    fn size(&self) -> f64 {
+        let surfaces: Vec<_> = self.baked.iter().map(StoredSurface::new).collect();
+        let [low, high] = extent(&surfaces);
+        (high - low).max_element()
     }
 }
 
@@ -99,7 +111,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             survey.bytes.total(),
             survey.verdict
         )?;
-        writeln!(report, "    {}", survey.convexity)?;
+        let certificate = &survey.certificate;
+        writeln!(
+            report,
+            "    {}; regular: {}; smooth: {}; normal cone: {} (half angle {:.1}°); no false equilibrium: {}; outline: {}",
+            survey.convexity,
+            brief(&certificate.regular),
+            brief(&certificate.smooth),
+            brief(&certificate.normal_cone),
+            certificate.cone_angle,
+            brief(&certificate.equilibrium),
+            brief(&certificate.outline)
+        )?;
         for reason in &survey.reasons {
             writeln!(report, "    {reason}")?;
         }
@@ -110,6 +133,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     writeln!(report, "{}: {verdict}", arguments.model.display())?;
     print(report.as_bytes())?;
     Ok(exit_code(verdict))
+}
+
+/// A finding without its reason, which follows below.
+fn brief(finding: &Finding) -> String {
+    match finding {
+        Finding::Failed(_) => "no".to_owned(),
+        finding => finding.to_string(),
+    }
 }
 
 /// The limits of performance of each patch.

@@ -22,8 +22,6 @@ pub(in crate::bake) struct Faces {
     pub turns: Vec<f64>,
     /// A grid of points on each face.
     samples: Vec<Vec<([f64; 2], DVec3)>>,
-    /// The corners of the bounding box of the samples.
-    pub bounds: [DVec3; 2],
 }
 
 /// A part of the body that may hold the closest point.
@@ -64,12 +62,11 @@ impl Faces {
             (0..(INTERVALS + 1) * (INTERVALS + 1)).map(point).collect::<Vec<_>>()
         };
         let samples: Vec<_> = surfaces.iter().map(grid).collect();
-        let bounds = bounds(&samples);
         let turns = patches
             .iter()
             .map(|patch| if patch.orientation == palpate::patch::Orientation::Outward { 1.0 } else { -1.0 })
             .collect();
-        Some(Self { surfaces, spans, seams, turns, samples, bounds })
+        Some(Self { surfaces, spans, seams, turns, samples })
     }
 
     /// The whole body.
@@ -131,11 +128,6 @@ pub(in crate::bake) struct Reference {
     pub parameters: [f64; 2],
     pub point: DVec3,
     pub distance: f64,
-}
-
-fn bounds(samples: &[Vec<([f64; 2], DVec3)>]) -> [DVec3; 2] {
-    let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    samples.iter().flatten().fold(nothing, |[low, high], (_, point)| [low.min(*point), high.max(*point)])
 }
 
 fn spans(face: usize, patch: &BakedPatch, poles: [bool; 4], creases: &[Vec<f64>; 2], reach: f64) -> Option<Vec<Piece>> {
