@@ -50,10 +50,10 @@ fn a_hollow_is_refused_with_its_reason_and_no_cut_is_offered() -> Result<(), Box
 /// A half cylinder's normals span 180°: cut across, each half is a patch with 90°, each quarter with 45°.
 #[test]
 fn an_arch_that_turns_too_far_is_to_be_cut_across_the_turn() -> Result<(), Box<dyn Error>> {
-    let row = |x: f64| format!("[[{x}, 20, 0], [{x}, 14, 20], [{x}, -14, 20], [{x}, -20, 0]]");
+    let row = |x: f64| format!("[[{x}, -20, 0], [{x}, -14, 20], [{x}, 14, 20], [{x}, 20, 0]]");
     let (model, survey) = one(&format!("{}, {}", row(0.0), row(20.0)), "[1, 3]")?;
     let certificate: &Certificate = &survey.certificate;
-    // The end tangents are (−6, 20): 73.3° from the middle one.
+    // The end tangents are (6, 20): 73.3° from the middle one.
     assert!((certificate.cone_angle - 73.3).abs() < 3.0, "{}", certificate.cone_angle);
     assert!(matches!(&certificate.normal_cone, Finding::Failed(_)));
     let cut = certificate.cut(&model.patches[0], &BakedPatch::new(&model.patches[0])?);

@@ -140,11 +140,9 @@ fn spans(face: usize, patch: &BakedPatch, poles: [bool; 4], creases: &[Vec<f64>;
         let ranges = [0, 1].map(|axis| local_range(border(axis, 0), border(axis, 1)));
         let on_border = [index[0] == 0, index[0] + 1 == counts[0], index[1] == 0, index[1] + 1 == counts[1]];
         let mut homogeneous = Tracked::of_span(degree, &patch.coefficients.homogeneous_span(degree, span), ranges);
-        let on_pole = std::array::from_fn(|side| on_border[side] && poles[side]);
-        for side in 0..4 {
-            if on_pole[side] {
-                collapse(&mut homogeneous, side);
-            }
+        let on_pole: [bool; 4] = std::array::from_fn(|side| on_border[side] && poles[side]);
+        for (side, _) in on_pole.iter().enumerate().filter(|(_, on_pole)| **on_pole) {
+            collapse(&mut homogeneous, side);
         }
         let is_crease = |axis: usize, high: usize| {
             let at = f64::from(border(axis, high));
@@ -312,7 +310,7 @@ impl Query<'_> {
     fn slopes_into(&self, piece: &Piece, side: u8, margin: f64) -> bool {
         let axis = usize::from(side / 2);
         let ends = [0, 1].map(|end| piece.on_pole[2 * (1 - axis) + end]);
-        let inward = if side % 2 == 0 { -1 } else { 1 };
+        let inward = if side.is_multiple_of(2) { -1 } else { 1 };
         self.sign_beyond(piece, axis, Part::SideWithout(side, ends), margin) == inward
     }
 

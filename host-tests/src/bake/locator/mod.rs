@@ -51,6 +51,11 @@ pub struct LocatorOptions {
     pub inside: f64,
     /// Entries of such a list at most.
     pub deep_entries: usize,
+    /// Entries of a list at most where the depth is used up: what is not proved is divided less to stay below, as far as that goes.
+    pub longest: usize,
+    /// Whether the body is proved convex: a probe outside then has no nearest point but the closest, so that cells that are wholly
+    /// outside need no proof of one minimum.
+    pub convex: bool,
     /// How far apart faces that meet, and the points of a pole, may be.
     pub seam: f64,
     /// Parts of faces are divided until they are this small beside the radius of the cell.
@@ -66,9 +71,18 @@ impl Default for LocatorOptions {
             tolerance: 1e-4,
             inside: 0.2,
             deep_entries: 6,
+            longest: 40,
+            convex: false,
             seam: 1e-6,
             fineness: 0.5,
         }
+    }
+}
+
+impl LocatorOptions {
+    /// For a body that is proved convex: short lists everywhere, so that a cold query is short.
+    pub fn convex() -> Self {
+        Self { tolerance: 1e-5, longest: 6, convex: true, ..Self::default() }
     }
 }
 

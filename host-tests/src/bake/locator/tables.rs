@@ -46,6 +46,8 @@ pub struct LocatorReport {
     pub loosest: f64,
     /// Share with some of which nothing is proved: only samples speak for them.
     pub sampled: f64,
+    /// Share that lies outside a convex body, with rectangles that are not proved by themselves.
+    pub convex: f64,
     /// Bytes in flash.
     pub bytes: usize,
 }
@@ -56,7 +58,7 @@ impl fmt::Display for LocatorReport {
         write!(
             formatter,
             "{} leaves {:?}, entries a leaf {mean:.2} in the mean, {} at most ({} not deep inside), {} bytes; \
-             of the volume {:.3} % proved, {:.3} % within tolerance, {:.3} % within {:.3} mm, {:.3} % sampled",
+             of the volume {:.3} % proved, {:.3} % within tolerance, {:.3} % within {:.3} mm, {:.3} % sampled, {:.3} % outside of what is convex",
             self.leaves,
             self.by_depth,
             self.longest,
@@ -67,6 +69,7 @@ impl fmt::Display for LocatorReport {
             100.0 * self.loose,
             1e3 * self.loosest,
             100.0 * self.sampled,
+            100.0 * self.convex,
         )
     }
 }
@@ -144,6 +147,12 @@ fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options
             report.longest_near = report.longest_near.max(list.len());
         }
         report.by_depth[leaf.depth] += 1;
+        if options.convex && leaf.kind == Kind::Outside {
+            // The body's convexity proves what the rectangles do not.
+            report.convex += if leaf.proved { 0.0 } else { share };
+            report.proved += if leaf.proved { share } else { 0.0 };
+            continue;
+        }
         match leaf.minima {
             Minima::Convex | Minima::One => report.proved += share,
             Minima::Within(_) if leaf.proved => report.within += share,
