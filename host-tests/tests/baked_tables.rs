@@ -9,6 +9,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// Metres: how far probes may be over a patch.
+const RANGE: f64 = 0.03;
+
 /// The committed table, as firmware takes it.
 mod table1c {
     include!("../../boards/bodies/table1c.rs");
@@ -123,7 +126,7 @@ fn a_pole_has_no_bound_of_the_curvature_and_says_so() -> Result<(), Box<dyn Erro
     let origin = Origin { model_file: "octant.toml", out_file: "octant.rs", model: b"" };
     let source = source::rust_source(&origin, &baked)?;
     assert!(source.contains("greatest: f32::INFINITY") && source.contains("least: f32::NEG_INFINITY"), "{source}");
-    let survey = Survey::new(&parsed.patches[0], &baked[0]);
+    let survey = Survey::new(&parsed.patches[0], &baked[0], RANGE);
     assert_eq!(survey.convexity.to_string(), "convex: not proved (the curvature has no bound)");
     Ok(())
 }
@@ -140,7 +143,7 @@ fn the_shapes_of_the_models_are_proved_as_they_are_known() -> Result<(), Box<dyn
     ] {
         let parsed = Model::read(&host_folder().join(format!("models/{name}.toml")))?;
         let baked = BakedPatch::new(&parsed.patches[0])?;
-        let survey = Survey::new(&parsed.patches[0], &baked);
+        let survey = Survey::new(&parsed.patches[0], &baked, RANGE);
         assert!(survey.convexity.to_string().starts_with(convexity), "{name}: {}", survey.convexity);
         let Curvature { least, greatest } = baked.shape.curvature;
         if let Some([low, high]) = known {

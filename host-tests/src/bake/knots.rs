@@ -64,3 +64,9 @@ pub(super) fn continuity(knots: &[f64], degree: usize) -> Option<usize> {
     let inner = knots.chunk_by(|a, b| a == b).filter(|group| 0.0 < group[0] && group[0] < 1.0);
     inner.map(|group| degree - group.len()).min()
 }
+
+/// The inner knots at which only the points themselves are continuous.
+pub(super) fn creases(knots: &[f64], degree: usize) -> Vec<f64> {
+    let inner = knots.chunk_by(|a, b| a == b).filter(|group| 0.0 < group[0] && group[0] < 1.0);
+    inner.filter(|group| group.len() >= degree).map(|group| group[0]).collect()
+}

@@ -9,6 +9,7 @@ mod bernstein;
 pub mod body;
 pub mod bounds;
 mod cell;
+pub mod certificate;
 mod error;
 mod form;
 pub mod graph;

@@ -109,6 +109,11 @@ impl NurbsPatch {
         knots::continuity(&self.knots[axis as usize], self.degree[axis as usize])
     }
 
+    /// The inner knots along one parameter at which the patch is only C⁰.
+    pub fn creases(&self, axis: Axis) -> Vec<f64> {
+        knots::creases(&self.knots[axis as usize], self.degree[axis as usize])
+    }
+
     /// The largest side of the bounding box of a grid of points on the patch, 8 to a span, metres.
     pub fn size(&self) -> f64 {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);

@@ -1,17 +1,16 @@
 //! What is known of a baked patch, and what is not.
 
 use super::baked::BakedPatch;
+use super::certificate::{Certificate, Cut};
 use super::patch::{Axis, NurbsPatch};
 use super::shape::FLAT;
 use palpate::patch::ShapeBounds;
 use std::fmt;
 
 /// Whether the guarantee of the controller is proved for a patch.
-///
-/// Nothing proves outline and normal cone yet, so every patch is at best [`Verdict::Usable`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// Proved: no false equilibrium for any probe of its region.
+    /// Proved: no false equilibrium for any probe over it, up to the range that was asked for.
     Certified,
     /// It can be felt; that the witness point always ends at the closest point is not proved.
     Usable,
@@ -98,6 +97,8 @@ pub struct Survey {
     pub shape: ShapeBounds,
     /// Proved or disproved.
     pub convexity: Convexity,
+    /// What is proved of the controller on it.
+    pub certificate: Certificate,
     /// Bytes in flash.
     pub bytes: TableBytes,
     /// What follows.
@@ -132,17 +133,22 @@ const POLE: f64 = 1e-6;
 const RECORD_BYTES: usize = 68;
 
 impl Survey {
-    /// Surveys a patch and its table.
-    pub fn new(patch: &NurbsPatch, baked: &BakedPatch) -> Self {
+    /// Surveys a patch and its table; the certificate is for probes up to `range` metres over it.
+    pub fn new(patch: &NurbsPatch, baked: &BakedPatch, range: f64) -> Self {
         let size = patch.size();
         let continuity = [Axis::U, Axis::V].map(|axis| patch.continuity(axis));
         let (regularity, poles) = regularity(patch, size);
         let convexity = convexity(patch, baked);
-        let mut reasons = vec!["outline and normal cone are not proved".to_owned()];
+        let certificate = Certificate::new(patch, baked, &convexity, range);
+        let verdict = if certificate.is_certified() { Verdict::Certified } else { Verdict::Usable };
+        let mut reasons = certificate.reasons(range);
         for (axis, continuity) in [Axis::U, Axis::V].into_iter().zip(continuity) {
             if continuity == Some(0) {
                 reasons.push(format!("a knot along {axis} may be a crease: the bounds hold on either side of it only"));
             }
+        }
+        if let Some(Cut { axis, at }) = certificate.cut(patch, baked) {
+            reasons.push(format!("splitting it at {} = {at:.4} may help", ["u", "v"][axis]));
         }
         if let Regularity::Singular { parameters: [u, v] } = regularity {
             reasons.push(format!("the tangents span no plane near u = {u:.4}, v = {v:.4}"));
@@ -163,8 +169,9 @@ impl Survey {
             poles,
             shape: baked.shape,
             convexity,
+            certificate,
             bytes,
-            verdict: Verdict::Usable,
+            verdict,
             reasons,
         }
     }

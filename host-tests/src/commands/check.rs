@@ -2,11 +2,14 @@
 
 use super::output::print;
 use crate::bake::body::BakedSide;
+use crate::bake::certificate::Finding;
+use crate::bake::locator::LocatorOptions;
 use crate::bake::survey::{Regularity, Survey, Verdict};
 use crate::bake::{BakedBody, Model, ModelError};
 use clap::Args;
 use palpate::body::EdgeKind;
 use palpate::track::{Integrator, PerformanceLimits};
+use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,8 +17,8 @@ use std::process::ExitCode;
 
 /// Validates a model and says what is known of each patch.
 ///
-/// Bounds of the second derivatives, the curvature and the stretch are proved, and convexity where they allow it; regularity is
-/// sampled, 12 intervals a span. Outline and normal cone are not proved yet, so no patch is certified. The second table has the limits of
+/// A patch is certified if it is proved to be regular, convex (up to rounding), smooth, with normals less than 90° apart, and to lead every probe
+/// up to half the body's size over it to its closest point. What is not proved is sampled, and said to be. The second table has the limits of
 /// performance for explicit Euler at --rate, a probe up to --distance away and moving at --speed. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
 #[derive(Args, Debug)]
 pub struct Arguments {
@@ -57,7 +60,8 @@ impl Loaded {
 
     /// One for each face.
     pub(super) fn surveys(&self) -> Vec<Survey> {
-        self.body.faces.iter().map(|face| Survey::new(&face.surface, &face.patch)).collect()
+        let range = LocatorOptions::default().margin * f64::from(self.body.size);
+        self.body.faces.par_iter().map(|face| Survey::new(&face.surface, &face.patch, range)).collect()
     }
 
     /// What the faces go by.
@@ -107,7 +111,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             survey.bytes.total(),
             survey.verdict
         )?;
-        writeln!(report, "    {}", survey.convexity)?;
+        let certificate = &survey.certificate;
+        writeln!(
+            report,
+            "    {}; regular: {}; smooth: {}; normal cone: {} (half angle {:.1}°); no false equilibrium: {}; outline: {}",
+            survey.convexity,
+            brief(&certificate.regular),
+            brief(&certificate.smooth),
+            brief(&certificate.normal_cone),
+            certificate.cone_angle,
+            brief(&certificate.equilibrium),
+            brief(&certificate.outline)
+        )?;
         for reason in &survey.reasons {
             writeln!(report, "    {reason}")?;
         }
@@ -138,6 +153,14 @@ fn features(report: &mut String, body: &BakedBody) -> std::fmt::Result {
         if topology.is_closed() { "closed" } else { "open" },
         if body.is_convex { "convex" } else { "not known to be convex" }
     )
+}
+
+/// A finding without its reason, which follows below.
+fn brief(finding: &Finding) -> String {
+    match finding {
+        Finding::Failed(_) => "no".to_owned(),
+        finding => finding.to_string(),
+    }
 }
 
 /// The limits of performance of each patch.

@@ -22,8 +22,6 @@ pub(in crate::bake) struct Faces {
     pub turns: Vec<f64>,
     /// A grid of points on each face.
     samples: Vec<Vec<([f64; 2], DVec3)>>,
-    /// The corners of the bounding box of the samples.
-    pub bounds: [DVec3; 2],
 }
 
 /// A part of the body that may hold the closest point.
@@ -64,12 +62,11 @@ impl Faces {
             (0..(INTERVALS + 1) * (INTERVALS + 1)).map(point).collect::<Vec<_>>()
         };
         let samples: Vec<_> = surfaces.iter().map(grid).collect();
-        let bounds = bounds(&samples);
         let turns = patches
             .iter()
             .map(|patch| if patch.orientation == palpate::patch::Orientation::Outward { 1.0 } else { -1.0 })
             .collect();
-        Some(Self { surfaces, spans, seams, turns, samples, bounds })
+        Some(Self { surfaces, spans, seams, turns, samples })
     }
 
     /// The whole body.
@@ -133,11 +130,6 @@ pub(in crate::bake) struct Reference {
     pub distance: f64,
 }
 
-fn bounds(samples: &[Vec<([f64; 2], DVec3)>]) -> [DVec3; 2] {
-    let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    samples.iter().flatten().fold(nothing, |[low, high], (_, point)| [low.min(*point), high.max(*point)])
-}
-
 fn spans(face: usize, patch: &BakedPatch, poles: [bool; 4], creases: &[Vec<f64>; 2], reach: f64) -> Option<Vec<Piece>> {
     let degree = patch.degree.map(usize::from);
     let counts = [patch.breaks[0].len() - 1, patch.breaks[1].len() - 1];
@@ -148,11 +140,9 @@ fn spans(face: usize, patch: &BakedPatch, poles: [bool; 4], creases: &[Vec<f64>;
         let ranges = [0, 1].map(|axis| local_range(border(axis, 0), border(axis, 1)));
         let on_border = [index[0] == 0, index[0] + 1 == counts[0], index[1] == 0, index[1] + 1 == counts[1]];
         let mut homogeneous = Tracked::of_span(degree, &patch.coefficients.homogeneous_span(degree, span), ranges);
-        let on_pole = std::array::from_fn(|side| on_border[side] && poles[side]);
-        for side in 0..4 {
-            if on_pole[side] {
-                collapse(&mut homogeneous, side);
-            }
+        let on_pole: [bool; 4] = std::array::from_fn(|side| on_border[side] && poles[side]);
+        for (side, _) in on_pole.iter().enumerate().filter(|(_, on_pole)| **on_pole) {
+            collapse(&mut homogeneous, side);
         }
         let is_crease = |axis: usize, high: usize| {
             let at = f64::from(border(axis, high));
@@ -320,7 +310,7 @@ impl Query<'_> {
     fn slopes_into(&self, piece: &Piece, side: u8, margin: f64) -> bool {
         let axis = usize::from(side / 2);
         let ends = [0, 1].map(|end| piece.on_pole[2 * (1 - axis) + end]);
-        let inward = if side % 2 == 0 { -1 } else { 1 };
+        let inward = if side.is_multiple_of(2) { -1 } else { 1 };
         self.sign_beyond(piece, axis, Part::SideWithout(side, ends), margin) == inward
     }
 

@@ -4,9 +4,6 @@ use super::faces::{Faces, Query, Region};
 use super::unique::{Minima, Rectangle, Subject, nearest};
 use palpate::body::Candidate;
 
-/// How often what is left of a face is divided for want of a proof.
-const DIVISIONS: usize = 2;
-
 /// An entry with what is proved of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
@@ -30,6 +27,8 @@ pub(super) struct Lister<'a> {
     pub query: &'a Query<'a>,
     /// A rectangle that loses no more is good enough, metres.
     pub tolerance: f64,
+    /// How often what is left of a face is divided for want of a proof.
+    pub divisions: usize,
 }
 
 impl Lister<'_> {
@@ -51,7 +50,7 @@ impl Lister<'_> {
                 continue;
             }
             for component in components(regions, self.faces) {
-                self.divide(face, &component, DIVISIONS, &mut entries);
+                self.divide(face, &component, self.divisions, &mut entries);
             }
         }
         entries.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.pack(false).cmp(&b.pack(false))));

@@ -9,8 +9,8 @@
 //!
 //! All bounds are of the stored `f32` coefficients, over boxes of probes and rectangles of parameters, with the rounding of `f64` added
 //! ([`field`]). Faces meet, and poles are points, up to the rounding of the tables: comparisons count beyond [`LocatorOptions::seam`] only.
-//! What is left is gathered into rectangles, and [`unique`] proves that each has one minimum. Where that fails at the greatest depth
-//! the leaf is counted as *sampled*.
+//! What is left is gathered into rectangles, and [`unique`] proves that each has one minimum. Where that fails at the
+//! greatest depth the leaf is counted as *loose*, with a bound of what may be lost, or as *sampled*.
 
 mod faces;
 pub(in crate::bake) mod field;
@@ -20,17 +20,20 @@ mod piece;
 mod seams;
 mod stored;
 mod tables;
+mod territory;
 mod unique;
 
 pub use seams::{BorderCorner, BorderSide, Seams};
 pub use stored::{Minimum, StoredPoint, StoredSurface};
 pub use tables::{BakedLocator, LocatorReport};
+pub(in crate::bake) use territory::Territory;
 
 use super::BakedPatch;
 use faces::Faces;
 use field::Probes;
 use glam::DVec3;
 use octree::{Octree, Search};
+use thiserror::Error;
 use unique::Minima;
 
 /// How a locator is baked. Lengths are relative to the body's size, the largest side of its bounding box.
@@ -48,6 +51,11 @@ pub struct LocatorOptions {
     pub inside: f64,
     /// Entries of such a list at most.
     pub deep_entries: usize,
+    /// Entries of a list at most where the depth is used up: what is not proved is divided less to stay below, as far as that goes.
+    pub longest: usize,
+    /// Whether the body is proved convex: a probe outside then has no nearest point but the closest, so that cells that are wholly
+    /// outside need no proof of one minimum.
+    pub convex: bool,
     /// How far apart faces that meet, and the points of a pole, may be.
     pub seam: f64,
     /// Parts of faces are divided until they are this small beside the radius of the cell.
@@ -59,14 +67,47 @@ impl Default for LocatorOptions {
         Self {
             margin: 0.5,
             entries: 4,
-            depth: 6,
+            depth: 5,
             tolerance: 1e-4,
             inside: 0.2,
             deep_entries: 6,
+            longest: 40,
+            convex: false,
             seam: 1e-6,
             fineness: 0.5,
         }
     }
+}
+
+impl LocatorOptions {
+    /// For a body that is proved convex: short lists everywhere, so that a cold query is short.
+    pub fn convex() -> Self {
+        Self { tolerance: 1e-5, longest: 6, convex: true, ..Self::default() }
+    }
+}
+
+/// Why there is no locator.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum LocatorError {
+    /// A weight is not proved positive: nothing that [`BakedPatch::new`] gives.
+    #[error("a weight is not proved to be positive")]
+    Weight,
+    /// The indices have 15 bits.
+    #[error(
+        "the locator has {nodes} nodes and {entries} entries, more than the 32768 that its indices can name; lower its depth"
+    )]
+    TooLarge {
+        /// Inner nodes.
+        nodes: usize,
+        /// Entries of all lists.
+        entries: usize,
+    },
+    /// A cell without candidates: the seams that were given are not those of the patches.
+    #[error("no part of the body is closest to the probes around {centre:?} m: its seams do not fit its patches")]
+    Nothing {
+        /// The cell's centre, metres.
+        centre: [f64; 3],
+    },
 }
 
 /// Where a cell lies.
@@ -96,30 +137,31 @@ pub(in crate::bake) struct Leaf {
 /// Bakes the locator of a body. `creases` holds for each face the parameters, along `u` and `v`, at which it is only C⁰. `progress`
 /// is told the depth that begins and the number of its cells. The same input gives the same tables on any number of threads.
 ///
-/// `None` if a weight is not proved positive: nothing that [`BakedPatch::new`] gives.
+/// # Errors
+/// Where the octree is too large for its indices, see [`LocatorError`].
 pub fn bake(
     patches: &[BakedPatch],
     seams: Seams,
     creases: &[[Vec<f64>; 2]],
     options: &LocatorOptions,
     progress: &(dyn Fn(usize, usize) + Sync),
-) -> Option<BakedLocator> {
+) -> Result<BakedLocator, LocatorError> {
     let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
-    let (low, high) = extent(&surfaces);
+    let [low, high] = extent(&surfaces);
     let size = (high - low).max_element();
     // The cube as the target has it: f32 corner and side, halves of which are exact.
     let side = (size * (1.0 + 2.0 * options.margin)) as f32;
     let corner = (0.5 * (low + high) - 0.5 * f64::from(side)).as_vec3();
     let root = Probes::cube(corner.as_dvec3() + 0.5 * f64::from(side), 0.5 * f64::from(side));
     let reach = root.centre.abs().max_element() + root.half.x;
-    let faces = Faces::new(patches, seams, creases, reach)?;
+    let faces = Faces::new(patches, seams, creases, reach).ok_or(LocatorError::Weight)?;
     let search = Search { faces: &faces, options, size, farthest: f64::from(side) * 3.0_f64.sqrt() };
     let tree: Octree = search.run(root, progress);
-    Some(tables::pack(&tree, corner, side, options))
+    tables::pack(&tree, corner, side, options)
 }
 
-/// The bounding box of a grid on every face.
-fn extent(surfaces: &[StoredSurface]) -> (DVec3, DVec3) {
+/// The bounding box, as two corners, of a grid on every face.
+pub fn extent(surfaces: &[StoredSurface]) -> [DVec3; 2] {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for surface in surfaces {
         for index in 0..33 * 33 {
@@ -127,5 +169,5 @@ fn extent(surfaces: &[StoredSurface]) -> (DVec3, DVec3) {
             (low, high) = (low.min(point), high.max(point));
         }
     }
-    (low, high)
+    [low, high]
 }

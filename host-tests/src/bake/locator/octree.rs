@@ -14,6 +14,9 @@ enum Outcome<'a> {
     Inner(Vec<Region<'a>>),
 }
 
+/// How often what is left of a face is divided at most for want of a proof.
+const DIVISIONS: usize = 2;
+
 /// A cell that is still open.
 struct Cell<'a> {
     probes: Probes,
@@ -93,13 +96,23 @@ impl<'a> Search<'a> {
         if held.len() > most && !last && kind != Kind::Deep {
             return Outcome::Inner(left);
         }
-        let lister = Lister { faces: self.faces, query: &query, tolerance: self.options.tolerance * self.size };
-        let entries = lister.entries(&left);
+        let tolerance = self.options.tolerance * self.size;
+        let mut lister = Lister { faces: self.faces, query: &query, tolerance, divisions: DIVISIONS };
+        let mut entries = lister.entries(&left);
         let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
-        let is_good = proved && entries.len() <= most;
-        if !(is_good || last || kind == Kind::Deep && entries.len() <= self.options.deep_entries) {
+        let is_enough = match kind {
+            Kind::Outside if self.options.convex => entries.len() <= most,
+            Kind::Deep => entries.len() <= self.options.deep_entries,
+            _ => false,
+        };
+        if !(last || is_enough || entries.len() <= most && proved) {
             return Outcome::Inner(left);
         }
+        while entries.len() > self.options.longest && lister.divisions > 0 {
+            lister.divisions -= 1;
+            entries = lister.entries(&left);
+        }
+        let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
         let worst = entries.iter().map(|entry| entry.minima).fold(super::unique::Minima::Convex, |a, b| {
             if a.partial_cmp(&b) == Some(std::cmp::Ordering::Less) { b } else { a }
         });

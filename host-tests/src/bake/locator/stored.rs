@@ -83,6 +83,10 @@ impl StoredSurface {
                 break;
             }
             let value = difference.length_squared();
+            // Of φ a step gains at most this: nothing that doubles would show.
+            if -(gradient[0] * direction[0] + gradient[1] * direction[1]) <= 1e-15 * value {
+                break;
+            }
             let mut scale = 1.0;
             let mut moved = None;
             while scale > 1e-10 {

@@ -2,7 +2,7 @@
 
 use super::octree::{Child, Octree};
 use super::unique::Minima;
-use super::{Kind, LocatorOptions};
+use super::{Kind, LocatorError, LocatorOptions};
 use palpate::body::{LEAF, Locator};
 use palpate::math::Vec3;
 use std::collections::HashMap;
@@ -36,18 +36,20 @@ pub struct LocatorReport {
     pub longest_near: usize,
     /// Leaves by the depth of the octree.
     pub by_depth: Vec<usize>,
-    /// Shares of the root cube's volume whose lists are proved, proved within tolerance, or only sampled.
+    /// Share of the root cube's volume with lists of rectangles that have one minimum each.
     pub proved: f64,
-    /// See [`Self::proved`].
+    /// Share with some that may have several, within the tolerance of the best.
     pub within: f64,
-    /// See [`Self::proved`].
+    /// Share with some that may have several, within a known bound of the best, [`Self::loosest`] at most.
+    pub loose: f64,
+    /// The greatest such bound, metres: how far the distance could be off at worst.
+    pub loosest: f64,
+    /// Share with some of which nothing is proved: only samples speak for them.
     pub sampled: f64,
-    /// The same for what lies deeper inside than it needs to be located: part of [`Self::sampled`].
-    pub sampled_deep: f64,
+    /// Share that lies outside a convex body, with rectangles that are not proved by themselves.
+    pub convex: f64,
     /// Bytes in flash.
     pub bytes: usize,
-    /// Whether nodes and entries fit their indices.
-    pub fits: bool,
 }
 
 impl fmt::Display for LocatorReport {
@@ -56,7 +58,7 @@ impl fmt::Display for LocatorReport {
         write!(
             formatter,
             "{} leaves {:?}, entries a leaf {mean:.2} in the mean, {} at most ({} not deep inside), {} bytes; \
-             of the volume {:.4} % proved, {:.4} % within tolerance, {:.4} % sampled ({:.4} % deep inside)",
+             of the volume {:.3} % proved, {:.3} % within tolerance, {:.3} % within {:.3} mm, {:.3} % sampled, {:.3} % outside of what is convex",
             self.leaves,
             self.by_depth,
             self.longest,
@@ -64,8 +66,10 @@ impl fmt::Display for LocatorReport {
             self.bytes,
             100.0 * self.proved,
             100.0 * self.within,
+            100.0 * self.loose,
+            1e3 * self.loosest,
             100.0 * self.sampled,
-            100.0 * self.sampled_deep,
+            100.0 * self.convex,
         )
     }
 }
@@ -82,7 +86,15 @@ impl BakedLocator {
     }
 }
 
-pub(super) fn pack(tree: &Octree, corner: Vec3, side: f32, options: &LocatorOptions) -> BakedLocator {
+pub(super) fn pack(
+    tree: &Octree,
+    corner: Vec3,
+    side: f32,
+    options: &LocatorOptions,
+) -> Result<BakedLocator, LocatorError> {
+    if let Some((leaf, _)) = tree.leaves.iter().find(|(_, entries)| entries.is_empty()) {
+        return Err(LocatorError::Nothing { centre: leaf.centre.to_array() });
+    }
     let lists: Vec<Vec<u32>> = tree.leaves.iter().map(|(_, entries)| list(entries)).collect();
     // Long ones first: a short one may be the end of a long one.
     let mut order: Vec<usize> = (0..lists.len()).collect();
@@ -98,6 +110,9 @@ pub(super) fn pack(tree: &Octree, corner: Vec3, side: f32, options: &LocatorOpti
             entries.extend_from_slice(list);
         }
     }
+    if tree.nodes.len() > usize::from(LEAF) || entries.len() > usize::from(LEAF) {
+        return Err(LocatorError::TooLarge { nodes: tree.nodes.len(), entries: entries.len() });
+    }
     let code = |child: &Child| match child {
         Child::Node(node) => *node as u16,
         Child::Leaf(leaf) => LEAF | starts[lists[*leaf].as_slice()] as u16,
@@ -105,7 +120,7 @@ pub(super) fn pack(tree: &Octree, corner: Vec3, side: f32, options: &LocatorOpti
     let nodes: Vec<[u16; 8]> =
         tree.nodes.iter().map(|children| std::array::from_fn(|child| code(&children[child]))).collect();
     let report = report(tree, &nodes, &entries, f64::from(side), options);
-    BakedLocator { corner, side, nodes, entries, report }
+    Ok(BakedLocator { corner, side, nodes, entries, report })
 }
 
 /// The likeliest first, the others in an order that lets lists share their ends.
@@ -115,14 +130,11 @@ fn list(entries: &[super::list::Entry]) -> Vec<u32> {
     if let Some(rest) = codes.get_mut(1..) {
         rest.sort_unstable();
     }
-    let more = palpate_more();
-    codes.iter().enumerate().map(|(index, code)| if index + 1 < count { code | more } else { *code }).collect()
+    codes.iter().enumerate().map(|(index, code)| if index + 1 < count { code | MORE } else { *code }).collect()
 }
 
 /// The bit of an entry that says that more follow.
-const fn palpate_more() -> u32 {
-    1 << 31
-}
+const MORE: u32 = 1 << 31;
 
 fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options: &LocatorOptions) -> LocatorReport {
     let mut report = LocatorReport { by_depth: vec![0; options.depth + 1], ..LocatorReport::default() };
@@ -135,18 +147,22 @@ fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options
             report.longest_near = report.longest_near.max(list.len());
         }
         report.by_depth[leaf.depth] += 1;
+        if options.convex && leaf.kind == Kind::Outside {
+            // The body's convexity proves what the rectangles do not.
+            report.convex += if leaf.proved { 0.0 } else { share };
+            report.proved += if leaf.proved { share } else { 0.0 };
+            continue;
+        }
         match leaf.minima {
             Minima::Convex | Minima::One => report.proved += share,
             Minima::Within(_) if leaf.proved => report.within += share,
-            Minima::Within(_) | Minima::Unknown => {
-                report.sampled += share;
-                if leaf.kind == Kind::Deep {
-                    report.sampled_deep += share;
-                }
+            Minima::Within(loss) => {
+                report.loose += share;
+                report.loosest = report.loosest.max(loss);
             }
+            Minima::Unknown => report.sampled += share,
         }
     }
     report.bytes = size_of_val(nodes) + size_of_val(entries);
-    report.fits = nodes.len() < usize::from(LEAF) && entries.len() < usize::from(LEAF);
     report
 }

@@ -54,10 +54,6 @@ impl Rectangle {
         }
     }
 
-    pub(super) fn touches(&self, other: &Self) -> bool {
-        (0..2).all(|axis| self.lower[axis] <= other.upper[axis] && other.lower[axis] <= self.upper[axis])
-    }
-
     pub(in crate::bake) fn parameters(&self) -> [[f64; 2]; 2] {
         [self.lower, self.upper].map(|corner| corner.map(|step| f64::from(step) / f64::from(GRID)))
     }
@@ -102,6 +98,12 @@ impl Subject<'_> {
             return Minima::Unknown;
         };
         Minima::Within((nearest * nearest + loss).sqrt() - nearest)
+    }
+
+    /// Whether there is one minimum, with no bound of the loss if not.
+    pub(super) fn is_unique(&self) -> bool {
+        let pieces = &self.faces.spans[usize::from(self.face)];
+        pieces.iter().all(|piece| self.has_strict_minima(piece))
     }
 
     /// Whether a piece has some of the rectangle, more than a border.
