@@ -3,11 +3,11 @@
 use super::{BakedBody, BakedSeparator, BakedSide};
 
 /// Sizes of the records on a 32-bit target, in bytes: a face with its patch and sides, an edge, a vertex, a spoke, and the body itself.
-const FACE: usize = 204;
+const FACE: usize = 196;
 const EDGE: usize = 44;
 const VERTEX: usize = 20;
 const SPOKE: usize = 16;
-const BODY: usize = 76;
+const BODY: usize = 72;
 
 /// Bytes by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -82,7 +82,7 @@ pub(super) fn match_borders<'a>(
     Ok(Matched { candidates, pairs, poles })
 }
 
-/// Patches all of whose borders agree, and whose middles do.
+/// Patches all of whose borders agree, and what is between them too.
 fn duplicates(
     candidates: &[Candidate<'_>],
     partners: &[Vec<(usize, Sense)>],
@@ -99,13 +99,29 @@ fn duplicates(
             let of_first = || (0..candidates.len()).filter(|k| candidates[*k].border.patch == a);
             let all_shared =
                 of_first().all(|k| partners[k].iter().any(|(other, _)| candidates[*other].border.patch == b));
-            let middle = |candidate: &Candidate<'_>| crate::oracle::Surface::evaluate(candidate.patch, 0.5, 0.5).point;
-            if all_shared && middle(first).distance(middle(second)) <= tolerance {
+            if all_shared && is_same_surface(first.patch, second.patch, tolerance) {
                 return Err(SeamFault::Duplicate { first: label(a), second: label(b) });
             }
         }
     }
     Ok(())
+}
+
+/// Whether two patches with the same borders are the same, turned or mirrored in their parameters or not.
+fn is_same_surface(first: &NurbsPatch, second: &NurbsPatch, tolerance: f64) -> bool {
+    // Of a grid that has no symmetry but those of the square.
+    const INSIDE: [f64; 4] = [0.2, 0.37, 0.5, 0.81];
+    let point = |patch: &NurbsPatch, u: f64, v: f64| crate::oracle::Surface::evaluate(patch, u, v).point;
+    (0..8).any(|symmetry| {
+        let image = |u: f64, v: f64| {
+            let [u, v] = if symmetry & 4 == 0 { [u, v] } else { [v, u] };
+            [if symmetry & 1 == 0 { u } else { 1.0 - u }, if symmetry & 2 == 0 { v } else { 1.0 - v }]
+        };
+        INSIDE.iter().flat_map(|u| INSIDE.iter().map(move |v| (*u, *v))).all(|(u, v)| {
+            let [s, t] = image(u, v);
+            point(first, u, v).distance(point(second, s, t)) <= tolerance
+        })
+    })
 }
 
 /// Refuses neighbours whose outward normals disagree.
