@@ -178,7 +178,7 @@ impl Survey {
 }
 
 /// From the proved bound and, where that is negative, the samples.
-fn convexity(patch: &NurbsPatch, baked: &BakedPatch) -> Convexity {
+pub(super) fn convexity(patch: &NurbsPatch, baked: &BakedPatch) -> Convexity {
     let proved = baked.shape.curvature;
     if proved.is_convex() {
         return Convexity::Proved;

@@ -1,6 +1,7 @@
 //! `palpate closest`: closest points with the firmware's own code.
 
 use super::output::{print, write_whole};
+use super::progress;
 use crate::bake::{BakedBody, Model};
 use crate::closest::{Solver, Status};
 use crate::queries;
@@ -54,6 +55,10 @@ enum Mode {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let model = Model::read(&arguments.model)?;
     let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
+    let options = baked.locator_options();
+    let bar = progress::work();
+    let (baked, _) = baked.located(&options, &|depth, _| bar.tell("octree", depth, options.depth))?;
+    drop(bar);
     let body = baked.to_body()?;
     let solver = Solver::new(&body, &baked);
     let per_metre = model.unit.per_metre();

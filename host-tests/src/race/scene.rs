@@ -137,8 +137,7 @@ fn read(name: &str) -> anyhow::Result<(Model, NurbsPatch, BakedPatch, LocatorTab
     let model = Model::read(&folder().join("models").join(format!("{name}.toml")))?;
     let patch = model.patches.first().with_context(|| format!("{name}: no patch"))?.clone();
     let baked = BakedPatch::without_shape(&patch).with_context(|| name.to_owned())?;
-    let body = BakedBody::new(&model, name)?.located(&LocatorOptions::default(), &|_, _| ());
-    let (body, _) = body.with_context(|| format!("{name}: the locator does not fit"))?;
+    let (body, _) = BakedBody::new(&model, name)?.located(&LocatorOptions::default(), &|_, _| ())?;
     Ok((model, patch, baked, body.locator))
 }
 

@@ -3,7 +3,6 @@
 use glam::DVec3;
 use palpate::body::{Body, Feature, Side};
 use palpate::math::Vec3;
-use palpate_host::bake::locator::LocatorOptions;
 use palpate_host::bake::topology::bounding_box;
 use palpate_host::bake::{BakedBody, Model, NurbsPatch};
 use palpate_host::bodies::{BodyOracle, Truth};
@@ -27,7 +26,8 @@ impl Scene {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.toml"));
         let model = Model::read(&path).unwrap();
         let baked = BakedBody::new(&model, name).unwrap();
-        let (baked, report) = baked.located(&LocatorOptions::default(), &|_, _| ()).unwrap();
+        let options = baked.locator_options();
+        let (baked, report) = baked.located(&options, &|_, _| ()).unwrap();
         println!("{name}: {report}");
         let patches: Vec<_> = baked.faces.iter().map(|face| face.surface.clone()).collect();
         let (low, high) = bounding_box(&patches);

@@ -1,7 +1,7 @@
 //! The locator that needs no proof: every face is a candidate everywhere.
 
 use super::BakedFace;
-use crate::bake::locator::{self, BakedLocator, LocatorOptions, LocatorReport, Seams, StoredSurface};
+use crate::bake::locator::{self, BakedLocator, LocatorError, LocatorOptions, LocatorReport, Seams, StoredSurface};
 use crate::bake::{Axis, BakedPatch};
 use palpate::body::{Candidate, GRID, LEAF, Locator};
 use palpate::math::Vec3;
@@ -43,22 +43,15 @@ impl LocatorTable {
         size: f64,
         options: &LocatorOptions,
         progress: &(dyn Fn(usize, usize) + Sync),
-    ) -> Option<(Self, LocatorReport)> {
+    ) -> Result<(Self, LocatorReport), LocatorError> {
         let patches: Vec<BakedPatch> = faces.iter().map(|face| face.patch.clone()).collect();
         let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
         let seams = Seams::find(&surfaces, options.seam * size);
-        let creases: Vec<_> = faces
-            .iter()
-            .map(|face| {
-                [Axis::U, Axis::V].map(|axis| match face.surface.continuity(axis) {
-                    Some(0) => face.surface.borders(axis),
-                    _ => Vec::new(),
-                })
-            })
-            .collect();
+        let creases: Vec<_> =
+            faces.iter().map(|face| [Axis::U, Axis::V].map(|axis| face.surface.creases(axis))).collect();
         let baked = locator::bake(&patches, seams, &creases, options, progress)?;
         let BakedLocator { corner, side, nodes, entries, report } = baked;
-        report.fits.then_some((Self { corner, side, nodes, entries }, report))
+        Ok((Self { corner, side, nodes, entries }, report))
     }
 
     /// The locator as the firmware has it; its numbers stay allocated for good.

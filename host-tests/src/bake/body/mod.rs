@@ -14,7 +14,7 @@ pub use locator::LocatorTable;
 pub use separator::BakedSeparator;
 
 use super::error::ModelError;
-use super::locator::{LocatorOptions, LocatorReport};
+use super::locator::{LocatorError, LocatorOptions, LocatorReport};
 use super::model::Model;
 use super::patch::NurbsPatch;
 use super::split::{Piece, Provenance};
@@ -122,15 +122,23 @@ impl BakedBody {
         Self::of_pieces(Piece::whole(model), model, file)
     }
 
+    /// What suits the locator of this body: short lists if it is convex.
+    pub fn locator_options(&self) -> LocatorOptions {
+        if self.is_convex { LocatorOptions::convex() } else { LocatorOptions::default() }
+    }
+
     /// The same body with a locator that names for each cell of space what can own the closest point. `progress` is told the depth that
-    /// begins and the number of its cells. `None` if the tables would not fit their indices.
+    /// begins and the number of its cells.
+    ///
+    /// # Errors
+    /// Tables that would not fit their indices.
     pub fn located(
         self,
         options: &LocatorOptions,
         progress: &(dyn Fn(usize, usize) + Sync),
-    ) -> Option<(Self, LocatorReport)> {
+    ) -> Result<(Self, LocatorReport), LocatorError> {
         let (locator, report) = LocatorTable::of_faces(&self.faces, f64::from(self.size), options, progress)?;
-        Some((Self { locator, ..self }, report))
+        Ok((Self { locator, ..self }, report))
     }
 
     /// Bakes the pieces that a model was split into.
