@@ -4,6 +4,8 @@ mod agreement;
 mod demo;
 mod faults;
 mod image;
+mod parity;
 mod path;
+mod proofs;
 mod round_trip;
 mod running;
