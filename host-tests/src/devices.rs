@@ -2,7 +2,7 @@
 
 use crate::plant::PlantSettings;
 use clap::ValueEnum;
-use palpate::device::{Delta, Device, FiveBar, LinkageArm, Paddle, SerialArm, presets};
+use palpate::device::{Delta, Device, FiveBar, Kinematics, LinkageArm, Paddle, SerialArm, presets};
 
 /// The presets by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -142,6 +142,21 @@ impl Preset {
             Self::Delta(device) => Limits::of(device),
             Self::FiveBar(device) => Limits::of(device),
             Self::Paddle(device) => Limits::of(device),
+        }
+    }
+
+    /// How much room there is to the rim of the workspace at these joint angles, rad: 1 well inside, 0 on it.
+    pub fn room(self, angles: [f64; 3]) -> f32 {
+        fn of<K: Kinematics<JOINTS>, const JOINTS: usize>(device: &Device<K, JOINTS>, angles: [f64; 3]) -> f32 {
+            let angles = core::array::from_fn(|joint| angles[joint] as f32);
+            device.room(&angles, &device.kinematics.pose(angles))
+        }
+        match self {
+            Self::SerialArm(device) => of(device, angles),
+            Self::LinkageArm(device) => of(device, angles),
+            Self::Delta(device) => of(device, angles),
+            Self::FiveBar(device) => of(device, angles),
+            Self::Paddle(device) => of(device, angles),
         }
     }
 

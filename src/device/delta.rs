@@ -127,11 +127,16 @@ impl Delta {
 
 impl Kinematics<3> for Delta {
     #[inline]
-    fn pose(&self, [a, b, c]: [f32; 3]) -> ProbePose<3> {
+    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
+        self.held_pose(angles).0
+    }
+
+    #[inline]
+    fn held_pose(&self, [a, b, c]: [f32; 3]) -> (ProbePose<3>, [f32; 3]) {
         let [to_a, to_b, to_c] = self.directions;
         let legs = [self.leg(to_a, a), self.leg(to_b, b), self.leg(to_c, c)];
         let Some(mut probe) = self.meet(legs.map(|leg| leg.knee)) else {
-            return ProbePose::UNREACHABLE;
+            return (ProbePose::UNREACHABLE, [0.0; 3]);
         };
         for _ in 0..REFINEMENTS {
             let [a, b, c] = legs.map(|leg| self.gap(&leg, probe));
@@ -142,24 +147,17 @@ impl Kinematics<3> for Delta {
         let (bc, ca, ab) = (b.shin.cross(c.shin), c.shin.cross(a.shin), a.shin.cross(b.shin));
         let volume = a.shin.dot(bc);
         if !probe.is_finite() || volume == 0.0 {
-            return ProbePose::UNREACHABLE;
+            return (ProbePose::UNREACHABLE, [0.0; 3]);
         }
-        ProbePose {
+        let pose = ProbePose {
             position: probe - self.workspace_centre,
             jacobian: [bc * (a.share / volume), ca * (b.share / volume), ab * (c.share / volume)],
+        };
+        let mut torques = pose.torques(self.up * (GRAVITY * self.carried_mass));
+        for (torque, leg) in torques.iter_mut().zip(legs) {
+            // A thigh's centre is lifted as its knee is.
+            *torque += GRAVITY * self.thigh_moment * (leg.turn.dot(self.up) / self.thigh);
         }
-    }
-
-    #[inline]
-    fn holding_torques(&self, angles: [f32; 3]) -> [f32; 3] {
-        if self.carried_mass == 0.0 && self.thigh_moment == 0.0 {
-            return [0.0; 3];
-        }
-        let mut torques = self.pose(angles).torques(self.up * (GRAVITY * self.carried_mass));
-        for ((torque, direction), angle) in torques.iter_mut().zip(self.directions).zip(angles) {
-            let turn = self.leg(direction, angle).turn / self.thigh;
-            *torque += GRAVITY * self.thigh_moment * turn.dot(self.up);
-        }
-        torques
+        (pose, torques)
     }
 }

@@ -1,6 +1,7 @@
 //! Where the joints are to begin with: from raw counts to calibrated encoders.
 
-use super::{Counts, Encoder};
+use super::stop_search::{Joint, Search, Seek};
+use super::{Counts, Encoder, StopSearch};
 use thiserror::Error;
 
 /// What is known of the joints at a pose that can be recognised.
@@ -20,6 +21,8 @@ pub enum Reference<const JOINTS: usize> {
     },
     /// Each joint passes its index mark once, at this joint angle, radians; the hand moves the device about meanwhile.
     Index([f32; JOINTS]),
+    /// The motors drive one joint after the other to its end stop, while the others hang free.
+    Stops([StopSearch; JOINTS]),
 }
 
 /// How a device finds its joint angles. Constant, in flash.
@@ -41,35 +44,83 @@ pub enum HomingError {
     /// It must hold still for at least a tick.
     #[error("it must hold still for at least a tick")]
     StillTicks,
+    /// A search for a stop has a number that is not finite, or not positive.
+    #[error("a search for a stop needs finite numbers, a speed, and a positive torque, clearance and travel")]
+    Stop,
     /// The time allowed is too short to hold still in.
     #[error("the timeout is not longer than the time to hold still")]
     TimeoutTicks,
 }
 
 /// What a tick of homing starts from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HomingInput<const JOINTS: usize> {
     /// This tick's counts; `None` if a sensor failed.
     pub counts: Option<[Counts; JOINTS]>,
     /// The counts at which a joint passed its index mark, if it did since the last tick.
     pub index: [Option<Counts>; JOINTS],
+    /// Joint rates as estimated, rad/s.
+    pub rates: [f32; JOINTS],
+    /// The time since the last tick, s.
+    pub period: f32,
 }
 
 /// Why homing was refused. Latched: start again from [`HomingState::default`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[repr(u8)]
 pub enum Refusal {
     /// The time is over and the device never held still long enough.
     #[error("the device was moving")]
-    Moving,
+    Moving = 1,
     /// The time is over and a joint has not passed its index mark.
     #[error("a joint did not pass its index mark")]
-    NoIndex,
+    NoIndex = 2,
     /// A sensor failed.
     #[error("a sensor failed")]
-    Sensor,
+    Sensor = 3,
     /// It held still, but elsewhere than at the reference.
     #[error("a sensor reads something else than at the reference pose")]
-    OutOfTolerance,
+    OutOfTolerance = 4,
+    /// A joint did not come off from where it stood: something holds it, or it is driven the wrong way into a stop.
+    #[error("a joint is jammed")]
+    Jammed = 5,
+    /// A joint went further than its stop can be.
+    #[error("a joint found no stop")]
+    NoStop = 6,
+    /// A joint moved faster than it was driven: a hand pulls it, or its motor runs away.
+    #[error("a joint moved too fast")]
+    TooFast = 7,
+    /// A joint moved against the way it was driven: encoder or motor is wired the other way, or the load is too heavy.
+    #[error("a joint moved the wrong way")]
+    WrongDirection = 8,
+    /// The time is over.
+    #[error("homing took too long")]
+    TooLate = 9,
+}
+
+impl Refusal {
+    /// Every refusal, in the order of its code.
+    pub const ALL: [Self; 9] = [
+        Self::Moving,
+        Self::NoIndex,
+        Self::Sensor,
+        Self::OutOfTolerance,
+        Self::Jammed,
+        Self::NoStop,
+        Self::TooFast,
+        Self::WrongDirection,
+        Self::TooLate,
+    ];
+
+    /// The code in a report, from 1.
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
+
+    /// The refusal of a code; `None` for 0 and for codes that are not ours.
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.into_iter().find(|refusal| refusal.code() == code)
+    }
 }
 
 /// How far homing has come.
@@ -91,12 +142,23 @@ pub struct HomingState<const JOINTS: usize> {
     /// What the device moved away from last.
     anchor: Option<[Counts; JOINTS]>,
     marks: [Option<Counts>; JOINTS],
+    /// The search for the stop of the first joint without a mark.
+    search: Search,
+    torques: [f32; JOINTS],
     progress: HomingProgress<JOINTS>,
 }
 
 impl<const JOINTS: usize> Default for HomingState<JOINTS> {
     fn default() -> Self {
-        Self { ticks: 0, still: 0, anchor: None, marks: [None; JOINTS], progress: HomingProgress::Waiting }
+        Self {
+            ticks: 0,
+            still: 0,
+            anchor: None,
+            marks: [None; JOINTS],
+            search: Search::default(),
+            torques: [0.0; JOINTS],
+            progress: HomingProgress::Waiting,
+        }
     }
 }
 
@@ -104,6 +166,34 @@ impl<const JOINTS: usize> HomingState<JOINTS> {
     /// How far homing has come.
     pub const fn progress(&self) -> HomingProgress<JOINTS> {
         self.progress
+    }
+
+    /// The joint torques that homing asks for, N·m; all zero but in a search for stops.
+    pub const fn torques(&self) -> [f32; JOINTS] {
+        self.torques
+    }
+
+    /// Why homing was refused, if it was.
+    pub const fn refusal(&self) -> Option<Refusal> {
+        match self.progress {
+            HomingProgress::Refused(refusal) => Some(refusal),
+            HomingProgress::Waiting | HomingProgress::Done(_) => None,
+        }
+    }
+
+    /// Gives every word of the state to `hash`.
+    pub(crate) fn words(&self, mut hash: impl FnMut(u32)) {
+        [self.ticks, self.still].into_iter().chain(StopSearch::bits(&self.search)).for_each(&mut hash);
+        self.anchor.iter().flatten().for_each(|Counts(count)| hash(*count as u32));
+        for mark in self.marks {
+            hash(mark.map_or(u32::MAX, |Counts(count)| count as u32));
+        }
+        self.torques.iter().for_each(|torque| hash(torque.to_bits()));
+        hash(match self.progress {
+            HomingProgress::Waiting => 0,
+            HomingProgress::Done(_) => 0x100,
+            HomingProgress::Refused(refusal) => u32::from(refusal.code()),
+        });
     }
 }
 
@@ -125,11 +215,19 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         still_counts: u32,
         timeout_ticks: u32,
     ) -> Result<Self, HomingError> {
-        let (Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles)) = &reference;
         let mut joint = 0;
         while joint < JOINTS {
-            if !angles[joint].is_finite() {
-                return Err(HomingError::Angle);
+            match &reference {
+                Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles) => {
+                    if !angles[joint].is_finite() {
+                        return Err(HomingError::Angle);
+                    }
+                }
+                Reference::Stops(searches) => {
+                    if !searches[joint].is_valid() {
+                        return Err(HomingError::Stop);
+                    }
+                }
             }
             joint += 1;
         }
@@ -142,6 +240,11 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         Ok(Self { encoders, reference, still_ticks, still_counts, timeout_ticks })
     }
 
+    /// Whether the motors move the joints.
+    pub const fn drives(&self) -> bool {
+        matches!(self.reference, Reference::Stops(_))
+    }
+
     /// One tick. Once done or refused, nothing changes any more.
     pub fn tick(&self, state: &mut HomingState<JOINTS>, input: HomingInput<JOINTS>) -> HomingProgress<JOINTS> {
         if state.progress == HomingProgress::Waiting {
@@ -151,11 +254,56 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         state.progress
     }
 
+    /// Takes note of an index mark that a joint passed at a count, between two ticks. Other ways of homing have no marks.
+    pub fn pass_index(&self, state: &mut HomingState<JOINTS>, joint: usize, counts: Counts) {
+        if let (Reference::Index(_), Some(mark)) = (&self.reference, state.marks.get_mut(joint)) {
+            *mark = mark.or(Some(counts));
+        }
+    }
+
+    /// Drives the first joint that has not found its stop yet.
+    fn search(
+        &self,
+        searches: &[StopSearch; JOINTS],
+        state: &mut HomingState<JOINTS>,
+        counts: [Counts; JOINTS],
+        input: &HomingInput<JOINTS>,
+        too_late: bool,
+    ) -> HomingProgress<JOINTS> {
+        state.torques = [0.0; JOINTS];
+        let mut encoders = self.encoders;
+        for joint in 0..JOINTS {
+            if let Some(mark) = state.marks[joint] {
+                encoders[joint] = calibrated(encoders[joint], searches[joint].angle, mark);
+                continue;
+            }
+            if too_late {
+                return HomingProgress::Refused(Refusal::TooLate);
+            }
+            let known = Joint {
+                encoder: encoders[joint],
+                counts: counts[joint],
+                rate: input.rates[joint],
+                period: input.period,
+            };
+            match searches[joint].step(&mut state.search, &known, self.still_ticks, self.still_counts) {
+                Seek::Drive(torque) => state.torques[joint] = torque,
+                Seek::Found(mark) => (state.marks[joint], state.search) = (Some(mark), Search::default()),
+                Seek::Refused(refusal) => return HomingProgress::Refused(refusal),
+            }
+            return HomingProgress::Waiting;
+        }
+        HomingProgress::Done(encoders)
+    }
+
     fn next(&self, state: &mut HomingState<JOINTS>, input: HomingInput<JOINTS>) -> HomingProgress<JOINTS> {
         let Some(counts) = input.counts else {
             return HomingProgress::Refused(Refusal::Sensor);
         };
         let too_late = state.ticks.saturating_add(1) >= self.timeout_ticks;
+        if let Reference::Stops(searches) = &self.reference {
+            return self.search(searches, state, counts, &input, too_late);
+        }
         if let Reference::Index(angles) = &self.reference {
             for (mark, index) in state.marks.iter_mut().zip(input.index) {
                 // The first pass counts; a later one says nothing new.
@@ -188,8 +336,9 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         if state.still < self.still_ticks {
             return if too_late { HomingProgress::Refused(Refusal::Moving) } else { HomingProgress::Waiting };
         }
-        let (Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles)) =
-            &self.reference;
+        let (Reference::Pose(angles) | Reference::KnownPose { angles, .. }) = &self.reference else {
+            return HomingProgress::Waiting; // the others were seen to above
+        };
         if let Reference::KnownPose { counts: known, tolerance, .. } = &self.reference
             && !within(*tolerance, known)
         {
@@ -215,7 +364,7 @@ mod tests {
     }
 
     fn at(counts: [i32; 2]) -> HomingInput<2> {
-        HomingInput { counts: Some(counts.map(Counts)), index: [None; 2] }
+        HomingInput { counts: Some(counts.map(Counts)), index: [None; 2], rates: [0.0; 2], period: 2.5e-4 }
     }
 
     /// Runs the inputs to the end, and gives the tick after which nothing is waited for any more.
@@ -269,7 +418,7 @@ mod tests {
 
     #[test]
     fn a_sensor_that_fails_is_refused_at_once() {
-        let input = |tick| HomingInput { counts: (tick != 3).then_some([Counts(0); 2]), index: [None; 2] };
+        let input = |tick| HomingInput { counts: (tick != 3).then_some([Counts(0); 2]), ..at([0; 2]) };
         for reference in [Reference::Pose(ANGLES), Reference::Index(ANGLES)] {
             assert_eq!(run(&homing(reference), input), (3, HomingProgress::Refused(Refusal::Sensor)));
         }

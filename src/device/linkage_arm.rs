@@ -78,29 +78,25 @@ impl LinkageArm {
 
 impl Kinematics<3> for LinkageArm {
     #[inline]
-    fn pose(&self, [a, b, c]: [f32; 3]) -> ProbePose<3> {
+    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
+        self.held_pose(angles).0
+    }
+
+    #[inline]
+    fn held_pose(&self, [a, b, c]: [f32; 3]) -> (ProbePose<3>, [f32; 3]) {
         let Some(closed) = self.linkage.close([b, c]) else {
-            return ProbePose::UNREACHABLE;
+            return (ProbePose::UNREACHABLE, [0.0; 3]);
         };
         let tool = self.linkage.tool(&closed);
         let (sin_a, cos_a) = sin_cos(a);
         let reach = self.pivot_reach + tool.place.x;
         let stand = |v: Vec2| vec3(v.x * cos_a, v.x * sin_a, v.y);
         let [motion_b, motion_c] = tool.motion;
-        ProbePose {
+        let pose = ProbePose {
             position: stand(Vec2::new(reach, tool.place.y)) - self.workspace_centre,
             jacobian: [vec3(-reach * sin_a, reach * cos_a, 0.0), stand(motion_b), stand(motion_c)],
-        }
-    }
-
-    #[inline]
-    fn holding_torques(&self, [_, b, c]: [f32; 3]) -> [f32; 3] {
-        match self.linkage.close([b, c]) {
-            Some(closed) => {
-                let [first, second] = self.weight(&closed);
-                [0.0, first, second]
-            }
-            None => [0.0; 3],
-        }
+        };
+        let [first, second] = self.weight(&closed);
+        (pose, [0.0, first, second])
     }
 }

@@ -16,6 +16,7 @@ mod pose;
 pub mod presets;
 pub mod sensor;
 mod serial_arm;
+mod stop_search;
 mod velocity;
 
 pub use delta::Delta;
@@ -27,9 +28,12 @@ pub use motor::{Duty, Motor};
 pub use paddle::Paddle;
 pub use pose::ProbePose;
 pub use serial_arm::SerialArm;
+pub use stop_search::StopSearch;
 pub use velocity::{
     AdaptiveWindow, TrackingObserver, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState, WINDOW, Window,
 };
+
+use crate::math::saturate;
 
 /// Acceleration of free fall, m/s².
 pub const GRAVITY: f32 = 9.81;
@@ -42,11 +46,16 @@ pub trait Kinematics<const JOINTS: usize> {
     /// cannot be closed.
     fn pose(&self, angles: [f32; JOINTS]) -> ProbePose<JOINTS>;
 
-    /// The joint torques, N·m, that carry the weight of the links. Zero where the masses are not known or do not load the
-    /// joints.
+    /// The pose, and with it the joint torques, N·m, that carry the weight of the links: together, for they share sines and
+    /// cosines. Zero where the masses are not known or do not load the joints.
+    #[inline]
+    fn held_pose(&self, angles: [f32; JOINTS]) -> (ProbePose<JOINTS>, [f32; JOINTS]) {
+        (self.pose(angles), [0.0; JOINTS])
+    }
+
+    /// The joint torques alone that carry the weight of the links, N·m.
     fn holding_torques(&self, angles: [f32; JOINTS]) -> [f32; JOINTS] {
-        let _ = angles;
-        [0.0; JOINTS]
+        self.held_pose(angles).1
     }
 }
 
@@ -61,6 +70,8 @@ pub struct Device<K, const JOINTS: usize> {
     pub motors: [Motor; JOINTS],
     /// How each motor is fed.
     pub feeds: [drive::Feed; JOINTS],
+    /// Dry friction of each joint, N·m, generously; 0 where it is not known. A joint may stick under a load below it.
+    pub dry_friction: [f32; JOINTS],
     /// Least and greatest angle of each joint, radians: what lies outside is a sensor fault.
     pub joint_range: [[f32; 2]; JOINTS],
     /// Below this [`ProbePose::singularity_margin`], m/rad, the device counts as outside its workspace.
@@ -75,6 +86,11 @@ pub struct Device<K, const JOINTS: usize> {
     pub greatest_damping: f32,
 }
 
+/// How wide the rim of a joint's range is, radians.
+const RIM: f32 = 0.05;
+/// The rim of a singularity, as a share of the least margin.
+const MARGIN_RIM: f32 = 0.25;
+
 impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     /// Whether these joint angles, radians, are in the workspace: each in its range, the mechanism closed, and far enough
     /// from a singularity for forces to make sense. False for NaN.
@@ -82,6 +98,29 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
         let in_range = |(angle, [least, most]): (&f32, &[f32; 2])| least <= angle && angle <= most;
         angles.iter().zip(&self.joint_range).all(in_range)
             && self.kinematics.pose(angles).singularity_margin() >= self.least_margin
+    }
+
+    /// How much room there is to the rim of the workspace, for these joint angles (radians) and their pose: 1 well inside, 0 on
+    /// the rim and outside, and in between the share of the last 0.05 rad of a joint's range or of the last quarter of the
+    /// least margin over a singularity, whichever is less. A force times this lets go smoothly at the rim, and keeps its
+    /// direction.
+    #[inline]
+    pub fn room(&self, angles: &[f32; JOINTS], pose: &ProbePose<JOINTS>) -> f32 {
+        let mut to_stop = RIM;
+        for (angle, [least, most]) in angles.iter().zip(&self.joint_range) {
+            let (below, above) = (angle - least, most - angle);
+            let nearer = if below < above { below } else { above };
+            if nearer < to_stop {
+                to_stop = nearer;
+            }
+        }
+        let over = pose.singularity_margin() - self.least_margin;
+        let width = MARGIN_RIM * self.least_margin;
+        if to_stop >= RIM && over >= width {
+            return 1.0;
+        }
+        let (of_range, of_margin) = (to_stop / RIM, over / width);
+        saturate(if of_range < of_margin { of_range } else { of_margin }, 0.0, 1.0)
     }
 
     /// What each drive is to be told so that its motor gives this duty of torque at this joint rate, rad/s.

@@ -23,8 +23,9 @@ impl Kinematics<1> for Paddle {
     }
 
     #[inline]
-    fn holding_torques(&self, [angle]: [f32; 1]) -> [f32; 1] {
+    fn held_pose(&self, [angle]: [f32; 1]) -> (ProbePose<1>, [f32; 1]) {
         // The weight tips the paddle over; the torque that holds it goes the other way.
-        [-GRAVITY * self.mass_moment * sin_cos(angle).0]
+        let torque = if self.mass_moment == 0.0 { 0.0 } else { -GRAVITY * self.mass_moment * sin_cos(angle).0 };
+        (self.pose([angle]), [torque])
     }
 }

@@ -15,6 +15,11 @@ impl<const JOINTS: usize> ProbePose<JOINTS> {
     /// What a mechanism that cannot be closed answers: NaN throughout, the same bits on every machine.
     pub const UNREACHABLE: Self = Self { position: Vec3::NAN, jacobian: [Vec3::NAN; JOINTS] };
 
+    /// Whether this is a pose at all; false for [`Self::UNREACHABLE`].
+    pub fn is_reachable(&self) -> bool {
+        !(self.position.x.is_nan() && self.position.y.is_nan() && self.position.z.is_nan())
+    }
+
     /// The probe's velocity, m/s, from the joint rates, rad/s.
     pub fn velocity(&self, joint_rates: [f32; JOINTS]) -> Vec3 {
         self.jacobian.iter().zip(joint_rates).fold(Vec3::ZERO, |sum, (column, rate)| sum + *column * rate)

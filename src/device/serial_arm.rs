@@ -21,9 +21,9 @@ pub struct SerialArm {
     pub second_link: f32,
     /// The centre of the workspace, metres from the foot of the turntable.
     pub workspace_centre: Vec3,
-    /// What each link lifts: its mass times the distance of its centre from its axis, and for the first also all that hangs
-    /// on its end times its length, kg·m. Negative where it is overbalanced; zero if not known.
-    pub mass_moments: [f32; 2],
+    /// What each link lifts, as a mass at its end, kg: its own mass times the distance of its centre from its axis over its
+    /// length, and for the first also all that hangs on its end. Negative where it is overbalanced; zero if not known.
+    pub end_masses: [f32; 2],
 }
 
 impl Kinematics<3> for SerialArm {
@@ -46,9 +46,11 @@ impl Kinematics<3> for SerialArm {
     }
 
     #[inline]
-    fn holding_torques(&self, [_, b, c]: [f32; 3]) -> [f32; 3] {
-        // The links' height is `m₁ cos b − m₂ sin c`; the torque that holds it is its slope.
-        let [first, second] = self.mass_moments;
-        [0.0, -GRAVITY * first * sin_cos(b).0, -GRAVITY * second * sin_cos(c).1]
+    fn held_pose(&self, angles: [f32; 3]) -> (ProbePose<3>, [f32; 3]) {
+        let pose = self.pose(angles);
+        // A mass at the end of a link is lifted as that end is: by the Jacobian's z.
+        let [_, first, second] = pose.jacobian;
+        let [first_mass, second_mass] = self.end_masses;
+        (pose, [0.0, GRAVITY * first_mass * first.z, GRAVITY * second_mass * second.z])
     }
 }

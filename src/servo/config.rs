@@ -1,9 +1,10 @@
 //! The loop's configuration, checked when it is built, and the state it starts from.
 
 use super::{
-    Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError, TableCheck,
+    Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError, Stillness,
+    TableCheck,
 };
-use crate::device::{Device, Duty, Kinematics, VelocityEstimator};
+use crate::device::{Device, Duty, Homing, HomingState, Kinematics, VelocityEstimator};
 use crate::math::Vec3;
 use crate::patch::Patch;
 use crate::render::{Anchor, Contact, Energy, Penalty, Tool};
@@ -19,6 +20,7 @@ pub struct Servo<'a, P, K, const JOINTS: usize> {
     pub(super) estimators: [VelocityEstimator; JOINTS],
     pub(super) rendering: Rendering,
     pub(super) safety: Safety,
+    pub(super) homing: Option<Homing<JOINTS>>,
     pub(super) settings: Settings,
     pub(super) rate: f32,
     pub(super) period: f32,
@@ -57,6 +59,7 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
             estimators: [VelocityEstimator::new(Rendering::PLAIN.velocity, 1.0, 1.0, 0.0); JOINTS],
             rendering: Rendering::PLAIN,
             safety: Safety::DEFAULT,
+            homing: None,
             settings,
             rate: settings.rate,
             period,
@@ -154,6 +157,15 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
         }
     }
 
+    /// The same loop, which finds out in [`Phase::Calibrate`] where the joints are.
+    ///
+    /// Until that is done no angle is believed: ranges are not looked at, there is no pose, and only homing itself drives the
+    /// motors, as gently as it says and only while force is asked for; it waits otherwise. A refusal is [`super::Fault::Homing`],
+    /// and [`ServoState::homing`] has the reason.
+    pub const fn homing(self, homing: Homing<JOINTS>) -> Self {
+        Self { homing: Some(homing), ..self }
+    }
+
     /// The state before the first tick after power-on: motors at zero, the witness point in the middle of the patch.
     pub fn start(&self) -> ServoState<JOINTS> {
         self.start_after(ResetReason::PowerOn)
@@ -172,14 +184,17 @@ impl<'a, P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, P, K, J
             overran: false,
             link_silence: 0,
             settled: 0,
-            homed: !self.safety.wait_for_homing,
+            homed: !self.safety.wait_for_homing && self.homing.is_none(),
+            homing: HomingState::default(),
+            angles_at_zero: self.device.encoders.map(|encoder| encoder.angle_at_zero),
             table_check: TableCheck::default(),
             steps_undone: 0,
             counts: None,
             angles: [0.0; JOINTS],
             rates: [0.0; JOINTS],
             velocities: self.estimators.map(|estimator| estimator.start()),
-            stillness: [[0.0; JOINTS]; JOINTS],
+            stillness: Stillness::START,
+            room: 1.0,
             probe: Vec3::ZERO,
             tool: Tool::default(),
             witness: Witness::at(self.patch, 0.5, 0.5),

@@ -1,5 +1,6 @@
 //! Why the loop stopped, why the chip was reset, and what the board has to tell the loop.
 
+use crate::device::Counts;
 /// What stopped the loop. The number is the code in a report, 0 there means none; the word is its `Display`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[repr(u8)]
@@ -46,11 +47,14 @@ pub enum Fault {
     /// Somebody pressed stop.
     #[error("stopped by hand")]
     Stopped = 14,
+    /// The joint angles are such as the mechanism cannot have: a sensor lies, or something broke.
+    #[error("pose out of the mechanism's reach")]
+    Unreachable = 15,
 }
 
 impl Fault {
     /// Every fault, in the order of its code.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::FrameLost,
         Self::FrameDamaged,
         Self::JointOutOfRange,
@@ -65,6 +69,7 @@ impl Fault {
         Self::Drive,
         Self::Homing,
         Self::Stopped,
+        Self::Unreachable,
     ];
 
     /// The code in a report, from 1.
@@ -120,8 +125,15 @@ pub enum Event {
     Overrun,
     /// A motor driver reports a fault.
     DriveFault,
-    /// Homing is done: counts are angles now.
+    /// Homing is done elsewhere than in [`super::Servo::homing`]: counts are angles now.
     Homed,
+    /// A joint passed its index mark at a count.
+    IndexPassed {
+        /// The joint, from 0.
+        joint: usize,
+        /// The count that was caught there.
+        counts: Counts,
+    },
     /// Homing was refused.
     HomingRefused,
     /// Stop.

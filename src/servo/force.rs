@@ -18,7 +18,7 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
                 coupling.force(&tool, state.probe, motion.velocity)
             }
         };
-        let faded = limit::saturated(felt * state.fade, self.penalty.greatest_force);
+        let faded = limit::saturated(felt * (state.fade * state.room), self.penalty.greatest_force);
         let slewed = limit::slewed(faded, state.force, self.greatest_growth);
         let Some(passivity) = &self.rendering.passivity else { return slewed };
         let touching = state.contact == Contact::Touching || self.rendering.coupling.is_some();

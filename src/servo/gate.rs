@@ -3,10 +3,13 @@
 use super::Fault;
 use crate::device::{Duty, Motor};
 
-/// The duties for these joint torques, N·m, and what the torques were scaled by.
+/// The duties for joint torques, N·m: those of the force that is `felt`, on top of those that carry the `weight`. And what
+/// the felt ones were scaled by.
 ///
-/// Beyond full scale the whole vector is scaled, so that the force keeps its direction. Unless `drives`, the duties are
-/// zero.
+/// The weight comes first: it is not given up for a force, or the arm would sag just where it presses hardest. What the
+/// motors have left above it, on either side, bounds the felt torques; beyond that they are scaled, all together, so that the
+/// felt force keeps its direction. (A weight beyond full scale by itself is scaled as a whole, and a force that would add to
+/// it is zero.) Unless `drives`, the duties are zero.
 ///
 /// # Errors
 /// [`Fault::NotFinite`] if a torque is not a finite number.
@@ -14,24 +17,57 @@ use crate::device::{Duty, Motor};
 pub fn gate<const JOINTS: usize>(
     drives: bool,
     motors: &[Motor; JOINTS],
-    torques: [f32; JOINTS],
+    felt: [f32; JOINTS],
+    weight: [f32; JOINTS],
 ) -> Result<([Duty; JOINTS], f32), Fault> {
     let mut fractions = [0.0; JOINTS];
-    let mut largest = 1.0_f32;
-    for ((fraction, motor), torque) in fractions.iter_mut().zip(motors).zip(torques) {
-        *fraction = motor.fraction(torque);
+    let mut within = true;
+    for (((fraction, motor), felt), weight) in fractions.iter_mut().zip(motors).zip(felt).zip(weight) {
+        *fraction = motor.fraction(felt + weight);
+        // A sum of two is finite only where both are.
         if !fraction.is_finite() {
             return Err(Fault::NotFinite);
         }
-        if fraction.abs() > largest {
-            largest = fraction.abs();
-        }
+        within &= fraction.abs() <= 1.0;
     }
     if !drives {
         return Ok(([Duty::ZERO; JOINTS], 0.0));
     }
-    let scale = 1.0 / largest;
-    Ok((fractions.map(|fraction| Duty::from_fraction(fraction * scale)), scale))
+    if within {
+        return Ok((fractions.map(Duty::from_fraction), 1.0));
+    }
+    Ok(saturate(motors, felt, weight))
+}
+
+/// The most of the felt torques that the motors have left above the weight.
+#[cold]
+fn saturate<const JOINTS: usize>(
+    motors: &[Motor; JOINTS],
+    felt: [f32; JOINTS],
+    weight: [f32; JOINTS],
+) -> ([Duty; JOINTS], f32) {
+    let (mut asked, mut carried) = ([0.0; JOINTS], [0.0; JOINTS]);
+    let mut heaviest = 1.0_f32;
+    for joint in 0..JOINTS {
+        asked[joint] = motors[joint].fraction(felt[joint]);
+        carried[joint] = motors[joint].fraction(weight[joint]);
+        if carried[joint].abs() > heaviest {
+            heaviest = carried[joint].abs();
+        }
+    }
+    let mut scale = 1.0_f32;
+    for (asked, carried) in asked.iter().zip(&mut carried) {
+        *carried /= heaviest;
+        let left = if *asked > 0.0 { 1.0 - *carried } else { 1.0 + *carried };
+        if asked.abs() * scale > left {
+            scale = left / asked.abs();
+        }
+    }
+    let mut duties = [Duty::ZERO; JOINTS];
+    for ((duty, asked), carried) in duties.iter_mut().zip(asked).zip(carried) {
+        *duty = Duty::from_fraction(asked * scale + carried);
+    }
+    (duties, scale)
 }
 
 #[cfg(test)]
@@ -39,18 +75,56 @@ mod tests {
     use super::*;
 
     const MOTORS: [Motor; 3] = [Motor { torque_at_full: 1.0 }; 3];
+    const NONE: [f32; 3] = [0.0; 3];
 
     #[test]
     fn only_a_loop_that_drives_lets_a_duty_through() {
         let torques = [0.5, -0.5, 1.0];
-        assert_eq!(gate(true, &MOTORS, torques), Ok(([Duty(16_384), Duty(-16_384), Duty::FULL], 1.0)));
-        assert_eq!(gate(false, &MOTORS, torques), Ok(([Duty::ZERO; 3], 0.0)));
+        assert_eq!(gate(true, &MOTORS, torques, NONE), Ok(([Duty(16_384), Duty(-16_384), Duty::FULL], 1.0)));
+        assert_eq!(gate(false, &MOTORS, torques, NONE), Ok(([Duty::ZERO; 3], 0.0)));
     }
 
     #[test]
     fn too_much_is_scaled_as_a_whole() {
-        let gated = gate(true, &MOTORS, [4.0, -2.0, 0.0]);
+        let gated = gate(true, &MOTORS, [4.0, -2.0, 0.0], NONE);
         assert_eq!(gated, Ok(([Duty::FULL, Duty(-16_384), Duty::ZERO], 0.25)));
+    }
+
+    #[test]
+    fn the_weight_is_carried_and_what_is_felt_gets_what_is_left() {
+        // Left above the weight: 0.5 up for the first, 1.25 down for the second. 1.0 and −2.0 fit at 0.5.
+        let gated = gate(true, &MOTORS, [1.0, -2.0, 0.0], [0.5, 0.25, -0.125]);
+        assert_eq!(gated, Ok(([Duty::FULL, Duty::from_fraction(-0.75), Duty::from_fraction(-0.125)], 0.5)));
+        // Against the weight there is more than all of a motor.
+        assert_eq!(
+            gate(true, &MOTORS, [-1.5, 0.0, 0.0], [0.5, 0.0, 0.0]),
+            Ok(([-1.0, 0.0, 0.0].map(Duty::from_fraction), 1.0))
+        );
+    }
+
+    #[test]
+    fn whatever_is_asked_what_is_felt_keeps_its_direction_and_the_weight_its_size() {
+        let mut seed = 1_u32;
+        let mut draw = |size: f32| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / (1 << 23) as f32 * size - size
+        };
+        for _ in 0..100_000 {
+            let (felt, weight) = ([(); 3].map(|()| draw(5.0)), [(); 3].map(|()| draw(1.0)));
+            let (duties, scale) = gate(true, &MOTORS, felt, weight).unwrap();
+            assert!((0.0..=1.0).contains(&scale));
+            for joint in 0..3 {
+                let left = duties[joint].fraction() - weight[joint];
+                // Half a step of duty, 1.5e-5, and roundings.
+                assert!((left - felt[joint] * scale).abs() < 1.7e-5, "{felt:?} {weight:?} {duties:?} {scale}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_weight_that_no_motor_carries_stops_at_full_scale_and_is_not_added_to() {
+        let (duties, scale) = gate(true, &MOTORS, [0.5, 0.5, 0.0], [2.0, 1.0, 0.0]).unwrap();
+        assert_eq!((duties, scale), ([1.0, 0.5, 0.0].map(Duty::from_fraction), 0.0));
     }
 
     #[test]
@@ -60,7 +134,10 @@ mod tests {
                 for joint in 0..3 {
                     let mut torques = [0.1; 3];
                     torques[joint] = bad;
-                    assert_eq!(gate(drives, &MOTORS, torques), Err(Fault::NotFinite));
+                    assert_eq!(gate(drives, &MOTORS, torques, NONE), Err(Fault::NotFinite));
+                    assert_eq!(gate(drives, &MOTORS, NONE, torques), Err(Fault::NotFinite));
+                    // Whatever their sum.
+                    assert_eq!(gate(drives, &MOTORS, torques, torques.map(|torque| -torque)), Err(Fault::NotFinite));
                 }
             }
         }

@@ -10,7 +10,8 @@
 //! |---|---|---|
 //! | sensor frame lost, late or damaged | [`Input::Lost`], [`Input::Damaged`] | `FrameLost`, `FrameDamaged` |
 //! | encoder absent, glitching | range and greatest joint rate of the [`crate::device::Device`] | `JointOutOfRange`, `JointJumped` |
-//! | encoder stuck | [`Safety::stuck`], where chosen | `JointStuck` |
+//! | encoder stuck | [`Safety::stuck`] | `JointStuck` |
+//! | encoders contradict the mechanism | [`crate::device::Kinematics::pose`] | `Unreachable` |
 //! | a number that is none | the gate before the motors | `NotFinite` |
 //! | tick overrun | [`Deadline`], [`Event::Overrun`] | `Overrun` |
 //! | host link lost | [`Safety::link_timeout`], [`Event::LinkAlive`] | `LinkLost` |
@@ -19,6 +20,7 @@
 //! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
 //! | too much force | scaled as a whole, its direction kept | none: a limit |
 //! | force asked for inside the wall | faded in | none |
+//! | rim of the workspace, singularity | faded out and in again ([`crate::device::Device::room`]) | none |
 //!
 //! A fault is latched with its tick, and the first one stands. From the very tick in which it is seen the motors are
 //! safe ([`SafeOutput`]).

@@ -19,6 +19,14 @@ pub struct Rendering {
     pub passivity: Option<Passivity>,
     /// How fast the force may grow, N/s. It may always fall at once.
     pub greatest_slew: f32,
+    /// Whether the motors carry the weight of the device's own links, as far as its kinematics knows it.
+    ///
+    /// The torques that do come on top of the force's, last before the gate, which gives them what they need first. They fade
+    /// in with the force, for at the start the hand still carries what the motors did not, and would be lifted by a step.
+    /// They are no part of [`super::ServoState::force`], nor of what the greatest force, the slew limit and the passivity
+    /// control look at: they come from a height, and give back what they took. At the rim of the workspace they stay. Without
+    /// [`super::Phase::Running`], and so after any fault, they are zero.
+    pub carries_weight: bool,
 }
 
 /// Which choice is refused. In a `static` it is a compile error.
@@ -42,7 +50,7 @@ pub enum RenderingError {
 }
 
 impl Rendering {
-    /// Spring and damper alone, low-pass velocity, no slew limit.
+    /// Spring and damper alone, low-pass velocity, no slew limit, the links' weight carried.
     pub const PLAIN: Self = Self {
         velocity: VelocityMethod::LowPass,
         friction: None,
@@ -50,6 +58,7 @@ impl Rendering {
         coupling: None,
         passivity: None,
         greatest_slew: f32::INFINITY,
+        carries_weight: true,
     };
 
     /// Checks the choices, for a surface's stiffness (N/m) and a period (s).

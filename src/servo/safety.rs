@@ -12,18 +12,27 @@ pub enum SafeOutput {
     Damping(f32),
 }
 
-/// When a joint sensor counts as stuck: its joint carries a load and its count stays the same, while another joint
-/// moves.
+/// When a joint sensor counts as stuck: the force that the hand feels loads its joint beyond dry friction, and its count stays
+/// the same, while another joint moves far.
 ///
-/// A hand cannot hold a joint to a single count against a force while it moves the others, but the joint's own dry friction
-/// can, and a parallel mechanism has motions that leave a joint where it is. So it is off unless chosen, for a device on which
-/// it has been tried. A device with one joint has no others: there this finds nothing.
+/// That a joint rests under load says nothing: the hand may hold it. But a hand that moves another joint by `travel` meanwhile
+/// would have to balance the load on this one to within its dry friction all the way, on the one curve on which it does not
+/// turn. Below friction no hand is needed for that, so what is below counts as no load. A device with one joint has no others:
+/// there this finds nothing. One joint is looked at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StuckLimits {
-    /// The least share of full duty that is a load, 0 to 1.
+    /// The least load, as a multiple of the joint's [`crate::device::Device::dry_friction`]; at least 1.
     pub load: f32,
     /// How far another joint moves meanwhile, radians.
     pub travel: f32,
+}
+
+impl StuckLimits {
+    /// Five times dry friction, so that a hand would have to balance the load to a fifth of it, while another joint comes 0.6 rad,
+    /// some 60 mm at the probe. Where simulated hands slide about under load, a Falcon's joint stays where it is over 0.5 rad
+    /// under its own friction and over 0.28 rad under three times that, but never over 0.01 rad under five times; a joint of a
+    /// device with little friction turns back while another goes on for 0.27 rad at most, of Polhem's short crank.
+    pub const DEFAULT: Self = Self { load: 5.0, travel: 0.6 };
 }
 
 /// Limits and reactions of the loop. Begin with [`Safety::DEFAULT`].
@@ -39,7 +48,7 @@ pub struct Safety {
     pub settle_ticks: u32,
     /// Whether the loop waits for [`super::Event::Homed`] before it is armed.
     pub wait_for_homing: bool,
-    /// When a sensor is stuck.
+    /// When a sensor counts as stuck; `None` does not watch.
     pub stuck: Option<StuckLimits>,
     /// CRC-32 of the patch's table ([`crate::patch::SplinePatch::table_crc`]): checked whole before the loop is armed,
     /// and again and again after, a few words a tick. `None` checks nothing.
@@ -55,20 +64,20 @@ pub enum SafetyError {
     /// The link's timeout is not above zero.
     #[error("the link's timeout must be positive")]
     LinkTimeout,
-    /// The load or the travel is not above zero.
-    #[error("the load and travel of a stuck sensor must be positive")]
+    /// The load is below dry friction, or the travel is not above zero.
+    #[error("the load of a stuck sensor must be dry friction at least, and the travel positive")]
     Stuck,
 }
 
 impl Safety {
-    /// Zero output, no overrun allowed, no host, no watch for stuck sensors, no table check.
+    /// Zero output, no overrun allowed, no host, stuck sensors watched for, no table check.
     pub const DEFAULT: Self = Self {
         output: SafeOutput::Zero,
         overruns_allowed: 0,
         link_timeout: f32::INFINITY,
         settle_ticks: 1,
         wait_for_homing: false,
-        stuck: None,
+        stuck: Some(StuckLimits::DEFAULT),
         table_crc: None,
     };
 
@@ -88,7 +97,7 @@ impl Safety {
             return Err(SafetyError::LinkTimeout);
         }
         if let Some(StuckLimits { load, travel }) = self.stuck {
-            let sensible = load > 0.0 && travel > 0.0;
+            let sensible = load >= 1.0 && travel > 0.0;
             if !sensible {
                 return Err(SafetyError::Stuck);
             }

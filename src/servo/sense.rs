@@ -1,29 +1,30 @@
 //! From encoder counts to joint angles that can be believed.
 
-use super::stuck::is_stuck;
-use super::{Fault, ServoState, StuckLimits};
-use crate::device::{Counts, Device, VelocityEstimator};
+use super::{Fault, ServoState};
+use crate::device::{Counts, Device, Encoder, VelocityEstimator};
 
-/// Takes this tick's counts into the state: joint angles and rates.
+/// Takes this tick's counts into the state: joint angles and rates. Unless the angles are `placed`, for homing is under way,
+/// only their changes mean something.
 ///
 /// # Errors
 /// The fault, if an angle lies outside the joint's range or jumped faster than the device can move (the state keeps its
-/// last good counts then), or if a sensor is stuck.
+/// last good counts then).
 #[inline]
 pub fn sense<K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     estimators: &[VelocityEstimator; JOINTS],
     greatest_move: f32,
-    stuck: Option<StuckLimits>,
+    placed: bool,
     state: &mut ServoState<JOINTS>,
     counts: [Counts; JOINTS],
 ) -> Result<(), Fault> {
     let mut angles = [0.0; JOINTS];
-    for ((angle, encoder), count) in angles.iter_mut().zip(&device.encoders).zip(counts) {
-        *angle = encoder.angle(count);
+    let encoders = device.encoders.iter().zip(state.angles_at_zero);
+    for ((angle, (encoder, angle_at_zero)), count) in angles.iter_mut().zip(encoders).zip(counts) {
+        *angle = Encoder { angle_at_zero, ..*encoder }.angle(count);
     }
     let in_range = |(angle, [least, greatest]): (&f32, &[f32; 2])| least <= angle && angle <= greatest;
-    if !angles.iter().zip(&device.joint_range).all(in_range) {
+    if placed && !angles.iter().zip(&device.joint_range).all(in_range) {
         return Err(Fault::JointOutOfRange);
     }
     let before = state.angles;
@@ -41,10 +42,5 @@ pub fn sense<K, const JOINTS: usize>(
     }
     state.counts = Some(counts);
     state.angles = angles;
-    match stuck {
-        Some(limits) if !first && is_stuck(limits, &mut state.stillness, before, angles, state.duties) => {
-            Err(Fault::JointStuck)
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }

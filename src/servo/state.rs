@@ -1,7 +1,7 @@
 //! Everything that changes from tick to tick.
 
 use super::{Fault, Phase, ResetReason, Stillness, TableCheck};
-use crate::device::{Counts, Duty, VelocityState};
+use crate::device::{Counts, Duty, HomingState, VelocityState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Contact, Energy, Tool};
 use crate::track::Witness;
@@ -31,6 +31,10 @@ pub struct ServoState<const JOINTS: usize> {
     pub settled: u32,
     /// Whether the device is homed.
     pub homed: bool,
+    /// How far homing has come.
+    pub homing: HomingState<JOINTS>,
+    /// Joint angle in the middle of count zero, radians: the encoders' own, or what homing found.
+    pub angles_at_zero: [f32; JOINTS],
     /// How far the check of the tables has come.
     pub table_check: TableCheck,
     /// Controller steps that were undone because the distance would have risen.
@@ -45,6 +49,9 @@ pub struct ServoState<const JOINTS: usize> {
     pub velocities: [VelocityState; JOINTS],
     /// Since when each joint has not moved under load.
     pub stillness: Stillness<JOINTS>,
+    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force is
+    /// multiplied by it.
+    pub room: f32,
     /// The probe in the body's frame, metres.
     pub probe: Vec3,
     /// The virtual tool; it is the probe unless there is a coupling.
@@ -76,6 +83,8 @@ impl<const JOINTS: usize> ServoState<JOINTS> {
         hash.words([self.phase as u32, u32::from(fault), fault_tick, self.ticks]);
         hash.words([self.reset as u32, self.overruns, self.overruns_in_a_row, u32::from(self.overran)]);
         hash.words([self.link_silence, self.settled, u32::from(self.homed)]);
+        self.homing.words(|word| hash.words([word]));
+        hash.floats(self.angles_at_zero);
         hash.words([self.table_check.word, self.table_check.crc, self.table_check.passes]);
         hash.words([self.frames_lost, self.steps_undone, u32::from(self.counts.is_some())]);
         for counts in self.counts.iter().flatten() {
@@ -94,9 +103,12 @@ impl<const JOINTS: usize> ServoState<JOINTS> {
                 }
             }
         }
-        for still in self.stillness {
+        hash.words([self.stillness.turn]);
+        for (still, Counts(count)) in self.stillness.since.into_iter().zip(self.stillness.counts) {
             hash.floats(still);
+            hash.words([count as u32]);
         }
+        hash.floats([self.room]);
         hash.vectors([self.probe, self.tool.position, self.tool.velocity]);
         let witness = &self.witness;
         hash.floats(witness.parameters);

@@ -3,7 +3,7 @@
 use super::gate::gate;
 use super::sense::sense;
 use super::{Event, Fault, Phase, SafeOutput, Servo, ServoState};
-use crate::device::{Counts, Duty, Kinematics, ProbePose};
+use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose};
 use crate::math::Vec3;
 use crate::patch::Patch;
 use crate::render::{Motion, Tool, limit};
@@ -25,13 +25,33 @@ pub enum Input<const JOINTS: usize> {
     Damaged,
 }
 
+/// Joint torques, N·m.
+struct Torques<const JOINTS: usize> {
+    /// Those of the force that the hand feels.
+    felt: [f32; JOINTS],
+    /// Those that carry the links.
+    weight: [f32; JOINTS],
+    /// Whether any may reach the motors.
+    live: bool,
+}
+
+impl<const JOINTS: usize> Torques<JOINTS> {
+    const NONE: Self = Self { felt: [0.0; JOINTS], weight: [0.0; JOINTS], live: false };
+}
+
 impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINTS> {
     /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the
     /// duties in the state are zero when this returns: apply them.
     pub fn note(&self, state: &mut ServoState<JOINTS>, event: Event) {
         match event {
             Event::LinkAlive => state.link_silence = 0,
-            Event::Homed => state.homed = true,
+            // With homing of its own the loop is homed when that is done.
+            Event::Homed => state.homed |= self.homing.is_none(),
+            Event::IndexPassed { joint, counts } => {
+                if let Some(homing) = &self.homing {
+                    homing.pass_index(&mut state.homing, joint, counts);
+                }
+            }
             Event::HomingRefused => stop(state, Fault::Homing),
             Event::DriveFault => stop(state, Fault::Drive),
             Event::Stop => stop(state, Fault::Stopped),
@@ -54,10 +74,11 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
     pub fn tick(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) {
         self.watch(state);
         let torques = self.feel(state, input);
-        let damps = matches!(self.safety.output, SafeOutput::Damping(_)) && state.phase == Phase::Fault;
-        let live = state.phase == Phase::Running || damps;
-        match torques.and_then(|torques| gate(live, &self.device.motors, torques)) {
-            Ok((duties, scale)) => {
+        let gated = torques.and_then(|Torques { felt, weight, live }| {
+            gate(live, &self.device.motors, felt, weight).map(|(duties, scale)| (duties, scale, live))
+        });
+        match gated {
+            Ok((duties, scale, live)) => {
                 state.duties = self.device.feed(live, duties, state.rates);
                 state.force *= scale;
             }
@@ -84,9 +105,9 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
         }
     }
 
-    /// From the input to joint torques, N·m.
+    /// From the input to joint torques.
     #[inline]
-    fn feel(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) -> Result<[f32; JOINTS], Fault> {
+    fn feel(&self, state: &mut ServoState<JOINTS>, input: Input<JOINTS>) -> Result<Torques<JOINTS>, Fault> {
         let (counts, enable) = match input {
             Input::Sensors { counts, enable } => (counts, enable),
             Input::Lost => return Err(count_lost(state, Fault::FrameLost)),
@@ -95,17 +116,27 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
 
         // Counts → joint angles → probe.
         let first = state.counts.is_none();
-        sense(self.device, &self.estimators, self.greatest_move, self.safety.stuck, state, counts)?;
-        let pose = self.device.kinematics.pose(state.angles);
+        let homing = self.homing.as_ref().filter(|_| !state.homed);
+        sense(self.device, &self.estimators, self.greatest_move, homing.is_none(), state, counts)?;
+        if let Some(homing) = homing {
+            return self.home(homing, state, counts, enable);
+        }
+        let (pose, weight) = if self.rendering.carries_weight {
+            self.device.kinematics.held_pose(state.angles)
+        } else {
+            (self.device.kinematics.pose(state.angles), [0.0; JOINTS])
+        };
         let probe = pose.position - self.settings.body_origin;
         let moved = if first { Vec3::ZERO } else { probe - state.probe };
         let velocity = pose.velocity(state.rates);
         if !(probe.is_finite() && velocity.is_finite()) {
-            return Err(Fault::NotFinite);
+            return Err(if pose.is_reachable() { Fault::NotFinite } else { Fault::Unreachable });
         }
         state.probe = probe;
+        state.room = self.device.room(&state.angles, &pose);
         if state.phase == Phase::Fault {
-            return Ok(self.safe_torques(state, &pose, velocity));
+            let live = matches!(self.safety.output, SafeOutput::Damping(_));
+            return Ok(Torques { felt: self.safe_torques(state, &pose, velocity), live, ..Torques::NONE });
         }
         state.phase = self.next_phase(state, enable);
 
@@ -128,7 +159,47 @@ impl<P: Patch, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, P, K, JOINT
             passivity.observe(&mut state.energy, state.force, &motion);
         }
         state.force = self.force(state, tool, normal, &motion);
-        Ok(pose.torques(state.force))
+        let felt = pose.torques(state.force);
+        if let Some(limits) = self.safety.stuck
+            && state.stillness.is_broken(limits, &self.device.dry_friction, &counts, &state.angles, &felt)
+        {
+            return Err(Fault::JointStuck);
+        }
+        let fade = state.fade;
+        Ok(Torques { felt, weight: weight.map(|torque| torque * fade), live: state.phase == Phase::Running })
+    }
+
+    /// A tick of homing: no angle can be believed yet, only how it changes.
+    fn home(
+        &self,
+        homing: &Homing<JOINTS>,
+        state: &mut ServoState<JOINTS>,
+        counts: [Counts; JOINTS],
+        enable: bool,
+    ) -> Result<Torques<JOINTS>, Fault> {
+        if state.phase == Phase::Fault {
+            return Ok(Torques::NONE);
+        }
+        state.phase = self.next_phase(state, enable);
+        // No motor moves by itself: whoever wants force wants homing.
+        if homing.drives() && !enable {
+            return Ok(Torques::NONE);
+        }
+        let input =
+            HomingInput { counts: Some(counts), index: [None; JOINTS], rates: state.rates, period: self.period };
+        match homing.tick(&mut state.homing, input) {
+            HomingProgress::Waiting => Ok(Torques { felt: state.homing.torques(), live: true, ..Torques::NONE }),
+            HomingProgress::Refused(_) => Err(Fault::Homing),
+            HomingProgress::Done(encoders) => {
+                state.homed = true;
+                state.angles_at_zero = encoders.map(|encoder| encoder.angle_at_zero);
+                // The angles jump: begin anew.
+                state.counts = None;
+                state.rates = [0.0; JOINTS];
+                state.velocities = self.estimators.map(|estimator| estimator.start());
+                Ok(Torques::NONE)
+            }
+        }
     }
 
     /// At most one step a tick; [`Phase::Fault`] is never left.

@@ -26,6 +26,8 @@ pub struct Report {
     pub fault: u8,
     /// The tick at which the fault was seen.
     pub fault_tick: u32,
+    /// [`crate::device::Refusal`] as its code, 0 for none: why homing was refused.
+    pub refusal: u8,
     /// [`crate::servo::ResetReason`] as its number: why the chip was reset before the loop began.
     pub reset: u8,
     /// Ticks that overran so far.
@@ -34,6 +36,8 @@ pub struct Report {
     pub mode: u8,
     /// [`crate::render::Contact`] as its number.
     pub contact: u8,
+    /// Room to the rim of the workspace, percent: below 100 the force lets go.
+    pub room: u8,
     /// The witness point's parameters.
     pub parameters: [f32; 2],
     /// Probe in the body frame, metres.

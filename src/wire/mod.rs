@@ -19,10 +19,12 @@
 //! | `enable` | flag, 1 | | `phase` | 1 |
 //! | | | | `fault` | 1 |
 //! | | | | `fault_tick` | var, 1–5 |
+//! | | | | `refusal` | 1 |
 //! | | | | `reset` | 1 |
 //! | | | | `overruns` | var, 1–5 |
 //! | | | | `mode` | 1 |
 //! | | | | `contact` | 1 |
+//! | | | | `room` | 1 |
 //! | | | | `parameters`, two | f32 each |
 //! | | | | `probe`, three | f32 each |
 //! | | | | `gap` | f32 |

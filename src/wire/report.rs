@@ -1,7 +1,7 @@
 //! The report of a tick, from the loop's state.
 
 use super::Report;
-use crate::device::Duty;
+use crate::device::{Duty, Refusal};
 use crate::servo::ServoState;
 
 impl Report {
@@ -18,10 +18,12 @@ impl Report {
             phase: state.phase as u8,
             fault,
             fault_tick,
+            refusal: state.homing.refusal().map_or(0, Refusal::code),
             reset: state.reset as u8,
             overruns: state.overruns,
             mode: state.witness.mode as u8,
             contact: state.contact as u8,
+            room: (state.room * 100.0) as u8,
             parameters: state.witness.parameters,
             probe: state.probe.to_array(),
             gap: state.gap,

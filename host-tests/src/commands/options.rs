@@ -45,7 +45,7 @@ pub struct SceneOptions {
     #[arg(long, default_value_t = 5.0)]
     pub seconds: f64,
     /// Seed of the hand's path
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 2)]
     pub seed: u64,
     /// Stiffness of the surface, N/m; 1,000, or what the device takes if that is less
     #[arg(long)]
@@ -148,7 +148,7 @@ impl SceneOptions {
         // A short run sees the start of a path that a hand could follow.
         let duration = self.seconds.max(1.0);
         let most_touches = (TOUCHES_A_SECOND * duration).round() as u32;
-        let path_of = |touches| {
+        let path_of = |share: f64, touches| {
             // Most touches stay on the face; in the air the hand goes over the rim.
             let touching = TouchingSettings {
                 duration,
@@ -157,12 +157,29 @@ impl SceneOptions {
                 pressed_reach: 0.8,
                 ..TouchingSettings::default()
             };
-            TouchingPath::new(&point_and_normal, touching, self.seed)
+            let part = |at: f64| 0.5 + share * (at - 0.5);
+            TouchingPath::new(|u, v| point_and_normal(part(u), part(v)), touching, self.seed)
         };
         // Where a surface or a seed asks for more speed than a hand has, it touches less often.
         let is_too_fast = |path: &Result<_, PathError>| matches!(path, Err(PathError::TooFast { .. }));
-        let slower = (1..=most_touches).rev().map(path_of).find(|path| !is_too_fast(path));
-        let path = slower.unwrap_or_else(|| path_of(1)).context("the hand finds no path")?;
+        let slower = |share| {
+            let paths = (1..=most_touches).rev().map(|touches| path_of(share, touches));
+            paths.into_iter().find(|path| !is_too_fast(path)).unwrap_or_else(|| path_of(share, 1))
+        };
+        // Where the surface is larger than the workspace, it keeps to the middle of the surface.
+        let (mechanism, preset) = (self.device.plant().mechanism(0.0), self.device.preset());
+        let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0);
+        let path = (6..=20)
+            .rev()
+            .map(|share| slower(f64::from(share) / 20.0))
+            .find(|path| path.as_ref().map_or(true, |path| path.keeps_to(has_room)))
+            .with_context(|| {
+                format!(
+                    "{}: not even the middle third of the surface is in its workspace (move it with --at)",
+                    self.device.name()
+                )
+            })?
+            .context("the hand finds no path")?;
         Plant::new(&self.device.plant(), HandSettings::default(), Box::new(path), f64::from(self.rate))
             .context("the simulated device cannot start here (move the model with --at)")
     }

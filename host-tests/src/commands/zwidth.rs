@@ -120,7 +120,9 @@ fn print_table(slice: &Slice, device: DeviceName, arguments: &Arguments, rates: 
         for damping in DAMPINGS {
             print!("{damping:>19}");
             let row = limits.iter().filter(|limit| limit.rate == *rate && limit.damping == damping);
-            row.for_each(|limit| print!("{:>22}", format!("{} ({:.1})", in_words(limit.simulated), limit.passive)));
+            row.for_each(|limit| {
+                print!("{:>22}", format!("{} ({:.1})", in_words(slice, limit.simulated), limit.passive))
+            });
             println!();
         }
     }
@@ -128,7 +130,7 @@ fn print_table(slice: &Slice, device: DeviceName, arguments: &Arguments, rates: 
     for delay in DELAYS {
         let best = |rate: f64| best(limits, rate, delay)[0];
         print!("delay {delay} T: greatest at any damping");
-        rates.iter().for_each(|rate| print!("  {} kHz {} N/m", rate / 1_000.0, in_words(best(*rate))));
+        rates.iter().for_each(|rate| print!("  {} kHz {} N/m", rate / 1_000.0, in_words(slice, best(*rate))));
         if rates.contains(&1_000.0) && rates.contains(&8_000.0) {
             print!("  8 kHz : 1 kHz = {:.2}", best(8_000.0) / best(1_000.0));
         }

@@ -41,6 +41,9 @@ pub struct DeltaSettings {
     pub thigh_centre: f64,
 }
 
+/// The longest step of Newton's method, m: a fifth of a shin.
+const GREATEST_STEP: f64 = 0.02;
+
 impl DeltaSettings {
     /// A leg's u and v directions.
     fn axes(&self, leg: usize) -> (Vector, Vector) {
@@ -74,6 +77,8 @@ impl DeltaSettings {
         for _ in 0..30 {
             let closures: [_; 3] = core::array::from_fn(|leg| self.closure(leg, place, angles[leg]));
             let step = times(&inverse(&closures.map(|(_, gradient, _)| gradient)), closures.map(|(gap, ..)| gap));
+            // Far from the solution a whole step may lead to where a shin is too short for its sideways swing.
+            let step = scaled(step, (GREATEST_STEP / norm(step)).min(1.0));
             place = difference(place, step);
             // Quadratic: the next step would be below rounding.
             if norm(step) < 1e-9 {

@@ -2,7 +2,7 @@
 //!
 //! A [`Plant`] takes motor duties and gives encoder counts, as the real device does. All its numbers are f64 and its own,
 //! in [`PlantSettings`]: nothing is taken from the library, so that each checks the other. The same settings, hand and
-//! duties give the same trace, bit for bit, on the same platform. It has no end stops. Devices of one and two joints leave
+//! duties give the same trace, bit for bit, on the same platform. Devices of one and two joints leave
 //! the other entries of counts and duties alone.
 
 mod arm;
@@ -73,6 +73,10 @@ impl Plant {
         let mechanism = settings.mechanism(hand.mass);
         let position = path.target(0.0);
         let angles = mechanism.angles(position).ok_or(PlantError::OutOfReach { position })?;
+        let between = |(angle, joint): (f64, JointSettings)| joint.stops[0] <= angle && angle <= joint.stops[1];
+        if !angles.into_iter().zip(settings.joints).all(between) {
+            return Err(PlantError::OutOfReach { position });
+        }
         let sub_step = 1.0 / (rate_hz * f64::from(settings.sub_steps));
         let delay = (settings.delay_periods * f64::from(settings.sub_steps)).round() as u64;
         Ok(Self {
@@ -80,6 +84,7 @@ impl Plant {
                 mechanism,
                 viscous: settings.joints.map(|joint| joint.viscous_friction),
                 coulomb: settings.joints.map(|joint| joint.coulomb_friction),
+                stops: settings.joints.map(|joint| joint.stops),
                 angles,
                 rates: [0.0; 3],
             },
@@ -118,6 +123,18 @@ impl Plant {
     pub fn inject(&mut self, joint: usize, fault: Option<EncoderFault>) {
         if let (Some(encoder), Some(angle)) = (self.encoders.get_mut(joint), self.mechanics.angles.get(joint)) {
             encoder.inject(fault, *angle);
+        }
+    }
+
+    /// From now on the hand holds the probe like this; [`HandSettings::NONE`] lets go. Its mass stays.
+    pub fn hold(&mut self, hand: HandSettings) {
+        self.hand = hand;
+    }
+
+    /// From now on a joint's end stops are here, rad: something got in the way, or broke off.
+    pub fn move_stops(&mut self, joint: usize, stops: [f64; 2]) {
+        if let Some(place) = self.mechanics.stops.get_mut(joint) {
+            *place = stops;
         }
     }
 

@@ -73,6 +73,11 @@ impl TouchingPath {
         self.knots.windows(2).map(|pair| norm(difference(pair[1], pair[0])) * KNOT_RATE).fold(0.0, f64::max)
     }
 
+    /// Whether the hand keeps to places like this all the way.
+    pub fn keeps_to(&self, like_this: impl Fn(Vector) -> bool) -> bool {
+        self.knots.iter().all(|knot| like_this(*knot))
+    }
+
     /// How long it lasts, s.
     pub fn duration(&self) -> f64 {
         (self.knots.len() - 1) as f64 / KNOT_RATE

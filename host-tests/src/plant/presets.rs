@@ -2,7 +2,7 @@
 //!
 //! Written out again rather than taken from the library, in f64. Friction that no source states is small on purpose: too
 //! little is the safe side, for friction hides limit cycles. The delay of one period, where a tick's duty takes effect at the
-//! next, and the current loop of 0.15 ms (about 1 kHz) are assumed for all.
+//! next, the current loop of 0.15 ms (about 1 kHz) and the end stops are assumed for all.
 
 use super::arm::Link;
 use super::delta::DeltaSettings;
@@ -53,9 +53,14 @@ impl PlantSettings {
                 balance_inertia: [0.0; 2],
             }),
             [
-                JointSettings { ratio: 16.0, encoder_direction: Direction::Against, ..MOTOR },
-                JointSettings { encoder_direction: Direction::Against, motor_direction: Direction::Against, ..MOTOR },
-                MOTOR,
+                JointSettings { ratio: 16.0, encoder_direction: Direction::Against, stops: [-1.55, 1.55], ..MOTOR },
+                JointSettings {
+                    encoder_direction: Direction::Against,
+                    motor_direction: Direction::Against,
+                    stops: [-0.75, 2.15],
+                    ..MOTOR
+                },
+                JointSettings { stops: [-1.15, 1.75], ..MOTOR },
             ],
         )
     }
@@ -100,10 +105,11 @@ impl PlantSettings {
                     encoder_direction: Direction::With,
                     angle_at_zero: 0.0,
                     motor_direction: Direction::With,
+                    stops: [-1.55, 1.55],
                     ..MOTOR
                 },
-                MOTOR,
-                MOTOR,
+                JointSettings { stops: [-0.48, 3.70], ..MOTOR },
+                JointSettings { stops: [-2.13, 2.04], ..MOTOR },
             ],
         )
     }
@@ -153,14 +159,15 @@ impl PlantSettings {
                 turntable_inertia: 2.0e-3,
             }),
             [
-                JointSettings { ratio: 0.175 / 0.0288534, torque_constant: 0.0603, ..MOTOR },
+                JointSettings { ratio: 0.175 / 0.0288534, torque_constant: 0.0603, stops: [-2.15, 2.15], ..MOTOR },
                 JointSettings {
                     ratio: 0.100 / 0.0136981,
                     encoder_direction: Direction::Against,
                     motor_direction: Direction::Against,
+                    stops: [0.25, 2.35],
                     ..MOTOR
                 },
-                MOTOR,
+                JointSettings { stops: [1.05, 4.25], ..MOTOR },
             ],
         )
     }
@@ -184,6 +191,7 @@ impl PlantSettings {
             rotor_inertia: 5e-7,
             viscous_friction: 2e-4,
             coulomb_friction: 2e-3,
+            stops: [-0.77, 0.77],
             ..JointSettings::NONE
         };
         with_usual_timing(
@@ -196,7 +204,7 @@ impl PlantSettings {
     ///
     /// | number | value | where from |
     /// |---|---|---|
-    /// | lengths, counts, start angles, torque | | Haply's course material |
+    /// | lengths, counts, start angles (the stops behind), torque | | Haply's course material |
     /// | winding | 4 Ω, 3 A on 12 V, 1 mH; ratio 4,880/2,048 | assumed: together the stated 0.123 N·m |
     /// | cranks 20 g, rods 12 g, handle 25 g, rotor 5 g·cm², friction 1e-4 N·m·s, 2e-3 N·m | | assumed |
     pub const fn haply_2diy_v3() -> Self {
@@ -216,7 +224,11 @@ impl PlantSettings {
         };
         with_usual_timing(
             MechanismSettings::FiveBar(pantograph(0.038, 0.07, 0.09, [0.019, 0.1])),
-            [JOINT, JointSettings { angle_at_zero: 12.0 * DEGREE, ..JOINT }, JointSettings::NONE],
+            [
+                JointSettings { stops: [0.83, 168.0 * DEGREE], ..JOINT },
+                JointSettings { angle_at_zero: 12.0 * DEGREE, stops: [12.0 * DEGREE, 2.27], ..JOINT },
+                JointSettings::NONE,
+            ],
         )
     }
 
@@ -238,7 +250,11 @@ impl PlantSettings {
         };
         with_usual_timing(
             MechanismSettings::FiveBar(pantograph(0.02, 0.05, 0.07, [0.01, 0.075])),
-            [JOINT, JointSettings { angle_at_zero: 0.0, ..JOINT }, JointSettings::NONE],
+            [
+                JointSettings { stops: [0.83, 3.37], ..JOINT },
+                JointSettings { angle_at_zero: 0.0, stops: [-0.27, 2.27], ..JOINT },
+                JointSettings::NONE,
+            ],
         )
     }
 
@@ -262,6 +278,7 @@ impl PlantSettings {
             rotor_inertia: 2e-6,
             viscous_friction: 1e-3,
             coulomb_friction: 0.05,
+            stops: [-0.72, 1.37],
             ..JointSettings::NONE
         };
         with_usual_timing(

@@ -56,6 +56,8 @@ pub struct JointSettings {
     pub viscous_friction: f64,
     /// Dry friction at the joint, N·m.
     pub coulomb_friction: f64,
+    /// Joint angles of the end stops, rad.
+    pub stops: [f64; 2],
 }
 
 impl JointSettings {
@@ -73,6 +75,7 @@ impl JointSettings {
         rotor_inertia: 1.0,
         viscous_friction: 0.0,
         coulomb_friction: 0.0,
+        stops: [f64::NEG_INFINITY, f64::INFINITY],
     };
 }
 

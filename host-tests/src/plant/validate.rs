@@ -74,6 +74,11 @@ pub(super) fn validate(plant: &PlantSettings, hand: &HandSettings, rate_hz: f64)
         positive("rotor_inertia", joint.rotor_inertia)?;
         not_negative("viscous_friction", joint.viscous_friction)?;
         not_negative("coulomb_friction", joint.coulomb_friction)?;
+        let [least, most] = joint.stops;
+        let apart = least < most;
+        if !apart {
+            return Err(PlantError::NotPositive { field: "stops", value: most - least });
+        }
     }
     not_negative("current_time_constant", plant.current_time_constant)?;
     not_negative("delay_periods", plant.delay_periods)?;
@@ -196,6 +201,7 @@ mod tests {
             verdict(|plant, _, _| plant.gravity = f64::NAN),
             verdict(|plant, _, _| plant.joints[1].rotor_inertia = 0.0),
             verdict(|plant, _, _| plant.joints[2].coulomb_friction = -1.0),
+            verdict(|plant, _, _| plant.joints[0].stops = [0.5, 0.5]),
             verdict(|plant, _, _| plant.delay_periods = -0.5),
             verdict(|plant, _, _| plant.sub_steps = 0),
             verdict(|_, hand, _| hand.stiffness = f64::NAN),
@@ -211,6 +217,7 @@ mod tests {
             "gravity",
             "rotor_inertia",
             "coulomb_friction",
+            "stops",
             "delay_periods",
             "sub_steps",
             "hand.stiffness",

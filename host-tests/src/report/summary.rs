@@ -1,6 +1,7 @@
 //! The figures of a run.
 
 use crate::simulation::Trace;
+use palpate::device::Refusal;
 use palpate::render::Contact;
 use palpate::servo::Fault;
 use std::fmt;
@@ -37,6 +38,8 @@ pub struct Summary {
     pub steps_undone: u32,
     /// The latched fault and its tick.
     pub fault: Option<(Fault, u32)>,
+    /// Why homing was refused.
+    pub refusal: Option<Refusal>,
     /// A hash over the digest of every tick's state: two runs that agree in it agreed in every bit.
     pub state_hash: u32,
     /// Instructions a tick, where the board counts them.
@@ -67,6 +70,7 @@ impl Summary {
             frames_lost: last.frames_lost,
             steps_undone: last.steps_undone,
             state_hash: reports().fold(0, |hash, report| (hash ^ report.digest).wrapping_mul(0x0100_0193)),
+            refusal: Refusal::from_code(last.refusal),
             fault: Fault::from_code(last.fault).map(|fault| (fault, last.fault_tick)),
             instructions: counted
                 .last()
@@ -81,7 +85,10 @@ impl Summary {
             None => "not counted on the host".to_owned(),
         };
         let fault = match self.fault {
-            Some((fault, tick)) => format!("{fault} (code {}) at tick {tick}", fault.code()),
+            Some((fault, tick)) => {
+                let why = self.refusal.map_or(String::new(), |refusal| format!(": {refusal}"));
+                format!("{fault}{why} (code {}) at tick {tick}", fault.code())
+            }
             None => "none".to_owned(),
         };
         vec![

@@ -84,7 +84,7 @@ impl Swing {
 /// stops is the one where friction is below its limit.
 pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) -> Swing {
     let step = 1.0 / (servo.rate * SUB_STEPS as f64);
-    let encoder = Encoder { radians_per_count: slice.resolution as f32, angle_at_zero: 0.0 };
+    let encoder = Encoder::new(slice.resolution as f32, 0.0);
     let estimator =
         VelocityEstimator::new(servo.velocity, servo.corner as f32, servo.rate as f32, slice.resolution as f32);
     let penalty = Penalty {

@@ -10,8 +10,8 @@ pub const RATES: [f64; 4] = [1_000.0, 2_000.0, 4_000.0, 8_000.0];
 pub const DELAYS: [f64; 3] = [0.5, 1.0, 2.0];
 /// Dampings of the wall, N·s/m.
 pub const DAMPINGS: [f64; 11] = [0.0, 0.01, 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
-/// The stiffness below which a wall is not worth the name, and the one above which nobody asks, N/m.
-const STIFFNESSES: [f64; 2] = [30.0, 1e6];
+/// The stiffness below which a wall is not worth the name, N/m.
+const LEAST: f64 = 30.0;
 /// Steady pushes into the wall, N; and the least, as a multiple of dry friction: a probe that friction alone holds away from
 /// the wall does not try it.
 const PUSHES: [f64; 2] = [0.3, 1.0];
@@ -36,10 +36,16 @@ pub struct Limit {
     pub passive: f64,
 }
 
-/// A limit, N/m, in words: with ≥ where the search ended while every wall still held.
-pub fn in_words(stiffness: f64) -> String {
-    let open = stiffness * 10_f64.powf(1.0 / STEPS_A_DECADE) > STIFFNESSES[1];
-    format!("{}{stiffness:.0}", if open { "≥ " } else { "" })
+/// The stiffness, N/m, from which on all walls are one: half a count, the least depth there is to read, asks for full force
+/// already. What lies above pushes all or nothing, but for its damping, and the search ends there. Where even that wall comes
+/// to rest there is no greatest stiffness: dry friction takes more out of the probe in a count than full force puts in.
+pub fn all_or_nothing(slice: &Slice) -> f64 {
+    2.0 * slice.greatest_force / slice.resolution
+}
+
+/// A limit of a device, N/m, in words: `any` where the wall of all or nothing holds, too.
+pub fn in_words(slice: &Slice, stiffness: f64) -> String {
+    if stiffness >= all_or_nothing(slice) { "any".to_owned() } else { format!("{stiffness:.0}") }
 }
 
 /// The greatest stiffness, N/m, below which every wall that was tried comes to rest.
@@ -49,14 +55,17 @@ pub fn greatest_stiffness(slice: &Slice, damping: f64, servo: &Loop) -> f64 {
         pushes.into_iter().all(|push| collide(slice, Wall { stiffness, damping }, servo, push).has_decayed())
     };
     let ratio = 10_f64.powf(1.0 / STEPS_A_DECADE);
-    let [least, most] = STIFFNESSES;
+    let most = all_or_nothing(slice);
     let mut below = 0.0;
-    let mut stiffness = least;
-    while stiffness <= most && holds(stiffness) {
+    let mut stiffness = LEAST;
+    while holds(stiffness) {
         below = stiffness;
-        stiffness *= ratio;
+        if stiffness >= most {
+            return below;
+        }
+        stiffness = (stiffness * ratio).min(most);
     }
-    if below == 0.0 || stiffness > most {
+    if below == 0.0 {
         return below;
     }
     let mut above = stiffness;
@@ -140,9 +149,15 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_that_was_not_found_says_so() {
-        // 30 N/m and eight steps a decade: 948,683 is the last below a million.
-        assert_eq!([5_530.0, 30.0 * 10_f64.powf(4.5)].map(in_words), ["5530", "≥ 948683"]);
+    fn where_any_wall_holds_it_is_because_it_pushes_all_or_nothing() {
+        let falcon = Slice::of(DeviceName::Falcon);
+        let most = all_or_nothing(&falcon);
+        assert_eq!([5_530.0, most].map(|stiffness| in_words(&falcon, stiffness)), ["5530", "any"]);
+        // Ten times as stiff is the same wall, bit for bit.
+        let servo = Loop { rate: 8_000.0, delay_periods: 1.0, ..LIKE };
+        let swings = [most * 1.000_01, most * 10.0]
+            .map(|stiffness| collide(&falcon, Wall { stiffness, damping: 0.0 }, &servo, Collision { push: 2.0 }));
+        assert_eq!(swings[0], swings[1]);
     }
 
     #[test]

@@ -17,15 +17,19 @@ const INSTANTS: usize = 1_000;
 const AFTER: usize = 30;
 const LINK_TICKS: u32 = 100;
 
-/// The arm, with a switch that makes its pose a number that is none.
+/// The arm, with a switch that makes its pose a number that is none, and one that opens its joints.
 #[derive(Debug)]
 struct Poisoned {
     arm: SerialArm,
     with: Cell<Option<f32>>,
+    open: Cell<bool>,
 }
 
 impl Kinematics<3> for Poisoned {
     fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
+        if self.open.get() {
+            return ProbePose::UNREACHABLE;
+        }
         let mut pose = self.arm.pose(angles);
         if let Some(bad) = self.with.get() {
             pose.jacobian[1].y = bad;
@@ -68,10 +72,11 @@ type TestServo<'a> = Servo<'a, Decayed, Poisoned, 3>;
 fn device() -> Device<Poisoned, 3> {
     let preset = WOODEN_HAPTICS_2016;
     Device {
-        kinematics: Poisoned { arm: preset.kinematics, with: Cell::new(None) },
+        kinematics: Poisoned { arm: preset.kinematics, with: Cell::new(None), open: Cell::new(false) },
         encoders: preset.encoders,
         motors: preset.motors,
         feeds: preset.feeds,
+        dry_friction: preset.dry_friction,
         least_margin: preset.least_margin,
         joint_range: preset.joint_range,
         greatest_joint_rate: preset.greatest_joint_rate,
@@ -85,9 +90,6 @@ fn decayed() -> Decayed {
     Decayed { wall: &WALL, bit: Cell::new(None) }
 }
 
-/// Fits this arm: its dry friction is below a hundredth of full duty.
-const STUCK: Option<StuckLimits> = Some(StuckLimits { load: 0.1, travel: 0.2 });
-
 fn safety(output: SafeOutput) -> Safety {
     Safety {
         output,
@@ -96,7 +98,7 @@ fn safety(output: SafeOutput) -> Safety {
         settle_ticks: 200,
         wait_for_homing: true,
         table_crc: Some(WALL.table_crc()),
-        stuck: STUCK,
+        stuck: Some(StuckLimits::DEFAULT),
     }
 }
 
@@ -161,16 +163,25 @@ impl Bench<'_> {
                 Seen::Now { believable: false }
             }
             Fault::JointStuck => {
-                let loaded = state.duties[joint].fraction().abs() >= 0.1;
-                if !loaded || state.counts.is_none() {
-                    return Seen::Not; // without load a joint may rest; what its motor gives is below a tenth
+                // Five times dry friction is a load; twice that, so that it still is one when this count stays behind.
+                let felt = self.device.kinematics.pose(state.angles).torques(state.force)[joint];
+                if felt.abs() < 10.0 * self.device.dry_friction[joint] || state.counts.is_none() {
+                    return Seen::Not; // without load a joint may rest
                 }
-                // The last count again, while another joint has come 0.3 rad since.
+                // The last count again, while another joint has come 0.7 rad since.
                 let mut bad = counts;
                 bad[joint] = state.counts.unwrap()[joint];
-                state.stillness[joint] = state.angles;
-                state.stillness[joint][(joint + 1) % 3] -= 0.3;
+                state.stillness.turn = joint as u32;
+                state.stillness.counts[joint] = bad[joint];
+                state.stillness.since[joint] = state.angles;
+                state.stillness.since[joint][(joint + 1) % 3] -= 0.7;
                 self.servo.tick(state, sensors(bad));
+                Seen::Now { believable: false }
+            }
+            Fault::Unreachable => {
+                self.device.kinematics.open.set(true);
+                self.servo.tick(state, sensors(counts));
+                self.device.kinematics.open.set(false);
                 Seen::Now { believable: false }
             }
             Fault::Overrun => {
@@ -246,7 +257,7 @@ fn phase_instants(trace: &Trace, phase: Phase) -> Vec<usize> {
 #[test]
 fn every_fault_in_every_phase_is_safe_named_and_latched() {
     let (device, patch) = (device(), decayed());
-    let mut seen = [[0_usize; Phase::ALL.len()]; 15];
+    let mut seen = [[0_usize; Phase::ALL.len()]; 16];
     for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
         let servo = Servo::new(&device, &patch, Controller::CERTIFIED, SETTINGS).safety(safety(output));
         let trace = Trace::record(&servo, 7);
@@ -270,8 +281,7 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
                         Seen::Now { believable } => believable,
                         Seen::Not => {
                             assert_in_range(&state);
-                            let weak = state.duties.iter().filter(|duty| duty.fraction().abs() < 0.1).count();
-                            assert!(phase == Phase::Running && weak > 0 || state.duties == [Duty::ZERO; 3]);
+                            assert!(phase == Phase::Running || state.duties == [Duty::ZERO; 3]);
                             continue;
                         }
                     };
@@ -326,7 +336,8 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
 fn a_stuck_encoder_is_found_while_the_others_go_on() {
     // The turntable sweeps over the wall under load while the first link's encoder says the same again and again.
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::CERTIFIED, SETTINGS)
-        .safety(Safety { stuck: STUCK, ..Safety::DEFAULT });
+        // Half the usual way: the wall ends after 0.4 rad.
+        .safety(Safety { stuck: Some(StuckLimits { travel: 0.3, ..StuckLimits::DEFAULT }), ..Safety::DEFAULT });
     let mut state = servo.start();
     let counts = |tick: i32| {
         // At (0.22, 0) over the foot, 3 mm below the wall, sweeping 0.5 rad a second; the second link's count lives on.
@@ -341,7 +352,11 @@ fn a_stuck_encoder_is_found_while_the_others_go_on() {
         servo.tick(&mut state, Input::Sensors { counts: counts(*tick), enable: true });
         state.phase == Phase::Fault
     });
-    assert!(state.duties == [Duty::ZERO; 3] && state.fault.unwrap().0 == Fault::JointStuck, "{:?} {state:?}", found);
+    assert!(
+        found.is_some() && state.duties == [Duty::ZERO; 3] && state.fault.unwrap().0 == Fault::JointStuck,
+        "{:?} {state:?}",
+        found
+    );
 }
 
 #[test]

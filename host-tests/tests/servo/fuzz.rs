@@ -62,7 +62,7 @@ fn fuzz<P: Patch>(
     // The wall lies where counts of zero put the probe, so that a walk about zero touches it: height 285 mm less 80 mm,
     // reach 245 mm less 220.
     let settings = Settings { body_origin: vec3(0.025, 0.0, 0.205), ..SETTINGS };
-    let stuck = Some(StuckLimits { load: 0.1, travel: 0.2 });
+    let stuck = Some(StuckLimits { load: 1.0, travel: 0.2 });
     let safety = Safety { output, stuck, ..Safety::DEFAULT };
     let servo = Servo::try_new(device, patch, Controller::CERTIFIED, settings).unwrap();
     let servo = servo.try_rendering(rendering).unwrap().try_safety(safety).unwrap();

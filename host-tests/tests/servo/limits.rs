@@ -4,7 +4,7 @@ use crate::surfaces::WALL;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Device, SerialArm, VelocityMethod};
 use palpate::math::Vec3;
-use palpate::servo::{Input, Servo, Settings};
+use palpate::servo::{Input, Rendering, Servo, Settings};
 use palpate::track::Controller;
 use palpate_host::devices::DeviceName;
 use palpate_host::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
@@ -36,8 +36,9 @@ fn swing(stiffness: f32, damping: f32, rate: f64) -> f64 {
         soft_start: 0.0,
         body_origin: Vec3::ZERO,
     };
-    let servo = Servo::new(&FREE, &WALL, Controller::CERTIFIED, settings);
-    // 40 N/m and 20 mm: 0.8 N. The links' weight helps.
+    // 40 N/m and 20 mm: 0.8 N. The links' weight helps: it is not carried.
+    let servo = Servo::new(&FREE, &WALL, Controller::CERTIFIED, settings)
+        .rendering(Rendering { carries_weight: false, ..Rendering::PLAIN });
     let hand = HandSettings { stiffness: 40.0, damping: 0.1, mass: 0.0 };
     let mut plant = Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Hit), rate).unwrap();
     let mut state = servo.start();

@@ -2,9 +2,11 @@
 
 mod faults;
 mod fuzz;
+mod homing;
 mod limits;
 mod passivity;
 mod surfaces;
 mod touch;
 mod traces;
 mod velocity;
+mod weight;

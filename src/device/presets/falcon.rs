@@ -17,12 +17,15 @@ const RATIO: f32 = 0.110 / 0.014_25;
 /// Stamper's lengths in mm: a 60, b 102.5, c 14.43, d = e 11.25, f −25, r 40, s −23.09; legs at 90°, −30° and −150°, each
 /// plus 15°; drum 110 mm on a shaft of 14.25 mm; 320 lines, four counts each: 38 µm at a thigh's end; 35° at zero counts.
 /// Source: libnifalcon, `FalconGeometry.h`; its Jacobian has `sin² θ₂` where `sin θ₂ sin θ₃` belongs and is not followed.
-/// 8.9 N, 3,000 N/m and 20 N·s/m: CHAI3D.
+/// 8.9 N: CHAI3D.
 /// The frame is libnifalcon's: seen from the front x to the right, y up, z towards the hand; the origin is moved to the
 /// middle of the workspace, 120 mm before the base.
-/// At 4 kHz 2,000 N/m and 5 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1.5 %, and no
-/// count moves. At 3,000 N/m and 20 N·s/m none moves either, but the wall yields so little that half a count is 3 % of it.
-/// Assumed: torque of the motors, such that they give 8.9 N in every direction there; the weight is not known and left out.
+/// At 4 kHz 2,000 N/m and 5 N·s/m are recommended at most: pressed in simulation the force is stiffness times depth to 2 %, and
+/// there is no limit cycle. At the 3,000 N/m and 20 N·s/m in use on it none is either, but dry friction holds the grip anywhere
+/// in a count, and half a count of 65 µm is 3 % of the millimetre that such a wall yields to a hand.
+/// Assumed, for no source was found that states them: torque of the motors, such that they give 8.9 N in every direction there;
+/// friction of a joint; and the masses: 150 g of plate and grip, shins of 15 g, thighs of 60 g with their centre 20 mm out,
+/// together 1.7 N at the grip. Weigh yours: a grip that rises or sinks by itself says by how much they are wrong.
 pub const NOVINT_FALCON: Device<Delta, 3> = Device {
     kinematics: Delta {
         thigh: 0.060,
@@ -33,18 +36,19 @@ pub const NOVINT_FALCON: Device<Delta, 3> = Device {
         directions: [[-SIN_15, COS_15], [COS_15, -SIN_15], [-HALF_ROOT, -HALF_ROOT]],
         workspace_centre: vec3(0.0, 0.0, 0.120),
         up: vec3(0.0, 1.0, 0.0),
-        carried_mass: 0.0,
-        thigh_moment: 0.0,
+        carried_mass: 0.150 + 1.5 * 0.015,
+        thigh_moment: 0.060 * 0.020 + 0.5 * 0.015 * 0.060,
     },
     encoders: [Encoder::geared(1_280.0, RATIO, 35.0 * core::f32::consts::PI / 180.0); 3],
     motors: [Motor { torque_at_full: 0.53 }; 3],
     feeds: [Feed::Current; 3],
+    dry_friction: [0.05; 3],
     joint_range: [[-0.75, 1.4]; 3],
     least_margin: 0.010,
     greatest_joint_rate: 60.0,
     greatest_force: 8.9,
-    greatest_stiffness: 3_000.0,
-    greatest_damping: 20.0,
+    greatest_stiffness: 2_000.0,
+    greatest_damping: 5.0,
 };
 
 #[cfg(test)]

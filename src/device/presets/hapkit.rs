@@ -14,7 +14,7 @@ const RATIO: f32 = 0.073_152 / 0.004_191;
 /// towards x), greatest stiffness and damping; the paddle's weight is not known and left out.
 pub const HAPKIT: Device<Paddle, 1> = Device {
     kinematics: Paddle { handle: 0.065_659, mass_moment: 0.0 },
-    encoders: [Encoder { radians_per_count: core::f32::consts::PI / 18.0 / 726.6, angle_at_zero: 0.0 }],
+    encoders: [Encoder::new(core::f32::consts::PI / 18.0 / 726.6, 0.0)],
     motors: [Motor::current_driven(0.025, 1.2, RATIO)],
     feeds: [Feed::Voltage(VoltageFeed {
         supply: 12.0,
@@ -24,6 +24,7 @@ pub const HAPKIT: Device<Paddle, 1> = Device {
         ratio: RATIO,
         back_emf_share: 0.8,
     })],
+    dry_friction: [2e-3],
     joint_range: [[-0.8, 0.8]],
     least_margin: 0.06,
     greatest_joint_rate: 35.0,

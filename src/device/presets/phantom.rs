@@ -21,9 +21,9 @@ pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
         first_link: 0.209_55,
         second_link: 0.169_545,
         workspace_centre: vec3(0.209_55, 0.0, -0.169_545),
-        mass_moments: [
-            0.209_55 * 0.026_22 - 0.035_188_75 * 0.267_84 + 0.104_777_39 * 0.026_146,
-            0.052_378_92 * 0.026_22 - 0.051_535_41 * 0.215_42 + 0.031_75 * 0.026_146,
+        end_masses: [
+            (0.209_55 * 0.026_22 - 0.035_188_75 * 0.267_84 + 0.104_777_39 * 0.026_146) / 0.209_55,
+            (0.052_378_92 * 0.026_22 - 0.051_535_41 * 0.215_42 + 0.031_75 * 0.026_146) / 0.169_545,
         ],
     },
     encoders: [
@@ -37,6 +37,7 @@ pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
         Motor::current_driven(0.023_4, 5.5, -11.2),
     ],
     feeds: [Feed::Current; 3],
+    dry_friction: [0.01; 3],
     joint_range: [[-1.58, 1.58], [-0.51, 3.74], [-2.17, 2.08]],
     least_margin: 0.05,
     greatest_joint_rate: 25.0,

@@ -50,6 +50,7 @@ pub const POLHEM_V2: Device<LinkageArm, 3> = Device {
         ]
     },
     feeds: [Feed::Current; 3],
+    dry_friction: [0.01; 3],
     joint_range: [[-2.2, 2.2], [0.2, 2.4], [1.0, 4.3]],
     least_margin: 0.025,
     greatest_joint_rate: 40.0,

@@ -22,7 +22,7 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
         first_link: 0.205,
         second_link: 0.245,
         workspace_centre: vec3(0.220, 0.0, 0.080),
-        mass_moments: [0.170 * 0.051 + 0.110 * 0.205, 0.110 * 0.091],
+        end_masses: [0.170 * 0.051 / 0.205 + 0.110, 0.110 * 0.091 / 0.245],
     },
     encoders: [
         Encoder::geared(2_000.0, -16.0, 0.0),
@@ -35,6 +35,7 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
         Motor::current_driven(0.0259, 3.0, 12.0),
     ],
     feeds: [Feed::Current; 3],
+    dry_friction: [0.01; 3],
     joint_range: [[-1.6, 1.6], [-0.8, 2.2], [-1.2, 1.8]],
     least_margin: 0.05,
     greatest_joint_rate: 25.0,
