@@ -1,8 +1,6 @@
 //! Budgets of counted instructions, one file a core in `host-tests/budgets/`.
 
-use crate::firmware::process::output;
-use crate::firmware::{Firmware, SetUpError, repository};
-use clap::ValueEnum;
+use crate::firmware::{Board, Program, Progress, SetUpError, repository};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,24 +10,9 @@ use thiserror::Error;
 /// How much worse a figure may get, percent: room for another compiler's whim, not for another call.
 pub const ALLOWANCE: u32 = 3;
 
-/// An emulated core.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Core {
-    /// Cortex-M4F (mps2-an386)
-    M4,
-}
-
-impl Core {
-    /// The name of its budget file, without the ending.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::M4 => "m4",
-        }
-    }
-
-    fn file(self) -> PathBuf {
-        repository().join("host-tests/budgets").join(self.name()).with_extension("toml")
-    }
+/// The budget file of a core.
+fn file(board: Board) -> PathBuf {
+    repository().join("host-tests/budgets").join(board.name()).with_extension("toml")
 }
 
 /// What was counted, in the order in which it was.
@@ -104,12 +87,12 @@ impl Verdict {
     }
 }
 
-/// Runs the counting program on the emulated board.
+/// Builds the counting program and runs it on the emulated board.
 ///
 /// # Errors
 /// If it does not run to its end, or says something else than figures.
-pub fn measure(firmware: &Firmware) -> Result<Figures, BudgetError> {
-    figures(&output(&mut firmware.qemu.board(&firmware.images.budget))?)
+pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError> {
+    figures(&Program::prepare(board, "budget", &[], progress)?.run(true)?)
 }
 
 /// The lines `"name" = count`.
@@ -127,8 +110,8 @@ impl Budget {
     ///
     /// # Errors
     /// If there is none, or it is not in order.
-    pub fn load(core: Core) -> Result<Self, BudgetError> {
-        let path = core.file();
+    pub fn load(board: Board) -> Result<Self, BudgetError> {
+        let path = file(board);
         let text = fs::read_to_string(&path).map_err(|error| refused(&path, &error))?;
         toml::from_str(&text).map_err(|error| refused(&path, &error))
     }
@@ -137,8 +120,8 @@ impl Budget {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn record(core: Core, figures: &Figures) -> Result<PathBuf, BudgetError> {
-        let path = core.file();
+    pub fn record(board: Board, figures: &Figures) -> Result<PathBuf, BudgetError> {
+        let path = file(board);
         let mut text = format!(
             "# Counted instructions of the hot path on the emulated core {}: cargo palpate budgets --record\n\n[instructions]\n",
             core.name()

@@ -1,7 +1,7 @@
 //! The host tool of palpate: `cargo palpate COMMAND`.
 
 use clap::{Parser, Subcommand};
-use palpate_host::commands::{bake, budgets, check, closest, demo, figures, firmware, race, sim, test, zwidth};
+use palpate_host::commands::{bake, budgets, check, closest, demo, figures, firmware, image, race, sim, test, zwidth};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -22,6 +22,7 @@ enum Command {
     Sim(sim::Arguments),
     Figures(figures::Arguments),
     Firmware(firmware::Arguments),
+    Image(image::Arguments),
     Zwidth(zwidth::Arguments),
     Race(race::Arguments),
 }
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Command::Sim(arguments) => sim::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
+        Command::Image(arguments) => image::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
         Command::Race(arguments) => race::run(&arguments),
     };

@@ -1,7 +1,7 @@
 //! `palpate budgets`: what the hot path costs on the emulated board, beside what it may cost.
 
-use crate::budgets::{Budget, Core, Figures, Verdict, measure};
-use crate::firmware::{self, Choice, Progress};
+use crate::budgets::{Budget, Figures, Verdict, measure};
+use crate::firmware::{Board, Progress};
 use clap::Args;
 use std::process::ExitCode;
 
@@ -10,9 +10,9 @@ use std::process::ExitCode;
 /// Ends with 1 if a figure is over its budget, missing or new.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The core to count on
-    #[arg(long, value_enum, default_value_t = Core::M4)]
-    core: Core,
+    /// The emulated board to count on
+    #[arg(long, value_enum, default_value_t = Board::M4)]
+    board: Board,
     /// Writes what was counted to the budget file
     #[arg(long)]
     record: bool,
@@ -23,14 +23,13 @@ pub struct Arguments {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let firmware = firmware::prepare(&Choice::default(), &Progress::new())?;
-    let found = measure(&firmware)?;
+    let found = measure(arguments.board, &Progress::new())?;
     if arguments.record {
-        let file = Budget::record(arguments.core, &found)?;
+        let file = Budget::record(arguments.board, &found)?;
         println!("recorded {} figures in {}", found.0.len(), file.display());
         return Ok(ExitCode::SUCCESS);
     }
-    let budget = Budget::load(arguments.core)?;
+    let budget = Budget::load(arguments.board)?;
     let verdicts = budget.compare(&found);
     print_table(&found, &verdicts);
     Ok(if verdicts.iter().any(Verdict::fails) { ExitCode::FAILURE } else { ExitCode::SUCCESS })

@@ -7,6 +7,7 @@ pub mod closest;
 pub mod demo;
 pub mod figures;
 pub mod firmware;
+pub mod image;
 pub mod options;
 mod output;
 pub mod progress;

@@ -37,8 +37,6 @@ pub struct Image {
 pub struct Images {
     uart: Image,
     fifo: Image,
-    /// The program that counts instructions.
-    pub budget: Image,
     /// Keeps the files.
     _folder: TempDir,
 }
@@ -58,30 +56,50 @@ impl Images {
 /// # Errors
 /// What the compiler says, or what is wrong with a file.
 pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Result<Images, SetUpError> {
+    let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
+    let build =
+        |transport: Transport| build_program(toolchain, choice, transport.binary(), &[], folder.path(), progress);
+    Ok(Images { uart: build(Transport::Uart)?, fifo: build(Transport::Fifo)?, _folder: folder })
+}
+
+/// Builds one of the board's programs into a folder, with features of the crate that the boards share.
+///
+/// # Errors
+/// What the compiler says, or what is wrong with a file.
+pub fn build_program(
+    toolchain: &Toolchain,
+    choice: &Choice,
+    program: &str,
+    features: &[&str],
+    folder: &Path,
+    progress: &Progress,
+) -> Result<Image, SetUpError> {
     // Another choice writes to the same place: the images are copied away before it may start.
     static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
     let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
 
     let target_folder = toolchain.target_folder();
     let mut cargo = toolchain.cargo();
-    cargo.current_dir(choice.board.folder()).args(["build", "--release", "--bins", "--target-dir"]).arg(&target_folder);
+    cargo
+        .current_dir(choice.board.folder())
+        .args(["build", "--release", "--bin", program, "--target-dir"])
+        .arg(&target_folder);
+    for feature in features {
+        cargo.args(["--features", &format!("palpate-emulated/{feature}")]);
+    }
     for (variable, file) in [("PALPATE_BODY", &choice.body), ("PALPATE_SETTINGS", &choice.settings)] {
         match file {
             Some(file) => cargo.env(variable, file.canonicalize().map_err(SetUpError::io(file.display()))?),
             None => cargo.env_remove(variable),
         };
     }
-    progress.during("building the firmware image", || output(&mut cargo))?;
+    let what = format!("building the firmware image {program} for {}", choice.board.core());
+    progress.during(&what, || output(&mut cargo))?;
 
-    let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
-    let built = target_folder.join(toolchain.target()).join("release");
-    let take = |binary: &str| {
-        let elf = folder.path().join(binary);
-        fs::copy(built.join(binary), &elf).map_err(SetUpError::io(built.display()))?;
-        measure(choice.board, elf)
-    };
-    let (uart, fifo) = (take(Transport::Uart.binary())?, take(Transport::Fifo.binary())?);
-    Ok(Images { uart, fifo, budget: take("budget")?, _folder: folder })
+    let built = target_folder.join(toolchain.target()).join("release").join(program);
+    let elf = folder.join(program);
+    fs::copy(&built, &elf).map_err(SetUpError::io(built.display()))?;
+    measure(choice.board, elf)
 }
 
 /// Adds up the sections that the linker gave an address.

@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A loop: instructions each of which can be reached from each other without leaving them.
 #[derive(Clone, Debug)]
 pub struct Loop {
-    /// Where it is entered. More than one place is no loop that a compiler makes of a `for` or `while`.
+    /// Where it is entered: in one place mostly; in several, where the compiler took the first round apart; in none, where
+    /// nothing leads.
     pub heads: BTreeSet<u64>,
     /// Its instructions.
     pub body: BTreeSet<u64>,
@@ -44,8 +45,11 @@ fn collect(function: &Function, within: &BTreeSet<u64>, depth: usize, found: &mu
             heads.insert(function.address);
         }
         let inner: BTreeSet<u64> = body.difference(&heads).copied().collect();
+        let entered = !heads.is_empty();
         found.push(Loop { heads, body, depth });
-        collect(function, &inner, depth + 1, found);
+        if entered {
+            collect(function, &inner, depth + 1, found);
+        }
     }
 }
 

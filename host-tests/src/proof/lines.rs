@@ -1,5 +1,6 @@
 //! From an address to the source.
 
+use super::{Function, Loop};
 use std::path::{Path, PathBuf};
 
 /// A line of the source that an instruction came from.
@@ -38,5 +39,35 @@ impl Lines {
             places.push(Place { file: PathBuf::from(file), line, function });
         }
         places
+    }
+
+    /// The function of the source that a loop is in: the innermost that its ways back have in common, apart from the core
+    /// library's iterators. Empty if that is not known.
+    pub fn home(&self, function: &Function, found: &Loop) -> String {
+        let goes_back = |address: &&u64| {
+            let (next, _) = function.successors(&function.instructions[*address]);
+            next.iter().any(|target| found.heads.contains(target))
+        };
+        let mut chains = found.body.iter().filter(goes_back).map(|address| {
+            let mut chain = self.places(*address);
+            chain.reverse();
+            chain
+        });
+        let mut common = chains.next().unwrap_or_default();
+        for chain in chains {
+            let same = common.iter().zip(&chain).take_while(|(one, other)| one.function == other.function).count();
+            common.truncate(same);
+        }
+        while common.last().is_some_and(Place::is_core) {
+            common.pop();
+        }
+        common.pop().map(|place| place.function).unwrap_or_default()
+    }
+}
+
+impl Place {
+    /// Whether it is in the core library.
+    pub fn is_core(&self) -> bool {
+        self.file.to_string_lossy().contains("/library/core/")
     }
 }

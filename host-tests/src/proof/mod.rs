@@ -8,6 +8,8 @@ mod decode;
 mod flow;
 mod image;
 mod lines;
+mod loop_list;
+mod parts;
 mod stack;
 mod tree;
 
@@ -15,5 +17,7 @@ pub use decode::{Flow, Instruction};
 pub use flow::Loop;
 pub use image::{Code, CodeError, Function};
 pub use lines::{Lines, Place};
+pub use loop_list::{LoopEntry, LoopList};
+pub use parts::flash_by_part;
 pub use stack::{StackError, deepest};
-pub use tree::{Finding, Tree};
+pub use tree::{Finding, Tree, is_double_routine};

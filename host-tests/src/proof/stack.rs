@@ -79,10 +79,12 @@ fn visit(code: &Code, function: &Function, known: &mut BTreeMap<u64, Option<i64>
             let callee = code.at(callee).ok_or_else(unknown)?;
             worst = worst.max(after + visit(code, callee, known)?);
         }
+        // A return that was not taken has taken nothing off.
+        let here = if instruction.flow == super::Flow::MaybeReturn { before } else { after };
         for target in next {
-            match depths.insert(target, after) {
+            match depths.insert(target, here) {
                 None => open.push(target),
-                Some(depth) if depth == after => {}
+                Some(depth) if depth == here => {}
                 Some(_) => return Err(StackError::Uneven { function: name(), address: target }),
             }
         }

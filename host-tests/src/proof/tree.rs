@@ -19,8 +19,6 @@ pub enum Finding {
     Astray(String, u64),
     /// The way from a function to itself.
     Recursion(Vec<String>),
-    /// A loop with several entries.
-    Tangle(String, u64),
 }
 
 impl fmt::Display for Finding {
@@ -34,9 +32,6 @@ impl fmt::Display for Finding {
             }
             Self::Astray(function, address) => write!(formatter, "{function} branches to {address:#x}, no function"),
             Self::Recursion(way) => write!(formatter, "recursion: {}", way.join(" → ")),
-            Self::Tangle(function, address) => {
-                write!(formatter, "{function} has a loop of several entries at {address:#x}")
-            }
         }
     }
 }
@@ -105,7 +100,6 @@ impl<'a> Tree<'a> {
         }
         tree.look_for_panics();
         tree.look_for_recursion();
-        tree.look_for_tangles();
         tree
     }
 
@@ -143,15 +137,6 @@ impl<'a> Tree<'a> {
                 }
             }
         }
-        self.findings.extend(found);
-    }
-
-    fn look_for_tangles(&mut self) {
-        let tangled = |(function, found): &(&Function, Loop)| {
-            let first = found.heads.first().copied().unwrap_or_default();
-            (found.heads.len() != 1).then(|| Finding::Tangle(function.name.clone(), first))
-        };
-        let found: Vec<Finding> = self.loops().iter().filter_map(tangled).collect();
         self.findings.extend(found);
     }
 

@@ -5,6 +5,8 @@ mod budgets;
 mod demo;
 mod faults;
 mod image;
+mod parity;
 mod path;
+mod proofs;
 mod round_trip;
 mod running;

@@ -1,0 +1,83 @@
+//! How deep the stack gets in a hundred thousand interrupts that visit every mode: paints it, runs, and prints the bytes
+//! that are no longer painted.
+
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+use core::ptr::addr_of;
+use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use board::BOARD;
+use cortex_m_rt::entry;
+use palpate::servo::ServoState;
+use palpate::wire::Report;
+use palpate::wire::frame::{self, MAX_FRAME};
+use palpate_emulated::body::{self, SERVO, SETTINGS};
+use palpate_emulated::vectors::interrupt;
+use palpate_exercise::laps::WOODEN_HAPTICS_REACH;
+use palpate_exercise::script::Script;
+use semihosting::println;
+
+/// Ticks of the run.
+const TICKS: u32 = 100_000;
+/// What the stack is painted with, and how much of it, words.
+const PAINT: u32 = 0xcccc_cccc;
+const PAINTED: usize = 4_096;
+/// Below the stack pointer and not painted: what painting itself may use.
+const OWN: usize = 32;
+
+unsafe extern "C" {
+    /// Where the stack begins; from cortex-m-rt's linker script.
+    static _stack_start: u32;
+}
+
+#[entry]
+fn main() -> ! {
+    let top = cortex_m::register::msp::read() as *mut u32;
+    // SAFETY: the memory below the stack pointer is nobody's while no interrupt is on, and there are megabytes of it.
+    let lowest = unsafe { top.sub(OWN + PAINTED) };
+    for index in 0..PAINTED {
+        // SAFETY: as above.
+        unsafe { lowest.add(index).write_volatile(PAINT) };
+    }
+    BOARD.start_timer(SETTINGS.rate);
+    while TICKS_DONE.load(Relaxed) < TICKS {
+        cortex_m::asm::wfi();
+    }
+    cortex_m::interrupt::disable();
+    // SAFETY: the same words, read.
+    let kept = (0..PAINTED).take_while(|index| unsafe { lowest.add(*index).read_volatile() } == PAINT).count();
+    let start = addr_of!(_stack_start);
+    println!("stack = {}", start as usize - (lowest as usize + 4 * kept));
+    let (modes, touches) = (MODES.load(Relaxed), TOUCHES.load(Relaxed));
+    println!("modes = {modes}");
+    println!("ticks_in_contact = {touches}");
+    semihosting::process::exit(0)
+}
+
+static TICKS_DONE: AtomicU32 = AtomicU32::new(0);
+static MODES: AtomicU32 = AtomicU32::new(0);
+static TOUCHES: AtomicU32 = AtomicU32::new(0);
+
+#[interrupt]
+fn TIMER0() {
+    static mut RUN: Option<(Script, ServoState<3>)> = None;
+
+    BOARD.acknowledge_timer();
+    let encoders = &palpate::device::presets::WOODEN_HAPTICS_2016.encoders;
+    let (script, state) = RUN.get_or_insert_with(|| (Script::new(1, encoders, WOODEN_HAPTICS_REACH), SERVO.start()));
+    let order = script.next();
+    if let Some(reset) = order.restart {
+        *state = SERVO.start_after(reset);
+    }
+    for event in order.events.into_iter().flatten() {
+        SERVO.note(state, event);
+    }
+    body::tick(state, order.input);
+    let mut buffer = [0; MAX_FRAME];
+    black_box(frame::pack(&Report::new(state, 0), &mut buffer).is_ok());
+    MODES.fetch_or(1 << state.witness.mode as u32, Relaxed);
+    TOUCHES.fetch_add(u32::from(state.contact == palpate::render::Contact::Touching), Relaxed);
+    TICKS_DONE.fetch_add(1, Relaxed);
+}

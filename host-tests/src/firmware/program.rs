@@ -1,0 +1,49 @@
+//! A board's program that runs by itself and prints.
+
+use super::process::output;
+use super::{Board, Choice, Image, Progress, Qemu, SetUpError, Toolchain, image};
+use std::process::Command;
+use tempfile::TempDir;
+
+/// An image that needs no host but a console.
+#[derive(Debug)]
+pub struct Program {
+    qemu: Qemu,
+    /// The image.
+    pub image: Image,
+    /// Keeps the image's file.
+    _folder: TempDir,
+}
+
+impl Program {
+    /// Sets up what is missing and builds a program, with the features of the boards' shared crate that are named.
+    ///
+    /// # Errors
+    /// What is missing or wrong.
+    pub fn prepare(board: Board, program: &str, features: &[&str], progress: &Progress) -> Result<Self, SetUpError> {
+        let qemu = Qemu::set_up(progress)?;
+        let toolchain = Toolchain::set_up(board.target(), progress)?;
+        let choice = Choice { board, ..Choice::default() };
+        let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
+        let image = image::build_program(&toolchain, &choice, program, features, folder.path(), progress)?;
+        Ok(Self { qemu, image, _folder: folder })
+    }
+
+    /// Runs it to its end and gives what it printed. With `counted`, an instruction takes 64 ns of the emulated clock and
+    /// every run is the same in every count; without, the clock is the host's and the run is faster.
+    ///
+    /// # Errors
+    /// What it printed before it failed.
+    pub fn run(&self, counted: bool) -> Result<String, SetUpError> {
+        let mut command = Command::new(self.qemu.program());
+        command.args(["-machine", self.image.board.machine()]);
+        if counted {
+            command.args(["-icount", "shift=6,sleep=off"]);
+        }
+        command
+            .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])
+            .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
+            .arg(&self.image.elf);
+        output(&mut command)
+    }
+}
