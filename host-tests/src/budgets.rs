@@ -124,7 +124,7 @@ impl Budget {
         let path = file(board);
         let mut text = format!(
             "# Counted instructions of the hot path on the emulated core {}: cargo palpate budgets --record\n\n[instructions]\n",
-            core.name()
+            board.core()
         );
         for (name, count) in &figures.0 {
             text.push_str(&format!("\"{name}\" = {count}\n"));
