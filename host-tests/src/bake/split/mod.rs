@@ -10,9 +10,10 @@ mod strips;
 pub use knots::cut_in_two;
 pub use strips::{Cut, cut};
 
-use super::error::ModelError;
+use super::error::{Fault, ModelError};
 use super::model::Model;
 use super::patch::NurbsPatch;
+use super::spline;
 use super::topology::{SeamFault, Topology};
 use palpate::body::MAX_FACES;
 
@@ -73,9 +74,18 @@ const ROUNDS: usize = 8;
 /// A model in pieces that the tables can hold.
 ///
 /// # Errors
-/// What is wrong between its patches; more pieces than a body can have.
+/// Weights too uneven for `f32`; what is wrong between its patches; more pieces than a body can have.
 pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
     let mut pieces = Piece::whole(model);
+    for piece in &pieces {
+        // What is wrong with a patch is said before what is wrong between patches.
+        let uneven = |spline::UnevenSpan([u, v])| ModelError::Patch {
+            file: file.to_owned(),
+            patch: label(piece.source, model),
+            fault: Fault::Uneven { u, v },
+        };
+        spline::extract(&piece.patch).map_err(uneven)?;
+    }
     for _ in 0..ROUNDS {
         let topology = topology(&pieces, model, file)?;
         let wanted = needed::cuts(&pieces, &topology);
