@@ -61,7 +61,7 @@ impl Patch for Decayed {
     }
     fn table_word(&self, index: usize) -> Option<u32> {
         let word = self.wall.table_word(index)?;
-        // 16 words: two borders of two, four coefficients of three.
+        // 27 words: 11 of the record, two borders of two, four coefficients of three.
         let turned = self.bit.get().is_some_and(|bit| bit / 32 == index as u32);
         Some(if turned { word ^ (1 << (self.bit.get().unwrap_or(0) % 32)) } else { word })
     }
@@ -194,9 +194,9 @@ impl Bench<'_> {
                 Seen::Now { believable: true }
             }
             Fault::TableCorrupt => {
-                self.patch.bit.set(Some(self.below(16 * 32)));
-                // The pass under way may have gone by; the next ends after 17 words, 8 a tick.
-                for _ in 0..6 {
+                self.patch.bit.set(Some(self.below(27 * 32)));
+                // The pass under way may have gone by; the next ends after 27 words and two ends, 8 a tick.
+                for _ in 0..8 {
                     if state.fault.is_none() {
                         self.servo.tick(state, sensors(counts));
                     }
@@ -296,7 +296,7 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
                         _ => {
                             assert_eq!(named, fault, "in {phase:?}");
                             let expected = if reset { 0 } else { before.ticks };
-                            let late = if fault == Fault::TableCorrupt { 6 } else { 0 };
+                            let late = if fault == Fault::TableCorrupt { 8 } else { 0 };
                             assert!((expected..=expected + late).contains(&at), "{fault:?}: {at}, {expected}");
                         }
                     }
@@ -404,7 +404,7 @@ fn the_loop_is_armed_only_when_settled_homed_and_checked() {
     // The first tick is that of reset; 200 of settling after it.
     assert_eq!(armed, Some(120));
     assert!(phases[121..].iter().all(|phase| *phase == Phase::Running));
-    assert!(state.table_check.passes > 30, "17 words at 8 a tick: {:?}", state.table_check);
+    assert!(state.table_check.passes > 30, "27 words and two ends at 8 a tick: {:?}", state.table_check);
     assert_eq!(state.reset, ResetReason::PowerOn);
     assert_eq!(servo.start_after(ResetReason::Pin).reset, ResetReason::Pin);
 }

@@ -108,7 +108,7 @@ pub enum TableFault {
 }
 
 impl BakedBody {
-    /// Bakes a model; `file` is what messages call it.
+    /// Bakes a model, in pieces where it must be ([`super::split::prepared`]); `file` is what messages call it.
     ///
     /// The body counts as convex if it is closed and of one piece, if every face is convex (proved, or proved up to rounding where it is
     /// straight: see [`super::survey`]), and if every edge is [`EdgeKind::Convex`] or [`EdgeKind::Smooth`]. Then it is locally convex
@@ -119,7 +119,7 @@ impl BakedBody {
     /// # Errors
     /// What is wrong with the model's patches, or between them.
     pub fn new(model: &Model, file: &str) -> Result<Self, ModelError> {
-        Self::of_pieces(Piece::whole(model), model, file)
+        Self::of_pieces(super::split::prepared(model, file)?, model, file)
     }
 
     /// What suits the locator of this body: short lists if it is convex.
