@@ -89,7 +89,7 @@ impl<'a> Solver<'a> {
             if step.outcome == Outcome::AtRest {
                 return (steps, Status::Converged);
             }
-            if step.residual <= CONVERGED * (patch.size() + step.distance_before) {
+            if step.residual() <= CONVERGED * (patch.size() + step.distance_before()) {
                 return (steps + 1, Status::Converged);
             }
         }

@@ -3,6 +3,7 @@
 
 pub mod bake;
 pub mod baselines;
+pub mod budgets;
 pub mod closest;
 pub mod commands;
 pub mod devices;

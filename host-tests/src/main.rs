@@ -1,7 +1,7 @@
 //! The host tool of palpate: `cargo palpate COMMAND`.
 
 use clap::{Parser, Subcommand};
-use palpate_host::commands::{bake, check, closest, demo, figures, firmware, image, sim, test, zwidth};
+use palpate_host::commands::{bake, budgets, check, closest, demo, figures, firmware, image, sim, test, zwidth};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -17,6 +17,7 @@ enum Command {
     Test(test::Arguments),
     Check(check::Arguments),
     Bake(bake::Arguments),
+    Budgets(budgets::Arguments),
     Closest(closest::Arguments),
     Sim(sim::Arguments),
     Figures(figures::Arguments),
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
         Command::Test(arguments) => test::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Bake(arguments) => bake::run(&arguments),
+        Command::Budgets(arguments) => budgets::run(&arguments),
         Command::Closest(arguments) => closest::run(&arguments),
         Command::Sim(arguments) => sim::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),

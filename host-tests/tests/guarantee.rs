@@ -58,7 +58,8 @@ fn run(patch: &SplinePatch, start: [f32; 2], query: Vec3, least: f64, worst: &mu
         worst.steps = worst.steps.max(steps);
         before = now;
         // Asked for less than f32 can place on this patch: at rest.
-        if step.outcome == Outcome::AtRest || step.residual < 4.0 * f32::EPSILON * (patch.size() + step.distance_before)
+        if step.outcome == Outcome::AtRest
+            || step.residual() < 4.0 * f32::EPSILON * (patch.size() + step.distance_before())
         {
             break;
         }

@@ -135,7 +135,7 @@ fn the_closest_pair_of_moving_bodies_is_found() {
             if tick > MOVING {
                 rise = rise.max((now - before) / size);
                 most_ticks = most_ticks.max(tick - MOVING);
-                if step.a.residual.max(step.b.residual) < 2e-6 * size as f32 {
+                if step.a.residual().max(step.b.residual()) < 2e-6 * size as f32 {
                     break;
                 }
             }

@@ -86,7 +86,7 @@ fn run(
         let now = distance(witness);
         counts.rise_ulps = counts.rise_ulps.max((now - before) / unit);
         before = now;
-        if step.outcome == Outcome::AtRest || step.residual < 2e-6 * (patch.size() + step.distance_before) {
+        if step.outcome == Outcome::AtRest || step.residual() < 2e-6 * (patch.size() + step.distance_before()) {
             break;
         }
     }

@@ -1,18 +1,21 @@
 //! The last bounds on a force: its length, and how fast it may grow.
 
-use crate::math::{Vec3, saturate, sqrt};
+use crate::math::{Vec3, inverse_sqrt, saturate};
 
 /// `force` no longer than `greatest`, its direction kept. What is not finite stays so: the gate makes a fault of it.
 #[inline]
 pub fn saturated(force: Vec3, greatest: f32) -> Vec3 {
     let squared = force.length_squared();
     if squared > greatest * greatest {
-        // Divided by its largest entry first: the square of a long vector is not finite.
+        if squared < f32::INFINITY {
+            return force * (greatest * inverse_sqrt(squared));
+        }
+        // Divided by its largest entry first, for its square is not finite.
         let scale = saturate(force.x.abs(), 1e-18, f32::MAX);
         let scale = if force.y.abs() > scale { force.y.abs() } else { scale };
         let scale = if force.z.abs() > scale { force.z.abs() } else { scale };
         let unit = force * (1.0 / scale);
-        return unit * (greatest / sqrt(unit.length_squared()));
+        return unit * (greatest * inverse_sqrt(unit.length_squared()));
     }
     force
 }

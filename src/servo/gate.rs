@@ -21,14 +21,16 @@ pub fn gate<const JOINTS: usize>(
     weight: [f32; JOINTS],
 ) -> Result<([Duty; JOINTS], f32), Fault> {
     let mut fractions = [0.0; JOINTS];
-    let mut within = true;
+    let (mut within, mut sum) = (true, 0.0);
     for (((fraction, motor), felt), weight) in fractions.iter_mut().zip(motors).zip(felt).zip(weight) {
         *fraction = motor.fraction(felt + weight);
-        // A sum of two is finite only where both are.
-        if !fraction.is_finite() {
-            return Err(Fault::NotFinite);
-        }
-        within &= fraction.abs() <= 1.0;
+        let size = fraction.abs();
+        sum += size;
+        within &= size <= 1.0;
+    }
+    // A sum is finite only where each of its terms is; all together beyond all bounds is as bad.
+    if !sum.is_finite() {
+        return Err(Fault::NotFinite);
     }
     if !drives {
         return Ok(([Duty::ZERO; JOINTS], 0.0));

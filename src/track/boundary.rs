@@ -5,7 +5,8 @@
 //! the set of constraints active there is the mode.
 
 use super::law::Law;
-use super::projection::{FirstFundamentalForm, ProjectionErrors};
+use super::projection::ProjectionErrors;
+use crate::math::saturate;
 
 /// The active constraints. Numbers 1 to 5 are those of Eq. (1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,7 +42,7 @@ pub struct Descent {
 
 impl Descent {
     /// The best direction that the boundary allows at `(u, v)` under a law.
-    #[inline]
+    #[inline(always)]
     pub fn new(law: Law, errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
         match law {
             Law::MeasureNumbers => Self::measured(errors, parameters),
@@ -50,40 +51,48 @@ impl Descent {
     }
 
     /// `−Ψ`, or the active set of the two-variable problem.
-    #[inline]
+    #[inline(always)]
     fn measured(errors: &ProjectionErrors, [u, v]: [f32; 2]) -> Self {
-        let FirstFundamentalForm { e, g, .. } = errors.form;
         // No inverse at a pole: the plain gradient is still a descent there.
         let Some([psi_u, psi_v]) = errors.measure_numbers() else {
             return Self::projected_gradient(errors, [u, v]);
         };
-        let [along_u, along_v] = errors.gradient;
-        let blocked_u = is_blocked(u, -psi_u);
-        let blocked_v = is_blocked(v, -psi_v);
-        if !blocked_u && !blocked_v {
+        let inside = is_inside(u) && is_inside(v);
+        if inside || !(is_blocked(u, -psi_u) || is_blocked(v, -psi_v)) {
             return Self::along([-psi_u, -psi_v], errors.gradient, BoundaryMode::Interior);
         }
         // On an edge the error is measured against the geodesic normal: g/G, not the measure number of Eq. (4).
-        let slide_v = -along_v * reciprocal_or_zero(g);
-        let slide_u = -along_u * reciprocal_or_zero(e);
-        let edge_u = Self::along([0.0, slide_v], errors.gradient, lower_or_upper_u(u));
-        let edge_v = Self::along([slide_u, 0.0], errors.gradient, lower_or_upper_v(v));
-        match (is_at_border(u), is_at_border(v)) {
-            (true, false) => edge_u,
-            (false, _) => edge_v,
+        match (is_inside(u), is_inside(v)) {
+            (false, true) => Self::along_edge_u(errors, u),
+            (true, _) => Self::along_edge_v(errors, v),
             // At a corner the edge that was asked for may be blocked while the other is open: take the greater fall.
-            (true, true) => {
-                let fall_u = if is_blocked(v, slide_v) { 0.0 } else { edge_u.slope };
-                let fall_v = if is_blocked(u, slide_u) { 0.0 } else { edge_v.slope };
-                if fall_u <= 0.0 && fall_v <= 0.0 {
-                    Self::AT_CORNER
-                } else if fall_u >= fall_v {
-                    edge_u
-                } else {
-                    edge_v
+            (false, false) => {
+                let [along_u, along_v] = errors.gradient;
+                match (is_blocked(u, -along_u), is_blocked(v, -along_v)) {
+                    (true, true) => Self::AT_CORNER,
+                    (true, false) => Self::along_edge_u(errors, u),
+                    (false, true) => Self::along_edge_v(errors, v),
+                    (false, false) => {
+                        let (edge_u, edge_v) = (Self::along_edge_u(errors, u), Self::along_edge_v(errors, v));
+                        if edge_u.slope >= edge_v.slope { edge_u } else { edge_v }
+                    }
                 }
             }
         }
+    }
+
+    /// Along the edge of constant `u`: `−g_v/G`.
+    #[inline]
+    fn along_edge_u(errors: &ProjectionErrors, u: f32) -> Self {
+        let slide = -errors.gradient[1] * reciprocal_or_zero(errors.form.g);
+        Self::along([0.0, slide], errors.gradient, lower_or_upper_u(u))
+    }
+
+    /// Along the edge of constant `v`: `−g_u/E`.
+    #[inline]
+    fn along_edge_v(errors: &ProjectionErrors, v: f32) -> Self {
+        let slide = -errors.gradient[0] * reciprocal_or_zero(errors.form.e);
+        Self::along([slide, 0.0], errors.gradient, lower_or_upper_v(v))
     }
 
     /// `−g / trace I`, saturated component by component. The trace is not below the largest eigenvalue of `I`, so that
@@ -115,10 +124,17 @@ impl Descent {
 /// fall. A component that points outward from its border already is left out: an integrator's mean may have one.
 #[inline]
 pub fn advance([u, v]: [f32; 2], direction: [f32; 2], gain: f32) -> [f32; 2] {
+    let target = [u + gain * direction[0], v + gain * direction[1]];
+    if is_within(target[0]) && is_within(target[1]) { target } else { cut([u, v], direction, gain) }
+}
+
+/// [`advance`] where the border is met.
+#[inline]
+fn cut([u, v]: [f32; 2], direction: [f32; 2], gain: f32) -> [f32; 2] {
     let change = |parameter, along: f32| if is_blocked(parameter, along) { 0.0 } else { gain * along };
     let (change_u, change_v) = (change(u, direction[0]), change(v, direction[1]));
     let (cut_u, cut_v) = (fraction_inside(u, change_u), fraction_inside(v, change_v));
-    let cut = cut_u.min(cut_v);
+    let cut = if cut_u < cut_v { cut_u } else { cut_v };
     [land(u, change_u, cut_u, cut), land(v, change_v, cut_v, cut)]
 }
 
@@ -141,7 +157,7 @@ fn land(parameter: f32, change: f32, own_cut: f32, cut: f32) -> f32 {
     if own_cut < 1.0 && own_cut <= cut {
         if change < 0.0 { 0.0 } else { 1.0 }
     } else {
-        (parameter + cut * change).clamp(0.0, 1.0)
+        saturate(parameter + cut * change, 0.0, 1.0)
     }
 }
 
@@ -150,9 +166,17 @@ fn is_blocked(parameter: f32, change: f32) -> bool {
     (parameter <= 0.0 && change < 0.0) || (parameter >= 1.0 && change > 0.0)
 }
 
+/// Whether `0 ≤ x ≤ 1`; false for −0. As bits it is one comparison: those of a positive number rise with it, and a sign bit is
+/// larger than all.
 #[inline]
-fn is_at_border(parameter: f32) -> bool {
-    parameter <= 0.0 || parameter >= 1.0
+fn is_within(x: f32) -> bool {
+    x.to_bits() <= 1.0_f32.to_bits()
+}
+
+/// Whether `0 < x < 1`, in the same way.
+#[inline]
+fn is_inside(x: f32) -> bool {
+    x.to_bits().wrapping_sub(1) < 1.0_f32.to_bits() - 1
 }
 
 #[inline]

@@ -6,7 +6,7 @@ use super::law::{FeedForward, Gain, Integrator, Law};
 use super::projection::ProjectionErrors;
 use super::witness::{Outcome, Probe, Step, Witness};
 use super::{feed_forward, integrate};
-use crate::math::{Vec3, sqrt};
+use crate::math::{ROOT_EXCESS, Vec3, sqrt, sqrt_from_above};
 use crate::patch::{Patch, SurfacePoint};
 
 /// The controller's configuration. Keep it in a `static`: what is not chosen costs nothing.
@@ -45,26 +45,27 @@ impl Controller {
     /// the probe never rises by more than rounding; a step that would is undone. With [`Integrator::Euler`] and bounds that hold none
     /// has to be. Work: [`Integrator::evaluations`] of the patch. No panic; a probe that is not finite leaves the witness
     /// point where it is.
-    #[inline]
+    ///
+    /// Inlined where it is called, so that the compiler sees what is chosen there and drops the rest.
+    #[inline(always)]
     pub fn step<P: Patch>(&self, patch: &P, witness: &mut Witness, probe: Probe, period: f32) -> Step {
         let errors = ProjectionErrors::new(&witness.surface, probe.position);
         let squared = errors.difference.length_squared();
-        let distance_before = sqrt(squared);
         let plain = Descent::new(self.law, &errors, witness.parameters);
-        let plain_gain = self.gain_for(&plain, patch, distance_before, witness.caution, period);
+        let plain_gain = self.gain_for(&plain, patch, squared, witness.caution, period);
         let (descent, gain) = match self.feed_forward {
             FeedForward::None => (plain, plain_gain),
             FeedForward::Gated | FeedForward::Full => {
                 let moved = probe.velocity * period;
                 let descent = self.following(&errors, &witness.surface, witness.parameters, moved, plain_gain);
-                (descent, plain_gain.min(self.gain_for(&descent, patch, distance_before, witness.caution, period)))
+                (descent, plain_gain.min(self.gain_for(&descent, patch, squared, witness.caution, period)))
             }
         };
         witness.mode = descent.mode;
-        // Also false for NaN.
-        let moves = descent.slope > 0.0 && squared < f32::INFINITY;
+        let moves = is_positive(descent.slope) && squared.to_bits() < f32::INFINITY.to_bits();
         if !moves {
-            return Step { distance_before, residual: 0.0, gain: 0.0, outcome: Outcome::AtRest };
+            let outcome = Outcome::AtRest;
+            return Step { distance_squared_before: squared, residual_squared: 0.0, gain: 0.0, outcome };
         }
         let change =
             integrate::change(self.integrator, patch, witness.parameters, descent.direction, gain, |surface, at| {
@@ -73,30 +74,31 @@ impl Controller {
             });
         let parameters = boundary::advance(witness.parameters, change, gain);
         let surface = patch.evaluate(parameters[0], parameters[1]);
-        let outcome = if self.is_guarded()
-            && rises(&witness.surface, &surface, probe.position, squared, distance_before, patch.size())
-        {
+        let outcome = if self.is_guarded() && rises(&witness.surface, &surface, probe.position, squared, patch.size()) {
             witness.caution = (0.5 * witness.caution).max(LEAST_CAUTION);
             Outcome::Undone
         } else {
-            witness.caution = (2.0 * witness.caution).min(1.0);
+            // A power of two: doubled it meets 1.
+            if witness.caution < 1.0 {
+                witness.caution *= 2.0;
+            }
             witness.parameters = parameters;
             witness.surface = surface;
             Outcome::Moved
         };
-        Step { distance_before, residual: sqrt(plain.slope), gain, outcome }
+        Step { distance_squared_before: squared, residual_squared: plain.slope, gain, outcome }
     }
 
     /// `K h` for a direction.
-    #[inline]
-    fn gain_for<P: Patch>(&self, descent: &Descent, patch: &P, distance: f32, caution: f32, period: f32) -> f32 {
-        let certified = || certified_gain(descent, &patch.bounds(), distance) * caution;
+    #[inline(always)]
+    fn gain_for<P: Patch>(&self, descent: &Descent, patch: &P, squared: f32, caution: f32, period: f32) -> f32 {
+        let certified = || certified_gain(descent, &patch.bounds(), squared) * caution;
         match self.gain {
             Gain::Certified => certified(),
             Gain::Constant(gain) => certified().min(gain * period),
             Gain::Exponential(rate) => {
                 let [w_u, w_v] = descent.direction;
-                certified().min(rate * period * distance * distance / (w_u * w_u + w_v * w_v))
+                certified().min(rate * period * squared / (w_u * w_u + w_v * w_v))
             }
             Gain::Unlimited(gain) => gain * period,
         }
@@ -128,14 +130,24 @@ impl Controller {
     }
 }
 
-/// Whether the squared distance rose by more than rounding. Written so that NaN counts as a rise.
+/// Whether `0 < x < ∞`; false for NaN. As bits it is one comparison.
 #[inline]
-fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, distance: f32, size: f32) -> bool {
+fn is_positive(x: f32) -> bool {
+    x.to_bits().wrapping_sub(1) < f32::INFINITY.to_bits() - 1
+}
+
+/// Whether the squared distance rose by more than rounding. Written so that NaN counts as a rise.
+#[inline(always)]
+fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, size: f32) -> bool {
     let now = (after.point - probe).length_squared();
     if now <= squared {
         return false;
     }
+    // The size alone is most often enough, with a root that is not above the distance.
+    if now - squared <= (ROUNDING / ROOT_EXCESS) * size * sqrt_from_above(squared) {
+        return false;
+    }
     let coordinates = (before.point.abs() + probe.abs()).max_element() + size;
-    let within_rounding = now - squared <= ROUNDING * coordinates * distance;
+    let within_rounding = now - squared <= ROUNDING * coordinates * sqrt(squared);
     !within_rounding
 }

@@ -1,7 +1,7 @@
 //! The gain schedule: the longest step proved to bring the witness point nearer.
 
 use super::boundary::Descent;
-use crate::math::sqrt;
+use crate::math::sqrt_from_above;
 use crate::patch::SecondDerivativeBounds;
 
 /// The gain `a = K h` of a step that is proved to lower the distance, from bounds stored with the patch.
@@ -14,19 +14,20 @@ use crate::patch::SecondDerivativeBounds;
 ///
 /// `φ''(a) = ‖Df w‖² + ΔR · D²f[w, w] ≤ (ℓ + m)² + R m`, hence `φ(a) ≤ φ(0) − a s + ½ a² ((ℓ + m)² + R m)`.
 ///
-/// The minimiser of the right-hand side in `[0, 1]`, `a = s / ((ℓ + m)² + R m)`, is returned: `½ ‖ΔR‖²` falls by at least
+/// The minimiser of the right-hand side in `[0, 1]` is `s / ((ℓ + m)² + R m) = s / (ℓ² + m (m + 2ℓ + R))`. What is returned has in
+/// the denominator roots `ℓ` and `R` from above ([`crate::math::sqrt_from_above`], by at most 6.1 %): as an upper bound the
+/// inequality holds with any of them, and `a` is the minimiser of that bound. So `½ ‖ΔR‖²` falls by at least
 /// `½ a s`, and falls all along the way, so a step cut at the patch's border lowers it too. Near the closest point
-/// `m/s → c`, a curvature of the parametrisation, and `a → 1 / (1 + c R)`: the gain schedule of the paper's limits of
-/// performance with a proved constant. The patch must be C¹ along the step; its second derivatives may jump.
+/// `m/s → c`, a curvature of the parametrisation, and `a → 1 / (1 + c R)`, or with `c R` larger by those 6.1 %: the gain schedule of
+/// the paper's limits of performance with a proved constant. The patch must be C¹ along the step; its second derivatives may jump.
 ///
 /// # Units
-/// `distance` in metres; the gain is a pure number, `K h` with `K` in 1/s and the period `h` in s.
-#[inline]
-pub fn certified_gain(descent: &Descent, bounds: &SecondDerivativeBounds, distance: f32) -> f32 {
+/// `distance_squared` in metres squared; the gain is a pure number, `K h` with `K` in 1/s and the period `h` in s. Not above 1, but
+/// with feed-forward, where `ℓ²` may be less than `s`: there the plain gain bounds it.
+#[inline(always)]
+pub fn certified_gain(descent: &Descent, bounds: &SecondDerivativeBounds, distance_squared: f32) -> f32 {
     let [w_u, w_v] = descent.direction;
     let bend = bounds.uu * w_u * w_u + 2.0 * bounds.uv * (w_u * w_v).abs() + bounds.vv * w_v * w_v;
-    let reach = sqrt(descent.length_squared) + bend;
-    let gain = descent.slope / (reach * reach + distance * bend);
-    // Only feed-forward can ask for more than the whole way.
-    if gain < 1.0 { gain } else { 1.0 }
+    let (length, distance) = (sqrt_from_above(descent.length_squared), sqrt_from_above(distance_squared));
+    descent.slope / (descent.length_squared + bend * (bend + 2.0 * length + distance))
 }

@@ -2,6 +2,7 @@
 //! witness point lags, how deep the probe may go.
 
 use super::law::Integrator;
+use crate::math::ROOT_EXCESS;
 use crate::patch::{Curvature, ShapeBounds};
 
 /// What a patch, or a point of it, lets the controller do at a servo rate and a distance.
@@ -71,15 +72,17 @@ impl PerformanceLimits {
     }
 
     /// A gain `K`, 1/s, at which each tick of explicit Euler is proved to lower the distance to a probe that rests, from projection
-    /// errors up to `residual` metres long: `1 / (h ((1 + c r)² + c ‖ΔR‖))` with `c` the greatest bend.
+    /// errors up to `residual` metres long: `1 / (h ((1 + c r)² + c ‖ΔR‖ + (k − 1) c (2 r + ‖ΔR‖)))` with `c` the greatest bend and
+    /// `k` [`crate::math::ROOT_EXCESS`], for the roots that are taken from above.
     ///
-    /// It is the least that [`super::certified_gain`] can be there, whatever the direction and the place, and what it tends to
+    /// It is not above what [`super::certified_gain`] can be there, whatever the direction and the place, and near what it tends to
     /// as the witness point arrives, but for the bend being that of one place and direction then. Proved for any patch that is C¹ along the
     /// step, convex or not, from either side. 0 where nothing is known.
     pub const fn monotone_gain(&self, residual: f32) -> f32 {
         let distance = if self.gap >= 0.0 { self.gap } else { -self.gap };
         let reach = 1.0 + self.bend * residual;
-        let gain = self.rate / (reach * reach + self.bend * distance);
+        let excess = (ROOT_EXCESS - 1.0) * (2.0 * residual + distance);
+        let gain = self.rate / (reach * reach + self.bend * (distance + excess));
         // NaN, from an infinite bend times 0.
         if gain > 0.0 { gain } else { 0.0 }
     }

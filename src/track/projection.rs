@@ -39,7 +39,7 @@ const LEAST_SINE_SQUARED: f32 = 1.0e-4;
 
 impl ProjectionErrors {
     /// The errors of the probe against a surface point.
-    #[inline]
+    #[inline(always)]
     pub fn new(surface: &SurfacePoint, probe: Vec3) -> Self {
         let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
         let difference = surface.point - probe;
@@ -52,7 +52,7 @@ impl ProjectionErrors {
 
     /// The measure numbers `Ψ = I⁻¹ g` of Eq. (4); `None` where the tangents are so nearly parallel, or so short, that
     /// they span no plane (at a pole).
-    #[inline]
+    #[inline(always)]
     pub fn measure_numbers(&self) -> Option<[f32; 2]> {
         let FirstFundamentalForm { e, f, g } = self.form;
         let determinant = self.form.determinant();

@@ -1,7 +1,7 @@
 //! The witness point, and what a step found out.
 
 use super::boundary::BoundaryMode;
-use crate::math::{Vec3, saturate, sqrt};
+use crate::math::{Vec3, inverse_sqrt, saturate, sqrt};
 use crate::patch::{Patch, SurfacePoint};
 
 /// The probe as the controller sees it, in the body's frame.
@@ -45,17 +45,29 @@ pub enum Outcome {
     Undone,
 }
 
-/// What a step found out on its way.
+/// What a step found out on its way. Lengths are kept squared: the tick does not ask for their roots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// `‖ΔR‖` from the probe to the witness point before the step, metres.
-    pub distance_before: f32,
-    /// Length in space of the full correction that was asked for, metres: the projection error, 0 at the closest point.
-    pub residual: f32,
+    /// `‖ΔR‖²` from the probe to the witness point before the step, metres squared.
+    pub distance_squared_before: f32,
+    /// The square of [`Self::residual`], metres squared.
+    pub residual_squared: f32,
     /// The gain `K h` used.
     pub gain: f32,
     /// What became of it.
     pub outcome: Outcome,
+}
+
+impl Step {
+    /// `‖ΔR‖` from the probe to the witness point before the step, metres.
+    pub fn distance_before(&self) -> f32 {
+        sqrt(self.distance_squared_before)
+    }
+
+    /// Length in space of the full correction that was asked for, metres: the projection error, 0 at the closest point.
+    pub fn residual(&self) -> f32 {
+        sqrt(self.residual_squared)
+    }
 }
 
 impl Witness {
@@ -66,10 +78,10 @@ impl Witness {
     }
 
     /// The outward unit normal at the witness point; `None` where the tangents span no plane.
-    #[inline]
+    #[inline(always)]
     pub fn normal<P: Patch>(&self, patch: &P) -> Option<Vec3> {
         let across = self.surface.tangent_u.cross(self.surface.tangent_v);
         let squared = across.length_squared();
-        (squared > f32::MIN_POSITIVE).then(|| across * (patch.orientation() / sqrt(squared)))
+        (squared > f32::MIN_POSITIVE).then(|| across * (patch.orientation() * inverse_sqrt(squared)))
     }
 }

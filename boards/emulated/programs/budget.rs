@@ -8,11 +8,15 @@ use cortex_m::peripheral::Peripherals;
 use cortex_m_rt::entry;
 use palpate_emulated::budget;
 use palpate_emulated::timer::InstructionCounter;
+use semihosting::println;
 
 #[entry]
 fn main() -> ! {
     if let Some(core) = Peripherals::take() {
-        budget::run(&mut InstructionCounter::new(&BOARD, core.SYST));
+        if let Err(reason) = budget::run(&mut InstructionCounter::new(&BOARD, core.SYST)) {
+            println!("{reason}");
+            semihosting::process::exit(1);
+        }
     }
     semihosting::process::exit(0)
 }

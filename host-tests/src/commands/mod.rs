@@ -1,6 +1,7 @@
 //! The commands of `palpate`, one file each: its arguments and what it does.
 
 pub mod bake;
+pub mod budgets;
 pub mod check;
 pub mod closest;
 pub mod demo;

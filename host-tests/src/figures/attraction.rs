@@ -159,7 +159,7 @@ fn switching(subject: &Subject, probe: Vec3, start: [f64; 2]) -> Run {
         }
         path.push(witness.parameters.map(f64::from));
         // It asks for less than f32 can place on this patch.
-        if step.residual < 4.0 * f32::EPSILON * (patch.size() + step.distance_before) {
+        if step.residual() < 4.0 * f32::EPSILON * (patch.size() + step.distance_before()) {
             break;
         }
     }

@@ -61,18 +61,8 @@ impl Emulator {
     /// If the emulator does not start.
     pub fn start(qemu: &Qemu, image: &Image, transport: Transport) -> Result<Self, LinkError> {
         let folder = tempfile::Builder::new().prefix("palpate-link-").tempdir()?;
-        let mut command = Command::new(qemu.program());
-        command
-            .current_dir(folder.path())
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(File::create(folder.path().join("said"))?)
-            // One instruction is 64 ns of emulated time whatever the host does, and time that is slept is skipped: every
-            // run is the same, and instructions can be counted.
-            .args(["-machine", image.board.machine(), "-icount", "shift=6,sleep=off"])
-            .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])
-            .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
-            .arg(&image.elf);
+        let mut command = qemu.board(&image.elf, image.board);
+        command.current_dir(folder.path()).stdout(Stdio::null()).stderr(File::create(folder.path().join("said"))?);
         let (child, to_device, from_device) = match transport {
             Transport::Uart => start_with_socket(command, &folder)?,
             Transport::Fifo => start_with_fifos(command, &folder)?,

@@ -65,7 +65,7 @@ pub fn without_outer_cargo(command: &mut Command) -> &mut Command {
 }
 
 /// Runs a program quietly and gives what it wrote to its standard output.
-pub(super) fn output(command: &mut Command) -> Result<String, SetUpError> {
+pub(crate) fn output(command: &mut Command) -> Result<String, SetUpError> {
     let shown = format!("{command:?}");
     let output = command.stdin(Stdio::null()).output().map_err(SetUpError::io(&shown))?;
     if output.status.success() {

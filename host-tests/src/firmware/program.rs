@@ -2,7 +2,6 @@
 
 use super::process::output;
 use super::{Board, Choice, Image, Progress, Qemu, SetUpError, Toolchain, image};
-use std::process::Command;
 use tempfile::TempDir;
 
 /// An image that needs no host but a console.
@@ -35,15 +34,8 @@ impl Program {
     /// # Errors
     /// What it printed before it failed.
     pub fn run(&self, counted: bool) -> Result<String, SetUpError> {
-        let mut command = Command::new(self.qemu.program());
-        command.args(["-machine", self.image.board.machine()]);
-        if counted {
-            command.args(["-icount", "shift=6,sleep=off"]);
-        }
-        command
-            .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])
-            .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
-            .arg(&self.image.elf);
+        let Image { board, elf, .. } = &self.image;
+        let mut command = if counted { self.qemu.board(elf, *board) } else { self.qemu.uncounted(elf, *board) };
         output(&mut command)
     }
 }

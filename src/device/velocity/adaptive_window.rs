@@ -71,7 +71,9 @@ impl AdaptiveWindow {
     }
 
     /// The velocity, after a period in which the position moved by `moved`.
-    #[inline]
+    ///
+    /// Not inlined: it is long, and beside it the other estimators' loop over the joints would not be unrolled.
+    #[inline(never)]
     pub fn next(&self, window: &mut Window, moved: f32) -> f32 {
         window.push(moved);
         // Per period: how far the position moved over `n` periods, the slopes allowed so far, and the best slope.

@@ -15,10 +15,13 @@ pub use tally::Tally;
 use crate::timer::InstructionCounter;
 
 /// Measures and prints all figures.
-pub fn run(counter: &mut InstructionCounter) {
+///
+/// # Errors
+/// What a walk left out or ran into, so that its figures would mean nothing.
+pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     evaluation::run(counter);
-    step::run(counter);
-    servo::run(counter);
+    step::run(counter)?;
     // The closest point of a body of several faces comes here, in a file of its own: a tick on a face, at a switch, and the
     // worst over a walk that visits every feature.
+    servo::run(counter)
 }

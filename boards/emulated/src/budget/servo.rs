@@ -4,8 +4,8 @@ use core::hint::black_box;
 
 use palpate::device::Counts;
 use palpate::math::sin_cos;
+use palpate::render::Contact;
 use palpate::servo::{Event, Input, ServoState};
-use semihosting::println;
 
 use super::tally::Tally;
 use crate::body::SERVO;
@@ -23,15 +23,17 @@ fn tick(state: &mut ServoState<3>, input: Input<3>) {
 fn counts(tick: u32) -> [Counts; 3] {
     let phase = tick as f32 * 1.5e-3;
     let wave = |rate: f32| sin_cos((phase * rate) % core::f32::consts::TAU).0;
-    // The workspace centre, and somewhat less than the joints' travel over the patch.
+    // About the workspace centre: at first over the patch and through it, growing to beyond its corners.
+    let growth = 1.0 + 0.5 * tick as f32 / TICKS as f32;
+    let [a, b, c] = [1_800.0, 1_000.0, 1_400.0].map(|travel: f32| travel * growth);
     [
-        Counts((-1_800.0 * wave(1.0)) as i32),
-        Counts((-1_320.0 + 1_000.0 * wave(1.37)) as i32),
-        Counts((3_460.0 + 1_400.0 * wave(0.71)) as i32),
+        Counts((-a * wave(1.0)) as i32),
+        Counts((-1_320.0 + b * wave(1.37)) as i32),
+        Counts((3_460.0 + c * wave(0.71)) as i32),
     ]
 }
 
-pub fn run(counter: &mut InstructionCounter) {
+pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut state = SERVO.start();
     let mut ticks = Tally::new();
     let (mut touched, mut modes) = (0, [false; 7]);
@@ -41,11 +43,18 @@ pub fn run(counter: &mut InstructionCounter) {
         SERVO.note(&mut state, Event::LinkAlive);
         let ((), instructions) = counter.count(|| tick(&mut state, input));
         ticks.add(instructions);
-        touched += u32::from(state.contact as u8 == 2);
+        touched += u32::from(state.contact == Contact::Touching);
         modes[state.witness.mode as usize] = true;
     }
     ticks.print("servo tick");
-    println!("\"ticks in contact\" = {touched}");
-    println!("\"modes visited\" = {}", modes.iter().filter(|visited| **visited).count());
-    println!("\"faults\" = {}", u32::from(state.fault.is_some()));
+    if state.fault.is_some() {
+        return Err("the servo found a fault on its path");
+    }
+    if touched < TICKS / 100 {
+        return Err("the servo's path hardly touches the surface");
+    }
+    if modes[1..].contains(&false) {
+        return Err("the servo's path misses a boundary mode");
+    }
+    Ok(())
 }

@@ -5,7 +5,6 @@ use core::hint::black_box;
 use palpate::math::{Vec3, sin_cos, vec3};
 use palpate::patch::{Patch, SplinePatch};
 use palpate::track::{BoundaryMode, Controller, Outcome, Probe, Step, Witness};
-use semihosting::println;
 
 use super::tally::Tally;
 use crate::body::BODY;
@@ -37,13 +36,13 @@ fn probe(middle: Vec3, size: f32, step: u32) -> Vec3 {
     middle + vec3(wave(1.0), wave(1.37), 0.6 * wave(0.71)) * size
 }
 
-pub fn run(counter: &mut InstructionCounter) {
+pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let patch = black_box(&BODY[0]);
     let mut witness = Witness::at(patch, 0.5, 0.5);
     let middle = witness.surface.point;
     let mut tallies = [const { Tally::new() }; 6];
     let mut steps = Tally::new();
-    let mut undone = 0;
+    let mut undone = 0_u32;
     for index in 0..STEPS {
         // A jump now and then: long steps, cut at the border.
         let index = if index % 97 == 0 { index.wrapping_mul(7_919) % STEPS } else { index };
@@ -63,5 +62,6 @@ pub fn run(counter: &mut InstructionCounter) {
         tally.print(name);
     }
     steps.print("step, any");
-    println!("\"steps undone\" = {undone}");
+    // A mode that was not met prints no figure, and the host misses it.
+    if undone > 0 { Err("a step was undone") } else { Ok(()) }
 }

@@ -1,0 +1,52 @@
+//! What the hot path costs is a budget, and some of it is promised.
+
+use crate::running::is_wanted;
+use palpate_host::budgets::{Budget, Verdict, measure};
+use palpate_host::firmware::{Board, Progress};
+
+/// A biquadratic evaluation by Horner's rule cannot do with fewer instructions: `palpate::patch` counts them.
+const EVALUATION_FLOOR: u32 = 94;
+/// The most for a servo tick of three joints.
+const SERVO_TICK: u32 = 1_500;
+
+#[test]
+fn the_hot_path_is_within_its_budget() {
+    if !is_wanted("the_hot_path_is_within_its_budget") {
+        return;
+    }
+    for board in Board::ALL {
+        compare(board);
+    }
+}
+
+fn compare(board: Board) {
+    let found = measure(board, &Progress::new()).expect("the program runs to its end");
+    let verdicts = Budget::load(board).expect("the committed budget").compare(&found);
+    let over: Vec<String> = verdicts
+        .iter()
+        .filter(|verdict| verdict.fails())
+        .map(|Verdict { name, found, allowed }| format!("{name}: {found:?} instructions, {allowed:?} recorded"))
+        .collect();
+    assert!(
+        over.is_empty(),
+        "{}: worse than the budget by more than 3 %, missing or new:\n{}\n`cargo palpate budgets --board {name}` prints all; if this is meant, \
+         record it with `cargo palpate budgets --board {name} --record`",
+        board.core(),
+        over.join("\n"),
+        name = board.name(),
+    );
+
+    let of = |name: &str| found.of(name).unwrap_or_else(|| panic!("{name} is not counted"));
+    let evaluation = of("evaluation, polynomial, degree (2, 2)");
+    assert!(
+        4 * evaluation <= 5 * EVALUATION_FLOOR,
+        "{board:?}: a biquadratic evaluation takes {evaluation} instructions"
+    );
+    let (step, evaluation) = (of("step on the face, worst"), of("evaluation, the image's body, worst"));
+    assert!(
+        step <= 2 * evaluation,
+        "{board:?}: a step on the face takes {step} instructions, its evaluation {evaluation}"
+    );
+    let tick = of("servo tick, worst");
+    assert!(tick <= SERVO_TICK, "{board:?}: a servo tick takes {tick} instructions");
+}
