@@ -26,7 +26,7 @@ pub fn inverse_sqrt(x: f32) -> f32 {
 /// NaN.
 #[inline]
 pub fn sqrt(x: f32) -> f32 {
-    if x >= f32::MIN_POSITIVE && x < f32::INFINITY {
+    if (f32::MIN_POSITIVE..f32::INFINITY).contains(&x) {
         x * inverse_sqrt(x)
     } else if x >= f32::INFINITY {
         x

@@ -122,10 +122,15 @@ fn by_rows<const D: usize>(entries: &[[f32; D]], patch: &SplinePatch, u: f32, v:
 where
     SurfacePoint: From<Derivatives<D>>,
 {
-    let (span, [s, t]) = patch.locate(u, v);
     let [degree_u, degree_v] = patch.degree();
     let count = (usize::from(degree_u) + 1) * (usize::from(degree_v) + 1);
-    match (entries.get(span * count..).and_then(|rest| rest.get(..count)), degree_v) {
+    let (rows, [s, t]) = if entries.len() == count {
+        (Some(entries), [u - 0.5, v - 0.5])
+    } else {
+        let (span, at) = patch.locate(u, v);
+        (entries.get(span * count..).and_then(|rest| rest.get(..count)), at)
+    };
+    match (rows, degree_v) {
         (Some(rows), 1) => unrolled_along_v::<D, 2>(rows, s, t),
         (Some(rows), 2) => unrolled_along_v::<D, 3>(rows, s, t),
         (Some(rows), 3) => unrolled_along_v::<D, 4>(rows, s, t),

@@ -12,11 +12,11 @@ use semihosting::println;
 
 #[entry]
 fn main() -> ! {
-    if let Some(core) = Peripherals::take() {
-        if let Err(reason) = budget::run(&mut InstructionCounter::new(&BOARD, core.SYST)) {
-            println!("{reason}");
-            semihosting::process::exit(1);
-        }
+    if let Some(core) = Peripherals::take()
+        && let Err(reason) = budget::run(&mut InstructionCounter::new(&BOARD, core.SYST))
+    {
+        println!("{reason}");
+        semihosting::process::exit(1);
     }
     semihosting::process::exit(0)
 }
