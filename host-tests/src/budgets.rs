@@ -10,8 +10,7 @@ use thiserror::Error;
 /// How much worse a figure may get, percent: room for another compiler's whim, not for another call.
 pub const ALLOWANCE: u32 = 3;
 
-/// The budget file of a core.
-fn file(board: Board) -> PathBuf {
+fn budget_file(board: Board) -> PathBuf {
     repository().join("host-tests/budgets").join(board.name()).with_extension("toml")
 }
 
@@ -87,7 +86,7 @@ impl Verdict {
     }
 }
 
-/// Builds the counting program and runs it on the emulated board.
+/// Builds the counting program and runs it on an emulated board.
 ///
 /// # Errors
 /// If it does not run to its end, or says something else than figures.
@@ -111,7 +110,7 @@ impl Budget {
     /// # Errors
     /// If there is none, or it is not in order.
     pub fn load(board: Board) -> Result<Self, BudgetError> {
-        let path = file(board);
+        let path = budget_file(board);
         let text = fs::read_to_string(&path).map_err(|error| refused(&path, &error))?;
         toml::from_str(&text).map_err(|error| refused(&path, &error))
     }
@@ -121,10 +120,11 @@ impl Budget {
     /// # Errors
     /// If the file cannot be written.
     pub fn record(board: Board, figures: &Figures) -> Result<PathBuf, BudgetError> {
-        let path = file(board);
+        let path = budget_file(board);
         let mut text = format!(
-            "# Counted instructions of the hot path on the emulated core {}: cargo palpate budgets --record\n\n[instructions]\n",
-            board.core()
+            "# Counted instructions of the hot path on the emulated {}: cargo palpate budgets --board {} --record\n\n[instructions]\n",
+            board.core(),
+            board.name()
         );
         for (name, count) in &figures.0 {
             text.push_str(&format!("\"{name}\" = {count}\n"));

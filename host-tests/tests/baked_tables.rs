@@ -22,22 +22,27 @@ fn host_folder() -> PathBuf {
 }
 
 #[test]
-fn the_committed_table_is_what_bake_makes_of_its_model() -> Result<(), Box<dyn Error>> {
-    let directory = tempfile::tempdir()?;
-    let out = directory.path().join("table1c.rs");
-    let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
-        .arg("bake")
-        .arg(host_folder().join("models/table1c.toml"))
-        .arg("--out")
-        .arg(&out)
-        .output()?;
-    // Usable, not certified.
-    assert_eq!(run.status.code(), Some(1), "{}", String::from_utf8_lossy(&run.stderr));
-    let committed = fs::read_to_string(host_folder().join("../boards/bodies/table1c.rs"))?;
-    let again = "boards/bodies/table1c.rs has drifted: cargo palpate bake host-tests/models/table1c.toml --out boards/bodies/table1c.rs";
-    assert!(fs::read_to_string(out)? == committed, "{again}");
-    let left: Vec<_> = fs::read_dir(&directory)?.collect();
-    assert_eq!(left.len(), 1, "no partial file is left");
+fn the_committed_tables_are_what_bake_makes_of_their_models() -> Result<(), Box<dyn Error>> {
+    for name in ["table1c", "ellipsoid"] {
+        let directory = tempfile::tempdir()?;
+        let out = directory.path().join(name).with_extension("rs");
+        let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
+            .arg("bake")
+            .arg(host_folder().join("models").join(name).with_extension("toml"))
+            .arg("--out")
+            .arg(&out)
+            .output()?;
+        // Usable, not certified.
+        assert_eq!(run.status.code(), Some(1), "{}", String::from_utf8_lossy(&run.stderr));
+        let committed = fs::read_to_string(host_folder().join("../boards/bodies").join(name).with_extension("rs"))?;
+        assert!(
+            fs::read_to_string(out)? == committed,
+            "boards/bodies/{name}.rs has drifted: \
+             cargo palpate bake host-tests/models/{name}.toml --out boards/bodies/{name}.rs"
+        );
+        let left: Vec<_> = fs::read_dir(&directory)?.collect();
+        assert_eq!(left.len(), 1, "no partial file is left");
+    }
     Ok(())
 }
 

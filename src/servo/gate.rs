@@ -28,7 +28,7 @@ pub fn gate<const JOINTS: usize>(
         sum += size;
         within &= size <= 1.0;
     }
-    // Not finite where one of them is not, or where all together are beyond all bounds; a sum of two only where both are.
+    // A sum is finite only where each of its terms is; all together beyond all bounds is as bad.
     if !sum.is_finite() {
         return Err(Fault::NotFinite);
     }

@@ -81,7 +81,7 @@ pub static COUPLED: ServoOf<Delta> =
 pub static WATCHFUL: ServoOf<LinkageArm> =
     Servo::new(&POLHEM_V2, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT).safety(Safety {
         overruns_allowed: 1,
-        stuck: Some(StuckLimits { load: 0.02, travel: 0.05 }),
+        stuck: Some(StuckLimits { load: 1.0, travel: 0.1 }),
         ..Safety::DEFAULT
     });
 
@@ -93,6 +93,13 @@ const WEAK: Device<SerialArm, 3> = Device {
 
 /// Motors that are asked for a number that is none.
 pub static BROKEN: ServoOf<SerialArm> = Servo::new(&WEAK, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT);
+
+const SHORT_SHINNED: Device<Delta, 3> =
+    Device { kinematics: Delta { shin: 0.055, ..NOVINT_FALCON.kinematics }, ..NOVINT_FALCON };
+
+/// Shins so short that the legs cannot meet everywhere.
+pub static SHORT: ServoOf<Delta> =
+    Servo::new(&SHORT_SHINNED, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT);
 
 /// A table that is not the one that was baked.
 pub static CORRUPT: ServoOf<SerialArm> =

@@ -24,9 +24,10 @@ pub const TICKS_A_LINE: u32 = 50_000;
 /// Runs every servo in turn, [`TICKS`] in all, and gives the tally of its ticks so far every [`TICKS_A_LINE`] ticks.
 pub fn run(say: &mut impl FnMut(&str, &Tally)) {
     let serial = &WOODEN_HAPTICS_2016.encoders;
-    lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 300_000, say);
+    lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 250_000, say);
     lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 200_000, say);
     lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 200_000, say);
+    lap("short", &laps::SHORT, &NOVINT_FALCON.encoders, FALCON_REACH, 50_000, say);
     lap("watchful", &laps::WATCHFUL, &POLHEM_V2.encoders, POLHEM_REACH, 200_000, say);
     lap("broken", &laps::BROKEN, serial, WOODEN_HAPTICS_REACH, 50_000, say);
     lap("corrupt", &laps::CORRUPT, serial, WOODEN_HAPTICS_REACH, 50_000, say);

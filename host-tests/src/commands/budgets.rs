@@ -5,13 +5,13 @@ use crate::firmware::{Board, Progress};
 use clap::Args;
 use std::process::ExitCode;
 
-/// Counts the instructions of the hot path on the emulated board and compares them with the committed budget.
+/// Counts the instructions of the hot path on an emulated board and compares them with the committed budget.
 ///
 /// Ends with 1 if a figure is over its budget, missing or new.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The emulated board to count on
-    #[arg(long, value_enum, default_value_t = Board::M4)]
+    /// The board to count on
+    #[arg(long, value_enum, default_value_t)]
     board: Board,
     /// Writes what was counted to the budget file
     #[arg(long)]

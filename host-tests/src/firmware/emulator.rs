@@ -61,7 +61,7 @@ impl Emulator {
     /// If the emulator does not start.
     pub fn start(qemu: &Qemu, image: &Image, transport: Transport) -> Result<Self, LinkError> {
         let folder = tempfile::Builder::new().prefix("palpate-link-").tempdir()?;
-        let mut command = qemu.board(image);
+        let mut command = qemu.board(&image.elf, image.board);
         command.current_dir(folder.path()).stdout(Stdio::null()).stderr(File::create(folder.path().join("said"))?);
         let (child, to_device, from_device) = match transport {
             Transport::Uart => start_with_socket(command, &folder)?,

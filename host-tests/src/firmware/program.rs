@@ -34,7 +34,8 @@ impl Program {
     /// # Errors
     /// What it printed before it failed.
     pub fn run(&self, counted: bool) -> Result<String, SetUpError> {
-        let mut command = if counted { self.qemu.board(&self.image) } else { self.qemu.uncounted(&self.image) };
+        let Image { board, elf, .. } = &self.image;
+        let mut command = if counted { self.qemu.board(elf, *board) } else { self.qemu.uncounted(elf, *board) };
         output(&mut command)
     }
 }

@@ -1,10 +1,9 @@
 //! Where the emulator is.
 
-use super::image::Image;
 use super::process::{apt_install, on_path, output};
-use super::{Progress, SetUpError};
+use super::{Board, Progress, SetUpError};
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const PROGRAM: &str = "qemu-system-arm";
@@ -44,21 +43,25 @@ impl Qemu {
     ///
     /// One instruction is 64 ns of emulated time whatever the host does, and time that is slept is skipped: every run is the
     /// same, and instructions can be counted.
-    pub fn board(&self, image: &Image) -> Command {
-        let mut command = self.uncounted(image);
-        command.args(["-icount", "shift=6,sleep=off"]);
-        command
+    pub fn board(&self, elf: &Path, board: Board) -> Command {
+        self.start(elf, board, true)
     }
 
-    /// The same by the host's clock: faster, and no two runs alike in time.
-    pub fn uncounted(&self, image: &Image) -> Command {
+    /// The same by the host's clock, which is faster: nothing can be counted, and what does not look at a clock is the same.
+    pub fn uncounted(&self, elf: &Path, board: Board) -> Command {
+        self.start(elf, board, false)
+    }
+
+    fn start(&self, elf: &Path, board: Board, counted: bool) -> Command {
         let mut command = Command::new(&self.program);
+        command.stdin(Stdio::null()).args(["-machine", board.machine()]);
+        if counted {
+            command.args(["-icount", "shift=6,sleep=off"]);
+        }
         command
-            .stdin(Stdio::null())
-            .args(["-machine", image.board.machine()])
             .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])
             .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
-            .arg(&image.elf);
+            .arg(elf);
         command
     }
 }

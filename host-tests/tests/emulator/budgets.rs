@@ -11,12 +11,15 @@ const SERVO_TICK: u32 = 1_500;
 
 #[test]
 fn the_hot_path_is_within_its_budget() {
-    if is_wanted("the_hot_path_is_within_its_budget") {
-        Board::ALL.into_iter().for_each(check);
+    if !is_wanted("the_hot_path_is_within_its_budget") {
+        return;
+    }
+    for board in Board::ALL {
+        compare(board);
     }
 }
 
-fn check(board: Board) {
+fn compare(board: Board) {
     let found = measure(board, &Progress::new()).expect("the program runs to its end");
     let verdicts = Budget::load(board).expect("the committed budget").compare(&found);
     let over: Vec<String> = verdicts
@@ -26,17 +29,24 @@ fn check(board: Board) {
         .collect();
     assert!(
         over.is_empty(),
-        "{}: worse than the budget by more than 3 %, missing or new:\n{}\n`cargo palpate budgets` prints all; if this is meant, \
-         record it with `cargo palpate budgets --record`",
+        "{}: worse than the budget by more than 3 %, missing or new:\n{}\n`cargo palpate budgets --board {name}` prints all; if this is meant, \
+         record it with `cargo palpate budgets --board {name} --record`",
         board.core(),
-        over.join("\n")
+        over.join("\n"),
+        name = board.name(),
     );
 
     let of = |name: &str| found.of(name).unwrap_or_else(|| panic!("{name} is not counted"));
     let evaluation = of("evaluation, polynomial, degree (2, 2)");
-    assert!(4 * evaluation <= 5 * EVALUATION_FLOOR, "a biquadratic evaluation takes {evaluation} instructions");
+    assert!(
+        4 * evaluation <= 5 * EVALUATION_FLOOR,
+        "{board:?}: a biquadratic evaluation takes {evaluation} instructions"
+    );
     let (step, evaluation) = (of("step on the face, worst"), of("evaluation, the image's body, worst"));
-    assert!(step <= 2 * evaluation, "a step on the face takes {step} instructions, its evaluation {evaluation}");
+    assert!(
+        step <= 2 * evaluation,
+        "{board:?}: a step on the face takes {step} instructions, its evaluation {evaluation}"
+    );
     let tick = of("servo tick, worst");
-    assert!(tick <= SERVO_TICK, "a servo tick takes {tick} instructions");
+    assert!(tick <= SERVO_TICK, "{board:?}: a servo tick takes {tick} instructions");
 }
