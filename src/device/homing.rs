@@ -144,8 +144,9 @@ pub struct HomingState<const JOINTS: usize> {
     marks: [Option<Counts>; JOINTS],
     /// The search for the stop of the first joint without a mark.
     search: Search,
-    torques: [f32; JOINTS],
-    progress: HomingProgress<JOINTS>,
+    /// What that joint is driven with, N·m.
+    torque: f32,
+    end: Option<Result<(), Refusal>>,
 }
 
 impl<const JOINTS: usize> Default for HomingState<JOINTS> {
@@ -156,28 +157,33 @@ impl<const JOINTS: usize> Default for HomingState<JOINTS> {
             anchor: None,
             marks: [None; JOINTS],
             search: Search::default(),
-            torques: [0.0; JOINTS],
-            progress: HomingProgress::Waiting,
+            torque: 0.0,
+            end: None,
         }
     }
 }
 
 impl<const JOINTS: usize> HomingState<JOINTS> {
-    /// How far homing has come.
-    pub const fn progress(&self) -> HomingProgress<JOINTS> {
-        self.progress
+    /// Whether homing is done.
+    pub const fn is_done(&self) -> bool {
+        matches!(self.end, Some(Ok(())))
     }
 
     /// The joint torques that homing asks for, N·m; all zero but in a search for stops.
-    pub const fn torques(&self) -> [f32; JOINTS] {
-        self.torques
+    pub fn torques(&self) -> [f32; JOINTS] {
+        let mut torques = [0.0; JOINTS];
+        let sought = torques.iter_mut().zip(&self.marks).find(|(_, mark)| mark.is_none());
+        if let Some((torque, _)) = sought {
+            *torque = self.torque;
+        }
+        torques
     }
 
     /// Why homing was refused, if it was.
     pub const fn refusal(&self) -> Option<Refusal> {
-        match self.progress {
-            HomingProgress::Refused(refusal) => Some(refusal),
-            HomingProgress::Waiting | HomingProgress::Done(_) => None,
+        match self.end {
+            Some(Err(refusal)) => Some(refusal),
+            Some(Ok(())) | None => None,
         }
     }
 
@@ -188,11 +194,11 @@ impl<const JOINTS: usize> HomingState<JOINTS> {
         for mark in self.marks {
             hash(mark.map_or(u32::MAX, |Counts(count)| count as u32));
         }
-        self.torques.iter().for_each(|torque| hash(torque.to_bits()));
-        hash(match self.progress {
-            HomingProgress::Waiting => 0,
-            HomingProgress::Done(_) => 0x100,
-            HomingProgress::Refused(refusal) => u32::from(refusal.code()),
+        hash(self.torque.to_bits());
+        hash(match self.end {
+            None => 0,
+            Some(Ok(())) => 0x100,
+            Some(Err(refusal)) => u32::from(refusal.code()),
         });
     }
 }
@@ -247,11 +253,32 @@ impl<const JOINTS: usize> Homing<JOINTS> {
 
     /// One tick. Once done or refused, nothing changes any more.
     pub fn tick(&self, state: &mut HomingState<JOINTS>, input: HomingInput<JOINTS>) -> HomingProgress<JOINTS> {
-        if state.progress == HomingProgress::Waiting {
-            state.progress = self.next(state, input);
+        if state.end.is_none() {
+            state.end = self.next(state, input);
             state.ticks = state.ticks.saturating_add(1);
         }
-        state.progress
+        match state.end {
+            None => HomingProgress::Waiting,
+            Some(Err(refusal)) => HomingProgress::Refused(refusal),
+            Some(Ok(())) => HomingProgress::Done(self.calibrated(&state.marks)),
+        }
+    }
+
+    /// The encoders, with each joint at its reference angle at its mark.
+    fn calibrated(&self, marks: &[Option<Counts>; JOINTS]) -> [Encoder; JOINTS] {
+        let mut encoders = self.encoders;
+        for (joint, (encoder, mark)) in encoders.iter_mut().zip(marks).enumerate() {
+            let angle = match &self.reference {
+                Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles) => {
+                    angles[joint]
+                }
+                Reference::Stops(searches) => searches[joint].angle,
+            };
+            if let Some(mark) = mark {
+                *encoder = calibrated(*encoder, angle, *mark);
+            }
+        }
+        encoders
     }
 
     /// Takes note of an index mark that a joint passed at a count, between two ticks. Other ways of homing have no marks.
@@ -269,58 +296,44 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         counts: [Counts; JOINTS],
         input: &HomingInput<JOINTS>,
         too_late: bool,
-    ) -> HomingProgress<JOINTS> {
-        state.torques = [0.0; JOINTS];
-        let mut encoders = self.encoders;
-        for joint in 0..JOINTS {
-            if let Some(mark) = state.marks[joint] {
-                encoders[joint] = calibrated(encoders[joint], searches[joint].angle, mark);
-                continue;
-            }
-            if too_late {
-                return HomingProgress::Refused(Refusal::TooLate);
-            }
-            let known = Joint {
-                encoder: encoders[joint],
-                counts: counts[joint],
-                rate: input.rates[joint],
-                period: input.period,
-            };
-            match searches[joint].step(&mut state.search, &known, self.still_ticks, self.still_counts) {
-                Seek::Drive(torque) => state.torques[joint] = torque,
-                Seek::Found(mark) => (state.marks[joint], state.search) = (Some(mark), Search::default()),
-                Seek::Refused(refusal) => return HomingProgress::Refused(refusal),
-            }
-            return HomingProgress::Waiting;
+    ) -> Option<Result<(), Refusal>> {
+        state.torque = 0.0;
+        let Some(joint) = state.marks.iter().position(Option::is_none) else { return Some(Ok(())) };
+        if too_late {
+            return Some(Err(Refusal::TooLate));
         }
-        HomingProgress::Done(encoders)
+        let known = Joint {
+            encoder: self.encoders[joint],
+            counts: counts[joint],
+            rate: input.rates[joint],
+            period: input.period,
+        };
+        match searches[joint].step(&mut state.search, &known, self.still_ticks, self.still_counts) {
+            Seek::Drive(torque) => state.torque = torque,
+            Seek::Found(mark) => (state.marks[joint], state.search) = (Some(mark), Search::default()),
+            Seek::Refused(refusal) => return Some(Err(refusal)),
+        }
+        None
     }
 
-    fn next(&self, state: &mut HomingState<JOINTS>, input: HomingInput<JOINTS>) -> HomingProgress<JOINTS> {
+    /// How it ended in this tick, if it did.
+    fn next(&self, state: &mut HomingState<JOINTS>, input: HomingInput<JOINTS>) -> Option<Result<(), Refusal>> {
         let Some(counts) = input.counts else {
-            return HomingProgress::Refused(Refusal::Sensor);
+            return Some(Err(Refusal::Sensor));
         };
         let too_late = state.ticks.saturating_add(1) >= self.timeout_ticks;
         if let Reference::Stops(searches) = &self.reference {
             return self.search(searches, state, counts, &input, too_late);
         }
-        if let Reference::Index(angles) = &self.reference {
+        if let Reference::Index(_) = &self.reference {
             for (mark, index) in state.marks.iter_mut().zip(input.index) {
                 // The first pass counts; a later one says nothing new.
                 *mark = mark.or(index);
             }
-            let mut encoders = self.encoders;
-            let mut missing = false;
-            for ((encoder, mark), angle) in encoders.iter_mut().zip(state.marks).zip(angles) {
-                match mark {
-                    Some(mark) => *encoder = calibrated(*encoder, *angle, mark),
-                    None => missing = true,
-                }
-            }
-            return match (missing, too_late) {
-                (false, _) => HomingProgress::Done(encoders),
-                (true, true) => HomingProgress::Refused(Refusal::NoIndex),
-                (true, false) => HomingProgress::Waiting,
+            return match (state.marks.iter().all(Option::is_some), too_late) {
+                (true, _) => Some(Ok(())),
+                (false, true) => Some(Err(Refusal::NoIndex)),
+                (false, false) => None,
             };
         }
 
@@ -334,21 +347,15 @@ impl<const JOINTS: usize> Homing<JOINTS> {
             state.still = 0;
         }
         if state.still < self.still_ticks {
-            return if too_late { HomingProgress::Refused(Refusal::Moving) } else { HomingProgress::Waiting };
+            return if too_late { Some(Err(Refusal::Moving)) } else { None };
         }
-        let (Reference::Pose(angles) | Reference::KnownPose { angles, .. }) = &self.reference else {
-            return HomingProgress::Waiting; // the others were seen to above
-        };
         if let Reference::KnownPose { counts: known, tolerance, .. } = &self.reference
             && !within(*tolerance, known)
         {
-            return HomingProgress::Refused(Refusal::OutOfTolerance);
+            return Some(Err(Refusal::OutOfTolerance));
         }
-        let mut encoders = self.encoders;
-        for ((encoder, angle), counts) in encoders.iter_mut().zip(angles).zip(counts) {
-            *encoder = calibrated(*encoder, *angle, counts);
-        }
-        HomingProgress::Done(encoders)
+        state.marks = counts.map(Some);
+        Some(Ok(()))
     }
 }
 

@@ -278,7 +278,7 @@ impl PlantSettings {
             rotor_inertia: 2e-6,
             viscous_friction: 1e-3,
             coulomb_friction: 0.05,
-            stops: [-0.72, 1.37],
+            stops: [-0.72, 1.27],
             ..JointSettings::NONE
         };
         with_usual_timing(

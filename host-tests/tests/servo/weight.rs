@@ -45,7 +45,7 @@ fn drifts<K: Kinematics<3>>(
         plant.position()
     };
     // The soft start is over and the hand has taken what is left.
-    let held = run(&mut plant, 1_000);
+    let held = run(&mut plant, 2_000);
     plant.hold(HandSettings::NONE);
     let half = run(&mut plant, 2_000);
     [moved(held, half), moved(half, run(&mut plant, 1_000))]
