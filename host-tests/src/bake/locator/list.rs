@@ -33,9 +33,14 @@ pub(super) struct Lister<'a> {
 
 impl Lister<'_> {
     pub(super) fn is_proved(&self, minima: Minima) -> bool {
+        self.is_within(minima, self.tolerance)
+    }
+
+    /// Whether it is proved to lose no more than this, metres.
+    pub(super) fn is_within(&self, minima: Minima, tolerance: f64) -> bool {
         match minima {
             Minima::Convex | Minima::One => true,
-            Minima::Within(loss) => loss <= self.tolerance,
+            Minima::Within(loss) => loss <= tolerance,
             Minima::Unknown => false,
         }
     }

@@ -17,6 +17,7 @@ pub(in crate::bake) mod field;
 mod list;
 mod octree;
 mod piece;
+mod sampled;
 mod seams;
 mod stored;
 mod tables;
@@ -45,6 +46,10 @@ pub struct LocatorOptions {
     pub entries: usize,
     /// Depth of the octree.
     pub depth: usize,
+    /// How much deeper it may go where a list that is not proved fails for a sampled probe and dividing its rectangles does not mend it.
+    pub deeper: usize,
+    /// Probes sampled in each cell whose list is not proved; eight times as many where much could be lost.
+    pub samples: usize,
     /// A rectangle with several minima is good enough if they differ by no more than this in distance.
     pub tolerance: f64,
     /// Probes that are deeper inside are located coarsely.
@@ -68,6 +73,8 @@ impl Default for LocatorOptions {
             margin: 0.5,
             entries: 4,
             depth: 5,
+            deeper: 1,
+            samples: 128,
             tolerance: 1e-4,
             inside: 0.2,
             deep_entries: 6,

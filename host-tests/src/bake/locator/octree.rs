@@ -3,6 +3,7 @@
 use super::faces::{Faces, Query, Reference, Region};
 use super::field::Probes;
 use super::list::{Entry, Lister};
+use super::sampled;
 use super::unique::nearest;
 use super::{Kind, Leaf, LocatorOptions};
 use glam::DVec3;
@@ -16,6 +17,12 @@ enum Outcome<'a> {
 
 /// How often what is left of a face is divided at most for want of a proof.
 const DIVISIONS: usize = 2;
+
+/// What a rectangle may lose, in sizes, before it is sampled eight times as densely.
+const LOOSE: f64 = 0.01;
+
+/// How often a list that samples show to fail is mended by dividing a rectangle.
+const REPAIRS: usize = 24;
 
 /// A cell that is still open.
 struct Cell<'a> {
@@ -52,13 +59,12 @@ impl<'a> Search<'a> {
     pub(super) fn run(&self, root: Probes, progress: &(dyn Fn(usize, usize) + Sync)) -> Octree {
         let mut tree = Octree { nodes: vec![[Child::Leaf(0); 8]], leaves: Vec::new() };
         let mut open = vec![(root, self.faces.regions(), 0)];
-        for depth in 1..=self.options.depth {
+        for depth in 1..=self.options.depth + self.options.deeper {
             let children: Vec<_> =
                 open.iter().flat_map(|(probes, regions, node)| children(probes, regions, *node)).collect();
             progress(depth, children.len());
             // In the order of the cells, whatever thread was first.
-            let outcomes: Vec<_> =
-                children.par_iter().map(|cell| self.cell(cell, depth == self.options.depth)).collect();
+            let outcomes: Vec<_> = children.par_iter().map(|cell| self.cell(cell, depth)).collect();
             open = Vec::new();
             for (cell, outcome) in children.into_iter().zip(outcomes) {
                 let (node, child) = cell.slot;
@@ -78,7 +84,8 @@ impl<'a> Search<'a> {
         tree
     }
 
-    fn cell(&self, cell: &Cell<'a>, last: bool) -> Outcome<'a> {
+    fn cell(&self, cell: &Cell<'a>, depth: usize) -> Outcome<'a> {
+        let last = depth >= self.options.depth;
         let probes = cell.probes;
         let mut known: Vec<u16> = cell.regions.iter().map(|region| region.face(self.faces)).collect();
         known.sort_unstable();
@@ -105,7 +112,8 @@ impl<'a> Search<'a> {
             Kind::Deep => entries.len() <= self.options.deep_entries,
             _ => false,
         };
-        if !(last || is_enough || entries.len() <= most && proved) {
+        let is_short = entries.len() <= most && proved;
+        if !(last || is_enough || is_short) {
             return Outcome::Inner(left);
         }
         while entries.len() > self.options.longest && lister.divisions > 0 {
@@ -113,6 +121,27 @@ impl<'a> Search<'a> {
             entries = lister.entries(&left);
         }
         let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
+        let is_checked = proved || kind == Kind::Deep || kind == Kind::Outside && self.options.convex;
+        // Where much could be lost it is looked for harder.
+        let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
+        let mut count = self.options.samples * if is_loose { 8 } else { 1 };
+        let mut divisions = if is_checked { 0 } else { REPAIRS };
+        while divisions > 0 {
+            let Some(point) = sampled::failure(self.faces, &probes, &entries, &left, count, 0.5 * tolerance) else {
+                break;
+            };
+            // Where one probe failed others will.
+            if divisions == REPAIRS {
+                count *= 16;
+            }
+            divisions -= 1;
+            if divisions == 0 || !sampled::divide(&mut entries, point) {
+                if depth < self.options.depth + self.options.deeper {
+                    return Outcome::Inner(left);
+                }
+                break;
+            }
+        }
         let worst = entries.iter().map(|entry| entry.minima).fold(super::unique::Minima::Convex, |a, b| {
             if a.partial_cmp(&b) == Some(std::cmp::Ordering::Less) { b } else { a }
         });

@@ -137,7 +137,8 @@ fn list(entries: &[super::list::Entry]) -> Vec<u32> {
 const MORE: u32 = 1 << 31;
 
 fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options: &LocatorOptions) -> LocatorReport {
-    let mut report = LocatorReport { by_depth: vec![0; options.depth + 1], ..LocatorReport::default() };
+    let mut report =
+        LocatorReport { by_depth: vec![0; options.depth + options.deeper + 1], ..LocatorReport::default() };
     for (leaf, list) in &tree.leaves {
         let share = (2.0 * leaf.half / side) * (2.0 * leaf.half / side) * (2.0 * leaf.half / side);
         report.leaves += 1;

@@ -1,0 +1,71 @@
+//! Samples of a list that is not proved: they find where it fails, so that its rectangles are divided there. Where they find nothing it
+//! is sampled, and no more than that.
+
+use super::faces::{Faces, Region};
+use super::field::Probes;
+use super::list::Entry;
+use crate::generate::Random;
+use glam::DVec3;
+
+/// Starts of descents that a list is compared with, the nearest ones.
+const STARTS: usize = 12;
+
+/// The closer point, if one of `count` probes of a cell is led to a point that is more than `tolerance` metres farther than another that is
+/// found: its face and parameters.
+pub(super) fn failure(
+    faces: &Faces,
+    probes: &Probes,
+    entries: &[Entry],
+    regions: &[Region<'_>],
+    count: usize,
+    tolerance: f64,
+) -> Option<(u16, [f64; 2])> {
+    let middle = |[low, high]: [[f64; 2]; 2]| [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
+    let starts: Vec<(u16, [f64; 2], DVec3)> = regions
+        .iter()
+        .map(|region| {
+            let (face, at) = (region.face(faces), middle(region.rectangle(faces)));
+            (face, at, faces.surfaces[usize::from(face)].evaluate(at).point)
+        })
+        .collect();
+    let mut random = Random::new(7);
+    (0..count).find_map(|_| {
+        let place = DVec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
+        let probe = probes.centre + probes.half * place;
+        let listed = entries.iter().map(|entry| {
+            let rectangle = entry.rectangle.parameters();
+            faces.surfaces[usize::from(entry.face)].descend(probe, middle(rectangle), rectangle).distance
+        });
+        let listed = listed.fold(f64::INFINITY, f64::min);
+        let mut near: Vec<_> = starts.iter().map(|start| (start.2.distance_squared(probe), start)).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        near.iter().take(STARTS).find_map(|(_, (face, at, _))| {
+            let found = faces.surfaces[usize::from(*face)].descend(probe, *at, [[0.0; 2], [1.0; 2]]);
+            (listed > found.distance + tolerance).then_some((*face, found.parameters))
+        })
+    })
+}
+
+/// Divides the rectangle that a point lies in, so that each half has a start of its own; `false` if none does or it is too small.
+pub(super) fn divide(entries: &mut Vec<Entry>, (face, parameters): (u16, [f64; 2])) -> bool {
+    let holds = |entry: &Entry| {
+        let [low, high] = entry.rectangle.parameters();
+        entry.face == face && (0..2).all(|axis| low[axis] <= parameters[axis] && parameters[axis] <= high[axis])
+    };
+    let width = |entry: &Entry| [0, 1].map(|axis| entry.rectangle.upper[axis] - entry.rectangle.lower[axis]);
+    let found = (0..entries.len())
+        .filter(|index| holds(&entries[*index]))
+        .max_by_key(|index| width(&entries[*index]).into_iter().max());
+    let Some(index) = found else { return false };
+    let [along_u, along_v] = width(&entries[index]);
+    let (axis, steps) = if along_v > along_u { (1, along_v) } else { (0, along_u) };
+    if steps < 2 {
+        return false;
+    }
+    let mut upper = entries[index];
+    let middle = upper.rectangle.lower[axis] + steps / 2;
+    upper.rectangle.lower[axis] = middle;
+    entries[index].rectangle.upper[axis] = middle;
+    entries.push(upper);
+    true
+}
