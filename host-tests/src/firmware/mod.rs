@@ -20,7 +20,7 @@ mod progress;
 mod qemu;
 mod toolchain;
 
-pub use board::Board;
+pub use board::{AnyBoard, BenchBoard, Board};
 pub use emulator::{Emulator, Transport};
 pub use image::{Choice, Image, Images};
 pub use link::{Link, LinkError};
