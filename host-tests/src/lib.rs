@@ -10,6 +10,7 @@ mod drawing;
 pub mod figures;
 pub mod firmware;
 pub mod generate;
+pub mod monitor;
 pub mod oracle;
 pub mod plant;
 pub mod queries;

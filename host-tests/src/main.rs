@@ -1,7 +1,7 @@
 //! The host tool of palpate: `cargo palpate COMMAND`.
 
 use clap::{Parser, Subcommand};
-use palpate_host::commands::{bake, check, closest, demo, figures, firmware, sim, test, zwidth};
+use palpate_host::commands::{bake, check, closest, demo, figures, firmware, monitor, sim, test, zwidth};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -21,6 +21,7 @@ enum Command {
     Sim(sim::Arguments),
     Figures(figures::Arguments),
     Firmware(firmware::Arguments),
+    Monitor(monitor::Arguments),
     Zwidth(zwidth::Arguments),
 }
 
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
         Command::Sim(arguments) => sim::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
+        Command::Monitor(arguments) => monitor::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
     };
     // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// What the motors do once a fault has been seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SafeOutput {
     /// Nothing.
     Zero,
@@ -19,6 +20,7 @@ pub enum SafeOutput {
 /// can, and a parallel mechanism has motions that leave a joint where it is. So it is off unless chosen, for a device on which
 /// it has been tried. A device with one joint has no others: there this finds nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {
     /// The least share of full duty that is a load, 0 to 1.
     pub load: f32,
@@ -28,6 +30,7 @@ pub struct StuckLimits {
 
 /// Limits and reactions of the loop. Begin with [`Safety::DEFAULT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Safety {
     /// What the motors do after a fault.
     pub output: SafeOutput,
@@ -48,6 +51,7 @@ pub struct Safety {
 
 /// Which limit is refused. In a `static` it is a compile error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SafetyError {
     /// The damping is negative, not finite or above the device's.
     #[error("the safe damping must be between 0 and the device's greatest")]

@@ -11,6 +11,7 @@ use crate::track::{Outcome, Probe};
 
 /// What a tick starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Input<const JOINTS: usize> {
     /// The sensors' word.
     Sensors {

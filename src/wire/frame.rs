@@ -26,6 +26,7 @@ const CHECKSUM_BYTES: usize = 4;
 
 /// Why a message is not packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FrameError {
     /// The buffer is too small for the frame; [`MAX_FRAME`] bytes hold any.
     #[error("the buffer is too small for the frame")]

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// To the device: what its sensors would say at this tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sensors {
     /// Which tick this answers, counted from 0. A frame for another tick is late or lost.
     pub tick: u32,
@@ -15,6 +16,7 @@ pub struct Sensors {
 
 /// From the device, at the end of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Report {
     /// The tick this reports.
     pub tick: u32,
@@ -55,9 +57,12 @@ pub struct Report {
 /// From the device, as telemetry: the loop at a tick, and its timing since the record before. The board's counter runs freely
 /// and wraps at 32 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Record {
     /// The tick this records.
     pub tick: u32,
+    /// Which record this is, counted from 0: a gap is records that were lost on the line.
+    pub number: u32,
     /// Counts of the board's counter in a second, Hz.
     pub clock: u32,
     /// The counter at the tick's interrupt.

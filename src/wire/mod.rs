@@ -10,6 +10,8 @@
 #![doc = include_str!("../../docs/wire.md")]
 
 pub mod frame;
+#[cfg(feature = "defmt")]
+pub mod log;
 mod message;
 mod report;
 pub mod telemetry;

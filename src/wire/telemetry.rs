@@ -28,6 +28,7 @@ pub struct Recorder<'a> {
     queue: Producer<'a, Record>,
     clock: u32,
     every: u32,
+    number: u32,
     /// Ticks since the last record.
     waited: u32,
     told: Option<Told>,
@@ -47,6 +48,7 @@ impl<'a> Recorder<'a> {
             queue,
             clock,
             every,
+            number: 0,
             waited: 0,
             told: None,
             began: None,
@@ -82,6 +84,7 @@ impl<'a> Recorder<'a> {
             self.dropped = self.dropped.saturating_add(1);
             return;
         }
+        self.number = self.number.wrapping_add(1);
         (self.told, self.waited) = (Some(now), 0);
         (self.shortest, self.longest, self.took) = (u32::MAX, 0, 0);
     }
@@ -90,6 +93,7 @@ impl<'a> Recorder<'a> {
         let (fault, fault_tick) = state.fault.map_or((0, 0), |(fault, tick)| (fault.code(), tick));
         Record {
             tick: state.ticks.wrapping_sub(1),
+            number: self.number,
             clock: self.clock,
             began,
             // Before the second tick there is no period.
@@ -223,7 +227,7 @@ mod tests {
         assert_eq!(core::iter::from_fn(|| consumer.dequeue()).count(), 3);
         ticks(&mut recorder, &mut state, 1);
         let record = consumer.dequeue().unwrap();
-        assert_eq!((record.tick, record.dropped), (10, 7));
+        assert_eq!((record.tick, record.number, record.dropped), (10, 3, 7));
         // Periods that were not told are not lost with the records.
         assert_eq!([record.shortest, record.longest], [PERIOD, PERIOD]);
     }

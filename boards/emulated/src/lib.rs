@@ -15,6 +15,7 @@ pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;
 pub mod panic;
+pub mod recorded;
 pub mod reset;
 pub mod servo_loop;
 pub mod timer;

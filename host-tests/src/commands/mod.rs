@@ -6,6 +6,7 @@ pub mod closest;
 pub mod demo;
 pub mod figures;
 pub mod firmware;
+pub mod monitor;
 pub mod options;
 mod output;
 pub mod progress;

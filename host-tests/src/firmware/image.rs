@@ -37,6 +37,7 @@ pub struct Image {
 pub struct Images {
     uart: Image,
     fifo: Image,
+    telemetry: Image,
     /// Keeps the files.
     _folder: TempDir,
 }
@@ -48,6 +49,11 @@ impl Images {
             Transport::Uart => &self.uart,
             Transport::Fifo => &self.fifo,
         }
+    }
+
+    /// The image that speaks over FIFOs and sends telemetry over its UART.
+    pub const fn telemetry(&self) -> &Image {
+        &self.telemetry
     }
 }
 
@@ -73,12 +79,34 @@ pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Res
 
     let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
     let built = target_folder.join(toolchain.target()).join("release");
-    let take = |transport: Transport| {
-        let elf = folder.path().join(transport.binary());
-        fs::copy(built.join(transport.binary()), &elf).map_err(SetUpError::io(built.display()))?;
+    let take = |program: &str| {
+        let elf = folder.path().join(program);
+        fs::copy(built.join(program), &elf).map_err(SetUpError::io(built.display()))?;
         measure(choice.board, elf)
     };
-    Ok(Images { uart: take(Transport::Uart)?, fifo: take(Transport::Fifo)?, _folder: folder })
+    let (uart, fifo) = (take(Transport::Uart.binary())?, take(Transport::Fifo.binary())?);
+    Ok(Images { uart, fifo, telemetry: take("telemetry")?, _folder: folder })
+}
+
+/// Builds the image that logs with defmt, into a folder that keeps it.
+///
+/// # Errors
+/// What the compiler says.
+pub fn build_log(board: Board, folder: &Path, progress: &Progress) -> Result<Image, SetUpError> {
+    let toolchain = Toolchain::set_up(board.target(), progress)?;
+    let target_folder = toolchain.target_folder();
+    let mut cargo = toolchain.cargo();
+    cargo
+        .current_dir(board.folder())
+        .args(["build", "--release", "--bin", "log", "--features", "defmt", "--target-dir"])
+        .arg(&target_folder)
+        // The log's levels are chosen when it is compiled.
+        .env("DEFMT_LOG", "info");
+    progress.during("building the firmware image that logs", || output(&mut cargo))?;
+    let elf = folder.join("log");
+    let built = target_folder.join(board.target()).join("release/log");
+    fs::copy(&built, &elf).map_err(SetUpError::io(built.display()))?;
+    measure(board, elf)
 }
 
 /// Adds up the sections that the linker gave an address.

@@ -22,13 +22,14 @@ mod toolchain;
 
 pub use board::{AnyBoard, BenchBoard, Board};
 pub use emulator::{Emulator, Transport};
-pub use image::{Choice, Image, Images};
+pub use image::{Choice, Image, Images, build_log};
 pub use link::{Link, LinkError};
 pub use process::{SetUpError, without_outer_cargo};
 pub use progress::Progress;
 pub use qemu::Qemu;
 pub use toolchain::Toolchain;
 
+use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 
 /// The variable that makes the tests use the emulated board; `palpate test` sets it once everything is set up.
@@ -56,6 +57,14 @@ impl Firmware {
     /// If the emulator does not start.
     pub fn start(&self, transport: Transport) -> Result<Emulator, LinkError> {
         Emulator::start(&self.qemu, self.images.of(transport), transport)
+    }
+
+    /// Starts the image that sends telemetry; the line it does that on comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_telemetry(&self) -> Result<(Emulator, UnixStream), LinkError> {
+        Emulator::start_with_telemetry(&self.qemu, self.images.telemetry())
     }
 }
 
