@@ -4,6 +4,8 @@ mod agreement;
 mod demo;
 mod faults;
 mod image;
+mod log;
 mod path;
 mod round_trip;
 mod running;
+mod telemetry;
