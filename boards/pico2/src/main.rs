@@ -184,12 +184,8 @@ fn main() -> ! {
 
     let lines = (pins.gpio3.reconfigure(), pins.gpio4.reconfigure(), pins.gpio2.reconfigure());
     let speed = clocks.peripheral_clock.freq();
-    let bus: Bus = Spi::<_, _, _, 8>::new(chip.SPI0, lines).init(
-        &mut chip.RESETS,
-        speed,
-        8.MHz(),
-        embedded_hal::spi::MODE_1,
-    );
+    let bus: Bus =
+        Spi::<_, _, _, 8>::new(chip.SPI0, lines).init(&mut chip.RESETS, speed, 8.MHz(), embedded_hal::spi::MODE_1);
     let (a, b, c) = (
         pins.gpio5.into_push_pull_output_in_state(true.into()),
         pins.gpio6.into_push_pull_output_in_state(true.into()),

@@ -27,6 +27,7 @@ use stm32g4xx_hal::gpio::{Input as PinInput, Output, PA5, PC0, PC1, PC2, PC3, PC
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::pwm::{ActiveHigh, C1, C2, C3, ComplementaryDisabled, Pwm};
+use stm32g4xx_hal::pwr::VoltageScale;
 use stm32g4xx_hal::rcc::{Config, PllConfig, PllMDiv, PllNMul, PllRDiv, PllSrc};
 use stm32g4xx_hal::serial::FullConfig;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, TIM1, TIM7, interrupt};
@@ -128,7 +129,7 @@ fn main() -> ! {
     static mut QUEUE: Queue<Record, 16> = Queue::new();
 
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else { unreachable() };
-    let power = chip.PWR.constrain().freeze();
+    let power = chip.PWR.constrain().vos(VoltageScale::Range1 { enable_boost: true }).freeze();
     let pll = PllConfig {
         mux: PllSrc::HSI,
         m: PllMDiv::DIV_4,
@@ -136,7 +137,7 @@ fn main() -> ! {
         r: Some(PllRDiv::DIV_2),
         ..PllConfig::default()
     };
-    let mut rcc = chip.RCC.freeze(Config::pll().pll_cfg(pll).boost(true), power);
+    let mut rcc = chip.RCC.freeze(Config::pll().pll_cfg(pll), power);
     let reset = reset_reason(&rcc.get_reset_reason());
     rcc.clear_reset_reason();
     let (a, b, c) = (chip.GPIOA.split(&mut rcc), chip.GPIOB.split(&mut rcc), chip.GPIOC.split(&mut rcc));

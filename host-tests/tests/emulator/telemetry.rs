@@ -136,7 +136,8 @@ fn what_the_board_tells_is_recorded_though_the_line_is_bad() {
     for row in rows {
         let report = &reports[get(row, "tick") as usize];
         // The shortest text that reads back as the same number: f64 holds it.
-        let same = |name: &str, number: f32| assert!((get(row, name) as f32).to_bits() == number.to_bits(), "{name}: {row:?}");
+        let same =
+            |name: &str, number: f32| assert!((get(row, name) as f32).to_bits() == number.to_bits(), "{name}: {row:?}");
         same("gap", report.gap);
         for (name, component) in ["force_x", "force_y", "force_z"].into_iter().zip(report.force) {
             same(name, component);
