@@ -1,7 +1,7 @@
 //! Building the firmware image and measuring it.
 
 use super::process::output;
-use super::{Board, Progress, SetUpError, Toolchain, Transport};
+use super::{BenchBoard, Board, Progress, SetUpError, Toolchain, Transport};
 use object::{Object, ObjectSection, SectionFlags, SectionKind, elf};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -107,6 +107,19 @@ pub fn build_log(board: Board, folder: &Path, progress: &Progress) -> Result<Ima
     let built = target_folder.join(board.target()).join("release/log");
     fs::copy(&built, &elf).map_err(SetUpError::io(built.display()))?;
     measure(board, elf)
+}
+
+/// Builds the program of a board for the bench and gives the ELF file.
+///
+/// # Errors
+/// What the compiler says.
+pub fn build_bench(board: BenchBoard, progress: &Progress) -> Result<PathBuf, SetUpError> {
+    let toolchain = Toolchain::set_up(board.target(), progress)?;
+    let target_folder = toolchain.target_folder();
+    let mut cargo = toolchain.cargo();
+    cargo.current_dir(board.folder()).args(["build", "--release", "--target-dir"]).arg(&target_folder);
+    progress.during(&format!("building the firmware for the board {}", board.name()), || output(&mut cargo))?;
+    Ok(target_folder.join(board.target()).join("release").join(board.name()))
 }
 
 /// Adds up the sections that the linker gave an address.

@@ -22,7 +22,7 @@ mod toolchain;
 
 pub use board::{AnyBoard, BenchBoard, Board};
 pub use emulator::{Emulator, Transport};
-pub use image::{Choice, Image, Images, build_log};
+pub use image::{Choice, Image, Images, build_bench, build_log};
 pub use link::{Link, LinkError};
 pub use process::{SetUpError, without_outer_cargo};
 pub use progress::Progress;

@@ -1,6 +1,7 @@
 //! The firmware image on the emulated board. Runs with `cargo palpate test`; plain `cargo test` says what it leaves out.
 
 mod agreement;
+mod bench;
 mod demo;
 mod faults;
 mod image;
