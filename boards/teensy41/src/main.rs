@@ -147,7 +147,7 @@ fn main() -> ! {
 
     let lines = LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 };
     let mut bus: Lpspi = board::lpspi(lpspi4, lines, 8_000_000);
-    bus.disabled(|bus| bus.set_mode(MODE_1));
+    bus.set_mode(MODE_1);
     let selects = [gpio2.output(pins.p8).ok(), gpio2.output(pins.p9).ok(), gpio2.output(pins.p10).ok()];
     let [Some(select_a), Some(select_b), Some(select_c)] = selects else { panic!("pins 8 to 10 are of GPIO2") };
     let selects = [select_a, select_b, select_c];
