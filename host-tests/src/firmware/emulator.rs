@@ -35,6 +35,11 @@ impl Transport {
 /// How long a report may take. The emulator answers within a millisecond; over the UART it waits a second or so for a
 /// host that stays silent, and a loaded machine makes that several.
 const PATIENCE: Duration = Duration::from_secs(60);
+/// 64 ns of emulated time an instruction: a count of 25 MHz tells one from the next, so they can be counted.
+const COUNTING: &str = "shift=6,sleep=off";
+/// 8 ns an instruction, as on a real board: time is left between two ticks for what runs below them, though a tick here has frames to
+/// read and write that a real one has not. Instructions are not counted.
+const BRISK: &str = "shift=3,sleep=off";
 /// How often to look whether the emulator is still there.
 const LOOK: Duration = Duration::from_millis(100);
 
@@ -60,7 +65,7 @@ impl Emulator {
     /// # Errors
     /// If the emulator does not start.
     pub fn start(qemu: &Qemu, image: &Image, transport: Transport) -> Result<Self, LinkError> {
-        let (command, folder) = command(qemu, image)?;
+        let (command, folder) = command(qemu, image, COUNTING)?;
         let (child, to_device, from_device) = match transport {
             Transport::Uart => start_with_socket(command, &folder)?,
             Transport::Fifo => start_with_fifos(command, &folder)?,
@@ -73,7 +78,7 @@ impl Emulator {
     /// # Errors
     /// If the emulator does not start.
     pub fn start_with_telemetry(qemu: &Qemu, image: &Image) -> Result<(Self, UnixStream), LinkError> {
-        let (mut command, folder) = command(qemu, image)?;
+        let (mut command, folder) = command(qemu, image, BRISK)?;
         let (to_device, from_device) = open_fifos(&folder)?;
         let (child, line) = accept_uart(&mut command, &folder)?;
         Ok((Self::new(child, Transport::Fifo, to_device, from_device, folder), line))
@@ -84,7 +89,7 @@ impl Emulator {
     /// # Errors
     /// If the emulator does not start.
     pub fn start_with_output(qemu: &Qemu, image: &Image) -> Result<(Self, ChildStdout), LinkError> {
-        let (mut command, folder) = command(qemu, image)?;
+        let (mut command, folder) = command(qemu, image, BRISK)?;
         let (to_device, from_device) = open_fifos(&folder)?;
         let mut child = command.stdout(Stdio::piped()).spawn()?;
         let output = child.stdout.take().ok_or_else(|| LinkError::Io(ErrorKind::BrokenPipe.into()))?;
@@ -212,7 +217,7 @@ impl Drop for Emulator {
 }
 
 /// The emulator's command line for an image, to be run in a folder of its own.
-fn command(qemu: &Qemu, image: &Image) -> Result<(Command, TempDir), LinkError> {
+fn command(qemu: &Qemu, image: &Image, pace: &str) -> Result<(Command, TempDir), LinkError> {
     let folder = tempfile::Builder::new().prefix("palpate-link-").tempdir()?;
     let mut command = Command::new(qemu.program());
     command
@@ -220,9 +225,9 @@ fn command(qemu: &Qemu, image: &Image) -> Result<(Command, TempDir), LinkError> 
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(File::create(folder.path().join("said"))?)
-        // One instruction is 64 ns of emulated time whatever the host does, and time that is slept is skipped: every
-        // run is the same, and instructions can be counted.
-        .args(["-machine", image.board.machine(), "-icount", "shift=6,sleep=off"])
+        // An instruction takes the same emulated time whatever the host does, and time that is slept is skipped: every run is
+        // the same.
+        .args(["-machine", image.board.machine(), "-icount", pace])
         .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])
         .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
         .arg(&image.elf);

@@ -9,7 +9,7 @@ use palpate::wire::Sensors;
 use palpate::wire::frame::{self, DELIMITER, MAX_FRAME};
 use palpate_host::commands::demo::prepare;
 use palpate_host::commands::options::SceneOptions;
-use palpate_host::firmware::{Emulator, Link, LinkError, Progress};
+use palpate_host::firmware::{Board, Emulator, Link, LinkError, Progress};
 
 #[derive(Parser)]
 struct Scene {
@@ -107,7 +107,7 @@ fn a_tick_that_takes_longer_than_its_period() {
         return;
     }
     let Scene { options } = Scene::parse_from(["scene", "--rate", "16000"]);
-    let image = prepare(&options.scene().unwrap(), &Progress::new()).expect("the image builds");
+    let image = prepare(Board::M4, &options.scene().unwrap(), &Progress::new()).expect("the image builds");
     let mut emulator = image.start(TRANSPORTS[0]).unwrap();
     for tick in 0..20 {
         let report = emulator.exchange(&sensors(tick)).unwrap();
