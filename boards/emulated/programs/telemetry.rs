@@ -27,10 +27,8 @@ fn main() -> ! {
     let mut buffer = [0; MAX_FRAME];
     BOARD.start_timer(SETTINGS.rate);
     loop {
-        let Some(record) = records.dequeue() else {
-            cortex_m::asm::wfi();
-            continue;
-        };
+        // No sleep: the emulator, left asleep, lets every other tick of the timer pass.
+        let Some(record) = records.dequeue() else { continue };
         if let Ok(frame) = frame::pack(&record, &mut buffer) {
             line.send(frame);
         }

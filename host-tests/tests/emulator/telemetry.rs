@@ -153,7 +153,8 @@ fn what_the_board_tells_is_recorded_though_the_line_is_bad() {
         let numbers = ["phase", "fault", "mode", "contact"].map(|name| get(row, name) as u8);
         assert_eq!(numbers, [report.phase, report.fault, report.mode, report.contact], "tick {}", report.tick);
         // By the board's clock: each interrupt is late by less than an instruction or two, of 3,906 a period.
-        if report.tick > 0 {
+        // The first one opens the link before the clock starts.
+        if report.tick > 1 {
             assert!((get(row, "rate") - 4_000.0).abs() < 4.0 || get(row, "rate").is_nan(), "{row:?}");
             assert!(get(row, "shortest_us") > 245.0 && get(row, "longest_us") < 255.0, "{row:?}");
         }
