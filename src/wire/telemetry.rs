@@ -213,7 +213,7 @@ mod tests {
         }
         let last = last.unwrap();
         assert_eq!((last.tick, last.fault, last.fault_tick), (100, Fault::Stopped.code(), 100));
-        assert!(before_last < 100 && before_last >= 90, "the fault is told at once: {before_last}");
+        assert!((90..100).contains(&before_last), "the fault is told at once: {before_last}");
         assert!(phases[Phase::Calibrate as usize] >= 1 && phases[Phase::Armed as usize] >= 10, "{phases:?}");
         assert_eq!((last.dropped, last.clock), (0, 4_000_000));
     }

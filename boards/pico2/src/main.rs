@@ -59,7 +59,8 @@ const TICKS_A_RECORD: u32 = 20;
 /// The pin that switches the bridges on.
 pub const ENABLE_PIN: u32 = 16;
 
-type PulseWidth<S> = Channel<Slice<S, FreeRunning>, A>;
+/// Output A of a slice and a direction pin.
+type Bridge<S, P> = HBridge<Channel<Slice<S, FreeRunning>, A>, Output<P>>;
 type Output<P> = Pin<P, FunctionSio<SioOutput>, PullDown>;
 type Switch<P> = Pin<P, FunctionSio<SioInput>, PullUp>;
 
@@ -67,11 +68,7 @@ type Switch<P> = Pin<P, FunctionSio<SioInput>, PullUp>;
 struct Loop {
     timer: Slice<Pwm0, FreeRunning>,
     sensors: Sensors,
-    bridges: (
-        HBridge<PulseWidth<Pwm5>, Output<Gpio11>>,
-        HBridge<PulseWidth<Pwm6>, Output<Gpio13>>,
-        HBridge<PulseWidth<Pwm7>, Output<Gpio15>>,
-    ),
+    bridges: (Bridge<Pwm5, Gpio11>, Bridge<Pwm6, Gpio13>, Bridge<Pwm7, Gpio15>),
     /// High switches all bridges on.
     enable: Output<Gpio16>,
     /// Low while force is asked for.

@@ -44,17 +44,14 @@ const DEADLINE: Deadline = Deadline::of_period(CLOCK as f32, SETTINGS.rate);
 /// 921,600 baud carry about 1,200 records a second; at 4 kHz this makes 200.
 const TICKS_A_RECORD: u32 = 20;
 
-type PulseWidth<C> = Pwm<TIM1, C, ComplementaryDisabled, ActiveHigh, ActiveHigh>;
+/// A channel of TIM1 and an enable pin.
+type Amplifier<C, P> = SetPointDrive<Pwm<TIM1, C, ComplementaryDisabled, ActiveHigh, ActiveHigh>, P>;
 
 /// What the interrupt owns.
 struct Loop {
     timer: CountDownTimer<TIM7>,
     encoders: Encoders,
-    amplifiers: (
-        SetPointDrive<PulseWidth<C1>, PC0<Output>>,
-        SetPointDrive<PulseWidth<C2>, PC1<Output>>,
-        SetPointDrive<PulseWidth<C3>, PC2<Output>>,
-    ),
+    amplifiers: (Amplifier<C1, PC0<Output>>, Amplifier<C2, PC1<Output>>, Amplifier<C3, PC2<Output>>),
     /// High while force is asked for.
     button: PC13<PinInput>,
     /// Low when an amplifier reports a fault.
