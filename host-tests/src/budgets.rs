@@ -1,6 +1,6 @@
 //! Budgets of counted instructions, one file a core in `host-tests/budgets/`.
 
-use crate::firmware::{Board, Program, Progress, SetUpError, repository};
+use crate::firmware::{Board, Pace, Program, Progress, SetUpError, repository};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
@@ -91,7 +91,7 @@ impl Verdict {
 /// # Errors
 /// If it does not run to its end, or says something else than figures.
 pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError> {
-    figures(&Program::prepare(board, "budget", &[], progress)?.run(true)?)
+    figures(&Program::prepare(board, "budget", &[], progress)?.run(Pace::Counting)?)
 }
 
 /// The lines `"name" = count`.

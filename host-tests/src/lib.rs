@@ -13,6 +13,7 @@ pub mod figures;
 pub mod firmware;
 pub mod generate;
 pub mod locating;
+pub mod monitor;
 pub mod oracle;
 pub mod plant;
 pub mod proof;

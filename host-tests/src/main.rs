@@ -1,7 +1,9 @@
 //! The host tool of palpate: `cargo palpate COMMAND`.
 
 use clap::{Parser, Subcommand};
-use palpate_host::commands::{bake, budgets, check, closest, demo, figures, firmware, image, race, sim, test, zwidth};
+use palpate_host::commands::{
+    bake, budgets, check, closest, demo, figures, firmware, image, monitor, race, sim, test, zwidth,
+};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -23,6 +25,7 @@ enum Command {
     Figures(figures::Arguments),
     Firmware(firmware::Arguments),
     Image(image::Arguments),
+    Monitor(monitor::Arguments),
     Zwidth(zwidth::Arguments),
     Race(race::Arguments),
 }
@@ -39,6 +42,7 @@ fn main() -> ExitCode {
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
         Command::Image(arguments) => image::run(&arguments),
+        Command::Monitor(arguments) => monitor::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
         Command::Race(arguments) => race::run(&arguments),
     };

@@ -2,6 +2,7 @@
 
 /// A position as an incremental encoder counts it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Counts(pub i32);
 
 /// An encoder on a motor shaft, seen through the transmission.

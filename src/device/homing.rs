@@ -37,6 +37,7 @@ pub struct Homing<const JOINTS: usize> {
 
 /// Which number of the homing is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum HomingError {
     /// A reference angle is not finite.
     #[error("a reference angle is not finite")]
@@ -68,6 +69,7 @@ pub struct HomingInput<const JOINTS: usize> {
 /// Why homing was refused. Latched: start again from [`HomingState::default`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[repr(u8)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
     /// The time is over and the device never held still long enough.
     #[error("the device was moving")]

@@ -2,6 +2,7 @@
 
 /// A motor command as a fraction of full scale: −32 767 is full torque one way, +32 767 the other, 0 is no current.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Duty(pub i16);
 
 impl Duty {

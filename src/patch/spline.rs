@@ -58,6 +58,7 @@ pub(crate) const fn coefficient_word(coefficients: Coefficients, index: usize) -
 
 /// Why a table is refused. In a `static` it is a compile error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum TableError {
     /// A degree is 0 or above [`MAX_DEGREE`].
     #[error("the degree must be 1 to 5 along u and along v")]

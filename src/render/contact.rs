@@ -8,6 +8,7 @@ use crate::track::BoundaryMode;
 /// again or slides over the rim. A probe that starts inside, or comes from behind, feels nothing until it has been in
 /// front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum Contact {
     /// Behind the surface without having crossed it: no force. Where everything starts.
@@ -20,6 +21,9 @@ pub enum Contact {
 }
 
 impl Contact {
+    /// Every contact, in the order of its number.
+    pub const ALL: [Self; 3] = [Self::Behind, Self::InFront, Self::Touching];
+
     /// The next state, from the signed gap (metres, negative behind the surface) and the witness point's mode.
     #[inline]
     pub fn next(self, gap: f32, mode: BoundaryMode) -> Self {

@@ -2,6 +2,7 @@
 
 /// The time a tick may take, in counts of the board's free-running counter (cycles, timer ticks).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Deadline {
     /// The most counts from the tick's interrupt to the duties applied.
     pub counts: u32,

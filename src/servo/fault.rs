@@ -3,6 +3,7 @@
 use crate::device::Counts;
 /// What stopped the loop. The number is the code in a report, 0 there means none; the word is its `Display`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum Fault {
     /// No sensor frame came for a tick, or one for another tick.
@@ -88,6 +89,7 @@ impl Fault {
 /// Many chips raise the brown-out flag at every power-on as well: where both flags are up, say
 /// [`ResetReason::PowerOn`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum ResetReason {
     /// Power was switched on.
@@ -106,6 +108,10 @@ pub enum ResetReason {
 }
 
 impl ResetReason {
+    /// Every reason, in the order of its number.
+    pub const ALL: [Self; 6] =
+        [Self::PowerOn, Self::Pin, Self::Software, Self::Watchdog, Self::BrownOut, Self::Unknown];
+
     /// The fault that this reset is.
     pub const fn fault(self) -> Option<Fault> {
         match self {
@@ -118,6 +124,7 @@ impl ResetReason {
 
 /// What happens outside a tick and matters to the loop: see [`super::Servo::note`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Event {
     /// The host said something: the link is alive.
     LinkAlive,

@@ -5,6 +5,7 @@
 /// Force comes from [`Phase::Running`] alone. A fault leads from any phase to [`Phase::Fault`], where the motors are at
 /// zero or, if [`super::SafeOutput`] says so and the sensors can be believed, damp.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum Phase {
     /// Nothing has been sensed yet.

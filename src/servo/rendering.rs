@@ -31,6 +31,7 @@ pub struct Rendering {
 
 /// Which choice is refused. In a `static` it is a compile error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RenderingError {
     /// A parameter of the friction is negative or not finite, or slipping holds more than sticking.
     #[error("friction must be finite and not negative, its dynamic coefficient not above the static one")]

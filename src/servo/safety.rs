@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// What the motors do once a fault has been seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SafeOutput {
     /// Nothing.
     Zero,
@@ -20,6 +21,7 @@ pub enum SafeOutput {
 /// turn. Below friction no hand is needed for that, so what is below counts as no load. A device with one joint has no others:
 /// there this finds nothing. One joint is looked at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {
     /// The least load, as a multiple of the joint's [`crate::device::Device::dry_friction`]; at least 1.
     pub load: f32,
@@ -37,6 +39,7 @@ impl StuckLimits {
 
 /// Limits and reactions of the loop. Begin with [`Safety::DEFAULT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Safety {
     /// What the motors do after a fault.
     pub output: SafeOutput,
@@ -57,6 +60,7 @@ pub struct Safety {
 
 /// Which limit is refused. In a `static` it is a compile error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SafetyError {
     /// The damping is negative, not finite or above the device's.
     #[error("the safe damping must be between 0 and the device's greatest")]

@@ -24,6 +24,7 @@ pub struct Settings {
 
 /// Which setting is refused. In a `static` it is a compile error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SettingsError {
     /// The rate is not between 1 Hz and 100 kHz.
     #[error("the servo rate must be between 1 Hz and 100 kHz")]

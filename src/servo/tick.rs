@@ -10,6 +10,7 @@ use crate::track::Probe;
 
 /// What a tick starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Input<const JOINTS: usize> {
     /// The sensors' word.
     Sensors {

@@ -10,6 +10,7 @@ use crate::math::saturate;
 
 /// The active constraints. Numbers 1 to 5 are those of Eq. (1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum BoundaryMode {
     /// Held at `u = 0`, moving along the edge.
@@ -25,6 +26,11 @@ pub enum BoundaryMode {
     Interior = 5,
     /// Held at a vertex: both errors point outward. The paper does not list it.
     Corner = 6,
+}
+
+impl BoundaryMode {
+    /// Every mode, in the order of its number, from 1.
+    pub const ALL: [Self; 6] = [Self::LowerU, Self::UpperU, Self::LowerV, Self::UpperV, Self::Interior, Self::Corner];
 }
 
 /// The direction a step takes, before its length is chosen.

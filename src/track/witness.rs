@@ -35,6 +35,7 @@ pub struct Witness {
 
 /// What became of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Outcome {
     /// The witness point moved, and is not farther from the probe.
     Moved,

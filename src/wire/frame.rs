@@ -26,6 +26,7 @@ const CHECKSUM_BYTES: usize = 4;
 
 /// Why a message is not packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FrameError {
     /// The buffer is too small for the frame; [`MAX_FRAME`] bytes hold any.
     #[error("the buffer is too small for the frame")]
@@ -136,7 +137,7 @@ impl<M: DeserializeOwned> Default for Receiver<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wire::{Report, Sensors};
+    use crate::wire::{Record, Report, Sensors};
 
     const SENSORS: Sensors = Sensors { tick: 70_000, counts: [-1, 0, i32::MAX], enable: true };
 
@@ -197,6 +198,35 @@ mod tests {
         let frame = pack(&LONGEST_REPORT, &mut buffer).unwrap();
         assert!(frame.len() <= MAX_FRAME - 32, "{} bytes", frame.len());
         assert_eq!(feed(&mut Receiver::new(), frame), (1, Some(Received::Message(LONGEST_REPORT))));
+    }
+
+    #[test]
+    fn the_longest_record_fits() {
+        let longest = Record {
+            tick: u32::MAX,
+            number: u32::MAX,
+            clock: u32::MAX,
+            began: u32::MAX,
+            shortest: u32::MAX,
+            longest: u32::MAX,
+            took: u32::MAX,
+            dropped: u32::MAX,
+            phase: u8::MAX,
+            fault: u8::MAX,
+            fault_tick: u32::MAX,
+            reset: u8::MAX,
+            overruns: u32::MAX,
+            mode: u8::MAX,
+            contact: u8::MAX,
+            gap: -1.5,
+            probe: [-1.5; 3],
+            force: [-1.5; 3],
+            duties: [i16::MIN; 3],
+        };
+        let mut buffer = [0; MAX_FRAME];
+        let frame = pack(&longest, &mut buffer).unwrap();
+        assert!(frame.len() <= MAX_FRAME - 16, "{} bytes", frame.len());
+        assert_eq!(feed(&mut Receiver::new(), frame), (1, Some(Received::Message(longest))));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// To the device: what its sensors would say at this tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sensors {
     /// Which tick this answers, counted from 0. A frame for another tick is late or lost.
     pub tick: u32,
@@ -15,6 +16,7 @@ pub struct Sensors {
 
 /// From the device, at the end of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Report {
     /// The tick this reports.
     pub tick: u32,
@@ -32,6 +34,8 @@ pub struct Report {
     pub reset: u8,
     /// Ticks that overran so far.
     pub overruns: u32,
+    /// [`crate::body::Feature`] as its code; 0 for a surface of one patch.
+    pub feature: u16,
     /// [`crate::track::BoundaryMode`] as its number.
     pub mode: u8,
     /// [`crate::render::Contact`] as its number.
@@ -54,4 +58,51 @@ pub struct Report {
     pub instructions: u32,
     /// [`crate::servo::ServoState::digest`] after this tick: the same on host and target, bit for bit.
     pub digest: u32,
+}
+
+/// From the device, as telemetry: the loop at a tick, and its timing since the record before. The board's counter runs freely
+/// and wraps at 32 bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Record {
+    /// The tick this records.
+    pub tick: u32,
+    /// Which record this is, counted from 0: a gap is records that were lost on the line.
+    pub number: u32,
+    /// Counts of the board's counter in a second, Hz.
+    pub clock: u32,
+    /// The counter at the tick's interrupt.
+    pub began: u32,
+    /// The shortest period between two interrupts since the record before, counts.
+    pub shortest: u32,
+    /// The longest.
+    pub longest: u32,
+    /// The longest that a tick took since the record before, from its interrupt to its end, counts.
+    pub took: u32,
+    /// Records that found no room in the queue so far.
+    pub dropped: u32,
+    /// [`crate::servo::Phase`] as its number.
+    pub phase: u8,
+    /// [`crate::servo::Fault`] as its code, 0 for none. Latched.
+    pub fault: u8,
+    /// The tick at which the fault was seen.
+    pub fault_tick: u32,
+    /// [`crate::servo::ResetReason`] as its number.
+    pub reset: u8,
+    /// Ticks that overran so far.
+    pub overruns: u32,
+    /// [`crate::body::Feature`] as its code; 0 for a surface of one patch.
+    pub feature: u16,
+    /// [`crate::track::BoundaryMode`] as its number.
+    pub mode: u8,
+    /// [`crate::render::Contact`] as its number.
+    pub contact: u8,
+    /// Signed distance along the outward normal, metres; negative while penetrating.
+    pub gap: f32,
+    /// Probe in the body frame, metres.
+    pub probe: [f32; 3],
+    /// Force at the probe, N.
+    pub force: [f32; 3],
+    /// Motor duties now applied, full scale ±32 767.
+    pub duties: [i16; 3],
 }

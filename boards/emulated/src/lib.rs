@@ -16,6 +16,7 @@ pub mod link_semihosting;
 pub mod link_uart;
 pub mod panic;
 mod planted;
+pub mod recorded;
 pub mod reset;
 pub mod servo_loop;
 pub mod timer;

@@ -59,6 +59,11 @@ impl<L: Link> ServoLoop<L> {
         }
     }
 
+    /// The state after the last tick.
+    pub const fn state(&self) -> &ServoState<3> {
+        &self.state
+    }
+
     /// What the host says in this tick.
     fn input(&mut self) -> Input<3> {
         let mut late = false;

@@ -15,6 +15,9 @@ struct Registers {
     interrupt: VolatileCell<u32>,
 }
 
+/// How far behind the first timer the second one lies.
+const SECOND_TIMER: usize = 0x1000;
+
 const ENABLE: u32 = 1;
 const ENABLE_INTERRUPT: u32 = 1 << 3;
 
@@ -40,6 +43,27 @@ impl Board {
     #[inline]
     pub fn acknowledge_timer(&self) {
         self.registers().interrupt.set(1);
+    }
+}
+
+/// The second timer, which runs freely at the board's clock: what the telemetry measures time with.
+pub struct Clock(&'static Registers);
+
+impl Clock {
+    /// Starts it.
+    pub fn start(board: &Board) -> Self {
+        // SAFETY: the address is the chip's, the block is there for good, and a `VolatileCell` may be shared.
+        let timer = unsafe { &*((board.timer + SECOND_TIMER) as *const Registers) };
+        timer.reload.set(u32::MAX);
+        timer.value.set(u32::MAX);
+        timer.control.set(ENABLE);
+        Self(timer)
+    }
+
+    /// The count, which rises and wraps at 32 bits.
+    #[inline]
+    pub fn now(&self) -> u32 {
+        !self.0.value.get()
     }
 }
 

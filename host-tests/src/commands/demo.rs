@@ -103,19 +103,19 @@ pub enum Preparation {
 /// # Errors
 /// What was missing or failed.
 pub fn prepare(board: Board, scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
-    let folder = write_tables(scene).map_err(Preparation::Tables)?;
-    let choice =
-        Choice { board, body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };
+    let (_folder, choice) = write_tables(board, scene).map_err(Preparation::Tables)?;
     firmware::prepare(&choice, progress).map_err(Preparation::SetUp)
 }
 
-/// The scene's table and settings as Rust source, in a folder that goes when dropped.
-fn write_tables(scene: &Scene) -> anyhow::Result<tempfile::TempDir> {
+/// The scene's tables and settings as Rust source, in a folder that goes when dropped, and the choice of them.
+pub(super) fn write_tables(board: Board, scene: &Scene) -> anyhow::Result<(tempfile::TempDir, Choice)> {
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
     let source = rust_source(&scene.origin(), std::slice::from_ref(&scene.baked))?;
     fs::write(folder.path().join("body.rs"), source)?;
     fs::write(folder.path().join("settings.rs"), scene.settings_source())?;
-    Ok(folder)
+    let choice =
+        Choice { board, body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };
+    Ok((folder, choice))
 }
 
 fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> anyhow::Result<Run> {

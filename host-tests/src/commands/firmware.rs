@@ -1,19 +1,20 @@
-//! `palpate firmware`: cargo for the emulated boards.
+//! `palpate firmware`: cargo for the boards.
 
-use crate::firmware::{Board, Progress, SetUpError, Toolchain};
+use crate::firmware::{AnyBoard, Progress, SetUpError, Toolchain};
 use anyhow::Context;
 use clap::Args;
 use std::process::{Command, ExitCode};
 
-/// Runs cargo in an emulated board's folder, with a compiler for its target: set up if it is missing.
+/// Runs cargo in a board's folder, with a compiler for its target: set up if it is missing.
 ///
-/// `palpate firmware build --release` builds the images as `demo` and `test` do.
+/// `palpate firmware build --release` builds the images as `demo` and `test` do. What a board's own settings say holds too,
+/// such as the runner that flashes it: `palpate firmware --board stm32g4 run --release`.
 #[derive(Args, Debug)]
 #[command(trailing_var_arg = true)]
 pub struct Arguments {
     /// The board
     #[arg(long, value_enum, default_value_t)]
-    board: Board,
+    board: AnyBoard,
     /// What cargo is to do, such as `build --release` or `clippy`.
     #[arg(required = true, allow_hyphen_values = true)]
     cargo: Vec<String>,

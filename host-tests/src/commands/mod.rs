@@ -8,6 +8,7 @@ pub mod demo;
 pub mod figures;
 pub mod firmware;
 pub mod image;
+pub mod monitor;
 pub mod options;
 mod output;
 pub mod progress;

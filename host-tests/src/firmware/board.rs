@@ -1,7 +1,8 @@
-//! The emulated boards.
+//! The boards: emulated ones, and those for the bench.
 
 use super::repository;
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
 use std::path::PathBuf;
 
 /// An emulated board. All run the same programs.
@@ -58,5 +59,103 @@ impl Board {
     /// Its crate's folder.
     pub fn folder(self) -> PathBuf {
         repository().join("boards").join(format!("qemu-{}", self.name()))
+    }
+}
+
+/// A board for the bench, with real encoders and motors. Built here, and not run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum BenchBoard {
+    /// Nucleo-G474RE, a Cortex-M4F.
+    Stm32g4,
+    /// Raspberry Pi Pico 2 (RP2350), a Cortex-M33.
+    Pico2,
+    /// Teensy 4.1 (i.MX RT1062), a Cortex-M7.
+    Teensy41,
+}
+
+impl BenchBoard {
+    /// Every board for the bench.
+    pub const ALL: [Self; 3] = [Self::Stm32g4, Self::Pico2, Self::Teensy41];
+
+    /// The word for it on the command line, and its folder.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stm32g4 => "stm32g4",
+            Self::Pico2 => "pico2",
+            Self::Teensy41 => "teensy41",
+        }
+    }
+
+    /// The compiler's name for its kind of core.
+    pub const fn target(self) -> &'static str {
+        match self {
+            Self::Stm32g4 | Self::Teensy41 => "thumbv7em-none-eabihf",
+            Self::Pico2 => "thumbv8m.main-none-eabihf",
+        }
+    }
+
+    /// Its crate's folder.
+    pub fn folder(self) -> PathBuf {
+        repository().join("boards").join(self.name())
+    }
+}
+
+/// A board of either kind: a crate that cargo can be run for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum AnyBoard {
+    /// One that runs here.
+    Emulated(Board),
+    /// One that does not.
+    Bench(BenchBoard),
+}
+
+impl AnyBoard {
+    const ALL: [Self; 6] = [
+        Self::Emulated(Board::M4),
+        Self::Emulated(Board::M7),
+        Self::Emulated(Board::M33),
+        Self::Bench(BenchBoard::Stm32g4),
+        Self::Bench(BenchBoard::Pico2),
+        Self::Bench(BenchBoard::Teensy41),
+    ];
+
+    /// The word for it on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Emulated(board) => board.name(),
+            Self::Bench(board) => board.name(),
+        }
+    }
+
+    /// The compiler's name for its kind of core.
+    pub const fn target(self) -> &'static str {
+        match self {
+            Self::Emulated(board) => board.target(),
+            Self::Bench(board) => board.target(),
+        }
+    }
+
+    /// Its crate's folder.
+    pub fn folder(self) -> PathBuf {
+        match self {
+            Self::Emulated(board) => board.folder(),
+            Self::Bench(board) => board.folder(),
+        }
+    }
+}
+
+impl Default for AnyBoard {
+    fn default() -> Self {
+        Self::Emulated(Board::default())
+    }
+}
+
+impl ValueEnum for AnyBoard {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.name()))
     }
 }

@@ -1,5 +1,6 @@
 //! A running emulator with the firmware in it.
 
+use super::qemu::Pace;
 use super::{Image, Link, LinkError, Qemu};
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 use nix::sys::stat::Mode;
@@ -8,8 +9,8 @@ use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver};
 use std::fs::{self, File, OpenOptions};
 use std::io::{ErrorKind, Read, Write};
 use std::os::fd::{AsFd, OwnedFd};
-use std::os::unix::net::UnixListener;
-use std::process::{Child, Command, Stdio};
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -60,14 +61,39 @@ impl Emulator {
     /// # Errors
     /// If the emulator does not start.
     pub fn start(qemu: &Qemu, image: &Image, transport: Transport) -> Result<Self, LinkError> {
-        let folder = tempfile::Builder::new().prefix("palpate-link-").tempdir()?;
-        let mut command = qemu.board(&image.elf, image.board);
-        command.current_dir(folder.path()).stdout(Stdio::null()).stderr(File::create(folder.path().join("said"))?);
+        let (command, folder) = command(qemu, image, Pace::Counting)?;
         let (child, to_device, from_device) = match transport {
             Transport::Uart => start_with_socket(command, &folder)?,
             Transport::Fifo => start_with_fifos(command, &folder)?,
         };
-        Ok(Self {
+        Ok(Self::new(child, transport, to_device, from_device, folder))
+    }
+
+    /// Starts an image that speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_telemetry(qemu: &Qemu, image: &Image) -> Result<(Self, UnixStream), LinkError> {
+        let (mut command, folder) = command(qemu, image, Pace::Brisk)?;
+        let (to_device, from_device) = open_fifos(&folder)?;
+        let (child, line) = accept_uart(&mut command, &folder)?;
+        Ok((Self::new(child, Transport::Fifo, to_device, from_device, folder), line))
+    }
+
+    /// Starts an image that speaks over FIFOs and writes to its standard output, which comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_output(qemu: &Qemu, image: &Image) -> Result<(Self, ChildStdout), LinkError> {
+        let (mut command, folder) = command(qemu, image, Pace::Brisk)?;
+        let (to_device, from_device) = open_fifos(&folder)?;
+        let mut child = command.stdout(Stdio::piped()).spawn()?;
+        let output = child.stdout.take().ok_or_else(|| LinkError::Io(ErrorKind::BrokenPipe.into()))?;
+        Ok((Self::new(child, Transport::Fifo, to_device, from_device, folder), output))
+    }
+
+    fn new(child: Child, transport: Transport, to_device: File, from_device: File, folder: TempDir) -> Self {
+        Self {
             child,
             transport,
             to_device,
@@ -77,7 +103,7 @@ impl Emulator {
             next: 0,
             end: 0,
             folder,
-        })
+        }
     }
 
     /// Hangs up, so that the firmware finds its host gone, and waits for the emulator to end by itself.
@@ -186,8 +212,30 @@ impl Drop for Emulator {
     }
 }
 
-/// This program listens and the emulator calls: there is no moment at which one could miss the other.
+/// The emulator's command line for an image, to be run in a folder of its own.
+fn command(qemu: &Qemu, image: &Image, pace: Pace) -> Result<(Command, TempDir), LinkError> {
+    let folder = tempfile::Builder::new().prefix("palpate-link-").tempdir()?;
+    let mut command = qemu.board(&image.elf, image.board, pace);
+    command.current_dir(folder.path()).stdout(Stdio::null()).stderr(File::create(folder.path().join("said"))?);
+    Ok((command, folder))
+}
+
+/// The UART is the link.
 fn start_with_socket(mut command: Command, folder: &TempDir) -> Result<(Child, File, File), LinkError> {
+    let (child, stream) = accept_uart(&mut command, folder)?;
+    let stream = File::from(OwnedFd::from(stream));
+    Ok((child, stream.try_clone()?, stream))
+}
+
+/// The FIFOs are the link.
+fn start_with_fifos(mut command: Command, folder: &TempDir) -> Result<(Child, File, File), LinkError> {
+    let (to_device, from_device) = open_fifos(folder)?;
+    Ok((command.spawn()?, to_device, from_device))
+}
+
+/// Starts the emulator with its UART on a socket. This program listens and the emulator calls: there is no moment at which one
+/// could miss the other.
+fn accept_uart(command: &mut Command, folder: &TempDir) -> Result<(Child, UnixStream), LinkError> {
     let listener = UnixListener::bind(folder.path().join("uart"))?;
     listener.set_nonblocking(true)?;
     let mut child =
@@ -197,8 +245,7 @@ fn start_with_socket(mut command: Command, folder: &TempDir) -> Result<(Child, F
         match listener.accept() {
             Ok((stream, _)) => {
                 stream.set_nonblocking(false)?;
-                let stream = File::from(OwnedFd::from(stream));
-                return Ok((child, stream.try_clone()?, stream));
+                return Ok((child, stream));
             }
             Err(error) if error.kind() == ErrorKind::WouldBlock => {}
             Err(error) => {
@@ -219,12 +266,11 @@ fn start_with_socket(mut command: Command, folder: &TempDir) -> Result<(Child, F
 }
 
 /// Each FIFO is opened to read *and* write, which never blocks; the other end comes when the firmware opens it.
-fn start_with_fifos(mut command: Command, folder: &TempDir) -> Result<(Child, File, File), LinkError> {
+fn open_fifos(folder: &TempDir) -> Result<(File, File), LinkError> {
     let open = |name| {
         let path = folder.path().join(name);
         nix::unistd::mkfifo(&path, Mode::S_IRUSR | Mode::S_IWUSR).map_err(std::io::Error::from)?;
         OpenOptions::new().read(true).write(true).open(path)
     };
-    let (to_device, from_device) = (open("to-device")?, open("from-device")?);
-    Ok((command.spawn()?, to_device, from_device))
+    Ok((open("to-device")?, open("from-device")?))
 }

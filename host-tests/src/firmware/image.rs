@@ -1,7 +1,7 @@
 //! Building the firmware image and measuring it.
 
 use super::process::output;
-use super::{Board, Progress, SetUpError, Toolchain, Transport};
+use super::{BenchBoard, Board, Progress, SetUpError, Toolchain, Transport};
 use object::{Object, ObjectSection, SectionFlags, SectionKind, elf};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,7 @@ pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Res
     Ok(Images { uart: build(Transport::Uart)?, fifo: build(Transport::Fifo)?, _folder: folder })
 }
 
-/// Builds one of the board's programs into a folder, with features of the crate that the boards share.
+/// Builds one of the board's programs into a folder, with features of its crate.
 ///
 /// # Errors
 /// What the compiler says, or what is wrong with a file.
@@ -85,8 +85,10 @@ pub fn build_program(
         .args(["build", "--release", "--bin", program, "--target-dir"])
         .arg(&target_folder);
     for feature in features {
-        cargo.args(["--features", &format!("palpate-emulated/{feature}")]);
+        cargo.args(["--features", feature]);
     }
+    // The log's levels are chosen when it is compiled.
+    cargo.env("DEFMT_LOG", "info");
     for (variable, file) in [("PALPATE_BODY", &choice.body), ("PALPATE_SETTINGS", &choice.settings)] {
         match file {
             Some(file) => cargo.env(variable, file.canonicalize().map_err(SetUpError::io(file.display()))?),
@@ -100,6 +102,19 @@ pub fn build_program(
     let elf = folder.join(program);
     fs::copy(&built, &elf).map_err(SetUpError::io(built.display()))?;
     measure(choice.board, elf)
+}
+
+/// Builds the program of a board for the bench and gives the ELF file.
+///
+/// # Errors
+/// What the compiler says.
+pub fn build_bench(board: BenchBoard, progress: &Progress) -> Result<PathBuf, SetUpError> {
+    let toolchain = Toolchain::set_up(board.target(), progress)?;
+    let target_folder = toolchain.target_folder();
+    let mut cargo = toolchain.cargo();
+    cargo.current_dir(board.folder()).args(["build", "--release", "--target-dir"]).arg(&target_folder);
+    progress.during(&format!("building the firmware for the board {}", board.name()), || output(&mut cargo))?;
+    Ok(target_folder.join(board.target()).join("release").join(board.name()))
 }
 
 /// Adds up the sections that the linker gave an address.

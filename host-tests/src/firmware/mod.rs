@@ -21,15 +21,15 @@ mod progress;
 mod qemu;
 mod toolchain;
 
-pub use board::Board;
+pub use board::{AnyBoard, BenchBoard, Board};
 pub use emulator::{Emulator, Transport};
-pub use image::{Choice, Image, Images};
+pub use image::{Choice, Image, Images, build_bench};
 pub use link::{Link, LinkError};
 pub use process::{SetUpError, without_outer_cargo};
 pub(crate) use process::{apt_install, on_path, output};
 pub use program::Program;
 pub use progress::Progress;
-pub use qemu::Qemu;
+pub use qemu::{Pace, Qemu};
 pub use toolchain::Toolchain;
 
 use std::path::{Path, PathBuf};

@@ -1,10 +1,12 @@
-//! A board's program that runs by itself and prints.
+//! A board's program other than the plain ones: it prints, logs or tells of itself.
 
 use super::process::output;
-use super::{Board, Choice, Image, Progress, Qemu, SetUpError, Toolchain, image};
+use super::{Board, Choice, Emulator, Image, LinkError, Pace, Progress, Qemu, SetUpError, Toolchain, image};
+use std::os::unix::net::UnixStream;
+use std::process::ChildStdout;
 use tempfile::TempDir;
 
-/// An image that needs no host but a console.
+/// A program's image and the emulator for it.
 #[derive(Debug)]
 pub struct Program {
     qemu: Qemu,
@@ -15,27 +17,52 @@ pub struct Program {
 }
 
 impl Program {
-    /// Sets up what is missing and builds a program, with the features of the boards' shared crate that are named.
+    /// Sets up what is missing and builds a program, with features of the board's crate.
     ///
     /// # Errors
     /// What is missing or wrong.
     pub fn prepare(board: Board, program: &str, features: &[&str], progress: &Progress) -> Result<Self, SetUpError> {
+        Self::prepare_with(&Choice { board, ..Choice::default() }, program, features, progress)
+    }
+
+    /// The same with a choice of body and settings.
+    ///
+    /// # Errors
+    /// What is missing or wrong.
+    pub fn prepare_with(
+        choice: &Choice,
+        program: &str,
+        features: &[&str],
+        progress: &Progress,
+    ) -> Result<Self, SetUpError> {
         let qemu = Qemu::set_up(progress)?;
-        let toolchain = Toolchain::set_up(board.target(), progress)?;
-        let choice = Choice { board, ..Choice::default() };
+        let toolchain = Toolchain::set_up(choice.board.target(), progress)?;
         let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
-        let image = image::build_program(&toolchain, &choice, program, features, folder.path(), progress)?;
+        let image = image::build_program(&toolchain, choice, program, features, folder.path(), progress)?;
         Ok(Self { qemu, image, _folder: folder })
     }
 
-    /// Runs it to its end and gives what it printed. With `counted`, an instruction takes 64 ns of the emulated clock and
-    /// every run is the same in every count; without, the clock is the host's and the run is faster.
+    /// Runs it to its end, by itself, and gives what it printed.
     ///
     /// # Errors
     /// What it printed before it failed.
-    pub fn run(&self, counted: bool) -> Result<String, SetUpError> {
-        let Image { board, elf, .. } = &self.image;
-        let mut command = if counted { self.qemu.board(elf, *board) } else { self.qemu.uncounted(elf, *board) };
-        output(&mut command)
+    pub fn run(&self, pace: Pace) -> Result<String, SetUpError> {
+        output(&mut self.qemu.board(&self.image.elf, self.image.board, pace))
+    }
+
+    /// Starts it where it speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_telemetry(&self) -> Result<(Emulator, UnixStream), LinkError> {
+        Emulator::start_with_telemetry(&self.qemu, &self.image)
+    }
+
+    /// Starts it where it speaks over FIFOs and writes to its standard output, which comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_output(&self) -> Result<(Emulator, ChildStdout), LinkError> {
+        Emulator::start_with_output(&self.qemu, &self.image)
     }
 }

@@ -8,6 +8,29 @@ use std::process::{Command, Stdio};
 
 const PROGRAM: &str = "qemu-system-arm";
 
+/// What the emulated clock goes by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// 64 ns an instruction whatever the host does, and time that is slept is skipped: every run is the same, and a count of
+    /// 25 MHz tells one instruction from the next.
+    Counting,
+    /// The same with 8 ns, as on a real board: time is left between two ticks for what runs below them, though a tick here has
+    /// frames to read and write that a real one has not. Instructions are not counted.
+    Brisk,
+    /// The host's clock, which is faster: nothing can be counted, and what does not look at a clock is the same.
+    Free,
+}
+
+impl Pace {
+    const fn instruction_count(self) -> Option<&'static str> {
+        match self {
+            Self::Counting => Some("shift=6,sleep=off"),
+            Self::Brisk => Some("shift=3,sleep=off"),
+            Self::Free => None,
+        }
+    }
+}
+
 /// An emulator that starts.
 #[derive(Clone, Debug)]
 pub struct Qemu {
@@ -40,23 +63,11 @@ impl Qemu {
     }
 
     /// The command that runs an image on the emulated board.
-    ///
-    /// One instruction is 64 ns of emulated time whatever the host does, and time that is slept is skipped: every run is the
-    /// same, and instructions can be counted.
-    pub fn board(&self, elf: &Path, board: Board) -> Command {
-        self.start(elf, board, true)
-    }
-
-    /// The same by the host's clock, which is faster: nothing can be counted, and what does not look at a clock is the same.
-    pub fn uncounted(&self, elf: &Path, board: Board) -> Command {
-        self.start(elf, board, false)
-    }
-
-    fn start(&self, elf: &Path, board: Board, counted: bool) -> Command {
+    pub fn board(&self, elf: &Path, board: Board, pace: Pace) -> Command {
         let mut command = Command::new(&self.program);
         command.stdin(Stdio::null()).args(["-machine", board.machine()]);
-        if counted {
-            command.args(["-icount", "shift=6,sleep=off"]);
+        if let Some(count) = pace.instruction_count() {
+            command.args(["-icount", count]);
         }
         command
             .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])

@@ -1,12 +1,15 @@
 //! The firmware image on the emulated board. Runs with `cargo palpate test`; plain `cargo test` says what it leaves out.
 
 mod agreement;
+mod bench;
 mod budgets;
 mod demo;
 mod faults;
 mod image;
+mod log;
 mod parity;
 mod path;
 mod proofs;
 mod round_trip;
 mod running;
+mod telemetry;

@@ -3,7 +3,7 @@
 use crate::running::is_wanted;
 use palpate::servo::{Fault, Phase};
 use palpate_exercise::tally::Tally;
-use palpate_host::firmware::{Board, Program, Progress};
+use palpate_host::firmware::{Board, Pace, Program, Progress};
 use std::io::{Write, stderr};
 use std::thread;
 use std::time::Instant;
@@ -30,7 +30,7 @@ fn every_core_and_the_host_agree_in_every_bit_of_a_million_ticks() {
             let host = &host;
             scope.spawn(move || {
                 let start = Instant::now();
-                let board = program.run(false).unwrap();
+                let board = program.run(Pace::Free).unwrap();
                 let core = program.image.board.core();
                 assert_eq!(&board, host, "{core} and the host differ");
                 let seconds = start.elapsed().as_secs_f64();

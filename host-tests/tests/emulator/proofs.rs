@@ -2,7 +2,7 @@
 
 use crate::running::is_wanted;
 use palpate_host::commands::image::{TICK, deepest_stack, unwanted};
-use palpate_host::firmware::{Board, Program, Progress, repository};
+use palpate_host::firmware::{Board, Pace, Program, Progress, repository};
 use palpate_host::proof::{Code, Finding, Lines, LoopList, StackError, Tree, deepest};
 use std::collections::BTreeMap;
 use std::io::{Write, stderr};
@@ -58,7 +58,7 @@ fn what_is_planted_is_found() {
     if !is_wanted("what_is_planted_is_found") {
         return;
     }
-    let planted = |board, feature| read(board, "uart", &[feature]);
+    let planted = |board, feature| read(board, "uart", &[&format!("palpate-emulated/{feature}")]);
     let finds = |board, feature, is: fn(&Finding) -> bool| {
         let image = planted(board, feature);
         let tree = image.tree();
@@ -91,7 +91,7 @@ fn the_stack_measured_is_within_its_bound() {
     for board in Board::ALL {
         let program = Program::prepare(board, "stack", &[], &Progress::new()).unwrap();
         let bound = deepest_stack(&Code::read(&program.image.elf).unwrap()).unwrap();
-        let said: BTreeMap<String, i64> = toml::from_str(&program.run(true).unwrap()).unwrap();
+        let said: BTreeMap<String, i64> = toml::from_str(&program.run(Pace::Counting).unwrap()).unwrap();
         let measured = said["stack"];
         let _ = writeln!(stderr(), "{}: {measured} bytes of stack measured, {bound} at most", board.core());
         assert!(measured <= bound && bound <= STACK, "{board:?}: measured {measured}, bound {bound}");

@@ -17,6 +17,7 @@ use thiserror::Error;
 
 /// Why a drive did not take a command. `W` is the error of the pulse-width output, `P` of the pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum DriveError<W, P> {
     /// The pulse-width output.
     #[error("the pulse-width output failed")]

@@ -14,6 +14,7 @@ use thiserror::Error;
 
 /// Why a reading cannot be used. `E` is the bus's own error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SensorError<E> {
     /// The bus failed.
     #[error("the bus failed")]
@@ -37,6 +38,7 @@ pub enum SensorError<E> {
 
 /// The position moved further between two readings than the device can move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[error("the position jumped by {by} counts")]
 pub struct Jumped {
     /// How far, counts.
@@ -45,5 +47,6 @@ pub struct Jumped {
 
 /// Both channels of an encoder changed at once: an edge was missed, so counts are lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[error("an encoder edge was missed")]
 pub struct EdgeMissed;

@@ -1,0 +1,50 @@
+//! The servo loop over two FIFOs of the host, and telemetry over the UART.
+
+#![no_std]
+#![no_main]
+
+use board::BOARD;
+use cortex_m_rt::entry;
+use palpate::wire::Record;
+use palpate::wire::frame::{self, MAX_FRAME};
+use palpate::wire::telemetry::Queue;
+use palpate_emulated::body::SETTINGS;
+use palpate_emulated::link::Link;
+use palpate_emulated::link_semihosting::FifoLink;
+use palpate_emulated::link_uart::UartLink;
+use palpate_emulated::recorded::{self, PLACES, RecordedLoop};
+use palpate_emulated::vectors::interrupt;
+
+/// 100 records a second at 4 kHz.
+const TICKS_A_RECORD: u32 = 40;
+
+#[entry]
+fn main() -> ! {
+    static mut QUEUE: Queue<Record, PLACES> = Queue::new();
+
+    let mut records = recorded::hand_over(&BOARD, QUEUE, TICKS_A_RECORD);
+    let mut line = UartLink::new(&BOARD);
+    let mut buffer = [0; MAX_FRAME];
+    BOARD.start_timer(SETTINGS.rate);
+    loop {
+        // No sleep: the emulator, left asleep, lets every other tick of the timer pass.
+        let Some(record) = records.dequeue() else { continue };
+        if let Ok(frame) = frame::pack(&record, &mut buffer) {
+            line.send(frame);
+        }
+    }
+}
+
+#[interrupt]
+fn TIMER0() {
+    // Made at the first tick, in the only place that uses it: from then on no lock is needed.
+    static mut SERVO_LOOP: Option<RecordedLoop<FifoLink>> = None;
+
+    BOARD.acknowledge_timer();
+    if SERVO_LOOP.is_none() {
+        *SERVO_LOOP = RecordedLoop::take(&BOARD, FifoLink::open);
+    }
+    if let Some(servo_loop) = SERVO_LOOP {
+        servo_loop.tick();
+    }
+}

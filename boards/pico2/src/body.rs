@@ -1,0 +1,54 @@
+//! What is felt, on which device, and how: the file to change first.
+
+use palpate::device::drive::{Feed, VoltageFeed};
+use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::device::{Device, Encoder, SerialArm};
+use palpate::math::vec3;
+use palpate::patch::SplinePatch;
+use palpate::servo::{Safety, Servo, Settings};
+use palpate::track::Controller;
+
+/// The body: `cargo palpate bake MODEL.toml --out body.rs`.
+#[path = "../../bodies/table1c.rs"]
+mod table;
+
+/// A motor's bridge: Maxon RE30 for 24 V, 0.611 Ω by its data sheet and 0.1 Ω for the bridge, which is ours to guess.
+const fn feed(ratio: f32) -> Feed {
+    Feed::Voltage(VoltageFeed {
+        supply: 24.0,
+        resistance: 0.711,
+        torque_constant: 0.0259,
+        current_at_full: 3.0,
+        ratio,
+        back_emf_share: 0.8,
+    })
+}
+
+/// The device: the preset, with 14-bit angle sensors on the motors' shafts and bridges that give a voltage.
+static DEVICE: Device<SerialArm, 3> = Device {
+    encoders: [
+        Encoder::geared(16_384.0, -16.0, 0.0),
+        Encoder::geared(16_384.0, -12.0, 0.0),
+        Encoder::geared(16_384.0, 12.0, 0.0),
+    ],
+    feeds: [feed(16.0), feed(-12.0), feed(12.0)],
+    ..WOODEN_HAPTICS_2016
+};
+
+/// 4 kHz and 600 N/m are well inside what the device takes.
+pub const SETTINGS: Settings = Settings {
+    rate: 4_000.0,
+    stiffness: 600.0,
+    damping: 2.0,
+    greatest_force: 5.0,
+    velocity_corner: 200.0,
+    soft_start: 0.2,
+    body_origin: vec3(-0.05, -0.05, -0.06),
+};
+
+/// No host watches: the device runs by itself. The table is checked at boot and over and over.
+const SAFETY: Safety = Safety { table_crc: Some(table::PATCHES[0].table_crc()), ..Safety::DEFAULT };
+
+/// Everything the servo knows.
+pub static SERVO: Servo<'static, SplinePatch, SerialArm, 3> =
+    Servo::new(&DEVICE, &table::PATCHES[0], Controller::CERTIFIED, SETTINGS).safety(SAFETY);

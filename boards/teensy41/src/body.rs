@@ -1,0 +1,40 @@
+//! What is felt, on which device, and how: the file to change first.
+
+use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::device::{Device, Encoder, SerialArm};
+use palpate::math::vec3;
+use palpate::patch::SplinePatch;
+use palpate::servo::{Safety, Servo, Settings};
+use palpate::track::Controller;
+
+/// The body: `cargo palpate bake MODEL.toml --out body.rs`.
+#[path = "../../bodies/table1c.rs"]
+mod table;
+
+/// The device: the preset, with 14-bit angle sensors on the motors' shafts.
+static DEVICE: Device<SerialArm, 3> = Device {
+    encoders: [
+        Encoder::geared(16_384.0, -16.0, 0.0),
+        Encoder::geared(16_384.0, -12.0, 0.0),
+        Encoder::geared(16_384.0, 12.0, 0.0),
+    ],
+    ..WOODEN_HAPTICS_2016
+};
+
+/// 4 kHz and 600 N/m are well inside what the device takes.
+pub const SETTINGS: Settings = Settings {
+    rate: 4_000.0,
+    stiffness: 600.0,
+    damping: 2.0,
+    greatest_force: 5.0,
+    velocity_corner: 200.0,
+    soft_start: 0.2,
+    body_origin: vec3(-0.05, -0.05, -0.06),
+};
+
+/// No host watches: the device runs by itself. The table is checked at boot and over and over.
+const SAFETY: Safety = Safety { table_crc: Some(table::PATCHES[0].table_crc()), ..Safety::DEFAULT };
+
+/// Everything the servo knows.
+pub static SERVO: Servo<'static, SplinePatch, SerialArm, 3> =
+    Servo::new(&DEVICE, &table::PATCHES[0], Controller::CERTIFIED, SETTINGS).safety(SAFETY);

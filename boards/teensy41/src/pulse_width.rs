@@ -1,0 +1,60 @@
+//! One output of FlexPWM2 as embedded-hal has it.
+
+use core::convert::Infallible;
+
+use embedded_hal::pwm::{ErrorType, SetDutyCycle};
+use imxrt_ral::pwm::PWM2;
+use teensy4_bsp::hal::flexpwm::{
+    Channel, ClockSelect, FULL_RELOAD_VALUE_REGISTER, LoadMode, PairOperation, Prescaler, Pwm, SM,
+};
+
+/// 20 kHz from 150 MHz.
+const PERIOD: u16 = 7_500;
+
+/// Output A of a submodule.
+pub struct PulseWidth {
+    pwm: Pwm,
+    submodule: SM,
+}
+
+impl PulseWidth {
+    /// The output, running at no width.
+    ///
+    /// # Safety
+    /// Each submodule at most once, and all of them in one interrupt or none: they share a control register.
+    pub unsafe fn start(submodule: SM) -> Self {
+        // SAFETY: as asked for above, nobody changes the shared register at the same time.
+        let mut pwm = Pwm::new::<2>(unsafe { PWM2::instance() });
+        pwm.set_clock_select(submodule, ClockSelect::Ipg);
+        pwm.set_prescaler(submodule, Prescaler::Prescaler1);
+        pwm.set_pair_operation(submodule, PairOperation::Independent);
+        pwm.set_load_mode(submodule, LoadMode::reload_full());
+        pwm.set_load_frequency(submodule, 1);
+        pwm.set_initial_count(submodule, 0);
+        pwm.set_value(submodule, FULL_RELOAD_VALUE_REGISTER, PERIOD as i16 - 1);
+        pwm.set_turn_on(submodule, Channel::A, 0);
+        pwm.set_turn_off(submodule, Channel::A, 0);
+        pwm.set_output_enable(pwm.output_enable(Channel::A) | submodule.mask(), Channel::A);
+        pwm.set_load_ok(submodule.mask());
+        pwm.set_run(pwm.run() | submodule.mask());
+        Self { pwm, submodule }
+    }
+}
+
+impl ErrorType for PulseWidth {
+    type Error = Infallible;
+}
+
+impl SetDutyCycle for PulseWidth {
+    fn max_duty_cycle(&self) -> u16 {
+        PERIOD
+    }
+
+    #[inline]
+    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+        // At most 7,500: a positive i16. The new width holds from the next period on.
+        self.pwm.set_turn_off(self.submodule, Channel::A, duty.min(PERIOD) as i16);
+        self.pwm.set_load_ok(self.submodule.mask());
+        Ok(())
+    }
+}
