@@ -14,5 +14,6 @@ mod output;
 pub mod progress;
 pub mod race;
 pub mod sim;
+mod table_report;
 pub mod test;
 pub mod zwidth;
