@@ -49,11 +49,12 @@ impl Along {
     /// of the face's cross derivative: its part normal to the edge. Positive once the probe has left the face.
     #[inline]
     pub(super) fn beyond(&self, at: &CurvePoint, cross: Vec3) -> f32 {
-        if !(self.stretch > f32::MIN_POSITIVE) {
-            return -self.difference.dot(cross);
+        if self.stretch > f32::MIN_POSITIVE {
+            let conormal = cross - at.tangent * (cross.dot(at.tangent) / self.stretch);
+            let squared = conormal.length_squared();
+            if squared > f32::MIN_POSITIVE { -self.difference.dot(conormal) / sqrt(squared) } else { 0.0 }
+        } else {
+            -self.difference.dot(cross)
         }
-        let conormal = cross - at.tangent * (cross.dot(at.tangent) / self.stretch);
-        let squared = conormal.length_squared();
-        if squared > f32::MIN_POSITIVE { -self.difference.dot(conormal) / sqrt(squared) } else { 0.0 }
     }
 }
