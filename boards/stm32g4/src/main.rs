@@ -46,12 +46,14 @@ const TICKS_A_RECORD: u32 = 20;
 
 /// A channel of TIM1 and an enable pin.
 type Amplifier<C, P> = SetPointDrive<Pwm<TIM1, C, ComplementaryDisabled, ActiveHigh, ActiveHigh>, P>;
+/// The three, each with its own pins.
+type Amplifiers = (Amplifier<C1, PC0<Output>>, Amplifier<C2, PC1<Output>>, Amplifier<C3, PC2<Output>>);
 
 /// What the interrupt owns.
 struct Loop {
     timer: CountDownTimer<TIM7>,
     encoders: Encoders,
-    amplifiers: (Amplifier<C1, PC0<Output>>, Amplifier<C2, PC1<Output>>, Amplifier<C3, PC2<Output>>),
+    amplifiers: Amplifiers,
     /// High while force is asked for.
     button: PC13<PinInput>,
     /// Low when an amplifier reports a fault.
