@@ -5,6 +5,7 @@ pub mod budgets;
 pub mod check;
 pub mod closest;
 pub mod demo;
+pub mod felt;
 pub mod figures;
 pub mod firmware;
 pub mod image;
