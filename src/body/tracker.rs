@@ -53,6 +53,8 @@ pub struct BodyStep {
     pub too_deep: bool,
 }
 
+const _: () = assert!(size_of::<BodyWitness>() <= 256);
+
 impl BodyStep {
     /// Nothing done.
     pub(super) const NOTHING: Self =
