@@ -45,3 +45,9 @@ pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
         0.096,
     ),
 ];
+/// What is felt.
+pub type Surface = palpate::patch::SplinePatch;
+/// The first patch.
+pub const SURFACE: &Surface = &PATCHES[0];
+/// CRC-32 of its numbers, [`palpate::patch::SplinePatch::table_crc`], computed when it was baked.
+pub const TABLE_CRC: u32 = 543639650;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 fn main() {
     let emulated = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let boards = emulated.parent().expect("it lies in boards/");
-    choose("PALPATE_BODY", &boards.join("bodies/table1c.rs"));
+    choose("PALPATE_BODY", &boards.join("bodies/capped_box.rs"));
     choose("PALPATE_SETTINGS", &boards.join("settings/default.rs"));
     println!("cargo::rerun-if-changed=build.rs");
 }

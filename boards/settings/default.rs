@@ -11,7 +11,7 @@ pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
     greatest_force: 5.0,
     velocity_corner: 200.0,
     soft_start: 0.2,
-    body_origin: palpate::math::vec3(-0.05, -0.05, -0.06),
+    body_origin: palpate::math::vec3(-0.03, -0.02, -0.015),
 };
 
 /// A host that is silent for 100 ms is gone.

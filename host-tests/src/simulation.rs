@@ -3,24 +3,23 @@
 use crate::firmware::{Link, LinkError};
 use crate::plant::Plant;
 use palpate::device::{Counts, Kinematics};
-use palpate::patch::Patch;
-use palpate::servo::{Event, Input, Servo, ServoState};
+use palpate::servo::{Event, Input, Servo, ServoState, Surface};
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::{Report, Sensors};
 use std::time::Duration;
 
 /// The servo loop compiled for the host, behind the same link as the firmware: the frames and the way from a frame to an
 /// input are those of the board.
-pub struct HostLoop<'a, P, K> {
-    servo: Servo<'a, P, K, 3>,
-    state: ServoState<3>,
+pub struct HostLoop<'a, S: Surface, K> {
+    servo: Servo<'a, S, K, 3>,
+    state: ServoState<3, S::Witness>,
     receiver: Receiver<Sensors>,
     report: Option<Report>,
 }
 
-impl<'a, P: Patch, K: Kinematics<3>> HostLoop<'a, P, K> {
+impl<'a, S: Surface, K: Kinematics<3>> HostLoop<'a, S, K> {
     /// A loop in its state before the first tick.
-    pub fn new(servo: Servo<'a, P, K, 3>) -> Self {
+    pub fn new(servo: Servo<'a, S, K, 3>) -> Self {
         let state = servo.start();
         Self { servo, state, receiver: Receiver::new(), report: None }
     }
@@ -31,7 +30,7 @@ impl<'a, P: Patch, K: Kinematics<3>> HostLoop<'a, P, K> {
     }
 }
 
-impl<P: Patch, K: Kinematics<3>> Link for HostLoop<'_, P, K> {
+impl<S: Surface, K: Kinematics<3>> Link for HostLoop<'_, S, K> {
     fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         for byte in bytes {
             let received = self.receiver.feed(*byte);

@@ -1,6 +1,7 @@
 //! One step along an edge: the controller of one parameter.
 
 use super::curve::{CurvePoint, SplineCurve};
+use super::feature::Separator;
 use crate::math::{Vec3, sqrt};
 
 /// Where a step along an edge starts from.
@@ -45,16 +46,24 @@ impl Along {
         crate::math::saturate(target, 0.0, 1.0)
     }
 
-    /// How far the probe is beyond a face's region, as the cosine-weighted distance `(Q − c) · m`, metres, with `m` the unit conormal made
-    /// of the face's cross derivative: its part normal to the edge. Positive once the probe has left the face.
+    /// How far the probe is beyond a face's region at the parameter `t` of its edge, as the distance `(Q − c) · m`, metres. Positive once the
+    /// probe has left the face.
     #[inline]
-    pub(super) fn beyond(&self, at: &CurvePoint, cross: Vec3) -> f32 {
-        if self.stretch > f32::MIN_POSITIVE {
-            let conormal = cross - at.tangent * (cross.dot(at.tangent) / self.stretch);
-            let squared = conormal.length_squared();
-            if squared > f32::MIN_POSITIVE { -self.difference.dot(conormal) / sqrt(squared) } else { 0.0 }
-        } else {
-            -self.difference.dot(cross)
+    pub(super) fn beyond(&self, separator: &Separator, at: &CurvePoint, t: f32, probe: Vec3) -> f32 {
+        match separator {
+            Separator::Plane { normal, offset } => normal.dot(probe) - offset,
+            Separator::Ruled(cross) => self.beyond_ruled(at, cross.evaluate(t).point),
         }
+    }
+
+    /// The same with `m` the unit conormal made of the face's cross derivative: its part normal to the edge.
+    #[inline]
+    fn beyond_ruled(&self, at: &CurvePoint, cross: Vec3) -> f32 {
+        if self.stretch <= f32::MIN_POSITIVE {
+            return -self.difference.dot(cross);
+        }
+        let conormal = cross - at.tangent * (cross.dot(at.tangent) / self.stretch);
+        let squared = conormal.length_squared();
+        if squared > f32::MIN_POSITIVE { -self.difference.dot(conormal) / sqrt(squared) } else { 0.0 }
     }
 }

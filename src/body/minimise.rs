@@ -8,8 +8,8 @@ use super::locator::Candidate;
 use crate::math::Vec3;
 use crate::patch::{CurvedPoint, SplinePatch};
 
-/// Evaluations that one rectangle may cost.
-pub const MOST_EVALUATIONS: u8 = 16;
+/// Evaluations that one candidate of a list may cost.
+pub const MOST_EVALUATIONS_A_CANDIDATE: u8 = 16;
 /// A distance is found when the next step would change it by less than this, relative to the body's size: the rounding of `f32`
 /// coordinates of that size.
 const RESOLUTION: f32 = 2.0e-7;
@@ -81,7 +81,7 @@ impl Descending {
             self.halvings += 1;
             self.trial = [0, 1].map(|axis| 0.5 * (self.parameters[axis] + at[axis]));
         }
-        let exhausted = self.evaluations >= MOST_EVALUATIONS || self.halvings >= MOST_HALVINGS;
+        let exhausted = self.evaluations >= MOST_EVALUATIONS_A_CANDIDATE || self.halvings >= MOST_HALVINGS;
         if exhausted { Progress::Exhausted } else { Progress::Falling }
     }
 }

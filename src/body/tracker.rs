@@ -2,7 +2,7 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::feature::{EdgeFace, EdgeKind, Feature, Separator, Side};
+use super::feature::{EdgeFace, EdgeKind, Feature, Side};
 use super::search::{Located, Search};
 use super::table::Body;
 use crate::math::{Vec3, sqrt};
@@ -26,8 +26,6 @@ pub struct BodyWitness {
     pub feature: Feature,
     /// The witness point. On an edge `parameters[0]` is the edge's parameter and `tangent_u` its tangent.
     pub witness: Witness,
-    /// On a face: the parameters of its edges closest to the probe, one a side.
-    pub sides: [f32; 4],
     /// Unit vector out of the body at the witness point; zero before the first tick on a face.
     pub normal: Vec3,
     /// Signed gap along it, metres; negative inside the body.
@@ -38,8 +36,8 @@ pub struct BodyWitness {
     pub is_located: bool,
     /// The search for a global start, or the rolling audit.
     search: Search,
-    /// The probe of the last tick.
-    probe: Vec3,
+    /// The probe of the last tick; `None` before the first.
+    probe: Option<Vec3>,
 }
 
 /// What a tick found out.
@@ -64,13 +62,12 @@ impl Body {
         BodyWitness {
             feature: Feature::Face(0),
             witness: Witness::at(&self.faces[0].patch, 0.5, 0.5),
-            sides: [0.5; 4],
             normal: Vec3::ZERO,
             gap: 0.0,
             contact: Contact::Behind,
             is_located: false,
             search: Search::new(self, Vec3::ZERO),
-            probe: Vec3::ZERO,
+            probe: None,
         }
     }
 
@@ -80,8 +77,6 @@ impl Body {
         let mut state = self.start();
         if let Some(patch) = self.faces.get(usize::from(face)).map(|face| &face.patch) {
             let witness = Witness::at(patch, u, v);
-            // No probe yet, and so no jump of it.
-            state.probe = Vec3::NAN;
             self.enter_face(face, witness.parameters, Some(witness), &mut state);
             state.is_located = true;
         }
@@ -108,11 +103,14 @@ impl Body {
             return step;
         }
         let jump = JUMP * self.size;
-        if state.is_located && (position - state.probe).length_squared() > jump * jump {
+        let jumped = match state.probe.replace(position) {
+            Some(last) => (position - last).length_squared() > jump * jump,
+            None => !state.is_located,
+        };
+        if jumped {
             state.is_located = false;
             state.search = Search::new(self, position);
         }
-        state.probe = position;
         self.audit(state, position, &mut step);
         if !state.is_located {
             state.contact = Contact::Behind;
@@ -173,53 +171,32 @@ impl Body {
         state.is_located = true;
     }
 
-    /// The witness point on a face, at given parameters; the closest points of its sides begin there too.
+    /// The witness point on a face, at given parameters.
     #[inline]
     fn enter_face(&self, index: u16, [u, v]: [f32; 2], witness: Option<Witness>, state: &mut BodyWitness) {
         let Some(face) = self.faces.get(usize::from(index)) else { return };
         state.feature = Feature::Face(index);
         state.witness = witness.unwrap_or_else(|| Witness::at(&face.patch, u, v));
-        for (number, side) in face.sides.iter().enumerate() {
-            let along = if number < 2 { v } else { u };
-            let reversed = matches!(side, Side::Edge { reversed: true, .. });
-            if let Some(parameter) = state.sides.get_mut(number) {
-                *parameter = if reversed { 1.0 - along } else { along };
-            }
-        }
     }
 
-    /// Follows the closest points of the face's sides and hands over to the nearest edge through which the probe has left.
+    /// Hands over through a side that holds the witness point, if the probe is beyond its separator there. While the witness point is in
+    /// the interior there is nothing to ask: the controller brings it to the side through which the probe has left.
     #[inline]
     fn leave_face(&self, index: u16, state: &mut BodyWitness, probe: Vec3, squared: f32, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(index)) else { return };
-        let mut nearest: Option<(f32, u16, f32, CurvePoint)> = None;
-        for (side, parameter) in face.sides.iter().zip(&mut state.sides) {
-            let Side::Edge { edge, separator, .. } = side else { continue };
+        let mut farthest: Option<(f32, u16, f32, CurvePoint)> = None;
+        for (side, along) in face.sides.iter().zip(held_at(state.witness.parameters)) {
+            let (Some(along), Side::Edge { edge, reversed, separator }) = (along, side) else { continue };
             let Some(curve) = self.edges.get(usize::from(*edge)).map(|edge| &edge.curve) else { continue };
-            let (at, along, beyond) = match separator {
-                Separator::Plane { normal, offset } => {
-                    let beyond = normal.dot(probe) - offset;
-                    if beyond <= 0.0 {
-                        continue;
-                    }
-                    let at = curve.evaluate(*parameter);
-                    (at, Along::new(&at, probe), beyond)
-                }
-                Separator::Ruled(cross) => {
-                    let at = curve.evaluate(*parameter);
-                    let along = Along::new(&at, probe);
-                    (at, along, along.beyond(&at, cross.evaluate(*parameter).point))
-                }
-            };
-            let t = *parameter;
-            *parameter = along.advanced(curve, t);
-            let side_squared = along.difference.length_squared();
-            if beyond > 0.0 && nearest.is_none_or(|(least, ..)| side_squared < least) {
-                nearest = Some((side_squared, *edge, t, at));
+            let t = if *reversed { 1.0 - along } else { along };
+            let at = curve.evaluate(t);
+            let beyond = Along::new(&at, probe).beyond(separator, &at, t, probe);
+            if beyond > 0.0 && farthest.is_none_or(|(most, ..)| beyond > most) {
+                farthest = Some((beyond, *edge, t, at));
             }
         }
-        if let Some((side_squared, edge, t, at)) = nearest
-            && self.is_no_rise(side_squared, squared, at.point, probe)
+        if let Some((_, edge, t, at)) = farthest
+            && self.is_no_rise((at.point - probe).length_squared(), squared, at.point, probe)
         {
             step.switched = true;
             let other = self.edges.get(usize::from(edge)).and_then(|edge| across_smooth(edge.kind, edge.faces, index));
@@ -245,10 +222,7 @@ impl Body {
         for of in edge.faces {
             let Some(face) = self.faces.get(usize::from(of.face)) else { continue };
             let Some(Side::Edge { separator, .. }) = face.sides.get(usize::from(of.side)) else { continue };
-            let beyond = match separator {
-                Separator::Plane { normal, offset } => normal.dot(probe) - offset,
-                Separator::Ruled(cross) => along.beyond(&at, cross.evaluate(t).point),
-            };
+            let beyond = along.beyond(separator, &at, t, probe);
             // The face over which the probe is farthest in.
             if beyond <= 0.0 && entered.is_none_or(|(least, _)| beyond < least) {
                 entered = Some((beyond, of));
@@ -320,9 +294,6 @@ impl Body {
             _ => [along, 1.0],
         };
         self.enter_face(index, parameters, None, state);
-        if let Some(parameter) = state.sides.get_mut(usize::from(number)) {
-            *parameter = t;
-        }
     }
 
     fn rest_on_vertex(&self, index: u16, state: &mut BodyWitness) {
@@ -396,6 +367,12 @@ fn rest_on_edge(index: u16, t: f32, at: &CurvePoint, state: &mut BodyWitness) {
     let surface = SurfacePoint { point: at.point, tangent_u: at.tangent, tangent_v: Vec3::ZERO };
     let mode = if t <= 0.0 || t >= 1.0 { BoundaryMode::Corner } else { BoundaryMode::LowerV };
     state.witness = Witness { parameters: [t, 0.0], surface, mode, caution: 1.0 };
+}
+
+/// For each side of a face, the parameter along it where it holds a point.
+#[inline]
+fn held_at([u, v]: [f32; 2]) -> [Option<f32>; 4] {
+    [(u <= 0.0, v), (u >= 1.0, v), (v <= 0.0, u), (v >= 1.0, u)].map(|(held, along)| held.then_some(along))
 }
 
 /// The face beyond a smooth edge.

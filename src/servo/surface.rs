@@ -142,9 +142,6 @@ impl Tracked for BodyWitness {
     fn for_each_word(&self, mut take: impl FnMut(u32)) {
         self.witness.for_each_word(&mut take);
         take(u32::from(self.feature.code()) | u32::from(self.is_located) << 16 | (self.contact as u32) << 17);
-        for parameter in self.sides {
-            take(parameter.to_bits());
-        }
         for coordinate in self.normal.to_array() {
             take(coordinate.to_bits());
         }

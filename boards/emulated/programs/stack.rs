@@ -10,10 +10,9 @@ use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use board::BOARD;
 use cortex_m_rt::entry;
-use palpate::servo::ServoState;
 use palpate::wire::Report;
 use palpate::wire::frame::{self, MAX_FRAME};
-use palpate_emulated::body::{self, SERVO, SETTINGS};
+use palpate_emulated::body::{self, SERVO, SETTINGS, State};
 use palpate_emulated::vectors::interrupt;
 use palpate_exercise::laps::WOODEN_HAPTICS_REACH;
 use palpate_exercise::script::Script;
@@ -62,7 +61,7 @@ static TOUCHES: AtomicU32 = AtomicU32::new(0);
 
 #[interrupt]
 fn TIMER0() {
-    static mut RUN: Option<(Script, ServoState<3>)> = None;
+    static mut RUN: Option<(Script, State)> = None;
 
     BOARD.acknowledge_timer();
     let encoders = &palpate::device::presets::WOODEN_HAPTICS_2016.encoders;

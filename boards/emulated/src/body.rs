@@ -1,7 +1,6 @@
 //! What is felt and how: tables and settings in flash, chosen when the image is built (see `build.rs`).
 
-use palpate::patch::SplinePatch;
-use palpate::servo::{Input, Servo, ServoState};
+use palpate::servo::{self, Input, Safety, Servo, ServoState};
 use palpate::track::Controller;
 
 use crate::planted;
@@ -16,17 +15,22 @@ mod settings {
     include!(env!("PALPATE_SETTINGS_FILE"));
 }
 
-pub use settings::{SAFETY, SETTINGS};
-pub use tables::PATCHES as BODY;
+pub use settings::SETTINGS;
+
+/// What the loop keeps between two ticks.
+pub type State = ServoState<3, <tables::Surface as servo::Surface>::Witness>;
+
+/// The tables are checked at boot, and over and over.
+const SAFETY: Safety = Safety { table_crc: Some(tables::TABLE_CRC), ..settings::SAFETY };
 
 /// Everything the servo knows, in flash.
-pub static SERVO: Servo<'static, SplinePatch, settings::Mechanism, 3> =
-    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, SETTINGS).safety(SAFETY);
+pub static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> =
+    Servo::new(&settings::DEVICE, tables::SURFACE, Controller::CERTIFIED, SETTINGS).safety(SAFETY);
 
 /// One tick of the servo: a function of its own, so that what is proved of the image and what is counted is all of it and
 /// nothing else.
 #[inline(never)]
-pub fn tick(state: &mut ServoState<3>, input: Input<3>) {
+pub fn tick(state: &mut State, input: Input<3>) {
     planted::fault(state);
     SERVO.tick(state, input);
 }

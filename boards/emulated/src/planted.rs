@@ -5,11 +5,11 @@ mod alloc;
 
 use core::hint::black_box;
 
-use palpate::servo::ServoState;
+use crate::body::State;
 
 /// The fault that was chosen; nothing if none was.
 #[inline]
-pub fn fault(state: &mut ServoState<3>) {
+pub fn fault(state: &mut State) {
     if cfg!(feature = "planted-panic") {
         // A bounds check that may fail.
         let table = black_box([1_u32, 2, 3]);

@@ -2,12 +2,12 @@
 
 use cortex_m::peripheral::SYST;
 use palpate::device::Counts;
-use palpate::servo::{Deadline, Event, Input, ServoState};
+use palpate::servo::{Deadline, Event, Input};
 use palpate::wire::frame::{self, MAX_FRAME, Received};
 use palpate::wire::{Report, Sensors};
 
 use crate::board::Board;
-use crate::body::{self, SERVO, SETTINGS};
+use crate::body::{self, SERVO, SETTINGS, State};
 use crate::link::Link;
 use crate::timer::{INSTRUCTIONS_A_SECOND, InstructionCounter};
 
@@ -24,7 +24,7 @@ const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_A_SECOND as f32, SET
 /// The servo loop over a link.
 pub struct ServoLoop<L> {
     link: L,
-    state: ServoState<3>,
+    state: State,
     counter: InstructionCounter,
     silent_ticks: u32,
 }
@@ -60,7 +60,7 @@ impl<L: Link> ServoLoop<L> {
     }
 
     /// The state after the last tick.
-    pub const fn state(&self) -> &ServoState<3> {
+    pub const fn state(&self) -> &State {
         &self.state
     }
 

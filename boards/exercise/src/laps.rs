@@ -1,5 +1,6 @@
 //! Servos that together have everything a servo can have.
 
+use palpate::body::Body;
 use palpate::device::presets::{NOVINT_FALCON, POLHEM_V2, WOODEN_HAPTICS_2016};
 use palpate::device::{Delta, Device, LinkageArm, Motor, SerialArm, VelocityMethod};
 use palpate::math::{Vec3, vec3};
@@ -17,8 +18,13 @@ mod ellipsoid {
     include!("../../bodies/ellipsoid.rs");
 }
 
+/// A body with flat and curved faces, edges and corners.
+mod capped_box {
+    include!("../../bodies/capped_box.rs");
+}
+
 /// A servo of a mechanism with three joints.
-pub type ServoOf<K> = Servo<'static, SplinePatch, K, 3>;
+pub type ServoOf<K, S = SplinePatch> = Servo<'static, S, K, 3>;
 
 static TABLE_1C: &SplinePatch = &table1c::PATCHES[0];
 static ELLIPSOID: &SplinePatch = &ellipsoid::PATCHES[0];
@@ -37,6 +43,7 @@ const fn settings(body_origin: Vec3) -> Settings {
 
 /// The middle of the workspace in the middle of the body.
 const TABLE_1C_AT: Settings = settings(vec3(-0.05, -0.05, -0.06));
+const CAPPED_BOX_AT: Settings = settings(vec3(-0.03, -0.02, -0.015));
 const ELLIPSOID_AT: Settings = settings(vec3(0.0, 0.0, -0.02));
 
 const FRICTION: Friction =
@@ -105,6 +112,12 @@ pub static SHORT: ServoOf<Delta> =
 pub static CORRUPT: ServoOf<SerialArm> =
     Servo::new(&WOODEN_HAPTICS_2016, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT)
         .safety(Safety { table_crc: Some(!ELLIPSOID.table_crc()), ..Safety::DEFAULT });
+
+/// The capped box.
+pub static BODY: ServoOf<SerialArm, Body> =
+    Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, Controller::CERTIFIED, CAPPED_BOX_AT)
+        .rendering(Rendering { friction: Some(FRICTION), ..Rendering::PLAIN })
+        .safety(Safety { table_crc: Some(capped_box::TABLE_CRC), ..Safety::DEFAULT });
 
 /// Joint angles, radians, that bring each device's probe to, around and into the bodies.
 pub const WOODEN_HAPTICS_REACH: [[f32; 2]; 3] = [[-0.32, 0.32], [0.0, 0.65], [0.65, 1.2]];

@@ -11,6 +11,7 @@ pub mod tally;
 use palpate::device::Encoder;
 use palpate::device::Kinematics;
 use palpate::device::presets::{NOVINT_FALCON, POLHEM_V2, WOODEN_HAPTICS_2016};
+use palpate::servo::Surface;
 
 use laps::{FALCON_REACH, POLHEM_REACH, ServoOf, WOODEN_HAPTICS_REACH};
 use script::Script;
@@ -24,7 +25,8 @@ pub const TICKS_A_LINE: u32 = 50_000;
 /// Runs every servo in turn, [`TICKS`] in all, and gives the tally of its ticks so far every [`TICKS_A_LINE`] ticks.
 pub fn run(say: &mut impl FnMut(&str, &Tally)) {
     let serial = &WOODEN_HAPTICS_2016.encoders;
-    lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 250_000, say);
+    lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 50_000, say);
+    lap("body", &laps::BODY, serial, WOODEN_HAPTICS_REACH, 200_000, say);
     lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 200_000, say);
     lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 200_000, say);
     lap("short", &laps::SHORT, &NOVINT_FALCON.encoders, FALCON_REACH, 50_000, say);
@@ -33,9 +35,9 @@ pub fn run(say: &mut impl FnMut(&str, &Tally)) {
     lap("corrupt", &laps::CORRUPT, serial, WOODEN_HAPTICS_REACH, 50_000, say);
 }
 
-fn lap<K: Kinematics<3>>(
+fn lap<K: Kinematics<3>, S: Surface>(
     name: &str,
-    servo: &ServoOf<K>,
+    servo: &ServoOf<K, S>,
     encoders: &[Encoder; 3],
     reach: [[f32; 2]; 3],
     ticks: u32,

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use palpate::render::Contact;
-use palpate::servo::ServoState;
+use palpate::servo::{ServoState, Tracked};
 
 /// What the ticks so far came to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,6 +14,8 @@ pub struct Tally {
     pub digest: u32,
     /// Boundary modes visited, a bit each, by their number.
     pub modes: u32,
+    /// Features that had the witness point: faces by their index, edges in the next word, vertices in the last.
+    pub features: [u32; 3],
     /// Phases visited.
     pub phases: u32,
     /// Faults seen, by their code.
@@ -28,10 +30,12 @@ pub struct Tally {
 
 impl Tally {
     /// Takes in the state after a tick.
-    pub fn add(&mut self, before: Contact, state: &ServoState<3>) {
+    pub fn add<W: Tracked>(&mut self, before: Contact, state: &ServoState<3, W>) {
         self.ticks += 1;
         self.digest = (self.digest.rotate_left(5) ^ state.digest()).wrapping_mul(0x0100_0193);
-        self.modes |= 1 << state.witness.mode as u32;
+        self.modes |= 1 << state.witness.witness().mode as u32;
+        let feature = state.witness.feature();
+        self.features[usize::from(feature >> 14)] |= 1 << (feature & 31);
         self.phases |= 1 << state.phase as u32;
         self.faults |= state.fault.map_or(0, |(fault, _)| 1 << fault.code());
         let touches = state.contact == Contact::Touching;
@@ -43,8 +47,12 @@ impl Tally {
 
 impl fmt::Display for Tally {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { ticks, digest, modes, phases, faults, touches, touching, undone } = self;
-        write!(formatter, "ticks {ticks} digest {digest:08x} modes {modes:02x} phases {phases:02x} ")?;
+        let Self { ticks, digest, modes, features, phases, faults, touches, touching, undone } = self;
+        write!(
+            formatter,
+            "ticks {ticks} digest {digest:08x} modes {modes:02x} features {:x}.{:x}.{:x} phases {phases:02x} ",
+            features[0], features[1], features[2]
+        )?;
         write!(formatter, "faults {faults:04x} touches {touches} touching {touching} undone {undone}")
     }
 }

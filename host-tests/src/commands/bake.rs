@@ -2,19 +2,21 @@
 
 use super::check::{self, Loaded};
 use super::output::{print, write_whole};
-use crate::bake::body::{BakedBody, BodyBytes};
+use super::progress;
+use super::table_report;
 use crate::bake::graph;
 use crate::bake::source::{self, Origin};
 use anyhow::Context as _;
 use clap::Args;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Writes a model's tables as Rust source, to `include!` in a module of the firmware.
 ///
 /// A model of several patches becomes a body: `pub static BODY: palpate::body::Body` and `pub const TABLE_CRC: u32`. One of a single
-/// patch becomes `pub static PATCHES: [palpate::patch::SplinePatch; 1]`. The same model gives the same bytes wherever it lies.
+/// patch becomes `pub static PATCHES: [palpate::patch::SplinePatch; 1]`, without features and without a locator. The same model gives the
+/// same bytes wherever it lies, on any number of cores.
+///
 /// Exit status as `check`: 0 certified, 1 usable but not certified (the file is written), 2 bad input (it is not).
 #[derive(Args, Debug)]
 #[command(group(clap::ArgGroup::new("product").required(true).multiple(true)))]
@@ -27,7 +29,7 @@ pub struct Arguments {
     /// The file to write the automaton to, as Graphviz: features, and between which of them the tracker switches.
     #[arg(long, value_name = "FILE.dot", group = "product")]
     graph: Option<PathBuf>,
-    /// Prints the bytes of flash by kind.
+    /// Prints the bytes of flash by kind, how much of the locator is proved, and what a cold start may take.
     #[arg(long)]
     table_report: bool,
 }
@@ -37,8 +39,19 @@ pub struct Arguments {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let loaded = Loaded::read(&arguments.model)?;
+    let mut loaded = Loaded::read(&arguments.model)?;
     let labels = loaded.body.labels(&loaded.model);
+    let is_body = loaded.body.faces.len() > 1;
+    let mut report = None;
+    // The automaton has no locator in it.
+    if is_body && (arguments.out.is_some() || arguments.table_report) {
+        let options = loaded.body.locator_options();
+        let bar = progress::work();
+        let all = options.depth + options.deeper;
+        let (body, of_locator) =
+            loaded.body.located(&options, &|depth, _| bar.tell("depths of the octree", depth, all))?;
+        (loaded.body, report) = (body, Some(of_locator));
+    }
     if let Some(out) = &arguments.out {
         let origin = Origin {
             model_file: &file_name(&arguments.model)?,
@@ -55,22 +68,17 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(file) = &arguments.graph {
         write_whole(file, graph::graph(&loaded.body, &loaded.model.name, &labels).as_bytes())?;
     }
+    let surveys = loaded.surveys();
     if arguments.table_report {
-        print(table_report(&loaded.body)?.as_bytes())?;
+        let text = match &report {
+            Some(report) => table_report::of_body(&loaded.body, report)?,
+            None => table_report::of_patches(&surveys)?,
+        };
+        print(text.as_bytes())?;
     }
-    let verdict = check::worst(&loaded.surveys());
+    let verdict = check::worst(&surveys);
     eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
     Ok(check::exit_code(verdict))
-}
-
-fn table_report(body: &BakedBody) -> Result<String, std::fmt::Error> {
-    let mut report = String::new();
-    let bytes = BodyBytes::of(body);
-    for (kind, bytes) in bytes.by_kind() {
-        writeln!(report, "{kind:<16} {bytes:>8}")?;
-    }
-    writeln!(report, "{:<16} {:>8} bytes of flash on a 32-bit target", "all", bytes.total())?;
-    Ok(report)
 }
 
 fn file_name(path: &Path) -> anyhow::Result<String> {

@@ -2,7 +2,6 @@
 
 use super::options::{Scene, SceneOptions};
 use super::{progress, sim};
-use crate::bake::source::rust_source;
 use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
 use crate::report::{Page, Summary, plots, write_page};
 use crate::simulation::{self, Trace};
@@ -58,10 +57,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let run = if arguments.host { on_host(arguments, &scene)? } else { on_board(arguments, &scene)? };
     let mut figures = Summary::new(&run.trace).rows();
     figures.extend(run.sizes);
-    let surface = scene.surface.name.as_deref().unwrap_or("a patch");
-    let subtitle = format!("{surface} of {}, {}", arguments.scene.model_name(), run.on);
+    let subtitle = format!("{} of {}, {}", scene.felt.name(), arguments.scene.model_name(), run.on);
+    let patches = scene.felt.patches();
     let page =
-        Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, patch: scene.patch };
+        Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, patches: &patches };
     write_page(&page, &arguments.report)?;
     if let Some(picture) = &arguments.picture {
         fs::write(picture, plots::path(&page)?).with_context(|| format!("cannot write {}", picture.display()))?;
@@ -110,8 +109,7 @@ pub fn prepare(board: Board, scene: &Scene, progress: &Progress) -> Result<Firmw
 /// The scene's tables and settings as Rust source, in a folder that goes when dropped, and the choice of them.
 pub(super) fn write_tables(board: Board, scene: &Scene) -> anyhow::Result<(tempfile::TempDir, Choice)> {
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-    let source = rust_source(&scene.origin(), std::slice::from_ref(&scene.baked))?;
-    fs::write(folder.path().join("body.rs"), source)?;
+    fs::write(folder.path().join("body.rs"), scene.felt.source(&scene.origin())?)?;
     fs::write(folder.path().join("settings.rs"), scene.settings_source())?;
     let choice =
         Choice { board, body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };

@@ -1,18 +1,17 @@
 //! What `demo` and `sim` share: the scene, and how it is set up from the command line.
 
+use super::felt::Felt;
+use crate::bake::Model;
 use crate::bake::source::Origin;
-use crate::bake::{BakedPatch, Model, NurbsPatch};
 use crate::devices::{DeviceName, Preset};
 use crate::firmware::Link;
-use crate::oracle::Surface;
 use crate::plant::{HandSettings, PathError, Plant, TouchingPath, TouchingSettings};
 use crate::simulation::HostLoop;
 use anyhow::{Context, bail};
 use clap::Args;
 use palpate::device::{Device, Kinematics};
-use palpate::math::{Vec3, vec3};
-use palpate::patch::{Patch, SplinePatch};
-use palpate::servo::{Safety, Servo, Settings};
+use palpate::math::vec3;
+use palpate::servo::{Safety, Servo, Settings, Surface};
 use palpate::track::Controller;
 use std::path::PathBuf;
 
@@ -30,9 +29,9 @@ const TOUCHES_A_SECOND: f64 = 1.2;
 #[derive(Args, Debug, Clone)]
 pub struct SceneOptions {
     /// Model file of the surface
-    #[arg(long, default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/models/table1c.toml"), hide_default_value = true)]
+    #[arg(long, default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/models/capped_box.toml"), hide_default_value = true)]
     pub model: PathBuf,
-    /// Which patch of the model, by name or number; the first if not given
+    /// One patch of the model, by name or number; all of them, joined to a body, if not given
     #[arg(long)]
     pub patch: Option<String>,
     /// The device; a surface is felt with three joints
@@ -62,7 +61,7 @@ pub struct SceneOptions {
     /// Seconds over which the force is faded in
     #[arg(long, default_value_t = 0.1)]
     pub soft_start: f32,
-    /// Where the model's origin lies in the device's workspace: x,y,z in mm from its centre; centres the patch if not given
+    /// Where the model's origin lies in the device's workspace: x,y,z in mm from its centre; centres it if not given
     #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
     pub at: Option<Vec<f32>>,
 }
@@ -73,12 +72,8 @@ pub struct Scene {
     model_file: Vec<u8>,
     /// Its name, without its directory.
     model_name: String,
-    /// The patch that is touched, in double precision.
-    pub surface: NurbsPatch,
-    /// Its table.
-    pub baked: BakedPatch,
-    /// The patch as the servo sees it.
-    pub patch: &'static SplinePatch,
+    /// What is touched.
+    pub felt: Felt,
     /// The device.
     pub device: DeviceName,
     /// The loop's settings.
@@ -96,13 +91,10 @@ impl SceneOptions {
     /// What is wrong, naming the file or the option.
     pub fn scene(&self) -> anyhow::Result<Scene> {
         let model = Model::read(&self.model)?;
-        let index = self.patch_index(&model)?;
-        let baked = BakedPatch::all(&model, &self.model.display().to_string())?.swap_remove(index);
-        let surface = model.patches[index].clone();
-        let patch: &'static SplinePatch = Box::leak(Box::new(baked.to_patch()?));
+        let felt = Felt::read(&model, &self.model, self.patch.as_deref())?;
         let body_origin = match self.at.as_deref() {
             Some(&[x, y, z]) => vec3(x, y, z) * 1e-3,
-            _ => -centre(patch),
+            _ => -felt.middle(),
         };
         let device = self.device;
         if device.source().is_none() {
@@ -129,7 +121,7 @@ impl SceneOptions {
         let enable_at = (0.1 * self.rate) as u32;
         let model_file = std::fs::read(&self.model)?;
         let model_name = self.model_name();
-        Ok(Scene { model_file, model_name, surface, baked, patch, device, settings, ticks: ticks as u32, enable_at })
+        Ok(Scene { model_file, model_name, felt, device, settings, ticks: ticks as u32, enable_at })
     }
 
     /// The simulated device with a hand that touches the scene's surface.
@@ -137,13 +129,11 @@ impl SceneOptions {
     /// # Errors
     /// What the plant refuses.
     pub fn plant(&self, scene: &Scene) -> anyhow::Result<Plant> {
-        let surface = scene.surface.clone();
+        let places = scene.felt.places();
         let origin = scene.settings.body_origin.as_dvec3();
-        let turn = if surface.flip { -1.0 } else { 1.0 };
         let point_and_normal = move |u, v| {
-            let at = Surface::evaluate(&surface, u, v);
-            let normal = at.tangent_u.cross(at.tangent_v).normalize_or_zero() * turn;
-            ((at.point + origin).to_array(), normal.to_array())
+            let (point, normal) = places(u, v);
+            ((point + origin).to_array(), normal.to_array())
         };
         // A short run sees the start of a path that a hand could follow.
         let duration = self.seconds.max(1.0);
@@ -172,7 +162,10 @@ impl SceneOptions {
         let path = (6..=20)
             .rev()
             .map(|share| slower(f64::from(share) / 20.0))
-            .find(|path| path.as_ref().map_or(true, |path| path.keeps_to(has_room)))
+            .find(|path| {
+                path.as_ref()
+                    .map_or_else(|error| !matches!(error, PathError::TooFast { .. }), |path| path.keeps_to(has_room))
+            })
             .with_context(|| {
                 format!(
                     "{}: not even the middle third of the surface is in its workspace (move it with --at)",
@@ -187,15 +180,6 @@ impl SceneOptions {
     /// The model file's name, without its directory.
     pub fn model_name(&self) -> String {
         self.model.file_name().unwrap_or(self.model.as_os_str()).to_string_lossy().into_owned()
-    }
-
-    fn patch_index(&self, model: &Model) -> anyhow::Result<usize> {
-        let Some(wanted) = &self.patch else { return Ok(0) };
-        let by_name = model.patches.iter().position(|patch| patch.name.as_deref() == Some(wanted));
-        let by_number = || wanted.parse().ok().filter(|index| *index < model.patches.len());
-        by_name
-            .or_else(by_number)
-            .with_context(|| format!("{}: no patch {wanted:?} among {}", self.model.display(), model.patches.len()))
     }
 }
 
@@ -214,13 +198,23 @@ impl Scene {
     }
 
     fn host_loop_of<K: Kinematics<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
-        let servo = Servo::try_new(device, self.patch, Controller::CERTIFIED, self.settings)?.try_safety(SAFETY)?;
+        match &self.felt {
+            Felt::Patch { patch, .. } => self.host_loop_on(device, *patch),
+            Felt::Body { body, .. } => self.host_loop_on(device, *body),
+        }
+    }
+
+    fn host_loop_on<K: Kinematics<3>, S: Surface>(
+        &self,
+        device: &'static Device<K, 3>,
+        surface: &'static S,
+    ) -> anyhow::Result<Box<dyn Link>> {
+        let safety = Safety { table_crc: Some(self.felt.table_crc()), ..SAFETY };
+        let servo = Servo::try_new(device, surface, Controller::CERTIFIED, self.settings)?.try_safety(safety)?;
         Ok(Box::new(HostLoop::new(servo)))
     }
-}
 
-impl Scene {
-    /// Where the scene's table comes from.
+    /// Where the scene's tables come from.
     pub fn origin(&self) -> Origin<'_> {
         Origin { model_file: &self.model_name, out_file: "body.rs", model: &self.model_file }
     }
@@ -241,15 +235,4 @@ impl Scene {
              pub const SAFETY: palpate::servo::Safety =\n    palpate::servo::Safety {{ link_timeout: {link_timeout:?}, ..palpate::servo::Safety::DEFAULT }};\n"
         )
     }
-}
-
-/// The middle of a patch's bounding box, from a grid of its points.
-fn centre(patch: &SplinePatch) -> Vec3 {
-    let grid = (0..=16).flat_map(|i| (0..=16).map(move |j| (i as f32 / 16.0, j as f32 / 16.0)));
-    let (low, high) = grid
-        .map(|(u, v)| patch.evaluate(u, v).point)
-        .fold((Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY)), |(low, high), point| {
-            (low.min(point), high.max(point))
-        });
-    0.5 * (low + high)
 }

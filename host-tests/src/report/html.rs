@@ -3,12 +3,12 @@
 use super::plots;
 use crate::simulation::Trace;
 use anyhow::Context;
-use palpate::patch::Patch;
+use palpate::patch::SplinePatch;
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// What goes on the page.
-pub struct Page<'a, P> {
+pub struct Page<'a> {
     /// The headline.
     pub title: &'a str,
     /// One sentence: what was run, on what.
@@ -18,7 +18,7 @@ pub struct Page<'a, P> {
     /// The run.
     pub trace: &'a Trace,
     /// The surface that was touched.
-    pub patch: &'a P,
+    pub patches: &'a [&'a SplinePatch],
 }
 
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;color:#1b1f24;max-width:60rem;margin:2rem auto;padding:0 1rem}\
@@ -30,7 +30,7 @@ svg{max-width:100%;height:auto}.note{color:#57606a}";
 ///
 /// # Errors
 /// A plot that cannot be drawn, or a file that cannot be written, by name.
-pub fn write_page<P: Patch>(page: &Page<'_, P>, path: &Path) -> anyhow::Result<()> {
+pub fn write_page(page: &Page<'_>, path: &Path) -> anyhow::Result<()> {
     let mut text = String::new();
     write!(
         text,
@@ -48,6 +48,11 @@ pub fn write_page<P: Patch>(page: &Page<'_, P>, path: &Path) -> anyhow::Result<(
         ("Probe path", "The surface, and the probe in front of it (blue) and pressing in (red).", plots::path(page)?),
         ("Gap", "Signed distance along the outward normal; below zero the probe presses in.", plots::gap(page.trace)?),
         ("Force", "Magnitude of the force at the probe.", plots::force(page.trace)?),
+        (
+            "Feature",
+            "Which face, edge or corner has the witness point, in the order of their first touch.",
+            plots::feature(page.trace)?,
+        ),
         (
             "Boundary mode",
             "1 and 2: held at u = 0 and u = 1; 3 and 4: at v = 0 and v = 1; 5: interior; 6: corner.",

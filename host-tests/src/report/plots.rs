@@ -5,7 +5,6 @@ use super::summary::norm;
 use crate::drawing::{BLUE_INK, RED_INK, SURFACE_INK, View, draw, equal_scale, thinned};
 use crate::simulation::Trace;
 use palpate::math::Vec3;
-use palpate::patch::Patch;
 use palpate::render::Contact;
 use palpate::wire::Report;
 use plotters::prelude::*;
@@ -22,6 +21,18 @@ pub fn gap(trace: &Trace) -> anyhow::Result<String> {
 /// The force over time, N.
 pub fn force(trace: &Trace) -> anyhow::Result<String> {
     line_plot(trace, "force, N", |sample| norm(sample.report.force), RED_INK)
+}
+
+/// The active feature over time, numbered in the order in which features come.
+pub fn feature(trace: &Trace) -> anyhow::Result<String> {
+    let mut met = Vec::new();
+    for sample in &trace.samples {
+        if !met.contains(&sample.report.feature) {
+            met.push(sample.report.feature);
+        }
+    }
+    let number = |code| met.iter().position(|known| *known == code).unwrap_or_default();
+    line_plot(trace, "feature", |sample| number(sample.report.feature) as f64, BLUE_INK)
 }
 
 /// The boundary mode over time.
@@ -61,9 +72,9 @@ fn line_plot(
 }
 
 /// The surface as a net of lines, and the probe's path over it.
-pub fn path<P: Patch>(page: &Page<'_, P>) -> anyhow::Result<String> {
+pub fn path(page: &Page<'_>) -> anyhow::Result<String> {
     let seen = |report: &Report| View::FRONT_RIGHT.seen(Vec3::from_array(report.probe).as_dvec3());
-    let net = View::FRONT_RIGHT.net(page.patch);
+    let net: Vec<_> = page.patches.iter().flat_map(|patch| View::FRONT_RIGHT.net(*patch)).collect();
     let stride = page.trace.samples.len().div_ceil(MOST_POINTS).max(1);
     let samples: Vec<_> = page.trace.samples.iter().step_by(stride).map(|sample| &sample.report).collect();
     let runs =

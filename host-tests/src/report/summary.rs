@@ -4,6 +4,7 @@ use crate::simulation::Trace;
 use palpate::device::Refusal;
 use palpate::render::Contact;
 use palpate::servo::Fault;
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// Counted instructions of the servo tick.
@@ -24,6 +25,10 @@ pub struct Summary {
     pub ticks: usize,
     /// Changes of the boundary mode.
     pub mode_changes: usize,
+    /// Changes of the feature that has the witness point.
+    pub feature_changes: usize,
+    /// Features that had it: faces, edges, vertices.
+    pub features: [usize; 3],
     /// Times the surface was touched anew.
     pub touches: usize,
     /// Seconds in contact.
@@ -61,6 +66,8 @@ impl Summary {
             rate: trace.rate,
             ticks: trace.samples.len(),
             mode_changes: changes(|before, after| before.mode != after.mode),
+            feature_changes: changes(|before, after| before.feature != after.feature),
+            features: features(&trace.samples.iter().map(|sample| sample.report.feature).collect()),
             touches: changes(|before, after| {
                 after.contact == Contact::Touching as u8 && before.contact != Contact::Touching as u8
             }),
@@ -84,6 +91,7 @@ impl Summary {
             Some(Instructions { median, largest }) => format!("{median} median, {largest} at most"),
             None => "not counted on the host".to_owned(),
         };
+        let [faces, edges, vertices] = self.features;
         let fault = match self.fault {
             Some((fault, tick)) => {
                 let why = self.refusal.map_or(String::new(), |refusal| format!(": {refusal}"));
@@ -93,6 +101,10 @@ impl Summary {
         };
         vec![
             ("ticks", format!("{} at {} Hz", self.ticks, self.rate)),
+            (
+                "features",
+                format!("{faces} faces, {edges} edges, {vertices} vertices in {} changes", self.feature_changes),
+            ),
             ("mode changes", self.mode_changes.to_string()),
             ("contact time", format!("{:.3} s in {} touches", self.contact_time, self.touches)),
             ("largest force", format!("{:.2} N", self.largest_force)),
@@ -110,6 +122,15 @@ impl fmt::Display for Summary {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.rows().iter().try_for_each(|(name, value)| writeln!(formatter, "  {name:<20} {value}"))
     }
+}
+
+/// How many of these features are faces, edges and vertices.
+fn features(met: &BTreeSet<u16>) -> [usize; 3] {
+    let mut counts = [0; 3];
+    for code in met {
+        counts[usize::from(code >> 14)] += 1;
+    }
+    counts
 }
 
 /// The length of a vector.

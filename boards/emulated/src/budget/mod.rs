@@ -4,10 +4,12 @@
 //! another core needs its own counter and nothing else. A call counts too: what is measured is behind a function that
 //! is not inlined, and the compiler does not know its patch.
 
+mod closest;
 mod evaluation;
 mod patches;
 mod servo;
 mod step;
+mod tables;
 mod tally;
 
 pub use tally::Tally;
@@ -21,7 +23,6 @@ use crate::timer::InstructionCounter;
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     evaluation::run(counter);
     step::run(counter)?;
-    // The closest point of a body of several faces comes here, in a file of its own: a tick on a face, at a switch, and the
-    // worst over a walk that visits every feature.
+    closest::run(counter)?;
     servo::run(counter)
 }

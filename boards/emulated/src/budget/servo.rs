@@ -5,17 +5,17 @@ use core::hint::black_box;
 use palpate::device::Counts;
 use palpate::math::sin_cos;
 use palpate::render::Contact;
-use palpate::servo::{Event, Input, ServoState};
+use palpate::servo::{Event, Input, Tracked};
 
 use super::tally::Tally;
-use crate::body::SERVO;
+use crate::body::{SERVO, State};
 use crate::timer::InstructionCounter;
 
 /// Ticks of the path.
-const TICKS: u32 = 20_000;
+const TICKS: u32 = 100_000;
 
 #[inline(never)]
-fn tick(state: &mut ServoState<3>, input: Input<3>) {
+fn tick(state: &mut State, input: Input<3>) {
     SERVO.tick(state, input);
 }
 
@@ -36,7 +36,7 @@ fn counts(tick: u32) -> [Counts; 3] {
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut state = SERVO.start();
     let mut ticks = Tally::new();
-    let (mut touched, mut modes) = (0, [false; 7]);
+    let (mut touched, mut met) = (0, [0_u32; 3]);
     for index in 0..TICKS {
         let input = black_box(Input::Sensors { counts: counts(index), enable: true });
         // As the loop does with each frame: a host that is silent is a fault.
@@ -44,7 +44,8 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         let ((), instructions) = counter.count(|| tick(&mut state, input));
         ticks.add(instructions);
         touched += u32::from(state.contact == Contact::Touching);
-        modes[state.witness.mode as usize] = true;
+        let feature = state.witness.feature();
+        met[usize::from(feature >> 14)] |= 1 << (feature & 31);
     }
     ticks.print("servo tick");
     if state.fault.is_some() {
@@ -53,8 +54,9 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     if touched < TICKS / 100 {
         return Err("the servo's path hardly touches the surface");
     }
-    if modes[1..].contains(&false) {
-        return Err("the servo's path misses a boundary mode");
+    semihosting::println!("{:?}", met.map(u32::count_ones));
+    if met.map(u32::count_ones) != [6, 12, 8] {
+        return Err("the servo's path misses a feature");
     }
     Ok(())
 }

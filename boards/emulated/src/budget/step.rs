@@ -6,8 +6,8 @@ use palpate::math::{Vec3, sin_cos, vec3};
 use palpate::patch::{Patch, SplinePatch};
 use palpate::track::{BoundaryMode, Controller, Outcome, Probe, Step, Witness};
 
+use super::tables::table1c::PATCHES;
 use super::tally::Tally;
-use crate::body::BODY;
 use crate::timer::InstructionCounter;
 
 /// Steps of the walk.
@@ -37,7 +37,7 @@ fn probe(middle: Vec3, size: f32, step: u32) -> Vec3 {
 }
 
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
-    let patch = black_box(&BODY[0]);
+    let patch = black_box(&PATCHES[0]);
     let mut witness = Witness::at(patch, 0.5, 0.5);
     let middle = witness.surface.point;
     let mut tallies = [const { Tally::new() }; 6];

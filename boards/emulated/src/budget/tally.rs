@@ -44,6 +44,14 @@ impl Tally {
         0
     }
 
+    /// The same for one part of what is named.
+    pub fn print_as(&self, of: &str, part: &str) {
+        if self.total > 0 {
+            println!("\"{of}, {part}, median\" = {}", self.median());
+            println!("\"{of}, {part}, worst\" = {}", self.largest);
+        }
+    }
+
     /// Prints median and worst under this name. A figure that nothing reached is not printed: the host misses it.
     pub fn print(&self, name: &str) {
         if self.total > 0 {

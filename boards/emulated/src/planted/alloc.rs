@@ -5,8 +5,8 @@ extern crate alloc;
 use core::alloc::{GlobalAlloc, Layout};
 use core::hint::black_box;
 
+use crate::body::State;
 use alloc::boxed::Box;
-use palpate::servo::ServoState;
 
 struct Nothing;
 
@@ -22,7 +22,7 @@ unsafe impl GlobalAlloc for Nothing {
 #[global_allocator]
 static NOTHING: Nothing = Nothing;
 
-pub fn fault(state: &mut ServoState<3>) {
+pub fn fault(state: &mut State) {
     if black_box(state.ticks) == u32::MAX {
         state.ticks = *black_box(Box::new(state.ticks));
     }

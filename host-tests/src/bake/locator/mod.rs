@@ -26,7 +26,7 @@ mod unique;
 
 pub use seams::{BorderCorner, BorderSide, Seams};
 pub use stored::{Minimum, StoredPoint, StoredSurface};
-pub use tables::{BakedLocator, LocatorReport};
+pub use tables::{BakedLocator, LeafCounts, LocatorReport};
 pub(in crate::bake) use territory::Territory;
 
 use super::BakedPatch;

@@ -48,8 +48,24 @@ pub struct LocatorReport {
     pub sampled: f64,
     /// Share that lies outside a convex body, with rectangles that are not proved by themselves.
     pub convex: f64,
+    /// Leaves by what is known of them.
+    pub leaves_by: LeafCounts,
     /// Bytes in flash.
     pub bytes: usize,
+}
+
+/// Leaves of the octree by what is known of their lists. That a list holds the closest point of every probe of its cell is proved of all of them;
+/// these count what is known of the way to it, from the middle of a rectangle to its least distance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LeafCounts {
+    /// Every rectangle is proved to have one minimum, or none that loses more than [`LocatorOptions::tolerance`].
+    pub proved: usize,
+    /// Wholly outside a convex body, where there is no nearest point but the closest.
+    pub convex: usize,
+    /// Not proved: random probes of the cell found nothing wrong.
+    pub sampled: usize,
+    /// Wholly deeper inside than [`LocatorOptions::inside`]: neither proved nor sampled.
+    pub deep: usize,
 }
 
 impl fmt::Display for LocatorReport {
@@ -148,6 +164,14 @@ fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options
             report.longest_near = report.longest_near.max(list.len());
         }
         report.by_depth[leaf.depth] += 1;
+        let counts = &mut report.leaves_by;
+        let count = match leaf.kind {
+            _ if leaf.proved => &mut counts.proved,
+            Kind::Outside if options.convex => &mut counts.convex,
+            Kind::Deep => &mut counts.deep,
+            Kind::Near | Kind::Outside => &mut counts.sampled,
+        };
+        *count += 1;
         if options.convex && leaf.kind == Kind::Outside {
             // The body's convexity proves what the rectangles do not.
             report.convex += if leaf.proved { 0.0 } else { share };

@@ -239,5 +239,9 @@ fn whole(body: &BakedBody, crc: u32) -> TokenStream {
             #size,
             #is_convex,
         );
+        /// What is felt.
+        pub type Surface = palpate::body::Body;
+        /// The body.
+        pub const SURFACE: &Surface = &BODY;
     }
 }

@@ -57,10 +57,20 @@ pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String
     }
     let count = Literal::usize_unsuffixed(patches.len());
     let tables = patches.iter().enumerate().map(|(index, patch)| patch::table(index, patch));
+    let crc = match patches {
+        [first, ..] => Literal::u32_unsuffixed(first.to_patch().map_or(0, |patch| patch.table_crc())),
+        [] => Literal::u32_unsuffixed(0),
+    };
     let statics = quote! {
         /// All patches of the model, in the order of its file.
         #[rustfmt::skip]
         pub static PATCHES: [palpate::patch::SplinePatch; #count] = [#(#tables),*];
+        /// What is felt.
+        pub type Surface = palpate::patch::SplinePatch;
+        /// The first patch.
+        pub const SURFACE: &Surface = &PATCHES[0];
+        /// CRC-32 of its numbers, [`palpate::patch::SplinePatch::table_crc`], computed when it was baked.
+        pub const TABLE_CRC: u32 = #crc;
     };
     let _ = write!(source, "\n{}", pretty(statics)?);
     Ok(source)
