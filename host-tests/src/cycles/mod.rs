@@ -34,7 +34,7 @@ pub const ROOTS: [Root; 5] = [
         function: "palpate_emulated::budget::closest::tick",
         title: "closest point of a body",
         skip: 0,
-        take: 20_000,
+        take: 5_000,
     },
     Root { function: "palpate_emulated::budget::servo::tick", title: "servo tick", skip: 0, take: 20_000 },
 ];

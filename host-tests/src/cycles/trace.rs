@@ -4,7 +4,7 @@ use super::model::{Core, Cost, Cycles};
 use super::{Calls, ROOTS, Root};
 use crate::firmware::{Board, Program, Progress, SetUpError};
 use crate::proof::{Code, CodeError, Flow, Tree};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::io::{self, BufRead, BufReader};
 use thiserror::Error;
 
@@ -20,47 +20,49 @@ pub enum TraceError {
     /// The log.
     #[error("the emulator's log: {0}")]
     Log(#[from] io::Error),
-    /// A function leaves by a jump: where a call of it ends cannot be told.
-    #[error("{0} ends with a jump to another function")]
-    Tail(String),
     /// A function that is never called.
     #[error("{0} was not called")]
     NotCalled(&'static str),
 }
 
+/// What an instruction costs, where it leads, and the address behind it.
+type Costs = HashMap<u64, (Cost, Flow, u64)>;
+
 /// A call that is being followed.
 struct Window {
     root: u64,
+    /// Calls within it that have not come back. A jump to another function leaves it to that one to come back.
+    depth: u32,
     executed: Vec<u64>,
 }
 
-/// Runs the program that counts on a board and gives what the calls of each of [`ROOTS`] took on its core.
+/// Runs the program that counts on a board until each of [`ROOTS`] was called often enough, and gives what the calls took on
+/// its core.
 ///
 /// # Errors
 /// What cannot be built, run or read.
 pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Root, Calls)>, TraceError> {
     let program = Program::prepare(board, "budget", &[], progress)?;
     let code = Code::read(&program.image.elf)?;
-    let mut functions = BTreeMap::new();
-    let mut roots = HashMap::new();
+    let (mut functions, mut wanted) = (BTreeMap::new(), Vec::new());
+    let mut roots = HashSet::new();
     for root in &ROOTS {
         let function = code.named(root.function)?;
-        let leaves = |instruction| matches!(instruction, Flow::Jump(to) if !function.instructions.contains_key(&to));
-        if function.instructions.values().any(|instruction| leaves(instruction.flow.clone())) {
-            return Err(TraceError::Tail(root.function.to_owned()));
-        }
-        roots.insert(function.address, function);
+        roots.insert(function.address);
+        wanted.push((function.address, root.skip + root.take));
         functions.extend(Tree::new(&code, function).functions().map(|function| (function.address, function)));
     }
-    let costs: HashMap<u64, Cost> = functions
+    let costs: Costs = functions
         .values()
         .flat_map(|function| &function.instructions)
-        .map(|(address, instruction)| (*address, Cost::of(instruction)))
+        .map(|(address, instruction)| {
+            (*address, (Cost::of(instruction), instruction.flow.clone(), address + instruction.length))
+        })
         .collect();
     let ranges: Vec<(u64, u64)> = functions.values().map(|function| (function.address, function.size)).collect();
 
     let mut all: HashMap<u64, Vec<(u32, [u32; 2])>> = HashMap::new();
-    let mut open: Vec<Window> = Vec::new();
+    let (mut open, mut finished, mut perhaps) = (Vec::<Window>::new(), Vec::new(), None);
     let mut child = program.trace(&ranges)?;
     let log = child.stderr.take().ok_or_else(|| io::Error::other("the emulator has none"))?;
     let mut log = BufReader::with_capacity(1 << 20, log);
@@ -71,21 +73,34 @@ pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Ro
             break;
         }
         let Some(address) = address(&line) else { continue };
-        if !costs.contains_key(&address) {
-            continue;
+        let Some((_, flow, next)) = costs.get(&address) else { continue };
+        // One that may return has done so if something else than the next comes.
+        if let Some(next) = perhaps.take()
+            && next != address
+        {
+            returned(&mut open, &mut finished);
         }
-        if roots.contains_key(&address) && open.iter().all(|window| window.root != address) {
-            open.push(Window { root: address, executed: Vec::new() });
+        if roots.contains(&address) && open.iter().all(|window| window.root != address) {
+            open.push(Window { root: address, depth: 0, executed: Vec::new() });
         }
         for window in &mut open {
             window.executed.push(address);
         }
-        // Whoever was called last returns first.
-        if let Some(window) = open.last()
-            && roots[&window.root].instructions.get(&address).is_some_and(|found| found.flow == Flow::Return)
-            && let Some(window) = open.pop()
-        {
+        match flow {
+            Flow::Call(_) => open.iter_mut().for_each(|window| window.depth += 1),
+            Flow::Return => returned(&mut open, &mut finished),
+            Flow::MaybeReturn => perhaps = Some(*next),
+            _ => {}
+        }
+        if finished.is_empty() {
+            continue;
+        }
+        for window in finished.drain(..) {
             all.entry(window.root).or_default().push(spent(core, &costs, &window.executed));
+        }
+        if wanted.iter().all(|(root, calls)| all.get(root).is_some_and(|found| found.len() >= *calls)) {
+            child.kill()?;
+            break;
         }
     }
     child.wait()?;
@@ -104,9 +119,16 @@ pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Ro
         .collect()
 }
 
+/// One function came back: the calls that this ends are finished.
+fn returned(open: &mut Vec<Window>, finished: &mut Vec<Window>) {
+    let is_over = |window: &mut Window| window.depth == 0;
+    finished.extend(open.extract_if(.., is_over));
+    open.iter_mut().for_each(|window| window.depth -= 1);
+}
+
 /// Instructions and cycles of a call.
-fn spent(core: Core, costs: &HashMap<u64, Cost>, executed: &[u64]) -> (u32, [u32; 2]) {
-    let cost = |index: usize| executed.get(index).and_then(|address| costs.get(address));
+fn spent(core: Core, costs: &Costs, executed: &[u64]) -> (u32, [u32; 2]) {
+    let cost = |index: usize| executed.get(index).and_then(|address| costs.get(address)).map(|(cost, ..)| cost);
     let mut halves = [0; 2];
     for index in 0..executed.len() {
         let before = index.checked_sub(1).and_then(cost);
