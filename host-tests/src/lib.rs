@@ -7,6 +7,7 @@ pub mod bodies;
 pub mod budgets;
 pub mod closest;
 pub mod commands;
+pub mod cycles;
 pub mod devices;
 mod drawing;
 pub mod figures;

@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 use palpate_host::commands::{
-    bake, budgets, check, closest, demo, figures, firmware, image, monitor, race, sim, test, zwidth,
+    bake, budgets, check, closest, cycles, demo, figures, firmware, image, monitor, race, sim, test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -20,6 +20,7 @@ enum Command {
     Check(check::Arguments),
     Bake(bake::Arguments),
     Budgets(budgets::Arguments),
+    Cycles(cycles::Arguments),
     Closest(closest::Arguments),
     Sim(sim::Arguments),
     Figures(figures::Arguments),
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Bake(arguments) => bake::run(&arguments),
         Command::Budgets(arguments) => budgets::run(&arguments),
+        Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Closest(arguments) => closest::run(&arguments),
         Command::Sim(arguments) => sim::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),

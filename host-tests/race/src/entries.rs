@@ -16,8 +16,9 @@ pub fn cold() -> Vec<(&'static str, Enter)> {
         ("newton-safeguarded", newton::cold_safeguarded),
     ];
     #[cfg(feature = "peers")]
-    entries.extend::<[(&'static str, Enter); 4]>([
+    entries.extend::<[(&'static str, Enter); 5]>([
         ("truck", truck::cold),
+        ("parry-mesh-256", parry::mesh_256),
         ("parry-mesh-128", parry::mesh_128),
         ("parry-mesh-32", parry::mesh_32),
         ("parry-hull", parry::hull),
@@ -37,8 +38,9 @@ pub fn track() -> Vec<(&'static str, Enter)> {
     ];
     // parry takes no hint: each of its queries is by itself.
     #[cfg(feature = "peers")]
-    entries.extend::<[(&'static str, Enter); 4]>([
+    entries.extend::<[(&'static str, Enter); 5]>([
         ("truck", truck::track),
+        ("parry-mesh-256", parry::mesh_256),
         ("parry-mesh-128", parry::mesh_128),
         ("parry-mesh-32", parry::mesh_32),
         ("parry-hull", parry::hull),

@@ -4,6 +4,7 @@ pub mod bake;
 pub mod budgets;
 pub mod check;
 pub mod closest;
+pub mod cycles;
 pub mod demo;
 pub mod felt;
 pub mod figures;

@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Rows of the path: how many servo ticks its 1.2 m take
     #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
     rows: u32,
-    /// Leaves the peers out, and with them most of the time; palpate then has its portable square root
+    /// Leaves the peers out, and with them most of the time
     #[arg(long)]
     without_peers: bool,
 }
@@ -39,18 +39,12 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
     race::set_up(&progress)?;
-    let own = Program::build(Who::Own, &progress)?;
-    let all = if arguments.without_peers { None } else { Some(Program::build(Who::All, &progress)?) };
+    let who = if arguments.without_peers { Who::Own } else { Who::All };
+    let program = Program::build(who, &progress)?;
     let scenes = progress.during("judging the path", || Scene::all(arguments.rows as usize))?;
     let mut scores = Vec::new();
     for scene in &scenes {
-        let mut of_scene = race::race(all.as_ref().unwrap_or(&own), scene, &progress).with_context(|| scene.title())?;
-        if all.is_some() {
-            let portable = race::with_portable_root(&own, scene, &progress).with_context(|| scene.title())?;
-            // Below palpate's own line, which is the second.
-            of_scene.splice(2..2, portable);
-        }
-        scores.push(of_scene);
+        scores.push(race::race(&program, scene, &progress).with_context(|| scene.title())?);
     }
     for scene in &scores {
         println!("{}", race::text(scene));

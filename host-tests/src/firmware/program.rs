@@ -3,7 +3,7 @@
 use super::process::output;
 use super::{Board, Choice, Emulator, Image, LinkError, Pace, Progress, Qemu, SetUpError, Toolchain, image};
 use std::os::unix::net::UnixStream;
-use std::process::ChildStdout;
+use std::process::{Child, ChildStdout, Stdio};
 use tempfile::TempDir;
 
 /// A program's image and the emulator for it.
@@ -48,6 +48,19 @@ impl Program {
     /// What it printed before it failed.
     pub fn run(&self, pace: Pace) -> Result<String, SetUpError> {
         output(&mut self.qemu.board(&self.image.elf, self.image.board, pace))
+    }
+
+    /// Runs it with every instruction logged that lies in one of these ranges (start, length): a line `Trace …` each on its
+    /// standard error, an instruction a translated block.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn trace(&self, ranges: &[(u64, u64)]) -> Result<Child, SetUpError> {
+        let filter: Vec<String> = ranges.iter().map(|(start, length)| format!("{start:#x}+{length:#x}")).collect();
+        let mut command = self.qemu.board(&self.image.elf, self.image.board, Pace::Free);
+        command.args(["-singlestep", "-d", "exec,nochain", "-D", "/dev/stderr", "-dfilter", &filter.join(",")]);
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        command.spawn().map_err(SetUpError::io("the emulator"))
     }
 
     /// Starts it where it speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.

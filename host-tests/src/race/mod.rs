@@ -26,22 +26,9 @@ use anyhow::Context as _;
 /// # Errors
 /// A contestant that cannot be run or says what cannot be read.
 pub fn race(program: &Program, scene: &Scene, progress: &Progress) -> anyhow::Result<Vec<Score>> {
-    measure(program, scene, &[], progress)
-}
-
-/// The same for palpate with its own square root in place of the host's instruction.
-///
-/// # Errors
-/// As [`race`].
-pub fn with_portable_root(own: &Program, scene: &Scene, progress: &Progress) -> anyhow::Result<Vec<Score>> {
-    let scores = measure(own, scene, &[table::OURS], progress)?;
-    Ok(scores.into_iter().map(|score| Score { contestant: table::PORTABLE.to_owned(), ..score }).collect())
-}
-
-fn measure(program: &Program, scene: &Scene, only: &[&str], progress: &Progress) -> anyhow::Result<Vec<Score>> {
     let what = |how: &str| format!("{how} {} ({} queries)", scene.title(), scene.queries.len());
-    let timed = progress.during(&what("timing"), || program.time(scene, only))?;
-    let counts = progress.during(&what("counting"), || program.count(scene, only))?;
+    let timed = progress.during(&what("timing"), || program.time(scene, &[]))?;
+    let counts = progress.during(&what("counting"), || program.count(scene, &[]))?;
     timed
         .iter()
         .map(|run| {

@@ -1,7 +1,7 @@
 //! The race as a picture: instructions a query on a logarithmic scale, with the share of misses.
 
 use super::judge::Score;
-use super::table::{CALL, OURS, PORTABLE, described, grouped};
+use super::table::{CALL, OURS, described, grouped};
 use crate::drawing::{BLUE_INK, Drawing, DrawingResult, GREEN_INK, RED_INK, SURFACE_INK, TEXT_INK, draw as svg};
 use plotters::element::PathElement;
 use plotters::prelude::*;
@@ -55,7 +55,7 @@ fn draw_panel(area: &Drawing<'_>, scores: &[&Score], top: i32) -> DrawingResult 
     for (line, score) in scores.iter().enumerate() {
         let middle = top + HEAD + LINE * line as i32 + LINE / 2;
         let ink = match score.contestant.as_str() {
-            OURS | PORTABLE => BLUE_INK,
+            OURS => BLUE_INK,
             newton if newton.starts_with("newton") => GREEN_INK,
             _ => RED_INK,
         };

@@ -13,7 +13,7 @@ use std::process::Command;
 /// Who is in the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Who {
-    /// palpate as the library comes, with its portable square root, and Newton's method: seconds to compile.
+    /// palpate and Newton's method: seconds to compile.
     Own,
     /// The peers as well, and the host's instruction for the square root for palpate: minutes.
     All,
@@ -72,7 +72,7 @@ impl Program {
         // A folder each, so that neither build throws the other's away.
         let (folder, features, what) = match who {
             Who::Own => ("own", "", "building palpate's contestants"),
-            Who::All => ("all", "peers,hardware-root", "building the contestants, once some minutes"),
+            Who::All => ("all", "peers", "building the contestants, once some minutes"),
         };
         let target = repository().join("target/race").join(folder);
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));

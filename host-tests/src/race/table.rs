@@ -6,8 +6,6 @@ use std::fmt::Write as _;
 
 /// palpate's name among the contestants.
 pub(super) const OURS: &str = "palpate";
-/// palpate with the square root it brings.
-pub(super) const PORTABLE: &str = "palpate-portable";
 /// The contestant that answers nothing.
 pub(super) const CALL: &str = "call";
 
@@ -17,7 +15,6 @@ pub(super) fn described(score: &Score) -> &'static str {
         (CALL, _) => "an empty call",
         (OURS, Task::Cold) => "palpate, cold",
         (OURS, Task::Track) => "palpate, one certified step",
-        (PORTABLE, _) => "  with its portable square root",
         ("newton", Task::Cold) => "Newton from the nearest of 64 cells",
         ("newton-safeguarded", Task::Cold) => "Newton safeguarded, all near cells",
         ("newton-one-step", _) => "Newton, one step",
@@ -25,6 +22,7 @@ pub(super) fn described(score: &Score) -> &'static str {
         ("newton-safeguarded", Task::Track) => "Newton safeguarded until settled",
         ("truck", Task::Cold) => "truck, no hint",
         ("truck", Task::Track) => "truck, hint = its last",
+        ("parry-mesh-256", _) => "parry, mesh 256 x 256",
         ("parry-mesh-128", _) => "parry, mesh 128 x 128",
         ("parry-mesh-32", _) => "parry, mesh 32 x 32",
         ("parry-hull", _) => "parry, convex hull of 33 x 33",

@@ -1,0 +1,56 @@
+//! `palpate cycles`: what the hot path may take on real cores, estimated from the instructions that the emulator executes.
+
+use crate::cycles::{Core, Figure, estimate};
+use crate::firmware::{Board, Progress};
+use clap::Args;
+use std::process::ExitCode;
+
+/// Estimates the cycles of the hot path on a Cortex-M4F and a Cortex-M7.
+///
+/// The emulator executes each core's own image and logs every instruction; a model of the core adds their cycles up. It is an
+/// estimate, given as a range, and no measurement.
+#[derive(Args, Debug)]
+pub struct Arguments {}
+
+const MODEL: &str = "\
+The model, an estimate and no measurement; no wait states, as in CCM, ITCM and DTCM (tables in flash cost more):
+  Cortex-M4F  1 an instruction; a load 2, or 1 behind another load or store; a store 1 to 2; 1 + N for N words at once;
+              taken branch 1 + 1 to 3; VDIV, VSQRT 14; VMLA 3; +1 where the next instruction wants a float result; UDIV 2 to 12
+  Cortex-M7   low: two instructions in each cycle, every branch foreseen; high: one at a time, a load 2, +2 where the next
+              instruction wants a float result, every conditional branch unforeseen at 6; VDIV, VSQRT 14 in both";
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(_: &Arguments) -> anyhow::Result<ExitCode> {
+    // The clock of the board for the bench with this core, Hz.
+    for (board, core, chip, clock) in
+        [(Board::M4, Core::M4, "STM32G474", 170e6), (Board::M7, Core::M7, "i.MX RT1062", 600e6)]
+    {
+        let found = estimate(board, core, &Progress::new())?;
+        println!("{}: estimated cycles; microseconds on a {chip} at {} MHz", board.core(), clock / 1e6);
+        println!(
+            "  {:<28}{:>13}{:>15}{:>13}{:>15}{:>15}",
+            "", "instructions", "cycles, median", "at most", "cycles, worst", "us, worst"
+        );
+        for (root, calls) in &found {
+            let figure = |values: &[u32]| Figure::of(values).unwrap_or(Figure { median: 0, worst: 0 });
+            let (instructions, low, high) =
+                (figure(&calls.instructions), figure(&calls.cycles[0]), figure(&calls.cycles[1]));
+            let microseconds = |cycles: u32| 1e6 * f64::from(cycles) / clock;
+            println!(
+                "  {:<28}{:>13}{:>15}{:>13}{:>15}{:>15}",
+                root.title,
+                instructions.median,
+                format!("{} to {}", low.median, high.median),
+                instructions.worst,
+                format!("{} to {}", low.worst, high.worst),
+                format!("{:.1} to {:.1}", microseconds(low.worst), microseconds(high.worst)),
+            );
+        }
+        println!();
+    }
+    println!("{MODEL}");
+    Ok(ExitCode::SUCCESS)
+}

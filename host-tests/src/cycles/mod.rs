@@ -1,0 +1,65 @@
+//! Estimated cycles of the hot path on cores that the emulator does not time: each instruction that was executed, in its order,
+//! through a stated model of the core.
+//!
+//! An estimate, not a measurement: the emulator executes the right instructions and knows nothing of pipelines. What is
+//! stated is a range, and a real core with code and tables in memory without wait states is expected within it.
+
+mod model;
+mod trace;
+
+pub use model::{Core, Cycles};
+pub use trace::{TraceError, estimate};
+
+use crate::race::Spread;
+
+/// A function of the program that counts, and what a call of it is called.
+#[derive(Clone, Copy, Debug)]
+pub struct Root {
+    /// The function.
+    pub function: &'static str,
+    /// What one call is.
+    pub title: &'static str,
+    /// Of so many calls the first ones are left out.
+    pub skip: usize,
+    /// So many are looked at.
+    pub take: usize,
+}
+
+/// What is estimated. The program evaluates patches of degree 1 to 5, polynomial, then rational, before all else.
+pub const ROOTS: [Root; 5] = [
+    Root { function: "palpate::patch::spans::Spans::evaluate", title: "evaluation, degree (2, 2)", skip: 1, take: 1 },
+    Root { function: "palpate::patch::spans::Spans::evaluate", title: "evaluation, degree (3, 3)", skip: 2, take: 1 },
+    Root { function: "palpate_emulated::budget::step::step", title: "step on one patch", skip: 0, take: 20_000 },
+    Root {
+        function: "palpate_emulated::budget::closest::tick",
+        title: "closest point of a body",
+        skip: 0,
+        take: 5_000,
+    },
+    Root { function: "palpate_emulated::budget::servo::tick", title: "servo tick", skip: 0, take: 20_000 },
+];
+
+/// What the calls of a root took.
+#[derive(Clone, Debug, Default)]
+pub struct Calls {
+    /// Instructions executed, a call.
+    pub instructions: Vec<u32>,
+    /// Cycles of the lower and of the upper end of the range, a call.
+    pub cycles: [Vec<u32>; 2],
+}
+
+/// A figure of the table: median and greatest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Figure {
+    /// The lower median.
+    pub median: u32,
+    /// The greatest.
+    pub worst: u32,
+}
+
+impl Figure {
+    /// Of at least one value.
+    pub fn of(values: &[u32]) -> Option<Self> {
+        Spread::of(values).map(|Spread { median, worst, .. }| Self { median, worst })
+    }
+}

@@ -1,0 +1,159 @@
+//! The instructions that a call executes, in their order, as the emulator logs them.
+
+use super::model::{Core, Cost, Cycles};
+use super::{Calls, ROOTS, Root};
+use crate::firmware::{Board, Program, Progress, SetUpError};
+use crate::proof::{Code, CodeError, Flow, Tree};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::io::{self, BufRead, BufReader};
+use thiserror::Error;
+
+/// Why nothing can be estimated.
+#[derive(Debug, Error)]
+pub enum TraceError {
+    /// The program did not run.
+    #[error("the program that counts did not run: {0}")]
+    Run(#[from] SetUpError),
+    /// Its code cannot be read.
+    #[error(transparent)]
+    Code(#[from] CodeError),
+    /// The log.
+    #[error("the emulator's log: {0}")]
+    Log(#[from] io::Error),
+    /// A function that is never called.
+    #[error("{0} was not called")]
+    NotCalled(&'static str),
+}
+
+/// What an instruction costs, where it leads, and the address behind it.
+type Costs = HashMap<u64, (Cost, Flow, u64)>;
+
+/// A call that is being followed.
+struct Window {
+    root: u64,
+    /// Calls within it that have not come back. A jump to another function leaves it to that one to come back.
+    depth: u32,
+    executed: Vec<u64>,
+}
+
+/// Runs the program that counts on a board until each of [`ROOTS`] was called often enough, and gives what the calls took on
+/// its core.
+///
+/// # Errors
+/// What cannot be built, run or read.
+pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Root, Calls)>, TraceError> {
+    let program = Program::prepare(board, "budget", &[], progress)?;
+    let code = Code::read(&program.image.elf)?;
+    let (mut functions, mut wanted) = (BTreeMap::new(), Vec::new());
+    let mut roots = HashSet::new();
+    for root in &ROOTS {
+        let function = code.named(root.function)?;
+        roots.insert(function.address);
+        wanted.push((function.address, root.skip + root.take));
+        functions.extend(Tree::new(&code, function).functions().map(|function| (function.address, function)));
+    }
+    let costs: Costs = functions
+        .values()
+        .flat_map(|function| &function.instructions)
+        .map(|(address, instruction)| {
+            (*address, (Cost::of(instruction), instruction.flow.clone(), address + instruction.length))
+        })
+        .collect();
+    let ranges: Vec<(u64, u64)> = functions.values().map(|function| (function.address, function.size)).collect();
+
+    let mut all: HashMap<u64, Vec<(u32, [u32; 2])>> = HashMap::new();
+    let (mut open, mut finished, mut perhaps) = (Vec::<Window>::new(), Vec::new(), None);
+    let mut child = program.trace(&ranges)?;
+    let log = child.stderr.take().ok_or_else(|| io::Error::other("the emulator has none"))?;
+    let mut log = BufReader::with_capacity(1 << 20, log);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        if log.read_until(b'\n', &mut line)? == 0 {
+            break;
+        }
+        let Some(address) = address(&line) else { continue };
+        let Some((_, flow, next)) = costs.get(&address) else { continue };
+        // One that may return has done so if something else than the next comes.
+        if let Some(next) = perhaps.take()
+            && next != address
+        {
+            returned(&mut open, &mut finished);
+        }
+        if roots.contains(&address) && open.iter().all(|window| window.root != address) {
+            open.push(Window { root: address, depth: 0, executed: Vec::new() });
+        }
+        for window in &mut open {
+            window.executed.push(address);
+        }
+        match flow {
+            Flow::Call(_) => open.iter_mut().for_each(|window| window.depth += 1),
+            Flow::Return => returned(&mut open, &mut finished),
+            Flow::MaybeReturn => perhaps = Some(*next),
+            _ => {}
+        }
+        if finished.is_empty() {
+            continue;
+        }
+        for window in finished.drain(..) {
+            all.entry(window.root).or_default().push(spent(core, &costs, &window.executed));
+        }
+        if wanted.iter().all(|(root, calls)| all.get(root).is_some_and(|found| found.len() >= *calls)) {
+            child.kill()?;
+            break;
+        }
+    }
+    child.wait()?;
+    ROOTS
+        .iter()
+        .map(|root| {
+            let address = code.named(root.function)?.address;
+            let mut calls = Calls::default();
+            for (instructions, [low, high]) in all.get(&address).into_iter().flatten().skip(root.skip).take(root.take) {
+                calls.instructions.push(*instructions);
+                calls.cycles[0].push(*low);
+                calls.cycles[1].push(*high);
+            }
+            if calls.instructions.is_empty() { Err(TraceError::NotCalled(root.function)) } else { Ok((*root, calls)) }
+        })
+        .collect()
+}
+
+/// One function came back: the calls that this ends are finished.
+fn returned(open: &mut Vec<Window>, finished: &mut Vec<Window>) {
+    let is_over = |window: &mut Window| window.depth == 0;
+    finished.extend(open.extract_if(.., is_over));
+    open.iter_mut().for_each(|window| window.depth -= 1);
+}
+
+/// Instructions and cycles of a call.
+fn spent(core: Core, costs: &Costs, executed: &[u64]) -> (u32, [u32; 2]) {
+    let cost = |index: usize| executed.get(index).and_then(|address| costs.get(address)).map(|(cost, ..)| cost);
+    let mut halves = [0; 2];
+    for index in 0..executed.len() {
+        let before = index.checked_sub(1).and_then(cost);
+        let Cycles([low, high]) = cost(index).map(|found| found.on(core, before, cost(index + 1))).unwrap_or_default();
+        halves = [halves[0] + low, halves[1] + high];
+    }
+    (executed.len() as u32, halves.map(|halves: u32| halves.div_ceil(2)))
+}
+
+/// The program counter in a line `Trace 0: host [base/counter/flags/flags] function`.
+fn address(line: &[u8]) -> Option<u64> {
+    let line = line.strip_prefix(b"Trace ")?;
+    let start = line.iter().position(|byte| *byte == b'/')? + 1;
+    let end = start + line[start..].iter().position(|byte| *byte == b'/')?;
+    u64::from_str_radix(std::str::from_utf8(&line[start..end]).ok()?, 16).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::address;
+
+    #[test]
+    fn the_program_counter_stands_in_the_middle() {
+        let line = b"Trace 0: 0x7f3bac01a480 [00800400/00001bb2/00000010/ff000201] name/of/a/function\n";
+        assert_eq!(address(line), Some(0x1bb2));
+        assert_eq!(address(b"qemu: fatal: 1/2/3\n"), None);
+    }
+}
