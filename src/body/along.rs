@@ -54,7 +54,7 @@ impl Along {
             // The conormal is the part of the cross derivative that is normal to the edge; times the tangent's square there is nothing to
             // divide.
             Separator::Ruled(cross) => {
-                let cross = cross.evaluate(t).point;
+                let cross = cross.point(t);
                 let out = self.difference.dot(cross);
                 if self.stretch <= f32::MIN_POSITIVE {
                     return out < 0.0;

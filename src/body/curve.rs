@@ -52,7 +52,7 @@ impl SplineCurve {
 
     /// The point and the tangent at `t`. Parameters outside `[0, 1]` extrapolate the nearest span; the tracker never asks
     /// for them.
-    #[inline]
+    #[inline(never)]
     pub fn evaluate(&self, t: f32) -> CurvePoint {
         let (span, s) = locate(self.breaks, t);
         match self.coefficients {
@@ -69,26 +69,62 @@ impl SplineCurve {
         }
     }
 
+    /// The point alone.
+    #[inline(never)]
+    pub fn point(&self, t: f32) -> Vec3 {
+        let (span, s) = locate(self.breaks, t);
+        match self.coefficients {
+            Coefficients::Polynomial(entries) => Vec3::from_array(value(self.powers(entries, span), s)),
+            Coefficients::Rational(entries) => {
+                let [x, y, z, w] = value(self.powers(entries, span), s);
+                vec3(x, y, z) * (1.0 / w)
+            }
+        }
+    }
+
     /// Value and derivative on one span.
     #[inline]
     fn span<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32) -> ([f32; D], [f32; D]) {
-        let order = self.degree as usize + 1;
-        // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the tick.
-        let powers = entries.get(span * order..(span + 1) * order).unwrap_or(&[]);
-        let (mut value, mut along) = ([0.0; D], [0.0; D]);
-        for coefficient in powers.iter().rev() {
-            for component in 0..D {
-                along[component] = along[component] * s + value[component];
-                value[component] = value[component] * s + coefficient[component];
-            }
+        let Some((highest, lower)) = self.powers(entries, span).split_last() else { return ([0.0; D], [0.0; D]) };
+        let Some((next, lower)) = lower.split_last() else { return (*highest, [0.0; D]) };
+        // The derivative begins with the highest: a step of Horner's rule before it would multiply zero.
+        let (mut value, mut along) = (horner_step(*highest, s, *next), *highest);
+        for coefficient in lower.iter().rev() {
+            along = horner_step(along, s, value);
+            value = horner_step(value, s, *coefficient);
         }
         (value, along)
     }
+
+    /// The coefficients of one span.
+    #[inline]
+    fn powers<'a, const D: usize>(&self, entries: &'a [[f32; D]], span: usize) -> &'a [[f32; D]] {
+        let order = self.degree as usize + 1;
+        // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the tick.
+        entries.get(span * order..(span + 1) * order).unwrap_or(&[])
+    }
+}
+
+/// Horner's rule.
+#[inline]
+fn value<const D: usize>(powers: &[[f32; D]], s: f32) -> [f32; D] {
+    let Some((highest, lower)) = powers.split_last() else { return [0.0; D] };
+    lower.iter().rev().fold(*highest, |value, coefficient| horner_step(value, s, *coefficient))
+}
+
+/// `accumulated · x + next`, component by component.
+#[inline(always)]
+fn horner_step<const D: usize>(accumulated: [f32; D], x: f32, next: [f32; D]) -> [f32; D] {
+    core::array::from_fn(|component| accumulated[component] * x + next[component])
 }
 
 /// The span that holds `parameter`, and the distance from its centre. Bisection, at most log₂ of [`MAX_SPANS`] rounds.
 #[inline]
 fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
+    // Most curves have one span, from 0 to 1.
+    if breaks.len() == 2 {
+        return (0, parameter - 0.5);
+    }
     let (mut low, mut high) = (0, breaks.len().saturating_sub(1));
     while high - low > 1 {
         let middle = (low + high) / 2;

@@ -80,7 +80,8 @@ impl Locator {
         let mut centre = self.corner + Vec3::splat(0.5 * self.side);
         let mut quarter = 0.25 * self.side;
         let mut node = 0;
-        for _ in 0..MAX_DEPTH {
+        // Unseen by the compiler, which would unroll every round.
+        for _ in 0..core::hint::black_box(MAX_DEPTH) {
             let upper = [probe.x >= centre.x, probe.y >= centre.y, probe.z >= centre.z];
             let child = usize::from(upper[0]) | usize::from(upper[1]) << 1 | usize::from(upper[2]) << 2;
             let Some(code) = self.nodes.get(node).and_then(|children| children.get(child)) else { return 0 };

@@ -162,6 +162,8 @@ impl Model {
         best
     }
 
+    /// Not inlined four times: the search has time, flash is scarce.
+    #[inline(never)]
     fn consider(&self, change: [f32; 2], best: &mut ([f32; 2], f32)) {
         let value = self.value(change);
         if value < best.1 {

@@ -17,33 +17,25 @@ impl Body {
     pub(super) fn leave_face(&self, index: u16, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) -> bool {
         let Some(face) = self.faces.get(usize::from(index)) else { return false };
         let [u, v] = state.witness.parameters;
-        // A side that ended the last step short of its own end, or began it, may be gone by now.
-        let held = [u <= 0.0, u >= 1.0, v <= 0.0, v >= 1.0];
-        let asked = match state.witness.mode {
-            BoundaryMode::LowerU => [true, false, false, false],
-            BoundaryMode::UpperU => [false, true, false, false],
-            BoundaryMode::LowerV => [false, false, true, false],
-            BoundaryMode::UpperV => [false, false, false, true],
-            BoundaryMode::Corner => [true; 4],
-            BoundaryMode::Interior => [false; 4],
+        // At a corner the side that the step along the other one would meet.
+        let number = match state.witness.mode {
+            BoundaryMode::LowerU => 0,
+            BoundaryMode::UpperU => 1,
+            BoundaryMode::LowerV => 2,
+            BoundaryMode::UpperV => 3,
+            BoundaryMode::Corner => usize::from(u > 0.5),
+            BoundaryMode::Interior => return false,
         };
-        for ((side, along), (held, asked)) in face.sides.iter().zip([v, v, u, u]).zip(held.into_iter().zip(asked)) {
-            if !(held && asked) {
-                continue;
+        let Some(side) = face.sides.get(number) else { return false };
+        step.switched = match side {
+            Side::Pole { vertex } => self.rest_on_vertex(*vertex, state),
+            Side::Edge { edge, reversed, .. } => {
+                let along = if number < 2 { v } else { u };
+                let t = if *reversed { 1.0 - along } else { along };
+                self.cross_side(index, *edge, t, state, probe, step)
             }
-            let switched = match side {
-                Side::Pole { vertex } => self.rest_on_vertex(*vertex, state),
-                Side::Edge { edge, reversed, .. } => {
-                    let t = if *reversed { 1.0 - along } else { along };
-                    self.cross_side(index, *edge, t, state, probe, step)
-                }
-            };
-            if switched {
-                step.switched = true;
-                return true;
-            }
-        }
-        false
+        };
+        step.switched
     }
 
     /// From a face to the edge, or over a smooth one to the face beyond it.

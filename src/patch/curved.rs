@@ -53,26 +53,24 @@ impl SplinePatch {
         let first = span * rows * columns;
         // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the search.
         let powers = entries.get(first..first + rows * columns).unwrap_or(&[]);
-        let mut rows = powers.chunks_exact(columns).rev().map(|row| Row::new(row, t));
         let zero = [0.0; D];
         let mut d = Taylor { value: zero, along: [zero; 2], half_ss: zero, mixed: zero, half_tt: zero };
-        // Of a derivative that is zero so far there is nothing to multiply: the first two rows are not like the others.
-        if let Some(row) = rows.next() {
-            (d.value, d.along[1], d.half_tt) = (row.value, row.along, row.half);
-        }
-        if let Some(row) = rows.next() {
-            (d.along[0], d.mixed) = (d.value, d.along[1]);
-            d.join(&row, s);
-        }
-        if let Some(row) = rows.next() {
-            d.half_ss = d.along[0];
-            d.join_slopes(s);
-            d.join(&row, s);
-        }
-        for row in rows {
-            d.half_ss = horner_step(d.half_ss, s, d.along[0]);
-            d.join_slopes(s);
-            d.join(&row, s);
+        for (index, row) in powers.chunks_exact(columns).rev().enumerate() {
+            let row = Row::new(row, t);
+            // Of a derivative that is zero so far there is nothing to multiply: the first rows are not like the others.
+            match index {
+                0 => (d.value, d.along[1], d.half_tt) = (row.value, row.along, row.half),
+                1 => {
+                    (d.along[0], d.mixed) = (d.value, d.along[1]);
+                    d.join(&row, s);
+                }
+                _ => {
+                    d.half_ss = if index == 2 { d.along[0] } else { horner_step(d.half_ss, s, d.along[0]) };
+                    d.along[0] = horner_step(d.along[0], s, d.value);
+                    d.mixed = horner_step(d.mixed, s, d.along[1]);
+                    d.join(&row, s);
+                }
+            }
         }
         d
     }
@@ -85,13 +83,6 @@ impl<const D: usize> Taylor<D> {
         self.value = horner_step(self.value, s, row.value);
         self.along[1] = horner_step(self.along[1], s, row.along);
         self.half_tt = horner_step(self.half_tt, s, row.half);
-    }
-
-    /// The first derivatives along `s`, before the row is joined.
-    #[inline(always)]
-    fn join_slopes(&mut self, s: f32) {
-        self.along[0] = horner_step(self.along[0], s, self.value);
-        self.mixed = horner_step(self.mixed, s, self.along[1]);
     }
 }
 

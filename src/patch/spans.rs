@@ -88,6 +88,12 @@ where
     }
 }
 
+/// One for all kinds of coefficients.
+#[inline(never)]
+fn search(patch: &SplinePatch, u: f32, v: f32) -> (usize, [f32; 2]) {
+    patch.locate(u, v)
+}
+
 /// Not inlined, as [`unrolled`]: what it saves on the stack it saves only where it is needed.
 #[inline(never)]
 fn one_of<const D: usize, const Q: usize, const N: usize>(
@@ -99,7 +105,7 @@ fn one_of<const D: usize, const Q: usize, const N: usize>(
 where
     SurfacePoint: From<Derivatives<D>>,
 {
-    let (span, [s, t]) = patch.locate(u, v);
+    let (span, [s, t]) = search(patch, u, v);
     // The constructor counted the entries: none is missing, this only keeps a panic out of the tick.
     spans.get(span).map_or(SurfacePoint::NOWHERE, |coefficients| unrolled::<D, Q, N>(coefficients, s, t))
 }
@@ -116,7 +122,7 @@ where
     horner::evaluate::<D, Q>(coefficients, s, t).into()
 }
 
-/// Evaluates a span of any degree: the degree along `v` picks a loop that is unrolled for it.
+/// Evaluates a span of any degree: the degree along `v` picks a loop that is unrolled for it, if there is one.
 #[inline(never)]
 fn by_rows<const D: usize>(entries: &[[f32; D]], patch: &SplinePatch, u: f32, v: f32) -> SurfacePoint
 where
@@ -127,12 +133,14 @@ where
     let (rows, [s, t]) = if entries.len() == count {
         (Some(entries), [u - 0.5, v - 0.5])
     } else {
-        let (span, at) = patch.locate(u, v);
+        let (span, at) = search(patch, u, v);
         (entries.get(span * count..).and_then(|rest| rest.get(..count)), at)
     };
     match (rows, degree_v) {
         (Some(rows), 1) => unrolled_along_v::<D, 2>(rows, s, t),
         (Some(rows), 2) => unrolled_along_v::<D, 3>(rows, s, t),
+        // Rational ones of so high a degree are rare, and 3 KB of flash are not.
+        (Some(rows), 3..) if D == 4 => horner::evaluate_rows(rows, usize::from(degree_v) + 1, s, t).into(),
         (Some(rows), 3) => unrolled_along_v::<D, 4>(rows, s, t),
         (Some(rows), 4) => unrolled_along_v::<D, 5>(rows, s, t),
         (Some(rows), _) => unrolled_along_v::<D, 6>(rows, s, t),
