@@ -46,24 +46,21 @@ impl Along {
         crate::math::saturate(target, 0.0, 1.0)
     }
 
-    /// How far the probe is beyond a face's region at the parameter `t` of its edge, as the distance `(Q − c) · m`, metres. Positive once the
-    /// probe has left the face.
+    /// Whether the probe is beyond a face's region at the parameter `t` of its edge, `(Q − c) · m > 0` with `m` the face's conormal there.
     #[inline]
-    pub(super) fn beyond(&self, separator: &Separator, at: &CurvePoint, t: f32, probe: Vec3) -> f32 {
+    pub(super) fn is_beyond(&self, separator: &Separator, at: &CurvePoint, t: f32, probe: Vec3) -> bool {
         match separator {
-            Separator::Plane { normal, offset } => normal.dot(probe) - offset,
-            Separator::Ruled(cross) => self.beyond_ruled(at, cross.evaluate(t).point),
+            Separator::Plane { normal, offset } => normal.dot(probe) > *offset,
+            // The conormal is the part of the cross derivative that is normal to the edge; times the tangent's square there is nothing to
+            // divide.
+            Separator::Ruled(cross) => {
+                let cross = cross.evaluate(t).point;
+                let out = self.difference.dot(cross);
+                if self.stretch <= f32::MIN_POSITIVE {
+                    return out < 0.0;
+                }
+                self.stretch * out < cross.dot(at.tangent) * self.gradient
+            }
         }
-    }
-
-    /// The same with `m` the unit conormal made of the face's cross derivative: its part normal to the edge.
-    #[inline]
-    fn beyond_ruled(&self, at: &CurvePoint, cross: Vec3) -> f32 {
-        if self.stretch <= f32::MIN_POSITIVE {
-            return -self.difference.dot(cross);
-        }
-        let conormal = cross - at.tangent * (cross.dot(at.tangent) / self.stretch);
-        let squared = conormal.length_squared();
-        if squared > f32::MIN_POSITIVE { -self.difference.dot(conormal) / sqrt(squared) } else { 0.0 }
     }
 }

@@ -27,8 +27,10 @@ pub struct Descending {
     pub parameters: [f32; 2],
     /// `φ` there, m²; infinite before the first evaluation.
     pub half_squared: f32,
-    /// Where the next evaluation will be.
+    /// Where the next evaluation will be, or the last one was.
     trial: [f32; 2],
+    /// What the last evaluation said, until it is judged.
+    seen: Option<Model>,
     halvings: u8,
     evaluations: u8,
 }
@@ -51,18 +53,36 @@ impl Descending {
     pub fn new(candidate: Candidate) -> Self {
         let [lower, upper] = candidate.rectangle();
         let middle = [0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1])];
-        Self { candidate, parameters: middle, half_squared: f32::INFINITY, trial: middle, halvings: 0, evaluations: 0 }
+        Self {
+            candidate,
+            parameters: middle,
+            half_squared: f32::INFINITY,
+            trial: middle,
+            seen: None,
+            halvings: 0,
+            evaluations: 0,
+        }
     }
 
-    /// One evaluation. `known` is the `φ` to beat, m²; `size` the body's, metres.
-    pub fn step(&mut self, patch: &SplinePatch, probe: Vec3, known: f32, size: f32) -> Progress {
-        let at = self.trial;
-        let curved = patch.evaluate_curved(at[0], at[1]);
+    /// Whether the last evaluation is still to be judged.
+    pub const fn has_evaluated(&self) -> bool {
+        self.seen.is_some()
+    }
+
+    /// The first half of a step: one evaluation.
+    #[inline(never)]
+    pub fn evaluate(&mut self, patch: &SplinePatch, probe: Vec3) {
+        let curved = patch.evaluate_curved(self.trial[0], self.trial[1]);
         self.evaluations += 1;
-        let difference = curved.surface.point - probe;
-        let half_squared = 0.5 * difference.length_squared();
+        self.seen = Some(Model::new(&curved, curved.surface.point - probe));
+    }
+
+    /// The second half: where to go from there. `known` is the `φ` to beat, m²; `size` the body's, metres.
+    #[inline(never)]
+    pub fn judge(&mut self, known: f32, size: f32) -> Progress {
+        let Some(model) = self.seen.take() else { return Progress::Falling };
+        let (at, half_squared) = (self.trial, model.half_squared);
         if half_squared < self.half_squared {
-            let model = Model::new(&curved, difference);
             let [lower, upper] = self.candidate.rectangle();
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
@@ -87,7 +107,9 @@ impl Descending {
 }
 
 /// The quadratic model of `φ` at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Model {
+    half_squared: f32,
     gradient: [f32; 2],
     /// `[uu, uv, vv]`, positive definite but for poles.
     hessian: [f32; 3],
@@ -110,7 +132,7 @@ impl Model {
             let trace = form[0] + form[2];
             [trace, 0.0, trace]
         };
-        Self { gradient, hessian }
+        Self { half_squared: 0.5 * difference.length_squared(), gradient, hessian }
     }
 
     /// The least value of `g · δ` with `δ` in `room`: not positive.

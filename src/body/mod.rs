@@ -5,11 +5,13 @@
 //! that the host has baked; [`Locator`] gives a global start in bounded time (theory §10).
 
 mod along;
+mod audit;
 mod curve;
 mod feature;
 mod locator;
 mod minimise;
 mod search;
+mod switch;
 mod table;
 mod tracker;
 mod words;

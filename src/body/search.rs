@@ -1,6 +1,6 @@
-//! The global start: the candidates of the probe's cell, one evaluation at a time.
+//! The global start: the candidates of the probe's cell, half an evaluation at a time.
 //!
-//! One evaluation a call, so that a servo tick can carry it: the search runs beside the tracker until it is done, and begins anew
+//! Half an evaluation a call, so that a servo tick can carry it: the search runs beside the tracker until it is done, and begins anew
 //! in whatever cell the probe is then. The same search answers a query at one go ([`Body::locate`]).
 
 use super::locator::Candidate;
@@ -21,6 +21,8 @@ pub struct Search {
     entry: u16,
     evaluations: u16,
     best: Best,
+    /// Once it is done: whether every candidate was searched to its end.
+    ended: Option<bool>,
 }
 
 /// The nearest so far.
@@ -55,36 +57,57 @@ impl Search {
             entry: entry as u16,
             evaluations: 0,
             best: Best { face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
+            ended: None,
         }
     }
 
-    /// One evaluation; `Some` when the search is done. The probe may move a little between two calls.
+    /// Whether the last half was an evaluation.
+    pub const fn has_evaluated(&self) -> bool {
+        self.descending.has_evaluated()
+    }
+
+    /// Half of a step: one evaluation, or what follows from it. The probe may move a little between two calls. Nothing once it is done.
     #[inline]
-    pub fn step(&mut self, body: &Body, probe: Vec3) -> Option<Located> {
+    pub fn turn(&mut self, body: &Body, probe: Vec3) {
+        if self.ended.is_some() {
+            return;
+        }
         let Candidate { face, more, .. } = self.descending.candidate;
         let Some(patch) = body.faces.get(usize::from(face)).map(|face| &face.patch) else {
-            return Some(self.located(false));
+            self.ended = Some(false);
+            return;
         };
-        let progress = self.descending.step(patch, probe, self.best.half_squared, body.size);
-        self.evaluations += 1;
+        if !self.descending.has_evaluated() {
+            self.descending.evaluate(patch, probe);
+            self.evaluations += 1;
+            return;
+        }
+        let progress = self.descending.judge(self.best.half_squared, body.size);
         let Descending { parameters, half_squared, .. } = self.descending;
         if half_squared < self.best.half_squared {
             self.best = Best { face, parameters, half_squared };
         }
-        if progress != Progress::Falling {
-            if !more {
-                return Some(self.located(true));
+        let most = if body.is_convex { MOST_EVALUATIONS_CONVEX } else { MOST_EVALUATIONS };
+        if progress == Progress::Falling {
+            if self.evaluations >= most {
+                self.ended = Some(false);
             }
+        } else if !more {
+            self.ended = Some(true);
+        } else if self.evaluations >= most {
+            self.ended = Some(false);
+        } else {
             self.entry += 1;
             self.descending = Descending::new(body.candidate(usize::from(self.entry)));
         }
-        let most = if body.is_convex { MOST_EVALUATIONS_CONVEX } else { MOST_EVALUATIONS };
-        (self.evaluations >= most).then(|| self.located(false))
     }
 
-    fn located(&self, complete: bool) -> Located {
+    /// What was found, once the search is done.
+    #[inline]
+    pub fn found(&self) -> Option<Located> {
         let Best { face, parameters, half_squared } = self.best;
-        Located { face, parameters, half_squared, evaluations: self.evaluations, complete }
+        let evaluations = self.evaluations;
+        self.ended.map(|complete| Located { face, parameters, half_squared, evaluations, complete })
     }
 }
 
@@ -93,12 +116,16 @@ impl Body {
     /// [`MOST_EVALUATIONS_CONVEX`].
     pub fn locate(&self, probe: Vec3) -> Located {
         let mut search = Search::new(self, probe);
-        for _ in 0..MOST_EVALUATIONS {
-            if let Some(located) = search.step(self, probe) {
-                return located;
+        // Two halves an evaluation.
+        for _ in 0..2 * MOST_EVALUATIONS {
+            if search.ended.is_some() {
+                break;
             }
+            search.turn(self, probe);
         }
-        search.located(false)
+        let Best { face, parameters, half_squared } = search.best;
+        let complete = search.ended.unwrap_or(false);
+        Located { face, parameters, half_squared, evaluations: search.evaluations, complete }
     }
 
     /// The candidate at an index; the constructor checked that lists end.

@@ -1,8 +1,8 @@
 //! The loop's configuration, checked when it is built, and the state it starts from.
 
 use super::{
-    Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError, Stillness,
-    Surface, TableCheck,
+    Fault, Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError,
+    Stillness, Surface, TableCheck,
 };
 use crate::device::{Device, Duty, Homing, HomingState, Kinematics, VelocityEstimator};
 use crate::math::Vec3;
@@ -175,11 +175,15 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         self.start_after(ResetReason::PowerOn)
     }
 
-    /// The state before the first tick after a reset. One by the watchdog or a brown-out is a fault from the start.
+    /// The state before the first tick after a reset. One by the watchdog or a brown-out is a fault from the start, and so are tables that are
+    /// not what was baked, where [`Safety::table_crc`] says what that is: they are read whole here.
     pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS, S::Witness> {
+        let mut table_check = TableCheck::default();
+        let is_good = self.safety.table_crc.is_none_or(|expected| table_check.run(self.surface, expected));
+        let fault = reset.fault().or((!is_good).then_some(Fault::TableCorrupt));
         ServoState {
-            phase: if reset.fault().is_some() { Phase::Fault } else { Phase::Reset },
-            fault: reset.fault().map(|fault| (fault, 0)),
+            phase: if fault.is_some() { Phase::Fault } else { Phase::Reset },
+            fault: fault.map(|fault| (fault, 0)),
             reset,
             ticks: 0,
             frames_lost: 0,
@@ -191,7 +195,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             homed: !self.safety.wait_for_homing && self.homing.is_none(),
             homing: HomingState::default(),
             angles_at_zero: self.device.encoders.map(|encoder| encoder.angle_at_zero),
-            table_check: TableCheck::default(),
+            table_check,
             steps_undone: 0,
             counts: None,
             angles: [0.0; JOINTS],

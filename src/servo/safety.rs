@@ -53,8 +53,8 @@ pub struct Safety {
     pub wait_for_homing: bool,
     /// When a sensor counts as stuck; `None` does not watch.
     pub stuck: Option<StuckLimits>,
-    /// CRC-32 of the patch's table ([`crate::patch::SplinePatch::table_crc`]): checked whole before the loop is armed,
-    /// and again and again after, a few words a tick. `None` checks nothing.
+    /// CRC-32 of the tables, that their source has as `TABLE_CRC`: checked whole before the first tick, and again and again after, a word a
+    /// tick. `None` checks nothing.
     pub table_crc: Option<u32>,
 }
 

@@ -1,10 +1,7 @@
-//! The tables in flash are read over and over, a few words a tick, and their CRC compared.
+//! The tables in flash are read over and over, whole before the first tick and then a word a tick, and their CRC compared.
 
 use super::Surface;
 use crate::body::TableCursor;
-
-/// Words read a tick. Each costs some 50 instructions (the end of a record counts as one); the 261 words of a small patch are read in 33 ticks.
-const WORDS: usize = 8;
 
 /// How far the check has come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,23 +15,34 @@ pub struct TableCheck {
 }
 
 impl TableCheck {
-    /// Reads on. False if the table was read to its end and its CRC is not the expected one.
+    /// Reads one word more, some 60 instructions. False if the tables were read to their end and their CRC is not the expected one.
     #[inline]
     pub fn step<S: Surface>(&mut self, surface: &S, expected: u32) -> bool {
-        for _ in 0..WORDS {
-            let found = surface.table_word(self.place);
-            if let Some(word) = found {
-                self.crc = crc32(self.crc, word);
+        let found = surface.table_word(self.place);
+        if let Some(word) = found {
+            self.crc = crc32(self.crc, word);
+        }
+        let Some(next) = self.place.after(found) else {
+            let good = self.crc == expected;
+            *self = Self { passes: self.passes.wrapping_add(u32::from(good)), ..Self::default() };
+            return good;
+        };
+        self.place = next;
+        true
+    }
+
+    /// Reads the tables once, from their start to their end: before the first tick, for it takes as long as they are. Whether they are good.
+    pub fn run<S: Surface>(&mut self, surface: &S, expected: u32) -> bool {
+        *self = Self { passes: self.passes, ..Self::default() };
+        let before = self.passes;
+        loop {
+            if !self.step(surface, expected) {
+                return false;
             }
-            if let Some(next) = self.place.after(found) {
-                self.place = next;
-            } else {
-                let good = self.crc == expected;
-                *self = Self { passes: self.passes.wrapping_add(u32::from(good)), ..Self::default() };
-                return good;
+            if self.passes != before {
+                return true;
             }
         }
-        true
     }
 }
 

@@ -10,6 +10,7 @@ use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use board::BOARD;
 use cortex_m_rt::entry;
+use palpate::servo::Tracked;
 use palpate::wire::Report;
 use palpate::wire::frame::{self, MAX_FRAME};
 use palpate_emulated::body::{self, SERVO, SETTINGS, State};
@@ -76,7 +77,7 @@ fn TIMER0() {
     body::tick(state, order.input);
     let mut buffer = [0; MAX_FRAME];
     black_box(frame::pack(&Report::new(state, 0), &mut buffer).is_ok());
-    MODES.fetch_or(1 << state.witness.mode as u32, Relaxed);
+    MODES.fetch_or(1 << state.witness.witness().mode as u32, Relaxed);
     TOUCHES.fetch_add(u32::from(state.contact == palpate::render::Contact::Touching), Relaxed);
     TICKS_DONE.fetch_add(1, Relaxed);
 }

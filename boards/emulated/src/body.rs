@@ -15,7 +15,7 @@ mod settings {
     include!(env!("PALPATE_SETTINGS_FILE"));
 }
 
-pub use settings::SETTINGS;
+pub use settings::{DEVICE, SETTINGS};
 
 /// What the loop keeps between two ticks.
 pub type State = ServoState<3, <tables::Surface as servo::Surface>::Witness>;
@@ -25,7 +25,7 @@ const SAFETY: Safety = Safety { table_crc: Some(tables::TABLE_CRC), ..settings::
 
 /// Everything the servo knows, in flash.
 pub static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> =
-    Servo::new(&settings::DEVICE, tables::SURFACE, Controller::CERTIFIED, SETTINGS).safety(SAFETY);
+    Servo::new(&DEVICE, tables::SURFACE, Controller::CERTIFIED, SETTINGS).safety(SAFETY);
 
 /// One tick of the servo: a function of its own, so that what is proved of the image and what is counted is all of it and
 /// nothing else.

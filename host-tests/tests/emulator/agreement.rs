@@ -3,23 +3,22 @@
 use crate::path::{TICKS, sensors};
 use crate::running::{TRANSPORTS, firmware_of};
 use palpate::device::Counts;
-use palpate::patch::SplinePatch;
-use palpate::servo::{Event, Input, Servo};
+use palpate::servo::{Event, Input, Safety, Servo};
 use palpate::track::Controller;
 use palpate::wire::Report;
 use palpate_host::firmware::{Board, Link};
 
 /// The very tables and settings of the image.
 mod tables {
-    include!("../../../boards/bodies/table1c.rs");
+    include!("../../../boards/bodies/capped_box.rs");
 }
 mod settings {
     include!("../../../boards/settings/default.rs");
 }
 
-static SERVO: Servo<'static, SplinePatch, settings::Mechanism, 3> =
-    Servo::new(&settings::DEVICE, &tables::PATCHES[0], Controller::CERTIFIED, settings::SETTINGS)
-        .safety(settings::SAFETY);
+static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> =
+    Servo::new(&settings::DEVICE, tables::SURFACE, Controller::CERTIFIED, settings::SETTINGS)
+        .safety(Safety { table_crc: Some(tables::TABLE_CRC), ..settings::SAFETY });
 
 #[test]
 fn every_board_and_the_host_agree_in_every_bit_of_every_tick() {

@@ -42,10 +42,17 @@ fn compare(board: Board) {
         4 * evaluation <= 5 * EVALUATION_FLOOR,
         "{board:?}: a biquadratic evaluation takes {evaluation} instructions"
     );
-    let (step, evaluation) = (of("step on the face, worst"), of("evaluation, the image's body, worst"));
+    let (step, evaluation) = (of("step on the face, worst"), of("evaluation, 3 x 3 spans of degree (2, 2), worst"));
     assert!(
         step <= 2 * evaluation,
         "{board:?}: a step on the face takes {step} instructions, its evaluation {evaluation}"
+    );
+    // The capped box has faces of degree 3.
+    let (closest, evaluation) =
+        (of("closest point of the capped box, any, worst"), of("evaluation, polynomial, degree (3, 3)"));
+    assert!(
+        closest <= 4 * evaluation,
+        "{board:?}: the worst tick on the capped box takes {closest} instructions, an evaluation {evaluation}"
     );
     let tick = of("servo tick, worst");
     assert!(tick <= SERVO_TICK, "{board:?}: a servo tick takes {tick} instructions");

@@ -24,7 +24,7 @@ fn tick(body: &Body, witness: &mut BodyWitness, position: Vec3) -> BodyStep {
 }
 
 /// A path through and around the body that never closes, 0.4 m/s at 4 kHz at most.
-fn probe(tick: u32) -> Vec3 {
+pub fn probe(tick: u32) -> Vec3 {
     // Each within the range for which the sine is good.
     let wave = |rate: f32| sin_cos((tick as f32 * 1e-3 * rate) % core::f32::consts::TAU).0;
     MIDDLE + TRAVEL * vec3(wave(1.0), wave(1.37), wave(1.73))

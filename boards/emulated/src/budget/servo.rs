@@ -2,43 +2,60 @@
 
 use core::hint::black_box;
 
-use palpate::device::Counts;
-use palpate::math::sin_cos;
+use palpate::device::{Counts, Kinematics};
+use palpate::math::Vec3;
 use palpate::render::Contact;
 use palpate::servo::{Event, Input, Tracked};
 
+use super::closest::probe;
 use super::tally::Tally;
-use crate::body::{SERVO, State};
+use crate::body::{DEVICE, SERVO, SETTINGS, State};
 use crate::timer::InstructionCounter;
 
 /// Ticks of the path.
 const TICKS: u32 = 100_000;
+/// Newton steps to the start of the path.
+const APPROACH: u32 = 20;
 
 #[inline(never)]
 fn tick(state: &mut State, input: Input<3>) {
     SERVO.tick(state, input);
 }
 
-/// Counts of the three encoders on a path over, through and beyond the demo's surface.
-fn counts(tick: u32) -> [Counts; 3] {
-    let phase = tick as f32 * 1.5e-3;
-    let wave = |rate: f32| sin_cos((phase * rate) % core::f32::consts::TAU).0;
-    // About the workspace centre: at first over the patch and through it, growing to beyond its corners.
-    let growth = 1.0 + 0.5 * tick as f32 / TICKS as f32;
-    let [a, b, c] = [1_800.0, 1_000.0, 1_400.0].map(|travel: f32| travel * growth);
-    [
-        Counts((-a * wave(1.0)) as i32),
-        Counts((-1_320.0 + b * wave(1.37)) as i32),
-        Counts((3_460.0 + c * wave(0.71)) as i32),
-    ]
+/// The joints of a device that goes where it is told.
+struct Walk {
+    angles: [f32; 3],
+}
+
+impl Walk {
+    /// One step of Newton's method a tick, from the last tick's angles: the path moves a tenth of a millimetre in between.
+    fn counts(&mut self, position: Vec3) -> [Counts; 3] {
+        let pose = DEVICE.kinematics.pose(self.angles);
+        let [a, b, c] = pose.jacobian;
+        let missing = position - pose.position;
+        // Cramer's rule.
+        let scale = 1.0 / a.dot(b.cross(c));
+        let change = [missing.dot(b.cross(c)), a.dot(missing.cross(c)), a.dot(b.cross(missing))];
+        let mut counts = [Counts(0); 3];
+        for (((count, angle), change), encoder) in counts.iter_mut().zip(&mut self.angles).zip(change).zip(&DEVICE.encoders) {
+            *angle += scale * change;
+            *count = Counts(((*angle - encoder.angle_at_zero) / encoder.radians_per_count) as i32);
+        }
+        counts
+    }
 }
 
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut state = SERVO.start();
+    let mut walk = Walk { angles: DEVICE.encoders.map(|encoder| encoder.angle_at_zero) };
+    for _ in 0..APPROACH {
+        walk.counts(probe(0) + SETTINGS.body_origin);
+    }
     let mut ticks = Tally::new();
     let (mut touched, mut met) = (0, [0_u32; 3]);
     for index in 0..TICKS {
-        let input = black_box(Input::Sensors { counts: counts(index), enable: true });
+        let position = probe(index) + SETTINGS.body_origin;
+        let input = black_box(Input::Sensors { counts: walk.counts(position), enable: true });
         // As the loop does with each frame: a host that is silent is a fault.
         SERVO.note(&mut state, Event::LinkAlive);
         let ((), instructions) = counter.count(|| tick(&mut state, input));
@@ -54,7 +71,6 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     if touched < TICKS / 100 {
         return Err("the servo's path hardly touches the surface");
     }
-    semihosting::println!("{:?}", met.map(u32::count_ones));
     if met.map(u32::count_ones) != [6, 12, 8] {
         return Err("the servo's path misses a feature");
     }

@@ -1,0 +1,67 @@
+//! When the tracker does not follow: the search for a start, after a jump too, and the rolling audit.
+
+use super::feature::Feature;
+use super::search::{Located, Search};
+use super::table::Body;
+use super::tracker::{BodyStep, BodyWitness};
+use crate::math::Vec3;
+use crate::render::Contact;
+use crate::track::Witness;
+
+/// The distance of another candidate must be shorter by this part before the tracker changes over: far above what `f32` rounds, far
+/// below what a hand feels.
+const NEARER: f32 = 1.0e-3;
+
+impl Body {
+    /// One part of the search for a start, or outside a body that is not convex of the rolling audit: its beginning, half an evaluation, or
+    /// its end. `follows` is whether the probe is near that of the last tick. Whether the tracker may step.
+    #[inline(never)]
+    pub(super) fn search(&self, state: &mut BodyWitness, probe: Vec3, follows: bool, step: &mut BodyStep) -> bool {
+        if !probe.is_finite() {
+            return false;
+        }
+        // Set down by hand before the first probe, it has not jumped.
+        let is_set_down = state.is_located && !state.probe.is_finite();
+        state.probe = probe;
+        if !(follows || is_set_down) {
+            state.is_located = false;
+            state.contact = Contact::Behind;
+            state.search = Search::new(self, probe);
+            return false;
+        }
+        if state.is_located && (self.is_convex || state.contact == Contact::Touching) {
+            return true;
+        }
+        if let Some(found) = state.search.found() {
+            let known = 0.5 * (state.witness.surface.point - probe).length_squared();
+            if !state.is_located || found.half_squared < (1.0 - NEARER) * known {
+                self.set_down(state, &found, probe, step);
+            }
+            // On a convex body a jump begins the next one.
+            if !self.is_convex {
+                state.search = Search::new(self, probe);
+            }
+            return false;
+        }
+        state.search.turn(self, probe);
+        step.evaluations += u8::from(state.search.has_evaluated());
+        state.is_located
+    }
+
+    /// Sets the witness point down where the search has ended. One evaluation.
+    fn set_down(&self, state: &mut BodyWitness, found: &Located, probe: Vec3, step: &mut BodyStep) {
+        let Some(face) = self.faces.get(usize::from(found.face)) else { return };
+        let [u, v] = found.parameters;
+        let witness = Witness::at(&face.patch, u, v);
+        step.evaluations += 1;
+        // The probe has moved since the search began.
+        let nearer =
+            (witness.surface.point - probe).length_squared() < (state.witness.surface.point - probe).length_squared();
+        if !state.is_located || nearer {
+            step.switched = true;
+            state.feature = Feature::Face(found.face);
+            state.witness = witness;
+            state.is_located = true;
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! The top level: from which feature the tracker goes to which other one. A switch never moves the witness point by more than rounding.
+
+use super::along::Along;
+use super::curve::CurvePoint;
+use super::feature::{EdgeFace, EdgeKind, Feature, Side};
+use super::table::Body;
+use super::tracker::{BodyStep, BodyWitness};
+use crate::math::Vec3;
+use crate::patch::SurfacePoint;
+use crate::track::{BoundaryMode, Witness};
+
+impl Body {
+    /// Hands over through the side that holds the witness point. While the witness point is free there is nothing to ask: the controller
+    /// brings it to the side through which the probe has left, and there the measure numbers of the projection errors change sign where
+    /// the probe passes the separator. Whether it switched.
+    #[inline(never)]
+    pub(super) fn leave_face(&self, index: u16, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) -> bool {
+        let Some(face) = self.faces.get(usize::from(index)) else { return false };
+        let [u, v] = state.witness.parameters;
+        // A side that ended the last step short of its own end, or began it, may be gone by now.
+        let held = [u <= 0.0, u >= 1.0, v <= 0.0, v >= 1.0];
+        let asked = match state.witness.mode {
+            BoundaryMode::LowerU => [true, false, false, false],
+            BoundaryMode::UpperU => [false, true, false, false],
+            BoundaryMode::LowerV => [false, false, true, false],
+            BoundaryMode::UpperV => [false, false, false, true],
+            BoundaryMode::Corner => [true; 4],
+            BoundaryMode::Interior => [false; 4],
+        };
+        for ((side, along), (held, asked)) in face.sides.iter().zip([v, v, u, u]).zip(held.into_iter().zip(asked)) {
+            if !(held && asked) {
+                continue;
+            }
+            let switched = match side {
+                Side::Pole { vertex } => self.rest_on_vertex(*vertex, state),
+                Side::Edge { edge, reversed, .. } => {
+                    let t = if *reversed { 1.0 - along } else { along };
+                    self.cross_side(index, *edge, t, state, probe, step)
+                }
+            };
+            if switched {
+                step.switched = true;
+                return true;
+            }
+        }
+        false
+    }
+
+    /// From a face to the edge, or over a smooth one to the face beyond it.
+    #[inline]
+    fn cross_side(
+        &self,
+        from: u16,
+        index: u16,
+        t: f32,
+        state: &mut BodyWitness,
+        probe: Vec3,
+        step: &mut BodyStep,
+    ) -> bool {
+        let Some(edge) = self.edges.get(usize::from(index)) else { return false };
+        // The faces hand over directly: between them lies no region.
+        if let Some(EdgeFace { face, side }) = across_smooth(edge.kind, edge.faces, from) {
+            return self.enter_across(face, side, t, state, step);
+        }
+        let at = edge.curve.evaluate(t);
+        let squared = (state.witness.surface.point - probe).length_squared();
+        let no_rise = self.is_no_rise((at.point - probe).length_squared(), squared, at.point, probe);
+        if no_rise {
+            state.rest_on_edge(index, t, &at);
+        }
+        no_rise
+    }
+
+    /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point; otherwise one step
+    /// along it.
+    #[inline(never)]
+    pub(super) fn tick_on_edge(&self, index: u16, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
+        let Some(edge) = self.edges.get(usize::from(index)) else { return };
+        let t = state.witness.parameters[0];
+        let at = CurvePoint { point: state.witness.surface.point, tangent: state.witness.surface.tangent_u };
+        let along = Along::new(&at, probe);
+        // One face a tick, in turn.
+        let of = edge.faces[usize::from(state.asks_second)];
+        state.asks_second = !state.asks_second;
+        let separator = match self.faces.get(usize::from(of.face)).and_then(|face| face.sides.get(usize::from(of.side)))
+        {
+            Some(Side::Edge { separator, .. }) => Some(separator),
+            _ => None,
+        };
+        if separator.is_some_and(|separator| !along.is_beyond(separator, &at, t, probe)) {
+            step.switched = self.enter_across(of.face, of.side, t, state, step);
+        } else if along.is_held(t) {
+            step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
+        } else {
+            step.outcome = self.slide(index, &along, state, probe);
+        }
+    }
+
+    /// From a vertex along the edge that falls most steeply, if one does.
+    #[inline(never)]
+    pub(super) fn leave_vertex(&self, index: u16, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
+        let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
+        let first = usize::from(vertex.first_spoke);
+        let spokes = self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[]);
+        let towards = probe - vertex.point;
+        let mut steepest: Option<(f32, u16, bool)> = None;
+        for spoke in spokes {
+            let fall = towards.dot(spoke.direction);
+            if fall > 0.0 && steepest.is_none_or(|(most, ..)| fall > most) {
+                steepest = Some((fall, spoke.edge, spoke.at_upper_end));
+            }
+        }
+        if let Some((_, edge, at_upper_end)) = steepest
+            && let Some(curve) = self.edges.get(usize::from(edge)).map(|edge| &edge.curve)
+        {
+            step.switched = true;
+            let t = if at_upper_end { 1.0 } else { 0.0 };
+            state.rest_on_edge(edge, t, &curve.evaluate(t));
+        }
+    }
+
+    /// Into a face over one of its sides, at the edge's parameter. The point stays the same. One evaluation.
+    #[inline(never)]
+    fn enter_across(&self, index: u16, number: u8, t: f32, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+        let Some(face) = self.faces.get(usize::from(index)) else { return false };
+        let Some(side) = face.sides.get(usize::from(number)) else { return false };
+        let along = if matches!(side, Side::Edge { reversed: true, .. }) { 1.0 - t } else { t };
+        let [u, v] = match number {
+            0 => [0.0, along],
+            1 => [1.0, along],
+            2 => [along, 0.0],
+            _ => [along, 1.0],
+        };
+        state.feature = Feature::Face(index);
+        state.witness = Witness::at(&face.patch, u, v);
+        step.evaluations += 1;
+        true
+    }
+
+    #[inline]
+    fn rest_on_vertex(&self, index: u16, state: &mut BodyWitness) -> bool {
+        let Some(vertex) = self.vertices.get(usize::from(index)) else { return false };
+        state.feature = Feature::Vertex(index);
+        let surface = SurfacePoint { point: vertex.point, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
+        state.witness = Witness { parameters: [0.0; 2], surface, mode: BoundaryMode::Corner, caution: 1.0 };
+        true
+    }
+}
+
+/// The face beyond a smooth edge.
+#[inline]
+fn across_smooth(kind: EdgeKind, [first, second]: [EdgeFace; 2], from: u16) -> Option<EdgeFace> {
+    let other = if first.face == from { second } else { first };
+    (kind == EdgeKind::Smooth && other.face != from && other != EdgeFace::NONE).then_some(other)
+}
