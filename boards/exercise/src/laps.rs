@@ -10,10 +10,12 @@ use palpate::servo::{Rendering, SafeOutput, Safety, Servo, Settings, StuckLimits
 use palpate::track::Controller;
 
 /// A polynomial patch of several spans.
+#[expect(dead_code, reason = "only its patches are walked")]
 mod table1c {
     include!("../../bodies/table1c.rs");
 }
 /// A rational one.
+#[expect(dead_code, reason = "only its patches are walked")]
 mod ellipsoid {
     include!("../../bodies/ellipsoid.rs");
 }
