@@ -21,6 +21,7 @@ mod ellipsoid {
 }
 
 /// A body with flat and curved faces, edges and corners.
+#[expect(dead_code, reason = "only its body is walked")]
 mod capped_box {
     include!("../../bodies/capped_box.rs");
 }
