@@ -10,15 +10,18 @@ use palpate::servo::{Rendering, SafeOutput, Safety, Servo, Settings, StuckLimits
 use palpate::track::Controller;
 
 /// A polynomial patch of several spans.
+#[expect(dead_code, reason = "only its patches are walked")]
 mod table1c {
     include!("../../bodies/table1c.rs");
 }
 /// A rational one.
+#[expect(dead_code, reason = "only its patches are walked")]
 mod ellipsoid {
     include!("../../bodies/ellipsoid.rs");
 }
 
 /// A body with flat and curved faces, edges and corners.
+#[expect(dead_code, reason = "only its body is walked")]
 mod capped_box {
     include!("../../bodies/capped_box.rs");
 }

@@ -3,7 +3,6 @@
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Device, SerialArm};
 use palpate::math::vec3;
-use palpate::patch::SplinePatch;
 use palpate::servo::{Safety, Servo, Settings};
 use palpate::track::Controller;
 
@@ -26,8 +25,8 @@ pub const SETTINGS: Settings = Settings {
 };
 
 /// No host watches: the device runs by itself. The table is checked at boot and over and over.
-const SAFETY: Safety = Safety { table_crc: Some(table::PATCHES[0].table_crc()), ..Safety::DEFAULT };
+const SAFETY: Safety = Safety { table_crc: Some(table::TABLE_CRC), ..Safety::DEFAULT };
 
 /// Everything the servo knows.
-pub static SERVO: Servo<'static, SplinePatch, SerialArm, 3> =
-    Servo::new(&DEVICE, &table::PATCHES[0], Controller::CERTIFIED, SETTINGS).safety(SAFETY);
+pub static SERVO: Servo<'static, table::Surface, SerialArm, 3> =
+    Servo::new(&DEVICE, table::SURFACE, Controller::CERTIFIED, SETTINGS).safety(SAFETY);

@@ -67,40 +67,44 @@ pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Ro
     let log = child.stderr.take().ok_or_else(|| io::Error::other("the emulator has none"))?;
     let mut log = BufReader::with_capacity(1 << 20, log);
     let mut line = Vec::new();
-    loop {
+    let mut block: Option<u64> = None;
+    'log: loop {
         line.clear();
         if log.read_until(b'\n', &mut line)? == 0 {
             break;
         }
-        let Some(address) = address(&line) else { continue };
-        let Some((_, flow, next)) = costs.get(&address) else { continue };
-        // One that may return has done so if something else than the next comes.
-        if let Some(next) = perhaps.take()
-            && next != address
-        {
-            returned(&mut open, &mut finished);
-        }
-        if roots.contains(&address) && open.iter().all(|window| window.root != address) {
-            open.push(Window { root: address, depth: 0, executed: Vec::new() });
-        }
-        for window in &mut open {
-            window.executed.push(address);
-        }
-        match flow {
-            Flow::Call(_) => open.iter_mut().for_each(|window| window.depth += 1),
-            Flow::Return => returned(&mut open, &mut finished),
-            Flow::MaybeReturn => perhaps = Some(*next),
-            _ => {}
-        }
-        if finished.is_empty() {
-            continue;
-        }
-        for window in finished.drain(..) {
-            all.entry(window.root).or_default().push(spent(core, &costs, &window.executed));
-        }
-        if wanted.iter().all(|(root, calls)| all.get(root).is_some_and(|found| found.len() >= *calls)) {
-            child.kill()?;
-            break;
+        let Some(start) = address(&line).filter(|start| costs.contains_key(start)) else { continue };
+        let Some(from) = block.replace(start) else { continue };
+        for address in straight(&costs, from, start) {
+            let Some((_, flow, next)) = costs.get(&address) else { continue };
+            // One that may return has done so if something else than the next comes.
+            if let Some(next) = perhaps.take()
+                && next != address
+            {
+                returned(&mut open, &mut finished);
+            }
+            if roots.contains(&address) && open.iter().all(|window| window.root != address) {
+                open.push(Window { root: address, depth: 0, executed: Vec::new() });
+            }
+            for window in &mut open {
+                window.executed.push(address);
+            }
+            match flow {
+                Flow::Call(_) => open.iter_mut().for_each(|window| window.depth += 1),
+                Flow::Return => returned(&mut open, &mut finished),
+                Flow::MaybeReturn => perhaps = Some(*next),
+                _ => {}
+            }
+            if finished.is_empty() {
+                continue;
+            }
+            for window in finished.drain(..) {
+                all.entry(window.root).or_default().push(spent(core, &costs, &window.executed));
+            }
+            if wanted.iter().all(|(root, calls)| all.get(root).is_some_and(|found| found.len() >= *calls)) {
+                child.kill()?;
+                break 'log;
+            }
         }
     }
     child.wait()?;
@@ -117,6 +121,25 @@ pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Ro
             if calls.instructions.is_empty() { Err(TraceError::NotCalled(root.function)) } else { Ok((*root, calls)) }
         })
         .collect()
+}
+
+/// The emulator's blocks end at multiples of this, if not before.
+const PAGE: u64 = 1024;
+
+/// The instructions of a block and the ones behind it up to where it leads: it ends with one that may lead elsewhere, or at the end
+/// of a page, where the next block goes on.
+fn straight(costs: &Costs, from: u64, then: u64) -> Vec<u64> {
+    let mut executed = Vec::new();
+    let mut at = from;
+    while let Some((_, flow, next)) = costs.get(&at) {
+        executed.push(at);
+        let goes_on = *next == then && (then + 2) % PAGE <= 2;
+        if *flow != Flow::Next || goes_on {
+            break;
+        }
+        at = *next;
+    }
+    executed
 }
 
 /// One function came back: the calls that this ends are finished.

@@ -50,15 +50,15 @@ impl Program {
         output(&mut self.qemu.board(&self.image.elf, self.image.board, pace))
     }
 
-    /// Runs it with every instruction logged that lies in one of these ranges (start, length): a line `Trace …` each on its
-    /// standard error, an instruction a translated block.
+    /// Runs it with every block of instructions logged that begins in one of these ranges (start, length): a line `Trace …` each
+    /// on its standard error.
     ///
     /// # Errors
     /// If the emulator does not start.
     pub fn trace(&self, ranges: &[(u64, u64)]) -> Result<Child, SetUpError> {
         let filter: Vec<String> = ranges.iter().map(|(start, length)| format!("{start:#x}+{length:#x}")).collect();
         let mut command = self.qemu.board(&self.image.elf, self.image.board, Pace::Free);
-        command.args(["-singlestep", "-d", "exec,nochain", "-D", "/dev/stderr", "-dfilter", &filter.join(",")]);
+        command.args(["-d", "exec,nochain", "-D", "/dev/stderr", "-dfilter", &filter.join(",")]);
         command.stdout(Stdio::null()).stderr(Stdio::piped());
         command.spawn().map_err(SetUpError::io("the emulator"))
     }

@@ -37,7 +37,9 @@ impl Walk {
         let scale = 1.0 / a.dot(b.cross(c));
         let change = [missing.dot(b.cross(c)), a.dot(missing.cross(c)), a.dot(b.cross(missing))];
         let mut counts = [Counts(0); 3];
-        for (((count, angle), change), encoder) in counts.iter_mut().zip(&mut self.angles).zip(change).zip(&DEVICE.encoders) {
+        for (((count, angle), change), encoder) in
+            counts.iter_mut().zip(&mut self.angles).zip(change).zip(&DEVICE.encoders)
+        {
             *angle += scale * change;
             *count = Counts(((*angle - encoder.angle_at_zero) / encoder.radians_per_count) as i32);
         }
