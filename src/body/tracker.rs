@@ -36,9 +36,11 @@ pub struct BodyWitness {
     pub contact: Contact,
     /// Whether the witness point has been located. Until then there is no gap and no force.
     pub is_located: bool,
+    /// Whether a search has ended since the witness point was set down: until then it may be on the far side of the body.
+    is_audited: bool,
     /// The search for a global start, or the rolling audit.
     search: Search,
-    /// The probe of the last tick.
+    /// The probe of the last tick; NaN before the first.
     probe: Vec3,
 }
 
@@ -69,8 +71,9 @@ impl Body {
             gap: 0.0,
             contact: Contact::Behind,
             is_located: false,
+            is_audited: false,
             search: Search::new(self, Vec3::ZERO),
-            probe: Vec3::ZERO,
+            probe: Vec3::NAN,
         }
     }
 
@@ -80,8 +83,6 @@ impl Body {
         let mut state = self.start();
         if let Some(patch) = self.faces.get(usize::from(face)).map(|face| &face.patch) {
             let witness = Witness::at(patch, u, v);
-            // No probe yet, and so no jump of it.
-            state.probe = Vec3::NAN;
             self.enter_face(face, witness.parameters, Some(witness), &mut state);
             state.is_located = true;
         }
@@ -92,8 +93,8 @@ impl Body {
     /// without a panic; a probe that is not finite changes nothing.
     ///
     /// The distance to the probe never rises by more than rounding, at a switch neither. Outside, the witness point ends at a point that no
-    /// neighbouring feature improves: on a convex body that is the closest one, on others the rolling audit finds it. While the body
-    /// is touched there is no audit: the witness point is the god-object (theory §11), which hands over across common edges only.
+    /// neighbouring feature improves: on a convex body with the probe in front of it that is the closest one, otherwise the rolling audit finds
+    /// it. While the body is touched there is no audit: the witness point is the god-object (theory §11), which hands over across common edges only.
     #[inline]
     pub fn step(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
         let position = probe.position;
@@ -108,8 +109,11 @@ impl Body {
             return step;
         }
         let jump = JUMP * self.size;
-        if state.is_located && (position - state.probe).length_squared() > jump * jump {
-            state.is_located = false;
+        let moved = (position - state.probe).length_squared();
+        if moved.is_nan() || (state.is_located && moved > jump * jump) {
+            // The first probe is no jump, but says in which cell to search.
+            state.is_located &= moved.is_nan();
+            state.is_audited = false;
             state.search = Search::new(self, position);
         }
         state.probe = position;
@@ -142,15 +146,20 @@ impl Body {
         step
     }
 
-    /// The search for a start, or outside a body that is not convex the rolling audit: one evaluation of one candidate.
+    /// The search for a start, or the rolling audit: one evaluation of one candidate.
+    ///
+    /// No audit while the body is touched. Nor of a convex body with the probe in front of the witness point: then no other point is
+    /// nearer. From behind, the far side of a convex body holds a witness point as well.
     #[inline]
     fn audit(&self, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
-        if state.is_located && (self.is_convex || state.contact == Contact::Touching) {
+        let is_sure = state.is_audited && self.is_convex && state.contact != Contact::Behind;
+        if state.is_located && (is_sure || state.contact == Contact::Touching) {
             return;
         }
         step.evaluations += 1;
         let Some(found) = state.search.step(self, probe) else { return };
         state.search = Search::new(self, probe);
+        state.is_audited = true;
         let known = 0.5 * (state.witness.surface.point - probe).length_squared();
         if !state.is_located || found.half_squared < (1.0 - NEARER) * known {
             self.jump(state, &found, probe);
@@ -356,8 +365,12 @@ impl Body {
                 self.vertices.get(usize::from(index)).is_some_and(|vertex| vertex.is_open)
             }
         };
-        // Over the rim of an open body there is neither front nor back.
-        state.contact = if open { Contact::Behind } else { state.contact.next(state.gap, BoundaryMode::Interior) };
+        // Over the rim of an open body there is neither front nor back; and nothing is touched with a witness point that may be on the far side.
+        state.contact = if open || !state.is_audited {
+            Contact::Behind
+        } else {
+            state.contact.next(state.gap, BoundaryMode::Interior)
+        };
     }
 
     /// Whether a squared distance is not above another by more than rounding.

@@ -1,7 +1,7 @@
 //! A way around a convex body that comes over each of its features.
 
 use crate::scene::Scene;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use palpate::body::{EdgeFace, EdgeKind, Feature, Side};
 use palpate_host::bodies::BodyOracle;
 use palpate_host::oracle::Surface;
@@ -17,7 +17,7 @@ struct Place {
 }
 
 /// A polyline from one feature to the next until all were passed: faces at their middle, edges from one face across to the other, vertices.
-/// No vertex of the line is farther than a hundredth of the size from the next; heights lie between 1 % and 11 % of the size.
+/// Heights lie between 1 % and 11 % of the size, and the line has a vertex every hundredth of it at least, far less than what it then cuts short.
 pub fn tour(scene: &Scene) -> Vec<DVec3> {
     let oracle = scene.oracle();
     let size = scene.size();
@@ -35,11 +35,14 @@ pub fn tour(scene: &Scene) -> Vec<DVec3> {
     let mut line = Vec::new();
     for pair in way.windows(2) {
         let [from, to] = [pair[0] - centre, pair[1] - centre];
-        let steps = (from.distance(to) / (0.01 * size)).ceil().max(1.0) as u32;
+        // Around the body, not through it: turned about an axis, which any will do between opposite directions.
+        let axis = from.cross(to).try_normalize().unwrap_or_else(|| from.any_orthonormal_vector());
+        let angle = from.angle_between(to);
+        let steps = (angle * from.length().max(to.length()) / (0.005 * size)).ceil().max(1.0) as u32;
         for step in 0..steps {
             let share = f64::from(step) / f64::from(steps);
-            // Around the body, not through it.
-            let out = from.lerp(to, share).normalize() * (from.length() * (1.0 - share) + to.length() * share);
+            let length = from.length() * (1.0 - share) + to.length() * share;
+            let out = DQuat::from_axis_angle(axis, angle * share) * from.normalize() * length;
             let height = size * (0.06 - 0.05 * (0.03 * line.len() as f64).cos());
             line.push(over(&oracle, centre + out, height));
         }
@@ -62,10 +65,8 @@ fn legs(scene: &Scene) -> Vec<Vec<Place>> {
     };
     let mut legs: Vec<Vec<Place>> = (0..body.faces().len() as u16).map(|face| vec![at(face, [0.5; 2])]).collect();
     for edge in body.edges() {
-        let [first, second] = edge.faces.map(|of| {
-            let along = 0.5;
-            [inset(of, along, INSET), inset(of, along, 0.0)].map(|parameters| at(of.face, parameters))
-        });
+        let [first, second] =
+            edge.faces.map(|of| [inset(of, INSET), inset(of, 0.0)].map(|parameters| at(of.face, parameters)));
         let direction = (first[1].direction + second[1].direction).normalize();
         legs.push(vec![first[0], Place { point: first[1].point, direction }, second[0]]);
     }
@@ -83,12 +84,12 @@ fn legs(scene: &Scene) -> Vec<Vec<Place>> {
 }
 
 /// Parameters of a face at the middle of one of its sides, and so far in.
-fn inset(of: EdgeFace, along: f64, by: f64) -> [f64; 2] {
+fn inset(of: EdgeFace, by: f64) -> [f64; 2] {
     match of.side {
-        0 => [by, along],
-        1 => [1.0 - by, along],
-        2 => [along, by],
-        _ => [along, 1.0 - by],
+        0 => [by, 0.5],
+        1 => [1.0 - by, 0.5],
+        2 => [0.5, by],
+        _ => [0.5, 1.0 - by],
     }
 }
 

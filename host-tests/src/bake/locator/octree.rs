@@ -121,7 +121,7 @@ impl<'a> Search<'a> {
             entries = lister.entries(&left);
         }
         let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
-        let is_checked = proved || kind == Kind::Deep || kind == Kind::Outside && self.options.convex;
+        let is_checked = proved || kind == Kind::Deep;
         // Where much could be lost it is looked for harder.
         let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
         let mut count = self.options.samples * if is_loose { 8 } else { 1 };
