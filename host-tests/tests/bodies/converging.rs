@@ -1,4 +1,5 @@
-//! From a start on any face the tracker ends at the closest point of a convex body, without a search.
+//! From a start on any face, the far side included, the tracker ends at the closest point of a convex body. The law alone does not: over the far
+//! side a probe has a second resting place, which only the audit leaves.
 
 use crate::scene::{Scene, from_environment, repeat};
 use palpate::track::{Controller, Probe};
@@ -8,7 +9,7 @@ const ARRIVED: f64 = 1e-5;
 /// Ticks that are waited for: far more than any start takes.
 const PATIENCE: u32 = 20_000;
 
-/// Ticks from the middle of each face to the closest point of a random probe outside.
+/// Ticks from random places on each face to the closest point of a random probe outside.
 fn check(name: &'static str) {
     let scene = Scene::load(name);
     let oracle = scene.oracle();
