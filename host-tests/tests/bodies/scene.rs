@@ -104,14 +104,14 @@ impl Scene {
         (surface.point - if normal.is_finite() { normal } else { DVec3::ZERO } * depth).as_vec3()
     }
 
-    /// The features on which the nearest points lie: one, or more where a point is within `end` of a border.
+    /// The features on which the nearest points lie: one, or a face and what is beside it where a point is within `end` of its border.
     pub fn owners(&self, nearest: &[(usize, ClosestPoint)], end: f64) -> Vec<Feature> {
         let mut owners = Vec::new();
         for (index, foot) in nearest {
             let [u, v] = foot.parameters;
             let sides = self.body.faces()[*index].sides;
             let at = [u <= end, u >= 1.0 - end, v <= end, v >= 1.0 - end];
-            if at == [false; 4] {
+            if foot.parameters.iter().all(|parameter| 0.0 < *parameter && *parameter < 1.0) {
                 owners.push(Feature::Face(*index as u16));
             }
             for (side, _) in sides.iter().zip(at).filter(|(_, at)| *at) {

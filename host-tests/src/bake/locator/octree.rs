@@ -127,7 +127,9 @@ impl<'a> Search<'a> {
         let mut count = self.options.samples * if is_loose { 8 } else { 1 };
         let mut divisions = if is_checked { 0 } else { REPAIRS };
         while divisions > 0 {
-            let Some(point) = sampled::failure(self.faces, &probes, &entries, &left, count, 0.5 * tolerance) else {
+            let Some(point) =
+                sampled::failure(self.faces, &probes, &entries, &left, count, [0.5 * tolerance, self.size])
+            else {
                 break;
             };
             // Where one probe failed others will.

@@ -140,7 +140,7 @@ pub(super) fn pack(
 }
 
 /// The likeliest first, the others in an order that lets lists share their ends.
-fn list(entries: &[super::list::Entry]) -> Vec<u32> {
+pub(super) fn list(entries: &[super::list::Entry]) -> Vec<u32> {
     let count = entries.len();
     let mut codes: Vec<u32> = entries.iter().map(|entry| entry.pack(false)).collect();
     if let Some(rest) = codes.get_mut(1..) {
