@@ -49,7 +49,7 @@ impl Along {
     /// of the face's cross derivative: its part normal to the edge. Positive once the probe has left the face.
     #[inline]
     pub(super) fn beyond(&self, at: &CurvePoint, cross: Vec3) -> f32 {
-        if !(self.stretch > f32::MIN_POSITIVE) {
+        if self.stretch <= f32::MIN_POSITIVE || self.stretch.is_nan() {
             return -self.difference.dot(cross);
         }
         let conormal = cross - at.tangent * (cross.dot(at.tangent) / self.stretch);

@@ -103,5 +103,16 @@ fn foot(curve: &SplineCurve, probe: Vec3) -> Foot {
         }
         t = next;
     }
+    // Single precision sees the least distance only to the root of its resolution, but where the slope vanishes to all of it.
+    let slope = |t: f32| {
+        let at = curve.evaluate(t);
+        ((probe - at.point).dot(at.tangent), at.tangent.length_squared())
+    };
+    for _ in 0..40 {
+        let (here, stretch) = slope(t);
+        let shorter = (0..8).map(|halvings| (t + here / stretch * 0.5_f32.powi(halvings)).clamp(0.0, 1.0));
+        let Some(next) = shorter.into_iter().find(|next| slope(*next).0.abs() < here.abs()) else { break };
+        t = next;
+    }
     Foot { t, at: curve.evaluate(t) }
 }
