@@ -103,15 +103,23 @@ fn foot(curve: &SplineCurve, probe: Vec3) -> Foot {
         }
         t = next;
     }
-    // Single precision sees the least distance only to the root of its resolution, but where the slope vanishes to all of it.
+    // Single precision sees the least distance only to the root of its resolution, but where the slope vanishes to all of it. The best of several
+    // lengths: the whole step turns the slope round where the edge is curved as much as the probe is far.
     let slope = |t: f32| {
         let at = curve.evaluate(t);
         ((probe - at.point).dot(at.tangent), at.tangent.length_squared())
     };
     for _ in 0..40 {
         let (here, stretch) = slope(t);
-        let shorter = (0..8).map(|halvings| (t + here / stretch * 0.5_f32.powi(halvings)).clamp(0.0, 1.0));
-        let Some(next) = shorter.into_iter().find(|next| slope(*next).0.abs() < here.abs()) else { break };
+        let steps = (0..16).map(|index| (t + here / stretch * 0.75_f32.powi(index)).clamp(0.0, 1.0));
+        let least = |best: (f32, f32), next: f32| {
+            let after = slope(next).0.abs();
+            if after < best.1 { (next, after) } else { best }
+        };
+        let (next, _) = steps.fold((t, here.abs()), least);
+        if next == t {
+            break;
+        }
         t = next;
     }
     Foot { t, at: curve.evaluate(t) }
