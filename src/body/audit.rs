@@ -13,7 +13,7 @@ use crate::track::Witness;
 const NEARER: f32 = 1.0e-3;
 
 impl Body {
-    /// One part of the search for a start, or outside a body that is not convex of the rolling audit: its beginning, half an evaluation, or
+    /// One part of the search for a start, or of the rolling audit: its beginning, half an evaluation, or
     /// its end. `follows` is whether the probe is near that of the last tick. Whether the tracker may step.
     #[inline(never)]
     pub(super) fn search(&self, state: &mut BodyWitness, probe: Vec3, follows: bool, step: &mut BodyStep) -> bool {
@@ -24,28 +24,33 @@ impl Body {
         let is_set_down = state.is_located && !state.probe.is_finite();
         state.probe = probe;
         if !(follows || is_set_down) {
-            state.is_located = false;
+            (state.is_located, state.is_audited) = (false, false);
             state.contact = Contact::Behind;
             state.search = Search::new(self, probe);
             return false;
         }
-        if state.is_located && (self.is_convex || state.contact == Contact::Touching) {
+        if state.is_located && self.is_sure(state) {
             return true;
+        }
+        // Behind the surface there is no force, and no haste: tracker and audit take turns.
+        if state.is_located && state.contact == Contact::Behind {
+            state.rests = !state.rests;
+            if state.rests {
+                return true;
+            }
         }
         if let Some(found) = state.search.found() {
             let known = 0.5 * (state.witness.surface.point - probe).length_squared();
             if !state.is_located || found.half_squared < (1.0 - NEARER) * known {
                 self.set_down(state, &found, probe, step);
             }
-            // On a convex body a jump begins the next one.
-            if !self.is_convex {
-                state.search = Search::new(self, probe);
-            }
+            state.is_audited = true;
+            state.search = Search::new(self, probe);
             return false;
         }
         state.search.turn(self, probe);
         step.evaluations += u8::from(state.search.has_evaluated());
-        state.is_located
+        state.is_located && state.contact != Contact::Behind
     }
 
     /// Sets the witness point down where the search has ended. One evaluation.

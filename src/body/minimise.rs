@@ -1,7 +1,8 @@
 //! Second order: the distance from a probe to one rectangle of a patch's parameters.
 //!
 //! With `φ = ½ ‖f − Q‖²`, gradient `g` and Hessian `H = I + ΔR · D²f`, each step goes to the minimiser of
-//! `g · δ + ½ δᵀ H δ` over the rectangle, where `H` is positive definite; where it is not, `I` stands in for it (Gauss–Newton).
+//! `g · δ + ½ δᵀ H δ` over the rectangle, where `H` is positive definite; where it is not, `I` stands in for what of its diagonal is
+//! not positive, or for all of it (Gauss–Newton).
 //! A step that does not lower `φ` is halved.
 
 use super::locator::Candidate;
@@ -15,6 +16,8 @@ pub const MOST_EVALUATIONS_A_CANDIDATE: u8 = 16;
 const RESOLUTION: f32 = 2.0e-7;
 /// A determinant below this part of the product of the diagonal is rounding.
 const LEAST_DETERMINANT: f32 = 1.0e-4;
+/// A second derivative of `φ` below this part of that without curvature is taken for none.
+const FLAT: f32 = 1.0e-2;
 /// Halvings of one step.
 const MOST_HALVINGS: u8 = 8;
 
@@ -123,8 +126,13 @@ impl Model {
         let bend = [curved.second_uu, curved.second_uv, curved.second_vv].map(|second| difference.dot(second));
         let newton = [form[0] + bend[0], form[1] + bend[1], form[2] + bend[2]];
         let gradient = [difference.dot(f_u), difference.dot(f_v)];
+        // Along an arc that is equally far everywhere φ is flat: what is known of the other parameter still counts.
+        let mixed = [0, 2].map(|axis| if newton[axis] > FLAT * form[axis] { newton[axis] } else { form[axis] });
+        let mixed = [mixed[0], newton[1], mixed[1]];
         let hessian = if is_positive_definite(newton) {
             newton
+        } else if is_positive_definite(mixed) {
+            mixed
         } else if is_positive_definite(form) {
             form
         } else {

@@ -19,7 +19,7 @@ mod words;
 pub use curve::{CurvePoint, MAX_CURVE_DEGREE, SplineCurve};
 pub use feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Separator, Side, Spoke, Vertex};
 pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES};
-pub use minimise::MOST_EVALUATIONS_A_CANDIDATE;
+pub use minimise::{Descending, MOST_EVALUATIONS_A_CANDIDATE, Progress};
 pub use search::{Located, MOST_EVALUATIONS, MOST_EVALUATIONS_CONVEX, Search};
 pub use table::{Body, BodyError};
 pub use tracker::{BodyStep, BodyWitness};

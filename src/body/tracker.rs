@@ -31,6 +31,10 @@ pub struct BodyWitness {
     pub contact: Contact,
     /// Whether the witness point has been located. Until then there is no gap and no force.
     pub is_located: bool,
+    /// Whether a search has ended since the witness point was set down: until then it may be on the far side of the body.
+    pub(super) is_audited: bool,
+    /// Behind the surface: whether the tracker has its turn, or the audit.
+    pub(super) rests: bool,
     /// On an edge: which of its faces is asked next.
     pub(super) asks_second: bool,
     /// The search for a global start, or the rolling audit.
@@ -71,6 +75,8 @@ impl Body {
             gap: 0.0,
             contact: Contact::Behind,
             is_located: false,
+            is_audited: false,
+            rests: false,
             asks_second: false,
             search: Search::new(self, Vec3::ZERO),
             probe: Vec3::INFINITY,
@@ -93,8 +99,9 @@ impl Body {
     /// half of one of second order for the search. Bounded, and without a panic; a probe that is not finite changes nothing.
     ///
     /// The distance to the probe never rises by more than rounding, at a switch neither. Outside, the witness point ends at a point that no
-    /// neighbouring feature improves: on a convex body that is the closest one, on others the rolling audit finds it. While the body
-    /// is touched there is no audit: the witness point is the god-object (theory §11), which hands over across common edges only.
+    /// neighbouring feature improves: on a convex body with the probe in front of it that is the closest one, otherwise the rolling audit
+    /// finds it. While the body is touched there is no audit: the witness point is the god-object (theory §11), which hands over across
+    /// common edges only.
     #[inline(always)]
     pub fn step(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
         let mut step = BodyStep::NOTHING;
@@ -102,8 +109,7 @@ impl Body {
         let jump = JUMP * self.size;
         // False for a probe that is not finite.
         let follows = (position - state.probe).length_squared() <= jump * jump;
-        let is_audited = !self.is_convex && state.contact != Contact::Touching;
-        let is_known = follows && state.is_located && !is_audited;
+        let is_known = follows && state.is_located && self.is_sure(state);
         if !is_known && !self.search(state, position, follows, &mut step) {
             return step;
         }
@@ -127,7 +133,7 @@ impl Body {
                 state.normal = state.witness.normal(&face.patch).unwrap_or(state.normal);
                 state.gap = (position - state.witness.surface.point).dot(state.normal);
                 step.too_deep = -state.gap * face.patch.shape().curvature.greatest > 1.0;
-                state.contact = state.contact.next(state.gap, BoundaryMode::Interior);
+                state.meet(state.contact.next(state.gap, BoundaryMode::Interior));
             }
             Feature::Edge(index) => {
                 let kind = self.edges.get(usize::from(index)).map_or(EdgeKind::Mixed, |edge| edge.kind);
@@ -139,6 +145,17 @@ impl Body {
             }
         }
         step
+    }
+
+    /// Whether there is nothing to audit: the body is touched, or it is convex and the probe in front of the witness point, so that no other
+    /// point is nearer. From behind, the far side of a convex body holds a witness point as well.
+    #[inline]
+    pub(super) fn is_sure(&self, state: &BodyWitness) -> bool {
+        match state.contact {
+            Contact::Touching => true,
+            Contact::InFront => self.is_convex,
+            Contact::Behind => false,
+        }
     }
 
     /// One step along an edge; undone if the distance would rise.
@@ -190,10 +207,16 @@ impl BodyWitness {
             self.gap = sign * squared * inverse;
         }
         // Over the rim of an open body there is neither front nor back.
-        self.contact = match kind {
+        self.meet(match kind {
             EdgeKind::Open => Contact::Behind,
             _ => self.contact.next(self.gap, BoundaryMode::Interior),
-        };
+        });
+    }
+
+    /// Nothing is met with a witness point that may be on the far side.
+    #[inline]
+    fn meet(&mut self, contact: Contact) {
+        self.contact = if self.is_audited { contact } else { Contact::Behind };
     }
 
     #[inline]

@@ -1,7 +1,6 @@
 //! Which features claim a probe for their Voronoi region, by the probe alone: the tables' word, solved to the end.
 
-use super::truth::Truth;
-use palpate::body::{Body, CurvePoint, Edge, EdgeFace, Feature, Separator, Side, SplineCurve};
+use palpate::body::{Body, CurvePoint, EdgeFace, Feature, Separator, Side, SplineCurve};
 use palpate::math::Vec3;
 
 /// The features that claim a probe.
@@ -22,32 +21,36 @@ struct Foot {
 /// Starts on an edge.
 const STARTS: u32 = 32;
 
-/// All claims on a probe outside the body. `truth` gives the heights over the faces: a face claims no probe behind it.
-pub fn claims(body: &Body, truth: &Truth, probe: Vec3) -> Claims {
+/// All claims on a probe outside the body. A face claims no probe behind it: `is_behind` says so of a face, and is asked only where it matters.
+pub fn claims(body: &Body, probe: Vec3, is_behind: impl Fn(usize) -> bool) -> Claims {
     let mut margin = f32::INFINITY;
     let mut features = Vec::new();
-    let mut positive = |value: f32| {
-        margin = margin.min(value.abs());
-        value > 0.0
-    };
     let feet: Vec<Foot> = body.edges().iter().map(|edge| foot(&edge.curve, probe)).collect();
     for (index, face) in body.faces().iter().enumerate() {
-        // A pole has no height: it never decides.
-        if truth.heights[index] < 0.0 {
+        let sides = face.sides.iter().filter_map(|side| match side {
+            Side::Pole { .. } => None,
+            Side::Edge { edge, separator, .. } => Some(beyond(separator, &feet[usize::from(*edge)], probe)),
+        });
+        let (mut left, mut least) = (false, f32::INFINITY);
+        for beyond in sides {
+            (left, least) = (left || beyond > 0.0, least.min(beyond.abs()));
+        }
+        if (left && least >= margin) || is_behind(index) {
             continue;
         }
-        let left = face.sides.iter().any(|side| match side {
-            Side::Pole { .. } => false,
-            Side::Edge { edge, separator, .. } => positive(beyond(separator, &feet[usize::from(*edge)], probe)),
-        });
+        margin = margin.min(least);
         if !left {
             features.push(Feature::Face(index as u16));
         }
     }
+    let mut positive = |value: f32| {
+        margin = margin.min(value.abs());
+        value > 0.0
+    };
     for (index, (edge, foot)) in body.edges().iter().zip(&feet).enumerate() {
         let inner = foot.t > 0.0 && foot.t < 1.0;
         let left = |of: EdgeFace, positive: &mut dyn FnMut(f32) -> bool| {
-            side_of(body, edge, of).is_none_or(|separator| positive(beyond(separator, foot, probe)))
+            side_of(body, of).is_none_or(|separator| positive(beyond(separator, foot, probe)))
         };
         if inner && edge.faces.into_iter().all(|of| left(of, &mut positive)) {
             features.push(Feature::Edge(index as u16));
@@ -63,7 +66,7 @@ pub fn claims(body: &Body, truth: &Truth, probe: Vec3) -> Claims {
     Claims { features, margin }
 }
 
-fn side_of<'a>(body: &'a Body, _: &Edge, of: EdgeFace) -> Option<&'a Separator> {
+fn side_of(body: &Body, of: EdgeFace) -> Option<&Separator> {
     match body.faces().get(usize::from(of.face))?.sides.get(usize::from(of.side))? {
         Side::Edge { separator, .. } => Some(separator),
         Side::Pole { .. } => None,
@@ -96,6 +99,25 @@ fn foot(curve: &SplineCurve, probe: Vec3) -> Foot {
         }
         let next = (t + change).clamp(0.0, 1.0);
         if next == t || change.abs() <= 1e-8 {
+            break;
+        }
+        t = next;
+    }
+    // Single precision sees the least distance only to the root of its resolution, but where the slope vanishes to all of it. The best of several
+    // lengths: the whole step turns the slope round where the edge is curved as much as the probe is far.
+    let slope = |t: f32| {
+        let at = curve.evaluate(t);
+        ((probe - at.point).dot(at.tangent), at.tangent.length_squared())
+    };
+    for _ in 0..40 {
+        let (here, stretch) = slope(t);
+        let steps = (0..16).map(|index| (t + here / stretch * 0.75_f32.powi(index)).clamp(0.0, 1.0));
+        let least = |best: (f32, f32), next: f32| {
+            let after = slope(next).0.abs();
+            if after < best.1 { (next, after) } else { best }
+        };
+        let (next, _) = steps.fold((t, here.abs()), least);
+        if next == t {
             break;
         }
         t = next;

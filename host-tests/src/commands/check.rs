@@ -5,7 +5,7 @@ use crate::bake::body::BakedSide;
 use crate::bake::certificate::Finding;
 use crate::bake::locator::LocatorOptions;
 use crate::bake::survey::{Regularity, Survey, Verdict};
-use crate::bake::{BakedBody, Model, ModelError};
+use crate::bake::{BakedBody, Model, ModelError, Unit};
 use clap::Args;
 use palpate::body::EdgeKind;
 use palpate::track::{Integrator, PerformanceLimits};
@@ -78,9 +78,60 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let loaded = Loaded::read(&arguments.model)?;
     let unit = loaded.model.unit;
     let mut report = String::new();
+    let (surveys, labels) = (loaded.surveys(), loaded.labels());
+    let wide = labels.iter().map(|label| label.chars().count()).max().unwrap_or_default().max("patch".len());
+    verdicts(&mut report, wide, &labels, &surveys)?;
+    tables(&mut report, wide, unit, &labels, &surveys)?;
+    features(&mut report, &loaded.body)?;
+    limits(&mut report, arguments, &labels, &surveys)?;
+    let verdict = worst(&surveys);
+    let certified = surveys.iter().filter(|survey| survey.verdict == Verdict::Certified).count();
     writeln!(
         report,
-        "{:<16} {:>6} {:>8} {:>10} {:>10} {:>10} {:>16} {:>9} {:>9} {:>9} {:>7}  verdict",
+        "\n{}: {verdict} ({certified} of {} patches certified)",
+        arguments.model.display(),
+        surveys.len()
+    )?;
+    print(report.as_bytes())?;
+    Ok(exit_code(verdict))
+}
+
+/// What is known of each patch, and below it why it is not certified and what may be done.
+fn verdicts(report: &mut String, wide: usize, labels: &[String], surveys: &[Survey]) -> std::fmt::Result {
+    writeln!(
+        report,
+        "{:<wide$}  {:<21}  {:<14}  {:<14}  {:<14}  {:<26}  {:<14}  outline",
+        "patch", "verdict", "regular", "convex", "smooth", "normals within 90 degrees", "no false rest"
+    )?;
+    for (label, survey) in labels.iter().zip(surveys) {
+        let certificate = &survey.certificate;
+        writeln!(
+            report,
+            "{label:<wide$}  {:<21}  {:<14}  {:<14}  {:<14}  {:<26}  {:<14}  {}",
+            survey.verdict.to_string(),
+            brief(&certificate.regular),
+            brief(&certificate.convex),
+            brief(&certificate.smooth),
+            format!("{} (half angle {:.1})", brief(&certificate.normal_cone), certificate.cone_angle),
+            brief(&certificate.equilibrium),
+            brief(&certificate.outline)
+        )?;
+        for reason in &survey.reasons {
+            writeln!(report, "    {reason}")?;
+        }
+    }
+    writeln!(
+        report,
+        "\nproved: of the stored table; up to rounding: but for the rounding of its numbers to f32; sampled (n): n random probes found \
+         nothing wrong, which proves nothing; no: refuted, or not to be had"
+    )
+}
+
+/// What each patch is stored as.
+fn tables(report: &mut String, wide: usize, unit: Unit, labels: &[String], surveys: &[Survey]) -> std::fmt::Result {
+    writeln!(
+        report,
+        "\n{:<wide$} {:>6} {:>8} {:>10} {:>10} {:>10} {:>16} {:>9} {:>9} {:>9} {:>7}",
         "patch",
         "degree",
         "spans",
@@ -93,12 +144,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         "f_vv/m",
         "bytes"
     )?;
-    let (surveys, labels) = (loaded.surveys(), loaded.labels());
-    for (index, survey) in surveys.iter().enumerate() {
+    for (label, survey) in labels.iter().zip(surveys) {
         writeln!(
             report,
-            "{:<16} {:>6} {:>8} {:>10} {:>10.4} {:>10} {:>16} {:>9.3e} {:>9.3e} {:>9.3e} {:>7}  {}",
-            labels[index],
+            "{label:<wide$} {:>6} {:>8} {:>10} {:>10.4} {:>10} {:>16} {:>9.3e} {:>9.3e} {:>9.3e} {:>7}",
             format!("{},{}", survey.degree[0], survey.degree[1]),
             format!("{}x{}", survey.spans[0], survey.spans[1]),
             if survey.rational { "rational" } else { "polynomial" },
@@ -109,30 +158,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             survey.shape.second_derivatives.uv,
             survey.shape.second_derivatives.vv,
             survey.bytes.total(),
-            survey.verdict
         )?;
-        let certificate = &survey.certificate;
-        writeln!(
-            report,
-            "    {}; regular: {}; smooth: {}; normal cone: {} (half angle {:.1}°); no false equilibrium: {}; outline: {}",
-            survey.convexity,
-            brief(&certificate.regular),
-            brief(&certificate.smooth),
-            brief(&certificate.normal_cone),
-            certificate.cone_angle,
-            brief(&certificate.equilibrium),
-            brief(&certificate.outline)
-        )?;
-        for reason in &survey.reasons {
-            writeln!(report, "    {reason}")?;
-        }
     }
-    features(&mut report, &loaded.body)?;
-    limits(&mut report, arguments, &labels, &surveys)?;
-    let verdict = worst(&surveys);
-    writeln!(report, "{}: {verdict}", arguments.model.display())?;
-    print(report.as_bytes())?;
-    Ok(exit_code(verdict))
+    Ok(())
 }
 
 /// How the patches hang together.

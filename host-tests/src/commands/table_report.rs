@@ -53,7 +53,7 @@ fn leaves(report: &mut String, locator: &LocatorReport) -> Result<(), Error> {
         (
             "convex",
             convex,
-            "wholly outside a convex body: no nearest point but the closest (the kinds of its edges are sampled)",
+            "sampled, and wholly outside a convex body: no point that faces the probe is nearest but the closest",
         ),
         ("sampled", sampled, "not proved; random probes found nothing wrong"),
         ("deep", deep, "deeper inside than a fifth of the size: neither proved nor sampled"),

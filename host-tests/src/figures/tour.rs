@@ -153,6 +153,6 @@ impl Touring {
         if truth.is_inside_convex() {
             return None;
         }
-        claims(&self.body, &truth, probe).features.first().copied()
+        claims(&self.body, probe, |face| truth.heights[face] < 0.0).features.first().copied()
     }
 }

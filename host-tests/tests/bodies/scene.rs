@@ -3,13 +3,19 @@
 use glam::DVec3;
 use palpate::body::{Body, Feature, Side};
 use palpate::math::Vec3;
+use palpate_host::bake::locator::LocatorOptions;
 use palpate_host::bake::topology::bounding_box;
 use palpate_host::bake::{BakedBody, Model, NurbsPatch};
-use palpate_host::bodies::{BodyOracle, Truth};
+use palpate_host::bodies::BodyOracle;
 use palpate_host::generate::Random;
+use palpate_host::oracle::{ClosestPoint, Surface};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Mutex, OnceLock};
 
 pub struct Scene {
+    pub name: &'static str,
     pub patches: Vec<NurbsPatch>,
     pub body: Body,
     pub low: DVec3,
@@ -18,58 +24,95 @@ pub struct Scene {
 
 /// Probes a test: `PALPATE_PROBES` for long runs.
 pub fn probes() -> u32 {
-    std::env::var("PALPATE_PROBES").ok().and_then(|count| count.parse().ok()).unwrap_or(5_000)
+    from_environment("PALPATE_PROBES", 5_000)
+}
+
+pub fn from_environment(name: &str, default: u32) -> u32 {
+    std::env::var(name).ok().and_then(|count| count.parse().ok()).unwrap_or(default)
+}
+
+/// Probes that share a source of numbers: results do not hang on the number of cores.
+const CHUNK: u32 = 500;
+
+/// `work` so many times, on all cores; each is given the source of its chunk.
+pub fn repeat<R: Send>(count: u32, seed: u64, work: impl Fn(&mut Random) -> R + Sync) -> Vec<R> {
+    let chunk = |index: u32| {
+        let mut random = Random::new((seed << 32) + u64::from(index));
+        (0..CHUNK.min(count - index * CHUNK)).map(|_| work(&mut random)).collect::<Vec<_>>()
+    };
+    (0..count.div_ceil(CHUNK)).into_par_iter().flat_map_iter(chunk).collect()
 }
 
 impl Scene {
-    pub fn load(name: &str) -> Self {
+    /// The model with the locator that suits it, baked once for all tests.
+    pub fn load(name: &'static str) -> &'static Self {
+        static SCENES: Mutex<BTreeMap<&str, &OnceLock<Scene>>> = Mutex::new(BTreeMap::new());
+        let scene: &'static OnceLock<Self> =
+            SCENES.lock().unwrap().entry(name).or_insert_with(|| Box::leak(Box::new(OnceLock::new())));
+        scene.get_or_init(|| Self::located(name, BakedBody::locator_options))
+    }
+
+    pub fn located(name: &'static str, options: impl Fn(&BakedBody) -> LocatorOptions) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.toml"));
         let model = Model::read(&path).unwrap();
         let baked = BakedBody::new(&model, name).unwrap();
-        let options = baked.locator_options();
+        let options = options(&baked);
         let (baked, report) = baked.located(&options, &|_, _| ()).unwrap();
         println!("{name}: {report}");
         let patches: Vec<_> = baked.faces.iter().map(|face| face.surface.clone()).collect();
         let (low, high) = bounding_box(&patches);
-        Self { patches, body: baked.to_body().unwrap(), low, high }
+        Self { name, patches, body: baked.to_body().unwrap(), low, high }
     }
 
     pub fn oracle(&self) -> BodyOracle<'_> {
         BodyOracle::new(&self.patches)
     }
 
-    /// Seeded probes in a box around the body, half its size larger on every side.
-    pub fn around(&self, count: u32, seed: u64) -> impl Iterator<Item = Vec3> {
-        let mut random = Random::new(seed);
+    pub fn size(&self) -> f64 {
+        f64::from(self.body.size())
+    }
+
+    /// A probe in a box around the body, half its size larger on every side.
+    pub fn around(&self, random: &mut Random) -> Vec3 {
         let margin = 0.5 * (self.high - self.low).max_element();
         let (low, span) = (self.low - margin, self.high - self.low + 2.0 * margin);
-        std::iter::repeat_with(move || {
-            low + span * DVec3::from_array(std::array::from_fn(|_| random.between(0.0, 1.0)))
-        })
-        .map(|probe| probe.as_vec3())
-        .take(count as usize)
+        (low + span * DVec3::from_array(std::array::from_fn(|_| random.between(0.0, 1.0)))).as_vec3()
     }
 
-    /// Those of a closed convex body that are outside.
-    pub fn outside(&self, count: u32, seed: u64) -> impl Iterator<Item = Vec3> {
-        let oracle = self.oracle();
-        let all = self.around(u32::MAX, seed).filter(move |probe| !oracle.closest(probe.as_dvec3()).is_inside_convex());
-        all.take(count as usize)
-    }
-
-    /// The features on which the closest point lies: one, or more where it is within `end` of a border.
-    pub fn owner(&self, truth: &Truth, end: f64) -> Vec<Feature> {
-        let mut owners = Vec::new();
-        let least = truth.distance();
-        for (index, foot) in truth.feet.iter().enumerate() {
-            if foot.distance - least > end * f64::from(self.body.size()) {
-                continue;
+    /// The first probe around a closed convex body that is outside, with the points of all patches that are nearest to `within` metres.
+    pub fn outside(
+        &self,
+        oracle: &BodyOracle<'_>,
+        random: &mut Random,
+        within: f64,
+    ) -> (Vec3, Vec<(usize, ClosestPoint)>) {
+        loop {
+            let probe = self.around(random);
+            let nearest = oracle.nearest(probe.as_dvec3(), within);
+            if !oracle.is_inside_convex(nearest[0].0, probe.as_dvec3()) {
+                return (probe, nearest);
             }
+        }
+    }
+
+    /// A probe up to a fifth of the size behind the surface, along the normal at a random place.
+    pub fn behind(&self, random: &mut Random) -> Vec3 {
+        let patch = &self.patches[random.below(self.patches.len())];
+        let surface = Surface::evaluate(patch, random.between(0.0, 1.0), random.between(0.0, 1.0));
+        let normal = surface.normal(patch.flip);
+        let depth = 0.2 * self.size() * random.between(0.0, 1.0);
+        (surface.point - if normal.is_finite() { normal } else { DVec3::ZERO } * depth).as_vec3()
+    }
+
+    /// The features on which the nearest points lie: one, or a face and what is beside it where a point is within `end` of its border.
+    pub fn owners(&self, nearest: &[(usize, ClosestPoint)], end: f64) -> Vec<Feature> {
+        let mut owners = Vec::new();
+        for (index, foot) in nearest {
             let [u, v] = foot.parameters;
-            let sides = self.body.faces()[index].sides;
+            let sides = self.body.faces()[*index].sides;
             let at = [u <= end, u >= 1.0 - end, v <= end, v >= 1.0 - end];
-            if at == [false; 4] {
-                owners.push(Feature::Face(index as u16));
+            if foot.parameters.iter().all(|parameter| 0.0 < *parameter && *parameter < 1.0) {
+                owners.push(Feature::Face(*index as u16));
             }
             for (side, _) in sides.iter().zip(at).filter(|(_, at)| *at) {
                 match side {

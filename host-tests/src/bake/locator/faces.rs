@@ -8,6 +8,7 @@ use crate::bake::BakedPatch;
 use crate::bake::bounds::local_range;
 use crate::bake::tracked::Tracked;
 use glam::DVec3;
+use palpate::patch::SplinePatch;
 
 /// Intervals of the grid on each face from which references are sought.
 const INTERVALS: usize = 16;
@@ -15,6 +16,8 @@ const INTERVALS: usize = 16;
 /// All faces.
 pub(in crate::bake) struct Faces {
     pub surfaces: Vec<StoredSurface>,
+    /// The same as the firmware has them.
+    pub tables: Vec<SplinePatch>,
     /// The spans of each face.
     pub spans: Vec<Vec<Piece>>,
     pub seams: Seams,
@@ -43,7 +46,7 @@ pub(in crate::bake) enum Region<'a> {
 }
 
 impl Faces {
-    /// `None` if a weight is not proved positive. `reach` is the greatest coordinate of a probe, in absolute value.
+    /// `None` if a weight is not proved positive, or the library refuses a table. `reach` is the greatest coordinate of a probe, in absolute value.
     pub(in crate::bake) fn new(
         patches: &[BakedPatch],
         seams: Seams,
@@ -51,6 +54,7 @@ impl Faces {
         reach: f64,
     ) -> Option<Self> {
         let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
+        let tables = patches.iter().map(|patch| patch.to_patch().ok()).collect::<Option<_>>()?;
         let spans = (patches.iter().zip(creases).enumerate())
             .map(|(face, (patch, creases))| spans(face, patch, seams.poles[face], creases, reach))
             .collect::<Option<Vec<_>>>()?;
@@ -66,7 +70,7 @@ impl Faces {
             .iter()
             .map(|patch| if patch.orientation == palpate::patch::Orientation::Outward { 1.0 } else { -1.0 })
             .collect();
-        Some(Self { surfaces, spans, seams, turns, samples })
+        Some(Self { surfaces, tables, spans, seams, turns, samples })
     }
 
     /// The whole body.

@@ -74,7 +74,7 @@ impl Default for LocatorOptions {
             entries: 4,
             depth: 5,
             deeper: 1,
-            samples: 128,
+            samples: 256,
             tolerance: 1e-4,
             inside: 0.2,
             deep_entries: 6,

@@ -121,13 +121,15 @@ impl<'a> Search<'a> {
             entries = lister.entries(&left);
         }
         let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
-        let is_checked = proved || kind == Kind::Deep || kind == Kind::Outside && self.options.convex;
+        let is_checked = proved || kind == Kind::Deep;
         // Where much could be lost it is looked for harder.
         let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
         let mut count = self.options.samples * if is_loose { 8 } else { 1 };
         let mut divisions = if is_checked { 0 } else { REPAIRS };
         while divisions > 0 {
-            let Some(point) = sampled::failure(self.faces, &probes, &entries, &left, count, 0.5 * tolerance) else {
+            let Some(point) =
+                sampled::failure(self.faces, &probes, &entries, &left, count, [0.5 * tolerance, self.size])
+            else {
                 break;
             };
             // Where one probe failed others will.

@@ -1,11 +1,16 @@
 //! Samples of a list that is not proved: they find where it fails, so that its rectangles are divided there. Where they find nothing it
 //! is sampled, and no more than that.
+//!
+//! A list is searched with the firmware's own code: in `f32`, by its own steps and with its own bound of them.
 
 use super::faces::{Faces, Region};
 use super::field::Probes;
 use super::list::Entry;
+use super::tables;
 use crate::generate::Random;
 use glam::DVec3;
+use palpate::body::{Candidate, Descending, Progress};
+use palpate::math::Vec3;
 
 /// Starts of descents that a list is compared with, the nearest ones.
 const STARTS: usize = 12;
@@ -18,8 +23,9 @@ pub(super) fn failure(
     entries: &[Entry],
     regions: &[Region<'_>],
     count: usize,
-    tolerance: f64,
+    [tolerance, size]: [f64; 2],
 ) -> Option<(u16, [f64; 2])> {
+    let list: Vec<_> = tables::list(entries).into_iter().map(Candidate::unpack).collect();
     let middle = |[low, high]: [[f64; 2]; 2]| [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
     let starts: Vec<(u16, [f64; 2], DVec3)> = regions
         .iter()
@@ -31,12 +37,9 @@ pub(super) fn failure(
     let mut random = Random::new(7);
     (0..count).find_map(|_| {
         let place = DVec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
-        let probe = probes.centre + probes.half * place;
-        let listed = entries.iter().map(|entry| {
-            let rectangle = entry.rectangle.parameters();
-            faces.surfaces[usize::from(entry.face)].descend(probe, middle(rectangle), rectangle).distance
-        });
-        let listed = listed.fold(f64::INFINITY, f64::min);
+        let probe = (probes.centre + probes.half * place).as_vec3();
+        let listed = searched(faces, &list, probe, size as f32);
+        let probe = probe.as_dvec3();
         let mut near: Vec<_> = starts.iter().map(|start| (start.2.distance_squared(probe), start)).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         near.iter().take(STARTS).find_map(|(_, (face, at, _))| {
@@ -44,6 +47,22 @@ pub(super) fn failure(
             (listed > found.distance + tolerance).then_some((*face, found.parameters))
         })
     })
+}
+
+/// The distance that the firmware's search of a list ends with, as [`palpate::body::Search`] goes about it.
+fn searched(faces: &Faces, list: &[Candidate], probe: Vec3, size: f32) -> f64 {
+    let mut best = f32::INFINITY;
+    for candidate in list {
+        let mut descending = Descending::new(*candidate);
+        loop {
+            let progress = descending.step(&faces.tables[usize::from(candidate.face)], probe, best, size);
+            best = best.min(descending.half_squared);
+            if progress != Progress::Falling {
+                break;
+            }
+        }
+    }
+    f64::from((2.0 * best).sqrt())
 }
 
 /// Divides the rectangle that a point lies in, so that each half has a start of its own; `false` if none does or it is too small.

@@ -60,7 +60,7 @@ pub struct LocatorReport {
 pub struct LeafCounts {
     /// Every rectangle is proved to have one minimum, or none that loses more than [`LocatorOptions::tolerance`].
     pub proved: usize,
-    /// Wholly outside a convex body, where there is no nearest point but the closest.
+    /// Wholly outside a convex body, where no point that faces the probe is a nearest one but the closest. Sampled as well.
     pub convex: usize,
     /// Not proved: random probes of the cell found nothing wrong.
     pub sampled: usize,
@@ -140,7 +140,7 @@ pub(super) fn pack(
 }
 
 /// The likeliest first, the others in an order that lets lists share their ends.
-fn list(entries: &[super::list::Entry]) -> Vec<u32> {
+pub(super) fn list(entries: &[super::list::Entry]) -> Vec<u32> {
     let count = entries.len();
     let mut codes: Vec<u32> = entries.iter().map(|entry| entry.pack(false)).collect();
     if let Some(rest) = codes.get_mut(1..) {
