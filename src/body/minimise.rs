@@ -67,6 +67,12 @@ impl Descending {
         }
     }
 
+    /// Both halves of a step at one go.
+    pub fn step(&mut self, patch: &SplinePatch, probe: Vec3, known: f32, size: f32) -> Progress {
+        self.evaluate(patch, probe);
+        self.judge(known, size)
+    }
+
     /// Whether the last evaluation is still to be judged.
     pub const fn has_evaluated(&self) -> bool {
         self.seen.is_some()
