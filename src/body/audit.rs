@@ -17,40 +17,35 @@ impl Body {
     /// its end. `follows` is whether the probe is near that of the last tick. Whether the tracker may step.
     #[inline(never)]
     pub(super) fn search(&self, state: &mut BodyWitness, probe: Vec3, follows: bool, step: &mut BodyStep) -> bool {
-        if !probe.is_finite() {
-            return false;
+        if !follows {
+            if !probe.is_finite() {
+                return false;
+            }
+            // Set down by hand before the first probe, it has not jumped.
+            if state.probe.is_finite() || !state.is_located {
+                (state.is_located, state.is_audited, state.search) = (false, false, None);
+                state.contact = Contact::Behind;
+            }
         }
-        // Set down by hand before the first probe, it has not jumped.
-        let is_set_down = state.is_located && !state.probe.is_finite();
         state.probe = probe;
-        if !(follows || is_set_down) {
-            (state.is_located, state.is_audited) = (false, false);
-            state.contact = Contact::Behind;
-            state.search = Search::new(self, probe);
-            return false;
-        }
-        if state.is_located && self.is_sure(state) {
-            return true;
-        }
         // Behind the surface there is no force, and no haste: tracker and audit take turns.
-        if state.is_located && state.contact == Contact::Behind {
-            state.rests = !state.rests;
-            if state.rests {
-                return true;
-            }
+        let steps_too = state.is_located && state.contact != Contact::Behind;
+        let Some(search) = &mut state.search else {
+            state.search = Some(Search::new(self, probe));
+            return steps_too;
+        };
+        let Some(found) = search.found() else {
+            search.turn(self, probe);
+            step.evaluations += u8::from(search.has_evaluated());
+            return steps_too;
+        };
+        state.search = None;
+        let known = 0.5 * (state.witness.surface.point - probe).length_squared();
+        if !state.is_located || found.half_squared < (1.0 - NEARER) * known {
+            self.set_down(state, &found, probe, step);
         }
-        if let Some(found) = state.search.found() {
-            let known = 0.5 * (state.witness.surface.point - probe).length_squared();
-            if !state.is_located || found.half_squared < (1.0 - NEARER) * known {
-                self.set_down(state, &found, probe, step);
-            }
-            state.is_audited = true;
-            state.search = Search::new(self, probe);
-            return false;
-        }
-        state.search.turn(self, probe);
-        step.evaluations += u8::from(state.search.has_evaluated());
-        state.is_located && state.contact != Contact::Behind
+        state.is_audited = true;
+        false
     }
 
     /// Sets the witness point down where the search has ended. One evaluation.

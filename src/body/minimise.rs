@@ -33,7 +33,7 @@ pub struct Descending {
     /// Where the next evaluation will be, or the last one was.
     trial: [f32; 2],
     /// What the last evaluation said, until it is judged.
-    seen: Option<Model>,
+    seen: Option<Seen>,
     halvings: u8,
     evaluations: u8,
 }
@@ -83,15 +83,16 @@ impl Descending {
     pub fn evaluate(&mut self, patch: &SplinePatch, probe: Vec3) {
         let curved = patch.evaluate_curved(self.trial[0], self.trial[1]);
         self.evaluations += 1;
-        self.seen = Some(Model::new(&curved, curved.surface.point - probe));
+        self.seen = Some(Seen::new(&curved, curved.surface.point - probe));
     }
 
     /// The second half: where to go from there. `known` is the `φ` to beat, m²; `size` the body's, metres.
     #[inline(never)]
     pub fn judge(&mut self, known: f32, size: f32) -> Progress {
-        let Some(model) = self.seen.take() else { return Progress::Falling };
-        let (at, half_squared) = (self.trial, model.half_squared);
+        let Some(seen) = self.seen.take() else { return Progress::Falling };
+        let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
+            let model = Model::new(seen);
             let [lower, upper] = self.candidate.rectangle();
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
@@ -115,16 +116,18 @@ impl Descending {
     }
 }
 
-/// The quadratic model of `φ` at a point.
+/// `φ` and its derivatives at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Model {
+struct Seen {
     half_squared: f32,
     gradient: [f32; 2],
-    /// `[uu, uv, vv]`, positive definite but for poles.
-    hessian: [f32; 3],
+    /// The first fundamental form, and the Hessian: `[uu, uv, vv]`.
+    form: [f32; 3],
+    newton: [f32; 3],
 }
 
-impl Model {
+impl Seen {
+    #[inline]
     fn new(curved: &CurvedPoint, difference: Vec3) -> Self {
         let surface = &curved.surface;
         let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
@@ -132,6 +135,19 @@ impl Model {
         let bend = [curved.second_uu, curved.second_uv, curved.second_vv].map(|second| difference.dot(second));
         let newton = [form[0] + bend[0], form[1] + bend[1], form[2] + bend[2]];
         let gradient = [difference.dot(f_u), difference.dot(f_v)];
+        Self { half_squared: 0.5 * difference.length_squared(), gradient, form, newton }
+    }
+}
+
+/// The quadratic model of `φ` at a point.
+struct Model {
+    gradient: [f32; 2],
+    /// `[uu, uv, vv]`, positive definite but for poles.
+    hessian: [f32; 3],
+}
+
+impl Model {
+    fn new(Seen { gradient, form, newton, .. }: Seen) -> Self {
         // Along an arc that is equally far everywhere φ is flat: what is known of the other parameter still counts.
         let mixed = [0, 2].map(|axis| if newton[axis] > FLAT * form[axis] { newton[axis] } else { form[axis] });
         let mixed = [mixed[0], newton[1], mixed[1]];
@@ -146,7 +162,7 @@ impl Model {
             let trace = form[0] + form[2];
             [trace, 0.0, trace]
         };
-        Self { half_squared: 0.5 * difference.length_squared(), gradient, hessian }
+        Self { gradient, hessian }
     }
 
     /// The least value of `g · δ` with `δ` in `room`: not positive.

@@ -37,8 +37,8 @@ pub struct BodyWitness {
     pub(super) rests: bool,
     /// On an edge: which of its faces is asked next.
     pub(super) asks_second: bool,
-    /// The search for a global start, or the rolling audit.
-    pub(super) search: Search,
+    /// The search for a global start, or the rolling audit, once begun.
+    pub(super) search: Option<Search>,
     /// The probe of the last tick; infinite before the first.
     pub(super) probe: Vec3,
 }
@@ -78,7 +78,7 @@ impl Body {
             is_audited: false,
             rests: false,
             asks_second: false,
-            search: Search::new(self, Vec3::ZERO),
+            search: None,
             probe: Vec3::INFINITY,
         }
     }
@@ -148,13 +148,16 @@ impl Body {
     }
 
     /// Whether there is nothing to audit: the body is touched, or it is convex and the probe in front of the witness point, so that no other
-    /// point is nearer. From behind, the far side of a convex body holds a witness point as well.
+    /// point is nearer. From behind, the far side of a convex body holds a witness point as well; there tracker and audit take turns.
     #[inline]
-    pub(super) fn is_sure(&self, state: &BodyWitness) -> bool {
+    fn is_sure(&self, state: &mut BodyWitness) -> bool {
         match state.contact {
             Contact::Touching => true,
             Contact::InFront => self.is_convex,
-            Contact::Behind => false,
+            Contact::Behind => {
+                state.rests = !state.rests;
+                state.rests
+            }
         }
     }
 

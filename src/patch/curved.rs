@@ -33,7 +33,8 @@ struct Taylor<const D: usize> {
 impl SplinePatch {
     /// The point and its derivatives up to the second at `(u, v)`, by Horner's rule on the span that holds it.
     pub fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
-        let (span, [s, t]) = self.locate(u, v);
+        // A single span needs no search: it goes from 0 to 1.
+        let (span, [s, t]) = if self.is_one_span() { (0, [u - 0.5, v - 0.5]) } else { self.locate(u, v) };
         match self.spans.coefficients() {
             Coefficients::Polynomial(entries) => {
                 let d = self.taylor(entries, span, s, t);

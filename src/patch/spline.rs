@@ -253,6 +253,12 @@ impl Patch for SplinePatch {
 }
 
 impl SplinePatch {
+    /// Whether there is one span, from 0 to 1 along both parameters.
+    #[inline(always)]
+    pub(super) fn is_one_span(&self) -> bool {
+        self.breaks_u.len() + self.breaks_v.len() == 4
+    }
+
     /// The span that holds `(u, v)`, and where in it, from its centre.
     #[inline(always)]
     pub(super) fn locate(&self, u: f32, v: f32) -> (usize, [f32; 2]) {

@@ -127,7 +127,8 @@ fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> an
     let rate = f64::from(scene.settings.rate);
     let trace = simulation::run(&mut emulator, &mut plant, rate, scene.ticks, scene.enable_at, |done| bar.tell(done))?;
     drop(bar);
-    let image = firmware.images.of(transport);
+    // As a device would carry it: files of the host are the emulator's.
+    let image = firmware.images.of(Transport::Uart);
     let sizes = vec![("flash", format!("{} bytes", image.flash)), ("RAM, static", format!("{} bytes", image.ram))];
     let (core, machine) = (arguments.board.core(), arguments.board.machine());
     let on = format!("firmware on an emulated {core} ({machine}) over {}", transport.binary());
