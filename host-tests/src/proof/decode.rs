@@ -117,7 +117,7 @@ enum Kind {
 }
 
 fn kind(id: u32) -> Kind {
-    const KINDS: [(ArmInsn, Kind); 27] = [
+    const KINDS: [(ArmInsn, Kind); 28] = [
         (ArmInsn::ARM_INS_B, Kind::Branch),
         (ArmInsn::ARM_INS_BL, Kind::Link),
         (ArmInsn::ARM_INS_BLX, Kind::LinkRegister),
@@ -143,6 +143,7 @@ fn kind(id: u32) -> Kind {
         (ArmInsn::ARM_INS_STR, Kind::Store),
         (ArmInsn::ARM_INS_STRD, Kind::Store),
         (ArmInsn::ARM_INS_UDF, Kind::Trap),
+        (ArmInsn::ARM_INS_TRAP, Kind::Trap),
         (ArmInsn::ARM_INS_BKPT, Kind::Trap),
         (ArmInsn::ARM_INS_SVC, Kind::Trap),
     ];
