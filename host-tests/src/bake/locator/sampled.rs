@@ -35,9 +35,14 @@ pub(super) fn failure(
         })
         .collect();
     let mut random = Random::new(7);
-    (0..count).find_map(|_| {
-        let place = DVec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
-        let probe = (probes.centre + probes.half * place).as_vec3();
+    (0..count).find_map(|index| {
+        // Normals meet where the closest point is not unique, in a line or in a point that no probe of a box would hit.
+        let on_normal = if index % 2 == 1 { on_a_normal(faces, probes, entries, &mut random) } else { None };
+        let probe = on_normal.unwrap_or_else(|| {
+            let place = DVec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
+            probes.centre + probes.half * place
+        });
+        let probe = probe.as_vec3();
         let listed = searched(faces, &list, probe, size as f32);
         let probe = probe.as_dvec3();
         let mut near: Vec<_> = starts.iter().map(|start| (start.2.distance_squared(probe), start)).collect();
@@ -47,6 +52,29 @@ pub(super) fn failure(
             (listed > found.distance + tolerance).then_some((*face, found.parameters))
         })
     })
+}
+
+/// A probe of the cell on the normal at some point of some candidate, if that normal meets the cell.
+fn on_a_normal(faces: &Faces, probes: &Probes, entries: &[Entry], random: &mut Random) -> Option<DVec3> {
+    let entry = &entries[(random.between(0.0, entries.len() as f64) as usize).min(entries.len() - 1)];
+    let [low, high] = entry.rectangle.parameters();
+    let parameters = [0, 1].map(|axis| random.between(low[axis], high[axis]));
+    let at = faces.surfaces[usize::from(entry.face)].evaluate(parameters);
+    let normal = at.first[0].cross(at.first[1]).try_normalize()?;
+    // Where the line is inside the box, slab by slab.
+    let (towards, half) = (probes.centre - at.point, DVec3::splat(1.0) * probes.half);
+    let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        if normal[axis].abs() < 1e-12 {
+            if towards[axis].abs() > half[axis] {
+                return None;
+            }
+            continue;
+        }
+        let [a, b] = [-1.0, 1.0].map(|side| (towards[axis] + side * half[axis]) / normal[axis]);
+        (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
+    }
+    (enters < leaves).then(|| at.point + normal * random.between(enters, leaves))
 }
 
 /// The distance that the firmware's search of a list ends with, as [`palpate::body::Search`] goes about it.
