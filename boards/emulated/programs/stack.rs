@@ -65,11 +65,10 @@ fn TIMER0() {
     static mut RUN: Option<(Script, State)> = None;
 
     BOARD.acknowledge_timer();
-    let encoders = &palpate::device::presets::WOODEN_HAPTICS_2016.encoders;
-    let (script, state) = RUN.get_or_insert_with(|| (Script::new(1, encoders, WOODEN_HAPTICS_REACH), SERVO.start()));
+    let (script, state) = RUN.get_or_insert_with(begin);
     let order = script.next();
     if let Some(reset) = order.restart {
-        *state = SERVO.start_after(reset);
+        restart(state, reset);
     }
     for event in order.events.into_iter().flatten() {
         SERVO.note(state, event);
@@ -80,4 +79,17 @@ fn TIMER0() {
     MODES.fetch_or(1 << state.witness.witness().mode as u32, Relaxed);
     TOUCHES.fetch_add(u32::from(state.contact == palpate::render::Contact::Touching), Relaxed);
     TICKS_DONE.fetch_add(1, Relaxed);
+}
+
+// What makes a state does so on the stack, and a board does it before its first interrupt: not below the tick.
+
+#[inline(never)]
+fn begin() -> (Script, State) {
+    let encoders = &palpate::device::presets::WOODEN_HAPTICS_2016.encoders;
+    (Script::new(1, encoders, WOODEN_HAPTICS_REACH), SERVO.start())
+}
+
+#[inline(never)]
+fn restart(state: &mut State, reset: palpate::servo::ResetReason) {
+    *state = SERVO.start_after(reset);
 }

@@ -14,6 +14,7 @@ use palpate_emulated::link_semihosting::FifoLink;
 use palpate_emulated::link_uart::UartLink;
 use palpate_emulated::recorded::{self, PLACES, RecordedLoop};
 use palpate_emulated::vectors::interrupt;
+use static_cell::StaticCell;
 
 /// 100 records a second at 4 kHz.
 const TICKS_A_RECORD: u32 = 40;
@@ -35,16 +36,19 @@ fn main() -> ! {
     }
 }
 
+static PLACE: StaticCell<RecordedLoop<FifoLink>> = StaticCell::new();
+
 #[interrupt]
 fn TIMER0() {
-    // Made at the first tick, in the only place that uses it: from then on no lock is needed.
-    static mut SERVO_LOOP: Option<RecordedLoop<FifoLink>> = None;
+    // Made in an interrupt of its own, in the only place that uses it: no lock is needed to hand it over, and the first tick is on
+    // time, though checking the tables takes longer than a period.
+    static mut SERVO_LOOP: Option<&'static mut RecordedLoop<FifoLink>> = None;
 
     BOARD.acknowledge_timer();
-    if SERVO_LOOP.is_none() {
-        *SERVO_LOOP = RecordedLoop::take(&BOARD, FifoLink::open);
-    }
     if let Some(servo_loop) = SERVO_LOOP {
         servo_loop.tick();
+    } else {
+        *SERVO_LOOP = RecordedLoop::take(&BOARD, FifoLink::open).and_then(|made| PLACE.try_init(made));
+        BOARD.start_timer(SETTINGS.rate);
     }
 }

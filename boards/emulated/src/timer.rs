@@ -28,13 +28,15 @@ impl Board {
         unsafe { &*(self.timer as *const Registers) }
     }
 
-    /// Starts the servo's interrupt, `rate` Hz.
+    /// Starts the servo's interrupt, `rate` Hz; the first one comes a whole period later.
     pub fn start_timer(&self, rate: f32) {
         let timer = self.registers();
         let reload = (self.clock as f32 / rate) as u32 - 1;
         timer.reload.set(reload);
         timer.value.set(reload);
         timer.control.set(ENABLE | ENABLE_INTERRUPT);
+        self.acknowledge_timer();
+        NVIC::unpend(Position(self.timer_interrupt));
         // SAFETY: no critical section is broken: main does nothing from here on but sleep.
         unsafe { NVIC::unmask(Position(self.timer_interrupt)) };
     }

@@ -25,10 +25,10 @@ pub const TICKS_A_LINE: u32 = 50_000;
 /// Runs every servo in turn, [`TICKS`] in all, and gives the tally of its ticks so far every [`TICKS_A_LINE`] ticks.
 pub fn run(say: &mut impl FnMut(&str, &Tally)) {
     let serial = &WOODEN_HAPTICS_2016.encoders;
-    lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 50_000, say);
-    lap("body", &laps::BODY, serial, WOODEN_HAPTICS_REACH, 200_000, say);
-    lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 200_000, say);
-    lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 200_000, say);
+    lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 150_000, say);
+    lap("body", &laps::BODY, serial, WOODEN_HAPTICS_REACH, 250_000, say);
+    lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 150_000, say);
+    lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 100_000, say);
     lap("short", &laps::SHORT, &NOVINT_FALCON.encoders, FALCON_REACH, 50_000, say);
     lap("watchful", &laps::WATCHFUL, &POLHEM_V2.encoders, POLHEM_REACH, 200_000, say);
     lap("broken", &laps::BROKEN, serial, WOODEN_HAPTICS_REACH, 50_000, say);
@@ -57,7 +57,7 @@ fn lap<K: Kinematics<3>, S: Surface>(
         let before = state.contact;
         servo.tick(&mut state, order.input);
         tally.add(before, &state);
-        if tally.ticks % TICKS_A_LINE == 0 {
+        if tally.ticks.is_multiple_of(TICKS_A_LINE) {
             say(name, &tally);
         }
     }

@@ -54,6 +54,8 @@ enum Mode {
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let model = Model::read(&arguments.model)?;
+    let per_metre = model.unit.per_metre();
+    let queries = queries::read(&arguments.queries, per_metre)?;
     let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
     let options = baked.locator_options();
     let bar = progress::work();
@@ -61,8 +63,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     drop(bar);
     let body = baked.to_body()?;
     let solver = Solver::new(&body, &baked);
-    let per_metre = model.unit.per_metre();
-    let queries = queries::read(&arguments.queries, per_metre)?;
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status"])?;
     let mut state = None;

@@ -51,6 +51,10 @@ fn the_million_ticks_visit_every_mode_phase_and_fault() {
         Phase::ALL.iter().filter(|phase| **phase != Phase::Reset).fold(0, |all, phase| all | 1 << *phase as u32);
     assert_eq!(all(|tally| tally.phases), phases, "phases");
     assert_eq!(all(|tally| tally.faults), Fault::ALL.iter().fold(0, |all, fault| all | 1 << fault.code()), "faults");
+    for (part, bits) in [0b11_1111, 0xfff, 0xff].into_iter().enumerate() {
+        let visited = tallies.iter().fold(0, |all, tally| all | tally.features[part]);
+        assert_eq!(visited, bits, "faces, edges and vertices of the capped box: part {part}");
+    }
     let most = |of: fn(&Tally) -> u32| tallies.iter().map(of).max().unwrap();
     assert!(most(|tally| tally.touches) > 100 && most(|tally| tally.touching) > 40_000, "{tallies:?}");
 }
