@@ -19,7 +19,7 @@ pub struct Solver<'a> {
 pub enum Status {
     /// Cold: every candidate was searched to its end.
     Converged,
-    /// Cold: the evaluations were used up.
+    /// Cold: the evaluations were used up, or the query is farther off than the locator's tables can reach.
     StepLimit,
     /// One row of a track.
     Tracking,
@@ -56,7 +56,9 @@ impl<'a> Solver<'a> {
         while !state.is_located {
             self.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), 1.0);
         }
-        let status = if located.complete { Status::Converged } else { Status::StepLimit };
+        // Beyond its cube the locator's list is not proved to be complete.
+        let status =
+            if located.complete && self.body.locator().holds(probe) { Status::Converged } else { Status::StepLimit };
         let face = usize::from(located.face);
         let [u, v] = located.parameters;
         let point = Witness::at(&self.body.faces()[face].patch, u, v).surface.point;

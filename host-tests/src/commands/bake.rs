@@ -29,6 +29,10 @@ pub struct Arguments {
     /// The file to write the automaton to, as Graphviz: features, and between which of them the tracker switches.
     #[arg(long, value_name = "FILE.dot", group = "product")]
     graph: Option<PathBuf>,
+    /// How far beyond the bounding box the locator reaches at least, in sizes of the body; without it, as it suits the body. A probe
+    /// from farther off takes the list of the nearest cell, which is then not proved to be complete.
+    #[arg(long, value_name = "SIZES", default_value_t = 0.0, value_parser = sizes)]
+    margin: f64,
     /// Prints the bytes of flash by kind, how much of the locator is proved, and what a cold start may take.
     #[arg(long)]
     table_report: bool,
@@ -45,7 +49,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut report = None;
     // The automaton has no locator in it.
     if is_body && (arguments.out.is_some() || arguments.table_report) {
-        let options = loaded.body.locator_options();
+        let options = loaded.body.locator_options().reaching(arguments.margin);
         let bar = progress::work();
         let all = options.depth + options.deeper;
         let (body, of_locator) =
@@ -79,6 +83,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let verdict = check::worst(&surveys);
     eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
     Ok(check::exit_code(verdict))
+}
+
+fn sizes(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|sizes| (0.0..=30.0).contains(sizes)).ok_or_else(|| "not a number from 0 to 30".to_owned())
 }
 
 fn file_name(path: &Path) -> anyhow::Result<String> {

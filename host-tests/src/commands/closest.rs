@@ -17,7 +17,7 @@ use std::process::ExitCode;
 /// evaluations of patches spent.
 ///
 /// cold takes every row by itself: the locator's table names the parts of patches that can own the closest point, a second-order
-/// search runs in each; status is converged, or step-limit if the evaluations were used up.
+/// search runs in each; status is converged, or step-limit if the evaluations were used up or the query is farther off than any table reaches.
 ///
 /// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is
 /// --ticks ticks of the tracker; status is tracking.
@@ -57,7 +57,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let per_metre = model.unit.per_metre();
     let queries = queries::read(&arguments.queries, per_metre)?;
     let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
-    let options = baked.locator_options();
+    // The tables reach as far as the queries do.
+    let beyond = baked.sizes_beyond(&queries.iter().map(|query| query.given / per_metre).collect::<Vec<_>>());
+    let options = baked.locator_options().reaching(beyond);
     let bar = progress::work();
     let (baked, _) = baked.located(&options, &|depth, _| bar.tell("octree", depth, options.depth))?;
     drop(bar);

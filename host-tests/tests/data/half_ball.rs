@@ -1229,3 +1229,7 @@ pub static BODY: palpate::body::Body = palpate::body::Body::from_tables(
     0.06,
     false,
 );
+/// What is felt.
+pub type Surface = palpate::body::Body;
+/// The body.
+pub const SURFACE: &Surface = &BODY;

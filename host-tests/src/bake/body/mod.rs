@@ -14,13 +14,14 @@ pub use locator::LocatorTable;
 pub use separator::BakedSeparator;
 
 use super::error::ModelError;
-use super::locator::{LocatorError, LocatorOptions, LocatorReport};
+use super::locator::{LocatorError, LocatorOptions, LocatorReport, StoredSurface, extent};
 use super::model::Model;
 use super::patch::NurbsPatch;
 use super::split::{Piece, Provenance};
 use super::topology::{Border, BorderRole, SeamFault, Sense, Topology, bounding_box};
 use super::{BakedPatch, Fault, parallel, spline};
 use border::BorderSpans;
+use glam::DVec3;
 use palpate::body::{Body, BodyError, Edge, EdgeFace, EdgeKind, Face, MAX_FACES, Side, Spoke, Vertex};
 use palpate::patch::TableError;
 use thiserror::Error;
@@ -122,9 +123,22 @@ impl BakedBody {
         Self::of_pieces(super::split::prepared(model, file)?, model, file)
     }
 
-    /// What suits the locator of this body: short lists if it is convex.
+    /// What suits the locator of this body: short lists if it is convex, a far reach if it is one patch.
     pub fn locator_options(&self) -> LocatorOptions {
-        if self.is_convex { LocatorOptions::convex() } else { LocatorOptions::default() }
+        let is_one_patch = self.faces.iter().all(|face| face.source.patch == 0);
+        match (self.is_convex, is_one_patch) {
+            (true, _) => LocatorOptions::convex(),
+            (_, true) => LocatorOptions::one_patch(),
+            _ => LocatorOptions::default(),
+        }
+    }
+
+    /// How far any of some points, metres, is beyond the bounding box along any axis, in sizes; 0 if none is.
+    pub fn sizes_beyond(&self, points: &[DVec3]) -> f64 {
+        let surfaces: Vec<_> = self.faces.iter().map(|face| StoredSurface::new(&face.patch)).collect();
+        let [low, high] = extent(&surfaces);
+        let beyond = |point: &DVec3| (low - *point).max(*point - high).max_element() / (high - low).max_element();
+        points.iter().map(beyond).fold(0.0, f64::max)
     }
 
     /// The same body with a locator that names for each cell of space what can own the closest point. `progress` is told the depth that

@@ -34,6 +34,7 @@ use faces::Faces;
 use field::Probes;
 use glam::DVec3;
 use octree::{Octree, Search};
+use palpate::body::MAX_DEPTH;
 use thiserror::Error;
 use unique::Minima;
 
@@ -74,7 +75,7 @@ impl Default for LocatorOptions {
             entries: 4,
             depth: 5,
             deeper: 1,
-            samples: 256,
+            samples: 512,
             tolerance: 1e-4,
             inside: 0.2,
             deep_entries: 6,
@@ -87,6 +88,21 @@ impl Default for LocatorOptions {
 }
 
 impl LocatorOptions {
+    /// For one patch: it is small beside a device's workspace, and has few faces to list.
+    pub fn one_patch() -> Self {
+        Self { margin: 1.0, samples: 64, ..Self::default() }
+    }
+
+    /// With a root cube that reaches at least so far beyond the bounding box, in sizes, at the same resolution: each doubling of its
+    /// side is a level more. What the firmware's descent has no rounds for stays outside.
+    pub fn reaching(mut self, margin: f64) -> Self {
+        while self.margin < margin && self.depth + self.deeper < MAX_DEPTH {
+            self.margin += self.margin + 0.5;
+            self.depth += 1;
+        }
+        self
+    }
+
     /// For a body that is proved convex: short lists everywhere, so that a cold query is short.
     pub fn convex() -> Self {
         Self { tolerance: 1e-5, longest: 6, convex: true, ..Self::default() }

@@ -128,7 +128,7 @@ impl<'a> Search<'a> {
         let mut divisions = if is_checked { 0 } else { REPAIRS };
         while divisions > 0 {
             let Some(point) =
-                sampled::failure(self.faces, &probes, &entries, &left, count, [0.5 * tolerance, self.size])
+                sampled::failure(self.faces, &probes, &entries, &left, count, [0.2 * tolerance, self.size])
             else {
                 break;
             };

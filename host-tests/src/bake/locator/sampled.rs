@@ -46,8 +46,11 @@ pub(super) fn failure(
         let listed = searched(faces, &list, probe, size as f32);
         let probe = probe.as_dvec3();
         let mut near: Vec<_> = starts.iter().map(|start| (start.2.distance_squared(probe), start)).collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        near.iter().take(STARTS).find_map(|(_, (face, at, _))| {
+        if near.len() > STARTS {
+            near.select_nth_unstable_by(STARTS, |a, b| a.0.total_cmp(&b.0));
+            near.truncate(STARTS);
+        }
+        near.iter().find_map(|(_, (face, at, _))| {
             let found = faces.surfaces[usize::from(*face)].descend(probe, *at, [[0.0; 2], [1.0; 2]]);
             (listed > found.distance + tolerance).then_some((*face, found.parameters))
         })
