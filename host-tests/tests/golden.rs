@@ -143,3 +143,39 @@ fn tracking_follows_the_probe_with_one_step_a_row_and_better_with_four() -> Resu
     }
     Ok(())
 }
+
+/// Cold queries of a body against its golden points. `size` in the model's unit.
+fn bodies(model: &str, queries: &str, size: f64, tolerance: f64) -> Result<(), Box<dyn Error>> {
+    let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
+        .args(["closest", "--model"])
+        .arg(model_file(model))
+        .arg("--queries")
+        .arg(data(queries))
+        .output()?;
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let printed: Vec<Printed> =
+        csv::Reader::from_reader(run.stdout.as_slice()).deserialize().collect::<Result<_, _>>()?;
+    let rows: Vec<ClosestRow> = golden::read(&data(queries))?;
+    assert_eq!((printed.len(), rows.len()), (500, 500));
+    let mut worst: f64 = 0.0;
+    for (row, printed) in rows.iter().zip(&printed) {
+        let off = (printed.gap.abs() - row.distance).abs() / size;
+        assert!(off <= tolerance && printed.status == "converged", "{}: off by {off:e}", row.query());
+        worst = worst.max(off);
+    }
+    let dearest = printed.iter().map(|row| row.steps).max().unwrap_or_default();
+    println!("{queries}: {worst:.1e} of the size, {dearest} evaluations at most");
+    Ok(())
+}
+
+#[test]
+fn cold_queries_find_the_closest_point_of_the_capped_box() -> Result<(), Box<dyn Error>> {
+    bodies("capped_box.toml", "capped_box_closest.csv", 60.0, 1e-5)
+}
+
+#[test]
+#[ignore = "minutes: the whole teapot is baked"]
+fn cold_queries_find_the_closest_point_of_ellipsoid_and_teapot() -> Result<(), Box<dyn Error>> {
+    bodies("ellipsoid_body.toml", "ellipsoid_closest.csv", 100.0, 1e-5)?;
+    bodies("teapot.toml", "teapot_closest.csv", 6.4, 1e-4)
+}

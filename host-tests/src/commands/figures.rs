@@ -4,7 +4,7 @@ use super::output::write_whole;
 use super::progress;
 use crate::bake::Model;
 use crate::figures::tour::Touring;
-use crate::figures::{Options, Stage, Subject, body_sheet, sheets};
+use crate::figures::{Options, Stage, Subject, body_sheet, draw_shape, sheets};
 use anyhow::{Context as _, ensure};
 use clap::Args;
 use std::fs;
@@ -28,6 +28,9 @@ pub struct Arguments {
     /// Model file. Table I of the paper, its convex companion and the capped box if not given
     #[arg(long)]
     model: Vec<PathBuf>,
+    /// Only what the models look like: their patches as nets of lines; of every model that ships if none is given
+    #[arg(long)]
+    shapes: bool,
     /// Folder for the files
     #[arg(long, default_value = "palpate-report/figures")]
     out: PathBuf,
@@ -55,15 +58,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         0.0 < distances[0] && distances[0] <= distances[1] && distances[1] <= 100.0,
         "--nearest must be above 0 and not above --farthest, and that not above 100"
     );
-    let models = if arguments.model.is_empty() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
-        ["table1.toml", "table1c.toml", "capped_box.toml"].map(|name| folder.join(name)).to_vec()
-    } else {
-        arguments.model.clone()
-    };
-    let subjects = models.iter().map(|model| Chosen::read(model)).collect::<anyhow::Result<Vec<_>>>()?;
     fs::create_dir_all(&arguments.out)
         .with_context(|| format!("cannot make the folder {}", arguments.out.display()))?;
+    if arguments.shapes {
+        return shapes(&chosen(&arguments.model, &SHIPPED), &arguments.out);
+    }
+    let models = chosen(&arguments.model, &["table1", "table1c", "capped_box"]);
+    let subjects = models.iter().map(|model| Chosen::read(model)).collect::<anyhow::Result<Vec<_>>>()?;
     let options = Options { probes: arguments.probes.into(), distances, seed: arguments.seed };
     for subject in subjects {
         let bar = progress::work();
@@ -86,6 +87,41 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
                 println!("    {}", path.display());
             }
         }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Every model that ships.
+const SHIPPED: [&str; 12] = [
+    "table1",
+    "table1c",
+    "cylinder",
+    "sphere",
+    "ellipsoid",
+    "capped_box",
+    "thin_plate",
+    "rounded_cylinder",
+    "sphere_body",
+    "ellipsoid_body",
+    "ellipsoid_poles",
+    "teapot",
+];
+
+fn chosen(models: &[PathBuf], otherwise: &[&str]) -> Vec<PathBuf> {
+    if !models.is_empty() {
+        return models.to_vec();
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    otherwise.iter().map(|name| folder.join(name).with_extension("toml")).collect()
+}
+
+fn shapes(models: &[PathBuf], out: &Path) -> anyhow::Result<ExitCode> {
+    for path in models {
+        let model = Model::read(path)?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let file = out.join(format!("{stem}-shape.svg"));
+        write_whole(&file, draw_shape(&model, &path.display().to_string())?.as_bytes())?;
+        println!("{}: {}", model.name, file.display());
     }
     Ok(ExitCode::SUCCESS)
 }

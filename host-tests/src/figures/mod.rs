@@ -7,6 +7,7 @@ pub mod comparison;
 pub mod invariance;
 mod invariance_plot;
 mod page;
+mod shape;
 mod sheets;
 mod subject;
 pub mod tour;
@@ -14,5 +15,6 @@ mod tour_plot;
 pub mod tracking;
 mod tracking_plot;
 
+pub use shape::draw_shape;
 pub use sheets::{Options, Sheet, Stage, body_sheet, sheets};
 pub use subject::Subject;

@@ -105,7 +105,7 @@ impl LocatorOptions {
 
     /// For a body that is proved convex: short lists everywhere, so that a cold query is short.
     pub fn convex() -> Self {
-        Self { tolerance: 1e-5, longest: 6, convex: true, ..Self::default() }
+        Self { tolerance: 1e-5, longest: 6, convex: true, samples: 256, ..Self::default() }
     }
 }
 
