@@ -42,7 +42,7 @@ impl Subject {
     }
 
     fn bake(&self, options: &LocatorOptions) -> Result<BakedLocator, Box<dyn Error>> {
-        Ok(locator::bake(&self.patches, self.seams.clone(), &self.creases, options, &|_, _| ())?)
+        Ok(locator::bake(&self.patches, self.seams.clone(), &self.creases, options, None, &|_, _| ())?)
     }
 }
 
@@ -149,7 +149,7 @@ fn wrong_seams_are_refused() -> Result<(), Box<dyn Error>> {
     let other = |side| vec![BorderSide { face: 0, side, reversed: false }];
     let seams = Seams { edges: vec![other(0)], vertices: Vec::new(), poles: vec![[false; 4]] };
     let options = LocatorOptions { depth: 4, entries: 0, deep_entries: 0, fineness: 0.25, ..LocatorOptions::default() };
-    let refused = locator::bake(&subject.patches[5..], seams, &subject.creases[5..], &options, &|_, _| ());
+    let refused = locator::bake(&subject.patches[5..], seams, &subject.creases[5..], &options, None, &|_, _| ());
     assert!(refused.unwrap_err().to_string().contains("seams"));
     Ok(())
 }

@@ -18,6 +18,7 @@ use palpate_emulated::vectors::interrupt;
 use palpate_exercise::laps::WOODEN_HAPTICS_REACH;
 use palpate_exercise::script::Script;
 use semihosting::println;
+use static_cell::StaticCell;
 
 /// Ticks of the run.
 const TICKS: u32 = 100_000;
@@ -62,10 +63,13 @@ static TOUCHES: AtomicU32 = AtomicU32::new(0);
 
 #[interrupt]
 fn TIMER0() {
-    static mut RUN: Option<(Script, State)> = None;
+    static mut RUN: Option<&'static mut (Script, State)> = None;
 
     BOARD.acknowledge_timer();
-    let (script, state) = RUN.get_or_insert_with(begin);
+    if RUN.is_none() {
+        *RUN = begin();
+    }
+    let Some((script, state)) = RUN else { return };
     let order = script.next();
     if let Some(reset) = order.restart {
         restart(state, reset);
@@ -83,10 +87,12 @@ fn TIMER0() {
 
 // What makes a state does so on the stack, and a board does it before its first interrupt: not below the tick.
 
+static PLACE: StaticCell<(Script, State)> = StaticCell::new();
+
 #[inline(never)]
-fn begin() -> (Script, State) {
+fn begin() -> Option<&'static mut (Script, State)> {
     let encoders = &palpate::device::presets::WOODEN_HAPTICS_2016.encoders;
-    (Script::new(1, encoders, WOODEN_HAPTICS_REACH), SERVO.start())
+    PLACE.try_init((Script::new(1, encoders, WOODEN_HAPTICS_REACH), SERVO.start()))
 }
 
 #[inline(never)]

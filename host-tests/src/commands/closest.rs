@@ -57,11 +57,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let per_metre = model.unit.per_metre();
     let queries = queries::read(&arguments.queries, per_metre)?;
     let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
-    // The tables reach as far as the queries do.
-    let beyond = baked.sizes_beyond(&queries.iter().map(|query| query.given / per_metre).collect::<Vec<_>>());
-    let options = baked.locator_options().reaching(beyond);
+    // The tables reach as far as the queries do, and are baked where there are some.
+    let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
+    let options = baked.locator_options().reaching(baked.sizes_beyond(&probes));
     let bar = progress::work();
-    let (baked, _) = baked.located(&options, &|depth, _| bar.tell("octree", depth, options.depth))?;
+    let baked = baked.located_for(&probes, &options, &|depth, _| bar.tell("octree", depth, options.depth))?;
     drop(bar);
     let body = baked.to_body()?;
     let solver = Solver::new(&body, &baked);

@@ -1,7 +1,6 @@
 //! What is raced on: a patch and its queries, with the right answers.
 
 use super::path;
-use crate::bake::locator::LocatorOptions;
 use crate::bake::{BakedBody, BakedCoefficients, BakedPatch, LocatorTable, Model, NurbsPatch};
 use crate::oracle::Oracle;
 use crate::oracle::golden::{self, ClosestRow};
@@ -137,7 +136,9 @@ fn read(name: &str) -> anyhow::Result<(Model, NurbsPatch, BakedPatch, LocatorTab
     let model = Model::read(&folder().join("models").join(format!("{name}.toml")))?;
     let patch = model.patches.first().with_context(|| format!("{name}: no patch"))?.clone();
     let baked = BakedPatch::without_shape(&patch).with_context(|| name.to_owned())?;
-    let (body, _) = BakedBody::new(&model, name)?.located(&LocatorOptions::default(), &|_, _| ())?;
+    let body = BakedBody::new(&model, name)?;
+    let options = body.locator_options();
+    let (body, _) = body.located(&options, &|_, _| ())?;
     Ok((model, patch, baked, body.locator))
 }
 

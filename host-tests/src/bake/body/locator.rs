@@ -3,6 +3,7 @@
 use super::BakedFace;
 use crate::bake::locator::{self, BakedLocator, LocatorError, LocatorOptions, LocatorReport, Seams, StoredSurface};
 use crate::bake::{Axis, BakedPatch};
+use glam::DVec3;
 use palpate::body::{Candidate, GRID, LEAF, Locator};
 use palpate::math::Vec3;
 
@@ -42,6 +43,7 @@ impl LocatorTable {
         faces: &[BakedFace],
         size: f64,
         options: &LocatorOptions,
+        wanted: Option<&[DVec3]>,
         progress: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<(Self, LocatorReport), LocatorError> {
         let patches: Vec<BakedPatch> = faces.iter().map(|face| face.patch.clone()).collect();
@@ -49,7 +51,7 @@ impl LocatorTable {
         let seams = Seams::find(&surfaces, options.seam * size);
         let creases: Vec<_> =
             faces.iter().map(|face| [Axis::U, Axis::V].map(|axis| face.surface.creases(axis))).collect();
-        let baked = locator::bake(&patches, seams, &creases, options, progress)?;
+        let baked = locator::bake(&patches, seams, &creases, options, wanted, progress)?;
         let BakedLocator { corner, side, nodes, entries, report } = baked;
         Ok((Self { corner, side, nodes, entries }, report))
     }

@@ -151,8 +151,23 @@ impl BakedBody {
         options: &LocatorOptions,
         progress: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<(Self, LocatorReport), LocatorError> {
-        let (locator, report) = LocatorTable::of_faces(&self.faces, f64::from(self.size), options, progress)?;
+        let (locator, report) = LocatorTable::of_faces(&self.faces, f64::from(self.size), options, None, progress)?;
         Ok((Self { locator, ..self }, report))
+    }
+
+    /// As [`Self::located`], but only for some probes, metres, for which the lists are the same; those of cells that hold none of them are good
+    /// for nothing.
+    ///
+    /// # Errors
+    /// Tables that would not fit their indices.
+    pub fn located_for(
+        self,
+        probes: &[DVec3],
+        options: &LocatorOptions,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> Result<Self, LocatorError> {
+        let (locator, _) = LocatorTable::of_faces(&self.faces, f64::from(self.size), options, Some(probes), progress)?;
+        Ok(Self { locator, ..self })
     }
 
     /// Bakes the pieces that a model was split into.

@@ -158,7 +158,8 @@ pub(in crate::bake) struct Leaf {
 }
 
 /// Bakes the locator of a body. `creases` holds for each face the parameters, along `u` and `v`, at which it is only C⁰. `progress`
-/// is told the depth that begins and the number of its cells. The same input gives the same tables on any number of threads.
+/// is told the depth that begins and the number of its cells. With `wanted`, only the lists of these probes' cells are good, and they are those of
+/// the whole tables. The same input gives the same tables on any number of threads.
 ///
 /// # Errors
 /// Where the octree is too large for its indices, see [`LocatorError`].
@@ -167,6 +168,7 @@ pub fn bake(
     seams: Seams,
     creases: &[[Vec<f64>; 2]],
     options: &LocatorOptions,
+    wanted: Option<&[DVec3]>,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<BakedLocator, LocatorError> {
     let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
@@ -178,7 +180,11 @@ pub fn bake(
     let root = Probes::cube(corner.as_dvec3() + 0.5 * f64::from(side), 0.5 * f64::from(side));
     let reach = root.centre.abs().max_element() + root.half.x;
     let faces = Faces::new(patches, seams, creases, reach).ok_or(LocatorError::Weight)?;
-    let search = Search { faces: &faces, options, size, farthest: f64::from(side) * 3.0_f64.sqrt() };
+    // A probe beyond the cube takes the list of the nearest cell.
+    let (least, most) = (root.centre - root.half, root.centre + root.half);
+    let wanted: Option<Vec<_>> = wanted.map(|probes| probes.iter().map(|probe| probe.clamp(least, most)).collect());
+    let search =
+        Search { faces: &faces, options, size, farthest: f64::from(side) * 3.0_f64.sqrt(), wanted: wanted.as_deref() };
     let tree: Octree = search.run(root, progress);
     tables::pack(&tree, corner, side, options)
 }

@@ -4,7 +4,7 @@ use super::faces::{Faces, Query, Reference, Region};
 use super::field::Probes;
 use super::list::{Entry, Lister};
 use super::sampled;
-use super::unique::nearest;
+use super::unique::{Rectangle, nearest};
 use super::{Kind, Leaf, LocatorOptions};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -52,6 +52,8 @@ pub(super) struct Search<'a> {
     /// Metres.
     pub size: f64,
     pub farthest: f64,
+    /// If given, only cells that hold one of these probes are searched.
+    pub wanted: Option<&'a [DVec3]>,
 }
 
 impl<'a> Search<'a> {
@@ -84,7 +86,16 @@ impl<'a> Search<'a> {
         tree
     }
 
+    /// Whether anybody asks for a cell; its walls belong to it.
+    fn is_wanted(&self, probes: &Probes) -> bool {
+        let half = probes.half * (1.0 + 1e-6);
+        self.wanted.is_none_or(|wanted| wanted.iter().any(|probe| (*probe - probes.centre).abs().cmple(half).all()))
+    }
+
     fn cell(&self, cell: &Cell<'a>, depth: usize) -> Outcome<'a> {
+        if !self.is_wanted(&cell.probes) {
+            return unwanted(&cell.probes);
+        }
         let last = depth >= self.options.depth;
         let probes = cell.probes;
         let mut known: Vec<u16> = cell.regions.iter().map(|region| region.face(self.faces)).collect();
@@ -190,6 +201,15 @@ impl<'a> Search<'a> {
             Kind::Near
         }
     }
+}
+
+/// A cell that is not looked into: any list will do.
+fn unwanted<'a>(probes: &Probes) -> Outcome<'a> {
+    let minima = super::unique::Minima::Unknown;
+    let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth: 0, kind: Kind::Deep, minima, proved: false };
+    let rectangle = Rectangle::around([[0.0; 2], [1.0; 2]]);
+    let entry = Entry { face: 0, rectangle, minima, distance: 0.0 };
+    Outcome::Leaf(Box::new(leaf), vec![entry])
 }
 
 fn children<'a>(probes: &Probes, regions: &[Region<'a>], node: usize) -> Vec<Cell<'a>> {

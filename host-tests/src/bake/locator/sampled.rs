@@ -7,13 +7,14 @@ use super::faces::{Faces, Region};
 use super::field::Probes;
 use super::list::Entry;
 use super::tables;
+use super::unique::Rectangle;
 use crate::generate::Random;
 use glam::DVec3;
-use palpate::body::{Candidate, Descending, Progress};
+use palpate::body::{Candidate, Descending, GRID, Progress};
 use palpate::math::Vec3;
 
 /// Starts of descents that a list is compared with, the nearest ones.
-const STARTS: usize = 12;
+const STARTS: usize = 16;
 
 /// The closer point, if one of `count` probes of a cell is led to a point that is more than `tolerance` metres farther than another that is
 /// found: its face and parameters.
@@ -26,14 +27,7 @@ pub(super) fn failure(
     [tolerance, size]: [f64; 2],
 ) -> Option<(u16, [f64; 2])> {
     let list: Vec<_> = tables::list(entries).into_iter().map(Candidate::unpack).collect();
-    let middle = |[low, high]: [[f64; 2]; 2]| [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
-    let starts: Vec<(u16, [f64; 2], DVec3)> = regions
-        .iter()
-        .map(|region| {
-            let (face, at) = (region.face(faces), middle(region.rectangle(faces)));
-            (face, at, faces.surfaces[usize::from(face)].evaluate(at).point)
-        })
-        .collect();
+    let starts: Vec<(Vec3, Candidate, f32)> = regions.iter().map(|region| start(faces, region)).collect();
     let mut random = Random::new(7);
     (0..count).find_map(|index| {
         // Normals meet where the closest point is not unique, in a line or in a point that no probe of a box would hit.
@@ -44,17 +38,47 @@ pub(super) fn failure(
         });
         let probe = probe.as_vec3();
         let listed = searched(faces, &list, probe, size as f32);
-        let probe = probe.as_dvec3();
-        let mut near: Vec<_> = starts.iter().map(|start| (start.2.distance_squared(probe), start)).collect();
+        // No point of a region is farther from its middle than its diameter.
+        let near = starts.iter().filter_map(|start| {
+            let (squared, reach) = (start.0.distance_squared(probe), (listed - tolerance) as f32 + start.2);
+            (reach > 0.0 && squared < reach * reach).then_some((squared, start))
+        });
+        let mut near: Vec<_> = near.collect();
         if near.len() > STARTS {
             near.select_nth_unstable_by(STARTS, |a, b| a.0.total_cmp(&b.0));
             near.truncate(STARTS);
         }
-        near.iter().find_map(|(_, (face, at, _))| {
-            let found = faces.surfaces[usize::from(*face)].descend(probe, *at, [[0.0; 2], [1.0; 2]]);
-            (listed > found.distance + tolerance).then_some((*face, found.parameters))
+        near.iter().find_map(|(_, (_, candidate, _))| {
+            let found = descended(faces, *candidate, probe, size as f32);
+            let distance = f64::from((2.0 * found.half_squared).sqrt());
+            (listed > distance + tolerance).then_some((candidate.face, found.parameters.map(f64::from)))
         })
     })
+}
+
+/// The middle of a region, its rectangle with a step of the grid around it, so that a descent may leave it for a neighbour's minimum, and
+/// its diameter, metres.
+fn start(faces: &Faces, region: &Region<'_>) -> (Vec3, Candidate, f32) {
+    let face = region.face(faces);
+    let Rectangle { lower, upper } = Rectangle::around(region.rectangle(faces));
+    let candidate = Candidate {
+        face,
+        lower: lower.map(|step| step.saturating_sub(1)),
+        upper: upper.map(|step| (step + 1).min(GRID as u8)),
+        convex: false,
+        more: false,
+    };
+    let [low, high] = region.rectangle(faces);
+    let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
+    (faces.surfaces[usize::from(face)].evaluate(middle).point.as_vec3(), candidate, region.diameter() as f32)
+}
+
+/// Where a descent on a rectangle ends, whatever else is known.
+fn descended(faces: &Faces, candidate: Candidate, probe: Vec3, size: f32) -> Descending {
+    let mut descending = Descending::new(candidate);
+    while descending.step(&faces.tables[usize::from(candidate.face)], probe, f32::INFINITY, size) == Progress::Falling {
+    }
+    descending
 }
 
 /// A probe of the cell on the normal at some point of some candidate, if that normal meets the cell.
