@@ -97,7 +97,7 @@ impl LocatorOptions {
     /// side is a level more. What the firmware's descent has no rounds for stays outside.
     pub fn reaching(mut self, margin: f64) -> Self {
         while self.margin < margin && self.depth + self.deeper < MAX_DEPTH {
-            self.margin += self.margin + 0.5;
+            self.margin = 2.0 * self.margin + 0.5;
             self.depth += 1;
         }
         self
