@@ -1,108 +1,21 @@
 //! The fault matrix: every fault in every phase at a thousand seeded instants, with both safe outputs.
 
+use crate::harmed::{Decayed, LINK_TICKS, Poisoned, TestServo, decayed, device, safety};
 use crate::surfaces::WALL;
-use crate::traces::{RATE, SETTINGS, Trace, enable};
+use crate::traces::{SETTINGS, Trace, enable};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Counts, Device, Duty, Kinematics, ProbePose, SerialArm};
+use palpate::device::{Counts, Device, Duty, Kinematics};
 use palpate::math::Vec3;
-use palpate::patch::{Patch, SecondDerivativeBounds, SplinePatch, SurfacePoint};
 use palpate::servo::{Event, Fault, Input, Phase, ResetReason, SafeOutput, Safety, Servo, ServoState, StuckLimits};
 use palpate::track::Controller;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
-use std::cell::Cell;
 
 const INSTANTS: usize = 1_000;
 /// Ticks of good sensors after a fault, in which it must not come loose.
 const AFTER: usize = 30;
-const LINK_TICKS: u32 = 100;
 /// Of the table check: 27 words and two ends.
 const TICKS_A_PASS: u32 = 29;
-
-/// The arm, with a switch that makes its pose a number that is none, and one that opens its joints.
-#[derive(Debug)]
-struct Poisoned {
-    arm: SerialArm,
-    with: Cell<Option<f32>>,
-    open: Cell<bool>,
-}
-
-impl Kinematics<3> for Poisoned {
-    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
-        if self.open.get() {
-            return ProbePose::UNREACHABLE;
-        }
-        let mut pose = self.arm.pose(angles);
-        if let Some(bad) = self.with.get() {
-            pose.jacobian[1].y = bad;
-            pose.position.x = bad;
-        }
-        pose
-    }
-}
-
-/// The wall, with a switch that turns a bit of its table.
-#[derive(Debug)]
-struct Decayed {
-    wall: &'static SplinePatch,
-    bit: Cell<Option<u32>>,
-}
-
-impl Patch for Decayed {
-    fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
-        self.wall.evaluate(u, v)
-    }
-    fn bounds(&self) -> SecondDerivativeBounds {
-        self.wall.bounds()
-    }
-    fn orientation(&self) -> f32 {
-        self.wall.orientation()
-    }
-    fn size(&self) -> f32 {
-        self.wall.size()
-    }
-    fn table_word(&self, index: usize) -> Option<u32> {
-        let word = self.wall.table_word(index)?;
-        // 27 words: 11 of the record, two borders of two, four coefficients of three.
-        let turned = self.bit.get().is_some_and(|bit| bit / 32 == index as u32);
-        Some(if turned { word ^ (1 << (self.bit.get().unwrap_or(0) % 32)) } else { word })
-    }
-}
-
-type TestServo<'a> = Servo<'a, Decayed, Poisoned, 3>;
-
-fn device() -> Device<Poisoned, 3> {
-    let preset = WOODEN_HAPTICS_2016;
-    Device {
-        kinematics: Poisoned { arm: preset.kinematics, with: Cell::new(None), open: Cell::new(false) },
-        encoders: preset.encoders,
-        motors: preset.motors,
-        feeds: preset.feeds,
-        dry_friction: preset.dry_friction,
-        least_margin: preset.least_margin,
-        joint_range: preset.joint_range,
-        greatest_joint_rate: preset.greatest_joint_rate,
-        greatest_force: preset.greatest_force,
-        greatest_stiffness: preset.greatest_stiffness,
-        greatest_damping: preset.greatest_damping,
-    }
-}
-
-fn decayed() -> Decayed {
-    Decayed { wall: &WALL, bit: Cell::new(None) }
-}
-
-fn safety(output: SafeOutput) -> Safety {
-    Safety {
-        output,
-        overruns_allowed: 0,
-        link_timeout: LINK_TICKS as f32 / RATE as f32,
-        settle_ticks: 200,
-        wait_for_homing: true,
-        table_crc: Some(WALL.table_crc()),
-        stuck: Some(StuckLimits::DEFAULT),
-    }
-}
 
 /// What injecting a fault came to.
 enum Seen {

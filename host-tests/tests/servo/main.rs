@@ -2,6 +2,7 @@
 
 mod faults;
 mod fuzz;
+mod harmed;
 mod homing;
 mod limits;
 mod passivity;
