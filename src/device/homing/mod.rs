@@ -1,5 +1,11 @@
 //! Where the joints are to begin with: from raw counts to calibrated encoders.
 
+mod refusal;
+mod state;
+
+pub use refusal::Refusal;
+pub use state::HomingState;
+
 use super::stop_search::{Joint, Search, Seek};
 use super::{Counts, Encoder, StopSearch};
 use thiserror::Error;
@@ -66,65 +72,6 @@ pub struct HomingInput<const JOINTS: usize> {
     pub period: f32,
 }
 
-/// Why homing was refused. Latched: start again from [`HomingState::default`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[repr(u8)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Refusal {
-    /// The time is over and the device never held still long enough.
-    #[error("the device was moving")]
-    Moving = 1,
-    /// The time is over and a joint has not passed its index mark.
-    #[error("a joint did not pass its index mark")]
-    NoIndex = 2,
-    /// A sensor failed.
-    #[error("a sensor failed")]
-    Sensor = 3,
-    /// It held still, but elsewhere than at the reference.
-    #[error("a sensor reads something else than at the reference pose")]
-    OutOfTolerance = 4,
-    /// A joint did not come off from where it stood: something holds it, or it is driven the wrong way into a stop.
-    #[error("a joint is jammed")]
-    Jammed = 5,
-    /// A joint went further than its stop can be.
-    #[error("a joint found no stop")]
-    NoStop = 6,
-    /// A joint moved faster than it was driven: a hand pulls it, or its motor runs away.
-    #[error("a joint moved too fast")]
-    TooFast = 7,
-    /// A joint moved against the way it was driven: encoder or motor is wired the other way, or the load is too heavy.
-    #[error("a joint moved the wrong way")]
-    WrongDirection = 8,
-    /// The time is over.
-    #[error("homing took too long")]
-    TooLate = 9,
-}
-
-impl Refusal {
-    /// Every refusal, in the order of its code.
-    pub const ALL: [Self; 9] = [
-        Self::Moving,
-        Self::NoIndex,
-        Self::Sensor,
-        Self::OutOfTolerance,
-        Self::Jammed,
-        Self::NoStop,
-        Self::TooFast,
-        Self::WrongDirection,
-        Self::TooLate,
-    ];
-
-    /// The code in a report, from 1.
-    pub const fn code(self) -> u8 {
-        self as u8
-    }
-
-    /// The refusal of a code; `None` for 0 and for codes that are not ours.
-    pub fn from_code(code: u8) -> Option<Self> {
-        Self::ALL.into_iter().find(|refusal| refusal.code() == code)
-    }
-}
-
 /// How far homing has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HomingProgress<const JOINTS: usize> {
@@ -134,75 +81,6 @@ pub enum HomingProgress<const JOINTS: usize> {
     Done([Encoder; JOINTS]),
     /// It will not be done.
     Refused(Refusal),
-}
-
-/// What changes from tick to tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HomingState<const JOINTS: usize> {
-    ticks: u32,
-    still: u32,
-    /// What the device moved away from last.
-    anchor: Option<[Counts; JOINTS]>,
-    marks: [Option<Counts>; JOINTS],
-    /// The search for the stop of the first joint without a mark.
-    search: Search,
-    /// What that joint is driven with, N·m.
-    torque: f32,
-    end: Option<Result<(), Refusal>>,
-}
-
-impl<const JOINTS: usize> Default for HomingState<JOINTS> {
-    fn default() -> Self {
-        Self {
-            ticks: 0,
-            still: 0,
-            anchor: None,
-            marks: [None; JOINTS],
-            search: Search::default(),
-            torque: 0.0,
-            end: None,
-        }
-    }
-}
-
-impl<const JOINTS: usize> HomingState<JOINTS> {
-    /// Whether homing is done.
-    pub const fn is_done(&self) -> bool {
-        matches!(self.end, Some(Ok(())))
-    }
-
-    /// The joint torques that homing asks for, N·m; all zero but in a search for stops.
-    pub fn torques(&self) -> [f32; JOINTS] {
-        let mut torques = [0.0; JOINTS];
-        let sought = torques.iter_mut().zip(&self.marks).find(|(_, mark)| mark.is_none());
-        if let Some((torque, _)) = sought {
-            *torque = self.torque;
-        }
-        torques
-    }
-
-    /// Why homing was refused, if it was.
-    pub const fn refusal(&self) -> Option<Refusal> {
-        match self.end {
-            Some(Err(refusal)) => Some(refusal),
-            Some(Ok(())) | None => None,
-        }
-    }
-
-    /// Gives every word of the state to `hash`.
-    pub(crate) fn words(&self, mut hash: impl FnMut(u32)) {
-        [self.ticks, self.still].into_iter().chain(StopSearch::bits(&self.search)).for_each(&mut hash);
-        self.anchor.iter().flatten().for_each(|Counts(count)| hash(*count as u32));
-        for mark in self.marks {
-            hash(mark.map_or(u32::MAX, |Counts(count)| count as u32));
-        }
-        hash(self.torque.to_bits());
-        hash(match self.end {
-            None => 0,
-            Some(Ok(())) => 0x100,
-            Some(Err(refusal)) => u32::from(refusal.code()),
-        });
-    }
 }
 
 /// Joint angle at zero counts, if the joint is at `angle` at `counts`.
