@@ -35,14 +35,12 @@ impl TableCheck {
     pub fn run<S: Surface>(&mut self, surface: &S, expected: u32) -> bool {
         *self = Self { passes: self.passes, ..Self::default() };
         let before = self.passes;
-        loop {
-            if !self.step(surface, expected) {
-                return false;
-            }
+        while self.step(surface, expected) {
             if self.passes != before {
                 return true;
             }
         }
+        false
     }
 }
 
