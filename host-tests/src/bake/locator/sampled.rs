@@ -49,9 +49,10 @@ pub(super) fn failure(
             near.truncate(STARTS);
         }
         near.iter().find_map(|(_, (_, candidate, _))| {
-            let found = descended(faces, *candidate, probe, size as f32);
-            let distance = f64::from((2.0 * found.half_squared).sqrt());
-            (listed > distance + tolerance).then_some((candidate.face, found.parameters.map(f64::from)))
+            let mut best = f32::INFINITY;
+            let parameters = descended(faces, candidate, probe, &mut best, size as f32);
+            let distance = f64::from((2.0 * best).sqrt());
+            (listed > distance + tolerance).then_some((candidate.face, parameters.map(f64::from)))
         })
     })
 }
@@ -73,12 +74,16 @@ fn start(faces: &Faces, region: &Region<'_>) -> (Vec3, Candidate, f32) {
     (faces.surfaces[usize::from(face)].evaluate(middle).point.as_vec3(), candidate, region.diameter() as f32)
 }
 
-/// Where a descent on a rectangle ends, whatever else is known.
-fn descended(faces: &Faces, candidate: Candidate, probe: Vec3, size: f32) -> Descending {
-    let mut descending = Descending::new(candidate);
-    while descending.step(&faces.tables[usize::from(candidate.face)], probe, f32::INFINITY, size) == Progress::Falling {
+/// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this descent's included.
+fn descended(faces: &Faces, candidate: &Candidate, probe: Vec3, best: &mut f32, size: f32) -> [f32; 2] {
+    let mut descending = Descending::new(*candidate);
+    loop {
+        let progress = descending.step(&faces.tables[usize::from(candidate.face)], probe, *best, size);
+        *best = best.min(descending.half_squared);
+        if progress != Progress::Falling {
+            return descending.parameters;
+        }
     }
-    descending
 }
 
 /// A probe of the cell on the normal at some point of some candidate, if that normal meets the cell.
@@ -108,14 +113,7 @@ fn on_a_normal(faces: &Faces, probes: &Probes, entries: &[Entry], random: &mut R
 fn searched(faces: &Faces, list: &[Candidate], probe: Vec3, size: f32) -> f64 {
     let mut best = f32::INFINITY;
     for candidate in list {
-        let mut descending = Descending::new(*candidate);
-        loop {
-            let progress = descending.step(&faces.tables[usize::from(candidate.face)], probe, best, size);
-            best = best.min(descending.half_squared);
-            if progress != Progress::Falling {
-                break;
-            }
-        }
+        descended(faces, candidate, probe, &mut best, size);
     }
     f64::from((2.0 * best).sqrt())
 }
