@@ -52,7 +52,7 @@ pub fn sqrt_from_above(x: f32) -> f32 {
 }
 
 /// `x` brought into `[low, high]`; a NaN becomes `low`. Plain comparisons: `f32::max` leaves the sign of zero open, and with
-/// it the last bit that host and target must share.
+/// it the last bit that host and target must share; `f32::clamp` panics where the ends are not in order.
 #[inline]
 pub fn saturate(x: f32, low: f32, high: f32) -> f32 {
     if x > low { if x < high { x } else { high } } else { low }

@@ -6,7 +6,7 @@
 //! A step that does not lower `φ` is halved.
 
 use super::locator::Candidate;
-use crate::math::Vec3;
+use crate::math::{Vec3, saturate, sqrt};
 use crate::patch::{CurvedPoint, SplinePatch};
 
 /// Evaluations that one candidate of a list may cost.
@@ -103,10 +103,10 @@ impl Descending {
             let (change, fall) = model.minimiser(room);
             let resolved = RESOLUTION * size;
             // φ changes by d times the change of d.
-            if -fall <= resolved * (crate::math::sqrt(2.0 * half_squared) + resolved) {
+            if -fall <= resolved * (sqrt(2.0 * half_squared) + resolved) {
                 return Progress::Found;
             }
-            self.trial = [0, 1].map(|axis| within(at[axis] + change[axis], lower[axis], upper[axis]));
+            self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
         } else {
             self.halvings += 1;
             self.trial = [0, 1].map(|axis| 0.5 * (self.parameters[axis] + at[axis]));
@@ -210,17 +210,12 @@ impl Model {
 /// The minimiser of `slope · x + ½ bend · x²` between two ends; the model's diagonal is not negative.
 fn least_of_line(slope: f32, bend: f32, [low, high]: [f32; 2]) -> f32 {
     if bend > f32::MIN_POSITIVE {
-        within(-slope / bend, low, high)
+        saturate(-slope / bend, low, high)
     } else if slope > 0.0 {
         low
     } else {
         high
     }
-}
-
-/// As `f32::clamp`, which panics where the ends are not in order.
-fn within(value: f32, low: f32, high: f32) -> f32 {
-    if value > low { if value < high { value } else { high } } else { low }
 }
 
 fn is_positive_definite([a, b, c]: [f32; 3]) -> bool {
