@@ -88,15 +88,12 @@ impl Search {
             self.best = Best { face, parameters, half_squared };
         }
         let most = if body.is_convex { MOST_EVALUATIONS_CONVEX } else { MOST_EVALUATIONS };
-        if progress == Progress::Falling {
-            if self.evaluations >= most {
-                self.ended = Some(false);
-            }
-        } else if !more {
+        let falls = progress == Progress::Falling;
+        if !falls && !more {
             self.ended = Some(true);
         } else if self.evaluations >= most {
             self.ended = Some(false);
-        } else {
+        } else if !falls {
             self.entry += 1;
             self.descending = Descending::new(body.candidate(usize::from(self.entry)));
         }
@@ -105,9 +102,13 @@ impl Search {
     /// What was found, once the search is done.
     #[inline]
     pub fn found(&self) -> Option<Located> {
+        self.ended.map(|complete| self.located(complete))
+    }
+
+    /// The nearest so far.
+    fn located(&self, complete: bool) -> Located {
         let Best { face, parameters, half_squared } = self.best;
-        let evaluations = self.evaluations;
-        self.ended.map(|complete| Located { face, parameters, half_squared, evaluations, complete })
+        Located { face, parameters, half_squared, evaluations: self.evaluations, complete }
     }
 }
 
@@ -123,9 +124,7 @@ impl Body {
             }
             search.turn(self, probe);
         }
-        let Best { face, parameters, half_squared } = search.best;
-        let complete = search.ended.unwrap_or(false);
-        Located { face, parameters, half_squared, evaluations: search.evaluations, complete }
+        search.located(search.ended.unwrap_or(false))
     }
 
     /// The candidate at an index; the constructor checked that lists end.
