@@ -1,7 +1,7 @@
 //! Border curves: polynomial spans in one parameter, kept like those of a patch.
 
 use crate::math::{Vec3, vec3};
-use crate::patch::{Coefficients, MAX_SPANS, span_centre};
+use crate::patch::{Coefficients, MAX_SPANS, horner_step, span_centre};
 
 /// The highest degree of a curve: the cross derivative of a rational patch of degree 5 has twice its degree.
 pub const MAX_CURVE_DEGREE: usize = 10;
@@ -110,12 +110,6 @@ impl SplineCurve {
 fn value<const D: usize>(powers: &[[f32; D]], s: f32) -> [f32; D] {
     let Some((highest, lower)) = powers.split_last() else { return [0.0; D] };
     lower.iter().rev().fold(*highest, |value, coefficient| horner_step(value, s, *coefficient))
-}
-
-/// `accumulated · x + next`, component by component.
-#[inline(always)]
-fn horner_step<const D: usize>(accumulated: [f32; D], x: f32, next: [f32; D]) -> [f32; D] {
-    core::array::from_fn(|component| accumulated[component] * x + next[component])
 }
 
 /// The span that holds `parameter`, and the distance from its centre. Bisection, at most log₂ of [`MAX_SPANS`] rounds.

@@ -1,6 +1,7 @@
 //! A point with both tangents and all second derivatives: what a cold start needs, and the tick does not.
 
 use super::SurfacePoint;
+use super::horner::horner_step;
 use super::spline::{Coefficients, SplinePatch};
 use crate::math::{Vec3, vec3};
 
@@ -119,12 +120,6 @@ impl<const D: usize> Row<D> {
         }
         row
     }
-}
-
-/// `accumulated · x + next`, component by component.
-#[inline(always)]
-fn horner_step<const D: usize>(accumulated: [f32; D], x: f32, next: [f32; D]) -> [f32; D] {
-    core::array::from_fn(|component| accumulated[component] * x + next[component])
 }
 
 /// Leibniz' rule on `w P = A`, solved for the highest derivative of `P`.

@@ -92,6 +92,6 @@ pub(super) fn evaluate_rows<const D: usize>(
 
 /// `accumulated · x + next`, component by component.
 #[inline(always)]
-fn horner_step<const D: usize>(accumulated: [f32; D], x: f32, next: [f32; D]) -> [f32; D] {
+pub(crate) fn horner_step<const D: usize>(accumulated: [f32; D], x: f32, next: [f32; D]) -> [f32; D] {
     array::from_fn(|component| accumulated[component] * x + next[component])
 }
