@@ -1,7 +1,7 @@
 //! Border curves: polynomial spans in one parameter, kept like those of a patch.
 
 use crate::math::{Vec3, vec3};
-use crate::patch::{Coefficients, MAX_SPANS, horner_step, span_centre};
+use crate::patch::{Coefficients, MAX_SPANS, bisect, horner_step};
 
 /// The highest degree of a curve: the cross derivative of a rational patch of degree 5 has twice its degree.
 pub const MAX_CURVE_DEGREE: usize = 10;
@@ -112,22 +112,9 @@ fn value<const D: usize>(powers: &[[f32; D]], s: f32) -> [f32; D] {
     lower.iter().rev().fold(*highest, |value, coefficient| horner_step(value, s, *coefficient))
 }
 
-/// The span that holds `parameter`, and the distance from its centre. Bisection, at most log₂ of [`MAX_SPANS`] rounds.
+/// The span that holds `parameter`, and the distance from its centre.
 #[inline]
 fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
     // Most curves have one span, from 0 to 1.
-    if breaks.len() == 2 {
-        return (0, parameter - 0.5);
-    }
-    let (mut low, mut high) = (0, breaks.len().saturating_sub(1));
-    while high - low > 1 {
-        let middle = (low + high) / 2;
-        if breaks.get(middle).is_some_and(|border| parameter >= *border) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let (Some(left), Some(right)) = (breaks.get(low), breaks.get(high)) else { return (0, 0.0) };
-    (low, parameter - span_centre(*left, *right))
+    if breaks.len() == 2 { (0, parameter - 0.5) } else { bisect(breaks, parameter) }
 }

@@ -13,6 +13,7 @@ mod spline;
 pub use curved::CurvedPoint;
 pub(crate) use horner::horner_step;
 pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
+pub(crate) use spans::bisect;
 pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError, span_centre};
 pub(crate) use spline::{breaks_are_valid, coefficient_word};
 

@@ -175,7 +175,7 @@ pub(super) fn locate(borders: &[f32], parameter: f32) -> (usize, f32) {
 
 /// Bisection: at most log2([`super::MAX_SPANS`]) rounds. A parameter beyond the borders is in the first or last span.
 #[inline(never)]
-fn bisect(borders: &[f32], parameter: f32) -> (usize, f32) {
+pub(crate) fn bisect(borders: &[f32], parameter: f32) -> (usize, f32) {
     let (mut borders, mut span) = (borders, 0);
     while borders.len() > 2 {
         let half = borders.len() / 2;
