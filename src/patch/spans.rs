@@ -88,12 +88,6 @@ where
     }
 }
 
-/// One for all kinds of coefficients.
-#[inline(never)]
-fn search(patch: &SplinePatch, u: f32, v: f32) -> (usize, [f32; 2]) {
-    patch.locate(u, v)
-}
-
 /// Not inlined, as [`unrolled`]: what it saves on the stack it saves only where it is needed.
 #[inline(never)]
 fn one_of<const D: usize, const Q: usize, const N: usize>(
@@ -105,7 +99,7 @@ fn one_of<const D: usize, const Q: usize, const N: usize>(
 where
     SurfacePoint: From<Derivatives<D>>,
 {
-    let (span, [s, t]) = search(patch, u, v);
+    let (span, [s, t]) = patch.locate(u, v);
     // The constructor counted the entries: none is missing, this only keeps a panic out of the tick.
     spans.get(span).map_or(SurfacePoint::NOWHERE, |coefficients| unrolled::<D, Q, N>(coefficients, s, t))
 }
@@ -133,7 +127,7 @@ where
     let (rows, [s, t]) = if entries.len() == count {
         (Some(entries), [u - 0.5, v - 0.5])
     } else {
-        let (span, at) = search(patch, u, v);
+        let (span, at) = patch.locate(u, v);
         (entries.get(span * count..).and_then(|rest| rest.get(..count)), at)
     };
     match (rows, degree_v) {

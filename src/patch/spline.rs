@@ -259,8 +259,8 @@ impl SplinePatch {
         self.breaks_u.len() + self.breaks_v.len() == 4
     }
 
-    /// The span that holds `(u, v)`, and where in it, from its centre.
-    #[inline(always)]
+    /// The span that holds `(u, v)`, and where in it, from its centre. One copy for all kinds of coefficients.
+    #[inline(never)]
     pub(super) fn locate(&self, u: f32, v: f32) -> (usize, [f32; 2]) {
         let (span_u, s) = locate(self.breaks_u, u);
         let (span_v, t) = locate(self.breaks_v, v);
