@@ -138,6 +138,9 @@ impl Code {
     }
 }
 
+/// `NOP`, as it lies in memory.
+const NOP: [u8; 2] = [0x00, 0xbf];
+
 fn function(
     decoder: &Decoder,
     kinds: &BTreeMap<u64, bool>,
@@ -163,11 +166,15 @@ fn function(
     let mut tables = BTreeMap::new();
     for instruction in instructions.values() {
         let Flow::Table(width) = instruction.flow else { continue };
-        // The entries run from behind the jump to where code begins again; a last byte may be there for alignment alone, and
-        // leads, as a zero, to the table itself: no instruction.
+        // The entries run from behind the jump to where code begins again. What is there for alignment alone is a zero, which would lead
+        // to the table itself, and then NOPs.
         let from = instruction.address + instruction.length;
         let to = kinds.range(from + 1..end).find(|(_, code)| **code).map_or(end, |(at, _)| *at);
-        let targets = bytes(from, to).chunks_exact(width as usize).map(|entry| {
+        let mut table = bytes(from, to);
+        while let Some(shorter) = table.strip_suffix(&NOP) {
+            table = shorter;
+        }
+        let targets = table.chunks_exact(width as usize).map(|entry| {
             let count = entry.iter().rev().fold(0, |count, byte| count << 8 | u64::from(*byte));
             from + 2 * count
         });
