@@ -95,7 +95,8 @@ pub struct SplinePatch {
     breaks_u: &'static [f32],
     breaks_v: &'static [f32],
     shape: ShapeBounds,
-    orientation: Orientation,
+    /// 1 if `f_u × f_v` points out of the body, −1 if into it.
+    outward: f32,
     size: f32,
 }
 
@@ -140,7 +141,11 @@ impl SplinePatch {
         if !(size > 0.0 && size < f32::INFINITY) {
             return Err(TableError::Size);
         }
-        Ok(Self { spans: Spans::new(degree, coefficients), degree, breaks_u, breaks_v, shape, orientation, size })
+        let outward = match orientation {
+            Orientation::Outward => 1.0,
+            Orientation::Inward => -1.0,
+        };
+        Ok(Self { spans: Spans::new(degree, coefficients), degree, breaks_u, breaks_v, shape, outward, size })
     }
 
     /// [`Self::try_new`] for a `static`: a bad table does not compile.
@@ -192,7 +197,7 @@ impl SplinePatch {
         let value = match index {
             0 => {
                 let degrees = self.degree[0] as u32 | (self.degree[1] as u32) << 8;
-                return Some(degrees | coefficients.tag() << 16 | (self.orientation as u32) << 24);
+                return Some(degrees | coefficients.tag() << 16 | ((self.outward < 0.0) as u32) << 24);
             }
             1 => return Some(u as u32 | (v as u32) << 16),
             2 => bounds.uu,
@@ -237,10 +242,7 @@ impl Patch for SplinePatch {
     }
 
     fn orientation(&self) -> f32 {
-        match self.orientation {
-            Orientation::Outward => 1.0,
-            Orientation::Inward => -1.0,
-        }
+        self.outward
     }
 
     fn size(&self) -> f32 {
