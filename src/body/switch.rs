@@ -134,7 +134,8 @@ impl Body {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return false };
         state.feature = Feature::Vertex(index);
         let surface = SurfacePoint { point: vertex.point, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
-        state.witness = Witness { parameters: [0.0; 2], surface, mode: BoundaryMode::Corner, caution: 1.0 };
+        state.witness =
+            Witness { parameters: [0.0; 2], surface, mode: BoundaryMode::Corner, is_free: false, halvings: 0 };
         true
     }
 }

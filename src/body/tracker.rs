@@ -230,6 +230,7 @@ impl BodyWitness {
         self.witness.surface.tangent_u = at.tangent;
         self.witness.surface.tangent_v = Vec3::ZERO;
         self.witness.mode = if t <= 0.0 || t >= 1.0 { BoundaryMode::Corner } else { BoundaryMode::LowerV };
-        self.witness.caution = 1.0;
+        self.witness.is_free = false;
+        self.witness.halvings = 0;
     }
 }

@@ -99,8 +99,7 @@ impl Tracked for Witness {
                 take(coordinate.to_bits());
             }
         }
-        take(self.mode as u32);
-        take(self.caution.to_bits());
+        take(self.mode as u32 | u32::from(self.is_free) << 8 | u32::from(self.halvings) << 16);
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::law::Law;
 use super::projection::ProjectionErrors;
+use super::witness::Witness;
 use crate::math::saturate;
 
 /// The active constraints. Numbers 1 to 5 are those of Eq. (1).
@@ -33,6 +34,9 @@ impl BoundaryMode {
     pub const ALL: [Self; 6] = [Self::LowerU, Self::UpperU, Self::LowerV, Self::UpperV, Self::Interior, Self::Corner];
 }
 
+/// A step is not halved more often, so that a witness point is never stuck for good. All bits of a mask.
+pub const MOST_HALVINGS: u8 = 15;
+
 /// The direction a step takes, before its length is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Descent {
@@ -47,34 +51,63 @@ pub struct Descent {
 }
 
 impl Descent {
+    /// The direction a witness point takes under a law: the best that the boundary allows, halved after steps that had to be undone.
+    #[inline(always)]
+    pub fn of(law: Law, errors: &ProjectionErrors, witness: &Witness) -> Self {
+        if law == Law::MeasureNumbers
+            && witness.is_free
+            && let Some(direction) = errors.correction()
+        {
+            return Self::along(direction, errors.gradient, BoundaryMode::Interior);
+        }
+        Self::new(law, errors, witness.parameters).halved(witness.halvings)
+    }
+
     /// The best direction that the boundary allows at `(u, v)` under a law.
     #[inline(always)]
     pub fn new(law: Law, errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
         match law {
             Law::MeasureNumbers => Self::measured(errors, parameters),
-            Law::Covariant => Self::projected_gradient(errors, parameters),
+            Law::Covariant => Self::projected_gradient(errors, parameters.map(Border::of)),
+        }
+    }
+
+    /// The same way, `2ⁿ` times shorter: a direction like any other.
+    #[inline]
+    fn halved(self, halvings: u8) -> Self {
+        if halvings == 0 {
+            return self;
+        }
+        // 2⁻ⁿ, by its exponent. The square of the length is only an upper bound, and shrinks faster.
+        let share = f32::from_bits(1.0_f32.to_bits() - (u32::from(halvings & MOST_HALVINGS) << 23));
+        let [w_u, w_v] = self.direction;
+        Self {
+            direction: [share * w_u, share * w_v],
+            slope: share * self.slope,
+            length_squared: share * self.length_squared,
+            mode: self.mode,
         }
     }
 
     /// `−Ψ`, or the active set of the two-variable problem.
     #[inline(always)]
-    fn measured(errors: &ProjectionErrors, [u, v]: [f32; 2]) -> Self {
+    fn measured(errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
+        let borders @ [u, v] = parameters.map(Border::of);
         // No inverse at a pole: the plain gradient is still a descent there.
-        let Some([psi_u, psi_v]) = errors.measure_numbers() else {
-            return Self::projected_gradient(errors, [u, v]);
+        let Some([w_u, w_v]) = errors.correction() else {
+            return Self::projected_gradient(errors, borders);
         };
-        let inside = is_inside(u) && is_inside(v);
-        if inside || !(is_blocked(u, -psi_u) || is_blocked(v, -psi_v)) {
-            return Self::along([-psi_u, -psi_v], errors.gradient, BoundaryMode::Interior);
+        if !(u.blocks(w_u) || v.blocks(w_v)) {
+            return Self::along([w_u, w_v], errors.gradient, BoundaryMode::Interior);
         }
         // On an edge the error is measured against the geodesic normal: g/G, not the measure number of Eq. (4).
-        match (is_inside(u), is_inside(v)) {
-            (false, true) => Self::along_edge_u(errors, u),
-            (true, _) => Self::along_edge_v(errors, v),
+        match (u.is_met(), v.is_met()) {
+            (true, false) => Self::along_edge_u(errors, u),
+            (false, _) => Self::along_edge_v(errors, v),
             // At a corner the edge that was asked for may be blocked while the other is open: take the greater fall.
-            (false, false) => {
+            (true, true) => {
                 let [along_u, along_v] = errors.gradient;
-                match (is_blocked(u, -along_u), is_blocked(v, -along_v)) {
+                match (u.blocks(-along_u), v.blocks(-along_v)) {
                     (true, true) => Self::AT_CORNER,
                     (true, false) => Self::along_edge_u(errors, u),
                     (false, true) => Self::along_edge_v(errors, v),
@@ -89,28 +122,28 @@ impl Descent {
 
     /// Along the edge of constant `u`: `−g_v/G`.
     #[inline]
-    fn along_edge_u(errors: &ProjectionErrors, u: f32) -> Self {
+    fn along_edge_u(errors: &ProjectionErrors, u: Border) -> Self {
         let slide = -errors.gradient[1] * reciprocal_or_zero(errors.form.g);
-        Self::along([0.0, slide], errors.gradient, lower_or_upper_u(u))
+        Self::along([0.0, slide], errors.gradient, u.mode_along_u())
     }
 
     /// Along the edge of constant `v`: `−g_u/E`.
     #[inline]
-    fn along_edge_v(errors: &ProjectionErrors, v: f32) -> Self {
+    fn along_edge_v(errors: &ProjectionErrors, v: Border) -> Self {
         let slide = -errors.gradient[0] * reciprocal_or_zero(errors.form.e);
-        Self::along([slide, 0.0], errors.gradient, lower_or_upper_v(v))
+        Self::along([slide, 0.0], errors.gradient, v.mode_along_v())
     }
 
     /// `−g / trace I`, saturated component by component. The trace is not below the largest eigenvalue of `I`, so that
     /// `wᵀ I w ≤ −gᵀ w`.
     #[inline]
-    fn projected_gradient(errors: &ProjectionErrors, [u, v]: [f32; 2]) -> Self {
+    fn projected_gradient(errors: &ProjectionErrors, [u, v]: [Border; 2]) -> Self {
         let scale = -reciprocal_or_zero(errors.form.e + errors.form.g);
         let [w_u, w_v] = [errors.gradient[0] * scale, errors.gradient[1] * scale];
-        match (is_blocked(u, w_u), is_blocked(v, w_v)) {
+        match (u.blocks(w_u), v.blocks(w_v)) {
             (false, false) => Self::along([w_u, w_v], errors.gradient, BoundaryMode::Interior),
-            (true, false) => Self::along([0.0, w_v], errors.gradient, lower_or_upper_u(u)),
-            (false, true) => Self::along([w_u, 0.0], errors.gradient, lower_or_upper_v(v)),
+            (true, false) => Self::along([0.0, w_v], errors.gradient, u.mode_along_u()),
+            (false, true) => Self::along([w_u, 0.0], errors.gradient, v.mode_along_v()),
             (true, true) => Self::AT_CORNER,
         }
     }
@@ -119,29 +152,45 @@ impl Descent {
 
     #[inline]
     fn along(direction: [f32; 2], gradient: [f32; 2], mode: BoundaryMode) -> Self {
-        let slope = -(gradient[0] * direction[0] + gradient[1] * direction[1]);
+        let slope = -gradient[0] * direction[0] - gradient[1] * direction[1];
         Self { direction, slope, length_squared: slope, mode }
     }
 }
 
-/// The point a step reaches: `(u, v) + gain · direction`, cut where it would leave `[0, 1]²`.
+/// Where a step ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Landing {
+    /// `(u, v)`, in `[0, 1]²`.
+    pub parameters: [f32; 2],
+    /// [`is_inside`] of them.
+    pub is_inside: bool,
+}
+
+/// The point a step reaches: `(u, v) + gain · direction`, cut where it would leave `[0, 1]²`; `None` where that is not a number.
 ///
 /// Cutting (and not clamping each parameter by itself) keeps the step on the segment along which the distance is proved to
 /// fall. A component that points outward from its border already is left out: an integrator's mean may have one.
-#[inline]
-pub fn advance([u, v]: [f32; 2], direction: [f32; 2], gain: f32) -> [f32; 2] {
-    let target = [u + gain * direction[0], v + gain * direction[1]];
-    if is_within(target[0]) && is_within(target[1]) { target } else { cut([u, v], direction, gain) }
+#[inline(always)]
+pub fn advance([u, v]: [f32; 2], direction: [f32; 2], gain: f32) -> Option<Landing> {
+    let parameters = [u + gain * direction[0], v + gain * direction[1]];
+    if is_inside(parameters) {
+        Some(Landing { parameters, is_inside: true })
+    } else if is_within(parameters[0]) && is_within(parameters[1]) {
+        Some(Landing { parameters, is_inside: false })
+    } else {
+        cut([u, v], direction, gain)
+    }
 }
 
 /// [`advance`] where the border is met.
 #[inline]
-fn cut([u, v]: [f32; 2], direction: [f32; 2], gain: f32) -> [f32; 2] {
-    let change = |parameter, along: f32| if is_blocked(parameter, along) { 0.0 } else { gain * along };
+fn cut([u, v]: [f32; 2], direction: [f32; 2], gain: f32) -> Option<Landing> {
+    let change = |parameter, along: f32| if Border::of(parameter).blocks(along) { 0.0 } else { gain * along };
     let (change_u, change_v) = (change(u, direction[0]), change(v, direction[1]));
     let (cut_u, cut_v) = (fraction_inside(u, change_u), fraction_inside(v, change_v));
     let cut = if cut_u < cut_v { cut_u } else { cut_v };
-    [land(u, change_u, cut_u, cut), land(v, change_v, cut_v, cut)]
+    let parameters = [land(u, change_u, cut_u, cut), land(v, change_v, cut_v, cut)];
+    (change_u + change_v).is_finite().then_some(Landing { parameters, is_inside: is_inside(parameters) })
 }
 
 /// How much of a change of one parameter fits into `[0, 1]`.
@@ -167,33 +216,60 @@ fn land(parameter: f32, change: f32, own_cut: f32, cut: f32) -> f32 {
     }
 }
 
-#[inline]
-fn is_blocked(parameter: f32, change: f32) -> bool {
-    (parameter <= 0.0 && change < 0.0) || (parameter >= 1.0 && change > 0.0)
+/// Which border a parameter is at: −1 the lower, 1 the upper, 0 none. The sign of the changes it blocks.
+#[derive(Clone, Copy)]
+struct Border(f32);
+
+impl Border {
+    #[inline]
+    fn of(parameter: f32) -> Self {
+        Self(if parameter <= 0.0 {
+            -1.0
+        } else if parameter >= 1.0 {
+            1.0
+        } else {
+            0.0
+        })
+    }
+
+    /// Whether a change of the parameter would leave `[0, 1]`.
+    #[inline]
+    fn blocks(self, change: f32) -> bool {
+        self.0 * change > 0.0
+    }
+
+    #[inline]
+    fn is_met(self) -> bool {
+        self.0 != 0.0
+    }
+
+    #[inline]
+    fn mode_along_u(self) -> BoundaryMode {
+        if self.0 < 0.0 { BoundaryMode::LowerU } else { BoundaryMode::UpperU }
+    }
+
+    #[inline]
+    fn mode_along_v(self) -> BoundaryMode {
+        if self.0 < 0.0 { BoundaryMode::LowerV } else { BoundaryMode::UpperV }
+    }
 }
 
-/// Whether `0 ≤ x ≤ 1`; false for −0. As bits it is one comparison: those of a positive number rise with it, and a sign bit is
-/// larger than all.
+/// Whether both parameters are farther from every border than the least normal number, so that no direction is blocked. Each is one
+/// comparison of bits: those of a positive number rise with it, and a sign bit is larger than all.
+#[inline(always)]
+pub fn is_inside([u, v]: [f32; 2]) -> bool {
+    let is_free = |x: f32| x.to_bits().wrapping_sub(LEAST.to_bits()) < 1.0_f32.to_bits() - LEAST.to_bits();
+    is_free(u) && is_free(v)
+}
+
+/// Whether `0 ≤ x ≤ 1`; false for −0. In the same way.
 #[inline]
 fn is_within(x: f32) -> bool {
     x.to_bits() <= 1.0_f32.to_bits()
 }
 
-/// Whether `0 < x < 1`, in the same way.
-#[inline]
-fn is_inside(x: f32) -> bool {
-    x.to_bits().wrapping_sub(1) < 1.0_f32.to_bits() - 1
-}
-
-#[inline]
-fn lower_or_upper_u(u: f32) -> BoundaryMode {
-    if u <= 0.0 { BoundaryMode::LowerU } else { BoundaryMode::UpperU }
-}
-
-#[inline]
-fn lower_or_upper_v(v: f32) -> BoundaryMode {
-    if v <= 0.0 { BoundaryMode::LowerV } else { BoundaryMode::UpperV }
-}
+/// Not 0: with this one both numbers of the comparison fit into an instruction.
+const LEAST: f32 = f32::MIN_POSITIVE;
 
 /// `1/x`, or 0 where a tangent vanishes and nothing can be gained along it.
 #[inline]
@@ -214,7 +290,7 @@ mod tests {
         // The borders of the fan's sectors, which rounding would miss.
         let axes = [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0)];
         for (sine, cosine) in fan.chain(axes) {
-            if is_blocked(u, cosine) || is_blocked(v, sine) {
+            if Border::of(u).blocks(cosine) || Border::of(v).blocks(sine) {
                 continue;
             }
             let slope = errors.gradient[0] * cosine + errors.gradient[1] * sine;
@@ -244,7 +320,9 @@ mod tests {
                     for v in corners {
                         let descent = Descent::new(Law::MeasureNumbers, &errors, [u, v]);
                         modes[descent.mode as usize] = true;
-                        assert!(!is_blocked(u, descent.direction[0]) && !is_blocked(v, descent.direction[1]));
+                        assert!(
+                            !Border::of(u).blocks(descent.direction[0]) && !Border::of(v).blocks(descent.direction[1])
+                        );
                         // At the minimiser of the model the fall is half the slope. The fan's 1e-4 rad step costs
                         // less than 1e-6 of it; rounding as much.
                         let expected = best_model_fall(&errors, [u, v]);
@@ -261,10 +339,35 @@ mod tests {
 
     #[test]
     fn a_step_stops_on_the_border_it_meets_first() {
-        assert_eq!(advance([0.5, 0.5], [-1.0, -0.5], 1.0), [0.0, 0.25]);
-        assert_eq!(advance([0.5, 0.5], [0.25, 2.0], 1.0), [0.5625, 1.0]);
-        assert_eq!(advance([0.5, 0.5], [0.25, 0.25], 1.0), [0.75, 0.75]);
-        assert_eq!(advance([0.5, 0.5], [5.0, 5.0], 1.0), [1.0, 1.0]);
+        let landing = |parameters| Some(Landing { parameters, is_inside: is_inside(parameters) });
+        assert_eq!(advance([0.5, 0.5], [-1.0, -0.5], 1.0), landing([0.0, 0.25]));
+        assert_eq!(advance([0.5, 0.5], [0.25, 2.0], 1.0), landing([0.5625, 1.0]));
+        assert_eq!(advance([0.5, 0.5], [0.25, 0.25], 1.0), landing([0.75, 0.75]));
+        assert_eq!(advance([0.5, 0.5], [5.0, 5.0], 1.0), landing([1.0, 1.0]));
+    }
+
+    #[test]
+    fn what_is_not_a_number_leads_nowhere() {
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            for start in [[0.5, 0.5], [0.0, 0.5], [1.0, 0.0]] {
+                assert_eq!(advance(start, [bad, bad], 1.0), None);
+                assert_eq!(advance(start, [0.1, 0.1], f32::NAN), None);
+            }
+            assert_eq!(advance([0.5, 0.5], [bad, 0.0], 1.0), None);
+            assert_eq!(advance([0.5, 0.5], [0.0, bad], 1.0), None);
+        }
+    }
+
+    #[test]
+    fn inside_is_where_nothing_is_blocked() {
+        let below_one = 1.0 - f32::EPSILON / 2.0;
+        for x in [f32::MIN_POSITIVE, 1e-20, 0.5, below_one] {
+            assert!(is_inside([x, 0.5]) && is_inside([0.5, x]));
+            assert!(!Border::of(x).is_met());
+        }
+        for x in [0.0, -0.0, 1e-40, -1e-40, -0.5, 1.0, 1.5, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, -f32::NAN] {
+            assert!(!is_inside([x, 0.5]) && !is_inside([0.5, x]), "{x}");
+        }
     }
 
     #[test]
@@ -273,8 +376,9 @@ mod tests {
         let changes = [-1e30, -1.0, -1e-7, -1e-40, 0.0, 1e-40, 1e-7, 0.3, 1.0, 1e30];
         for (u, v) in samples.into_iter().flat_map(|u| samples.map(|v| (u, v))) {
             for (du, dv) in changes.into_iter().flat_map(|du| changes.map(|dv| (du, dv))) {
-                let next = advance([u, v], [du, dv], 1.0);
-                assert!(next.iter().all(|x| (0.0..=1.0).contains(x)), "{u} {v} {du} {dv}: {next:?}");
+                let next = advance([u, v], [du, dv], 1.0).unwrap();
+                assert!(next.parameters.iter().all(|x| (0.0..=1.0).contains(x)), "{u} {v} {du} {dv}: {next:?}");
+                assert_eq!(next.is_inside, is_inside(next.parameters));
             }
         }
     }

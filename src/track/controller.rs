@@ -1,6 +1,6 @@
 //! The switching controller of Theorem 1: one step a tick.
 
-use super::boundary::{self, Descent};
+use super::boundary::{self, Descent, Landing, MOST_HALVINGS};
 use super::gain::certified_gain;
 use super::law::{FeedForward, Gain, Integrator, Law};
 use super::projection::ProjectionErrors;
@@ -27,8 +27,6 @@ pub struct Controller {
 /// parameters rounds about 20 times a coordinate, at both ends of a step, and uneven weights double it; a rise `δ` of the
 /// distance shows as `2 R δ`. So `V` may rise by 32 units in the last place, 4 µm on a body of 1 m.
 const ROUNDING: f32 = 64.0 * f32::EPSILON;
-/// Caution never goes below this, so that a witness point is never stuck for good.
-const LEAST_CAUTION: f32 = 1.0 / 1024.0;
 
 impl Controller {
     /// Theorem 1 at the largest gain that is proved monotone, one evaluation a tick: the default on the target.
@@ -50,38 +48,53 @@ impl Controller {
     #[inline(always)]
     pub fn step<P: Patch>(&self, patch: &P, witness: &mut Witness, probe: Probe, period: f32) -> Step {
         let errors = ProjectionErrors::new(&witness.surface, probe.position);
+        self.step_from(patch, witness, errors, probe, period)
+    }
+
+    /// [`Self::step`] for one who has looked at the projection errors already.
+    #[inline(always)]
+    pub(crate) fn step_from<P: Patch>(
+        &self,
+        patch: &P,
+        witness: &mut Witness,
+        errors: ProjectionErrors,
+        probe: Probe,
+        period: f32,
+    ) -> Step {
         let squared = errors.difference.length_squared();
-        let plain = Descent::new(self.law, &errors, witness.parameters);
-        let plain_gain = self.gain_for(&plain, patch, squared, witness.caution, period);
+        let plain = Descent::of(self.law, &errors, witness);
+        let plain_gain = self.gain_for(&plain, patch, squared, period);
         let (descent, gain) = match self.feed_forward {
             FeedForward::None => (plain, plain_gain),
             FeedForward::Gated | FeedForward::Full => {
                 let moved = probe.velocity * period;
-                let descent = self.following(&errors, &witness.surface, witness.parameters, moved, plain_gain);
-                (descent, plain_gain.min(self.gain_for(&descent, patch, squared, witness.caution, period)))
+                let descent = self.following(&errors, witness, moved, plain_gain);
+                (descent, least(plain_gain, self.gain_for(&descent, patch, squared, period)))
             }
         };
         witness.mode = descent.mode;
-        let moves = is_positive(descent.slope) && squared.to_bits() < f32::INFINITY.to_bits();
-        if !moves {
-            let outcome = Outcome::AtRest;
-            return Step { distance_squared_before: squared, residual_squared: 0.0, gain: 0.0, outcome };
+        let at_rest =
+            Step { distance_squared_before: squared, residual_squared: 0.0, gain: 0.0, outcome: Outcome::AtRest };
+        if !is_above_zero(descent.slope) {
+            return at_rest;
         }
         let change =
             integrate::change(self.integrator, patch, witness.parameters, descent.direction, gain, |surface, at| {
                 let errors = ProjectionErrors::new(surface, probe.position);
                 Descent::new(self.law, &errors, at).direction
             });
-        let parameters = boundary::advance(witness.parameters, change, gain);
+        // What is not a number, or too large for one, has come this far and goes no farther.
+        let Some(Landing { parameters, is_inside }) = boundary::advance(witness.parameters, change, gain) else {
+            return at_rest;
+        };
         let surface = patch.evaluate(parameters[0], parameters[1]);
         let outcome = if self.is_guarded() && rises(&witness.surface, &surface, probe.position, squared, patch.size()) {
-            witness.caution = (0.5 * witness.caution).max(LEAST_CAUTION);
+            witness.is_free = false;
+            witness.halvings = (witness.halvings + 1).min(MOST_HALVINGS);
             Outcome::Undone
         } else {
-            // A power of two: doubled it meets 1.
-            if witness.caution < 1.0 {
-                witness.caution *= 2.0;
-            }
+            witness.halvings = 0;
+            witness.is_free = is_inside;
             witness.parameters = parameters;
             witness.surface = surface;
             Outcome::Moved
@@ -91,14 +104,14 @@ impl Controller {
 
     /// `K h` for a direction.
     #[inline(always)]
-    fn gain_for<P: Patch>(&self, descent: &Descent, patch: &P, squared: f32, caution: f32, period: f32) -> f32 {
-        let certified = || certified_gain(descent, &patch.bounds(), squared) * caution;
+    fn gain_for<P: Patch>(&self, descent: &Descent, patch: &P, squared: f32, period: f32) -> f32 {
+        let certified = || certified_gain(descent, &patch.bounds(), squared);
         match self.gain {
             Gain::Certified => certified(),
-            Gain::Constant(gain) => certified().min(gain * period),
+            Gain::Constant(gain) => least(certified(), gain * period),
             Gain::Exponential(rate) => {
                 let [w_u, w_v] = descent.direction;
-                certified().min(rate * period * squared / (w_u * w_u + w_v * w_v))
+                least(certified(), rate * period * squared / (w_u * w_u + w_v * w_v))
             }
             Gain::Unlimited(gain) => gain * period,
         }
@@ -106,16 +119,10 @@ impl Controller {
 
     /// The direction that also follows the probe's motion; its slope is taken along the true gradient.
     #[inline]
-    fn following(
-        &self,
-        errors: &ProjectionErrors,
-        surface: &SurfacePoint,
-        parameters: [f32; 2],
-        moved: Vec3,
-        gain: f32,
-    ) -> Descent {
-        let gradient = feed_forward::gradient(self.feed_forward, errors, surface, moved, gain);
-        let descent = Descent::new(self.law, &ProjectionErrors { gradient, ..*errors }, parameters);
+    fn following(&self, errors: &ProjectionErrors, witness: &Witness, moved: Vec3, gain: f32) -> Descent {
+        let gradient = feed_forward::gradient(self.feed_forward, errors, &witness.surface, moved, gain);
+        let errors_ahead = ProjectionErrors { gradient, ..*errors };
+        let descent = Descent::of(self.law, &errors_ahead, witness);
         let [w_u, w_v] = descent.direction;
         let form = errors.form;
         Descent {
@@ -130,10 +137,16 @@ impl Controller {
     }
 }
 
-/// Whether `0 < x < ∞`; false for NaN. As bits it is one comparison.
+/// Whether `x > 0`; of a NaN its sign. As bits it is one comparison, and no bits are waited for.
 #[inline]
-fn is_positive(x: f32) -> bool {
-    x.to_bits().wrapping_sub(1) < f32::INFINITY.to_bits() - 1
+fn is_above_zero(x: f32) -> bool {
+    x.to_bits().cast_signed() > 0
+}
+
+/// The lesser of a gain and its limit; a gain that is not a number stays none.
+#[inline]
+fn least(gain: f32, limit: f32) -> f32 {
+    if limit < gain { limit } else { gain }
 }
 
 /// Whether the squared distance rose by more than rounding. Written so that NaN counts as a rise.

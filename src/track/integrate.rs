@@ -19,7 +19,7 @@ pub fn change<P: Patch>(
     direction_at: impl Fn(&SurfacePoint, [f32; 2]) -> [f32; 2],
 ) -> [f32; 2] {
     let stage = |direction: [f32; 2], fraction: f32| {
-        let [u, v] = advance(start, direction, fraction * gain);
+        let [u, v] = advance(start, direction, fraction * gain).map_or(start, |landing| landing.parameters);
         direction_at(&patch.evaluate(u, v), [u, v])
     };
     let mean = |sum: [f32; 2], weight: f32| [sum[0] * weight, sum[1] * weight];

@@ -3,7 +3,7 @@
 //! Each patch has its own boundary automaton, so any of the mixed modes occurs. One tick evaluates each patch once.
 
 use super::Controller;
-use super::boundary::{self, Descent};
+use super::boundary::{self, Descent, Landing};
 use super::placement::Placement;
 use super::projection::ProjectionErrors;
 use super::witness::{Probe, Step, Witness};
@@ -149,8 +149,10 @@ impl CommonNormalTracker {
 fn slide<P: Patch>(patch: &P, witness: &mut Witness, by: Vec3) {
     // A point that is `by` away is a probe whose projection errors are the way to go.
     let errors = ProjectionErrors::new(&witness.surface, witness.surface.point + by);
-    let descent = Descent::new(Default::default(), &errors, witness.parameters);
+    let descent = Descent::of(Default::default(), &errors, witness);
     witness.mode = descent.mode;
-    witness.parameters = boundary::advance(witness.parameters, descent.direction, 1.0);
-    witness.surface = patch.evaluate(witness.parameters[0], witness.parameters[1]);
+    if let Some(Landing { parameters, is_inside }) = boundary::advance(witness.parameters, descent.direction, 1.0) {
+        let surface = patch.evaluate(parameters[0], parameters[1]);
+        *witness = Witness { parameters, is_free: is_inside, surface, ..*witness };
+    }
 }

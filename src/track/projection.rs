@@ -52,12 +52,18 @@ impl ProjectionErrors {
 
     /// The measure numbers `Ψ = I⁻¹ g` of Eq. (4); `None` where the tangents are so nearly parallel, or so short, that
     /// they span no plane (at a pole).
-    #[inline(always)]
+    #[inline]
     pub fn measure_numbers(&self) -> Option<[f32; 2]> {
+        self.correction().map(|[along_u, along_v]| [-along_u, -along_v])
+    }
+
+    /// `−Ψ`, the change of the parameters that removes the errors on a plane; `None` as of [`Self::measure_numbers`].
+    #[inline(always)]
+    pub fn correction(&self) -> Option<[f32; 2]> {
         let FirstFundamentalForm { e, f, g } = self.form;
         let determinant = self.form.determinant();
         if determinant > LEAST_SINE_SQUARED * e * g {
-            let inverse = 1.0 / determinant;
+            let inverse = -1.0 / determinant;
             let [along_u, along_v] = self.gradient;
             Some([(g * along_u - f * along_v) * inverse, (e * along_v - f * along_u) * inverse])
         } else {

@@ -1,6 +1,6 @@
 //! The witness point, and what a step found out.
 
-use super::boundary::BoundaryMode;
+use super::boundary::{self, BoundaryMode};
 use crate::math::{Vec3, inverse_sqrt, saturate, sqrt};
 use crate::patch::{Patch, SurfacePoint};
 
@@ -29,8 +29,10 @@ pub struct Witness {
     pub surface: SurfacePoint,
     /// The boundary mode of the last step.
     pub mode: BoundaryMode,
-    /// What the certified gain is multiplied by: 1, or less for a while after a step had to be undone.
-    pub caution: f32,
+    /// Whether the next step need look neither at the borders, for both parameters are away from them, nor at `halvings`.
+    pub is_free: bool,
+    /// How often the next step is halved: once more after each in a row that had to be undone.
+    pub halvings: u8,
 }
 
 /// What became of a step.
@@ -75,7 +77,20 @@ impl Witness {
     /// A witness point at `(u, v)`, moved into `[0, 1]²` if it lies outside; NaN is 0. One evaluation.
     pub fn at<P: Patch>(patch: &P, u: f32, v: f32) -> Self {
         let (u, v) = (saturate(u, 0.0, 1.0), saturate(v, 0.0, 1.0));
-        Self { parameters: [u, v], surface: patch.evaluate(u, v), mode: BoundaryMode::Interior, caution: 1.0 }
+        Self {
+            parameters: [u, v],
+            surface: patch.evaluate(u, v),
+            mode: BoundaryMode::Interior,
+            is_free: boundary::is_inside([u, v]),
+            halvings: 0,
+        }
+    }
+
+    /// Whether a probe is in front of the tangent plane at the witness point. Not where the tangents span no plane, nor for a NaN.
+    #[inline(always)]
+    pub fn is_faced<P: Patch>(&self, patch: &P, probe: Vec3) -> bool {
+        let across = self.surface.tangent_u.cross(self.surface.tangent_v);
+        (self.surface.point - probe).dot(across) * patch.orientation() < 0.0
     }
 
     /// The outward unit normal at the witness point; `None` where the tangents span no plane.
