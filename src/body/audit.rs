@@ -23,8 +23,7 @@ impl Body {
             }
             // Set down by hand before the first probe, it has not jumped.
             if state.probe.is_finite() || !state.is_located {
-                (state.is_located, state.is_audited, state.search) = (false, false, None);
-                state.contact = Contact::Behind;
+                state.forget();
             }
         }
         state.probe = probe;
@@ -61,7 +60,7 @@ impl Body {
             step.switched = true;
             state.feature = Feature::Face(found.face);
             state.witness = witness;
-            state.is_located = true;
+            (state.is_located, state.is_settled) = (true, false);
         }
     }
 }

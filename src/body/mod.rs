@@ -9,6 +9,7 @@ mod audit;
 mod curve;
 mod feature;
 mod locator;
+mod meet;
 mod minimise;
 mod search;
 mod switch;

@@ -2,13 +2,12 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::feature::{EdgeKind, Feature};
+use super::feature::{Face, Feature};
 use super::search::Search;
 use super::table::Body;
-use crate::math::{Vec3, inverse_sqrt, sqrt};
-use crate::patch::Patch as _;
+use crate::math::{Vec3, sqrt};
 use crate::render::Contact;
-use crate::track::{BoundaryMode, Controller, Outcome, Probe, Witness};
+use crate::track::{BoundaryMode, Controller, Outcome, Probe, ProjectionErrors, Witness};
 
 /// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew.
 const JUMP: f32 = 0.125;
@@ -33,6 +32,9 @@ pub struct BodyWitness {
     pub is_located: bool,
     /// Whether a search has ended since the witness point was set down: until then it may be on the far side of the body.
     pub(super) is_audited: bool,
+    /// Whether it has, on a convex body, and the probe was in front or pressing in when this was last asked. While it is, there is nothing
+    /// to audit.
+    pub(super) is_settled: bool,
     /// Behind the surface: whether the tracker has its turn, or the audit.
     pub(super) rests: bool,
     /// On an edge: which of its faces is asked next.
@@ -50,11 +52,10 @@ pub struct BodyStep {
     pub outcome: Outcome,
     /// Whether the active feature changed.
     pub switched: bool,
+    /// Whether the tick went to the search, and none of it was left for a step.
+    pub searched: bool,
     /// Evaluations of patches spent, second-order ones included.
     pub evaluations: u8,
-    /// Whether the probe is deeper inside than the least radius of curvature of the face: the closest point is no longer unique and the
-    /// witness point is not proved to follow (theory §11).
-    pub too_deep: bool,
 }
 
 const _: () = assert!(size_of::<BodyWitness>() <= 256);
@@ -62,7 +63,7 @@ const _: () = assert!(size_of::<BodyWitness>() <= 256);
 impl BodyStep {
     /// Nothing done.
     pub(super) const NOTHING: Self =
-        Self { outcome: Outcome::AtRest, switched: false, evaluations: 0, too_deep: false };
+        Self { outcome: Outcome::AtRest, switched: false, searched: false, evaluations: 0 };
 }
 
 impl Body {
@@ -76,6 +77,7 @@ impl Body {
             contact: Contact::Behind,
             is_located: false,
             is_audited: false,
+            is_settled: false,
             rests: false,
             asks_second: false,
             search: None,
@@ -95,56 +97,97 @@ impl Body {
         state
     }
 
-    /// One tick: a switch to a neighbouring feature, or one controller step on the active one; at most one evaluation of a patch, and
-    /// half of one of second order for the search. Bounded, and without a panic; a probe that is not finite changes nothing.
+    /// One tick of the loop: [`Self::track`], then [`Self::meet`].
+    #[inline(always)]
+    pub fn step(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
+        let step = self.track(controller, state, probe, period);
+        if !step.searched {
+            self.meet(state, probe.position);
+        }
+        step
+    }
+
+    /// The closest point: a switch to a neighbouring feature, or one controller step on the active one; at most one evaluation of a patch,
+    /// and half of one of second order for the search. Bounded, and without a panic; a probe that is not finite moves nothing.
     ///
     /// The distance to the probe never rises by more than rounding, at a switch neither. Outside, the witness point ends at a point that no
     /// neighbouring feature improves: on a convex body with the probe in front of it that is the closest one, otherwise the rolling audit
-    /// finds it. While the body is touched there is no audit: the witness point is the god-object (theory §11), which hands over across
-    /// common edges only.
+    /// finds it. While the body is touched, which [`Self::meet`] says, there is no audit: the witness point is the god-object (theory §11),
+    /// which hands over across common edges only.
     #[inline(always)]
-    pub fn step(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
-        let mut step = BodyStep::NOTHING;
-        let position = probe.position;
-        let jump = JUMP * self.size;
-        // False for a probe that is not finite.
-        let follows = (position - state.probe).length_squared() <= jump * jump;
-        let is_known = follows && state.is_located && self.is_sure(state);
-        if !is_known && !self.search(state, position, follows, &mut step) {
-            return step;
+    pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
+        let (face, errors, searched) = match self.sure_face(state, probe.position) {
+            Some((face, errors)) => (face, errors, 0),
+            None => match self.find_face(state, probe.position) {
+                (step, None) => return step,
+                (step, Some(face)) => {
+                    (face, ProjectionErrors::new(&state.witness.surface, probe.position), step.evaluations)
+                }
+            },
+        };
+        let outcome = controller.step_from(&face.patch, &mut state.witness, errors, probe, period).outcome;
+        // What is not finite moves nothing.
+        if outcome != Outcome::AtRest || probe.position.is_finite() {
+            state.probe = probe.position;
         }
-        state.probe = position;
+        BodyStep { outcome, switched: false, searched: false, evaluations: searched + 1 }
+    }
+
+    /// The face that holds the witness point, if a step on it is all there is to do: away from its sides, and no other point of the body is
+    /// nearer, or the body is touched. With the projection errors there.
+    #[inline(always)]
+    fn sure_face(&self, state: &BodyWitness, probe: Vec3) -> Option<(&'static Face, ProjectionErrors)> {
+        let Feature::Face(index) = state.feature else { return None };
+        if !(state.is_settled & state.witness.is_free) {
+            return None;
+        }
+        let face = self.faces.get(usize::from(index))?;
+        // The body lies behind each of its tangent planes: in front of one the probe is outside, wherever it came from.
+        let is_outside = state.witness.is_faced(&face.patch, probe);
+        if !is_outside && !(state.contact == Contact::Touching && self.follows(state, probe)) {
+            return None;
+        }
+        Some((face, ProjectionErrors::new(&state.witness.surface, probe)))
+    }
+
+    /// All else there may be to do: a part of the search, a switch, or the tick of an edge or a vertex. The face on which a step is left to
+    /// do, if one is.
+    #[inline(always)]
+    fn find_face(&self, state: &mut BodyWitness, probe: Vec3) -> (BodyStep, Option<&'static Face>) {
+        let mut step = BodyStep::NOTHING;
+        let follows = self.follows(state, probe);
+        let is_known = follows && state.is_located && self.is_sure(state);
+        if !is_known && !self.search(state, probe, follows, &mut step) {
+            step.searched = true;
+            return (step, None);
+        }
+        state.probe = probe;
         match state.feature {
             Feature::Face(index) => {
-                let Some(face) = self.faces.get(usize::from(index)) else { return step };
-                if state.witness.mode == BoundaryMode::Interior || !self.leave_face(index, state, position, &mut step) {
-                    let done = controller.step(&face.patch, &mut state.witness, probe, period);
-                    step.outcome = done.outcome;
-                    step.evaluations += 1;
+                let is_inside = state.witness.mode == BoundaryMode::Interior;
+                if is_inside || !self.leave_face(index, state, probe, &mut step) {
+                    let Some(face) = self.faces.get(usize::from(index)) else { return (step, None) };
+                    let met = state.contact != Contact::Behind || state.witness.is_faced(&face.patch, probe);
+                    state.is_settled = self.is_convex && state.is_audited && met;
+                    return (step, Some(face));
                 }
             }
-            Feature::Edge(index) => self.tick_on_edge(index, state, position, &mut step),
-            Feature::Vertex(index) => self.leave_vertex(index, state, position, &mut step),
+            Feature::Edge(index) => self.tick_on_edge(index, state, probe, &mut step),
+            Feature::Vertex(index) => self.leave_vertex(index, state, probe, &mut step),
         }
-        match state.feature {
-            Feature::Face(index) => {
-                let Some(face) = self.faces.get(usize::from(index)) else { return step };
-                // At a pole there is none: the last one stands.
-                state.normal = state.witness.normal(&face.patch).unwrap_or(state.normal);
-                state.gap = (position - state.witness.surface.point).dot(state.normal);
-                step.too_deep = -state.gap * face.patch.shape().curvature.greatest > 1.0;
-                state.meet(state.contact.next(state.gap, BoundaryMode::Interior));
-            }
-            Feature::Edge(index) => {
-                let kind = self.edges.get(usize::from(index)).map_or(EdgeKind::Mixed, |edge| edge.kind);
-                state.point_away(position, kind);
-            }
-            Feature::Vertex(index) => {
-                let is_open = self.vertices.get(usize::from(index)).is_some_and(|vertex| vertex.is_open);
-                state.point_away(position, if is_open { EdgeKind::Open } else { EdgeKind::Mixed });
-            }
-        }
-        step
+        (step, None)
+    }
+
+    /// Whether the probe is near that of the last tick. Not if it is not finite.
+    #[inline]
+    fn follows(&self, state: &BodyWitness, probe: Vec3) -> bool {
+        (probe - state.probe).length_squared() <= self.jump_squared()
+    }
+
+    #[inline]
+    pub(super) fn jump_squared(&self) -> f32 {
+        let jump = JUMP * self.size;
+        jump * jump
     }
 
     /// Whether there is nothing to audit: the body is touched, or it is convex and the probe in front of the witness point, so that no other
@@ -191,35 +234,10 @@ impl Body {
 }
 
 impl BodyWitness {
-    /// On an edge or a vertex: normal and gap from the witness point towards the probe outside, the other way inside. Where the edge does
-    /// not say which side the probe is on it is where it was: nothing goes through the surface without a face.
-    #[inline(never)]
-    fn point_away(&mut self, probe: Vec3, kind: EdgeKind) {
-        let away = probe - self.witness.surface.point;
-        let outward = match kind {
-            EdgeKind::Convex | EdgeKind::Open => true,
-            EdgeKind::Reflex => false,
-            EdgeKind::Smooth | EdgeKind::Mixed => self.gap >= 0.0,
-        };
-        let sign = if outward { 1.0 } else { -1.0 };
-        let squared = away.length_squared();
-        self.gap = 0.0;
-        if squared > f32::MIN_POSITIVE {
-            let inverse = inverse_sqrt(squared);
-            self.normal = away * (sign * inverse);
-            self.gap = sign * squared * inverse;
-        }
-        // Over the rim of an open body there is neither front nor back.
-        self.meet(match kind {
-            EdgeKind::Open => Contact::Behind,
-            _ => self.contact.next(self.gap, BoundaryMode::Interior),
-        });
-    }
-
-    /// Nothing is met with a witness point that may be on the far side.
-    #[inline]
-    fn meet(&mut self, contact: Contact) {
-        self.contact = if self.is_audited { contact } else { Contact::Behind };
+    /// Where the closest point is has to be searched for again; until then nothing is met.
+    pub(super) fn forget(&mut self) {
+        (self.is_located, self.is_audited, self.is_settled, self.search) = (false, false, false, None);
+        self.contact = Contact::Behind;
     }
 
     #[inline]

@@ -1,0 +1,90 @@
+//! What the loop asks of the closest point once it is known: normal, signed gap, and whether the body is touched.
+
+use super::feature::{EdgeKind, Feature};
+use super::table::Body;
+use super::tracker::BodyWitness;
+use crate::math::{Vec3, inverse_sqrt};
+use crate::patch::Patch as _;
+use crate::render::Contact;
+use crate::track::BoundaryMode;
+
+impl Body {
+    /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been called. Until the witness
+    /// point is located, and for a probe that is not finite, nothing changes.
+    #[inline(always)]
+    pub fn meet(&self, state: &mut BodyWitness, probe: Vec3) {
+        if !state.is_located {
+            return;
+        }
+        match state.feature {
+            Feature::Face(index) => {
+                let Some(face) = self.faces.get(usize::from(index)) else { return };
+                // At a pole there is none: the last one stands.
+                let normal = state.witness.normal(&face.patch).unwrap_or(state.normal);
+                let away = probe - state.witness.surface.point;
+                let gap = away.dot(normal);
+                if gap.is_finite() {
+                    (state.normal, state.gap) = (normal, gap);
+                    self.touch(state, away, state.contact.next(gap, BoundaryMode::Interior));
+                }
+            }
+            Feature::Edge(index) => {
+                let kind = self.edges.get(usize::from(index)).map_or(EdgeKind::Mixed, |edge| edge.kind);
+                self.meet_border(state, probe, kind);
+            }
+            Feature::Vertex(index) => {
+                let is_open = self.vertices.get(usize::from(index)).is_some_and(|vertex| vertex.is_open);
+                self.meet_border(state, probe, if is_open { EdgeKind::Open } else { EdgeKind::Mixed });
+            }
+        }
+    }
+
+    /// Whether the probe is deeper inside than the least radius of curvature of the face that holds the witness point: the closest point
+    /// is no longer unique, and the witness point is not proved to follow (theory §11).
+    pub fn is_too_deep(&self, state: &BodyWitness) -> bool {
+        let Feature::Face(index) = state.feature else { return false };
+        let curvature = |face: &super::feature::Face| face.patch.shape().curvature.greatest;
+        self.faces.get(usize::from(index)).is_some_and(|face| -state.gap * curvature(face) > 1.0)
+    }
+
+    /// On an edge or a vertex: normal and gap from the witness point towards the probe outside, the other way inside. Where the edge does
+    /// not say which side the probe is on it is where it was: nothing goes through the surface without a face.
+    #[inline(never)]
+    fn meet_border(&self, state: &mut BodyWitness, probe: Vec3, kind: EdgeKind) {
+        let away = probe - state.witness.surface.point;
+        let outward = match kind {
+            EdgeKind::Convex | EdgeKind::Open => true,
+            EdgeKind::Reflex => false,
+            EdgeKind::Smooth | EdgeKind::Mixed => state.gap >= 0.0,
+        };
+        let sign = if outward { 1.0 } else { -1.0 };
+        let squared = away.length_squared();
+        if !squared.is_finite() {
+            return;
+        }
+        state.gap = 0.0;
+        if squared > f32::MIN_POSITIVE {
+            let inverse = inverse_sqrt(squared);
+            state.normal = away * (sign * inverse);
+            state.gap = sign * squared * inverse;
+        }
+        // Over the rim of an open body there is neither front nor back.
+        let contact = match kind {
+            EdgeKind::Open => Contact::Behind,
+            _ => state.contact.next(state.gap, BoundaryMode::Interior),
+        };
+        self.touch(state, away, contact);
+    }
+
+    /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe has left behind:
+    /// that one is located anew.
+    #[inline]
+    fn touch(&self, state: &mut BodyWitness, away: Vec3, contact: Contact) {
+        let begins = contact == Contact::Touching && state.contact == Contact::InFront;
+        if begins && away.length_squared() > self.jump_squared() {
+            state.forget();
+        } else {
+            state.contact = if state.is_audited { contact } else { Contact::Behind };
+        }
+    }
+}
