@@ -8,4 +8,5 @@ mod plate;
 mod regions;
 mod scene;
 mod tour;
+mod tracker;
 mod walk;

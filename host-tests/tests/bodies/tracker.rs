@@ -1,0 +1,119 @@
+//! The tracker by itself, without what the loop asks of the point; and what it makes of a probe that jumps, or is no probe.
+
+use crate::scene::{Scene, repeat};
+use palpate::math::{Vec3, vec3};
+use palpate::render::Contact;
+use palpate::track::{Controller, Gain, Probe};
+
+const PERIOD: f32 = 2.5e-4;
+
+/// Nobody calls `meet`: in front of the body the tracker ends at the closest point all the same.
+#[test]
+fn the_closest_point_needs_no_contact() {
+    for name in ["capped_box", "ellipsoid_body"] {
+        let scene = Scene::load(name);
+        let oracle = scene.oracle();
+        let late: Vec<f64> = repeat(200, 7, |random| {
+            let (probe, nearest) = scene.outside(&oracle, random, 0.0);
+            let mut state = scene.body.start();
+            // The search, and a step or two on each of a few features, the audit in between.
+            for _ in 0..2_000 {
+                scene.body.track(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD);
+            }
+            assert_eq!(state.contact, Contact::Behind, "{name}: touched without having been asked");
+            f64::from(state.witness.surface.point.distance(probe)) - nearest[0].1.distance
+        });
+        let worst = late.iter().fold(0.0_f64, |worst, late| worst.max(*late)) / scene.size();
+        println!("{name}: without contact the distance is too long by {worst:.1e} of the size at most");
+        // The rounding of a point, and of a square root near it.
+        assert!(worst < 1e-6, "{name}: {worst:e}");
+    }
+}
+
+/// A slow tracker's witness point is left behind by a probe that jumps aside in front of it. Where that goes in, contact does not begin with
+/// the point far off: it is located anew.
+#[test]
+fn no_contact_begins_with_a_witness_point_left_behind() {
+    let scene = Scene::load("capped_box");
+    let slow = Controller { gain: Gain::Constant(0.1), ..Controller::CERTIFIED };
+    let mut state = scene.body.start();
+    let above = |x: f32, z: f32| vec3(x, 0.02, z);
+    for _ in 0..2_000 {
+        scene.body.step(&Controller::CERTIFIED, &mut state, Probe::at(above(0.03, 0.05)), PERIOD);
+    }
+    assert_eq!(state.contact, Contact::InFront);
+    let jump = scene.size() as f32 / 8.0;
+    let (mut left_behind, mut relocated, mut begun) = (false, false, 0);
+    // Down through the dome near its end, a tenth of a millimetre a tick.
+    for tick in 0..300 {
+        let before = state.contact;
+        let probe = above(0.056, 0.045 - 1e-4 * tick as f32);
+        scene.body.step(&slow, &mut state, Probe::at(probe), PERIOD);
+        let distance = state.witness.surface.point.distance(probe);
+        left_behind |= state.contact == Contact::InFront && distance > 3.0 * jump;
+        relocated |= !state.is_located;
+        if state.contact == Contact::Touching && before != Contact::Touching {
+            begun += 1;
+            assert!(distance < jump, "at {probe} contact begins with a point {distance} m away");
+        }
+    }
+    assert!(left_behind, "the witness point kept up");
+    assert!(relocated, "it was not located anew");
+    assert_eq!(begun, 1, "the probe came from the front");
+}
+
+/// No coordinate that is not a number, nor one that is infinite, moves anything: on a face, at its side, on an edge, on a vertex, inside.
+#[test]
+fn what_is_no_probe_moves_nothing() {
+    let scene = Scene::load("capped_box");
+    let places = [
+        vec3(0.03, 0.02, 0.05),
+        vec3(0.03, 0.02, 0.033),
+        vec3(0.03, -0.02, -0.02),
+        vec3(-0.02, -0.02, -0.02),
+        vec3(0.08, 0.02, 0.01),
+    ];
+    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+    for place in places {
+        let mut state = scene.body.start();
+        for tick in 0..2_000 {
+            // From the front.
+            let probe = place + Vec3::Z * (0.02 * (1.0 - tick as f32 / 2_000.0));
+            scene.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD);
+        }
+        for value in bad {
+            for axis in 0..3 {
+                let mut probe = place;
+                probe[axis] = value;
+                let mut after = state;
+                let step = scene.body.step(&Controller::CERTIFIED, &mut after, Probe::at(probe), PERIOD);
+                assert!(!step.switched && after.feature == state.feature, "{place} {probe}");
+                assert_eq!(after.witness.parameters, state.witness.parameters, "{place} {probe}");
+                assert_eq!(after.witness.surface, state.witness.surface, "{place} {probe}");
+                assert_eq!((after.normal, after.gap), (state.normal, state.gap), "{place} {probe}");
+                assert_eq!((after.contact, after.is_located), (state.contact, state.is_located), "{place} {probe}");
+                // And the next probe finds all as it was.
+                let mut undisturbed = state;
+                for _ in 0..10 {
+                    scene.body.step(&Controller::CERTIFIED, &mut after, Probe::at(place), PERIOD);
+                    scene.body.step(&Controller::CERTIFIED, &mut undisturbed, Probe::at(place), PERIOD);
+                }
+                assert_eq!(after.witness.surface.point, undisturbed.witness.surface.point, "{place} {probe}");
+                assert_eq!(after.contact, undisturbed.contact, "{place} {probe}");
+            }
+        }
+    }
+}
+
+/// Deeper than the least radius of curvature the closest point is not unique, and the body says so.
+#[test]
+fn too_deep_is_deeper_than_the_least_radius_of_curvature() {
+    let scene = Scene::load("ellipsoid_body");
+    let face = &scene.body.faces()[0].patch;
+    let greatest = palpate::patch::Patch::shape(face).curvature.greatest;
+    let mut state = scene.body.start_on(0, [0.5, 0.5]);
+    state.gap = -0.99 / greatest;
+    assert!(!scene.body.is_too_deep(&state));
+    state.gap = -1.01 / greatest;
+    assert!(scene.body.is_too_deep(&state));
+}
