@@ -26,8 +26,8 @@ pub const TICKS_A_LINE: u32 = 50_000;
 pub fn run(say: &mut impl FnMut(&str, &Tally)) {
     let serial = &WOODEN_HAPTICS_2016.encoders;
     lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 150_000, say);
-    lap("body", &laps::BODY, serial, WOODEN_HAPTICS_REACH, 250_000, say);
-    lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 150_000, say);
+    lap("body", &laps::BODY, serial, WOODEN_HAPTICS_REACH, 300_000, say);
+    lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 100_000, say);
     lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 100_000, say);
     lap("short", &laps::SHORT, &NOVINT_FALCON.encoders, FALCON_REACH, 50_000, say);
     lap("watchful", &laps::WATCHFUL, &POLHEM_V2.encoders, POLHEM_REACH, 200_000, say);

@@ -87,19 +87,8 @@ fn what_is_no_probe_moves_nothing() {
                 probe[axis] = value;
                 let mut after = state;
                 let step = scene.body.step(&Controller::CERTIFIED, &mut after, Probe::at(probe), PERIOD);
-                assert!(!step.switched && after.feature == state.feature, "{place} {probe}");
-                assert_eq!(after.witness.parameters, state.witness.parameters, "{place} {probe}");
-                assert_eq!(after.witness.surface, state.witness.surface, "{place} {probe}");
-                assert_eq!((after.normal, after.gap), (state.normal, state.gap), "{place} {probe}");
-                assert_eq!((after.contact, after.is_located), (state.contact, state.is_located), "{place} {probe}");
-                // And the next probe finds all as it was.
-                let mut undisturbed = state;
-                for _ in 0..10 {
-                    scene.body.step(&Controller::CERTIFIED, &mut after, Probe::at(place), PERIOD);
-                    scene.body.step(&Controller::CERTIFIED, &mut undisturbed, Probe::at(place), PERIOD);
-                }
-                assert_eq!(after.witness.surface.point, undisturbed.witness.surface.point, "{place} {probe}");
-                assert_eq!(after.contact, undisturbed.contact, "{place} {probe}");
+                assert!(!step.switched, "{place} {probe}");
+                assert_eq!(after, state, "{place} {probe}");
             }
         }
     }
