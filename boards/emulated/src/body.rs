@@ -1,5 +1,6 @@
 //! What is felt and how: tables and settings in flash, chosen when the image is built (see `build.rs`).
 
+use palpate::body::{Body, Edge, Face, Spoke, Vertex};
 use palpate::servo::{self, Input, Safety, Servo, ServoState};
 use palpate::track::Controller;
 
@@ -22,6 +23,10 @@ pub type State = ServoState<3, <tables::Surface as servo::Surface>::Witness>;
 
 /// The tables are checked at boot, and over and over.
 const SAFETY: Safety = Safety { table_crc: Some(tables::TABLE_CRC), ..settings::SAFETY };
+
+// What the host counts of each record when it reports a table's bytes.
+const _: () = assert!(size_of::<Face>() == 200 && size_of::<Edge>() == 44 && size_of::<Vertex>() == 20);
+const _: () = assert!(size_of::<Spoke>() == 16 && size_of::<Body>() == 72);
 
 /// Everything the servo knows, in flash.
 pub static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> =
