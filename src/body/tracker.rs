@@ -143,11 +143,9 @@ impl Body {
         }
         let face = self.faces.get(usize::from(index))?;
         // The body lies behind each of its tangent planes: in front of one the probe is outside, wherever it came from.
-        let is_outside = state.witness.is_faced(&face.patch, probe);
-        if !is_outside && !(state.contact == Contact::Touching && self.follows(state, probe)) {
-            return None;
-        }
-        Some((face, ProjectionErrors::new(&state.witness.surface, probe)))
+        let is_sure = state.witness.is_faced(&face.patch, probe)
+            || (state.contact == Contact::Touching && self.follows(state, probe));
+        if is_sure { Some((face, ProjectionErrors::new(&state.witness.surface, probe))) } else { None }
     }
 
     /// All else there may be to do: a part of the search, a switch, or the tick of an edge or a vertex. The face on which a step is left to
