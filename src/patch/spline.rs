@@ -197,7 +197,10 @@ impl SplinePatch {
         let value = match index {
             0 => {
                 let degrees = self.degree[0] as u32 | (self.degree[1] as u32) << 8;
-                return Some(degrees | coefficients.tag() << 16 | ((self.outward < 0.0) as u32) << 24);
+                let bits = self.outward.to_bits();
+                // Of all its bits: those besides the sign are known.
+                let spoiled = (bits << 1 >> 1) ^ 1.0_f32.to_bits();
+                return Some((degrees | coefficients.tag() << 16 | (bits >> 31) << 24) ^ spoiled);
             }
             1 => return Some(u as u32 | (v as u32) << 16),
             2 => bounds.uu,
@@ -303,4 +306,27 @@ const fn all_finite<const D: usize>(entries: &[[f32; D]]) -> bool {
         index += 1;
     }
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bit_of_the_orientation_is_in_the_first_word() {
+        static POWERS: [[f32; 3]; 4] = [[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3]];
+        let patch = SplinePatch::from_table(
+            [1, 1],
+            &[0.0, 1.0],
+            &[0.0, 1.0],
+            Coefficients::Polynomial(&POWERS),
+            ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
+            Orientation::Outward,
+            1.0,
+        );
+        for bit in 0..32 {
+            let outward = f32::from_bits(patch.outward.to_bits() ^ 1 << bit);
+            assert_ne!(SplinePatch { outward, ..patch }.word(0), patch.word(0), "bit {bit}");
+        }
+    }
 }

@@ -43,7 +43,7 @@ pub enum Outcome {
     Moved,
     /// There was nowhere nearer to go.
     AtRest,
-    /// The step would have raised the distance by more than rounding can explain and was undone; the gain was halved.
+    /// The step would have raised the distance by more than rounding can explain and was undone; the next is half as long.
     /// With bounds that hold, on a patch that is C¹, it does not happen.
     Undone,
 }
