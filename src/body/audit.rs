@@ -60,7 +60,7 @@ impl Body {
             step.switched = true;
             state.feature = Feature::Face(found.face);
             state.witness = witness;
-            (state.is_located, state.is_settled) = (true, false);
+            state.is_located = true;
         }
     }
 }

@@ -87,7 +87,7 @@ impl Search {
         if half_squared < self.best.half_squared {
             self.best = Best { face, parameters, half_squared };
         }
-        let most = if body.is_convex { MOST_EVALUATIONS_CONVEX } else { MOST_EVALUATIONS };
+        let most = if body.is_convex() { MOST_EVALUATIONS_CONVEX } else { MOST_EVALUATIONS };
         let falls = progress == Progress::Falling;
         if !falls && !more {
             self.ended = Some(true);

@@ -14,7 +14,7 @@ impl Body {
     /// brings it to the side through which the probe has left, and there the measure numbers of the projection errors change sign where
     /// the probe passes the separator. Whether it switched.
     #[inline(never)]
-    pub(super) fn leave_face(&self, index: u16, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) -> bool {
+    pub(super) fn leave_face(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Some(face) = self.faces.get(usize::from(index)) else { return false };
         let [u, v] = state.witness.parameters;
         // At a corner the side that the step along the other one would meet.
@@ -32,7 +32,7 @@ impl Body {
             Side::Edge { edge, reversed, .. } => {
                 let along = if number < 2 { v } else { u };
                 let t = if *reversed { 1.0 - along } else { along };
-                self.cross_side(index, *edge, t, state, probe, step)
+                self.cross_side(index, *edge, t, state, step)
             }
         };
         step.switched
@@ -40,21 +40,13 @@ impl Body {
 
     /// From a face to the edge, or over a smooth one to the face beyond it.
     #[inline]
-    fn cross_side(
-        &self,
-        from: u16,
-        index: u16,
-        t: f32,
-        state: &mut BodyWitness,
-        probe: Vec3,
-        step: &mut BodyStep,
-    ) -> bool {
+    fn cross_side(&self, from: u16, index: u16, t: f32, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Some(edge) = self.edges.get(usize::from(index)) else { return false };
         // The faces hand over directly: between them lies no region.
         if let Some(EdgeFace { face, side }) = across_smooth(edge.kind, edge.faces, from) {
             return self.enter_across(face, side, t, state, step);
         }
-        let at = edge.curve.evaluate(t);
+        let (at, probe) = (edge.curve.evaluate(t), state.probe);
         let squared = (state.witness.surface.point - probe).length_squared();
         let no_rise = self.is_no_rise((at.point - probe).length_squared(), squared, at.point, probe);
         if no_rise {
@@ -66,9 +58,9 @@ impl Body {
     /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point; otherwise one step
     /// along it.
     #[inline(never)]
-    pub(super) fn tick_on_edge(&self, index: u16, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
+    pub(super) fn tick_on_edge(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(edge) = self.edges.get(usize::from(index)) else { return };
-        let t = state.witness.parameters[0];
+        let (t, probe) = (state.witness.parameters[0], state.probe);
         let at = CurvePoint { point: state.witness.surface.point, tangent: state.witness.surface.tangent_u };
         let along = Along::new(&at, probe);
         // One face a tick, in turn.
@@ -84,17 +76,17 @@ impl Body {
         } else if along.is_held(t) {
             step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
         } else {
-            step.outcome = self.slide(index, &along, state, probe);
+            step.outcome = self.slide(index, &along, state);
         }
     }
 
     /// From a vertex along the edge that falls most steeply, if one does.
     #[inline(never)]
-    pub(super) fn leave_vertex(&self, index: u16, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
+    pub(super) fn leave_vertex(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
         let first = usize::from(vertex.first_spoke);
         let spokes = self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[]);
-        let towards = probe - vertex.point;
+        let towards = state.probe - vertex.point;
         let mut steepest: Option<(f32, u16, bool)> = None;
         for spoke in spokes {
             let fall = towards.dot(spoke.direction);

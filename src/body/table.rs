@@ -3,6 +3,7 @@
 use super::feature::{Edge, EdgeFace, Face, Separator, Side, Spoke, Vertex};
 use super::locator::{Candidate, LEAF, Locator, MAX_FACES};
 use crate::math::Vec3;
+use crate::render::Contact;
 use thiserror::Error;
 
 /// A body of several patches: features, the surfaces that separate their Voronoi regions, and a locator.
@@ -14,7 +15,9 @@ pub struct Body {
     pub(super) spokes: &'static [Spoke],
     pub(super) locator: Locator,
     pub(super) size: f32,
-    pub(super) is_convex: bool,
+    /// The contact from which there is nothing to audit: the body is touched, or it is convex and the probe in front of the witness point, so
+    /// that no other point is nearer.
+    pub(super) sure_from: Contact,
 }
 
 /// Why a body's tables are refused. In a `static` it is a compile error.
@@ -90,7 +93,8 @@ impl Body {
         if !(size > 0.0 && size < f32::INFINITY) {
             return Err(BodyError::Size);
         }
-        let body = Self { faces, edges, vertices, spokes, locator, size, is_convex };
+        let sure_from = if is_convex { Contact::InFront } else { Contact::Touching };
+        let body = Self { faces, edges, vertices, spokes, locator, size, sure_from };
         if let Err(error) = body.check_features() {
             return Err(error);
         }
@@ -159,7 +163,7 @@ impl Body {
 
     /// Whether a probe outside has no nearest point but the closest one.
     pub const fn is_convex(&self) -> bool {
-        self.is_convex
+        matches!(self.sure_from, Contact::InFront)
     }
 
     const fn check_features(&self) -> Result<(), BodyError> {

@@ -2,12 +2,12 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::feature::{Face, Feature};
+use super::feature::Feature;
 use super::search::Search;
 use super::table::Body;
 use crate::math::{Vec3, sqrt};
 use crate::render::Contact;
-use crate::track::{BoundaryMode, Controller, Outcome, Probe, ProjectionErrors, Witness};
+use crate::track::{BoundaryMode, Controller, Outcome, Probe, Witness};
 
 /// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew.
 const JUMP: f32 = 0.125;
@@ -32,9 +32,6 @@ pub struct BodyWitness {
     pub is_located: bool,
     /// Whether a search has ended since the witness point was set down: until then it may be on the far side of the body.
     pub(super) is_audited: bool,
-    /// Whether it has, on a convex body, and the probe was in front or pressing in when this was last asked. While it is, there is nothing
-    /// to audit.
-    pub(super) is_settled: bool,
     /// Behind the surface: whether the tracker has its turn, or the audit.
     pub(super) rests: bool,
     /// On an edge: which of its faces is asked next.
@@ -77,7 +74,6 @@ impl Body {
             contact: Contact::Behind,
             is_located: false,
             is_audited: false,
-            is_settled: false,
             rests: false,
             asks_second: false,
             search: None,
@@ -116,64 +112,28 @@ impl Body {
     /// which hands over across common edges only.
     #[inline(always)]
     pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
-        let (face, errors, searched) = match self.sure_face(state, probe.position) {
-            Some((face, errors)) => (face, errors, 0),
-            None => match self.find_face(state, probe.position) {
-                (step, None) => return step,
-                (step, Some(face)) => {
-                    (face, ProjectionErrors::new(&state.witness.surface, probe.position), step.evaluations)
-                }
-            },
-        };
-        let outcome = controller.step_from(&face.patch, &mut state.witness, errors, probe, period).outcome;
-        // What is not finite moves nothing.
-        if outcome != Outcome::AtRest || probe.position.is_finite() {
-            state.probe = probe.position;
-        }
-        BodyStep { outcome, switched: false, searched: false, evaluations: searched + 1 }
-    }
-
-    /// The face that holds the witness point, if a step on it is all there is to do: away from its sides, and no other point of the body is
-    /// nearer, or the body is touched. With the projection errors there.
-    #[inline(always)]
-    fn sure_face(&self, state: &BodyWitness, probe: Vec3) -> Option<(&'static Face, ProjectionErrors)> {
-        let Feature::Face(index) = state.feature else { return None };
-        if !(state.is_settled & state.witness.is_free) {
-            return None;
-        }
-        let face = self.faces.get(usize::from(index))?;
-        // The body lies behind each of its tangent planes: in front of one the probe is outside, wherever it came from.
-        let is_sure = state.witness.is_faced(&face.patch, probe)
-            || (state.contact == Contact::Touching && self.follows(state, probe));
-        if is_sure { Some((face, ProjectionErrors::new(&state.witness.surface, probe))) } else { None }
-    }
-
-    /// All else there may be to do: a part of the search, a switch, or the tick of an edge or a vertex. The face on which a step is left to
-    /// do, if one is.
-    #[inline(always)]
-    fn find_face(&self, state: &mut BodyWitness, probe: Vec3) -> (BodyStep, Option<&'static Face>) {
         let mut step = BodyStep::NOTHING;
-        let follows = self.follows(state, probe);
-        let is_known = follows && state.is_located && self.is_sure(state);
-        if !is_known && !self.search(state, probe, follows, &mut step) {
+        let follows = self.follows(state, probe.position);
+        let is_known = follows && self.is_sure(state);
+        if !is_known && !self.search(state, probe.position, follows, &mut step) {
             step.searched = true;
-            return (step, None);
+            return step;
         }
-        state.probe = probe;
+        state.probe = probe.position;
         match state.feature {
             Feature::Face(index) => {
                 let is_inside = state.witness.mode == BoundaryMode::Interior;
-                if is_inside || !self.leave_face(index, state, probe, &mut step) {
-                    let Some(face) = self.faces.get(usize::from(index)) else { return (step, None) };
-                    let met = state.contact != Contact::Behind || state.witness.is_faced(&face.patch, probe);
-                    state.is_settled = self.is_convex && state.is_audited && met;
-                    return (step, Some(face));
+                if (is_inside || !self.leave_face(index, state, &mut step))
+                    && let Some(face) = self.faces.get(usize::from(index))
+                {
+                    step.outcome = controller.step(&face.patch, &mut state.witness, probe, period).outcome;
+                    step.evaluations += 1;
                 }
             }
-            Feature::Edge(index) => self.tick_on_edge(index, state, probe, &mut step),
-            Feature::Vertex(index) => self.leave_vertex(index, state, probe, &mut step),
+            Feature::Edge(index) => self.tick_on_edge(index, state, &mut step),
+            Feature::Vertex(index) => self.leave_vertex(index, state, &mut step),
         }
-        (step, None)
+        step
     }
 
     /// Whether the probe is near that of the last tick. Not if it is not finite.
@@ -188,25 +148,25 @@ impl Body {
         jump * jump
     }
 
-    /// Whether there is nothing to audit: the body is touched, or it is convex and the probe in front of the witness point, so that no other
-    /// point is nearer. From behind, the far side of a convex body holds a witness point as well; there tracker and audit take turns.
+    /// Whether there is nothing to audit. From behind, the far side of a convex body holds a witness point as well; there tracker and audit
+    /// take turns.
     #[inline]
     fn is_sure(&self, state: &mut BodyWitness) -> bool {
         match state.contact {
-            Contact::Touching => true,
-            Contact::InFront => self.is_convex,
+            contact if contact >= self.sure_from => true,
             Contact::Behind => {
                 state.rests = !state.rests;
-                state.rests
+                state.rests && state.is_located
             }
+            _ => false,
         }
     }
 
     /// One step along an edge; undone if the distance would rise.
     #[inline]
-    pub(super) fn slide(&self, index: u16, along: &Along, state: &mut BodyWitness, probe: Vec3) -> Outcome {
+    pub(super) fn slide(&self, index: u16, along: &Along, state: &mut BodyWitness) -> Outcome {
         let Some(edge) = self.edges.get(usize::from(index)) else { return Outcome::AtRest };
-        let t = state.witness.parameters[0];
+        let (t, probe) = (state.witness.parameters[0], state.probe);
         let next = along.advanced(&edge.curve, t);
         if next == t {
             return Outcome::AtRest;
@@ -234,7 +194,7 @@ impl Body {
 impl BodyWitness {
     /// Where the closest point is has to be searched for again; until then nothing is met.
     pub(super) fn forget(&mut self) {
-        (self.is_located, self.is_audited, self.is_settled, self.search) = (false, false, false, None);
+        (self.is_located, self.is_audited, self.search) = (false, false, None);
         self.contact = Contact::Behind;
     }
 

@@ -89,7 +89,7 @@ impl Body {
         let Locator { corner, side, nodes, entries } = self.locator;
         Some(match word {
             0 => self.size.to_bits(),
-            1 => u32::from(self.is_convex),
+            1 => self.sure_from as u32,
             2 => self.faces.len() as u32,
             3 => self.edges.len() as u32,
             4 => self.vertices.len() as u32,

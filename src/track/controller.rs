@@ -48,19 +48,6 @@ impl Controller {
     #[inline(always)]
     pub fn step<P: Patch>(&self, patch: &P, witness: &mut Witness, probe: Probe, period: f32) -> Step {
         let errors = ProjectionErrors::new(&witness.surface, probe.position);
-        self.step_from(patch, witness, errors, probe, period)
-    }
-
-    /// [`Self::step`] for one who has looked at the projection errors already.
-    #[inline(always)]
-    pub(crate) fn step_from<P: Patch>(
-        &self,
-        patch: &P,
-        witness: &mut Witness,
-        errors: ProjectionErrors,
-        probe: Probe,
-        period: f32,
-    ) -> Step {
         let squared = errors.difference.length_squared();
         let plain = Descent::of(self.law, &errors, witness);
         let plain_gain = self.gain_for(&plain, patch, squared, period);

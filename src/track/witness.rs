@@ -86,13 +86,6 @@ impl Witness {
         }
     }
 
-    /// Whether a probe is in front of the tangent plane at the witness point. Not where the tangents span no plane, nor for a NaN.
-    #[inline(always)]
-    pub fn is_faced<P: Patch>(&self, patch: &P, probe: Vec3) -> bool {
-        let across = self.surface.tangent_u.cross(self.surface.tangent_v);
-        (self.surface.point - probe).dot(across) * patch.orientation() < 0.0
-    }
-
     /// The outward unit normal at the witness point; `None` where the tangents span no plane.
     #[inline(always)]
     pub fn normal<P: Patch>(&self, patch: &P) -> Option<Vec3> {
