@@ -231,7 +231,7 @@ impl SplinePatch {
 }
 
 impl Patch for SplinePatch {
-    #[inline]
+    #[inline(always)]
     fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
         self.spans.evaluate(self, u, v)
     }

@@ -62,7 +62,7 @@ impl ProjectionErrors {
     pub fn correction(&self) -> Option<[f32; 2]> {
         let FirstFundamentalForm { e, f, g } = self.form;
         let determinant = self.form.determinant();
-        if determinant > LEAST_SINE_SQUARED * e * g {
+        if determinant > LEAST_SINE_SQUARED * (e * g) {
             let inverse = -1.0 / determinant;
             let [along_u, along_v] = self.gradient;
             Some([(g * along_u - f * along_v) * inverse, (e * along_v - f * along_u) * inverse])
