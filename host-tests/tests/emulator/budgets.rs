@@ -54,12 +54,16 @@ fn compare(board: Board) {
         closest <= 4 * evaluation,
         "{board:?}: the worst tick on the capped box takes {closest} instructions, an evaluation {evaluation}"
     );
-    // Promised of the Cortex-M4F; the others have another evaluation.
-    let closest = of("closest point of the capped box, on a face, median");
-    assert!(
-        board != Board::M4 || closest <= 2 * evaluation,
-        "{board:?}: the closest point on a face takes {closest} instructions, an evaluation {evaluation}"
-    );
+    // Each tick is promised of the Cortex-M4F. On the others, which have another evaluation, that in which the distance rises by its
+    // rounding takes a little more.
+    let which = if board == Board::M4 { "worst" } else { "median" };
+    for side in ["in front of it", "pressed into it"] {
+        let closest = of(&format!("closest point of the capped box, on a face, {side}, {which}"));
+        assert!(
+            closest <= 2 * evaluation,
+            "{board:?}: the closest point on a face, {side}, takes {closest} instructions, an evaluation {evaluation}"
+        );
+    }
     let tick = of("servo tick, worst");
     assert!(tick <= SERVO_TICK, "{board:?}: a servo tick takes {tick} instructions");
 }
