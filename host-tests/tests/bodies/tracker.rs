@@ -63,6 +63,33 @@ fn no_contact_begins_with_a_witness_point_left_behind() {
     assert_eq!(begun, 1, "the probe came from the front");
 }
 
+/// A probe that jumps is located anew, in front of the body and pressed into it, and until then touches nothing; one that is swept just less
+/// far in a tick is followed.
+#[test]
+fn a_probe_that_jumps_is_located_anew() {
+    let scene = Scene::load("capped_box");
+    let jump = scene.size() as f32 / 8.0;
+    // Above the dome, and pushed in from there.
+    for (end, contact) in [(0.05, Contact::InFront), (0.025, Contact::Touching)] {
+        let mut held = scene.body.start();
+        let place = |tick: u32| vec3(0.03, 0.02, 0.05 + (end - 0.05) * tick as f32 / 2_000.0);
+        for tick in 0..=2_000 {
+            scene.body.step(&Controller::CERTIFIED, &mut held, Probe::at(place(tick)), PERIOD);
+        }
+        assert_eq!(held.contact, contact);
+        for (reach, jumps) in [(0.99, false), (1.01, true)] {
+            for aside in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y] {
+                let mut state = held;
+                let probe = place(2_000) + aside * (reach * jump);
+                let step = scene.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD);
+                let seen = (step.searched, state.is_located, state.contact);
+                let wanted = (jumps, !jumps, if jumps { Contact::Behind } else { contact });
+                assert_eq!(seen, wanted, "{aside} by {reach} of a jump from {}", place(2_000));
+            }
+        }
+    }
+}
+
 /// No coordinate that is not a number, nor one that is infinite, moves anything: on a face, at its side, on an edge, on a vertex, inside.
 #[test]
 fn what_is_no_probe_moves_nothing() {
