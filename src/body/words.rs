@@ -10,6 +10,7 @@ use super::locator::Locator;
 use super::table::Body;
 use crate::math::Vec3;
 use crate::patch::coefficient_word;
+use crate::render::Contact;
 
 /// A place in the words of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -89,7 +90,7 @@ impl Body {
         let Locator { corner, side, nodes, entries } = self.locator;
         Some(match word {
             0 => self.size.to_bits(),
-            1 => self.sure_from as u32,
+            1 => (Contact::Touching as u32).wrapping_sub(self.sure_from as u32),
             2 => self.faces.len() as u32,
             3 => self.edges.len() as u32,
             4 => self.vertices.len() as u32,
