@@ -28,7 +28,7 @@ impl Body {
         }
         state.probe = probe;
         // Behind the surface there is no force, and no haste: tracker and audit take turns.
-        let steps_too = state.is_located && state.contact != Contact::Behind;
+        let steps_too = state.contact != Contact::Behind;
         let Some(search) = &mut state.search else {
             state.search = Some(Search::new(self, probe));
             return steps_too;

@@ -50,7 +50,7 @@ impl Body {
         let squared = (state.witness.surface.point - probe).length_squared();
         let no_rise = self.is_no_rise((at.point - probe).length_squared(), squared, at.point, probe);
         if no_rise {
-            state.rest_on_edge(index, t, &at);
+            state.enter_edge(index, t, &at);
         }
         no_rise
     }
@@ -73,7 +73,10 @@ impl Body {
         };
         if separator.is_some_and(|separator| !along.is_beyond(separator, &at, t, probe)) {
             step.switched = self.enter_across(of.face, of.side, t, state, step);
-        } else if along.is_held(t) {
+            return;
+        }
+        state.is_held |= !state.asks_second;
+        if state.is_held && along.is_held(t) {
             step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
         } else {
             step.outcome = self.slide(index, &along, state);
@@ -99,7 +102,7 @@ impl Body {
         {
             step.switched = true;
             let t = if at_upper_end { 1.0 } else { 0.0 };
-            state.rest_on_edge(edge, t, &curve.evaluate(t));
+            state.enter_edge(edge, t, &curve.evaluate(t));
         }
     }
 

@@ -9,7 +9,7 @@ use crate::math::{Vec3, sqrt};
 use crate::render::Contact;
 use crate::track::{BoundaryMode, Controller, Outcome, Probe, Witness};
 
-/// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew.
+/// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew, once it rests or slows down.
 const JUMP: f32 = 0.125;
 /// A rise of the squared distance below this many units of the coordinates, times the distance, is rounding: a point of a border is
 /// computed from the patch and from the edge's own curve.
@@ -26,7 +26,7 @@ pub struct BodyWitness {
     pub normal: Vec3,
     /// Signed gap along it, metres; negative inside the body.
     pub gap: f32,
-    /// Whether the body is touched.
+    /// Whether the body is touched. Behind it until the witness point is located.
     pub contact: Contact,
     /// Whether the witness point has been located. Until then there is no gap and no force.
     pub is_located: bool,
@@ -36,6 +36,8 @@ pub struct BodyWitness {
     pub(super) rests: bool,
     /// On an edge: which of its faces is asked next.
     pub(super) asks_second: bool,
+    /// On an edge: whether both of its faces have been asked since, and neither took the probe.
+    pub(super) is_held: bool,
     /// The search for a global start, or the rolling audit, once begun.
     pub(super) search: Option<Search>,
     /// The probe of the last tick; infinite before the first.
@@ -76,6 +78,7 @@ impl Body {
             is_audited: false,
             rests: false,
             asks_second: false,
+            is_held: false,
             search: None,
             probe: Vec3::INFINITY,
         }
@@ -108,22 +111,25 @@ impl Body {
     ///
     /// The distance to the probe never rises by more than rounding, at a switch neither. Outside, the witness point ends at a point that no
     /// neighbouring feature improves: on a convex body with the probe in front of it that is the closest one, otherwise the rolling audit
-    /// finds it. While the body is touched, which [`Self::meet`] says, there is no audit: the witness point is the god-object (theory §11),
-    /// which hands over across common edges only.
+    /// finds it. While the body is touched there is no audit: the witness point is the god-object (theory §11), which hands over across common
+    /// edges only.
+    ///
+    /// Contact decides, so [`Self::meet`] belongs after each tick that was not `searched`. Without it the probe counts as behind the surface:
+    /// the audit has every second tick.
     #[inline(always)]
     pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
         let mut step = BodyStep::NOTHING;
         let follows = self.follows(state, probe.position);
-        let is_known = follows && self.is_sure(state);
-        if !is_known && !self.search(state, probe.position, follows, &mut step) {
+        let has_turn = follows && self.has_turn(state);
+        if !has_turn && !self.search(state, probe.position, follows, &mut step) {
             step.searched = true;
             return step;
         }
         state.probe = probe.position;
         match state.feature {
             Feature::Face(index) => {
-                let is_inside = state.witness.mode == BoundaryMode::Interior;
-                if (is_inside || !self.leave_face(index, state, &mut step))
+                let stays = state.witness.is_free || state.witness.mode == BoundaryMode::Interior;
+                if (stays || !self.leave_face(index, state, &mut step))
                     && let Some(face) = self.faces.get(usize::from(index))
                 {
                     step.outcome = controller.step(&face.patch, &mut state.witness, probe, period).outcome;
@@ -148,10 +154,10 @@ impl Body {
         jump * jump
     }
 
-    /// Whether there is nothing to audit. From behind, the far side of a convex body holds a witness point as well; there tracker and audit
-    /// take turns.
+    /// Whether the tick is the tracker's alone: there is nothing to audit, or, from behind, it is its turn. From behind, the far side of a
+    /// convex body holds a witness point as well; there tracker and audit take turns.
     #[inline]
-    fn is_sure(&self, state: &mut BodyWitness) -> bool {
+    fn has_turn(&self, state: &mut BodyWitness) -> bool {
         match state.contact {
             contact if contact >= self.sure_from => true,
             Contact::Behind => {
@@ -196,6 +202,13 @@ impl BodyWitness {
     pub(super) fn forget(&mut self) {
         (self.is_located, self.is_audited, self.search) = (false, false, None);
         self.contact = Contact::Behind;
+    }
+
+    /// To an edge, none of whose faces has been asked yet.
+    #[inline]
+    pub(super) fn enter_edge(&mut self, index: u16, t: f32, at: &CurvePoint) {
+        (self.asks_second, self.is_held) = (false, false);
+        self.rest_on_edge(index, t, at);
     }
 
     #[inline]

@@ -6,7 +6,7 @@ use crate::track::BoundaryMode;
 ///
 /// Contact begins when the probe crosses the surface from the front, over the face. It ends when the probe comes out
 /// again or slides over the rim. A probe that starts inside, or comes from behind, feels nothing until it has been in
-/// front.
+/// front. In this order, each a step nearer to a force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]

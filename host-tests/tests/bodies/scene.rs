@@ -95,6 +95,16 @@ impl Scene {
         }
     }
 
+    /// A probe anywhere inside a closed convex body.
+    pub fn inside(&self, oracle: &BodyOracle<'_>, random: &mut Random) -> Vec3 {
+        loop {
+            let probe = self.around(random);
+            if oracle.is_inside_convex(oracle.nearest(probe.as_dvec3(), 0.0)[0].0, probe.as_dvec3()) {
+                return probe;
+            }
+        }
+    }
+
     /// A probe up to a fifth of the size behind the surface, along the normal at a random place.
     pub fn behind(&self, random: &mut Random) -> Vec3 {
         let patch = &self.patches[random.below(self.patches.len())];

@@ -1,6 +1,7 @@
 //! The tracker by itself, without what the loop asks of the point; and what it makes of a probe that jumps, or is no probe.
 
 use crate::scene::{Scene, repeat};
+use palpate::body::BodyWitness;
 use palpate::math::{Vec3, vec3};
 use palpate::render::Contact;
 use palpate::track::{Controller, Gain, Probe};
@@ -28,6 +29,40 @@ fn the_closest_point_needs_no_contact() {
         // The rounding of a point, and of a square root near it.
         assert!(worst < 1e-6, "{name}: {worst:e}");
     }
+}
+
+/// Whoever starts inside the box feels nothing, wherever he goes in there: over whatever edge the witness point goes, the probe has not been in
+/// front. Once out he has, over a face, an edge or a corner.
+#[test]
+fn a_start_inside_is_not_felt_before_the_probe_has_been_out() {
+    let scene = Scene::load("capped_box");
+    let oracle = scene.oracle();
+    // 0.4 m/s at 4 kHz.
+    let stride = 1e-4;
+    let walk = |state: &mut BodyWitness, from: Vec3, to: Vec3, most: Contact| {
+        let ticks = (from.distance(to) / stride).ceil() as u32;
+        for tick in 1..=ticks {
+            let probe = from + (to - from) * (tick as f32 / ticks as f32);
+            scene.body.step(&Controller::CERTIFIED, state, Probe::at(probe), PERIOD);
+            assert!(state.contact <= most, "{:?} at {probe}, on the way from {from} to {to}", state.contact);
+        }
+    };
+    repeat(200, 11, |random| {
+        let mut at = scene.inside(&oracle, random);
+        let mut state = scene.body.start();
+        for _ in 0..6 {
+            let next = scene.inside(&oracle, random);
+            walk(&mut state, at, next, Contact::Behind);
+            at = next;
+        }
+        let (out, _) = scene.outside(&oracle, random, 0.0);
+        walk(&mut state, at, out, Contact::InFront);
+        // The last of the way to the closest point.
+        for _ in 0..2_000 {
+            scene.body.step(&Controller::CERTIFIED, &mut state, Probe::at(out), PERIOD);
+        }
+        assert!(state.contact == Contact::InFront && state.gap > 0.0, "{:?} outside at {out}", state.contact);
+    });
 }
 
 /// A slow tracker's witness point is left behind by a probe that is swept aside in front of it, too slowly for a jump. Where that goes in,
@@ -68,6 +103,7 @@ fn no_contact_begins_with_a_witness_point_left_behind() {
 #[test]
 fn a_probe_that_jumps_is_located_anew() {
     let scene = Scene::load("capped_box");
+    let oracle = scene.oracle();
     let jump = scene.size() as f32 / 8.0;
     // Above the dome, and pushed in from there.
     for (end, contact) in [(0.05, Contact::InFront), (0.025, Contact::Touching)] {
@@ -85,6 +121,16 @@ fn a_probe_that_jumps_is_located_anew() {
                 let seen = (step.searched, state.is_located, state.contact);
                 let wanted = (jumps, !jumps, if jumps { Contact::Behind } else { contact });
                 assert_eq!(seen, wanted, "{aside} by {reach} of a jump from {}", place(2_000));
+                for _ in 0..2_000 {
+                    scene.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD);
+                }
+                // Inside, a probe that has jumped has not been in front.
+                let wanted = if jumps && contact == Contact::Touching { Contact::Behind } else { contact };
+                assert_eq!((state.is_located, state.contact), (true, wanted), "{aside} by {reach} of a jump");
+                let (_, closest) = &oracle.nearest(probe.as_dvec3(), 0.0)[0];
+                let late = f64::from(state.witness.surface.point.distance(probe)) - closest.distance;
+                // Touched, the witness point stays on the sheet that was pressed. As above.
+                assert!(state.contact == Contact::Touching || late < 1e-6 * scene.size(), "{late} m at {probe}");
             }
         }
     }
