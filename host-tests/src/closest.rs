@@ -66,10 +66,13 @@ impl<'a> Solver<'a> {
         (Found { evaluations: u32::from(located.evaluations), status, ..found }, state)
     }
 
-    /// Follows a probe that has moved: `ticks` ticks of the tracker. `probe` in metres.
+    /// Follows a probe that has moved: `ticks` ticks of the tracker, and after a jump as many more as it takes until the closest point is
+    /// located anew. `probe` in metres.
     pub fn track(&self, state: &mut BodyWitness, probe: Vec3, ticks: u32) -> Found {
         let mut evaluations = 0;
-        for _ in 0..ticks {
+        let mut spent = 0;
+        while spent < ticks || !state.is_located {
+            spent += 1;
             // The gain is certified, not a rate: the period does not matter.
             let step = self.body.step(&Controller::CERTIFIED, state, Probe::at(probe), 1.0);
             evaluations += u32::from(step.evaluations);

@@ -59,3 +59,20 @@ fn a_header_alone_is_answered_with_a_header_alone() -> Result<(), Box<dyn Error>
     assert_eq!(output.as_deref(), Some("patch,u,v,px,py,pz,gap,steps,status\n"));
     Ok(())
 }
+
+#[test]
+fn rows_that_jump_are_located_anew() -> Result<(), Box<dyn Error>> {
+    let queries = "qx,qy,qz\n10,10,60\n90,20,70\n15,85,65\n80,80,-40\n10,10,60\n";
+    let gaps = |output: Option<String>| -> Result<Vec<f64>, Box<dyn Error>> {
+        let output = output.ok_or("no output")?;
+        output.lines().skip(1).map(|row| Ok(row.split(',').nth(6).ok_or("no gap")?.parse()?)).collect()
+    };
+    let (_, cold) = closest(queries, &[])?;
+    let (run, tracked) = closest(queries, &["--mode", "track"])?;
+    assert_eq!(run.status.code(), Some(0));
+    for (cold, tracked) in gaps(cold)?.iter().zip(gaps(tracked)?) {
+        // The same search; what differs is where its last point is evaluated.
+        assert!((cold - tracked).abs() <= 1e-6 * cold.abs(), "{cold} cold, {tracked} tracked");
+    }
+    Ok(())
+}

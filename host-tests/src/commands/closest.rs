@@ -20,7 +20,7 @@ use std::process::ExitCode;
 /// search runs in each; status is converged, or step-limit if the evaluations were used up or the query is farther off than any table reaches.
 ///
 /// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is
-/// --ticks ticks of the tracker; status is tracking.
+/// --ticks ticks of the tracker, and after a jump of more than an eighth of the body's size as many more as locate it anew; status is tracking.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The model file (TOML).
