@@ -29,14 +29,14 @@ fn meet(body: &Body, witness: &mut BodyWitness, position: &Vec3) {
     body.meet(witness, *position);
 }
 
-/// Ticks of a kind cost about the same.
+/// Kinds of ticks.
 const KINDS: [&str; 8] = [
     "on a face, in front of it",
     "on a face, pressed into it",
     "at the border of a face",
-    "on a face from behind",
     "on an edge",
     "on a vertex",
+    "from behind",
     "at a switch",
     "in the search",
 ];
@@ -44,12 +44,12 @@ const KINDS: [&str; 8] = [
 /// The kind of a tick.
 fn kind(before: &BodyWitness, after: &BodyWitness, step: &BodyStep) -> usize {
     match (after.feature, before.contact) {
-        _ if !after.is_located => 7,
+        _ if !(before.is_located && after.is_located) => 7,
         _ if step.switched || before.feature != after.feature => 6,
-        (Feature::Vertex(_), _) => 5,
-        (Feature::Edge(_), _) => 4,
-        // The audit has every second tick.
-        (Feature::Face(_), Contact::Behind) => 3,
+        // The tracker's and the audit's, in turn.
+        (_, Contact::Behind) => 5,
+        (Feature::Vertex(_), _) => 4,
+        (Feature::Edge(_), _) => 3,
         _ if !(before.witness.is_free && after.witness.is_free) => 2,
         (Feature::Face(_), Contact::Touching) => 1,
         (Feature::Face(_), Contact::InFront) => 0,
