@@ -1,6 +1,7 @@
 //! What the loop asks of the closest point once it is known: normal, signed gap, and whether the body is touched.
 
 use super::feature::{EdgeKind, Feature};
+use super::switch::BOTH;
 use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::math::{Vec3, inverse_sqrt};
@@ -48,15 +49,15 @@ impl Body {
     }
 
     /// On an edge or a vertex: normal and gap from the witness point towards the probe outside, the other way inside. Where the edge does
-    /// not say which side the probe is on it is where it was: nothing goes through the surface without a face. From behind a convex edge says
-    /// so only once neither of its faces has taken the probe: inside, where they meet at less than 180°, each direction from the edge is
-    /// within 90° of one of them, and that one takes it.
+    /// not say which side the probe is on it is where it was: nothing goes through the surface without a face. A convex edge says "outside"
+    /// once neither of its faces has taken the probe: inside, where they meet at less than 180°, each direction from the edge is within 90° of
+    /// one of them, and that one takes it. So contact holds where the witness point crosses the edge, and does not begin there.
     #[inline(never)]
     fn meet_border(&self, state: &mut BodyWitness, probe: Vec3, kind: EdgeKind) {
         let away = probe - state.witness.surface.point;
         let outward = match kind {
             EdgeKind::Open => true,
-            EdgeKind::Convex => state.contact != Contact::Behind || state.is_held || state.gap >= 0.0,
+            EdgeKind::Convex => state.declined == BOTH || state.gap >= 0.0,
             EdgeKind::Reflex => false,
             EdgeKind::Smooth | EdgeKind::Mixed => state.gap >= 0.0,
         };

@@ -9,6 +9,9 @@ use crate::math::Vec3;
 use crate::patch::SurfacePoint;
 use crate::track::{BoundaryMode, Witness};
 
+/// Faces of an edge.
+pub(super) const BOTH: u8 = 2;
+
 impl Body {
     /// Hands over through the side that holds the witness point. While the witness point is free there is nothing to ask: the controller
     /// brings it to the side through which the probe has left, and there the measure numbers of the projection errors change sign where
@@ -32,27 +35,58 @@ impl Body {
             Side::Edge { edge, reversed, .. } => {
                 let along = if number < 2 { v } else { u };
                 let t = if *reversed { 1.0 - along } else { along };
-                self.cross_side(index, *edge, t, state, step)
+                self.cross_side(index, *edge, t, number < 2, state, step)
             }
         };
         step.switched
     }
 
-    /// From a face to the edge, or over a smooth one to the face beyond it.
+    /// From a face to the one beyond the edge, if that takes the probe: over a smooth edge it does, for between the two lies no region.
+    /// Otherwise to the edge.
     #[inline]
-    fn cross_side(&self, from: u16, index: u16, t: f32, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+    fn cross_side(
+        &self,
+        from: u16,
+        index: u16,
+        t: f32,
+        is_along_v: bool,
+        state: &mut BodyWitness,
+        step: &mut BodyStep,
+    ) -> bool {
         let Some(edge) = self.edges.get(usize::from(index)) else { return false };
-        // The faces hand over directly: between them lies no region.
-        if let Some(EdgeFace { face, side }) = across_smooth(edge.kind, edge.faces, from) {
-            return self.enter_across(face, side, t, state, step);
+        let from_second = edge.faces[0].face != from;
+        let other = edge.faces[usize::from(!from_second)];
+        let is_other = other.face != from && other != EdgeFace::NONE;
+        if is_other && (edge.kind == EdgeKind::Smooth || self.takes_across(other, t, is_along_v, state)) {
+            return self.enter_across(other.face, other.side, t, state, step);
         }
         let (at, probe) = (edge.curve.evaluate(t), state.probe);
         let squared = (state.witness.surface.point - probe).length_squared();
-        let no_rise = self.is_no_rise((at.point - probe).length_squared(), squared, at.point, probe);
-        if no_rise {
-            state.enter_edge(index, t, &at);
+        if !self.is_no_rise((at.point - probe).length_squared(), squared, at.point, probe) {
+            return false;
         }
-        no_rise
+        state.rest_on_edge(index, t, &at);
+        (state.asks_second, state.declined) = (is_other && from_second, u8::from(is_other));
+        true
+    }
+
+    /// Whether the face beyond a side takes the probe, at the witness point with the parameter `t` of the edge there. Which way the tangent
+    /// along the edge points does not matter. Not inlined: what it keeps on the stack is not there when the other face is evaluated.
+    #[inline(never)]
+    fn takes_across(&self, other: EdgeFace, t: f32, is_along_v: bool, state: &BodyWitness) -> bool {
+        let surface = &state.witness.surface;
+        let tangent = if is_along_v { surface.tangent_v } else { surface.tangent_u };
+        let at = CurvePoint { point: surface.point, tangent };
+        self.takes(other, &Along::new(&at, state.probe), &at, t, state.probe)
+    }
+
+    /// Whether a face takes the probe over one of its sides.
+    #[inline(always)]
+    fn takes(&self, of: EdgeFace, along: &Along, at: &CurvePoint, t: f32, probe: Vec3) -> bool {
+        match self.faces.get(usize::from(of.face)).and_then(|face| face.sides.get(usize::from(of.side))) {
+            Some(Side::Edge { separator, .. }) => !along.is_beyond(separator, at, t, probe),
+            _ => false,
+        }
     }
 
     /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point; otherwise one step
@@ -66,17 +100,12 @@ impl Body {
         // One face a tick, in turn.
         let of = edge.faces[usize::from(state.asks_second)];
         state.asks_second = !state.asks_second;
-        let separator = match self.faces.get(usize::from(of.face)).and_then(|face| face.sides.get(usize::from(of.side)))
-        {
-            Some(Side::Edge { separator, .. }) => Some(separator),
-            _ => None,
-        };
-        if separator.is_some_and(|separator| !along.is_beyond(separator, &at, t, probe)) {
+        if self.takes(of, &along, &at, t, probe) {
             step.switched = self.enter_across(of.face, of.side, t, state, step);
             return;
         }
-        state.is_held |= !state.asks_second;
-        if state.is_held && along.is_held(t) {
+        state.declined = (state.declined + 1).min(BOTH);
+        if state.declined == BOTH && along.is_held(t) {
             step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
         } else {
             step.outcome = self.slide(index, &along, state);
@@ -102,7 +131,8 @@ impl Body {
         {
             step.switched = true;
             let t = if at_upper_end { 1.0 } else { 0.0 };
-            state.enter_edge(edge, t, &curve.evaluate(t));
+            state.rest_on_edge(edge, t, &curve.evaluate(t));
+            (state.asks_second, state.declined) = (false, 0);
         }
     }
 
@@ -133,11 +163,4 @@ impl Body {
             Witness { parameters: [0.0; 2], surface, mode: BoundaryMode::Corner, is_free: false, halvings: 0 };
         true
     }
-}
-
-/// The face beyond a smooth edge.
-#[inline]
-fn across_smooth(kind: EdgeKind, [first, second]: [EdgeFace; 2], from: u16) -> Option<EdgeFace> {
-    let other = if first.face == from { second } else { first };
-    (kind == EdgeKind::Smooth && other.face != from && other != EdgeFace::NONE).then_some(other)
 }

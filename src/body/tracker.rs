@@ -36,8 +36,8 @@ pub struct BodyWitness {
     pub(super) rests: bool,
     /// On an edge: which of its faces is asked next.
     pub(super) asks_second: bool,
-    /// On an edge: whether both of its faces have been asked since, and neither took the probe.
-    pub(super) is_held: bool,
+    /// On an edge: how many of its faces have been asked since it was entered and did not take the probe.
+    pub(super) declined: u8,
     /// The search for a global start, or the rolling audit, once begun.
     pub(super) search: Option<Search>,
     /// The probe of the last tick; infinite before the first.
@@ -78,7 +78,7 @@ impl Body {
             is_audited: false,
             rests: false,
             asks_second: false,
-            is_held: false,
+            declined: 0,
             search: None,
             probe: Vec3::INFINITY,
         }
@@ -202,13 +202,6 @@ impl BodyWitness {
     pub(super) fn forget(&mut self) {
         (self.is_located, self.is_audited, self.search) = (false, false, None);
         self.contact = Contact::Behind;
-    }
-
-    /// To an edge, none of whose faces has been asked yet.
-    #[inline]
-    pub(super) fn enter_edge(&mut self, index: u16, t: f32, at: &CurvePoint) {
-        (self.asks_second, self.is_held) = (false, false);
-        self.rest_on_edge(index, t, at);
     }
 
     #[inline]

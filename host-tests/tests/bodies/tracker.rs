@@ -65,6 +65,32 @@ fn a_start_inside_is_not_felt_before_the_probe_has_been_out() {
     });
 }
 
+/// Pressed from the dome over its rim, where it meets a side at an obtuse angle, into that side: the probe is inside all the way, and is felt
+/// all the way.
+#[test]
+fn the_contact_holds_over_an_obtuse_edge() {
+    let scene = Scene::load("capped_box");
+    let oracle = scene.oracle();
+    let mut state = scene.body.start();
+    // In front of the dome, in through it, and down behind the side.
+    let way = [vec3(0.006, 0.02, 0.045), vec3(0.006, 0.02, 0.028), vec3(0.001, 0.02, 0.022)];
+    for leg in way.windows(2) {
+        let ticks = (leg[0].distance(leg[1]) / 1e-5).ceil() as u32;
+        for tick in 0..ticks {
+            let probe = leg[0] + (leg[1] - leg[0]) * (tick as f32 / ticks as f32);
+            scene.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD);
+            let inside = oracle.is_inside_convex(oracle.nearest(probe.as_dvec3(), 0.0)[0].0, probe.as_dvec3());
+            assert!(
+                !inside || state.contact == Contact::Touching,
+                "{:?} at {probe}, on {:?}",
+                state.contact,
+                state.feature
+            );
+        }
+    }
+    assert!(state.gap < 0.0 && state.normal.x < -0.9, "not on the side: {:?}", state.feature);
+}
+
 /// A slow tracker's witness point is left behind by a probe that is swept aside in front of it, too slowly for a jump. Where that goes in,
 /// contact does not begin with the point far off: it is located anew.
 #[test]
