@@ -12,10 +12,10 @@ const DETENTS: Detents = Detents {
     stiffness: 0.15,
     damping: 2e-4,
     snap: 0.55,
-    least: -5,
-    greatest: 5,
+    first: -5,
+    last: 5,
     wall_stiffness: 0.6,
-    greatest_force: 0.025,
+    max_force: 0.025,
 };
 
 fn main() {

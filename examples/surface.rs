@@ -22,7 +22,7 @@ static BOWL: [[f32; 3]; 9] = [
     [0.0; 3],
     [0.0; 3],
 ];
-static PATCH: SplinePatch = SplinePatch::from_table(
+const TABLE: SplinePatch = SplinePatch::from_table(
     [2, 2],
     &BREAKS,
     &BREAKS,
@@ -31,6 +31,8 @@ static PATCH: SplinePatch = SplinePatch::from_table(
     Orientation::Outward,
     0.1,
 );
+/// With its CRC, which the loop checks over and over: here the compiler computes it.
+static PATCH: SplinePatch = TABLE.with_crc(TABLE.table_crc());
 
 /// All of it is checked when it is compiled, and lies in flash.
 static SERVO: Servo<'static, SplinePatch, SerialArm, 3> = Servo::new(
@@ -41,7 +43,7 @@ static SERVO: Servo<'static, SplinePatch, SerialArm, 3> = Servo::new(
         rate: 4_000.0,
         stiffness: 800.0,
         damping: 2.0,
-        greatest_force: 4.0,
+        max_force: 4.0,
         velocity_corner: 200.0,
         soft_start: 0.2,
         body_origin: vec3(0.0, 0.0, 0.0),
@@ -51,7 +53,7 @@ static SERVO: Servo<'static, SplinePatch, SerialArm, 3> = Servo::new(
     friction: Some(Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 }),
     ..Rendering::PLAIN
 })
-.safety(Safety { output: SafeOutput::Damping(2.0), table_crc: Some(PATCH.table_crc()), ..Safety::DEFAULT });
+.safety(Safety { output: SafeOutput::Damping(2.0), ..Safety::DEFAULT });
 
 fn main() {
     let mut state = SERVO.start();
@@ -62,25 +64,25 @@ fn main() {
         let input = if tick < 5_000 { Input::Sensors { counts, enable: true } } else { Input::Lost };
         SERVO.tick(&mut state, input);
         // On a board: write the duties to the PWM, and note what happened outside the tick.
-        arm.follow(state.duties);
+        arm.follow(state.duties());
         if tick == 4_999 {
             SERVO.note(&mut state, Event::LinkAlive);
         }
         if tick % 500 == 499 {
-            let force = state.force;
+            let force = state.force();
             println!(
                 "{:.3} s {:?}: gap {:6.3} mm, force {force:.3} N",
                 f64::from(tick + 1) / 4e3,
-                state.phase,
-                state.gap * 1e3
+                state.phase(),
+                state.gap() * 1e3
             );
         }
     }
-    if let (Phase::Fault, Some((fault, tick))) = (state.phase, state.fault) {
+    if let (Phase::Fault, Some((fault, tick))) = (state.phase(), state.fault()) {
         println!(
             "stopped: fault {}, {fault}, at tick {tick}; duties {:?}",
             fault.code(),
-            state.duties.map(|duty| duty.0)
+            state.duties().map(|duty| duty.0)
         );
     }
 }

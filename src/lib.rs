@@ -1,5 +1,5 @@
 #![no_std]
-#![doc = include_str!("../README.md")]
+#![doc = include_str!("../docs/crate.md")]
 
 pub mod body;
 pub mod device;

@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake ellipsoid.toml --out ellipsoid.rs
-// Table format 2. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
+// Table format 3. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
 
 // Patch 0, "cap".
 #[rustfmt::skip]
@@ -20,34 +20,39 @@ static PATCH_0_COEFFICIENTS: [[f32; 4]; 9] = [
 ];
 
 /// All patches of the model, in the order of its file.
+#[allow(dead_code)]
 #[rustfmt::skip]
 pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
     palpate::patch::SplinePatch::from_table(
-        [2, 2],
-        &PATCH_0_BREAKS_U,
-        &PATCH_0_BREAKS_V,
-        palpate::patch::Coefficients::Rational(&PATCH_0_COEFFICIENTS),
-        palpate::patch::ShapeBounds {
-            second_derivatives: palpate::patch::SecondDerivativeBounds {
-                uu: 0.18266162,
-                uv: 0.07750345,
-                vv: 0.14129409,
+            [2, 2],
+            &PATCH_0_BREAKS_U,
+            &PATCH_0_BREAKS_V,
+            palpate::patch::Coefficients::Rational(&PATCH_0_COEFFICIENTS),
+            palpate::patch::ShapeBounds {
+                second_derivatives: palpate::patch::SecondDerivativeBounds {
+                    uu: 0.18266162,
+                    uv: 0.07750345,
+                    vv: 0.14129409,
+                },
+                curvature: palpate::patch::Curvature {
+                    min: 7.9618325,
+                    max: 43.74316,
+                },
+                min_stretch: 0.0018785878,
+                max_stretch: 0.014551159,
+                max_bend: 123.56153,
             },
-            curvature: palpate::patch::Curvature {
-                least: 7.9618325,
-                greatest: 43.74316,
-            },
-            least_stretch: 0.0018785878,
-            greatest_stretch: 0.014551159,
-            greatest_bend: 123.56153,
-        },
-        palpate::patch::Orientation::Outward,
-        0.096,
-    ),
+            palpate::patch::Orientation::Outward,
+            0.096,
+        )
+        .with_crc(TABLE_CRC),
 ];
 /// What is felt.
+#[allow(dead_code)]
 pub type Surface = palpate::patch::SplinePatch;
 /// The first patch.
+#[allow(dead_code)]
 pub const SURFACE: &Surface = &PATCHES[0];
 /// CRC-32 of its numbers, [`palpate::patch::SplinePatch::table_crc`], computed when it was baked.
+#[allow(dead_code)]
 pub const TABLE_CRC: u32 = 543639650;

@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake table1c.toml --out table1c.rs
-// Table format 2. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
+// Table format 3. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
 
 // Patch 0, "S".
 #[rustfmt::skip]
@@ -92,34 +92,39 @@ static PATCH_0_COEFFICIENTS: [[f32; 3]; 81] = [
 ];
 
 /// All patches of the model, in the order of its file.
+#[allow(dead_code)]
 #[rustfmt::skip]
 pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
     palpate::patch::SplinePatch::from_table(
-        [2, 2],
-        &PATCH_0_BREAKS_U,
-        &PATCH_0_BREAKS_V,
-        palpate::patch::Coefficients::Polynomial(&PATCH_0_COEFFICIENTS),
-        palpate::patch::ShapeBounds {
-            second_derivatives: palpate::patch::SecondDerivativeBounds {
-                uu: 0.50911695,
-                uv: 7.01481e-10,
-                vv: 0.45000005,
+            [2, 2],
+            &PATCH_0_BREAKS_U,
+            &PATCH_0_BREAKS_V,
+            palpate::patch::Coefficients::Polynomial(&PATCH_0_COEFFICIENTS),
+            palpate::patch::ShapeBounds {
+                second_derivatives: palpate::patch::SecondDerivativeBounds {
+                    uu: 0.50911695,
+                    uv: 7.01481e-10,
+                    vv: 0.45000005,
+                },
+                curvature: palpate::patch::Curvature {
+                    min: -2.959249e-10,
+                    max: 70.97095,
+                },
+                min_stretch: 0.0035884618,
+                max_stretch: 0.079200014,
+                max_bend: 131.06499,
             },
-            curvature: palpate::patch::Curvature {
-                least: -2.959249e-10,
-                greatest: 70.97095,
-            },
-            least_stretch: 0.0035884618,
-            greatest_stretch: 0.079200014,
-            greatest_bend: 131.06499,
-        },
-        palpate::patch::Orientation::Inward,
-        0.1,
-    ),
+            palpate::patch::Orientation::Inward,
+            0.1,
+        )
+        .with_crc(TABLE_CRC),
 ];
 /// What is felt.
+#[allow(dead_code)]
 pub type Surface = palpate::patch::SplinePatch;
 /// The first patch.
+#[allow(dead_code)]
 pub const SURFACE: &Surface = &PATCHES[0];
 /// CRC-32 of its numbers, [`palpate::patch::SplinePatch::table_crc`], computed when it was baked.
+#[allow(dead_code)]
 pub const TABLE_CRC: u32 = 3525732538;

@@ -5,8 +5,7 @@ use super::search::{Located, Search};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
-use crate::render::Contact;
-use crate::track::Witness;
+use crate::track::{Contact, Witness};
 
 /// The distance of another candidate must be shorter by this part before the tracker changes over: far above what `f32` rounds, far
 /// below what a hand feels.

@@ -110,6 +110,9 @@ impl EdgeFace {
 pub struct Vertex {
     /// Where, metres.
     pub point: Vec3,
+    /// Unit vector along the sum of the faces' normals, each times the angle that it fills here: a probe that is closest to the vertex
+    /// is outside a closed body where it lies on this side. Zero where that says nothing, and on an open border.
+    pub outward: Vec3,
     /// Its spokes: `first_spoke .. first_spoke + spokes` of the body's list.
     pub first_spoke: u16,
     /// How many edges end here.

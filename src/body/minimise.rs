@@ -3,23 +3,24 @@
 //! With `φ = ½ ‖f − Q‖²`, gradient `g` and Hessian `H = I + ΔR · D²f`, each step goes to the minimiser of
 //! `g · δ + ½ δᵀ H δ` over the rectangle, where `H` is positive definite; where it is not, `I` stands in for what of its diagonal is
 //! not positive, or for all of it (Gauss–Newton).
-//! A step that does not lower `φ` is halved.
+//! A step that does not lower `φ` is halved. Beside a pole the step is one in polar coordinates ([`super::pole`]).
 
 use super::locator::Candidate;
+use super::pole::Pole;
 use crate::math::{Vec3, saturate, sqrt};
 use crate::patch::{CurvedPoint, SplinePatch};
 
 /// Evaluations that one candidate of a list may cost.
-pub const MOST_EVALUATIONS_A_CANDIDATE: u8 = 16;
+pub const MAX_EVALUATIONS_PER_CANDIDATE: u8 = 16;
 /// A distance is found when the next step would change it by less than this, relative to the body's size: the rounding of `f32`
 /// coordinates of that size.
 const RESOLUTION: f32 = 2.0e-7;
 /// A determinant below this part of the product of the diagonal is rounding.
-const LEAST_DETERMINANT: f32 = 1.0e-4;
+const MIN_DETERMINANT: f32 = 1.0e-4;
 /// A second derivative of `φ` below this part of that without curvature is taken for none.
 const FLAT: f32 = 1.0e-2;
 /// Halvings of one step.
-const MOST_HALVINGS: u8 = 8;
+const MAX_HALVINGS: u8 = 8;
 
 /// A search in one rectangle, between two evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,9 +69,9 @@ impl Descending {
     }
 
     /// Both halves of a step at one go.
-    pub fn step(&mut self, patch: &SplinePatch, probe: Vec3, known: f32, size: f32) -> Progress {
+    pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> Progress {
         self.evaluate(patch, probe);
-        self.judge(known, size)
+        self.judge(poles, known, size)
     }
 
     /// Whether the last evaluation is still to be judged.
@@ -86,13 +87,31 @@ impl Descending {
         self.seen = Some(Seen::new(&curved, curved.surface.point - probe));
     }
 
-    /// The second half: where to go from there. `known` is the `φ` to beat, m²; `size` the body's, metres.
+    /// The second half: where to go from there. `poles` are the face's ([`super::Face::poles`]), `known` is the `φ` to beat, m²; `size` the
+    /// body's, metres.
+    #[inline]
+    pub fn judge(&mut self, poles: u8, known: f32, size: f32) -> Progress {
+        if poles == 0 { self.judge_smooth(known, size) } else { self.judge_beside(poles, known, size) }
+    }
+
+    /// On a face without poles: none of their arithmetic is compiled in.
     #[inline(never)]
-    pub fn judge(&mut self, known: f32, size: f32) -> Progress {
+    fn judge_smooth(&mut self, known: f32, size: f32) -> Progress {
+        self.judged(0, known, size)
+    }
+
+    #[inline(never)]
+    fn judge_beside(&mut self, poles: u8, known: f32, size: f32) -> Progress {
+        self.judged(poles, known, size)
+    }
+
+    #[inline(always)]
+    fn judged(&mut self, poles: u8, known: f32, size: f32) -> Progress {
         let Some(seen) = self.seen.take() else { return Progress::Falling };
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
-            let model = Model::new(seen);
+            let pole = Pole::nearest(poles, at);
+            let model = Model::new(seen, pole.map_or(0.0, |pole| pole.mixed(seen.gradient)));
             let [lower, upper] = self.candidate.rectangle();
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
@@ -100,18 +119,33 @@ impl Descending {
                 return Progress::Beaten;
             }
             (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
-            let (change, fall) = model.minimiser(room);
-            let resolved = RESOLUTION * size;
-            // φ changes by d times the change of d.
-            if -fall <= resolved * (sqrt(2.0 * half_squared) + resolved) {
+            let (mut change, mut fall) = model.minimiser(room);
+            if let Some(pole) = pole {
+                change = pole.unrolled(change);
+                let bend = seen.newton[1] - seen.form[1];
+                if let Some(around) = pole.around(seen.gradient, bend, seen.form, room) {
+                    (change, fall) = around;
+                }
+            }
+            // φ changes by d times the change of d. Beside a pole, where steps shrink with the distance to it, the last bit of φ counts too.
+            let distance = sqrt(2.0 * half_squared);
+            let last_bit = if pole.is_some() { f32::EPSILON * distance } else { 0.0 };
+            let resolved = RESOLUTION * size + last_bit;
+            if -fall <= resolved * (distance + resolved) {
                 return Progress::Found;
             }
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
         } else {
             self.halvings += 1;
-            self.trial = [0, 1].map(|axis| 0.5 * (self.parameters[axis] + at[axis]));
+            let change = [0, 1].map(|axis| at[axis] - self.parameters[axis]);
+            let half = match Pole::nearest(poles, self.parameters) {
+                Some(pole) => pole.halved(change),
+                None => change.map(|change| 0.5 * change),
+            };
+            let [lower, upper] = self.candidate.rectangle();
+            self.trial = [0, 1].map(|axis| saturate(self.parameters[axis] + half[axis], lower[axis], upper[axis]));
         }
-        let exhausted = self.evaluations >= MOST_EVALUATIONS_A_CANDIDATE || self.halvings >= MOST_HALVINGS;
+        let exhausted = self.evaluations >= MAX_EVALUATIONS_PER_CANDIDATE || self.halvings >= MAX_HALVINGS;
         if exhausted { Progress::Exhausted } else { Progress::Falling }
     }
 }
@@ -147,7 +181,9 @@ struct Model {
 }
 
 impl Model {
-    fn new(Seen { gradient, form, newton, .. }: Seen) -> Self {
+    /// `mixed` comes on top of the mixed second derivative.
+    fn new(Seen { gradient, form, mut newton, .. }: Seen, mixed: f32) -> Self {
+        newton[1] += mixed;
         // Along an arc that is equally far everywhere φ is flat: what is known of the other parameter still counts.
         let mixed = [0, 2].map(|axis| if newton[axis] > FLAT * form[axis] { newton[axis] } else { form[axis] });
         let mixed = [mixed[0], newton[1], mixed[1]];
@@ -219,5 +255,5 @@ fn least_of_line(slope: f32, bend: f32, [low, high]: [f32; 2]) -> f32 {
 }
 
 fn is_positive_definite([a, b, c]: [f32; 3]) -> bool {
-    a > 0.0 && a * c - b * b > LEAST_DETERMINANT * a * c
+    a > 0.0 && a * c - b * b > MIN_DETERMINANT * a * c
 }

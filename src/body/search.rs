@@ -9,9 +9,9 @@ use super::table::Body;
 use crate::math::Vec3;
 
 /// Evaluations that a search may cost on any body.
-pub const MOST_EVALUATIONS: u16 = 512;
+pub const MAX_EVALUATIONS: u16 = 512;
 /// Evaluations that a search may cost on a convex body.
-pub const MOST_EVALUATIONS_CONVEX: u16 = 32;
+pub const MAX_EVALUATIONS_CONVEX: u16 = 32;
 
 /// A search between two evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +21,8 @@ pub struct Search {
     entry: u16,
     evaluations: u16,
     best: Best,
+    /// Whether a candidate was given up short of its end.
+    exhausted: bool,
     /// Once it is done: whether every candidate was searched to its end.
     ended: Option<bool>,
 }
@@ -57,6 +59,7 @@ impl Search {
             entry: entry as u16,
             evaluations: 0,
             best: Best { face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
+            exhausted: false,
             ended: None,
         }
     }
@@ -73,24 +76,25 @@ impl Search {
             return;
         }
         let Candidate { face, more, .. } = self.descending.candidate;
-        let Some(patch) = body.faces.get(usize::from(face)).map(|face| &face.patch) else {
+        let Some(on) = body.faces.get(usize::from(face)) else {
             self.ended = Some(false);
             return;
         };
         if !self.descending.has_evaluated() {
-            self.descending.evaluate(patch, probe);
+            self.descending.evaluate(&on.patch, probe);
             self.evaluations += 1;
             return;
         }
-        let progress = self.descending.judge(self.best.half_squared, body.size);
+        let progress = self.descending.judge(on.poles(), self.best.half_squared, body.size);
+        self.exhausted |= progress == Progress::Exhausted;
         let Descending { parameters, half_squared, .. } = self.descending;
         if half_squared < self.best.half_squared {
             self.best = Best { face, parameters, half_squared };
         }
-        let most = if body.is_convex() { MOST_EVALUATIONS_CONVEX } else { MOST_EVALUATIONS };
+        let most = if body.is_convex() { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
         let falls = progress == Progress::Falling;
         if !falls && !more {
-            self.ended = Some(true);
+            self.ended = Some(!self.exhausted);
         } else if self.evaluations >= most {
             self.ended = Some(false);
         } else if !falls {
@@ -113,12 +117,12 @@ impl Search {
 }
 
 impl Body {
-    /// The closest point of the body from a standing start. At most [`MOST_EVALUATIONS`] of patches, on a convex body
-    /// [`MOST_EVALUATIONS_CONVEX`].
+    /// The closest point of the body from a standing start. At most [`MAX_EVALUATIONS`] of patches, on a convex body
+    /// [`MAX_EVALUATIONS_CONVEX`].
     pub fn locate(&self, probe: Vec3) -> Located {
         let mut search = Search::new(self, probe);
         // Two halves an evaluation.
-        for _ in 0..2 * MOST_EVALUATIONS {
+        for _ in 0..2 * MAX_EVALUATIONS {
             if search.ended.is_some() {
                 break;
             }

@@ -3,7 +3,8 @@
 use super::feature::{Edge, EdgeFace, Face, Separator, Side, Spoke, Vertex};
 use super::locator::{Candidate, LEAF, Locator, MAX_FACES};
 use crate::math::Vec3;
-use crate::render::Contact;
+use crate::track::Contact;
+use core::num::NonZeroU32;
 use thiserror::Error;
 
 /// A body of several patches: features, the surfaces that separate their Voronoi regions, and a locator.
@@ -18,6 +19,7 @@ pub struct Body {
     /// The contact from which there is nothing to audit: the body is touched, or it is convex and the probe in front of the witness point, so
     /// that no other point is nearer.
     pub(super) sure_from: Contact,
+    pub(super) baked_crc: Option<NonZeroU32>,
 }
 
 /// Why a body's tables are refused. In a `static` it is a compile error.
@@ -34,7 +36,7 @@ pub enum BodyError {
         /// Which side.
         side: u8,
     },
-    /// An edge's curve is malformed, or it names a face or vertex that is not there, or a face's side names it not back.
+    /// An edge's curve is malformed, or it names a face or vertex that is not there, or one of its faces does not refer back to it.
     #[error("edge {edge} has a malformed curve or does not fit its faces and vertices")]
     Edge {
         /// The edge.
@@ -94,7 +96,7 @@ impl Body {
             return Err(BodyError::Size);
         }
         let sure_from = if is_convex { Contact::InFront } else { Contact::Touching };
-        let body = Self { faces, edges, vertices, spokes, locator, size, sure_from };
+        let body = Self { faces, edges, vertices, spokes, locator, size, sure_from, baked_crc: None };
         if let Err(error) = body.check_features() {
             return Err(error);
         }
@@ -128,6 +130,21 @@ impl Body {
             Err(BodyError::LocatorNode { .. }) => panic!("locator: node"),
             Err(BodyError::LocatorEntry { .. }) => panic!("locator: entry"),
             Err(BodyError::Size) => panic!("size"),
+        }
+    }
+
+    /// The same tables with the CRC that their words had when they were baked: the loop compares them with it, see
+    /// [`crate::servo::Safety::checks_tables`]. (A CRC of 0, one in 2³², is none.)
+    #[must_use]
+    pub const fn with_crc(self, baked: u32) -> Self {
+        Self { baked_crc: NonZeroU32::new(baked), ..self }
+    }
+
+    /// The CRC that the tables carry.
+    pub const fn baked_crc(&self) -> Option<u32> {
+        match self.baked_crc {
+            Some(baked) => Some(baked.get()),
+            None => None,
         }
     }
 
@@ -198,8 +215,9 @@ impl Body {
         }
         let mut index = 0;
         while index < self.vertices.len() {
-            let Vertex { point, first_spoke, spokes, .. } = self.vertices[index];
-            if !(is_finite(point) && first_spoke as usize + spokes as usize <= self.spokes.len()) {
+            let Vertex { point, outward, first_spoke, spokes, .. } = self.vertices[index];
+            if !(is_finite(point) && is_finite(outward) && first_spoke as usize + spokes as usize <= self.spokes.len())
+            {
                 return Err(BodyError::Vertex { vertex: index as u16 });
             }
             index += 1;

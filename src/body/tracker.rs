@@ -5,15 +5,17 @@ use super::curve::CurvePoint;
 use super::feature::Feature;
 use super::search::Search;
 use super::table::Body;
-use crate::math::{Vec3, sqrt};
-use crate::render::Contact;
-use crate::track::{BoundaryMode, Controller, Outcome, Probe, Witness};
+use crate::math::{Vec3, sqrt, sqrt_from_above};
+use crate::track::{BoundaryMode, Contact, Controller, Outcome, Probe, Witness};
 
 /// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew, once it rests or slows down.
 const JUMP: f32 = 0.125;
 /// A rise of the squared distance below this many units of the coordinates, times the distance, is rounding: a point of a border is
 /// computed from the patch and from the edge's own curve.
 const ROUNDING: f32 = 64.0 * f32::EPSILON;
+/// So far beyond its reach, in sizes of the body, a witness point is where nothing explains it: a hundred times what a sum of rounded paths
+/// loses in a second.
+const UNEXPLAINED: f32 = 1.0e-3;
 
 /// The tracker's whole state: at most 256 bytes for a body of any size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +44,9 @@ pub struct BodyWitness {
     pub(super) search: Option<Search>,
     /// The probe of the last tick; infinite before the first.
     pub(super) probe: Vec3,
+    /// While the body is touched, no less than the probe can be away from a witness point that follows it, metres: as far as it was when contact
+    /// began, and as it has moved since.
+    pub(crate) reach: f32,
 }
 
 /// What a tick found out.
@@ -55,6 +60,8 @@ pub struct BodyStep {
     pub searched: bool,
     /// Evaluations of patches spent, second-order ones included.
     pub evaluations: u8,
+    /// Whether the body is touched with a witness point farther from the probe than the probe has moved since contact began.
+    pub unexplained: bool,
 }
 
 const _: () = assert!(size_of::<BodyWitness>() <= 256);
@@ -62,7 +69,7 @@ const _: () = assert!(size_of::<BodyWitness>() <= 256);
 impl BodyStep {
     /// Nothing done.
     pub(super) const NOTHING: Self =
-        Self { outcome: Outcome::AtRest, switched: false, searched: false, evaluations: 0 };
+        Self { outcome: Outcome::AtRest, switched: false, searched: false, evaluations: 0, unexplained: false };
 }
 
 impl Body {
@@ -81,6 +88,7 @@ impl Body {
             declined: 0,
             search: None,
             probe: Vec3::INFINITY,
+            reach: 0.0,
         }
     }
 
@@ -99,10 +107,16 @@ impl Body {
     /// One tick of the loop: [`Self::track`], then [`Self::meet`].
     #[inline(always)]
     pub fn step(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
-        let step = self.track(controller, state, probe, period);
+        let moved = (probe.position - state.probe).length_squared();
+        // What is no probe, or has jumped, has not moved there.
+        if state.contact == Contact::Touching && moved <= self.jump_squared() {
+            state.reach += sqrt_from_above(moved);
+        }
+        let mut step = self.track(controller, state, probe, period);
         if !step.searched {
             self.meet(state, probe.position);
         }
+        step.unexplained = state.contact == Contact::Touching && -state.gap > state.reach + UNEXPLAINED * self.size;
         step
     }
 
@@ -199,7 +213,7 @@ impl Body {
 
 impl BodyWitness {
     /// Where the closest point is has to be searched for again; until then nothing is met.
-    pub(super) fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         (self.is_located, self.is_audited, self.search) = (false, false, None);
         self.contact = Contact::Behind;
     }

@@ -10,7 +10,7 @@ use super::locator::Locator;
 use super::table::Body;
 use crate::math::Vec3;
 use crate::patch::coefficient_word;
-use crate::render::Contact;
+use crate::track::Contact;
 
 /// A place in the words of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -73,13 +73,13 @@ impl Body {
         if word < ENTRIES { entries.get(index * ENTRIES + word).copied() } else { None }
     }
 
-    /// CRC-32 of all words, what the source of the tables has as `TABLE_CRC`.
+    /// CRC-32 of all words as they are now; as they were baked it is [`Self::baked_crc`].
     pub fn table_crc(&self) -> u32 {
         let (mut crc, mut place) = (0, Some(TableCursor::default()));
         while let Some(cursor) = place {
             let found = self.table_word(cursor);
             if let Some(word) = found {
-                crc = crate::servo::crc32(crc, word);
+                crc = crate::patch::crc32(crc, word);
             }
             place = cursor.after(found);
         }
@@ -183,8 +183,9 @@ impl Vertex {
     fn word(&self, word: usize) -> Option<u32> {
         match word {
             0..=2 => Some(component(self.point, word)),
-            3 => Some(pair(self.first_spoke, self.spokes)),
-            4 => Some(u32::from(self.is_open)),
+            3..=5 => Some(component(self.outward, word - 3)),
+            6 => Some(pair(self.first_spoke, self.spokes)),
+            7 => Some(u32::from(self.is_open)),
             _ => None,
         }
     }

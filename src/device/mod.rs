@@ -75,15 +75,15 @@ pub struct Device<K, const JOINTS: usize> {
     /// Least and greatest angle of each joint, radians: what lies outside is a sensor fault.
     pub joint_range: [[f32; 2]; JOINTS],
     /// Below this [`ProbePose::singularity_margin`], m/rad, the device counts as outside its workspace.
-    pub least_margin: f32,
+    pub min_margin: f32,
     /// The greatest believable joint speed, rad/s: what is faster is a sensor fault.
-    pub greatest_joint_rate: f32,
+    pub max_joint_rate: f32,
     /// The greatest force the device is to be asked for, N.
-    pub greatest_force: f32,
+    pub max_force: f32,
     /// The greatest stiffness recommended for it, N/m.
-    pub greatest_stiffness: f32,
+    pub max_stiffness: f32,
     /// The greatest damping recommended for it, N·s/m.
-    pub greatest_damping: f32,
+    pub max_damping: f32,
 }
 
 /// How wide the rim of a joint's range is, radians.
@@ -97,7 +97,7 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     pub fn in_workspace(&self, angles: [f32; JOINTS]) -> bool {
         let in_range = |(angle, [least, most]): (&f32, &[f32; 2])| least <= angle && angle <= most;
         angles.iter().zip(&self.joint_range).all(in_range)
-            && self.kinematics.pose(angles).singularity_margin() >= self.least_margin
+            && self.kinematics.pose(angles).singularity_margin() >= self.min_margin
     }
 
     /// How much room there is to the rim of the workspace, for these joint angles (radians) and their pose: 1 well inside, 0 on
@@ -114,8 +114,8 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
                 to_stop = nearer;
             }
         }
-        let over = pose.singularity_margin() - self.least_margin;
-        let width = MARGIN_RIM * self.least_margin;
+        let over = pose.singularity_margin() - self.min_margin;
+        let width = MARGIN_RIM * self.min_margin;
         if to_stop >= RIM && over >= width {
             return 1.0;
         }

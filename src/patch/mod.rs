@@ -4,12 +4,14 @@
 //! 1 to 5, kept as polynomial spans so that the target evaluates by Horner's rule and never by de Boor's recursion.
 //! A new kind of surface (a cylinder, a torus) is a new file here that implements [`Patch`].
 
+mod crc;
 mod curved;
 mod horner;
 mod shape;
 mod spans;
 mod spline;
 
+pub use crc::crc32;
 pub use curved::CurvedPoint;
 pub(crate) use horner::horner_step;
 pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
@@ -61,6 +63,11 @@ pub trait Patch {
     /// The `index`-th word of the patch's table, for the check that flash still holds what was baked; `None` past the end, and
     /// always for a patch without a table.
     fn table_word(&self, _index: usize) -> Option<u32> {
+        None
+    }
+
+    /// CRC-32 of the words as they were baked; `None` for a patch that carries none: there is nothing to compare with.
+    fn baked_crc(&self) -> Option<u32> {
         None
     }
 }

@@ -25,21 +25,21 @@ pub struct SecondDerivativeBounds {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature {
     /// Not above the least principal curvature.
-    pub least: f32,
+    pub min: f32,
     /// Not below the greatest.
-    pub greatest: f32,
+    pub max: f32,
 }
 
 impl Curvature {
     /// Nothing is known.
-    pub const UNBOUNDED: Self = Self { least: f32::NEG_INFINITY, greatest: f32::INFINITY };
+    pub const UNBOUNDED: Self = Self { min: f32::NEG_INFINITY, max: f32::INFINITY };
 
     /// The curvature of a plane.
-    pub const FLAT: Self = Self { least: 0.0, greatest: 0.0 };
+    pub const FLAT: Self = Self { min: 0.0, max: 0.0 };
 
     /// Whether nothing bends inward: a certificate where the bounds are proved.
     pub const fn is_convex(self) -> bool {
-        self.least >= 0.0
+        self.min >= 0.0
     }
 }
 
@@ -54,14 +54,14 @@ pub struct ShapeBounds {
     pub second_derivatives: SecondDerivativeBounds,
     /// Of the normal curvature with respect to the outward normal.
     pub curvature: Curvature,
-    /// Not above the least eigenvalue of the first fundamental form `I`, m²: `wᵀ I w ≥ least_stretch · ‖w‖²`.
-    pub least_stretch: f32,
+    /// Not above the least eigenvalue of the first fundamental form `I`, m²: `wᵀ I w ≥ min_stretch · ‖w‖²`.
+    pub min_stretch: f32,
     /// Not below its greatest eigenvalue, m².
-    pub greatest_stretch: f32,
+    pub max_stretch: f32,
     /// Not below `(uu w_u² + 2 uv |w_u w_v| + vv w_v²) / (wᵀ I w)` for any change `w` of the parameters, with the bounds of
     /// the second derivatives above: the curvature, 1/m, that the certified gain reckons with. Never below
     /// the greatest curvature, for it counts how the parameters crowd as well.
-    pub greatest_bend: f32,
+    pub max_bend: f32,
 }
 
 impl ShapeBounds {
@@ -70,9 +70,9 @@ impl ShapeBounds {
         Self {
             second_derivatives,
             curvature: Curvature::UNBOUNDED,
-            least_stretch: 0.0,
-            greatest_stretch: f32::INFINITY,
-            greatest_bend: f32::INFINITY,
+            min_stretch: 0.0,
+            max_stretch: f32::INFINITY,
+            max_bend: f32::INFINITY,
         }
     }
 
@@ -80,9 +80,9 @@ impl ShapeBounds {
     pub(super) const fn is_possible(&self) -> bool {
         let SecondDerivativeBounds { uu, uv, vv } = self.second_derivatives;
         let finite = uu < f32::INFINITY && uv < f32::INFINITY && vv < f32::INFINITY;
-        let positive = uu >= 0.0 && uv >= 0.0 && vv >= 0.0 && self.least_stretch >= 0.0 && self.greatest_bend >= 0.0;
-        let curvature = self.curvature.least <= self.curvature.greatest;
-        finite && positive && curvature && self.least_stretch <= self.greatest_stretch
+        let positive = uu >= 0.0 && uv >= 0.0 && vv >= 0.0 && self.min_stretch >= 0.0 && self.max_bend >= 0.0;
+        let curvature = self.curvature.min <= self.curvature.max;
+        finite && positive && curvature && self.min_stretch <= self.max_stretch
     }
 }
 
@@ -94,15 +94,15 @@ mod tests {
     fn impossible_bounds_are_refused_and_missing_ones_are_not() {
         let unknown = ShapeBounds::unknown(SecondDerivativeBounds { uu: 1.0, uv: 0.0, vv: 2.0 });
         assert!(unknown.is_possible() && !unknown.curvature.is_convex());
-        let flat = ShapeBounds { curvature: Curvature::FLAT, greatest_bend: 0.0, ..unknown };
+        let flat = ShapeBounds { curvature: Curvature::FLAT, max_bend: 0.0, ..unknown };
         assert!(flat.is_possible() && flat.curvature.is_convex());
         let derivatives = SecondDerivativeBounds { uu: f32::INFINITY, uv: 0.0, vv: 0.0 };
         for wrong in [
-            ShapeBounds { curvature: Curvature { least: 2.0, greatest: 1.0 }, ..unknown },
-            ShapeBounds { curvature: Curvature { least: f32::NAN, greatest: 1.0 }, ..unknown },
-            ShapeBounds { least_stretch: 2.0, greatest_stretch: 1.0, ..unknown },
-            ShapeBounds { least_stretch: f32::NAN, ..unknown },
-            ShapeBounds { greatest_bend: -1.0, ..unknown },
+            ShapeBounds { curvature: Curvature { min: 2.0, max: 1.0 }, ..unknown },
+            ShapeBounds { curvature: Curvature { min: f32::NAN, max: 1.0 }, ..unknown },
+            ShapeBounds { min_stretch: 2.0, max_stretch: 1.0, ..unknown },
+            ShapeBounds { min_stretch: f32::NAN, ..unknown },
+            ShapeBounds { max_bend: -1.0, ..unknown },
             ShapeBounds::unknown(derivatives),
         ] {
             assert!(!wrong.is_possible(), "{wrong:?}");

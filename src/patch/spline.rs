@@ -6,6 +6,7 @@
 
 use super::spans::{Spans, locate};
 use super::{Patch, SecondDerivativeBounds, ShapeBounds, SurfacePoint};
+use core::num::NonZeroU32;
 use thiserror::Error;
 
 /// The highest degree along either parameter.
@@ -98,6 +99,7 @@ pub struct SplinePatch {
     /// 1 if `f_u × f_v` points out of the body, −1 if into it.
     outward: f32,
     size: f32,
+    baked_crc: Option<NonZeroU32>,
 }
 
 impl SplinePatch {
@@ -145,7 +147,8 @@ impl SplinePatch {
             Orientation::Outward => 1.0,
             Orientation::Inward => -1.0,
         };
-        Ok(Self { spans: Spans::new(degree, coefficients), degree, breaks_u, breaks_v, shape, outward, size })
+        let spans = Spans::new(degree, coefficients);
+        Ok(Self { spans, degree, breaks_u, breaks_v, shape, outward, size, baked_crc: None })
     }
 
     /// [`Self::try_new`] for a `static`: a bad table does not compile.
@@ -171,6 +174,13 @@ impl SplinePatch {
             Err(TableError::Bounds) => panic!("bounds"),
             Err(TableError::Size) => panic!("size"),
         }
+    }
+
+    /// The same table with the CRC that its words had when it was baked: the loop compares them with it, see
+    /// [`crate::servo::Safety::checks_tables`]. A patch of a body needs none, the body has one. (A CRC of 0, one in 2³², is none.)
+    #[must_use]
+    pub const fn with_crc(self, baked: u32) -> Self {
+        Self { baked_crc: NonZeroU32::new(baked), ..self }
     }
 
     /// Degrees along `u` and `v`.
@@ -206,11 +216,11 @@ impl SplinePatch {
             2 => bounds.uu,
             3 => bounds.uv,
             4 => bounds.vv,
-            5 => self.shape.curvature.least,
-            6 => self.shape.curvature.greatest,
-            7 => self.shape.least_stretch,
-            8 => self.shape.greatest_stretch,
-            9 => self.shape.greatest_bend,
+            5 => self.shape.curvature.min,
+            6 => self.shape.curvature.max,
+            7 => self.shape.min_stretch,
+            8 => self.shape.max_stretch,
+            9 => self.shape.max_bend,
             10 => self.size,
             _ if index - 11 < u => self.breaks_u[index - 11],
             _ if index - 11 - u < v => self.breaks_v[index - 11 - u],
@@ -223,7 +233,7 @@ impl SplinePatch {
     pub const fn table_crc(&self) -> u32 {
         let (mut crc, mut index) = (0, 0);
         while let Some(word) = self.word(index) {
-            crc = crate::servo::crc32(crc, word);
+            crc = super::crc32(crc, word);
             index += 1;
         }
         crc
@@ -254,6 +264,10 @@ impl Patch for SplinePatch {
 
     fn table_word(&self, index: usize) -> Option<u32> {
         self.word(index)
+    }
+
+    fn baked_crc(&self) -> Option<u32> {
+        self.baked_crc.map(NonZeroU32::get)
     }
 }
 

@@ -106,6 +106,24 @@ mod tests {
     }
 
     #[test]
+    fn on_a_surface_that_turns_only_what_lies_along_it_pulls() {
+        // Over a ball of 20 mm by 0.02 rad, in steps of 0.5 mrad: the chord to where it began dips under the tangent plane.
+        let mut anchor = Anchor::default();
+        for step in 0..=40 {
+            let (sine, cosine) = crate::math::sin_cos(step as f32 * 5e-4);
+            let normal = vec3(sine, 0.0, cosine);
+            let pull = STEEL.pull(&mut anchor, normal * 0.02, normal, 2.0, Vec3::ZERO);
+            // Half a rounding of the 20 mm of each coordinate, times 500 N/m.
+            assert!(pull.dot(normal).abs() < 2e-6, "{step}: {pull} leaves the surface");
+            let held = anchor.point.unwrap_or(Vec3::ZERO) - normal * 0.02;
+            assert!(held.dot(normal).abs() < 4e-9, "{step}: the anchor leaves the tangent plane by {held}");
+            // It sticks: 500 N/m along an arc of 10 µm a step, which turning makes longer by 2·10⁻⁴ of itself at most.
+            let along = sqrt(pull.length_squared());
+            assert!((along - 500.0 * 0.02 * step as f32 * 5e-4).abs() < 1e-4, "{step}: {along} N");
+        }
+    }
+
+    #[test]
     fn the_cone_holds_whatever_comes() {
         let mut anchor = Anchor::default();
         let friction = Friction { damping: 5.0, ..STEEL };

@@ -13,13 +13,13 @@ pub struct Detents {
     /// How far out of a detent the next one takes over, in pitches: ½, or more for a click that stays put (hysteresis).
     pub snap: f32,
     /// The first detent.
-    pub least: i32,
+    pub first: i32,
     /// The last detent.
-    pub greatest: i32,
+    pub last: i32,
     /// Force per distance beyond the first and the last.
     pub wall_stiffness: f32,
     /// The greatest force.
-    pub greatest_force: f32,
+    pub max_force: f32,
 }
 
 /// Which parameter is refused.
@@ -48,7 +48,7 @@ impl Detents {
         if !(self.pitch > 0.0 && self.pitch < f32::INFINITY) {
             return Err(DetentsError::Pitch);
         }
-        let forces = [self.stiffness, self.damping, self.wall_stiffness, self.greatest_force];
+        let forces = [self.stiffness, self.damping, self.wall_stiffness, self.max_force];
         let mut index = 0;
         while index < forces.len() {
             if !(forces[index] >= 0.0 && forces[index] < f32::INFINITY) {
@@ -59,11 +59,11 @@ impl Detents {
         if !(self.snap >= 0.5 && self.snap <= 1.0) {
             return Err(DetentsError::Snap);
         }
-        if self.least > self.greatest { Err(DetentsError::Order) } else { Ok(self) }
+        if self.first > self.last { Err(DetentsError::Order) } else { Ok(self) }
     }
 
     /// The force at a position and velocity, and the detent it is in (`detent` is the last one). Not more than
-    /// `greatest_force` either way; 0 where an input is not finite.
+    /// `max_force` either way; 0 where an input is not finite.
     #[inline]
     pub fn force(&self, detent: &mut i32, position: f32, velocity: f32) -> f32 {
         let distance = |detent: i32| position - detent as f32 * self.pitch;
@@ -71,14 +71,14 @@ impl Detents {
             let turns = position / self.pitch;
             let nearest = (turns + if turns < 0.0 { -0.5 } else { 0.5 }) as i32;
             // Not `clamp`, which panics where the constructor was passed by.
-            let nearest = if nearest < self.least { self.least } else { nearest };
-            *detent = if nearest > self.greatest { self.greatest } else { nearest };
+            let nearest = if nearest < self.first { self.first } else { nearest };
+            *detent = if nearest > self.last { self.last } else { nearest };
         }
         let away = distance(*detent);
-        let beyond = (*detent == self.least && away < 0.0) || (*detent == self.greatest && away > 0.0);
+        let beyond = (*detent == self.first && away < 0.0) || (*detent == self.last && away > 0.0);
         let stiffness = if beyond { self.wall_stiffness } else { self.stiffness };
         let force = -stiffness * away - self.damping * velocity;
-        if force.is_finite() { crate::math::saturate(force, -self.greatest_force, self.greatest_force) } else { 0.0 }
+        if force.is_finite() { crate::math::saturate(force, -self.max_force, self.max_force) } else { 0.0 }
     }
 }
 
@@ -91,10 +91,10 @@ mod tests {
         stiffness: 0.5,
         damping: 0.0,
         snap: 0.6,
-        least: -3,
-        greatest: 3,
+        first: -3,
+        last: 3,
         wall_stiffness: 2.0,
-        greatest_force: 0.3,
+        max_force: 0.3,
     };
 
     #[test]
@@ -128,6 +128,6 @@ mod tests {
         assert_eq!(Detents { pitch: f32::NAN, ..DIAL }.try_new(), Err(DetentsError::Pitch));
         assert_eq!(Detents { damping: -1.0, ..DIAL }.try_new(), Err(DetentsError::Force));
         assert_eq!(Detents { snap: 0.4, ..DIAL }.try_new(), Err(DetentsError::Snap));
-        assert_eq!(Detents { least: 4, ..DIAL }.try_new(), Err(DetentsError::Order));
+        assert_eq!(Detents { first: 4, ..DIAL }.try_new(), Err(DetentsError::Order));
     }
 }

@@ -1,12 +1,11 @@
 //! From the witness point to a force.
 //!
-//! [`Contact`] decides whether the surface is touched, [`Penalty`] how it pushes back, [`Friction`] how it holds along
-//! the surface, [`Texture`] what is added; [`Coupling`] puts a virtual tool between probe and surface. Then the force
-//! passes the limits of [`limit`] and, if asked for, [`Passivity`]. [`bounds`] says beforehand what a device can bear;
-//! [`Detents`] is for devices with one joint.
+//! [`crate::track::Contact`] says whether the surface is touched. [`Penalty`] says how it pushes back, [`Friction`] how
+//! it holds along the surface, [`Texture`] what is added; [`Coupling`] puts a virtual tool between probe and surface. Then
+//! the force passes the limits of [`limit`] and, if asked for, [`Passivity`]. [`bounds`] says beforehand what a device can
+//! bear; [`Detents`] is for devices with one joint.
 
 pub mod bounds;
-mod contact;
 mod coupling;
 mod friction;
 mod knob;
@@ -15,7 +14,6 @@ mod passivity;
 mod penalty;
 mod texture;
 
-pub use contact::Contact;
 pub use coupling::{Coupling, Tool};
 pub use friction::{Anchor, Friction};
 pub use knob::{Detents, DetentsError};

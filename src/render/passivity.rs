@@ -24,7 +24,7 @@ pub struct Passivity {
     /// `f_c`: dry friction the device has at least, N. 0 is the careful choice.
     pub device_friction: f32,
     /// The greatest `α`, N·s/m: more damping than the device bears does harm.
-    pub greatest_damping: f32,
+    pub max_damping: f32,
     /// `Δ`: how far the probe seems to move when every encoder counts one, m.
     pub resolution: f32,
 }
@@ -60,8 +60,8 @@ pub struct Motion {
 
 impl Passivity {
     /// The quantum, J, of a surface with this greatest force, N.
-    pub const fn quantum(&self, greatest_force: f32) -> f32 {
-        greatest_force * self.resolution
+    pub const fn quantum(&self, max_force: f32) -> f32 {
+        max_force * self.resolution
     }
 
     /// Books the move of the last period under the force that was held in it, N.
@@ -72,43 +72,36 @@ impl Passivity {
         energy.stored = saturate(energy.stored + friction - held.dot(motion.moved), -f32::MAX, f32::MAX);
     }
 
-    /// The force to give in place of `force`, N, at most `greatest_force`. `touching` says whether the surface is felt:
+    /// The force to give in place of `force`, N, at most `max_force`. `touching` says whether the surface is felt:
     /// out of contact a surplus is forgotten, so that it cannot be spent later; a debt stays.
     #[inline]
-    pub fn control(
-        &self,
-        energy: &mut Energy,
-        force: Vec3,
-        motion: &Motion,
-        touching: bool,
-        greatest_force: f32,
-    ) -> Vec3 {
+    pub fn control(&self, energy: &mut Energy, force: Vec3, motion: &Motion, touching: bool, max_force: f32) -> Vec3 {
         (energy.damping, energy.cut) = (0.0, false);
         if !touching {
             energy.stored = saturate(energy.stored, -f32::MAX, 0.0);
             return force;
         }
-        let quantum = self.quantum(greatest_force);
+        let quantum = self.quantum(max_force);
         let mut passive = force;
         let squared = motion.velocity.length_squared();
         let power = force.dot(motion.velocity) - self.device_damping * squared;
         let deficit = -0.5 * quantum - energy.stored + power / motion.rate;
         if deficit > 0.0 && squared > 0.0 {
-            energy.damping = saturate(deficit * motion.rate / squared, 0.0, self.greatest_damping);
+            energy.damping = saturate(deficit * motion.rate / squared, 0.0, self.max_damping);
             passive -= motion.velocity * energy.damping;
         }
         let reach = sqrt(motion.moved.length_squared()) + self.resolution;
-        let most = saturate((energy.stored + quantum) / reach, 0.0, greatest_force);
-        energy.cut = passive.length_squared() > most * most && most < greatest_force;
+        let most = saturate((energy.stored + quantum) / reach, 0.0, max_force);
+        energy.cut = passive.length_squared() > most * most && most < max_force;
         saturated(passive, most)
     }
 
     /// Whether all four are finite and not negative, and the resolution is above zero.
     pub const fn is_valid(&self) -> bool {
-        let Self { device_damping, device_friction, greatest_damping, resolution } = *self;
+        let Self { device_damping, device_friction, max_damping, resolution } = *self;
         let finite = device_damping < f32::INFINITY && device_friction < f32::INFINITY;
-        let bounded = greatest_damping < f32::INFINITY && resolution < f32::INFINITY;
-        let signs = device_damping >= 0.0 && device_friction >= 0.0 && greatest_damping >= 0.0 && resolution > 0.0;
+        let bounded = max_damping < f32::INFINITY && resolution < f32::INFINITY;
+        let signs = device_damping >= 0.0 && device_friction >= 0.0 && max_damping >= 0.0 && resolution > 0.0;
         finite && bounded && signs
     }
 }
@@ -118,7 +111,7 @@ mod tests {
     use super::*;
 
     const CONTROL: Passivity =
-        Passivity { device_damping: 0.0, device_friction: 0.0, greatest_damping: 50.0, resolution: 2e-5 };
+        Passivity { device_damping: 0.0, device_friction: 0.0, max_damping: 50.0, resolution: 2e-5 };
     const GREATEST: f32 = 5.0;
 
     fn motion(moved: f32) -> Motion {

@@ -11,7 +11,7 @@ pub struct Penalty {
     /// damping` (Colgate and Schenkel).
     pub damping: f32,
     /// The greatest force, N.
-    pub greatest_force: f32,
+    pub max_force: f32,
 }
 
 impl Penalty {
@@ -21,7 +21,7 @@ impl Penalty {
     pub fn push(&self, gap: f32, gap_rate: f32) -> f32 {
         if gap < 0.0 {
             let spring_and_damper = -self.stiffness * gap - self.damping * gap_rate;
-            saturate(spring_and_damper, 0.0, self.greatest_force)
+            saturate(spring_and_damper, 0.0, self.max_force)
         } else {
             0.0
         }
@@ -32,7 +32,7 @@ impl Penalty {
 mod tests {
     use super::*;
 
-    const WALL: Penalty = Penalty { stiffness: 1_000.0, damping: 5.0, greatest_force: 5.0 };
+    const WALL: Penalty = Penalty { stiffness: 1_000.0, damping: 5.0, max_force: 5.0 };
 
     #[test]
     fn the_wall_pushes_and_never_pulls() {

@@ -1,12 +1,13 @@
 //! The loop's configuration, checked when it is built, and the state it starts from.
 
+use super::lost_contact::{ContactWatch, LostContact};
 use super::{
     Fault, Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError,
     Stillness, Surface, TableCheck,
 };
 use crate::device::{Device, Duty, Homing, HomingState, Kinematics, VelocityEstimator};
 use crate::math::Vec3;
-use crate::render::{Anchor, Contact, Energy, Penalty, Tool};
+use crate::render::{Anchor, Energy, Penalty, Tool};
 use crate::track::Controller;
 
 /// The loop's configuration: device, surface, controller and settings. Constant, in flash.
@@ -23,10 +24,11 @@ pub struct Servo<'a, S, K, const JOINTS: usize> {
     pub(super) settings: Settings,
     pub(super) rate: f32,
     pub(super) period: f32,
-    pub(super) greatest_move: f32,
-    pub(super) greatest_growth: f32,
+    pub(super) max_move: f32,
+    pub(super) max_growth: f32,
     pub(super) fade_step: f32,
     pub(super) link_ticks: u32,
+    pub(super) contact_watch: ContactWatch,
 }
 
 impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K, JOINTS> {
@@ -40,20 +42,16 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         controller: Controller,
         settings: Settings,
     ) -> Result<Self, SettingsError> {
-        if let Err(error) = settings.check(device.greatest_stiffness, device.greatest_damping) {
+        if let Err(error) = settings.check(device.max_stiffness, device.max_damping) {
             return Err(error);
         }
         let period = 1.0 / settings.rate;
-        let greatest_force = if settings.greatest_force < device.greatest_force {
-            settings.greatest_force
-        } else {
-            device.greatest_force
-        };
+        let max_force = if settings.max_force < device.max_force { settings.max_force } else { device.max_force };
         let servo = Self {
             device,
             surface,
             controller,
-            penalty: Penalty { stiffness: settings.stiffness, damping: settings.damping, greatest_force },
+            penalty: Penalty { stiffness: settings.stiffness, damping: settings.damping, max_force },
             // Any: the rendering below sets them.
             estimators: [VelocityEstimator::new(Rendering::PLAIN.velocity, 1.0, 1.0, 0.0); JOINTS],
             rendering: Rendering::PLAIN,
@@ -62,11 +60,12 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             settings,
             rate: settings.rate,
             period,
-            greatest_move: device.greatest_joint_rate * period,
-            greatest_growth: f32::INFINITY,
+            max_move: device.max_joint_rate * period,
+            max_growth: f32::INFINITY,
             // A fade no longer than a tick is no fade.
             fade_step: if settings.soft_start > period { period / settings.soft_start } else { 1.0 },
             link_ticks: u32::MAX,
+            contact_watch: ContactWatch::new(Safety::DEFAULT.contact, max_force / settings.stiffness, settings.rate),
         };
         Ok(servo.set_rendering(Rendering::PLAIN))
     }
@@ -86,7 +85,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             Err(SettingsError::Rate) => panic!("rate"),
             Err(SettingsError::Stiffness) => panic!("stiffness"),
             Err(SettingsError::Damping) => panic!("damping"),
-            Err(SettingsError::GreatestForce) => panic!("greatest_force"),
+            Err(SettingsError::MaxForce) => panic!("max_force"),
             Err(SettingsError::VelocityCorner) => panic!("velocity_corner"),
             Err(SettingsError::SoftStart) => panic!("soft_start"),
             Err(SettingsError::BodyOrigin) => panic!("body_origin"),
@@ -115,7 +114,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             Err(RenderingError::Texture) => panic!("texture"),
             Err(RenderingError::Coupling) => panic!("coupling"),
             Err(RenderingError::Passivity) => panic!("passivity"),
-            Err(RenderingError::Slew) => panic!("greatest_slew"),
+            Err(RenderingError::Slew) => panic!("max_slew"),
         }
     }
 
@@ -127,7 +126,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
                 VelocityEstimator::new(rendering.velocity, self.settings.velocity_corner, self.rate, count);
             joint += 1;
         }
-        self.greatest_growth = rendering.greatest_slew * self.period;
+        self.max_growth = rendering.max_slew * self.period;
         self.rendering = rendering;
         self
     }
@@ -137,10 +136,12 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
     /// # Errors
     /// The limit that is refused.
     pub const fn try_safety(mut self, safety: Safety) -> Result<Self, SafetyError> {
-        match safety.check(self.device.greatest_damping) {
+        match safety.check(self.device.max_damping) {
             Ok(()) => {
                 // The cast saturates: ∞ is 2³² ticks, which is never.
                 self.link_ticks = (safety.link_timeout * self.rate) as u32;
+                let full_force_depth = self.penalty.max_force / self.penalty.stiffness;
+                self.contact_watch = ContactWatch::new(safety.contact, full_force_depth, self.rate);
                 self.safety = safety;
                 Ok(self)
             }
@@ -158,13 +159,14 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             Err(SafetyError::Damping) => panic!("output"),
             Err(SafetyError::LinkTimeout) => panic!("link_timeout"),
             Err(SafetyError::Stuck) => panic!("stuck"),
+            Err(SafetyError::Contact) => panic!("contact"),
         }
     }
 
     /// The same loop, which finds out in [`Phase::Calibrate`] where the joints are.
     ///
     /// Until that is done no angle is believed: ranges are not looked at, there is no pose, and only homing itself drives the
-    /// motors, as gently as it says and only while force is asked for; it waits otherwise. A refusal is [`super::Fault::Homing`],
+    /// motors, within the torque and speed it was given and only while force is asked for; otherwise it waits. A refusal is [`super::Fault::Homing`],
     /// and [`ServoState::homing`] has the reason.
     pub const fn homing(self, homing: Homing<JOINTS>) -> Self {
         Self { homing: Some(homing), ..self }
@@ -176,10 +178,10 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
     }
 
     /// The state before the first tick after a reset. One by the watchdog or a brown-out is a fault from the start, and so are tables that are
-    /// not what was baked, where [`Safety::table_crc`] says what that is: they are read whole here.
+    /// not what was baked ([`Safety::checks_tables`]): they are read whole here.
     pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS, S::Witness> {
         let mut table_check = TableCheck::default();
-        let is_good = self.safety.table_crc.is_none_or(|expected| table_check.run(self.surface, expected));
+        let is_good = self.expected_crc().is_none_or(|expected| table_check.run(self.surface, expected));
         let fault = reset.fault().or((!is_good).then_some(Fault::TableCorrupt));
         ServoState {
             phase: if fault.is_some() { Phase::Fault } else { Phase::Reset },
@@ -197,6 +199,8 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             angles_at_zero: self.device.encoders.map(|encoder| encoder.angle_at_zero),
             table_check,
             steps_undone: 0,
+            lost_contact: LostContact::default(),
+            is_too_deep: false,
             counts: None,
             angles: [0.0; JOINTS],
             rates: [0.0; JOINTS],
@@ -206,8 +210,6 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             probe: Vec3::ZERO,
             tool: Tool::default(),
             witness: self.surface.rest(),
-            gap: 0.0,
-            contact: Contact::default(),
             anchor: Anchor::default(),
             energy: Energy::default(),
             fade: 0.0,

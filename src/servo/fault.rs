@@ -1,12 +1,12 @@
 //! Why the loop stopped, why the chip was reset, and what the board has to tell the loop.
 
 use crate::device::Counts;
-/// What stopped the loop. The number is the code in a report, 0 there means none; the word is its `Display`.
+/// What stopped the loop. The number is its code in a report, where 0 means no fault; `Display` gives it in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum Fault {
-    /// No sensor frame came for a tick, or one for another tick.
+    /// No sensor frame came for a tick, or one that belongs to another tick.
     #[error("sensor frame lost or late")]
     FrameLost = 1,
     /// A sensor frame came damaged: parity, CRC or the sensor's own error flag.
@@ -48,14 +48,17 @@ pub enum Fault {
     /// Somebody pressed stop.
     #[error("stopped by hand")]
     Stopped = 14,
-    /// The joint angles are such as the mechanism cannot have: a sensor lies, or something broke.
+    /// Joint angles that the mechanism cannot have: a sensor is wrong, or something broke.
     #[error("pose out of the mechanism's reach")]
     Unreachable = 15,
+    /// Contact that no motion explains, again and again: see [`super::ContactLimits`].
+    #[error("contact lost again and again")]
+    ContactLost = 16,
 }
 
 impl Fault {
     /// Every fault, in the order of its code.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::FrameLost,
         Self::FrameDamaged,
         Self::JointOutOfRange,
@@ -71,6 +74,7 @@ impl Fault {
         Self::Homing,
         Self::Stopped,
         Self::Unreachable,
+        Self::ContactLost,
     ];
 
     /// The code in a report, from 1.

@@ -3,7 +3,8 @@
 use super::{Phase, Servo, ServoState, Surface, Tracked as _};
 use crate::device::Kinematics;
 use crate::math::{Vec3, sqrt};
-use crate::render::{Contact, Motion, Tool, Touch, limit};
+use crate::render::{Motion, Tool, Touch, limit};
+use crate::track::Contact;
 
 impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOINTS> {
     /// The force on the probe, N. `tool` is what touches the surface, `motion` is the probe's.
@@ -15,7 +16,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         normal: Vec3,
         motion: &Motion,
     ) -> Vec3 {
-        let surface = self.surface_force(state, tool, normal);
+        let surface = self.surface_force(state, tool, normal) + self.fading(state);
         let felt = match &self.rendering.coupling {
             None => surface,
             Some(coupling) => {
@@ -23,18 +24,18 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
                 coupling.force(&tool, state.probe, motion.velocity)
             }
         };
-        let faded = limit::saturated(felt * (state.fade * state.room), self.penalty.greatest_force);
-        let slewed = limit::slewed(faded, state.force, self.greatest_growth);
+        let faded = limit::saturated(felt * (state.fade * state.room), self.penalty.max_force);
+        let slewed = limit::slewed(faded, state.force, self.max_growth);
         let Some(passivity) = &self.rendering.passivity else { return slewed };
-        let touching = state.contact == Contact::Touching || self.rendering.coupling.is_some();
-        passivity.control(&mut state.energy, slewed, motion, touching, self.penalty.greatest_force)
+        let touching = state.contact() == Contact::Touching || self.rendering.coupling.is_some();
+        passivity.control(&mut state.energy, slewed, motion, touching, self.penalty.max_force)
     }
 
     /// The surface's force on what touches it, N.
     #[inline]
     fn surface_force(&self, state: &mut ServoState<JOINTS, S::Witness>, tool: Tool, normal: Vec3) -> Vec3 {
-        let push = match state.contact {
-            Contact::Touching => self.penalty.push(state.gap, tool.velocity.dot(normal)),
+        let push = match state.contact() {
+            Contact::Touching => self.penalty.push(state.gap(), tool.velocity.dot(normal)),
             Contact::Behind | Contact::InFront => 0.0,
         };
         let mut force = normal * push;

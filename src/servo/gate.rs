@@ -1,4 +1,4 @@
-//! The last thing before the motors: nothing that is not finite, in range and allowed passes.
+//! The last thing before the motors: only what is finite, in range and allowed passes.
 
 use super::Fault;
 use crate::device::{Duty, Motor};

@@ -11,11 +11,12 @@
 //! | sensor frame lost, late or damaged | [`Input::Lost`], [`Input::Damaged`] | `FrameLost`, `FrameDamaged` |
 //! | encoder absent, glitching | range and greatest joint rate of the [`crate::device::Device`] | `JointOutOfRange`, `JointJumped` |
 //! | encoder stuck | [`Safety::stuck`] | `JointStuck` |
+//! | contact that no motion explains, again and again | [`ContactLimits`] | `ContactLost` |
 //! | encoders contradict the mechanism | [`crate::device::Kinematics::pose`] | `Unreachable` |
-//! | a number that is none | the gate before the motors | `NotFinite` |
+//! | a force or torque that is NaN or infinite | the gate before the motors | `NotFinite` |
 //! | tick overrun | [`Deadline`], [`Event::Overrun`] | `Overrun` |
 //! | host link lost | [`Safety::link_timeout`], [`Event::LinkAlive`] | `LinkLost` |
-//! | table corrupted or stale | [`Safety::table_crc`], at boot and in every tick | `TableCorrupt` |
+//! | table corrupted or stale | [`Safety::checks_tables`], at boot and in every tick | `TableCorrupt` |
 //! | reset by watchdog or brown-out | [`ResetReason`], [`Servo::start_after`] | `WatchdogReset`, `BrownOut` |
 //! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
 //! | too much force | scaled as a whole, its direction kept | none: a limit |
@@ -30,7 +31,11 @@ mod deadline;
 mod fault;
 mod force;
 mod gate;
+mod lose;
+mod lost_contact;
+mod patch_witness;
 mod phase;
+mod reading;
 mod rendering;
 mod safety;
 mod sense;
@@ -44,6 +49,8 @@ mod tick;
 pub use config::Servo;
 pub use deadline::{Deadline, Heartbeat};
 pub use fault::{Event, Fault, ResetReason};
+pub use lost_contact::ContactLimits;
+pub use patch_witness::PatchWitness;
 pub use phase::Phase;
 pub use rendering::{Rendering, RenderingError};
 pub use safety::{SafeOutput, Safety, SafetyError, StuckLimits};
@@ -51,5 +58,5 @@ pub use settings::{Settings, SettingsError};
 pub use state::ServoState;
 pub use stuck::Stillness;
 pub use surface::{Surface, Touched, Tracked};
-pub use table_check::{TableCheck, crc32};
+pub use table_check::TableCheck;
 pub use tick::Input;

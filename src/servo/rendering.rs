@@ -18,13 +18,13 @@ pub struct Rendering {
     /// Passivity control.
     pub passivity: Option<Passivity>,
     /// How fast the force may grow, N/s. It may always fall at once.
-    pub greatest_slew: f32,
+    pub max_slew: f32,
     /// Whether the motors carry the weight of the device's own links, as far as its kinematics knows it.
     ///
     /// The torques that do come on top of the force's, last before the gate, which gives them what they need first. They fade
     /// in with the force, for at the start the hand still carries what the motors did not, and would be lifted by a step.
     /// They are no part of [`super::ServoState::force`], nor of what the greatest force, the slew limit and the passivity
-    /// control look at: they come from a height, and give back what they took. At the rim of the workspace they stay. Without
+    /// control look at: they are conservative, and give back what they took. At the rim of the workspace they stay. Without
     /// [`super::Phase::Running`], and so after any fault, they are zero.
     pub carries_weight: bool,
 }
@@ -58,7 +58,7 @@ impl Rendering {
         texture: None,
         coupling: None,
         passivity: None,
-        greatest_slew: f32::INFINITY,
+        max_slew: f32::INFINITY,
         carries_weight: true,
     };
 
@@ -73,7 +73,7 @@ impl Rendering {
             return Err(RenderingError::Friction);
         }
         if let Some(texture) = &self.texture
-            && !(texture.greatest_share >= 0.0 && texture.greatest_share <= 1.0)
+            && !(texture.max_share >= 0.0 && texture.max_share <= 1.0)
         {
             return Err(RenderingError::Texture);
         }
@@ -87,7 +87,7 @@ impl Rendering {
         {
             return Err(RenderingError::Passivity);
         }
-        let grows = self.greatest_slew > 0.0;
+        let grows = self.max_slew > 0.0;
         if grows { Ok(()) } else { Err(RenderingError::Slew) }
     }
 }
@@ -95,5 +95,78 @@ impl Rendering {
 impl Default for Rendering {
     fn default() -> Self {
         Self::PLAIN
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Vec3;
+
+    const STIFFNESS: f32 = 1_000.0;
+    const PERIOD: f32 = 1e-3;
+    const FRICTION: Friction =
+        Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 };
+    const COUPLING: Coupling = Coupling { stiffness: 500.0, damping: 3.0, mass: 0.01 };
+    const PASSIVITY: Passivity =
+        Passivity { device_damping: 0.1, device_friction: 0.01, max_damping: 8.0, resolution: 1e-4 };
+
+    fn refused(rendering: Rendering, error: RenderingError) {
+        assert_eq!(rendering.check(STIFFNESS, PERIOD), Err(error), "{rendering:?}");
+    }
+
+    #[test]
+    fn each_choice_that_cannot_be_felt_is_refused_by_its_name() {
+        let texture = Texture { force: |_| Vec3::ZERO, max_share: 1.0 };
+        let all = Rendering {
+            friction: Some(FRICTION),
+            texture: Some(texture),
+            coupling: Some(COUPLING),
+            passivity: Some(PASSIVITY),
+            max_slew: 100.0,
+            ..Rendering::PLAIN
+        };
+        assert_eq!(Rendering::PLAIN.check(STIFFNESS, PERIOD), Ok(()));
+        assert_eq!(all.check(STIFFNESS, PERIOD), Ok(()));
+        for bad in [-1.0, f32::NAN, f32::INFINITY] {
+            for friction in [
+                Friction { stiffness: bad, ..FRICTION },
+                Friction { damping: bad, ..FRICTION },
+                Friction { static_coefficient: bad, ..FRICTION },
+                Friction { dynamic_coefficient: bad, ..FRICTION },
+            ] {
+                refused(Rendering { friction: Some(friction), ..all }, RenderingError::Friction);
+            }
+            let coarse = Texture { max_share: bad, ..texture };
+            refused(Rendering { texture: Some(coarse), ..all }, RenderingError::Texture);
+            for coupling in [
+                Coupling { stiffness: bad, ..COUPLING },
+                Coupling { damping: bad, ..COUPLING },
+                Coupling { mass: bad, ..COUPLING },
+            ] {
+                refused(Rendering { coupling: Some(coupling), ..all }, RenderingError::Coupling);
+            }
+            for passivity in [
+                Passivity { device_damping: bad, ..PASSIVITY },
+                Passivity { device_friction: bad, ..PASSIVITY },
+                Passivity { max_damping: bad, ..PASSIVITY },
+                Passivity { resolution: bad, ..PASSIVITY },
+            ] {
+                refused(Rendering { passivity: Some(passivity), ..all }, RenderingError::Passivity);
+            }
+        }
+        // Slipping must not hold more than sticking.
+        let sticky = Friction { dynamic_coefficient: 0.41, ..FRICTION };
+        refused(Rendering { friction: Some(sticky), ..all }, RenderingError::Friction);
+        let still = Passivity { resolution: 0.0, ..PASSIVITY };
+        refused(Rendering { passivity: Some(still), ..all }, RenderingError::Passivity);
+        refused(Rendering { texture: Some(Texture { max_share: 1.01, ..texture }), ..all }, RenderingError::Texture);
+        // (500 + 1,000) N/m · 1 ms² < 2 m asks for 0.75 g.
+        refused(Rendering { coupling: Some(Coupling { mass: 7.4e-4, ..COUPLING }), ..all }, RenderingError::Coupling);
+        let light = Rendering { coupling: Some(Coupling { mass: 7.6e-4, ..COUPLING }), ..all };
+        assert_eq!(light.check(STIFFNESS, PERIOD), Ok(()));
+        for max_slew in [0.0, -1.0, f32::NAN] {
+            refused(Rendering { max_slew, ..all }, RenderingError::Slew);
+        }
     }
 }

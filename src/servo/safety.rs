@@ -1,8 +1,9 @@
 //! What a user chooses about safety.
 
+use super::ContactLimits;
 use thiserror::Error;
 
-/// What the motors do once a fault has been seen.
+/// What the motors do from the tick in which a fault is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SafeOutput {
@@ -16,7 +17,7 @@ pub enum SafeOutput {
 /// When a joint sensor counts as stuck: the force that the hand feels loads its joint beyond dry friction, and its count stays
 /// the same, while another joint moves far.
 ///
-/// That a joint rests under load says nothing: the hand may hold it. But a hand that moves another joint by `travel` meanwhile
+/// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves another joint by `travel` meanwhile
 /// would have to balance the load on this one to within its dry friction all the way, on the one curve on which it does not
 /// turn. Below friction no hand is needed for that, so what is below counts as no load. A device with one joint has no others:
 /// there this finds nothing. One joint is looked at a tick.
@@ -44,7 +45,7 @@ pub struct Safety {
     /// What the motors do after a fault.
     pub output: SafeOutput,
     /// How many ticks in a row may overrun before it is a fault.
-    pub overruns_allowed: u32,
+    pub max_overruns: u32,
     /// Seconds of silence after which the host's link is lost; infinite where no host watches.
     pub link_timeout: f32,
     /// Ticks of believable sensors before the loop is armed.
@@ -53,9 +54,11 @@ pub struct Safety {
     pub wait_for_homing: bool,
     /// When a sensor counts as stuck; `None` does not watch.
     pub stuck: Option<StuckLimits>,
-    /// CRC-32 of the tables, that their source has as `TABLE_CRC`: checked whole before the first tick, and again and again after, a word a
-    /// tick. `None` checks nothing.
-    pub table_crc: Option<u32>,
+    /// When contact counts as lost; `None` does not watch.
+    pub contact: Option<ContactLimits>,
+    /// Whether tables that carry the CRC they were baked with are checked: whole before the first tick, and again and again
+    /// after, a word a tick.
+    pub checks_tables: bool,
 }
 
 /// Which limit is refused. In a `static` it is a compile error.
@@ -71,27 +74,31 @@ pub enum SafetyError {
     /// The load is below dry friction, or the travel is not above zero.
     #[error("the load of a stuck sensor must be dry friction at least, and the travel positive")]
     Stuck,
+    /// The depth is not above that of the greatest force, or a time is negative or not finite.
+    #[error("lost contact must be deeper than the greatest force reaches, and its times not negative")]
+    Contact,
 }
 
 impl Safety {
-    /// Zero output, no overrun allowed, no host, stuck sensors watched for, no table check.
+    /// Zero output, no overrun allowed, no host, stuck sensors and lost contact watched for, tables checked.
     pub const DEFAULT: Self = Self {
         output: SafeOutput::Zero,
-        overruns_allowed: 0,
+        max_overruns: 0,
         link_timeout: f32::INFINITY,
         settle_ticks: 1,
         wait_for_homing: false,
         stuck: Some(StuckLimits::DEFAULT),
-        table_crc: None,
+        contact: Some(ContactLimits::DEFAULT),
+        checks_tables: true,
     };
 
     /// Checks the limits against a device's greatest damping (N·s/m).
     ///
     /// # Errors
     /// The first that is refused.
-    pub const fn check(&self, greatest_damping: f32) -> Result<(), SafetyError> {
+    pub const fn check(&self, max_damping: f32) -> Result<(), SafetyError> {
         if let SafeOutput::Damping(damping) = self.output {
-            let sensible = damping >= 0.0 && damping <= greatest_damping;
+            let sensible = damping >= 0.0 && damping <= max_damping;
             if !sensible {
                 return Err(SafetyError::Damping);
             }
@@ -106,6 +113,11 @@ impl Safety {
                 return Err(SafetyError::Stuck);
             }
         }
+        if let Some(contact) = &self.contact
+            && !contact.is_valid()
+        {
+            return Err(SafetyError::Contact);
+        }
         Ok(())
     }
 }
@@ -113,5 +125,37 @@ impl Safety {
 impl Default for Safety {
     fn default() -> Self {
         Self::DEFAULT
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_that_protect_nobody_are_refused() {
+        const MAX_DAMPING: f32 = 5.0;
+        assert_eq!(Safety::DEFAULT.check(MAX_DAMPING), Ok(()));
+        for (damping, good) in [(0.0, true), (5.0, true), (5.001, false), (-0.001, false), (f32::NAN, false)] {
+            let safety = Safety { output: SafeOutput::Damping(damping), ..Safety::DEFAULT };
+            assert_eq!(safety.check(MAX_DAMPING), if good { Ok(()) } else { Err(SafetyError::Damping) }, "{damping}");
+        }
+        for (link_timeout, good) in
+            [(1e-3, true), (f32::INFINITY, true), (0.0, false), (-1.0, false), (f32::NAN, false)]
+        {
+            let safety = Safety { link_timeout, ..Safety::DEFAULT };
+            assert_eq!(safety.check(MAX_DAMPING), if good { Ok(()) } else { Err(SafetyError::LinkTimeout) });
+        }
+        for (load, travel, good) in
+            [(1.0, 0.1, true), (0.99, 0.1, false), (5.0, 0.0, false), (f32::NAN, 0.1, false), (5.0, f32::NAN, false)]
+        {
+            let safety = Safety { stuck: Some(StuckLimits { load, travel }), ..Safety::DEFAULT };
+            assert_eq!(
+                safety.check(MAX_DAMPING),
+                if good { Ok(()) } else { Err(SafetyError::Stuck) },
+                "{load} {travel}"
+            );
+        }
+        assert_eq!(Safety { stuck: None, ..Safety::DEFAULT }.check(MAX_DAMPING), Ok(()));
     }
 }

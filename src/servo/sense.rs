@@ -13,7 +13,7 @@ use crate::device::{Counts, Device, Encoder, VelocityEstimator};
 pub fn sense<W, K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     estimators: &[VelocityEstimator; JOINTS],
-    greatest_move: f32,
+    max_move: f32,
     placed: bool,
     state: &mut ServoState<JOINTS, W>,
     counts: [Counts; JOINTS],
@@ -31,7 +31,7 @@ pub fn sense<W, K, const JOINTS: usize>(
     // The first counts have nothing to have moved from.
     let first = state.counts.is_none();
     if !first {
-        let believable = |(angle, last): (&f32, &f32)| (angle - last).abs() <= greatest_move;
+        let believable = |(angle, last): (&f32, &f32)| (angle - last).abs() <= max_move;
         if !angles.iter().zip(&before).all(believable) {
             return Err(Fault::JointJumped);
         }

@@ -3,7 +3,7 @@
 use crate::math::Vec3;
 use thiserror::Error;
 
-/// The loop's settings.
+/// The loop's settings. Begin with [`Settings::DEFAULT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Servo rate, Hz.
@@ -12,8 +12,8 @@ pub struct Settings {
     pub stiffness: f32,
     /// Damping of the surface, N·s/m.
     pub damping: f32,
-    /// The greatest force, N. The device's own limit holds besides.
-    pub greatest_force: f32,
+    /// The greatest force, N. The device's own limit applies as well.
+    pub max_force: f32,
     /// Corner frequency of the velocity filter, Hz.
     pub velocity_corner: f32,
     /// Seconds over which the force is faded in after force was asked for.
@@ -37,7 +37,7 @@ pub enum SettingsError {
     Damping,
     /// The greatest force is negative or not finite.
     #[error("the greatest force must be finite and not negative")]
-    GreatestForce,
+    MaxForce,
     /// The corner frequency is not positive and finite.
     #[error("the velocity corner must be positive and finite")]
     VelocityCorner,
@@ -50,22 +50,33 @@ pub enum SettingsError {
 }
 
 impl Settings {
+    /// 1 kHz, a soft wall and little force, within what every device that ships takes; the body's origin in that of the device.
+    pub const DEFAULT: Self = Self {
+        rate: 1_000.0,
+        stiffness: 200.0,
+        damping: 0.5,
+        max_force: 1.0,
+        velocity_corner: 100.0,
+        soft_start: 0.2,
+        body_origin: Vec3::ZERO,
+    };
+
     /// Checks the settings against a device's greatest stiffness (N/m) and damping (N·s/m).
     ///
     /// # Errors
     /// The first setting that is refused.
-    pub const fn check(&self, greatest_stiffness: f32, greatest_damping: f32) -> Result<(), SettingsError> {
+    pub const fn check(&self, max_stiffness: f32, max_damping: f32) -> Result<(), SettingsError> {
         if !within(self.rate, 1.0, 100_000.0) {
             return Err(SettingsError::Rate);
         }
-        if !within(self.stiffness, 0.0, greatest_stiffness) {
+        if !within(self.stiffness, 0.0, max_stiffness) {
             return Err(SettingsError::Stiffness);
         }
-        if !within(self.damping, 0.0, greatest_damping) {
+        if !within(self.damping, 0.0, max_damping) {
             return Err(SettingsError::Damping);
         }
-        if !within(self.greatest_force, 0.0, f32::MAX) {
-            return Err(SettingsError::GreatestForce);
+        if !within(self.max_force, 0.0, f32::MAX) {
+            return Err(SettingsError::MaxForce);
         }
         if !within(self.velocity_corner, f32::MIN_POSITIVE, f32::MAX) {
             return Err(SettingsError::VelocityCorner);
@@ -81,7 +92,63 @@ impl Settings {
     }
 }
 
+impl Default for Settings {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
 /// Whether `low ≤ x ≤ high`; false for NaN.
 const fn within(x: f32, low: f32, high: f32) -> bool {
     x >= low && x <= high
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::presets;
+
+    #[test]
+    fn the_default_is_taken_by_every_device_that_ships_and_what_no_loop_can_have_by_none() {
+        let limits = [
+            [presets::WOODEN_HAPTICS_2016.max_stiffness, presets::WOODEN_HAPTICS_2016.max_damping],
+            [presets::POLHEM_V2.max_stiffness, presets::POLHEM_V2.max_damping],
+            [presets::NOVINT_FALCON.max_stiffness, presets::NOVINT_FALCON.max_damping],
+            [presets::HAPKIT.max_stiffness, presets::HAPKIT.max_damping],
+            [presets::HAPLY_2DIY_V3.max_stiffness, presets::HAPLY_2DIY_V3.max_damping],
+            [presets::HAPLY_KIT_V1.max_stiffness, presets::HAPLY_KIT_V1.max_damping],
+            [presets::PHANTOM_PREMIUM.max_stiffness, presets::PHANTOM_PREMIUM.max_damping],
+        ];
+        for [max_stiffness, max_damping] in limits {
+            assert_eq!(Settings::DEFAULT.check(max_stiffness, max_damping), Ok(()));
+            for bad in [-1.0, f32::NAN, f32::INFINITY] {
+                let spoilt = [
+                    (Settings { rate: bad, ..Settings::DEFAULT }, SettingsError::Rate),
+                    (Settings { stiffness: bad, ..Settings::DEFAULT }, SettingsError::Stiffness),
+                    (Settings { damping: bad, ..Settings::DEFAULT }, SettingsError::Damping),
+                    (Settings { max_force: bad, ..Settings::DEFAULT }, SettingsError::MaxForce),
+                    (Settings { velocity_corner: bad, ..Settings::DEFAULT }, SettingsError::VelocityCorner),
+                    (Settings { soft_start: bad, ..Settings::DEFAULT }, SettingsError::SoftStart),
+                ];
+                for (settings, error) in spoilt {
+                    assert_eq!(settings.check(max_stiffness, max_damping), Err(error));
+                }
+            }
+            let stiff = Settings { stiffness: max_stiffness * 1.001, ..Settings::DEFAULT };
+            assert_eq!(stiff.check(max_stiffness, max_damping), Err(SettingsError::Stiffness));
+            let damped = Settings { damping: max_damping * 1.001, ..Settings::DEFAULT };
+            assert_eq!(damped.check(max_stiffness, max_damping), Err(SettingsError::Damping));
+        }
+        for (rate, good) in [(0.999, false), (1.0, true), (100_000.0, true), (100_100.0, false), (0.0, false)] {
+            assert_eq!(Settings { rate, ..Settings::DEFAULT }.check(1e3, 1e1).is_ok(), good, "{rate} Hz");
+        }
+        let still = Settings { velocity_corner: 0.0, ..Settings::DEFAULT };
+        assert_eq!(still.check(1e3, 1e1), Err(SettingsError::VelocityCorner));
+        for bad in [f32::NAN, f32::INFINITY] {
+            for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+                let away = Settings { body_origin: axis * bad, ..Settings::DEFAULT };
+                assert_eq!(away.check(1e3, 1e1), Err(SettingsError::BodyOrigin));
+            }
+        }
+    }
 }

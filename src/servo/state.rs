@@ -1,77 +1,78 @@
 //! Everything that changes from tick to tick.
 
-use super::{Fault, Phase, ResetReason, Stillness, TableCheck, Tracked};
+use super::lost_contact::LostContact;
+use super::{Fault, PatchWitness, Phase, ResetReason, Stillness, TableCheck, Tracked};
 use crate::device::{Counts, Duty, HomingState, VelocityState};
 use crate::math::Vec3;
-use crate::render::{Anchor, Contact, Energy, Tool};
-use crate::track::Witness;
+use crate::render::{Anchor, Energy, Tool};
 
-/// The state of the loop after a tick. A plain value: copy it, compare it, keep it in RAM.
+/// The state of the loop after a tick. A plain value: copy it, compare it, keep it in RAM. Only the loop
+/// writes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ServoState<const JOINTS: usize, W = Witness> {
+pub struct ServoState<const JOINTS: usize, W = PatchWitness> {
     /// What the loop is doing.
-    pub phase: Phase,
+    pub(super) phase: Phase,
     /// What stopped it, and at which tick. Latched.
-    pub fault: Option<(Fault, u32)>,
+    pub(super) fault: Option<(Fault, u32)>,
     /// Why the chip was reset before the loop began.
-    pub reset: ResetReason,
+    pub(super) reset: ResetReason,
     /// Ticks done.
-    pub ticks: u32,
+    pub(super) ticks: u32,
     /// Frames lost, late or damaged so far.
-    pub frames_lost: u32,
+    pub(super) frames_lost: u32,
     /// Ticks that overran so far.
-    pub overruns: u32,
+    pub(super) overruns: u32,
     /// Ticks that overran in a row.
-    pub overruns_in_a_row: u32,
+    pub(super) overruns_in_a_row: u32,
     /// Whether an overrun was noted since the last tick.
-    pub overran: bool,
+    pub(super) overran: bool,
     /// Ticks since the host was heard.
-    pub link_silence: u32,
+    pub(super) link_silence: u32,
     /// Ticks of believable sensors so far, while calibrating.
-    pub settled: u32,
+    pub(super) settled: u32,
     /// Whether the device is homed.
-    pub homed: bool,
+    pub(super) homed: bool,
     /// How far homing has come.
-    pub homing: HomingState<JOINTS>,
+    pub(super) homing: HomingState<JOINTS>,
     /// Joint angle in the middle of count zero, radians: the encoders' own, or what homing found.
-    pub angles_at_zero: [f32; JOINTS],
+    pub(super) angles_at_zero: [f32; JOINTS],
     /// How far the check of the tables has come.
-    pub table_check: TableCheck,
+    pub(super) table_check: TableCheck,
     /// Controller steps that were undone because the distance would have risen.
-    pub steps_undone: u32,
+    pub(super) steps_undone: u32,
+    /// Contact that was lost.
+    pub(super) lost_contact: LostContact,
+    /// Whether the probe is deeper inside than the least radius of curvature.
+    pub(super) is_too_deep: bool,
     /// The last good encoder counts; `None` before the first.
-    pub counts: Option<[Counts; JOINTS]>,
+    pub(super) counts: Option<[Counts; JOINTS]>,
     /// Joint angles, radians.
-    pub angles: [f32; JOINTS],
+    pub(super) angles: [f32; JOINTS],
     /// Joint rates, rad/s, as estimated.
-    pub rates: [f32; JOINTS],
+    pub(super) rates: [f32; JOINTS],
     /// What the velocity estimators remember.
-    pub velocities: [VelocityState; JOINTS],
+    pub(super) velocities: [VelocityState; JOINTS],
     /// Since when each joint has not moved under load.
-    pub stillness: Stillness<JOINTS>,
+    pub(super) stillness: Stillness<JOINTS>,
     /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force is
     /// multiplied by it.
-    pub room: f32,
+    pub(super) room: f32,
     /// The probe in the body's frame, metres.
-    pub probe: Vec3,
+    pub(super) probe: Vec3,
     /// The virtual tool; it is the probe unless there is a coupling.
-    pub tool: Tool,
+    pub(super) tool: Tool,
     /// The witness point.
-    pub witness: W,
-    /// Signed gap along the outward normal, metres; negative behind the surface.
-    pub gap: f32,
-    /// Whether the surface is touched.
-    pub contact: Contact,
+    pub(super) witness: W,
     /// Where friction holds the surface.
-    pub anchor: Anchor,
+    pub(super) anchor: Anchor,
     /// What the passivity observer counted.
-    pub energy: Energy,
+    pub(super) energy: Energy,
     /// How far the force is faded in, 0 to 1.
-    pub fade: f32,
+    pub(super) fade: f32,
     /// Force on the probe, N, in the device's frame, as the motors give it.
-    pub force: Vec3,
+    pub(super) force: Vec3,
     /// Duties now applied.
-    pub duties: [Duty; JOINTS],
+    pub(super) duties: [Duty; JOINTS],
 }
 
 impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
@@ -88,6 +89,9 @@ impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
         let TableCheck { place, crc, passes } = self.table_check;
         hash.words([place.record, place.word, crc, passes]);
         hash.words([self.frames_lost, self.steps_undone, u32::from(self.counts.is_some())]);
+        let LostContact { count, in_a_row, tick, force, share } = self.lost_contact;
+        hash.words([count, in_a_row, tick, share.to_bits(), u32::from(self.is_too_deep)]);
+        hash.vectors([force]);
         for counts in self.counts.iter().flatten() {
             hash.words([counts.0 as u32]);
         }
@@ -112,10 +116,9 @@ impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
         hash.floats([self.room]);
         hash.vectors([self.probe, self.tool.position, self.tool.velocity]);
         self.witness.for_each_word(|word| hash.words([word]));
-        hash.words([self.contact as u32]);
         hash.words([u32::from(self.anchor.point.is_some()), u32::from(self.anchor.slips)]);
         hash.vectors([self.anchor.point.unwrap_or(Vec3::ZERO), self.force]);
-        hash.floats([self.gap, self.fade, self.energy.stored, self.energy.damping]);
+        hash.floats([self.fade, self.energy.stored, self.energy.damping]);
         hash.words([u32::from(self.energy.cut)]);
         for duty in self.duties {
             hash.words([duty.0 as u32]);

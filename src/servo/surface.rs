@@ -2,9 +2,7 @@
 
 use crate::body::{Body, BodyWitness, Feature, TableCursor};
 use crate::math::Vec3;
-use crate::patch::Patch;
-use crate::render::Contact;
-use crate::track::{Controller, Outcome, Probe, Witness};
+use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 use core::fmt::Debug;
 
 /// A surface whose closest point can be followed from tick to tick.
@@ -15,25 +13,36 @@ pub trait Surface {
     /// Before the first tick.
     fn rest(&self) -> Self::Witness;
 
-    /// One tick: bounded work, no panic. `contact` is that of the last tick, `period` in seconds.
-    fn follow(
-        &self,
-        controller: &Controller,
-        witness: &mut Self::Witness,
-        probe: Probe,
-        contact: Contact,
-        period: f32,
-    ) -> Touched;
+    /// One tick: bounded work, no panic. `period` in seconds.
+    fn follow(&self, controller: &Controller, witness: &mut Self::Witness, probe: Probe, period: f32) -> Touched;
+
+    /// Ends contact that no motion explains: where the closest point is has to be found anew, and nothing is touched until the probe has been
+    /// in front.
+    fn lose(&self, witness: &mut Self::Witness);
+
+    /// Whether the probe is so deep behind the surface that the witness point is no longer proved to follow it.
+    fn is_too_deep(&self, _: &Self::Witness) -> bool {
+        false
+    }
 
     /// A word of the tables, for the check that flash still holds what was baked; `None` past the end of the cursor's record, and of the
     /// tables. Bounded work.
     fn table_word(&self, cursor: TableCursor) -> Option<u32>;
+
+    /// CRC-32 of all those words as they were baked; `None` for tables that carry none: they are not checked.
+    fn baked_crc(&self) -> Option<u32>;
 }
 
 /// The state of a tracker, as the loop looks at it.
 pub trait Tracked: Copy + Debug + PartialEq {
     /// The witness point.
     fn witness(&self) -> &Witness;
+
+    /// Signed gap along the outward normal, metres; negative behind the surface.
+    fn gap(&self) -> f32;
+
+    /// Whether the surface is touched.
+    fn contact(&self) -> Contact;
 
     /// The feature it lies on, see [`Feature::code`]; 0 for a surface of one patch.
     fn feature(&self) -> u16 {
@@ -44,63 +53,15 @@ pub trait Tracked: Copy + Debug + PartialEq {
     fn for_each_word(&self, take: impl FnMut(u32));
 }
 
-/// What a tick has found.
+/// What a tick has found, beside what the witness keeps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touched {
     /// Unit vector out of the body at the witness point, or zero where there is none.
     pub normal: Vec3,
-    /// Signed gap along it, metres; negative behind the surface.
-    pub gap: f32,
-    /// Whether the surface is touched.
-    pub contact: Contact,
     /// Whether the controller's step was undone.
     pub undone: bool,
-}
-
-impl<P: Patch> Surface for P {
-    type Witness = Witness;
-
-    fn rest(&self) -> Witness {
-        Witness::at(self, 0.5, 0.5)
-    }
-
-    #[inline(always)]
-    fn follow(
-        &self,
-        controller: &Controller,
-        witness: &mut Witness,
-        probe: Probe,
-        contact: Contact,
-        period: f32,
-    ) -> Touched {
-        let step = controller.step(self, witness, probe, period);
-        let normal = witness.normal(self).unwrap_or(Vec3::ZERO);
-        let gap = (probe.position - witness.surface.point).dot(normal);
-        Touched { normal, gap, contact: contact.next(gap, witness.mode), undone: step.outcome == Outcome::Undone }
-    }
-
-    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
-        if cursor.record == 0 { Patch::table_word(self, cursor.word as usize) } else { None }
-    }
-}
-
-impl Tracked for Witness {
-    fn witness(&self) -> &Witness {
-        self
-    }
-
-    fn for_each_word(&self, mut take: impl FnMut(u32)) {
-        for parameter in self.parameters {
-            take(parameter.to_bits());
-        }
-        let surface = &self.surface;
-        for vector in [surface.point, surface.tangent_u, surface.tangent_v] {
-            for coordinate in vector.to_array() {
-                take(coordinate.to_bits());
-            }
-        }
-        take(self.mode as u32 | u32::from(self.is_free) << 8 | u32::from(self.halvings) << 16);
-    }
+    /// Whether the witness point is farther from the probe than the probe has moved since contact began.
+    pub unexplained: bool,
 }
 
 impl Surface for Body {
@@ -111,21 +72,26 @@ impl Surface for Body {
     }
 
     #[inline]
-    fn follow(
-        &self,
-        controller: &Controller,
-        witness: &mut BodyWitness,
-        probe: Probe,
-        _: Contact,
-        period: f32,
-    ) -> Touched {
+    fn follow(&self, controller: &Controller, witness: &mut BodyWitness, probe: Probe, period: f32) -> Touched {
         let step = self.step(controller, witness, probe, period);
-        let BodyWitness { normal, gap, contact, .. } = *witness;
-        Touched { normal, gap, contact, undone: step.outcome == Outcome::Undone }
+        Touched { normal: witness.normal, undone: step.outcome == Outcome::Undone, unexplained: step.unexplained }
+    }
+
+    fn lose(&self, witness: &mut BodyWitness) {
+        witness.forget();
+    }
+
+    #[inline]
+    fn is_too_deep(&self, witness: &BodyWitness) -> bool {
+        Self::is_too_deep(self, witness)
     }
 
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         Self::table_word(self, cursor)
+    }
+
+    fn baked_crc(&self) -> Option<u32> {
+        Self::baked_crc(self)
     }
 }
 
@@ -134,18 +100,41 @@ impl Tracked for BodyWitness {
         &self.witness
     }
 
+    fn gap(&self) -> f32 {
+        self.gap
+    }
+
+    fn contact(&self) -> Contact {
+        self.contact
+    }
+
     fn feature(&self) -> u16 {
         self.feature.code()
     }
 
     fn for_each_word(&self, mut take: impl FnMut(u32)) {
-        self.witness.for_each_word(&mut take);
+        witness_words(&self.witness, &mut take);
         take(u32::from(self.feature.code()) | u32::from(self.is_located) << 16 | (self.contact as u32) << 17);
         for coordinate in self.normal.to_array() {
             take(coordinate.to_bits());
         }
         take(self.gap.to_bits());
+        take(self.reach.to_bits());
     }
+}
+
+/// Every word of a witness point.
+pub(super) fn witness_words(witness: &Witness, mut take: impl FnMut(u32)) {
+    for parameter in witness.parameters {
+        take(parameter.to_bits());
+    }
+    let surface = &witness.surface;
+    for vector in [surface.point, surface.tangent_u, surface.tangent_v] {
+        for coordinate in vector.to_array() {
+            take(coordinate.to_bits());
+        }
+    }
+    take(witness.mode as u32 | u32::from(witness.is_free) << 8 | u32::from(witness.halvings) << 16);
 }
 
 impl Feature {

@@ -2,24 +2,24 @@
 
 use super::gate::gate;
 use super::sense::sense;
-use super::{Event, Fault, Phase, SafeOutput, Servo, ServoState, Surface};
+use super::{Event, Fault, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
 use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose};
 use crate::math::Vec3;
 use crate::render::{Motion, Tool, limit};
-use crate::track::Probe;
+use crate::track::{Contact, Probe};
 
 /// What a tick starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Input<const JOINTS: usize> {
-    /// The sensors' word.
+    /// What the sensors say.
     Sensors {
-        /// Encoder counts, one a joint.
+        /// Encoder counts, one per joint.
         counts: [Counts; JOINTS],
         /// Whether force is asked for.
         enable: bool,
     },
-    /// No frame came, or one for another tick.
+    /// No frame came, or one that belongs to another tick.
     Lost,
     /// A frame came damaged.
     Damaged,
@@ -59,7 +59,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
                 state.overran = true;
                 state.overruns = state.overruns.saturating_add(1);
                 state.overruns_in_a_row = state.overruns_in_a_row.saturating_add(1);
-                if state.overruns_in_a_row > self.safety.overruns_allowed {
+                if state.overruns_in_a_row > self.safety.max_overruns {
                     stop(state, Fault::Overrun);
                 }
             }
@@ -87,6 +87,12 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         state.ticks = state.ticks.wrapping_add(1);
     }
 
+    /// What the CRC of the tables must be, if they are to be checked and carry one.
+    #[inline]
+    pub(super) fn expected_crc(&self) -> Option<u32> {
+        if self.safety.checks_tables { self.surface.baked_crc() } else { None }
+    }
+
     /// What can be wrong whatever the sensors say.
     #[inline]
     fn watch(&self, state: &mut ServoState<JOINTS, S::Witness>) {
@@ -98,7 +104,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         if state.link_silence > self.link_ticks {
             stop(state, Fault::LinkLost);
         }
-        if let Some(expected) = self.safety.table_crc
+        if let Some(expected) = self.expected_crc()
             && !state.table_check.step(self.surface, expected)
         {
             stop(state, Fault::TableCorrupt);
@@ -117,7 +123,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         // Counts → joint angles → probe.
         let first = state.counts.is_none();
         let homing = self.homing.as_ref().filter(|_| !state.homed);
-        sense(self.device, &self.estimators, self.greatest_move, homing.is_none(), state, counts)?;
+        sense(self.device, &self.estimators, self.max_move, homing.is_none(), state, counts)?;
         if let Some(homing) = homing {
             return self.home(homing, state, counts, enable);
         }
@@ -147,11 +153,18 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         let tool = if pulls { state.tool } else { held };
         state.tool = tool;
         let target = Probe { position: tool.position, velocity: tool.velocity };
-        let touched = self.surface.follow(&self.controller, &mut state.witness, target, state.contact, self.period);
+        let touched = self.surface.follow(&self.controller, &mut state.witness, target, self.period);
         state.steps_undone = state.steps_undone.wrapping_add(u32::from(touched.undone));
+        state.is_too_deep = false;
+        if state.witness.contact() == Contact::Touching {
+            if touched.unexplained || -state.witness.gap() > self.contact_watch.max_depth {
+                self.lose_contact(state)?;
+            } else {
+                state.is_too_deep = self.surface.is_too_deep(&state.witness);
+            }
+        }
 
         // Gap → force → torques.
-        (state.gap, state.contact) = (touched.gap, touched.contact);
         state.fade = self.next_fade(state);
         let motion = Motion { moved, velocity, rate: self.rate };
         if let Some(passivity) = &self.rendering.passivity {
@@ -208,7 +221,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
             Phase::Reset => Phase::Calibrate,
             Phase::Calibrate => {
                 state.settled = state.settled.saturating_add(1);
-                let checked = self.safety.table_crc.is_none() || state.table_check.passes > 0;
+                let checked = self.expected_crc().is_none() || state.table_check.passes > 0;
                 let ready = state.settled >= self.safety.settle_ticks && state.homed && checked;
                 if ready { Phase::Armed } else { Phase::Calibrate }
             }
@@ -233,7 +246,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
     ) -> [f32; JOINTS] {
         state.force = match self.safety.output {
             SafeOutput::Zero => Vec3::ZERO,
-            SafeOutput::Damping(damping) => limit::saturated(velocity * -damping, self.penalty.greatest_force),
+            SafeOutput::Damping(damping) => limit::saturated(velocity * -damping, self.penalty.max_force),
         };
         pose.torques(state.force)
     }

@@ -35,7 +35,7 @@ impl BoundaryMode {
 }
 
 /// A step is not halved more often, so that a witness point is never stuck for good. All bits of a mask.
-pub const MOST_HALVINGS: u8 = 15;
+pub const MAX_HALVINGS: u8 = 15;
 
 /// The direction a step takes, before its length is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +79,7 @@ impl Descent {
             return self;
         }
         // 2⁻ⁿ, by its exponent. The square of the length is only an upper bound, and shrinks faster.
-        let share = f32::from_bits(1.0_f32.to_bits() - (u32::from(halvings & MOST_HALVINGS) << 23));
+        let share = f32::from_bits(1.0_f32.to_bits() - (u32::from(halvings & MAX_HALVINGS) << 23));
         let [w_u, w_v] = self.direction;
         Self {
             direction: [share * w_u, share * w_v],

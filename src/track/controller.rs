@@ -1,6 +1,6 @@
 //! The switching controller of Theorem 1: one step a tick.
 
-use super::boundary::{self, Descent, Landing, MOST_HALVINGS};
+use super::boundary::{self, Descent, Landing, MAX_HALVINGS};
 use super::gain::certified_gain;
 use super::law::{FeedForward, Gain, Integrator, Law};
 use super::projection::ProjectionErrors;
@@ -9,17 +9,18 @@ use super::{feed_forward, integrate};
 use crate::math::{ROOT_EXCESS, Vec3, sqrt, sqrt_from_above};
 use crate::patch::{Patch, SurfacePoint};
 
-/// The controller's configuration. Keep it in a `static`: what is not chosen costs nothing.
+/// The controller's configuration. Begin with [`Controller::CERTIFIED`] and choose, as in
+/// `Controller::CERTIFIED.gain(Gain::Constant(500.0))`. Keep it in a `static`: what is not chosen costs nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Controller {
     /// Which direction.
-    pub law: Law,
+    pub(super) law: Law,
     /// How fast.
-    pub gain: Gain,
+    pub(super) gain: Gain,
     /// What is done with motion.
-    pub feed_forward: FeedForward,
+    pub(super) feed_forward: FeedForward,
     /// How the flow is integrated.
-    pub integrator: Integrator,
+    pub(super) integrator: Integrator,
 }
 
 /// A rise of the squared distance is rounding as long as it is below this many units in the last place of the coordinates
@@ -77,7 +78,7 @@ impl Controller {
         let surface = patch.evaluate(parameters[0], parameters[1]);
         let outcome = if self.is_guarded() && rises(&witness.surface, &surface, probe.position, squared, patch.size()) {
             witness.is_free = false;
-            witness.halvings = (witness.halvings + 1).min(MOST_HALVINGS);
+            witness.halvings = (witness.halvings + 1).min(MAX_HALVINGS);
             Outcome::Undone
         } else {
             witness.halvings = 0;

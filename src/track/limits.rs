@@ -17,7 +17,7 @@ use crate::patch::{Curvature, ShapeBounds};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerformanceLimits {
     curvature: Curvature,
-    /// 1/m; see [`ShapeBounds::greatest_bend`].
+    /// 1/m; see [`ShapeBounds::max_bend`].
     bend: f32,
     /// `z`.
     stability: f32,
@@ -33,7 +33,7 @@ impl PerformanceLimits {
     /// # Panics
     /// Where the rate is not positive and finite or the gap is not finite: at compile time in a `const`. Not for the tick.
     pub const fn new(shape: &ShapeBounds, integrator: Integrator, rate: f32, gap: f32) -> Self {
-        Self::with(shape.curvature, shape.greatest_bend, integrator, rate, gap)
+        Self::with(shape.curvature, shape.max_bend, integrator, rate, gap)
     }
 
     /// At a point with its own principal curvatures. The bend is not a matter of one point, so there is no monotone gain.
@@ -51,14 +51,14 @@ impl PerformanceLimits {
     }
 
     /// The greatest `μ`, a pure number: the fastest part of the error decays `μ` times as fast as the gain says.
-    pub const fn greatest_contraction(&self) -> f32 {
-        let curvature = if self.gap >= 0.0 { self.curvature.greatest } else { self.curvature.least };
+    pub const fn max_contraction(&self) -> f32 {
+        let curvature = if self.gap >= 0.0 { self.curvature.max } else { self.curvature.min };
         contraction(curvature, self.gap)
     }
 
     /// The least `μ`. At 0 and below, the closest point is lost: the probe is beyond a centre of curvature.
-    pub const fn least_contraction(&self) -> f32 {
-        let curvature = if self.gap >= 0.0 { self.curvature.least } else { self.curvature.greatest };
+    pub const fn min_contraction(&self) -> f32 {
+        let curvature = if self.gap >= 0.0 { self.curvature.min } else { self.curvature.max };
         contraction(curvature, self.gap)
     }
 
@@ -68,7 +68,7 @@ impl PerformanceLimits {
     /// errors, while `P*` is inside a span. With a patch's bounds it is not above that of any point. It says nothing of large errors: for those
     /// there is [`Self::monotone_gain`]. 0 where the closest point is lost, or nothing is known.
     pub const fn stable_gain(&self) -> f32 {
-        if self.least_contraction() > 0.0 { self.stability * self.rate / self.greatest_contraction() } else { 0.0 }
+        if self.min_contraction() > 0.0 { self.stability * self.rate / self.max_contraction() } else { 0.0 }
     }
 
     /// A gain `K`, 1/s, at which each tick of explicit Euler is proved to lower the distance to a probe that rests, from projection
@@ -96,7 +96,7 @@ impl PerformanceLimits {
         if !(gain > 0.0 && gain < self.stable_gain()) {
             return f32::INFINITY;
         }
-        let ends = [self.least_contraction(), self.greatest_contraction()];
+        let ends = [self.min_contraction(), self.max_contraction()];
         let mut worst = 0.0;
         let mut index = 0;
         // Largest at an end of the range: |1 − c| / (1 − |1 − c|) / μ falls while c < 1 and rises from there.
@@ -127,13 +127,13 @@ impl PerformanceLimits {
     /// Infinite where nothing is known, and where the certified gain, less for long projection errors, does not keep up.
     pub const fn lag_bound(&self, gain: f32, speed: f32) -> f32 {
         // On the way the gap may be anything from 0 to the one given, and μ is 1 at 0.
-        let least = self.least_contraction();
+        let least = self.min_contraction();
         let convexity = if least < 1.0 { least } else { 1.0 };
         if !(convexity > 0.0 && gain > 0.0) {
             return f32::INFINITY;
         }
         let moved = speed / (self.rate * convexity);
-        let greatest = self.greatest_contraction();
+        let greatest = self.max_contraction();
         let slope = if greatest > 1.0 { greatest } else { 1.0 };
         // The certified gain depends on the residual, and that on the lag: from below, until it holds with a little to spare.
         let mut bound = 0.0;
@@ -161,12 +161,12 @@ impl PerformanceLimits {
     ///
     /// Up to there `P*` stays a local minimum of the distance, from which small errors decay. Another part of the surface may be nearer before.
     pub const fn depth_limit(&self) -> f32 {
-        if self.curvature.greatest > 0.0 { 1.0 / self.curvature.greatest } else { f32::INFINITY }
+        if self.curvature.max > 0.0 { 1.0 / self.curvature.max } else { f32::INFINITY }
     }
 
     /// How far outside a probe may be, metres, for the same reason: `−1/κ_min`, infinite on a convex patch.
     pub const fn clearance_limit(&self) -> f32 {
-        if self.curvature.least < 0.0 { -1.0 / self.curvature.least } else { f32::INFINITY }
+        if self.curvature.min < 0.0 { -1.0 / self.curvature.min } else { f32::INFINITY }
     }
 }
 
@@ -191,7 +191,7 @@ mod tests {
     use super::*;
     use crate::patch::SecondDerivativeBounds;
 
-    const BALL: Curvature = Curvature { least: 20.0, greatest: 20.0 };
+    const BALL: Curvature = Curvature { min: 20.0, max: 20.0 };
     /// A firmware can check its gain like this.
     const LIMITS: PerformanceLimits = PerformanceLimits::at_point(BALL, Integrator::Euler, 1_000.0, 0.05);
 
@@ -199,11 +199,11 @@ mod tests {
     fn a_ball_outside_and_inside() {
         // κ d = 1: the modes decay twice as fast, half the gain is left.
         assert_eq!(LIMITS.stable_gain(), 1_000.0);
-        assert_eq!(LIMITS.greatest_contraction(), 2.0);
+        assert_eq!(LIMITS.max_contraction(), 2.0);
         let inside = PerformanceLimits::at_point(BALL, Integrator::RungeKutta4, 1_000.0, -0.025);
         // One rounding of the division.
         assert!((inside.stable_gain() - 2.0 * 2_785.293_6).abs() < 1e-3);
-        assert_eq!((inside.depth_limit(), inside.least_contraction()), (0.05, 0.5));
+        assert_eq!((inside.depth_limit(), inside.min_contraction()), (0.05, 0.5));
         assert_eq!(PerformanceLimits::at_point(BALL, Integrator::Euler, 1_000.0, -0.05).stable_gain(), 0.0);
         // K h μ = 0.5: one tick's way of the closest point, 0.5 mm, is left behind.
         assert!((LIMITS.lag(250.0, 1.0) - 5e-4).abs() < 1e-9);
@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn a_saddle_loses_its_closest_point_on_both_sides() {
-        let saddle = Curvature { least: -10.0, greatest: 20.0 };
+        let saddle = Curvature { min: -10.0, max: 20.0 };
         let at = |gap| PerformanceLimits::at_point(saddle, Integrator::Euler, 4_000.0, gap);
         assert_eq!((at(0.0).depth_limit(), at(0.0).clearance_limit()), (0.05, 0.1));
         assert!(at(0.099).stable_gain() > 0.0 && at(0.101).stable_gain() == 0.0);
@@ -233,7 +233,7 @@ mod tests {
     fn the_bound_is_above_the_first_order_lag_and_near_it_for_low_gains() {
         let shape = ShapeBounds {
             curvature: BALL,
-            greatest_bend: 25.0,
+            max_bend: 25.0,
             ..ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.2, uv: 0.1, vv: 0.2 })
         };
         for (share, most) in [(0.01, 1.02), (0.1, 1.1), (0.5, 1.5)] {

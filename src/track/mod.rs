@@ -9,6 +9,8 @@
 //! cut at the patch's border → one evaluation of the patch → kept if the distance did not rise.
 
 mod boundary;
+mod choices;
+mod contact;
 mod controller;
 mod feed_forward;
 mod gain;
@@ -21,6 +23,8 @@ mod projection;
 mod witness;
 
 pub use boundary::{BoundaryMode, Descent};
+pub use choices::ControllerError;
+pub use contact::Contact;
 pub use controller::Controller;
 pub use gain::certified_gain;
 pub use law::{FeedForward, Gain, Integrator, Law};

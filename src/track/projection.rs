@@ -35,7 +35,7 @@ pub struct ProjectionErrors {
 
 /// The least `sin²` of the angle between the tangents at which the first fundamental form is inverted. Below it the
 /// determinant, a difference of nearly equal numbers, would have fewer than ten good bits.
-const LEAST_SINE_SQUARED: f32 = 1.0e-4;
+const MIN_SINE_SQUARED: f32 = 1.0e-4;
 
 impl ProjectionErrors {
     /// The errors of the probe against a surface point.
@@ -62,7 +62,7 @@ impl ProjectionErrors {
     pub fn correction(&self) -> Option<[f32; 2]> {
         let FirstFundamentalForm { e, f, g } = self.form;
         let determinant = self.form.determinant();
-        if determinant > LEAST_SINE_SQUARED * (e * g) {
+        if determinant > MIN_SINE_SQUARED * (e * g) {
             let inverse = -1.0 / determinant;
             let [along_u, along_v] = self.gradient;
             Some([(g * along_u - f * along_v) * inverse, (e * along_v - f * along_u) * inverse])

@@ -2,9 +2,8 @@
 //! log's transport may wait, the loop may not.
 
 use super::Record;
-use crate::render::Contact;
 use crate::servo::{Fault, Phase, ResetReason};
-use crate::track::BoundaryMode;
+use crate::track::{BoundaryMode, Contact};
 
 /// Logs what differs from the record before.
 #[derive(Clone, Copy, Debug, Default)]

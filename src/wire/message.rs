@@ -38,7 +38,7 @@ pub struct Report {
     pub feature: u16,
     /// [`crate::track::BoundaryMode`] as its number.
     pub mode: u8,
-    /// [`crate::render::Contact`] as its number.
+    /// [`crate::track::Contact`] as its number.
     pub contact: u8,
     /// Room to the rim of the workspace, percent: below 100 the force lets go.
     pub room: u8,
@@ -95,7 +95,7 @@ pub struct Record {
     pub feature: u16,
     /// [`crate::track::BoundaryMode`] as its number.
     pub mode: u8,
-    /// [`crate::render::Contact`] as its number.
+    /// [`crate::track::Contact`] as its number.
     pub contact: u8,
     /// Signed distance along the outward normal, metres; negative while penetrating.
     pub gap: f32,

@@ -8,26 +8,26 @@ use crate::servo::{ServoState, Tracked};
 impl Report {
     /// What to say of a tick once it is done. `instructions` is what the board counted, 0 where it cannot.
     pub fn new<const JOINTS: usize, W: Tracked>(state: &ServoState<JOINTS, W>, instructions: u32) -> Self {
-        let (fault, fault_tick) = state.fault.map_or((0, 0), |(fault, tick)| (fault.code(), tick));
+        let (fault, fault_tick) = state.fault().map_or((0, 0), |(fault, tick)| (fault.code(), tick));
         Self {
-            tick: state.ticks.wrapping_sub(1),
-            duties: first_three(&state.duties),
-            phase: state.phase as u8,
+            tick: state.ticks().wrapping_sub(1),
+            duties: first_three(&state.duties()),
+            phase: state.phase() as u8,
             fault,
             fault_tick,
-            refusal: state.homing.refusal().map_or(0, Refusal::code),
-            reset: state.reset as u8,
-            overruns: state.overruns,
-            feature: state.witness.feature(),
-            mode: state.witness.witness().mode as u8,
-            contact: state.contact as u8,
-            room: (state.room * 100.0) as u8,
-            parameters: state.witness.witness().parameters,
-            probe: state.probe.to_array(),
-            gap: state.gap,
-            force: state.force.to_array(),
-            frames_lost: state.frames_lost,
-            steps_undone: state.steps_undone,
+            refusal: state.homing().refusal().map_or(0, Refusal::code),
+            reset: state.reset() as u8,
+            overruns: state.overruns(),
+            feature: state.witness().feature(),
+            mode: state.witness().witness().mode as u8,
+            contact: state.contact() as u8,
+            room: (state.room() * 100.0) as u8,
+            parameters: state.witness().witness().parameters,
+            probe: state.probe().to_array(),
+            gap: state.gap(),
+            force: state.force().to_array(),
+            frames_lost: state.frames_lost(),
+            steps_undone: state.steps_undone(),
             instructions,
             digest: state.digest(),
         }

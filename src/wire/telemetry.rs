@@ -6,9 +6,8 @@
 
 use super::Record;
 use crate::device::Duty;
-use crate::render::Contact;
 use crate::servo::{Fault, Phase, ServoState, Tracked};
-use crate::track::BoundaryMode;
+use crate::track::{BoundaryMode, Contact};
 use heapless::spsc::Producer;
 
 /// The queue's type, for those who make one: `Queue<Record, N>` holds `N − 1` records.
@@ -72,11 +71,11 @@ impl<'a> Recorder<'a> {
         self.waited = self.waited.saturating_add(1);
 
         let now = Told {
-            phase: state.phase,
-            fault: state.fault.map(|(fault, _)| fault),
-            feature: state.witness.feature(),
-            mode: state.witness.witness().mode,
-            contact: state.contact,
+            phase: state.phase(),
+            fault: state.fault().map(|(fault, _)| fault),
+            feature: state.witness().feature(),
+            mode: state.witness().witness().mode,
+            contact: state.contact(),
         };
         if self.waited < self.every && self.told == Some(now) {
             return;
@@ -92,9 +91,9 @@ impl<'a> Recorder<'a> {
     }
 
     fn record<const JOINTS: usize, W: Tracked>(&self, state: &ServoState<JOINTS, W>, began: u32) -> Record {
-        let (fault, fault_tick) = state.fault.map_or((0, 0), |(fault, tick)| (fault.code(), tick));
+        let (fault, fault_tick) = state.fault().map_or((0, 0), |(fault, tick)| (fault.code(), tick));
         Record {
-            tick: state.ticks.wrapping_sub(1),
+            tick: state.ticks().wrapping_sub(1),
             number: self.number,
             clock: self.clock,
             began,
@@ -103,18 +102,18 @@ impl<'a> Recorder<'a> {
             longest: self.longest,
             took: self.took,
             dropped: self.dropped,
-            phase: state.phase as u8,
+            phase: state.phase() as u8,
             fault,
             fault_tick,
-            reset: state.reset as u8,
-            overruns: state.overruns,
-            feature: state.witness.feature(),
-            mode: state.witness.witness().mode as u8,
-            contact: state.contact as u8,
-            gap: state.gap,
-            probe: state.probe.to_array(),
-            force: state.force.to_array(),
-            duties: first_three(&state.duties),
+            reset: state.reset() as u8,
+            overruns: state.overruns(),
+            feature: state.witness().feature(),
+            mode: state.witness().witness().mode as u8,
+            contact: state.contact() as u8,
+            gap: state.gap(),
+            probe: state.probe().to_array(),
+            force: state.force().to_array(),
+            duties: first_three(&state.duties()),
         }
     }
 }
@@ -166,7 +165,7 @@ mod tests {
         rate: 4_000.0,
         stiffness: 600.0,
         damping: 2.0,
-        greatest_force: 5.0,
+        max_force: 5.0,
         velocity_corner: 200.0,
         soft_start: 0.1,
         body_origin: vec3(0.0, 0.0, 0.0),
@@ -178,7 +177,7 @@ mod tests {
         let servo = Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::CERTIFIED, SETTINGS);
         for _ in 0..ticks {
             // Near the end of the counter, so that it wraps.
-            let began = (u32::MAX - 5 * PERIOD).wrapping_add(state.ticks * PERIOD);
+            let began = (u32::MAX - 5 * PERIOD).wrapping_add(state.ticks() * PERIOD);
             servo.tick(state, Input::Sensors { counts: [Counts(0); 3], enable: false });
             recorder.note(state, began, began.wrapping_add(300));
         }

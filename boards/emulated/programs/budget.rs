@@ -3,9 +3,9 @@
 #![no_std]
 #![no_main]
 
-use board::BOARD;
 use cortex_m::peripheral::Peripherals;
 use cortex_m_rt::entry;
+use palpate_emulated::board::BOARD;
 use palpate_emulated::budget;
 use palpate_emulated::timer::InstructionCounter;
 use semihosting::println;

@@ -3,12 +3,12 @@
 #![no_std]
 #![no_main]
 
-use board::BOARD;
 use cortex_m_rt::entry;
 use defmt_semihosting as _;
 use palpate::wire::Record;
 use palpate::wire::log::Changes;
 use palpate::wire::telemetry::Queue;
+use palpate_emulated::board::BOARD;
 use palpate_emulated::body::SETTINGS;
 use palpate_emulated::link_semihosting::FifoLink;
 use palpate_emulated::recorded::{self, PLACES, RecordedLoop};

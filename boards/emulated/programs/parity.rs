@@ -3,9 +3,8 @@
 #![no_std]
 #![no_main]
 
-// The vector table.
-use board as _;
 use cortex_m_rt::entry;
+// The vector table, and what happens when the code is wrong.
 use palpate_emulated as _;
 use semihosting::println;
 

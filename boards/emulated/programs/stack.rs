@@ -8,11 +8,11 @@ use core::hint::black_box;
 use core::ptr::addr_of;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use board::BOARD;
 use cortex_m_rt::entry;
 use palpate::servo::Tracked;
 use palpate::wire::Report;
 use palpate::wire::frame::{self, MAX_FRAME};
+use palpate_emulated::board::BOARD;
 use palpate_emulated::body::{self, SERVO, SETTINGS, State};
 use palpate_emulated::vectors::interrupt;
 use palpate_exercise::laps::WOODEN_HAPTICS_REACH;
@@ -70,7 +70,7 @@ fn TIMER0() {
         *RUN = begin();
     }
     let Some((script, state)) = RUN else { return };
-    let order = script.next();
+    let order = script.next_order();
     if let Some(reset) = order.restart {
         restart(state, reset);
     }
@@ -80,8 +80,8 @@ fn TIMER0() {
     body::tick(state, order.input);
     let mut buffer = [0; MAX_FRAME];
     black_box(frame::pack(&Report::new(state, 0), &mut buffer).is_ok());
-    MODES.fetch_or(1 << state.witness.witness().mode as u32, Relaxed);
-    TOUCHES.fetch_add(u32::from(state.contact == palpate::render::Contact::Touching), Relaxed);
+    MODES.fetch_or(1 << state.witness().witness().mode as u32, Relaxed);
+    TOUCHES.fetch_add(u32::from(state.contact() == palpate::track::Contact::Touching), Relaxed);
     TICKS_DONE.fetch_add(1, Relaxed);
 }
 

@@ -3,11 +3,11 @@
 #![no_std]
 #![no_main]
 
-use board::BOARD;
 use cortex_m_rt::entry;
 use palpate::wire::Record;
 use palpate::wire::frame::{self, MAX_FRAME};
 use palpate::wire::telemetry::Queue;
+use palpate_emulated::board::BOARD;
 use palpate_emulated::body::SETTINGS;
 use palpate_emulated::link::Link;
 use palpate_emulated::link_semihosting::FifoLink;
@@ -17,13 +17,13 @@ use palpate_emulated::vectors::interrupt;
 use static_cell::StaticCell;
 
 /// 100 records a second at 4 kHz.
-const TICKS_A_RECORD: u32 = 40;
+const TICKS_PER_RECORD: u32 = 40;
 
 #[entry]
 fn main() -> ! {
     static mut QUEUE: Queue<Record, PLACES> = Queue::new();
 
-    let mut records = recorded::hand_over(&BOARD, QUEUE, TICKS_A_RECORD);
+    let mut records = recorded::hand_over(&BOARD, QUEUE, TICKS_PER_RECORD);
     let mut line = UartLink::new(&BOARD);
     let mut buffer = [0; MAX_FRAME];
     BOARD.start_timer(SETTINGS.rate);

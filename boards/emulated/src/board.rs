@@ -1,8 +1,8 @@
-//! Where one emulated board differs from another.
+//! Where one emulated board differs from another, and the one that this image is for.
 
 use crate::reset::ResetRegister;
 
-/// What a board's own crate says about it.
+/// What the programs must know of their board.
 #[derive(Clone, Copy, Debug)]
 pub struct Board {
     /// The clock of the core, of its timers and of SysTick, Hz.
@@ -16,3 +16,27 @@ pub struct Board {
     /// Why the chip was reset.
     pub reset: ResetRegister,
 }
+
+impl Board {
+    /// mps2-an386, a Cortex-M4F, and mps2-an500, a Cortex-M7 (application notes AN386 and AN500): around the core they are the
+    /// same.
+    pub const DESIGN_KIT: Self = Self {
+        clock: 25_000_000,
+        timer: 0x4000_0000,
+        timer_interrupt: 8,
+        uart: 0x4000_4000,
+        reset: ResetRegister::DESIGN_KIT,
+    };
+
+    /// mps2-an505, a Cortex-M33 (application note AN505; the secure aliases of its peripherals).
+    pub const AN505: Self = Self {
+        clock: 20_000_000,
+        timer: 0x5000_0000,
+        timer_interrupt: 3,
+        uart: 0x5020_0000,
+        reset: ResetRegister::SSE_200,
+    };
+}
+
+/// The board that this image is for, as `build.rs` was told.
+pub const BOARD: Board = if cfg!(board = "m33") { Board::AN505 } else { Board::DESIGN_KIT };

@@ -9,27 +9,27 @@ use crate::body::State;
 
 /// The fault that was chosen; nothing if none was.
 #[inline]
-pub fn fault(state: &mut State) {
+pub fn fault(state: &State) {
     if cfg!(feature = "planted-panic") {
         // A bounds check that may fail.
         let table = black_box([1_u32, 2, 3]);
-        state.overruns ^= table[state.ticks as usize] & 0;
+        black_box(table[state.ticks() as usize]);
     }
     if cfg!(feature = "planted-f64") {
-        state.fade = (f64::from(state.fade) * black_box(1.0_f64)) as f32;
+        black_box(f64::from(state.fade()) * black_box(1.0_f64));
     }
     if cfg!(feature = "planted-loop") {
-        while black_box(state.ticks) == u32::MAX {}
+        while black_box(state.ticks()) == u32::MAX {}
     }
     if cfg!(feature = "planted-recursion") {
-        state.frames_lost += recursion(state.frames_lost) & 0;
+        black_box(recursion(state.frames_lost()));
     }
     if cfg!(feature = "planted-indirect") {
         let function: fn(u32) -> u32 = black_box(|x| x);
-        state.frames_lost = function(state.frames_lost);
+        black_box(function(state.frames_lost()));
     }
     if cfg!(feature = "planted-stack") {
-        black_box([state.ticks; 512]);
+        black_box([state.ticks(); 512]);
     }
     #[cfg(feature = "planted-alloc")]
     alloc::fault(state);

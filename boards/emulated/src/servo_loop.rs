@@ -9,17 +9,17 @@ use palpate::wire::{Report, Sensors};
 use crate::board::Board;
 use crate::body::{self, SERVO, SETTINGS, State};
 use crate::link::Link;
-use crate::timer::{INSTRUCTIONS_A_SECOND, InstructionCounter};
+use crate::timer::{INSTRUCTIONS_PER_SECOND, InstructionCounter};
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends, so that none is left
 /// running. A real device stays, with its motors off.
 const SILENT_TICKS: u32 = 5;
 
 /// Frames looked at in one tick while late ones come.
-const FRAMES_A_TICK: u32 = 4;
+const FRAMES_PER_TICK: u32 = 4;
 
 /// From the sensors in hand to the duties applied; waiting for the host does not count, for a real device has its sensors by it.
-const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_A_SECOND as f32, SETTINGS.rate);
+const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate);
 
 /// The servo loop over a link.
 pub struct ServoLoop<L> {
@@ -45,7 +45,7 @@ impl<L: Link> ServoLoop<L> {
         let input = self.input();
         let state = &mut self.state;
         let ((), instructions) = self.counter.count(|| body::tick(state, input));
-        // On a real board `state.duties` goes to the PWM here, before anything else.
+        // On a real board `state.duties()` goes to the PWM here, before anything else.
         if DEADLINE.overrun(0, instructions) {
             // The duties may be others after this: zero, where it is a fault.
             SERVO.note(state, Event::Overrun);
@@ -67,14 +67,14 @@ impl<L: Link> ServoLoop<L> {
     /// What the host says in this tick.
     fn input(&mut self) -> Input<3> {
         let mut late = false;
-        for _ in 0..FRAMES_A_TICK {
+        for _ in 0..FRAMES_PER_TICK {
             let received = self.link.receive();
             self.silent_ticks = if received.is_none() { self.silent_ticks + 1 } else { 0 };
             if matches!(received, Some(Received::Message(_) | Received::Empty)) {
                 SERVO.note(&mut self.state, Event::LinkAlive);
             }
             match received {
-                Some(Received::Message(sensors)) if sensors.tick == self.state.ticks => {
+                Some(Received::Message(sensors)) if sensors.tick == self.state.ticks() => {
                     return if late { Input::Lost } else { input_of(sensors) };
                 }
                 // The frame of another tick counts as lost. Reading on finds the right one behind it, else every later

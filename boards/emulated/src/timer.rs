@@ -76,24 +76,24 @@ impl Clock {
 /// instructions.
 pub struct InstructionCounter {
     /// Instructions a tick of SysTick, as a fraction in lowest terms.
-    instructions_a_tick: [u32; 2],
+    instructions_per_tick: [u32; 2],
     overhead: u32,
 }
 
 /// Instructions in a second of the emulator's time under `-icount shift=6`: 64 ns each. On a real core, cycles: the clock.
-pub const INSTRUCTIONS_A_SECOND: u32 = 15_625_000;
+pub const INSTRUCTIONS_PER_SECOND: u32 = 15_625_000;
 
 impl InstructionCounter {
     /// Takes SysTick, so that nobody else sets it, starts it, and measures what measuring costs.
     #[inline]
     pub fn new(board: &Board, mut systick: SYST) -> Self {
-        let divisor = greatest_common_divisor(INSTRUCTIONS_A_SECOND, board.clock);
-        let instructions_a_tick = [INSTRUCTIONS_A_SECOND / divisor, board.clock / divisor];
+        let divisor = greatest_common_divisor(INSTRUCTIONS_PER_SECOND, board.clock);
+        let instructions_per_tick = [INSTRUCTIONS_PER_SECOND / divisor, board.clock / divisor];
         systick.set_clock_source(SystClkSource::Core);
         systick.set_reload(MASK);
         systick.clear_current();
         systick.enable_counter();
-        let mut counter = Self { instructions_a_tick, overhead: 0 };
+        let mut counter = Self { instructions_per_tick, overhead: 0 };
         // The second: the first may find the counter not yet reloaded.
         counter.count(|| ());
         counter.overhead = counter.count(|| ()).1;
@@ -108,7 +108,7 @@ impl InstructionCounter {
         let after = SYST::get_current();
         // SysTick counts down, 24 bits wide: right as long as the work is shorter than 0.67 s.
         let ticks = before.wrapping_sub(after) & MASK;
-        let [instructions, of_ticks] = self.instructions_a_tick;
+        let [instructions, of_ticks] = self.instructions_per_tick;
         (result, (ticks * instructions / of_ticks).saturating_sub(self.overhead))
     }
 }

@@ -2,7 +2,7 @@
 
 use cortex_m::interrupt::InterruptNumber;
 
-use crate::board::Board;
+use crate::board::{BOARD, Board};
 
 unsafe extern "C" {
     fn TIMER0();
@@ -22,7 +22,7 @@ pub use {Interrupt as interrupt, cortex_m_rt::interrupt};
 #[derive(Clone, Copy, Debug)]
 pub struct Position(pub u16);
 
-// SAFETY: a board's crate gives a number that is the chip's and fixed; `table` does not compile with one beyond it.
+// SAFETY: a board gives a number that is the chip's and fixed; `table` does not compile with one beyond it.
 unsafe impl InterruptNumber for Position {
     fn number(self) -> u16 {
         self.0
@@ -39,11 +39,15 @@ pub union Vector {
 /// The interrupts that any of the boards has.
 pub const INTERRUPTS: usize = 32;
 
-/// The chip's part of a board's vector table.
-///
-/// # Panics
-/// At compile time, if the chip has no such interrupt.
-pub const fn table(board: &Board) -> [Vector; INTERRUPTS] {
+/// Read by the core, from where the linker script of cortex-m-rt puts it.
+#[doc(hidden)]
+// SAFETY: nothing else has this name or section; cortex-m-rt asks for both.
+#[unsafe(no_mangle)]
+#[unsafe(link_section = ".vector_table.interrupts")]
+pub static __INTERRUPTS: [Vector; INTERRUPTS] = table(&BOARD);
+
+/// The chip's part of a board's vector table. Does not compile for a chip that has no such interrupt.
+const fn table(board: &Board) -> [Vector; INTERRUPTS] {
     let mut table = [Vector { reserved: 0 }; INTERRUPTS];
     table[board.timer_interrupt as usize] = Vector { handler: TIMER0 };
     table

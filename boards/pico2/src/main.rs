@@ -55,7 +55,7 @@ const DEADLINE: Deadline = Deadline::of_period(CLOCK as f32, SETTINGS.rate);
 /// 20 kHz for the motors.
 const MOTOR_PERIOD: u16 = (CLOCK / 20_000 - 1) as u16;
 /// 921,600 baud carry about 1,200 records a second; at 4 kHz this makes 200.
-const TICKS_A_RECORD: u32 = 20;
+const TICKS_PER_RECORD: u32 = 20;
 /// The pin that switches the bridges on.
 pub const ENABLE_PIN: u32 = 16;
 
@@ -104,14 +104,14 @@ impl Loop {
             self.drive();
         }
         self.recorder.note(&self.state, began, DWT::cycle_count());
-        TICKS.store(self.state.ticks, Ordering::Relaxed);
+        TICKS.store(self.state.ticks(), Ordering::Relaxed);
     }
 
     /// Applies the state's duties; in any phase that has none the bridges are off.
     #[inline]
     fn drive(&mut self) {
-        let running = self.state.phase == Phase::Running;
-        let [duty_a, duty_b, duty_c] = if running { self.state.duties } else { [Duty::ZERO; 3] };
+        let running = self.state.phase() == Phase::Running;
+        let [duty_a, duty_b, duty_c] = if running { self.state.duties() } else { [Duty::ZERO; 3] };
         let (a, b, c) = &mut self.bridges;
         let obeyed = self.enable.set_state(running.into()).is_ok()
             & self.light.set_state(running.into()).is_ok()
@@ -223,7 +223,7 @@ fn main() -> ! {
         fault,
         light,
         state: SERVO.start_after(reset),
-        recorder: Recorder::new(producer, CLOCK, TICKS_A_RECORD),
+        recorder: Recorder::new(producer, CLOCK, TICKS_PER_RECORD),
     };
     critical_section::with(|section| HANDED_OVER.borrow(section).set(Some(servo_loop)));
     // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.

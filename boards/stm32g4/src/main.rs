@@ -42,7 +42,7 @@ const CLOCK: u32 = 170_000_000;
 const PERIOD_MICROSECONDS: u32 = (1e6 / SETTINGS.rate) as u32;
 const DEADLINE: Deadline = Deadline::of_period(CLOCK as f32, SETTINGS.rate);
 /// 921,600 baud carry about 1,200 records a second; at 4 kHz this makes 200.
-const TICKS_A_RECORD: u32 = 20;
+const TICKS_PER_RECORD: u32 = 20;
 
 /// A channel of TIM1 and an enable pin.
 type Amplifier<C, P> = SetPointDrive<Pwm<TIM1, C, ComplementaryDisabled, ActiveHigh, ActiveHigh>, P>;
@@ -87,16 +87,16 @@ impl Loop {
             self.drive();
         }
         self.recorder.note(&self.state, began, DWT::cycle_count());
-        TICKS.store(self.state.ticks, Ordering::Relaxed);
+        TICKS.store(self.state.ticks(), Ordering::Relaxed);
     }
 
     /// Applies the state's duties; in any phase that has none the amplifiers are disabled.
     #[inline]
     fn drive(&mut self) {
         let (a, b, c) = &mut self.amplifiers;
-        let obeyed = if self.state.phase == Phase::Running {
+        let obeyed = if self.state.phase() == Phase::Running {
             self.light.set_high();
-            let [duty_a, duty_b, duty_c] = self.state.duties;
+            let [duty_a, duty_b, duty_c] = self.state.duties();
             a.apply(duty_a).is_ok() & b.apply(duty_b).is_ok() & c.apply(duty_c).is_ok()
         } else {
             self.light.set_low();
@@ -186,7 +186,7 @@ fn main() -> ! {
         ready,
         light,
         state: SERVO.start_after(reset),
-        recorder: Recorder::new(producer, CLOCK, TICKS_A_RECORD),
+        recorder: Recorder::new(producer, CLOCK, TICKS_PER_RECORD),
     };
     cortex_m::interrupt::free(|section| HANDED_OVER.borrow(section).set(Some(servo_loop)));
     // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.

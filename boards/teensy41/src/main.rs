@@ -41,7 +41,7 @@ use crate::watchdog::{Watchdog, reset_reason};
 const PERIOD: u32 = (PERCLK_FREQUENCY as f32 / SETTINGS.rate) as u32;
 const DEADLINE: Deadline = Deadline::of_period(ARM_FREQUENCY as f32, SETTINGS.rate);
 /// 921,600 baud carry about 1,200 records a second; at 4 kHz this makes 200.
-const TICKS_A_RECORD: u32 = 20;
+const TICKS_PER_RECORD: u32 = 20;
 /// Pins 16, 17 and 18, which enable the amplifiers, are these bits of GPIO1.
 pub const ENABLE_BITS: u32 = 1 << 23 | 1 << 22 | 1 << 17;
 
@@ -81,15 +81,15 @@ impl Loop {
             self.drive();
         }
         self.recorder.note(&self.state, began, DWT::cycle_count());
-        TICKS.store(self.state.ticks, Ordering::Relaxed);
+        TICKS.store(self.state.ticks(), Ordering::Relaxed);
     }
 
     /// Applies the state's duties; in any phase that has none the amplifiers are disabled.
     #[inline]
     fn drive(&mut self) {
-        let running = self.state.phase == Phase::Running;
+        let running = self.state.phase() == Phase::Running;
         let mut obeyed = true;
-        for (amplifier, duty) in self.amplifiers.iter_mut().zip(self.state.duties) {
+        for (amplifier, duty) in self.amplifiers.iter_mut().zip(self.state.duties()) {
             obeyed &= if running { amplifier.apply(duty).is_ok() } else { amplifier.release().is_ok() };
         }
         if !obeyed {
@@ -187,7 +187,7 @@ fn main() -> ! {
         button,
         ready,
         state: SERVO.start_after(reset),
-        recorder: Recorder::new(producer, ARM_FREQUENCY, TICKS_A_RECORD),
+        recorder: Recorder::new(producer, ARM_FREQUENCY, TICKS_PER_RECORD),
     };
     critical_section::with(|section| HANDED_OVER.borrow(section).set(Some(servo_loop)));
     // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.

@@ -3,7 +3,7 @@
 
 use crate::contestant::Probe;
 use anyhow::{Context as _, ensure};
-use palpate::body::{Body, Face, Locator, Side, Vertex};
+use palpate::body::{Body, Edge, EdgeFace, EdgeKind, Face, Locator, Separator, Side, SplineCurve, Vertex};
 use palpate::math::Vec3;
 use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
 use std::collections::HashMap;
@@ -85,9 +85,21 @@ fn body(patch: SplinePatch, size: f32, lines: &HashMap<&str, &str>) -> anyhow::R
     let nodes: Vec<[u16; 8]> = numbers::<u16>(lines, "nodes")?.as_chunks().0.to_vec();
     let entries = numbers::<u32>(lines, "entries")?.leak();
     let locator = Locator { corner: Vec3::new(x, y, z), side, nodes: nodes.leak(), entries };
-    let faces = vec![Face { patch, sides: [Side::Pole { vertex: 0 }; 4] }];
-    let vertices = vec![Vertex { point: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true }];
-    Ok(Body::try_new(faces.leak(), &[], vertices.leak(), &[], locator, size, false)?)
+    // Four open borders that no search looks at; as poles they would be searched around.
+    let separator = Separator::Plane { normal: Vec3::X, offset: 0.0 };
+    let sides = [0, 1, 2, 3].map(|edge| Side::Edge { edge, reversed: false, separator });
+    let faces = vec![Face { patch, sides }];
+    let curve = SplineCurve {
+        degree: 0,
+        breaks: &[0.0, 1.0],
+        coefficients: Coefficients::Polynomial(&[[0.0; 3]]),
+        second_derivative: 0.0,
+    };
+    let edge =
+        |side| Edge { curve, faces: [EdgeFace { face: 0, side }, EdgeFace::NONE], ends: [0; 2], kind: EdgeKind::Open };
+    let edges: Vec<Edge> = [0, 1, 2, 3].map(edge).into();
+    let vertices = vec![Vertex { point: Vec3::ZERO, outward: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true }];
+    Ok(Body::try_new(faces.leak(), edges.leak(), vertices.leak(), &[], locator, size, false)?)
 }
 
 fn numbers<T: FromStr>(lines: &HashMap<&str, &str>, key: &str) -> anyhow::Result<Vec<T>> {

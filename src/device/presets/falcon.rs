@@ -45,11 +45,11 @@ pub const NOVINT_FALCON: Device<Delta, 3> = Device {
     feeds: [Feed::Current; 3],
     dry_friction: [0.05; 3],
     joint_range: [[-0.75, 1.3]; 3],
-    least_margin: 0.010,
-    greatest_joint_rate: 60.0,
-    greatest_force: 8.9,
-    greatest_stiffness: 2_000.0,
-    greatest_damping: 5.0,
+    min_margin: 0.010,
+    max_joint_rate: 60.0,
+    max_force: 8.9,
+    max_stiffness: 2_000.0,
+    max_damping: 5.0,
 };
 
 #[cfg(test)]
@@ -63,7 +63,7 @@ mod tests {
         let delta = NOVINT_FALCON.kinematics;
         let pose = delta.pose(delta.angles(Vec3::ZERO).unwrap());
         for axis in [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)] {
-            let torques = pose.torques(axis * NOVINT_FALCON.greatest_force);
+            let torques = pose.torques(axis * NOVINT_FALCON.max_force);
             assert!(torques.iter().all(|torque| torque.abs() <= 0.53), "{axis}: {torques:?}");
         }
     }

@@ -26,11 +26,11 @@ pub const HAPKIT: Device<Paddle, 1> = Device {
     })],
     dry_friction: [2e-3],
     joint_range: [[-0.8, 0.8]],
-    least_margin: 0.06,
-    greatest_joint_rate: 35.0,
-    greatest_force: 7.9,
-    greatest_stiffness: 500.0,
-    greatest_damping: 2.0,
+    min_margin: 0.06,
+    max_joint_rate: 35.0,
+    max_force: 7.9,
+    max_stiffness: 500.0,
+    max_damping: 2.0,
 };
 
 #[cfg(test)]

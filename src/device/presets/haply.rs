@@ -34,11 +34,11 @@ pub const HAPLY_2DIY_V3: Device<FiveBar, 2> = Device {
     }); 2],
     dry_friction: [2e-3; 2],
     joint_range: [[0.8, 3.3], [-0.2, 2.3]],
-    least_margin: 0.015,
-    greatest_joint_rate: 40.0,
-    greatest_force: 1.3,
-    greatest_stiffness: 300.0,
-    greatest_damping: 1.0,
+    min_margin: 0.015,
+    max_joint_rate: 40.0,
+    max_force: 1.3,
+    max_stiffness: 300.0,
+    max_damping: 1.0,
 };
 
 /// Haply development kit, first version: a smaller five-bar with geared encoders.
@@ -67,9 +67,9 @@ pub const HAPLY_KIT_V1: Device<FiveBar, 2> = Device {
     }); 2],
     dry_friction: [2e-3; 2],
     joint_range: [[0.8, 3.4], [-0.3, 2.3]],
-    least_margin: 0.012,
-    greatest_joint_rate: 50.0,
-    greatest_force: 2.0,
-    greatest_stiffness: 300.0,
-    greatest_damping: 1.0,
+    min_margin: 0.012,
+    max_joint_rate: 50.0,
+    max_force: 2.0,
+    max_stiffness: 300.0,
+    max_damping: 1.0,
 };

@@ -52,11 +52,11 @@ pub const POLHEM_V2: Device<LinkageArm, 3> = Device {
     feeds: [Feed::Current; 3],
     dry_friction: [0.01; 3],
     joint_range: [[-2.2, 2.2], [0.2, 2.4], [1.0, 4.3]],
-    least_margin: 0.025,
-    greatest_joint_rate: 40.0,
-    greatest_force: 5.0,
-    greatest_stiffness: 2_000.0,
-    greatest_damping: 5.0,
+    min_margin: 0.025,
+    max_joint_rate: 40.0,
+    max_force: 5.0,
+    max_stiffness: 2_000.0,
+    max_damping: 5.0,
 };
 
 /// Where [`POLHEM_V2`] is put down to be calibrated: the source's offsets of 8,312, −10,366 and 19,764 counts, as angles.

@@ -37,11 +37,11 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
     feeds: [Feed::Current; 3],
     dry_friction: [0.01; 3],
     joint_range: [[-1.6, 1.6], [-0.8, 2.2], [-1.2, 1.8]],
-    least_margin: 0.05,
-    greatest_joint_rate: 25.0,
-    greatest_force: 5.0,
-    greatest_stiffness: 1_000.0,
-    greatest_damping: 8.0,
+    min_margin: 0.05,
+    max_joint_rate: 25.0,
+    max_force: 5.0,
+    max_stiffness: 1_000.0,
+    max_damping: 8.0,
 };
 
 #[cfg(test)]
@@ -68,7 +68,7 @@ mod tests {
         assert!(pose.position.length() < 1e-3, "{}", pose.position);
         // 5 N × 0.205 m × cos 0.344 along x ask the first link for 0.965 N·m; 12 × 3 A × 0.0259 N·m/A are 0.932 N·m.
         for (axis, load) in [(vec3(1.0, 0.0, 0.0), 1.035), (vec3(0.0, 1.0, 0.0), 0.885), (vec3(0.0, 0.0, 1.0), 0.809)] {
-            let torques = pose.torques(axis * WOODEN_HAPTICS_2016.greatest_force);
+            let torques = pose.torques(axis * WOODEN_HAPTICS_2016.max_force);
             let fractions: [f32; 3] =
                 core::array::from_fn(|joint| WOODEN_HAPTICS_2016.motors[joint].fraction(torques[joint]));
             let largest = fractions.into_iter().fold(0.0, |most: f32, fraction: f32| most.max(fraction.abs()));

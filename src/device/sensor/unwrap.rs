@@ -10,7 +10,7 @@ use crate::device::Counts;
 /// step tells a glitch from motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unwrap<const BITS: u32> {
-    greatest_step: i32,
+    max_step: i32,
     last: Option<u32>,
     total: i32,
 }
@@ -21,10 +21,10 @@ pub type TimerCount = Unwrap<16>;
 pub type TurnCount = Unwrap<14>;
 
 impl<const BITS: u32> Unwrap<BITS> {
-    /// What the count starts from is the first reading. A step beyond `greatest_step` counts between two readings is refused.
-    pub const fn new(greatest_step: i32) -> Self {
+    /// What the count starts from is the first reading. A step beyond `max_step` counts between two readings is refused.
+    pub const fn new(max_step: i32) -> Self {
         const { assert!(BITS >= 1 && BITS <= 32) };
-        Self { greatest_step, last: None, total: 0 }
+        Self { max_step, last: None, total: 0 }
     }
 
     /// The count after a reading, of which the lower `BITS` bits are used. The count itself wraps at 32 bits.
@@ -41,7 +41,7 @@ impl<const BITS: u32> Unwrap<BITS> {
         };
         // Up to the top bit and down again carries the sign.
         let step = (reading.wrapping_sub(last) << unused) as i32 >> unused;
-        if step.saturating_abs() > self.greatest_step {
+        if step.saturating_abs() > self.max_step {
             return Err(Jumped { by: step });
         }
         self.last = Some(reading);

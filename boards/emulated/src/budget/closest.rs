@@ -4,8 +4,7 @@ use core::hint::black_box;
 
 use palpate::body::{Body, BodyStep, BodyWitness, Feature};
 use palpate::math::{Vec3, sin_cos, vec3};
-use palpate::render::Contact;
-use palpate::track::{Controller, Outcome, Probe};
+use palpate::track::{Contact, Controller, Outcome, Probe};
 
 use super::tables::capped_box::BODY;
 use super::tally::Tally;
@@ -14,7 +13,7 @@ use crate::timer::InstructionCounter;
 /// Ticks of the walk.
 const TICKS: u32 = 100_000;
 /// Every so many ticks the probe jumps, and the body is searched anew.
-const TICKS_A_JUMP: u32 = 4_999;
+const TICKS_PER_JUMP: u32 = 4_999;
 /// The middle of the capped box, and how far the probe goes from it, metres: beyond each corner, and through the body.
 const MIDDLE: Vec3 = vec3(0.03, 0.02, 0.015);
 const TRAVEL: Vec3 = vec3(0.045, 0.034, 0.032);
@@ -71,7 +70,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut met = [0_u32; 3];
     let mut undone = 0_u32;
     for index in 0..TICKS {
-        let index = if (index / TICKS_A_JUMP) % 2 == 1 { index + TICKS } else { index };
+        let index = if (index / TICKS_PER_JUMP) % 2 == 1 { index + TICKS } else { index };
         let position = black_box(probe(index));
         let before = witness;
         let (step, instructions) = counter.count(|| tick(body, &mut witness, &position));

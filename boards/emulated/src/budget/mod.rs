@@ -6,6 +6,7 @@
 
 mod closest;
 mod evaluation;
+mod mathematics;
 mod patches;
 mod servo;
 mod step;
@@ -24,6 +25,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     evaluation::run(counter);
     step::run(counter)?;
     servo::run(counter)?;
+    mathematics::run(counter);
     // Last, as the longest: whoever watches instruction by instruction need not wait for its end.
     closest::run(counter)
 }

@@ -4,8 +4,8 @@ use core::hint::black_box;
 
 use palpate::device::{Counts, Kinematics};
 use palpate::math::Vec3;
-use palpate::render::Contact;
 use palpate::servo::{Event, Input, Tracked};
+use palpate::track::Contact;
 
 use super::closest::probe;
 use super::tally::Tally;
@@ -62,12 +62,12 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         SERVO.note(&mut state, Event::LinkAlive);
         let ((), instructions) = counter.count(|| tick(&mut state, input));
         ticks.add(instructions);
-        touched += u32::from(state.contact == Contact::Touching);
-        let feature = state.witness.feature();
+        touched += u32::from(state.contact() == Contact::Touching);
+        let feature = state.witness().feature();
         met[usize::from(feature >> 14)] |= 1 << (feature & 31);
     }
     ticks.print("servo tick");
-    if state.fault.is_some() {
+    if state.fault().is_some() {
         return Err("the servo found a fault on its path");
     }
     if touched < TICKS / 100 {

@@ -1,13 +1,11 @@
 //! What is measured whatever the image's own body is: a patch of several spans, and a body of flat and curved faces.
 
 /// A biquadratic patch of three by three spans.
-#[expect(dead_code, reason = "the budget needs less of it than an image")]
 pub mod table1c {
     include!("../../../bodies/table1c.rs");
 }
 
 /// Six bicubic faces of one span.
-#[expect(dead_code, reason = "the budget needs less of it than an image")]
 pub mod capped_box {
     include!("../../../bodies/capped_box.rs");
 }

@@ -1,0 +1,123 @@
+//! Servos that together have everything a servo can have.
+
+use palpate::body::Body;
+use palpate::device::presets::{NOVINT_FALCON, POLHEM_V2, WOODEN_HAPTICS_2016};
+use palpate::device::{Delta, Device, LinkageArm, Motor, SerialArm, VelocityMethod};
+use palpate::math::{Vec3, vec3};
+use palpate::patch::SplinePatch;
+use palpate::render::{Coupling, Friction, Passivity, Texture, grating};
+use palpate::servo::{ContactLimits, Rendering, SafeOutput, Safety, Servo, Settings, StuckLimits};
+use palpate::track::Controller;
+
+/// A polynomial patch of several spans.
+mod table1c {
+    include!("../../../bodies/table1c.rs");
+}
+/// A rational one.
+mod ellipsoid {
+    include!("../../../bodies/ellipsoid.rs");
+}
+
+/// A body with flat and curved faces, edges and corners.
+mod capped_box {
+    include!("../../../bodies/capped_box.rs");
+}
+
+/// A servo of a mechanism with three joints.
+pub type ServoOf<K, S = SplinePatch> = Servo<'static, S, K, 3>;
+
+const fn settings(body_origin: Vec3) -> Settings {
+    Settings {
+        rate: 4_000.0,
+        stiffness: 600.0,
+        damping: 2.0,
+        max_force: 5.0,
+        velocity_corner: 200.0,
+        soft_start: 0.2,
+        body_origin,
+    }
+}
+
+/// The middle of the workspace in the middle of the body.
+const TABLE_1C_AT: Settings = settings(vec3(-0.05, -0.05, -0.06));
+const CAPPED_BOX_AT: Settings = settings(vec3(-0.03, -0.02, -0.015));
+const ELLIPSOID_AT: Settings = settings(vec3(0.0, 0.0, -0.02));
+
+const FRICTION: Friction =
+    Friction { stiffness: 800.0, damping: 1.0, static_coefficient: 0.6, dynamic_coefficient: 0.4 };
+const PASSIVITY: Passivity =
+    Passivity { device_damping: 0.1, device_friction: 0.01, max_damping: 8.0, resolution: 1e-4 };
+
+/// Spring and damper alone.
+pub static PLAIN: ServoOf<SerialArm> =
+    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT)
+        .safety(Safety { link_timeout: 0.05, ..Safety::DEFAULT });
+
+/// Friction, texture, passivity, the window's velocity; homing, the table's check, damping after a fault.
+pub static RICH: ServoOf<SerialArm> =
+    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT)
+        .rendering(Rendering {
+            velocity: VelocityMethod::AdaptiveWindow,
+            friction: Some(FRICTION),
+            texture: Some(Texture { force: |touch| grating(touch, 100.0, 0.3), max_share: 0.2 }),
+            passivity: Some(PASSIVITY),
+            max_slew: 200.0,
+            ..Rendering::PLAIN
+        })
+        .safety(Safety {
+            output: SafeOutput::Damping(4.0),
+            settle_ticks: 20,
+            wait_for_homing: true,
+            ..Safety::DEFAULT
+        });
+
+/// A virtual tool on a rational patch, felt with a delta.
+pub static COUPLED: ServoOf<Delta> =
+    Servo::new(&NOVINT_FALCON, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT).rendering(Rendering {
+        velocity: VelocityMethod::Tracking,
+        coupling: Some(Coupling { stiffness: 500.0, damping: 3.0, mass: 0.02 }),
+        friction: Some(FRICTION),
+        ..Rendering::PLAIN
+    });
+
+/// A five-bar on a turntable that watches for stuck sensors and lost contact, and bears some overruns.
+pub static WATCHFUL: ServoOf<LinkageArm> =
+    Servo::new(&POLHEM_V2, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT).safety(Safety {
+        max_overruns: 1,
+        stuck: Some(StuckLimits { load: 1.0, travel: 0.1 }),
+        contact: Some(ContactLimits { max_in_a_row: 0, ..ContactLimits::DEFAULT }),
+        ..Safety::DEFAULT
+    });
+
+const WEAK: Device<SerialArm, 3> = Device {
+    // Next to nothing: the duty for any torque is infinite.
+    motors: [Motor { torque_at_full: 1e-44 }; 3],
+    ..WOODEN_HAPTICS_2016
+};
+
+/// Motors that are asked for NaN.
+pub static BROKEN: ServoOf<SerialArm> = Servo::new(&WEAK, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT);
+
+const SHORT_SHINNED: Device<Delta, 3> =
+    Device { kinematics: Delta { shin: 0.055, ..NOVINT_FALCON.kinematics }, ..NOVINT_FALCON };
+
+/// Shins so short that the legs cannot meet everywhere.
+pub static SHORT: ServoOf<Delta> =
+    Servo::new(&SHORT_SHINNED, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT);
+
+/// A table that is not the one that was baked.
+pub static CORRUPT: ServoOf<SerialArm> = Servo::new(&WOODEN_HAPTICS_2016, &SPOILT, Controller::CERTIFIED, ELLIPSOID_AT);
+
+static SPOILT: SplinePatch = ellipsoid::PATCHES[0].with_crc(!ellipsoid::TABLE_CRC);
+
+/// The capped box.
+pub static BODY: ServoOf<SerialArm, Body> =
+    Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, Controller::CERTIFIED, CAPPED_BOX_AT)
+        .rendering(Rendering { friction: Some(FRICTION), ..Rendering::PLAIN });
+
+/// Joint angles, radians, that bring each device's probe to, around and into the bodies.
+pub const WOODEN_HAPTICS_REACH: [[f32; 2]; 3] = [[-0.32, 0.32], [0.0, 0.65], [0.65, 1.2]];
+/// Of the Falcon's three legs.
+pub const FALCON_REACH: [[f32; 2]; 3] = [[-0.2, 1.2]; 3];
+/// Of the Polhem's turntable and links.
+pub const POLHEM_REACH: [[f32; 2]; 3] = [[-0.32, 0.32], [0.6, 1.25], [1.7, 2.9]];

@@ -1,0 +1,64 @@
+//! A long seeded run of the servo that visits everything it can do: every boundary mode, phase and fault, contact in and
+//! out, every rendering and mechanism. The same code runs on a board and on the host, and what it prints must be the same.
+
+#![no_std]
+
+pub mod laps;
+pub mod random;
+pub mod script;
+pub mod tally;
+
+use palpate::device::Encoder;
+use palpate::device::Kinematics;
+use palpate::device::presets::{NOVINT_FALCON, POLHEM_V2, WOODEN_HAPTICS_2016};
+use palpate::servo::Surface;
+
+use laps::{FALCON_REACH, POLHEM_REACH, ServoOf, WOODEN_HAPTICS_REACH};
+use script::Script;
+use tally::Tally;
+
+/// Ticks of the whole run.
+pub const TICKS: u32 = 1_000_000;
+/// Ticks from one line to the next.
+pub const TICKS_PER_LINE: u32 = 50_000;
+
+/// Runs every servo in turn, [`TICKS`] in all, and gives the tally of its ticks so far every [`TICKS_PER_LINE`] ticks.
+pub fn run(say: &mut impl FnMut(&str, &Tally)) {
+    let serial = &WOODEN_HAPTICS_2016.encoders;
+    lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 150_000, say);
+    lap("body", &laps::BODY, serial, WOODEN_HAPTICS_REACH, 300_000, say);
+    lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 100_000, say);
+    lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 100_000, say);
+    lap("short", &laps::SHORT, &NOVINT_FALCON.encoders, FALCON_REACH, 50_000, say);
+    lap("watchful", &laps::WATCHFUL, &POLHEM_V2.encoders, POLHEM_REACH, 200_000, say);
+    lap("broken", &laps::BROKEN, serial, WOODEN_HAPTICS_REACH, 50_000, say);
+    lap("corrupt", &laps::CORRUPT, serial, WOODEN_HAPTICS_REACH, 50_000, say);
+}
+
+fn lap<K: Kinematics<3>, S: Surface>(
+    name: &str,
+    servo: &ServoOf<K, S>,
+    encoders: &[Encoder; 3],
+    reach: [[f32; 2]; 3],
+    ticks: u32,
+    say: &mut impl FnMut(&str, &Tally),
+) {
+    let mut script = Script::new(1, encoders, reach);
+    let mut state = servo.start();
+    let mut tally = Tally::default();
+    while tally.ticks < ticks {
+        let order = script.next_order();
+        if let Some(reset) = order.restart {
+            state = servo.start_after(reset);
+        }
+        for event in order.events.into_iter().flatten() {
+            servo.note(&mut state, event);
+        }
+        let before = state.contact();
+        servo.tick(&mut state, order.input);
+        tally.add(before, &state);
+        if tally.ticks.is_multiple_of(TICKS_PER_LINE) {
+            say(name, &tally);
+        }
+    }
+}

@@ -1,0 +1,19 @@
+// The settings of the demo. Copy this file, change it, and name yours in PALPATE_SETTINGS.
+
+// The device: its mechanism's type and its constant.
+pub use palpate::device::{SerialArm as Mechanism, presets::WOODEN_HAPTICS_2016 as DEVICE};
+
+/// 4 kHz, 600 N/m: well inside what the device takes; see `palpate::servo::Settings` for what each entry is.
+pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
+    rate: 4_000.0,
+    stiffness: 600.0,
+    damping: 2.0,
+    max_force: 5.0,
+    velocity_corner: 200.0,
+    soft_start: 0.2,
+    body_origin: palpate::math::vec3(-0.03, -0.02, -0.015),
+};
+
+/// A host that is silent for 100 ms is gone.
+pub const SAFETY: palpate::servo::Safety =
+    palpate::servo::Safety { link_timeout: 0.1, ..palpate::servo::Safety::DEFAULT };

@@ -1,0 +1,84 @@
+//! Where a face's Voronoi region ends along one of its sides.
+
+use super::border::BorderSpans;
+use super::curve::BakedCurve;
+use crate::topology::Border;
+use crate::{Fault, NurbsPatch};
+use glam::DVec3;
+use palpate::body::Separator;
+use palpate::math::Vec3;
+
+/// [`palpate::body::Separator`] with the numbers owned.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BakedSeparator {
+    /// Left iff `normal · Q > offset`.
+    Plane {
+        /// Unit vector.
+        normal: [f32; 3],
+        /// Metres.
+        offset: f32,
+    },
+    /// The derivative across the border.
+    Ruled(BakedCurve),
+}
+
+/// A border that strays less from its chord, in units of its largest coordinate, is straight: half a unit in the last place of `f32`.
+const STRAIGHT: f64 = 6e-8;
+/// Normals that turn less are one: the rounding of a unit vector to `f32`.
+const CONSTANT: f64 = 1e-7;
+/// Points at which both are looked at: more than a rational border of degree 5 with a normal of degree 20 has freedoms.
+const SAMPLES: usize = 32;
+
+impl BakedSeparator {
+    /// The separator of a face at a border, in the edge's parameter. `spans` are the border's, in that parameter; `poles` says
+    /// whether the sides at the edge's ends 0 and 1 are points.
+    ///
+    /// # Errors
+    /// [`Fault::NoBounds`] where a number does not fit `f32`.
+    pub fn new(patch: &NurbsPatch, border: Border, spans: &BorderSpans, poles: [bool; 2]) -> Result<Self, Fault> {
+        if let Some(plane) = plane(patch, border) {
+            return Ok(plane);
+        }
+        let mut outward = spans.outward();
+        for (end, pole) in poles.into_iter().enumerate() {
+            // Towards a pole the derivative across vanishes; its direction has a limit.
+            if pole {
+                outward = outward.without_root(end == 1);
+            }
+        }
+        Ok(Self::Ruled(BakedCurve::polynomial(&outward.trimmed(0))?))
+    }
+
+    /// The separator as the firmware has it; its numbers stay allocated for good.
+    pub fn to_separator(&self) -> Separator {
+        match self {
+            Self::Plane { normal, offset } => Separator::Plane { normal: Vec3::from_array(*normal), offset: *offset },
+            Self::Ruled(curve) => Separator::Ruled(curve.to_curve()),
+        }
+    }
+}
+
+/// The plane, if the border is straight and the normal constant along it, both within what `f32` can tell.
+fn plane(patch: &NurbsPatch, border: Border) -> Option<BakedSeparator> {
+    let intervals =
+        SAMPLES * (patch.borders(if border.axis() == 0 { crate::Axis::U } else { crate::Axis::V }).len() - 1);
+    let points: Vec<_> = (0..=intervals).map(|k| border.at(patch, k as f64 / intervals as f64)).collect();
+    let extent = points.iter().map(|at| at.point.abs().max_element()).fold(0.0, f64::max);
+    let (first, last) = (points[0].point, points[intervals].point);
+    let along = (last - first).normalize_or_zero();
+    let strays = |point: DVec3| (point - first - along * (point - first).dot(along)).length() > STRAIGHT * extent;
+    if along == DVec3::ZERO || points.iter().any(|at| strays(at.point)) {
+        return None;
+    }
+    let middle = points[intervals / 2];
+    // At a pole there is no normal to compare.
+    let turns = |normal: DVec3| normal != DVec3::ZERO && normal.cross(middle.normal).length() > CONSTANT;
+    if middle.normal == DVec3::ZERO || points.iter().any(|at| turns(at.normal) || at.normal.dot(middle.normal) < 0.0) {
+        return None;
+    }
+    let conormal = middle.conormal();
+    let rounded = conormal.as_vec3();
+    // Of the stored normal, so that the plane holds the middle of the border; it is that of the whole within the tolerances.
+    let offset = rounded.as_dvec3().dot(middle.point);
+    Some(BakedSeparator::Plane { normal: rounded.to_array(), offset: offset as f32 })
+}

@@ -1,0 +1,261 @@
+//! What can be wrong with a model file, as the person who wrote it reads it.
+
+use super::axis::Axis;
+use super::topology::SeamFault;
+use palpate::patch::{MAX_DEGREE, MAX_SPANS};
+use thiserror::Error;
+
+/// Why a model file is refused. Names the file, and where there is one the patch and the entry.
+#[derive(Debug, Error)]
+pub enum ModelError {
+    /// The file cannot be read.
+    #[error("{file}: cannot be read: {cause}")]
+    Read {
+        /// The file.
+        file: String,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// Not TOML, or not the keys and types of a model file.
+    #[error("{file}: {message}")]
+    Syntax {
+        /// The file.
+        file: String,
+        /// What the parser says, with line and column.
+        message: String,
+    },
+    /// The unit is none of those known.
+    #[error("{file}: unit \"{unit}\" is unknown: m, cm or mm")]
+    Unit {
+        /// The file.
+        file: String,
+        /// What it says.
+        unit: String,
+    },
+    /// There is no patch.
+    #[error("{file}: the model has no patch")]
+    Empty {
+        /// The file.
+        file: String,
+    },
+    /// Two patches have one name.
+    #[error("{file}: patches {first} and {second} are both named \"{name}\"")]
+    DuplicateName {
+        /// The file.
+        file: String,
+        /// The name.
+        name: String,
+        /// Index of the first.
+        first: usize,
+        /// Index of the second.
+        second: usize,
+    },
+    /// Something is wrong with one patch.
+    #[error("{file}: patch {patch}: {fault}")]
+    Patch {
+        /// The file.
+        file: String,
+        /// Its name, or its index if it has none.
+        patch: String,
+        /// What is wrong.
+        fault: Fault,
+    },
+    /// The patches do not make a body.
+    #[error("{file}: {fault}")]
+    Seam {
+        /// The file.
+        file: String,
+        /// What is wrong between its patches.
+        fault: SeamFault,
+    },
+}
+
+/// What is wrong with a patch.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Fault {
+    /// The name is empty.
+    #[error("name is empty: leave it out and the patch goes by its index")]
+    EmptyName,
+    /// A degree is out of range.
+    #[error("degree along {axis} is {degree}: 1 to {MAX_DEGREE}")]
+    Degree {
+        /// Along which parameter.
+        axis: Axis,
+        /// What the file says.
+        degree: i64,
+    },
+    /// Fewer control points than degree + 1.
+    #[error("{count} points along {axis}: degree {degree} needs at least {}", degree + 1)]
+    TooFewPoints {
+        /// Along which parameter.
+        axis: Axis,
+        /// How many there are.
+        count: usize,
+        /// The degree.
+        degree: usize,
+    },
+    /// A Bézier patch whose number of points is not degree + 1.
+    #[error("{count} points along {axis} without knots_{axis}: a Bézier patch of degree {degree} has {}", degree + 1)]
+    BezierPoints {
+        /// Along which parameter.
+        axis: Axis,
+        /// How many there are.
+        count: usize,
+        /// The degree.
+        degree: usize,
+    },
+    /// A row of points is of another length than the first.
+    #[error("points[{row}] has {count} points, points[0] has {expected}")]
+    RaggedRow {
+        /// The row.
+        row: usize,
+        /// How many it has.
+        count: usize,
+        /// How many the first has.
+        expected: usize,
+    },
+    /// A point is not made of three or four numbers.
+    #[error("points[{row}][{column}] has {count} numbers: x, y, z and, if rational, the weight")]
+    PointLength {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// How many numbers.
+        count: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("points[{row}][{column}]: {coordinate} is {value}")]
+    Coordinate {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// `x`, `y` or `z`.
+        coordinate: char,
+        /// What the file says.
+        value: f64,
+    },
+    /// A weight is not a positive finite number.
+    #[error("points[{row}][{column}]: the weight is {value}: it must be positive and finite")]
+    Weight {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// What the file says.
+        value: f64,
+    },
+    /// The number of knots does not match.
+    #[error("knots_{axis} has {count} knots: {points} points of degree {degree} need {}", points + degree + 1)]
+    KnotCount {
+        /// Along which parameter.
+        axis: Axis,
+        /// How many there are.
+        count: usize,
+        /// Control points along the parameter.
+        points: usize,
+        /// The degree.
+        degree: usize,
+    },
+    /// A knot is NaN or infinite.
+    #[error("knots_{axis}[{index}] is {value}")]
+    KnotNotFinite {
+        /// Along which parameter.
+        axis: Axis,
+        /// Which.
+        index: usize,
+        /// What the file says.
+        value: f64,
+    },
+    /// A knot is below the one before it.
+    #[error("knots_{axis}[{index}] = {value} is below knots_{axis}[{}] = {before}", index - 1)]
+    KnotDecreases {
+        /// Along which parameter.
+        axis: Axis,
+        /// Which.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// The one before it.
+        before: f64,
+    },
+    /// An inner knot is repeated so often that the surface is torn there.
+    #[error("knots_{axis}: {value} appears {times} times inside: above degree {degree} the surface is torn there")]
+    Torn {
+        /// Along which parameter.
+        axis: Axis,
+        /// The knot.
+        value: f64,
+        /// How often.
+        times: usize,
+        /// The degree.
+        degree: usize,
+    },
+    /// An end knot is repeated more than degree + 1 times.
+    #[error("knots_{axis}: {value} appears {times} times at an end: at most degree + 1 = {}", degree + 1)]
+    EndMultiplicity {
+        /// Along which parameter.
+        axis: Axis,
+        /// The knot.
+        value: f64,
+        /// How often.
+        times: usize,
+        /// The degree.
+        degree: usize,
+    },
+    /// The range of the parameter is empty.
+    #[error("knots_{axis}: the range of {axis} is empty, from {value} to {value}")]
+    EmptyRange {
+        /// Along which parameter.
+        axis: Axis,
+        /// Both ends.
+        value: f64,
+    },
+    /// Two knots become one in the table.
+    #[error("knots_{axis}: {first} and {second} are too near each other to be told apart in single precision")]
+    KnotsTooNear {
+        /// Along which parameter.
+        axis: Axis,
+        /// The lower.
+        first: f64,
+        /// The upper.
+        second: f64,
+    },
+    /// More spans than the target takes.
+    #[error("{count} spans along {axis}: at most {MAX_SPANS}; cut the patch in two")]
+    TooManySpans {
+        /// Along which parameter.
+        axis: Axis,
+        /// How many.
+        count: usize,
+    },
+    /// The patch is a point, a curve, or thinner than single precision can tell.
+    #[error("it has no area: all its points lie on one curve or in one point")]
+    NoArea,
+    /// The patch is smaller or larger than the arithmetic is meant for.
+    #[error("it is {size:e} m large: from 1e-6 m to 1e3 m; is the unit right?")]
+    Size {
+        /// The largest side of its bounding box, metres.
+        size: f64,
+    },
+    /// The patch lies too far away from the origin for single precision.
+    #[error("it lies {distance:e} m from the origin, above {limit:e} times its size: move the origin nearer")]
+    FarAway {
+        /// The largest coordinate, metres.
+        distance: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// A bound does not fit single precision.
+    #[error("its second derivatives cannot be bounded in single precision: weights or knots are too uneven")]
+    NoBounds,
+    /// A coefficient does not fit single precision.
+    #[error("span {u}, {v}: weights or knots are too uneven for single precision")]
+    Uneven {
+        /// Index of the span along `u`.
+        u: usize,
+        /// Index of the span along `v`.
+        v: usize,
+    },
+}

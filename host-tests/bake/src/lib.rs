@@ -1,0 +1,46 @@
+//! From a model file to tables in flash.
+//!
+//! The way of a patch: [`Model`] (the file, checked, in metres and `f64`) → [`spline`] (its polynomial spans, rounded
+//! once to `f32`) → [`bounds`] and [`shape`] (what is proved of those very `f32` numbers) → [`BakedPatch`] → [`source`] (Rust).
+//! [`survey`] says what is known of a patch and what is not.
+
+mod axis;
+mod baked;
+mod bernstein;
+pub mod body;
+pub mod bounds;
+mod build_script;
+mod cell;
+pub mod certificate;
+mod check;
+mod coefficients;
+mod convexity;
+mod error;
+mod form;
+pub mod graph;
+mod jet;
+mod knots;
+pub mod locator;
+mod model;
+pub mod parallel;
+mod patch;
+mod random;
+mod sampling;
+pub mod shape;
+pub mod source;
+pub mod spline;
+pub mod split;
+pub mod survey;
+pub mod topology;
+mod tracked;
+
+pub use axis::Axis;
+pub use baked::BakedPatch;
+pub use bernstein::product_share as bernstein_product_share;
+pub use body::{BakedBody, LocatorTable};
+pub use build_script::{Bake, BakeError};
+pub use coefficients::BakedCoefficients;
+pub use error::{Fault, ModelError};
+pub use model::{Model, Unit};
+pub use patch::NurbsPatch;
+pub use random::Random;

@@ -1,0 +1,368 @@
+//! The faces of a body as the locator's search sees them.
+
+use super::field::{Part, Probes};
+use super::piece::{Piece, Span};
+use super::seams::{Seams, at_corner};
+use super::stored::StoredSurface;
+use crate::BakedPatch;
+use crate::bounds::local_range;
+use crate::tracked::Tracked;
+use glam::DVec3;
+use palpate::patch::SplinePatch;
+
+/// Intervals of the grid on each face from which references are sought.
+const INTERVALS: usize = 16;
+
+/// All faces.
+pub(crate) struct Faces {
+    pub surfaces: Vec<StoredSurface>,
+    /// The same as the firmware has them.
+    pub tables: Vec<SplinePatch>,
+    /// The spans of each face.
+    pub spans: Vec<Vec<Piece>>,
+    pub seams: Seams,
+    /// 1 where the outward normal is `f_u × f_v`, −1 where it is turned round.
+    pub turns: Vec<f64>,
+    /// A grid of points on each face.
+    samples: Vec<Vec<([f64; 2], DVec3)>>,
+}
+
+/// A part of the body that may hold the closest point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Region<'a> {
+    /// The inside of a face.
+    Inside(&'a Piece),
+    /// Some of an edge: a side of its owner's piece.
+    Side {
+        /// The owner's piece.
+        piece: &'a Piece,
+        /// The side.
+        side: u8,
+        /// Index of the seam.
+        edge: u32,
+    },
+    /// A vertex, by index of the seam.
+    Vertex(u32),
+}
+
+impl Faces {
+    /// `None` if a weight is not proved positive, or the library refuses a table. `reach` is the greatest coordinate of a probe, in absolute value.
+    pub(crate) fn new(patches: &[BakedPatch], seams: Seams, creases: &[[Vec<f64>; 2]], reach: f64) -> Option<Self> {
+        let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
+        let tables = patches.iter().map(|patch| patch.to_patch().ok()).collect::<Option<_>>()?;
+        let spans = (patches.iter().zip(creases).enumerate())
+            .map(|(face, (patch, creases))| spans(face, patch, seams.poles[face], creases, reach))
+            .collect::<Option<Vec<_>>>()?;
+        let grid = |surface: &StoredSurface| {
+            let point = |index: usize| {
+                let at = [index / (INTERVALS + 1), index % (INTERVALS + 1)].map(|k| k as f64 / INTERVALS as f64);
+                (at, surface.evaluate(at).point)
+            };
+            (0..(INTERVALS + 1) * (INTERVALS + 1)).map(point).collect::<Vec<_>>()
+        };
+        let samples: Vec<_> = surfaces.iter().map(grid).collect();
+        let turns = patches
+            .iter()
+            .map(|patch| if patch.orientation == palpate::patch::Orientation::Outward { 1.0 } else { -1.0 })
+            .collect();
+        Some(Self { surfaces, tables, spans, seams, turns, samples })
+    }
+
+    /// The whole body.
+    pub(crate) fn regions(&self) -> Vec<Region<'_>> {
+        let mut regions: Vec<_> = self.spans.iter().flatten().map(Region::Inside).collect();
+        for (edge, members) in self.seams.edges.iter().enumerate() {
+            let owner = members[0];
+            let pieces = self.spans[usize::from(owner.face)].iter();
+            regions.extend(pieces.filter(|piece| piece.on_border[usize::from(owner.side)]).map(|piece| Region::Side {
+                piece,
+                side: owner.side,
+                edge: edge as u32,
+            }));
+        }
+        regions.extend((0..self.seams.vertices.len() as u32).map(Region::Vertex));
+        regions
+    }
+
+    /// [`palpate::body::Face::poles`] of a face.
+    pub(super) fn poles(&self, face: usize) -> u8 {
+        self.seams.poles[face].iter().rev().fold(0, |bits, is_pole| bits << 1 | u8::from(*is_pole))
+    }
+
+    /// The span at a corner of a face.
+    pub(super) fn corner_span(&self, face: u16, corner: u8) -> Option<&Piece> {
+        let sides = [corner & 1, 2 + (corner >> 1)];
+        self.spans[usize::from(face)].iter().find(|piece| sides.iter().all(|side| piece.on_border[usize::from(*side)]))
+    }
+
+    /// The smallest piece of a face, not below `level`, whose side holds all of an interval of the face's side.
+    pub(super) fn along_side(&self, face: u16, side: u8, [low, high]: [f64; 2], level: u8) -> Option<&Piece> {
+        let axis = if side < 2 { 1 } else { 0 };
+        let fits =
+            |piece: &&Piece| piece.on_border[usize::from(side)] && piece.low[axis] <= low && high <= piece.high[axis];
+        let mut piece = self.spans[usize::from(face)].iter().find(fits)?;
+        while piece.level < level {
+            let Some(smaller) = piece.quarters().and_then(|quarters| quarters.iter().find(fits)) else { break };
+            piece = smaller;
+        }
+        Some(piece)
+    }
+
+    /// A point of one of some faces near the closest one: a local minimum of the distance.
+    pub(super) fn reference(&self, faces: &[u16], query: DVec3) -> Option<Reference> {
+        let mut best: Option<(u16, [f64; 2], f64)> = None;
+        for &face in faces {
+            for (at, point) in &self.samples[usize::from(face)] {
+                let squared = point.distance_squared(query);
+                if best.is_none_or(|(.., least)| squared < least) {
+                    best = Some((face, *at, squared));
+                }
+            }
+        }
+        let (face, at, _) = best?;
+        let minimum = self.surfaces[usize::from(face)].descend(query, at, [[0.0; 2], [1.0; 2]]);
+        Some(Reference { face, parameters: minimum.parameters, point: minimum.point, distance: minimum.distance })
+    }
+}
+
+/// A point of the body that the closest one must beat.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reference {
+    pub face: u16,
+    pub parameters: [f64; 2],
+    pub point: DVec3,
+    pub distance: f64,
+}
+
+fn spans(face: usize, patch: &BakedPatch, poles: [bool; 4], creases: &[Vec<f64>; 2], reach: f64) -> Option<Vec<Piece>> {
+    let degree = patch.degree.map(usize::from);
+    let counts = [patch.breaks[0].len() - 1, patch.breaks[1].len() - 1];
+    let mut pieces = Vec::with_capacity(counts[0] * counts[1]);
+    for span in 0..counts[0] * counts[1] {
+        let index = [span / counts[1], span % counts[1]];
+        let border = |axis: usize, high: usize| patch.breaks[axis][index[axis] + high];
+        let ranges = [0, 1].map(|axis| local_range(border(axis, 0), border(axis, 1)));
+        let on_border = [index[0] == 0, index[0] + 1 == counts[0], index[1] == 0, index[1] + 1 == counts[1]];
+        let mut homogeneous = Tracked::of_span(degree, &patch.coefficients.homogeneous_span(degree, span), ranges);
+        let on_pole: [bool; 4] = std::array::from_fn(|side| on_border[side] && poles[side]);
+        for (side, _) in on_pole.iter().enumerate().filter(|(_, on_pole)| **on_pole) {
+            collapse(&mut homogeneous, side);
+        }
+        let is_crease = |axis: usize, high: usize| {
+            let at = f64::from(border(axis, high));
+            creases[axis].iter().any(|crease| (crease - at).abs() < 1e-6)
+        };
+        pieces.push(Piece::of_span(&Span {
+            face: face as u16,
+            low: [0, 1].map(|axis| border(axis, 0).into()),
+            high: [0, 1].map(|axis| border(axis, 1).into()),
+            on_border,
+            on_pole,
+            on_crease: [is_crease(0, 0), is_crease(0, 1), is_crease(1, 0), is_crease(1, 1)],
+            homogeneous: &homogeneous,
+            widths: ranges.map(|[low, high]| high - low),
+            reach,
+        })?);
+    }
+    Some(pieces)
+}
+
+/// Makes a side that is a point up to rounding one point exactly: the first of its line.
+fn collapse(homogeneous: &mut [Tracked; 4], side: usize) {
+    let [p, q] = homogeneous[0].polynomial.degree;
+    let columns = q + 1;
+    let line: Vec<usize> = match side {
+        0 => (0..=q).collect(),
+        1 => (0..=q).map(|j| p * columns + j).collect(),
+        2 => (0..=p).map(|i| i * columns).collect(),
+        _ => (0..=p).map(|i| i * columns + q).collect(),
+    };
+    let weights: Vec<f64> = line.iter().map(|index| homogeneous[3].polynomial.coefficients[*index][0]).collect();
+    for component in &mut homogeneous[..3] {
+        let coefficients = &mut component.polynomial.coefficients;
+        let value = coefficients[line[0]][0] / weights[0];
+        for (index, weight) in line.iter().zip(&weights) {
+            coefficients[*index][0] = value * weight;
+        }
+    }
+}
+
+/// Where a region lies and what it is made of, for the distance.
+impl<'a> Region<'a> {
+    pub(super) fn face(&self, faces: &Faces) -> u16 {
+        match self {
+            Self::Inside(piece) | Self::Side { piece, .. } => piece.face,
+            Self::Vertex(vertex) => faces.seams.vertices[*vertex as usize][0].face,
+        }
+    }
+
+    /// Its rectangle of parameters on its face; a line or a point for edges and vertices.
+    pub(super) fn rectangle(&self, faces: &Faces) -> [[f64; 2]; 2] {
+        match *self {
+            Self::Inside(piece) => [piece.low, piece.high],
+            Self::Side { piece, side, .. } => {
+                let (axis, at) = (usize::from(side / 2), f64::from(side % 2));
+                let [mut low, mut high] = [piece.low, piece.high];
+                (low[axis], high[axis]) = (at, at);
+                [low, high]
+            }
+            Self::Vertex(vertex) => [at_corner(faces.seams.vertices[vertex as usize][0].corner); 2],
+        }
+    }
+
+    /// Pieces of it, or `None` if it cannot be divided.
+    pub(super) fn divided(&self) -> Option<Vec<Self>> {
+        match *self {
+            Self::Inside(piece) => Some(piece.quarters()?.iter().map(Region::Inside).collect()),
+            Self::Side { piece, side, edge } => {
+                let quarters = piece.quarters()?.iter().filter(|quarter| quarter.on_border[usize::from(side)]);
+                Some(quarters.map(|piece| Self::Side { piece, side, edge }).collect())
+            }
+            Self::Vertex(_) => None,
+        }
+    }
+
+    pub(super) fn diameter(&self) -> f64 {
+        match self {
+            Self::Inside(piece) | Self::Side { piece, .. } => piece.diameter,
+            Self::Vertex(_) => 0.0,
+        }
+    }
+}
+
+/// What a test needs of a search: the probes and points that the closest one must beat.
+pub(super) struct Query<'a> {
+    pub probes: Probes,
+    pub references: &'a [Reference],
+    /// How much nearer a point must be for a comparison to count, metres: what the rounding of the tables has parted at seams.
+    pub seam: f64,
+    /// No probe is farther from any point, metres.
+    pub farthest: f64,
+}
+
+impl Query<'_> {
+    /// Whether no probe has its closest point in a region.
+    pub(super) fn excludes(&self, region: &Region<'_>, faces: &Faces) -> bool {
+        match *region {
+            Region::Inside(piece) => {
+                self.is_far(piece, Part::Inside, 0..1)
+                    || self.is_sloping(piece)
+                    || self.is_far(piece, Part::Inside, 1..9)
+            }
+            Region::Side { piece, side, edge } => {
+                let part = Part::Side(side);
+                self.is_far(piece, part, 0..1)
+                    || self.is_sloping_along(piece, side)
+                    || self.slopes_into(piece, side, SURE)
+                    || self.is_far(piece, part, 1..9)
+                    || self.leaves_edge(piece, side, edge, faces)
+            }
+            Region::Vertex(vertex) => self.leaves_vertex(vertex, faces),
+        }
+    }
+
+    /// Whether every probe is nearer to one of the references than to any point of a part.
+    ///
+    /// `w² (φ − φ₀)` is affine in the probe: no bound of a distance is lost twice.
+    fn is_far(&self, piece: &Piece, part: Part, which: std::ops::Range<usize>) -> bool {
+        let references = &self.references[which.start.min(self.references.len())..which.end.min(self.references.len())];
+        references.iter().any(|reference| {
+            let point = reference.point;
+            let half_square = 0.5 * point.length_squared() + self.seam * self.farthest;
+            piece.place.on(part).all(|[square, x, y, z, weight]| {
+                let slope = DVec3::new(*x, *y, *z) - point * *weight;
+                let middle = square - half_square * weight - self.probes.centre.dot(slope);
+                middle - self.probes.half.dot(slope.abs()) > piece.place.slack
+            })
+        })
+    }
+
+    /// Whether the distance falls in the same direction everywhere on the inside of a piece.
+    fn is_sloping(&self, piece: &Piece) -> bool {
+        (0..2).any(|axis| {
+            let across = 2 * axis;
+            if piece.on_crease[across] || piece.on_crease[across + 1] {
+                return false;
+            }
+            self.sign(piece, axis, free_of_poles(piece, axis)) != 0
+        })
+    }
+
+    /// The sign of `φ`'s derivative along an axis, 0 if it is not proved.
+    pub(super) fn sign(&self, piece: &Piece, axis: usize, part: Part) -> i8 {
+        self.sign_beyond(piece, axis, part, SURE)
+    }
+
+    fn sign_beyond(&self, piece: &Piece, axis: usize, part: Part, margin: f64) -> i8 {
+        let field = &piece.gradient[axis];
+        let mut steepest: f64 = 0.0;
+        for [_, x, y, z] in field.on(part) {
+            steepest = steepest.max(DVec3::new(*x, *y, *z).length_squared());
+        }
+        let margin = margin * self.farthest * steepest.sqrt();
+        let [low, high] = field.range(part, &self.probes);
+        i8::from(low > margin) - i8::from(high < -margin)
+    }
+
+    fn is_sloping_along(&self, piece: &Piece, side: u8) -> bool {
+        let axis = if side < 2 { 1 } else { 0 };
+        let crease = piece.on_crease[2 * axis] || piece.on_crease[2 * axis + 1];
+        !crease && self.sign(piece, axis, Part::Side(side)) != 0
+    }
+
+    /// Whether the distance falls from all of a side into the face.
+    fn slopes_into(&self, piece: &Piece, side: u8, margin: f64) -> bool {
+        let axis = usize::from(side / 2);
+        let ends = [0, 1].map(|end| piece.on_pole[2 * (1 - axis) + end]);
+        let inward = if side.is_multiple_of(2) { -1 } else { 1 };
+        self.sign_beyond(piece, axis, Part::SideWithout(side, ends), margin) == inward
+    }
+
+    /// Whether it falls into one of the other faces of an edge.
+    fn leaves_edge(&self, piece: &Piece, side: u8, edge: u32, faces: &Faces) -> bool {
+        let axis = if side < 2 { 1 } else { 0 };
+        let interval = [piece.low[axis], piece.high[axis]];
+        faces.seams.edges[edge as usize][1..].iter().any(|member| {
+            let [low, high] = interval;
+            let interval = if member.reversed { [1.0 - high, 1.0 - low] } else { interval };
+            let other = faces.along_side(member.face, member.side, interval, piece.level);
+            other.is_some_and(|other| self.slopes_into(other, member.side, OTHER))
+        })
+    }
+
+    fn leaves_vertex(&self, vertex: u32, faces: &Faces) -> bool {
+        let members = &faces.seams.vertices[vertex as usize];
+        let far = |member: &super::seams::BorderCorner| {
+            faces
+                .corner_span(member.face, member.corner)
+                .is_some_and(|piece| self.is_far(piece, Part::Corner(member.corner), 0..9))
+        };
+        if members.first().is_some_and(far) {
+            return true;
+        }
+        members.iter().enumerate().any(|(index, member)| {
+            let Some(piece) = faces.corner_span(member.face, member.corner) else { return false };
+            let margin = if index == 0 { SURE } else { OTHER };
+            (0..2).any(|axis| {
+                let inward = if member.corner >> axis & 1 == 0 { -1 } else { 1 };
+                self.sign_beyond(piece, axis, Part::Corner(member.corner), margin) == inward
+            })
+        })
+    }
+}
+
+/// A slope counts if it is more than this, relative to the longest vectors it could be the product of: what rounding the table to `f32`
+/// can turn a tangent by from one span to the next.
+const SURE: f64 = 1e-6;
+/// The same between faces, whose borders lie apart by the seam: so that what is gained across makes up for it.
+const OTHER: f64 = 1e-4;
+
+/// The part of a piece on which a gradient is to be bounded: it vanishes on a pole it runs around.
+pub(super) fn free_of_poles(piece: &Piece, axis: usize) -> Part {
+    let sides = [2 * (1 - axis), 2 * (1 - axis) + 1];
+    match sides.map(|side| piece.on_pole[side]) {
+        [true, false] => Part::Without(sides[0] as u8),
+        [false, true] => Part::Without(sides[1] as u8),
+        _ => Part::Inside,
+    }
+}

@@ -1,0 +1,211 @@
+//! The octree: cells are divided until their lists are short and proved.
+
+use super::faces::{Faces, Query, Reference, Region};
+use super::field::Probes;
+use super::list::{Entry, Lister};
+use super::options::LocatorOptions;
+use super::sampled;
+use super::tree::{Child, Kind, Leaf, Octree};
+use super::unique::{Rectangle, nearest};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// What came of a cell.
+enum Outcome<'a> {
+    Leaf(Box<Leaf>, Vec<Entry>),
+    Inner(Vec<Region<'a>>),
+}
+
+/// How often what is left of a face is divided at most for want of a proof.
+const DIVISIONS: usize = 2;
+
+/// What a rectangle may lose, in sizes, before it is sampled eight times as densely.
+const LOOSE: f64 = 0.01;
+
+/// How often a list that samples show to fail is mended by dividing a rectangle.
+const REPAIRS: usize = 24;
+
+/// A cell that is still open.
+struct Cell<'a> {
+    probes: Probes,
+    regions: Vec<Region<'a>>,
+    /// Its place among the children of its parent.
+    slot: (usize, usize),
+}
+
+/// What a search needs.
+pub(super) struct Search<'a> {
+    pub faces: &'a Faces,
+    pub options: &'a LocatorOptions,
+    /// Metres.
+    pub size: f64,
+    pub farthest: f64,
+    /// If given, only cells that hold one of these probes are searched.
+    pub wanted: Option<&'a [DVec3]>,
+}
+
+impl<'a> Search<'a> {
+    /// Divides the root cube; `progress` hears which depth is done and how many cells the next one has.
+    pub(super) fn run(&self, root: Probes, progress: &(dyn Fn(usize, usize) + Sync)) -> Octree {
+        let mut tree = Octree { nodes: vec![[Child::Leaf(0); 8]], leaves: Vec::new() };
+        let mut open = vec![(root, self.faces.regions(), 0)];
+        for depth in 1..=self.options.depth + self.options.deeper {
+            let children: Vec<_> =
+                open.iter().flat_map(|(probes, regions, node)| children(probes, regions, *node)).collect();
+            progress(depth, children.len());
+            // In the order of the cells, whatever thread was first.
+            let outcomes: Vec<_> = children.par_iter().map(|cell| self.cell(cell, depth)).collect();
+            open = Vec::new();
+            for (cell, outcome) in children.into_iter().zip(outcomes) {
+                let (node, child) = cell.slot;
+                tree.nodes[node][child] = match outcome {
+                    Outcome::Leaf(leaf, entries) => {
+                        tree.leaves.push((Leaf { depth, ..*leaf }, entries));
+                        Child::Leaf(tree.leaves.len() - 1)
+                    }
+                    Outcome::Inner(regions) => {
+                        tree.nodes.push([Child::Leaf(0); 8]);
+                        open.push((cell.probes, regions, tree.nodes.len() - 1));
+                        Child::Node(tree.nodes.len() - 1)
+                    }
+                };
+            }
+        }
+        tree
+    }
+
+    /// Whether anybody asks for a cell; its walls belong to it.
+    fn is_wanted(&self, probes: &Probes) -> bool {
+        let half = probes.half * (1.0 + 1e-6);
+        self.wanted.is_none_or(|wanted| wanted.iter().any(|probe| (*probe - probes.centre).abs().cmple(half).all()))
+    }
+
+    fn cell(&self, cell: &Cell<'a>, depth: usize) -> Outcome<'a> {
+        if !self.is_wanted(&cell.probes) {
+            return unwanted(&cell.probes);
+        }
+        let last = depth >= self.options.depth;
+        let probes = cell.probes;
+        let mut known: Vec<u16> = cell.regions.iter().map(|region| region.face(self.faces)).collect();
+        known.sort_unstable();
+        known.dedup();
+        let places = std::iter::once(probes.centre).chain((0..8).map(|index| probes.corner(index)));
+        let references: Vec<Reference> = places.filter_map(|place| self.faces.reference(&known, place)).collect();
+        let query =
+            Query { probes, references: &references, seam: self.options.seam * self.size, farthest: self.farthest };
+        let left = self.survivors(&cell.regions, &query);
+        let kind = self.kind(&left, &query);
+        let mut held: Vec<u16> = left.iter().map(|region| region.face(self.faces)).collect();
+        held.sort_unstable();
+        held.dedup();
+        let most = self.options.entries;
+        if held.len() > most && !last && kind != Kind::Deep {
+            return Outcome::Inner(left);
+        }
+        let tolerance = self.options.tolerance * self.size;
+        let mut lister = Lister { faces: self.faces, query: &query, tolerance, divisions: DIVISIONS };
+        let mut entries = lister.entries(&left);
+        let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
+        let is_enough = match kind {
+            Kind::Outside if self.options.convex => entries.len() <= most,
+            Kind::Deep => entries.len() <= self.options.deep_entries,
+            _ => false,
+        };
+        let is_short = entries.len() <= most && proved;
+        if !(last || is_enough || is_short) {
+            return Outcome::Inner(left);
+        }
+        while entries.len() > self.options.longest && lister.divisions > 0 {
+            lister.divisions -= 1;
+            entries = lister.entries(&left);
+        }
+        let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
+        let is_checked = proved || kind == Kind::Deep;
+        // Where much could be lost it is looked for harder.
+        let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
+        let mut count = self.options.samples * if is_loose { 8 } else { 1 };
+        let mut divisions = if is_checked { 0 } else { REPAIRS };
+        while divisions > 0 {
+            let Some(point) =
+                sampled::failure(self.faces, &probes, &entries, &left, count, [0.2 * tolerance, self.size])
+            else {
+                break;
+            };
+            // Where one probe failed others will.
+            if divisions == REPAIRS {
+                count *= 16;
+            }
+            divisions -= 1;
+            if divisions == 0 || !sampled::divide(&mut entries, point) {
+                if depth < self.options.depth + self.options.deeper {
+                    return Outcome::Inner(left);
+                }
+                break;
+            }
+        }
+        let worst = entries.iter().map(|entry| entry.minima).fold(super::unique::Minima::Convex, |a, b| {
+            if a.partial_cmp(&b) == Some(std::cmp::Ordering::Less) { b } else { a }
+        });
+        let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth: 0, kind, minima: worst, proved };
+        Outcome::Leaf(Box::new(leaf), entries)
+    }
+
+    /// What is left of some regions, divided as finely as the cell deserves.
+    fn survivors(&self, regions: &[Region<'a>], query: &Query<'_>) -> Vec<Region<'a>> {
+        let fine = self.options.fineness * query.probes.radius();
+        let mut open: Vec<_> = regions.iter().rev().copied().collect();
+        let mut left = Vec::new();
+        while let Some(region) = open.pop() {
+            if query.excludes(&region, self.faces) {
+                continue;
+            }
+            let divided = if region.diameter() > fine { region.divided() } else { None };
+            match divided {
+                Some(parts) => open.extend(parts.into_iter().rev()),
+                None => left.push(region),
+            }
+        }
+        left
+    }
+
+    /// Where the cell lies. Sound for a closed body: its centre's closest point says on which side it is, and no probe is farther from the
+    /// centre than the surface is.
+    fn kind(&self, left: &[Region<'_>], query: &Query<'_>) -> Kind {
+        let Some(reference) = query.references.first() else { return Kind::Near };
+        let away = left.iter().map(|region| nearest(region, query, self.faces)).fold(f64::INFINITY, f64::min);
+        if away <= 0.0 {
+            return Kind::Near;
+        }
+        let face = usize::from(reference.face);
+        let here = self.faces.surfaces[face].evaluate(reference.parameters);
+        let normal = here.first[0].cross(here.first[1]) * self.faces.turns[face];
+        let height = normal.normalize_or_zero().dot(query.probes.centre - reference.point);
+        let border = reference.parameters.iter().any(|x| *x == 0.0 || *x == 1.0);
+        if height >= 0.0 {
+            Kind::Outside
+        } else if away > self.options.inside * self.size && (!border || height < -0.99 * reference.distance) {
+            Kind::Deep
+        } else {
+            Kind::Near
+        }
+    }
+}
+
+/// A cell that is not looked into: any list will do.
+fn unwanted<'a>(probes: &Probes) -> Outcome<'a> {
+    let minima = super::unique::Minima::Unknown;
+    let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth: 0, kind: Kind::Deep, minima, proved: false };
+    let rectangle = Rectangle::around([[0.0; 2], [1.0; 2]]);
+    let entry = Entry { face: 0, rectangle, minima, distance: 0.0 };
+    Outcome::Leaf(Box::new(leaf), vec![entry])
+}
+
+fn children<'a>(probes: &Probes, regions: &[Region<'a>], node: usize) -> Vec<Cell<'a>> {
+    let half = 0.5 * probes.half;
+    let quarter = Probes { centre: probes.centre, half };
+    let cell = |child: usize| {
+        let centre: DVec3 = quarter.corner(child);
+        Cell { probes: Probes { centre, half }, regions: regions.to_vec(), slot: (node, child) }
+    };
+    (0..8).map(cell).collect()
+}

@@ -1,0 +1,190 @@
+//! A rectangle of a face's parameters with everything that is bounded on it.
+//!
+//! With `f = A / w` and `B_u = A_u w − A w_u`, `C_uv = (B_u)_v w − 2 B_u w_v`, half the squared distance `φ = ½‖f − Q‖²` and its derivatives
+//! are, up to powers of the positive weight, polynomials that are affine in the probe `Q`:
+//! - `w² (φ − φ₀) = ½‖A‖² − ½‖P‖² w² − Q · (A w − P w²)` against the value `φ₀` at any point `P`;
+//! - `w³ φ_u = (A − Q w) · B_u`;
+//! - `w⁴ φ_uv = B_u · B_v + (A − Q w) · C_uv`.
+
+use super::field::Field;
+use crate::tracked::Tracked;
+use glam::DVec3;
+use std::sync::OnceLock;
+
+/// How often a span is quartered at most.
+pub(crate) const LEVELS: u8 = 6;
+
+/// A part of a span of a face.
+#[derive(Debug)]
+pub(crate) struct Piece {
+    pub face: u16,
+    /// The least and greatest `u` and `v`, parameters of the face.
+    pub low: [f64; 2],
+    pub high: [f64; 2],
+    pub level: u8,
+    /// Whether a side lies on the face's own: `u` low, `u` high, `v` low, `v` high.
+    pub on_border: [bool; 4],
+    /// Whether that side is one point.
+    pub on_pole: [bool; 4],
+    /// Whether a side across `u`, `v` is a crease.
+    pub on_crease: [bool; 4],
+    /// `½‖A‖²`, `A w`, `w²`.
+    pub place: Field<5>,
+    /// `φ_u`, `φ_v`.
+    pub gradient: [Field<4>; 2],
+    /// `φ_uu`, `φ_uv`, `φ_vv`.
+    pub hessian: Field<12>,
+    /// At most `w⁴`.
+    pub least_weight: f64,
+    /// A box that holds it, metres.
+    pub bounds: [DVec3; 2],
+    /// At least the distance between any two of its points, metres.
+    pub diameter: f64,
+    quarters: OnceLock<Box<[Self; 4]>>,
+}
+
+/// What a span's pieces begin with.
+pub(super) struct Span<'a> {
+    pub face: u16,
+    pub low: [f64; 2],
+    pub high: [f64; 2],
+    pub on_border: [bool; 4],
+    pub on_pole: [bool; 4],
+    pub on_crease: [bool; 4],
+    /// `A`, `w` over the unit square.
+    pub homogeneous: &'a [Tracked; 4],
+    /// Widths of the parameters.
+    pub widths: [f64; 2],
+    /// No probe has a greater coordinate, in absolute value.
+    pub reach: f64,
+}
+
+impl Piece {
+    /// The whole of a span; `None` if a weight is not positive.
+    pub(super) fn of_span(span: &Span<'_>) -> Option<Self> {
+        let weight = &span.homogeneous[3];
+        if weight.polynomial.coefficients.iter().any(|[w]| w.is_nan() || *w <= weight.error) {
+            return None;
+        }
+        let is_polynomial = weight.polynomial.coefficients.iter().all(|w| *w == [1.0]);
+        let points = [0, 1, 2].map(|c| span.homogeneous[c].clone());
+        let one = Tracked::constant(1.0);
+        let weight = if is_polynomial { &one } else { weight };
+        let times_weight = |entry: &Tracked| if is_polynomial { entry.clone() } else { entry.times(weight) };
+        let first = [0, 1].map(|axis| {
+            points.each_ref().map(|point| {
+                let along = times_weight(&point.derivative(axis));
+                if is_polynomial { along } else { along.plus(-1.0, &point.times(&weight.derivative(axis))) }
+            })
+        });
+        let second = |a: usize, b: usize| {
+            first[a].each_ref().map(|tangent| {
+                let along = times_weight(&tangent.derivative(b));
+                if is_polynomial { along } else { along.plus(-2.0, &tangent.times(&weight.derivative(b))) }
+            })
+        };
+        let reach = span.reach;
+        let squared = dot(&points, &points);
+        let weighted = points.each_ref().map(times_weight);
+        let weight_squared = times_weight(weight);
+        let [x, y, z] = &weighted;
+        // Any point of the body and any probe are within reach: ½‖P‖² + |Q · P| is at most 4.5 of its squares.
+        let place = Field::new(
+            [&squared, x, y, z, &weight_squared],
+            [0.5, 1.0, 1.0, 1.0, 1.0],
+            [1.0, reach, reach, reach, 4.5 * reach * reach],
+        );
+        let gradient = [0, 1].map(|axis| {
+            let value = dot(&points, &first[axis]);
+            let [x, y, z] = first[axis].each_ref().map(times_weight);
+            let factor = 1.0 / span.widths[axis];
+            Field::new([&value, &x, &y, &z], [factor; 4], [1.0, reach, reach, reach])
+        });
+        let entries = [[0, 0], [0, 1], [1, 1]].map(|[a, b]| {
+            let bent = second(a, b);
+            let value = dot(&first[a], &first[b]).plus(1.0, &dot(&points, &bent));
+            let [x, y, z] = bent.each_ref().map(times_weight);
+            let factor = 1.0 / (span.widths[a] * span.widths[b]);
+            ([value, x, y, z], factor)
+        });
+        let components: [&Tracked; 12] = std::array::from_fn(|c| &entries[c / 4].0[c % 4]);
+        let hessian = Field::new(
+            components,
+            std::array::from_fn(|c| entries[c / 4].1),
+            std::array::from_fn(|c| if c % 4 == 0 { 1.0 } else { reach }),
+        );
+        let Span { face, low, high, on_border, on_pole, on_crease, .. } = *span;
+        Some(Self::finish(Self {
+            face,
+            low,
+            high,
+            level: 0,
+            on_border,
+            on_pole,
+            on_crease,
+            place,
+            gradient,
+            hessian,
+            least_weight: 0.0,
+            bounds: [DVec3::ZERO; 2],
+            diameter: 0.0,
+            quarters: OnceLock::new(),
+        }))
+    }
+
+    /// Weight and diameter, from the Bernstein points: the surface lies in the hull of `A w / w²`.
+    fn finish(mut self) -> Self {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut weight = f64::INFINITY;
+        for [_, x, y, z, w] in &self.place.polynomial.coefficients {
+            let point = DVec3::new(*x, *y, *z) / *w;
+            (low, high) = (low.min(point), high.max(point));
+            weight = weight.min(*w);
+        }
+        self.bounds = [low, high];
+        self.diameter = (high - low).length();
+        self.least_weight = weight * weight;
+        self
+    }
+
+    /// Its quarters, computed when first asked for; `None` at the last level.
+    pub(crate) fn quarters(&self) -> Option<&[Self; 4]> {
+        (self.level < LEVELS).then(|| &**self.quarters.get_or_init(|| Box::new(self.split())))
+    }
+
+    fn split(&self) -> [Self; 4] {
+        let places = self.place.quarters();
+        let [gradients_u, gradients_v] = self.gradient.each_ref().map(Field::quarters);
+        let hessians = self.hessian.quarters();
+        let middle = [0, 1].map(|axis| 0.5 * (self.low[axis] + self.high[axis]));
+        let mut pieces = Vec::with_capacity(4);
+        let parts = places.into_iter().zip(gradients_u).zip(gradients_v).zip(hessians);
+        for (index, (((place, gradient_u), gradient_v), hessian)) in parts.enumerate() {
+            let upper = [index / 2 == 1, index % 2 == 1];
+            let kept = [!upper[0], upper[0], !upper[1], upper[1]];
+            let sides = |flags: [bool; 4]| std::array::from_fn(|side| flags[side] && kept[side]);
+            pieces.push(Self::finish(Self {
+                face: self.face,
+                low: [0, 1].map(|axis| if upper[axis] { middle[axis] } else { self.low[axis] }),
+                high: [0, 1].map(|axis| if upper[axis] { self.high[axis] } else { middle[axis] }),
+                level: self.level + 1,
+                on_border: sides(self.on_border),
+                on_pole: sides(self.on_pole),
+                on_crease: sides(self.on_crease),
+                place,
+                gradient: [gradient_u, gradient_v],
+                hessian,
+                least_weight: 0.0,
+                bounds: [DVec3::ZERO; 2],
+                diameter: 0.0,
+                quarters: OnceLock::new(),
+            }));
+        }
+        pieces.try_into().unwrap_or_else(|_| unreachable!("four quarters"))
+    }
+}
+
+fn dot(a: &[Tracked; 3], b: &[Tracked; 3]) -> Tracked {
+    let terms = a.iter().zip(b).filter(|(a, b)| !a.is_zero() && !b.is_zero());
+    terms.fold(Tracked::constant(0.0), |sum, (a, b)| sum.plus(1.0, &a.times(b)))
+}

@@ -1,0 +1,193 @@
+//! Tables of the target from the octree: lists that are equal, or the end of another, are stored once.
+
+use super::options::{LocatorError, LocatorOptions};
+use super::tree::{Child, Kind, Octree};
+use super::unique::Minima;
+use palpate::body::{LEAF, Locator};
+use palpate::math::Vec3;
+use std::collections::HashMap;
+use std::fmt;
+
+/// A locator's tables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BakedLocator {
+    /// The lower corner of the root cube, metres.
+    pub corner: Vec3,
+    /// Its side, metres.
+    pub side: f32,
+    /// Inner nodes.
+    pub nodes: Vec<[u16; 8]>,
+    /// Lists of candidates.
+    pub entries: Vec<u32>,
+    /// What is in them.
+    pub report: LocatorReport,
+}
+
+/// What a locator's tables hold and what is proved of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LocatorReport {
+    /// Leaves.
+    pub leaves: usize,
+    /// Entries of all leaves, shared ones counted for each.
+    pub listed: usize,
+    /// Entries of the longest list.
+    pub longest: usize,
+    /// Entries of the longest list of a cell that does not lie deeper inside than it needs to be located.
+    pub longest_near: usize,
+    /// Leaves by the depth of the octree.
+    pub by_depth: Vec<usize>,
+    /// Share of the root cube's volume with lists of rectangles that have one minimum each.
+    pub proved: f64,
+    /// Share with some that may have several, within the tolerance of the best.
+    pub within: f64,
+    /// Share with some that may have several, within a known bound of the best, [`Self::loosest`] at most.
+    pub loose: f64,
+    /// The greatest such bound, metres: how far the distance could be off at worst.
+    pub loosest: f64,
+    /// Share with some of which nothing is proved: only samples speak for them.
+    pub sampled: f64,
+    /// Share that lies outside a convex body, with rectangles that are not proved by themselves.
+    pub convex: f64,
+    /// Leaves by what is known of them.
+    pub leaves_by: LeafCounts,
+    /// Bytes in flash.
+    pub bytes: usize,
+}
+
+/// Leaves of the octree by what is known of their lists. That a list holds the closest point of every probe of its cell is proved of all of them;
+/// these count what is known of the way to it, from the middle of a rectangle to its least distance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LeafCounts {
+    /// Every rectangle is proved to have one minimum, or none that loses more than [`LocatorOptions::tolerance`].
+    pub proved: usize,
+    /// Wholly outside a convex body, where no point that faces the probe is a nearest one but the closest. Sampled as well.
+    pub convex: usize,
+    /// Not proved: random probes of the cell found nothing wrong.
+    pub sampled: usize,
+    /// Wholly deeper inside than [`LocatorOptions::inside`]: neither proved nor sampled.
+    pub deep: usize,
+}
+
+impl fmt::Display for LocatorReport {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mean = self.listed as f64 / self.leaves as f64;
+        write!(
+            formatter,
+            "{} leaves {:?}, entries a leaf {mean:.2} in the mean, {} at most ({} not deep inside), {} bytes; \
+             of the volume {:.3} % proved, {:.3} % within tolerance, {:.3} % within {:.3} mm, {:.3} % sampled, {:.3} % outside of what is convex",
+            self.leaves,
+            self.by_depth,
+            self.longest,
+            self.longest_near,
+            self.bytes,
+            100.0 * self.proved,
+            100.0 * self.within,
+            100.0 * self.loose,
+            1e3 * self.loosest,
+            100.0 * self.sampled,
+            100.0 * self.convex,
+        )
+    }
+}
+
+impl BakedLocator {
+    /// The locator as the firmware has it; its tables stay allocated for good.
+    pub fn to_locator(&self) -> Locator {
+        Locator {
+            corner: self.corner,
+            side: self.side,
+            nodes: self.nodes.clone().leak(),
+            entries: self.entries.clone().leak(),
+        }
+    }
+}
+
+pub(super) fn pack(
+    tree: &Octree,
+    corner: Vec3,
+    side: f32,
+    options: &LocatorOptions,
+) -> Result<BakedLocator, LocatorError> {
+    if let Some((leaf, _)) = tree.leaves.iter().find(|(_, entries)| entries.is_empty()) {
+        return Err(LocatorError::Nothing { centre: leaf.centre.to_array() });
+    }
+    let lists: Vec<Vec<u32>> = tree.leaves.iter().map(|(_, entries)| list(entries)).collect();
+    // Long ones first: a short one may be the end of a long one.
+    let mut order: Vec<usize> = (0..lists.len()).collect();
+    order.sort_by(|a, b| lists[*b].len().cmp(&lists[*a].len()).then(lists[*a].cmp(&lists[*b])));
+    let mut entries = Vec::new();
+    let mut starts: HashMap<&[u32], usize> = HashMap::new();
+    for leaf in order {
+        let list = lists[leaf].as_slice();
+        if !starts.contains_key(list) {
+            for skipped in 0..list.len() {
+                starts.entry(&list[skipped..]).or_insert(entries.len() + skipped);
+            }
+            entries.extend_from_slice(list);
+        }
+    }
+    if tree.nodes.len() > usize::from(LEAF) || entries.len() > usize::from(LEAF) {
+        return Err(LocatorError::TooLarge { nodes: tree.nodes.len(), entries: entries.len() });
+    }
+    let code = |child: &Child| match child {
+        Child::Node(node) => *node as u16,
+        Child::Leaf(leaf) => LEAF | starts[lists[*leaf].as_slice()] as u16,
+    };
+    let nodes: Vec<[u16; 8]> =
+        tree.nodes.iter().map(|children| std::array::from_fn(|child| code(&children[child]))).collect();
+    let report = report(tree, &nodes, &entries, f64::from(side), options);
+    Ok(BakedLocator { corner, side, nodes, entries, report })
+}
+
+/// The likeliest first, the others in an order that lets lists share their ends.
+pub(super) fn list(entries: &[super::list::Entry]) -> Vec<u32> {
+    let count = entries.len();
+    let mut codes: Vec<u32> = entries.iter().map(|entry| entry.pack(false)).collect();
+    if let Some(rest) = codes.get_mut(1..) {
+        rest.sort_unstable();
+    }
+    codes.iter().enumerate().map(|(index, code)| if index + 1 < count { code | MORE } else { *code }).collect()
+}
+
+/// The bit of an entry that says that more follow.
+const MORE: u32 = 1 << 31;
+
+fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options: &LocatorOptions) -> LocatorReport {
+    let mut report =
+        LocatorReport { by_depth: vec![0; options.depth + options.deeper + 1], ..LocatorReport::default() };
+    for (leaf, list) in &tree.leaves {
+        let share = (2.0 * leaf.half / side) * (2.0 * leaf.half / side) * (2.0 * leaf.half / side);
+        report.leaves += 1;
+        report.listed += list.len();
+        report.longest = report.longest.max(list.len());
+        if leaf.kind != Kind::Deep {
+            report.longest_near = report.longest_near.max(list.len());
+        }
+        report.by_depth[leaf.depth] += 1;
+        let counts = &mut report.leaves_by;
+        let count = match leaf.kind {
+            _ if leaf.proved => &mut counts.proved,
+            Kind::Outside if options.convex => &mut counts.convex,
+            Kind::Deep => &mut counts.deep,
+            Kind::Near | Kind::Outside => &mut counts.sampled,
+        };
+        *count += 1;
+        if options.convex && leaf.kind == Kind::Outside {
+            // The body's convexity proves what the rectangles do not.
+            report.convex += if leaf.proved { 0.0 } else { share };
+            report.proved += if leaf.proved { share } else { 0.0 };
+            continue;
+        }
+        match leaf.minima {
+            Minima::Convex | Minima::One => report.proved += share,
+            Minima::Within(_) if leaf.proved => report.within += share,
+            Minima::Within(loss) => {
+                report.loose += share;
+                report.loosest = report.loosest.max(loss);
+            }
+            Minima::Unknown => report.sampled += share,
+        }
+    }
+    report.bytes = size_of_val(nodes) + size_of_val(entries);
+    report
+}

@@ -1,0 +1,155 @@
+//! A patch as polynomials: each span between two knots, in powers of the distance from its centre.
+//!
+//! In double precision throughout: blossoming gives a span's Bézier points, de Casteljau's scheme on their differences
+//! its Taylor coefficients about the very `f32` centre the target subtracts. The polynomial is that of the exact knots:
+//! where a border rounds to `f32`, the neighbour's polynomial is used up to half a unit in the last place beyond it.
+
+use super::axis::Axis;
+use super::bernstein::{binomial, power_of};
+use super::patch::NurbsPatch;
+use glam::DVec4;
+use palpate::patch::span_centre;
+
+/// The least weight of a span's Bézier points, the largest of the patch being 1. Dividing by `w` magnifies the rounding
+/// of the homogeneous coefficients, 6e-8, by `1/w`: below this more than 6e-5 of the size would be lost.
+const LEAST_WEIGHT: f64 = 1e-3;
+
+/// Of the largest coordinate: a few hundred units in the last place of `f64`, a millionth of one of `f32`.
+const NOISE: f64 = 1e-13;
+
+/// All spans of a patch, homogeneous: `(w x, w y, w z, w)`.
+#[derive(Clone, Debug)]
+pub struct Spans {
+    /// Span borders along `u` and `v`, as the target has them.
+    pub breaks: [Vec<f32>; 2],
+    /// Span `(i, j)` is entry `i · spans_v + j`: `powers[k · (degree_v + 1) + l]` belongs to `sᵏ tˡ`.
+    pub powers: Vec<Vec<DVec4>>,
+}
+
+/// Index of a span, along `u` and `v`, whose weights are too uneven.
+pub struct UnevenSpan(pub [usize; 2]);
+
+/// One span along one axis.
+struct Interval<'a> {
+    knots: &'a [f64],
+    degree: usize,
+    /// Index of the last knot that is not above the span's lower border.
+    knot: usize,
+    /// The f32 centre.
+    centre: f64,
+}
+
+/// Extracts all spans.
+///
+/// # Errors
+/// The first span whose weights are too uneven for `f32`.
+pub fn extract(patch: &NurbsPatch) -> Result<Spans, UnevenSpan> {
+    let breaks = [Axis::U, Axis::V].map(|axis| patch.borders(axis).iter().map(|knot| *knot as f32).collect::<Vec<_>>());
+    let intervals = [0, 1].map(|axis| intervals(&patch.knots[axis], patch.degree[axis], &breaks[axis]));
+    let extent = patch.points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max);
+    let mut powers = Vec::with_capacity(intervals[0].len() * intervals[1].len());
+    for (i, along_u) in intervals[0].iter().enumerate() {
+        for (j, along_v) in intervals[1].iter().enumerate() {
+            let (rows, columns) = (along_u.degree + 1, along_v.degree + 1);
+            let control = |row: usize, column: usize| {
+                let index =
+                    (along_u.knot - along_u.degree + row) * patch.counts[1] + along_v.knot - along_v.degree + column;
+                patch.points[index].extend(1.0) * patch.weights[index]
+            };
+            let mut net = vec![DVec4::ZERO; rows * columns];
+            for column in 0..columns {
+                let line: Vec<_> = (0..rows).map(|row| control(row, column)).collect();
+                for (row, entry) in along_u.bezier(&line).into_iter().enumerate() {
+                    net[row * columns + column] = entry;
+                }
+            }
+            for row in net.chunks_mut(columns) {
+                row.copy_from_slice(&along_v.bezier(row));
+            }
+            if net.iter().any(|entry| entry.w.is_nan() || entry.w < LEAST_WEIGHT) {
+                return Err(UnevenSpan([i, j]));
+            }
+            for row in net.chunks_mut(columns) {
+                row.copy_from_slice(&along_v.powers(row));
+            }
+            for column in 0..columns {
+                let line: Vec<_> = (0..rows).map(|row| net[row * columns + column]).collect();
+                for (row, entry) in along_u.powers(&line).into_iter().enumerate() {
+                    net[row * columns + column] = entry;
+                }
+            }
+            let half = |interval: &Interval<'_>| 0.5 * interval.width();
+            drop_rounding(&mut net, columns, [half(along_u), half(along_v)], extent);
+            powers.push(net);
+        }
+    }
+    Ok(Spans { breaks, powers })
+}
+
+/// Sets to zero what is only the rounding of `f64`: a power that adds less than [`NOISE`] anywhere on the span, relative to the
+/// largest coordinate and weight. Such digits carry nothing, and would make the table depend on how it was computed.
+fn drop_rounding(net: &mut [DVec4], columns: usize, half_widths: [f64; 2], extent: f64) {
+    for (index, entry) in net.iter_mut().enumerate() {
+        let reach = power_of(half_widths[0], index / columns) * power_of(half_widths[1], index % columns);
+        let least = DVec4::new(extent, extent, extent, 1.0) * (NOISE / reach);
+        let keep = entry.abs().cmpgt(least);
+        *entry = DVec4::select(keep, *entry, DVec4::ZERO);
+    }
+}
+
+fn intervals<'a>(knots: &'a [f64], degree: usize, breaks: &[f32]) -> Vec<Interval<'a>> {
+    let within = degree..knots.len() - degree - 1;
+    let spans = within.filter(|&knot| knots[knot] < knots[knot + 1]);
+    let pairs = breaks.windows(2).map(|pair| f64::from(span_centre(pair[0], pair[1])));
+    spans.zip(pairs).map(|(knot, centre)| Interval { knots, degree, knot, centre }).collect()
+}
+
+impl Interval<'_> {
+    fn borders(&self) -> (f64, f64) {
+        (self.knots[self.knot], self.knots[self.knot + 1])
+    }
+
+    fn width(&self) -> f64 {
+        let (low, high) = self.borders();
+        high - low
+    }
+
+    /// The span's Bézier points: the blossom at `degree - k` times the lower border and `k` times the upper.
+    fn bezier(&self, control: &[DVec4]) -> Vec<DVec4> {
+        let (low, high) = self.borders();
+        let arguments = |k: usize| move |level: usize| if level <= k { high } else { low };
+        (0..=self.degree).map(|k| self.blossom(control, arguments(k))).collect()
+    }
+
+    /// De Boor's scheme with an argument of its own at each level, 1 to the degree.
+    fn blossom(&self, control: &[DVec4], argument: impl Fn(usize) -> f64) -> DVec4 {
+        let mut points = control.to_vec();
+        for level in 1..=self.degree {
+            for index in (level..=self.degree).rev() {
+                let first = self.knot - self.degree + index;
+                let (start, end) = (self.knots[first], self.knots[first + self.degree + 1 - level]);
+                let share = (argument(level) - start) / (end - start);
+                points[index] = points[index - 1] * (1.0 - share) + points[index] * share;
+            }
+        }
+        points[self.degree]
+    }
+
+    /// Bézier points to powers of the distance from the centre: `fᵏ(c)/k! = C(n, k) Δᵏb(c) / widthᵏ`.
+    fn powers(&self, bezier: &[DVec4]) -> Vec<DVec4> {
+        let (low, _) = self.borders();
+        let width = self.width();
+        let share = (self.centre - low) / width;
+        let mut differences = bezier.to_vec();
+        let mut powers = Vec::with_capacity(bezier.len());
+        for k in 0..=self.degree {
+            let mut points = differences.clone();
+            while points.len() > 1 {
+                points = points.windows(2).map(|pair| pair[0] * (1.0 - share) + pair[1] * share).collect();
+            }
+            powers.push(points[0] * (binomial(self.degree, k) / power_of(width, k)));
+            differences = differences.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        }
+        powers
+    }
+}

@@ -1,0 +1,137 @@
+//! The features of a body, from its patches: faces, edges, vertices, poles, open borders.
+//!
+//! Neighbours are found by their borders alone: two that are the same parametrised curve, within [`TOLERANCE`] of the body's size, are one
+//! edge ([`matching`]). What nearly is one is refused by name ([`partial`]), and so are three faces on an edge and
+//! neighbours that disagree about outside.
+
+pub mod border;
+mod cone;
+mod edges;
+mod fault;
+pub mod kinds;
+pub mod matching;
+mod partial;
+mod vertices;
+mod volume;
+
+pub use border::{Border, TOLERANCE};
+pub use edges::{BorderRole, TopologyEdge};
+pub use fault::SeamFault;
+pub use matching::Sense;
+pub use vertices::{TopologySpoke, TopologyVertex};
+
+use super::patch::NurbsPatch;
+use edges::Matched;
+use glam::DVec3;
+use palpate::body::EdgeKind;
+use vertices::Cluster;
+
+/// A volume below this, in cubes of the size, is the rounding of the integral.
+const NO_VOLUME: f64 = 1e-9;
+
+/// The features of a body and how they hang together.
+#[derive(Clone, Debug)]
+pub struct Topology {
+    /// What each patch's borders `u = 0`, `u = 1`, `v = 0`, `v = 1` are.
+    pub roles: Vec<[BorderRole; 4]>,
+    /// The edges, in the order of their owners.
+    pub edges: Vec<TopologyEdge>,
+    /// The vertices.
+    pub vertices: Vec<TopologyVertex>,
+    /// The largest side of the bounding box, metres.
+    pub size: f64,
+}
+
+impl Topology {
+    /// Finds the features; `label` is what messages call a patch.
+    ///
+    /// # Errors
+    /// The first pair of borders that is wrong.
+    pub fn new(patches: &[NurbsPatch], label: &dyn Fn(usize) -> String) -> Result<Self, SeamFault> {
+        let (low, high) = bounding_box(patches);
+        let size = (high - low).max_element();
+        let tolerance = TOLERANCE * size;
+        let matched = edges::match_borders(patches, tolerance, label)?;
+        edges::check_orientation(&matched, label)?;
+        let topology = Self::of_matched(patches, &matched, size, tolerance);
+        if topology.is_closed() {
+            let volume = volume::volume(patches);
+            if volume.abs() <= NO_VOLUME * size * size * size {
+                return Err(SeamFault::NoVolume);
+            }
+            if volume < 0.0 {
+                return Err(SeamFault::InsideOut { volume });
+            }
+        }
+        Ok(topology)
+    }
+
+    fn of_matched(patches: &[NurbsPatch], matched: &Matched<'_>, size: f64, tolerance: f64) -> Self {
+        let mut cluster = Cluster::default();
+        // Every role is set below: a border is a pole or on one edge.
+        let mut roles = vec![[BorderRole::Pole { vertex: usize::MAX }; 4]; patches.len()];
+        let mut edges = Vec::with_capacity(matched.pairs.len());
+        for (owner, partner) in &matched.pairs {
+            let candidate = &matched.candidates[*owner];
+            let partner = partner.map(|(index, sense)| (matched.candidates[index].border, sense));
+            let edge = edges.len();
+            roles[candidate.border.patch][candidate.border.side] = BorderRole::Edge { edge, sense: Sense::Same };
+            if let Some((other, sense)) = partner {
+                roles[other.patch][other.side] = BorderRole::Edge { edge, sense };
+            }
+            edges.push(TopologyEdge {
+                owner: candidate.border,
+                partner,
+                ends: candidate.ends.map(|end| cluster.place(end, tolerance)),
+                kind: edges::kind_of(patches, candidate.border, partner),
+            });
+        }
+        for pole in &matched.poles {
+            let vertex = cluster.place(pole.ends[0], tolerance);
+            roles[pole.border.patch][pole.border.side] = BorderRole::Pole { vertex };
+        }
+        let vertices = vertices::with_spokes(cluster.points, &roles, &edges, patches);
+        Self { roles, edges, vertices, size }
+    }
+
+    /// Whether every edge has two faces.
+    pub fn is_closed(&self) -> bool {
+        self.edges.iter().all(|edge| edge.partner.is_some())
+    }
+
+    /// Into how many pieces the faces fall that hang together by edges.
+    pub fn components(&self) -> usize {
+        let mut piece: Vec<usize> = (0..self.roles.len()).collect();
+        for edge in &self.edges {
+            let Some((other, _)) = edge.partner else { continue };
+            let (from, to) = (piece[edge.owner.patch], piece[other.patch]);
+            piece.iter_mut().filter(|of| **of == from).for_each(|of| *of = to);
+        }
+        piece.sort_unstable();
+        piece.dedup();
+        piece.len()
+    }
+
+    /// Euler's characteristic `V − E + F`: 2 of a closed body without holes; a pole is a vertex and no edge.
+    pub const fn euler_characteristic(&self) -> isize {
+        self.vertices.len() as isize - self.edges.len() as isize + self.roles.len() as isize
+    }
+
+    /// How many edges are of a kind.
+    pub fn count(&self, kind: EdgeKind) -> usize {
+        self.edges.iter().filter(|edge| edge.kind == kind).count()
+    }
+}
+
+/// The corners of the bounding box of a grid of points, 8 to a span, on all patches, metres.
+pub fn bounding_box(patches: &[NurbsPatch]) -> (DVec3, DVec3) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for patch in patches {
+        patch.for_each_sample(8, |_, surface| {
+            low = low.min(surface.point);
+            high = high.max(surface.point);
+            true
+        });
+    }
+    (low, high)
+}

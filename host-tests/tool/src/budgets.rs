@@ -1,0 +1,184 @@
+//! Budgets of counted instructions, one file a core in `host-tests/budgets/`.
+
+use crate::firmware::{Board, Pace, Program, Progress, SetUpError};
+use crate::repository::{self, NoRepository};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// How much worse a figure may get, percent: room for another compiler's whim, not for another call.
+pub const ALLOWANCE: u32 = 3;
+
+fn budget_file(board: Board) -> Result<PathBuf, NoRepository> {
+    Ok(repository::root()?.join("host-tests/budgets").join(board.name()).with_extension("toml"))
+}
+
+/// What was counted, in the order in which it was.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Figures(pub Vec<(String, u32)>);
+
+impl Figures {
+    /// The count of this name.
+    pub fn of(&self, name: &str) -> Option<u32> {
+        self.0.iter().find(|(other, _)| other == name).map(|(_, count)| *count)
+    }
+}
+
+/// What the figures may be.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Budget {
+    instructions: BTreeMap<String, u32>,
+}
+
+/// Why figures and budget cannot be compared.
+#[derive(Debug, Error)]
+pub enum BudgetError {
+    /// The program did not run to its end.
+    #[error("the program that counts did not run: {0}")]
+    Run(#[from] SetUpError),
+    /// There is no budget file outside of the repository.
+    #[error(transparent)]
+    NoRepository(#[from] NoRepository),
+    /// It said something else than figures.
+    #[error("not a figure: {0:?}")]
+    Line(String),
+    /// The budget file.
+    #[error("{path}: {reason}")]
+    File {
+        /// Which.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+/// A figure beside its budget.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Verdict {
+    /// Its name.
+    pub name: String,
+    /// What was counted; `None` if it was not.
+    pub found: Option<u32>,
+    /// What was recorded; `None` if it is new.
+    pub allowed: Option<u32>,
+}
+
+impl Verdict {
+    /// Whether this is a failure: worse by more than [`ALLOWANCE`], missing or new.
+    pub fn fails(&self) -> bool {
+        match (self.found, self.allowed) {
+            (Some(found), Some(allowed)) => 100 * found > (100 + ALLOWANCE) * allowed,
+            _ => true,
+        }
+    }
+
+    /// What to say of it; nothing where it is as recorded.
+    pub fn remark(&self) -> String {
+        match (self.found, self.allowed) {
+            (Some(found), Some(allowed)) if found != allowed => {
+                let change = 100.0 * (f64::from(found) / f64::from(allowed) - 1.0);
+                let verdict = if self.fails() { "  over budget" } else { "" };
+                format!("{change:+.1} %{verdict}")
+            }
+            (Some(_), Some(_)) => String::new(),
+            (Some(_), None) => "not in the budget".to_owned(),
+            (None, _) => "not counted".to_owned(),
+        }
+    }
+}
+
+/// Builds the counting program and runs it on an emulated board.
+///
+/// # Errors
+/// If it does not run to its end, or says something else than figures.
+pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError> {
+    figures(&Program::prepare(board, "budget", &[], progress)?.run(Pace::Counting)?)
+}
+
+/// The lines `"name" = count`.
+fn figures(said: &str) -> Result<Figures, BudgetError> {
+    let figure = |line: &str| {
+        let (name, count) = line.rsplit_once(" = ")?;
+        Some((name.strip_prefix('"')?.strip_suffix('"')?.to_owned(), count.parse().ok()?))
+    };
+    let lines = said.lines().map(|line| figure(line).ok_or_else(|| BudgetError::Line(line.to_owned())));
+    Ok(Figures(lines.collect::<Result<_, _>>()?))
+}
+
+impl Budget {
+    /// The committed budget of a core.
+    ///
+    /// # Errors
+    /// If there is none, or it is not in order.
+    pub fn load(board: Board) -> Result<Self, BudgetError> {
+        let path = budget_file(board)?;
+        let text = fs::read_to_string(&path).map_err(|error| refused(&path, &error))?;
+        toml::from_str(&text).map_err(|error| refused(&path, &error))
+    }
+
+    /// What a figure may be.
+    pub fn of(&self, name: &str) -> Option<u32> {
+        self.instructions.get(name).copied()
+    }
+
+    /// Writes these figures as the budget of a core.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn record(board: Board, figures: &Figures) -> Result<PathBuf, BudgetError> {
+        let path = budget_file(board)?;
+        let mut text = format!(
+            "# Counted instructions of the hot path on the emulated {}: cargo palpate budgets --board {} --record\n\n[instructions]\n",
+            board.core(),
+            board.name()
+        );
+        for (name, count) in &figures.0 {
+            text.push_str(&format!("\"{name}\" = {count}\n"));
+        }
+        fs::write(&path, text).map_err(|error| refused(&path, &error))?;
+        Ok(path)
+    }
+
+    /// Every figure beside its budget: those counted in their order, then those missing.
+    pub fn compare(&self, found: &Figures) -> Vec<Verdict> {
+        let counted = found.0.iter().map(|(name, count)| Verdict {
+            name: name.clone(),
+            found: Some(*count),
+            allowed: self.instructions.get(name).copied(),
+        });
+        let missing = self.instructions.iter().filter(|(name, _)| found.of(name).is_none());
+        let missing =
+            missing.map(|(name, allowed)| Verdict { name: name.clone(), found: None, allowed: Some(*allowed) });
+        counted.chain(missing).collect()
+    }
+}
+
+fn refused(path: &std::path::Path, reason: &dyn std::fmt::Display) -> BudgetError {
+    BudgetError::File { path: path.to_path_buf(), reason: reason.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_percent_worse_is_borne_and_more_is_not() {
+        let budget = Budget { instructions: [("a".to_owned(), 100), ("b".to_owned(), 100)].into() };
+        let fails = |text: &str| budget.compare(&figures(text).unwrap()).iter().filter(|v| v.fails()).count();
+        assert_eq!(fails("\"a\" = 103\n\"b\" = 90\n"), 0);
+        assert_eq!(fails("\"a\" = 104\n\"b\" = 104\n"), 2);
+        assert_eq!(figures("\"held at u = 0\" = 7\n").unwrap().of("held at u = 0"), Some(7));
+        assert_eq!(fails("\"a\" = 100\n"), 1, "a figure that is gone");
+        assert_eq!(fails("\"a\" = 100\n\"b\" = 100\n\"c\" = 1\n"), 1, "a figure nobody recorded");
+    }
+
+    #[test]
+    fn what_is_not_a_figure_is_refused() {
+        for line in ["panicked", "\"a\" = -1", "a = 1", "\"a\" = 1.5"] {
+            assert!(matches!(figures(line), Err(BudgetError::Line(_))), "{line}");
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! The importer of CAD parts: a program of its own, because its reader takes minutes to compile. It is built when a part is first imported.
+
+use crate::firmware::{Progress, SetUpError, output, without_outer_cargo};
+use crate::repository;
+use anyhow::{Context as _, bail};
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The importer, built.
+#[derive(Debug)]
+pub struct Importer {
+    path: PathBuf,
+}
+
+/// The tolerance of a part that is imported without a word about it, millimetres.
+pub const TOLERANCE: f64 = 0.01;
+
+/// Whether a file is a CAD part by its name.
+pub fn is_part(path: &Path) -> bool {
+    let is = |extension: &str| ["step", "stp"].iter().any(|known| extension.eq_ignore_ascii_case(known));
+    path.extension().and_then(|extension| extension.to_str()).is_some_and(is)
+}
+
+/// The text of a model file made of a part, within [`TOLERANCE`]; what was measured goes to the terminal.
+///
+/// # Errors
+/// What is wrong with the part.
+pub fn model_of(part: &Path) -> anyhow::Result<String> {
+    let importer = Importer::build(&Progress::new())?;
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("model.toml");
+    let wishes = Wishes { tolerance: TOLERANCE, solid: None, picture: None };
+    eprint!("{}", importer.import(part, &out, &wishes)?);
+    Ok(std::fs::read_to_string(out)?)
+}
+
+/// What is asked of it.
+#[derive(Clone, Debug)]
+pub struct Wishes {
+    /// The largest deviation that is allowed, millimetres.
+    pub tolerance: f64,
+    /// Only the solids of this name.
+    pub solid: Option<String>,
+    /// Where a picture is to go.
+    pub picture: Option<PathBuf>,
+}
+
+impl Importer {
+    /// Builds it; of a later time that is a moment.
+    ///
+    /// # Errors
+    /// What the compiler said.
+    pub fn build(progress: &Progress) -> Result<Self, SetUpError> {
+        let repository = repository::root()?;
+        let target = repository.join("target/cad");
+        let path = target.join("release/palpate-cad");
+        let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        without_outer_cargo(&mut cargo);
+        cargo.args(["build", "--quiet", "--release", "--locked"]);
+        cargo.arg("--manifest-path").arg(repository.join("host-tests/cad/Cargo.toml"));
+        cargo.arg("--target-dir").arg(&target);
+        let what = if path.exists() { "building the importer" } else { "building the importer, once some minutes" };
+        progress.during(what, || output(&mut cargo))?;
+        Ok(Self { path })
+    }
+
+    /// Imports a part into a model file; gives what it says of it.
+    ///
+    /// # Errors
+    /// What is wrong with the part. Then there is no file.
+    pub fn import(&self, part: &Path, out: &Path, wishes: &Wishes) -> anyhow::Result<String> {
+        let mut command = Command::new(&self.path);
+        command.arg(part).arg(out).arg(wishes.tolerance.to_string());
+        if let Some(solid) = &wishes.solid {
+            command.arg("--solid").arg(solid);
+        }
+        if let Some(picture) = &wishes.picture {
+            command.arg("--picture").arg(picture);
+        }
+        let done = command.output().with_context(|| format!("{} does not run", self.path.display()))?;
+        if !done.status.success() {
+            let message = String::from_utf8_lossy(&done.stderr).trim().to_owned();
+            if message.is_empty() {
+                bail!("{}: the importer ended without a word ({})", part.display(), done.status);
+            }
+            bail!(message);
+        }
+        Ok(String::from_utf8_lossy(&done.stdout).into_owned())
+    }
+}

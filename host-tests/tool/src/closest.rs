@@ -1,0 +1,134 @@
+//! Closest points of a model with the firmware's own code: from a standing start, or tick after tick.
+
+use crate::sides::Sides;
+use palpate::body::{Body, BodyWitness, Edge, Face, Feature, Side};
+use palpate::math::Vec3;
+use palpate::track::{Contact, Controller, Probe, Witness};
+use palpate_bake::BakedBody;
+
+/// Finds closest points.
+#[derive(Debug)]
+pub struct Solver<'a> {
+    body: &'a Body,
+    baked: &'a BakedBody,
+    sides: Sides<'a>,
+    is_closed: bool,
+}
+
+/// How a closest point was come by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Cold: every candidate was searched to its end.
+    Converged,
+    /// Cold: the evaluations were used up, or the query is farther off than the locator's tables can reach.
+    StepLimit,
+    /// One row of a track.
+    Tracking,
+    /// One row of a track while the body is touched: the point is the god-object, and the sign that of its gap.
+    GodObject,
+}
+
+/// A closest point, in the model's terms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// Index of the model's patch; a point that several share is on any of them.
+    pub patch: usize,
+    /// `(u, v)` on it.
+    pub parameters: [f64; 2],
+    /// The point, metres.
+    pub point: Vec3,
+    /// Whether the probe is inside a closed body.
+    pub is_inside: bool,
+    /// Evaluations of patches spent.
+    pub evaluations: u32,
+    /// How.
+    pub status: Status,
+}
+
+impl<'a> Solver<'a> {
+    /// For a body and the tables it was made of.
+    pub fn new(body: &'a Body, baked: &'a BakedBody) -> Self {
+        Self { body, baked, sides: Sides::new(body, baked), is_closed: baked.topology.is_closed() }
+    }
+
+    /// The closest point from a standing start, and the state to track on from. `probe` in metres.
+    pub fn cold(&self, probe: Vec3) -> (Found, BodyWitness) {
+        let mut state = self.body.start();
+        // The same search, one evaluation a tick; it ends within the bound of `Body::locate`.
+        let located = self.body.locate(probe);
+        while !state.is_located {
+            self.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), 1.0);
+        }
+        // Beyond its cube the locator's list is not proved to be complete.
+        let status =
+            if located.complete && self.body.locator().holds(probe) { Status::Converged } else { Status::StepLimit };
+        let face = usize::from(located.face);
+        let [u, v] = located.parameters;
+        let point = Witness::at(&self.body.faces()[face].patch, u, v).surface.point;
+        let found = self.found(face, located.parameters, point, probe);
+        (Found { evaluations: u32::from(located.evaluations), status, ..found }, state)
+    }
+
+    /// Follows a probe that has moved: `ticks` ticks of the tracker, and after a jump as many more as it takes until the closest point is
+    /// located anew. `probe` in metres.
+    pub fn track(&self, state: &mut BodyWitness, probe: Vec3, ticks: u32) -> Found {
+        let mut evaluations = 0;
+        let mut spent = 0;
+        while spent < ticks || !state.is_located {
+            spent += 1;
+            // The gain is certified, not a rate: the period does not matter.
+            let step = self.body.step(&Controller::CERTIFIED, state, Probe::at(probe), 1.0);
+            evaluations += u32::from(step.evaluations);
+        }
+        let (face, parameters) = self.on_a_face(state);
+        let found = self.found(face, parameters, state.witness.surface.point, probe);
+        if state.contact == Contact::Touching {
+            let is_inside = self.is_closed && state.gap < 0.0;
+            return Found { evaluations, is_inside, status: Status::GodObject, ..found };
+        }
+        Found { evaluations, ..found }
+    }
+
+    fn found(&self, face: usize, parameters: [f32; 2], point: Vec3, probe: Vec3) -> Found {
+        let source = &self.baked.faces[face].source;
+        Found {
+            patch: source.patch,
+            parameters: source.parameters(parameters.map(f64::from)),
+            point,
+            is_inside: self.is_closed && self.sides.is_inside(face, parameters, probe.as_dvec3()),
+            evaluations: 0,
+            status: Status::Tracking,
+        }
+    }
+
+    /// A witness point on an edge or a vertex lies on a face, too.
+    fn on_a_face(&self, state: &BodyWitness) -> (usize, [f32; 2]) {
+        let edge = match state.feature {
+            Feature::Face(face) => return (usize::from(face), state.witness.parameters),
+            Feature::Edge(edge) => Some((edge, state.witness.parameters[0])),
+            Feature::Vertex(vertex) => {
+                let end = |(index, edge): (usize, &Edge)| {
+                    let t = if edge.ends[0] == vertex { 0.0 } else { 1.0 };
+                    edge.ends.contains(&vertex).then_some((index as u16, t))
+                };
+                self.body.edges().iter().enumerate().find_map(end)
+            }
+        };
+        let Some((edge, t)) = edge else { return (0, [0.5; 2]) };
+        let of = self.body.edges()[usize::from(edge)].faces[0];
+        let face = usize::from(of.face);
+        (face, on_side(&self.body.faces()[face], of.side, t))
+    }
+}
+
+/// The parameters of a face at the parameter of an edge along one of its sides.
+fn on_side(face: &Face, side: u8, t: f32) -> [f32; 2] {
+    let reversed = matches!(face.sides[usize::from(side)], Side::Edge { reversed: true, .. });
+    let along = if reversed { 1.0 - t } else { t };
+    match side {
+        0 => [0.0, along],
+        1 => [1.0, along],
+        2 => [along, 0.0],
+        _ => [along, 1.0],
+    }
+}

@@ -1,0 +1,88 @@
+//! `palpate bake`: writes a model's tables as Rust source.
+
+use super::check::{self, Loaded};
+use super::output::{print, write_whole};
+use super::progress;
+use super::table_report;
+use anyhow::Context as _;
+use clap::Args;
+use palpate_bake::graph;
+use palpate_bake::source::{self, Origin};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Writes a model's tables as Rust source, to `include!` in a module of the firmware.
+///
+/// A model of several patches becomes a body: `pub static BODY: palpate::body::Body` and `pub const TABLE_CRC: u32`. One of a single
+/// patch becomes `pub static PATCHES: [palpate::patch::SplinePatch; 1]`, without features and without a locator. The same model gives the
+/// same bytes wherever it lies, on any number of cores.
+///
+/// Exit status as `check`: 0 certified, 1 usable but not certified (the file is written), 2 bad input (it is not).
+#[derive(Args, Debug)]
+#[command(group(clap::ArgGroup::new("product").required(true).multiple(true)))]
+pub struct Arguments {
+    /// The model: a file (TOML), or the name of one that ships.
+    model: PathBuf,
+    /// The Rust file to write.
+    #[arg(long, value_name = "FILE.rs", group = "product")]
+    out: Option<PathBuf>,
+    /// The file to write the automaton to, as Graphviz: features, and between which of them the tracker switches.
+    #[arg(long, value_name = "FILE.dot", group = "product")]
+    graph: Option<PathBuf>,
+    /// How far the locator reaches beyond the bounding box, in body sizes; 0 lets the tool choose. A probe
+    /// from farther away uses the list of the nearest cell, which is then not proved complete.
+    #[arg(long, value_name = "SIZES", default_value_t = 0.0, value_parser = sizes)]
+    margin: f64,
+    /// Prints the bytes of flash by kind, how much of the locator is proved, and the cost of a cold start.
+    #[arg(long)]
+    table_report: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let mut loaded = Loaded::read(&arguments.model)?;
+    let labels = loaded.body.labels(&loaded.model);
+    let is_body = loaded.body.faces.len() > 1;
+    let mut report = None;
+    // The automaton has no locator in it.
+    if is_body && (arguments.out.is_some() || arguments.table_report) {
+        let options = loaded.body.locator_options().reaching(arguments.margin);
+        let bar = progress::work();
+        let all = options.depth + options.deeper;
+        let (body, of_locator) =
+            loaded.body.located(&options, &|depth, _| bar.tell("depths of the octree", depth, all))?;
+        (loaded.body, report) = (body, Some(of_locator));
+    }
+    if let Some(out) = &arguments.out {
+        let origin =
+            Origin { model_file: &loaded.file.name, out_file: &file_name(out)?, model: loaded.file.text.as_bytes() };
+        let text = source::source(&origin, &loaded.model, &loaded.body)?;
+        write_whole(out, text.as_bytes())?;
+    }
+    if let Some(file) = &arguments.graph {
+        write_whole(file, graph::graph(&loaded.body, &loaded.model.name, &labels).as_bytes())?;
+    }
+    let surveys = loaded.surveys();
+    if arguments.table_report {
+        let text = match &report {
+            Some(report) => table_report::of_body(&loaded.body, report)?,
+            None => table_report::of_patches(&surveys)?,
+        };
+        print(text.as_bytes())?;
+    }
+    let verdict = check::worst(&surveys);
+    eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
+    Ok(check::exit_code(verdict))
+}
+
+fn sizes(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|sizes| (0.0..=30.0).contains(sizes)).ok_or_else(|| "not a number from 0 to 30".to_owned())
+}
+
+fn file_name(path: &Path) -> anyhow::Result<String> {
+    let name = path.file_name().with_context(|| format!("{}: not the name of a file", path.display()))?;
+    Ok(name.to_string_lossy().into_owned())
+}

@@ -1,0 +1,245 @@
+//! `palpate check`: validates a model and says what is known of each patch.
+
+use super::output::print;
+use crate::models::ModelFile;
+use clap::Args;
+use palpate::body::EdgeKind;
+use palpate::track::{Integrator, PerformanceLimits};
+use palpate_bake::body::BakedSide;
+use palpate_bake::certificate::Finding;
+use palpate_bake::locator::LocatorOptions;
+use palpate_bake::survey::{Regularity, Survey, Verdict};
+use palpate_bake::{BakedBody, Model, Unit};
+use rayon::prelude::*;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Validates a model and says what is known of each patch.
+///
+/// A patch is certified if it is proved to be regular, convex (up to rounding), smooth, with normals less than 90° apart, and to lead every probe
+/// up to half the body's size over it to its closest point. What is not proved is sampled, and said to be. The second table has the limits of
+/// performance for explicit Euler at --rate, a probe up to --distance away and moving at --speed. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The model: a file (TOML), or the name of one that ships.
+    model: PathBuf,
+    /// Servo rate, Hz.
+    #[arg(long, default_value_t = 4_000.0, value_parser = positive)]
+    rate: f32,
+    /// Distance of the probe from the surface, mm.
+    #[arg(long, default_value_t = 5.0, value_parser = positive)]
+    distance: f32,
+    /// Speed of the probe, m/s.
+    #[arg(long, default_value_t = 0.1, value_parser = positive)]
+    speed: f32,
+}
+
+/// A number above 0.
+fn positive(text: &str) -> Result<f32, String> {
+    let value: f32 = text.parse().map_err(|_| format!("{text:?} is not a number"))?;
+    if value > 0.0 && value < f32::INFINITY { Ok(value) } else { Err("it must be positive and finite".to_owned()) }
+}
+
+/// A model with its tables.
+pub(super) struct Loaded {
+    pub file: ModelFile,
+    pub model: Model,
+    pub body: BakedBody,
+}
+
+impl Loaded {
+    /// Reads, validates and bakes a model file.
+    pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
+        let file = ModelFile::read(path)?;
+        let model = file.model()?;
+        let body = BakedBody::new(&model, &file.label)?;
+        Ok(Self { file, model, body })
+    }
+
+    /// One for each face.
+    pub(super) fn surveys(&self) -> Vec<Survey> {
+        let range = LocatorOptions::default().margin * f64::from(self.body.size);
+        self.body.faces.par_iter().map(|face| Survey::new(&face.surface, &face.patch, range)).collect()
+    }
+
+    /// What the faces go by.
+    pub(super) fn labels(&self) -> Vec<String> {
+        self.body.labels(&self.model).iter().map(|label| label.replace('"', "")).collect()
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let loaded = Loaded::read(&arguments.model)?;
+    let unit = loaded.model.unit;
+    let mut report = String::new();
+    let (surveys, labels) = (loaded.surveys(), loaded.labels());
+    let wide = labels.iter().map(|label| label.chars().count()).max().unwrap_or_default().max("patch".len());
+    verdicts(&mut report, wide, &labels, &surveys)?;
+    tables(&mut report, wide, unit, &labels, &surveys)?;
+    features(&mut report, &loaded.body)?;
+    limits(&mut report, arguments, &labels, &surveys)?;
+    let verdict = worst(&surveys);
+    let certified = surveys.iter().filter(|survey| survey.verdict == Verdict::Certified).count();
+    writeln!(
+        report,
+        "\n{}: {verdict} ({certified} of {} patches certified)",
+        arguments.model.display(),
+        surveys.len()
+    )?;
+    print(report.as_bytes())?;
+    Ok(exit_code(verdict))
+}
+
+/// What is known of each patch, and below it why it is not certified and what may be done.
+fn verdicts(report: &mut String, wide: usize, labels: &[String], surveys: &[Survey]) -> std::fmt::Result {
+    writeln!(
+        report,
+        "{:<wide$}  {:<21}  {:<14}  {:<14}  {:<14}  {:<26}  {:<14}  outline",
+        "patch", "verdict", "regular", "convex", "smooth", "normals within 90 degrees", "no false rest"
+    )?;
+    for (label, survey) in labels.iter().zip(surveys) {
+        let certificate = &survey.certificate;
+        writeln!(
+            report,
+            "{label:<wide$}  {:<21}  {:<14}  {:<14}  {:<14}  {:<26}  {:<14}  {}",
+            survey.verdict.to_string(),
+            brief(&certificate.regular),
+            brief(&certificate.convex),
+            brief(&certificate.smooth),
+            format!("{} (half angle {:.1})", brief(&certificate.normal_cone), certificate.cone_angle),
+            brief(&certificate.equilibrium),
+            brief(&certificate.outline)
+        )?;
+        for reason in &survey.reasons {
+            writeln!(report, "    {reason}")?;
+        }
+    }
+    writeln!(
+        report,
+        "\nproved: of the stored table; up to rounding: but for the rounding of its numbers to f32; sampled (n): n random probes found \
+         nothing wrong, which proves nothing; no: refuted, or not to be had"
+    )
+}
+
+/// What each patch is stored as.
+fn tables(report: &mut String, wide: usize, unit: Unit, labels: &[String], surveys: &[Survey]) -> std::fmt::Result {
+    writeln!(
+        report,
+        "\n{:<wide$} {:>6} {:>8} {:>10} {:>10} {:>10} {:>16} {:>9} {:>9} {:>9} {:>7}",
+        "patch",
+        "degree",
+        "spans",
+        "kind",
+        format!("size/{}", unit.symbol()),
+        "smooth",
+        "regular(sampled)",
+        "f_uu/m",
+        "f_uv/m",
+        "f_vv/m",
+        "bytes"
+    )?;
+    for (label, survey) in labels.iter().zip(surveys) {
+        writeln!(
+            report,
+            "{label:<wide$} {:>6} {:>8} {:>10} {:>10.4} {:>10} {:>16} {:>9.3e} {:>9.3e} {:>9.3e} {:>7}",
+            format!("{},{}", survey.degree[0], survey.degree[1]),
+            format!("{}x{}", survey.spans[0], survey.spans[1]),
+            if survey.rational { "rational" } else { "polynomial" },
+            survey.size * unit.per_metre(),
+            smoothness(survey.continuity),
+            regularity(&survey.regularity),
+            survey.shape.second_derivatives.uu,
+            survey.shape.second_derivatives.uv,
+            survey.shape.second_derivatives.vv,
+            survey.bytes.total(),
+        )?;
+    }
+    Ok(())
+}
+
+/// How the patches hang together.
+fn features(report: &mut String, body: &BakedBody) -> std::fmt::Result {
+    let topology = &body.topology;
+    let kinds = [EdgeKind::Convex, EdgeKind::Smooth, EdgeKind::Reflex, EdgeKind::Mixed, EdgeKind::Open];
+    let [convex, smooth, reflex, mixed, open] = kinds.map(|kind| topology.count(kind));
+    let poles = body.faces.iter().flat_map(|face| &face.sides).filter(|side| matches!(side, BakedSide::Pole { .. }));
+    writeln!(
+        report,
+        "\nfeatures: {} faces; {} edges (convex {convex}, smooth {smooth}, reflex {reflex}, mixed {mixed}, open {open}; sampled); \
+         {} vertices; {} sides are poles; {} piece(s), {}; {}",
+        body.faces.len(),
+        body.edges.len(),
+        body.vertices.len(),
+        poles.count(),
+        topology.components(),
+        if topology.is_closed() { "closed" } else { "open" },
+        if body.is_convex { "convex" } else { "not known to be convex" }
+    )
+}
+
+/// A finding without its reason, which follows below.
+fn brief(finding: &Finding) -> String {
+    match finding {
+        Finding::Failed(_) => "no".to_owned(),
+        finding => finding.to_string(),
+    }
+}
+
+/// The limits of performance of each patch.
+fn limits(report: &mut String, arguments: &Arguments, labels: &[String], surveys: &[Survey]) -> std::fmt::Result {
+    let &Arguments { rate, distance, speed, .. } = arguments;
+    writeln!(report, "\nlimits at {rate} Hz, up to {distance} mm away, at {speed} m/s, explicit Euler:")?;
+    writeln!(
+        report,
+        "{:<16} {:>21} {:>19} {:>8} {:>9} {:>11} {:>7} {:>8} {:>9}",
+        "patch", "curvature/(1/m)", "tangents/m", "bend", "stable K", "monotone K", "lag/um", "bound/um", "depth/mm"
+    )?;
+    for (label, survey) in labels.iter().zip(surveys) {
+        let shape = &survey.shape;
+        let limits = PerformanceLimits::new(shape, Integrator::Euler, rate, 1e-3 * distance);
+        let gain = limits.monotone_gain(0.0);
+        writeln!(
+            report,
+            "{label:<16} {:>21} {:>19} {:>8.1} {:>9.0} {:>11.0} {:>7.2} {:>8.2} {:>9.2}",
+            format!("{:.2} to {:.2}", shape.curvature.min, shape.curvature.max),
+            format!("{:.4} to {:.4}", shape.min_stretch.sqrt(), shape.max_stretch.sqrt()),
+            shape.max_bend,
+            limits.stable_gain(),
+            gain,
+            1e6 * limits.lag(gain, speed),
+            1e6 * limits.lag_bound(gain, speed),
+            1e3 * limits.depth_limit()
+        )?;
+    }
+    Ok(())
+}
+
+/// The verdict on a model is that on its worst patch.
+pub(super) fn worst(surveys: &[Survey]) -> Verdict {
+    surveys.iter().map(|survey| survey.verdict).max().unwrap_or(Verdict::Usable)
+}
+
+pub(super) fn exit_code(verdict: Verdict) -> ExitCode {
+    match verdict {
+        Verdict::Certified => ExitCode::SUCCESS,
+        Verdict::Usable => ExitCode::from(1),
+    }
+}
+
+fn smoothness(continuity: [Option<usize>; 2]) -> String {
+    let [along_u, along_v] =
+        continuity.map(|continuity| continuity.map_or_else(|| "inf".to_owned(), |order| order.to_string()));
+    format!("C{along_u},C{along_v}")
+}
+
+fn regularity(regularity: &Regularity) -> String {
+    match regularity {
+        Regularity::Regular { least_sine } => format!("sine {least_sine:.3}"),
+        Regularity::Singular { parameters: [u, v] } => format!("no, {u:.3},{v:.3}"),
+    }
+}

@@ -1,0 +1,113 @@
+//! `palpate closest`: closest points with the firmware's own code.
+
+use super::output::{print, write_whole};
+use super::progress;
+use crate::closest::{Solver, Status};
+use crate::{models, queries};
+use clap::{Args, ValueEnum};
+use palpate_bake::BakedBody;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Closest points with the firmware's own code, in single precision.
+///
+/// Reads the columns qx,qy,qz (others are ignored, lines that begin with # too), in the unit of the model; writes a row
+/// for a query, in their order: patch,u,v,px,py,pz,gap,steps,status. patch is the patch's name, or its index if it has
+/// none; gap is the distance from the query to p, negative when the query is inside a closed body; steps counts the
+/// patch evaluations spent.
+///
+/// cold takes every row by itself: the locator's table names the parts of patches that can own the closest point, a second-order
+/// search runs in each; status is converged, or step-limit if the evaluations were used up or the query is farther off than any table reaches.
+///
+/// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is
+/// --ticks ticks of the tracker, and after a jump of more than an eighth of the body's size as many more as locate it anew; status is tracking, or god-object while the
+/// body is touched: then p is the point that stays on the surface where the probe went in, and the sign of gap is its own.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The model: a file (TOML), or the name of one that ships.
+    #[arg(long)]
+    model: PathBuf,
+    /// The queries (CSV with a header).
+    #[arg(long, value_name = "IN.csv")]
+    queries: PathBuf,
+    /// How the rows relate to each other.
+    #[arg(long, value_enum, default_value_t = Mode::Cold)]
+    mode: Mode,
+    /// Controller steps a row; for --mode track.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    ticks: u32,
+    /// Where to write; standard output without it.
+    #[arg(long, value_name = "OUT.csv")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Mode {
+    /// Every row by itself.
+    Cold,
+    /// Rows are successive ticks of one probe.
+    Track,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let model = models::read(&arguments.model)?;
+    let per_metre = model.unit.per_metre();
+    let queries = queries::read(&arguments.queries, per_metre)?;
+    let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
+    // The tables reach as far as the queries do, and are baked where there are some.
+    let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
+    let options = baked.locator_options().reaching(baked.sizes_beyond(&probes));
+    let bar = progress::work();
+    let baked = baked.located_for(&probes, &options, &|depth, _| bar.tell("octree", depth, options.depth))?;
+    drop(bar);
+    let body = baked.to_body()?;
+    let solver = Solver::new(&body, &baked);
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status"])?;
+    let mut state = None;
+    for query in queries {
+        let found = match (arguments.mode, &mut state) {
+            (Mode::Track, Some(state)) => solver.track(state, query.probe, arguments.ticks),
+            (Mode::Track, None) => {
+                let (found, start) = solver.cold(query.probe);
+                state = Some(start);
+                found
+            }
+            (Mode::Cold, _) => solver.cold(query.probe).0,
+        };
+        let point = found.point.as_dvec3() * per_metre;
+        let [u, v] = found.parameters;
+        let distance = point.distance(query.given);
+        let gap = if found.is_inside { -distance } else { distance };
+        let numbers = [u, v, point.x, point.y, point.z, gap].map(significant);
+        let status = match found.status {
+            Status::Converged => "converged",
+            Status::StepLimit => "step-limit",
+            Status::Tracking => "tracking",
+            Status::GodObject => "god-object",
+        };
+        let (label, steps) = (model.patch_label(found.patch), found.evaluations.to_string());
+        let fields = [label.as_str()].into_iter().chain(numbers.iter().map(String::as_str)).chain([&*steps, status]);
+        writer.write_record(fields)?;
+    }
+    let text = writer.into_inner()?;
+    match &arguments.out {
+        Some(path) => write_whole(path, &text)?,
+        None => print(&text)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Nine significant digits: enough to tell any two `f32` apart.
+fn significant(value: f64) -> String {
+    let scientific = format!("{value:.8e}");
+    let exponent: i32 = scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
+    if value == 0.0 || !(-5..9).contains(&exponent) {
+        return scientific;
+    }
+    format!("{value:.*}", (8 - exponent) as usize)
+}

@@ -1,0 +1,144 @@
+//! `palpate demo`: the firmware image on the emulated board, in closed loop with the simulated device.
+
+use super::options::{Scene, SceneOptions};
+use super::{progress, sim};
+use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
+use crate::report::{Page, Summary, plots, write_page};
+use crate::simulation::{self, Trace};
+use anyhow::{Context, bail};
+use clap::{Args, ValueEnum};
+use std::fs;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Runs the firmware image on an emulated board in closed loop with the simulated device, and writes a report.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// The emulated board
+    #[arg(long, value_enum, default_value_t)]
+    board: Board,
+    /// What carries the frames: `fifo` is fast, `uart` is the board's real link
+    #[arg(long, value_enum, default_value_t = Carrier::Fifo)]
+    transport: Carrier,
+    /// Run the loop compiled for the host, without the emulator
+    #[arg(long)]
+    host: bool,
+    /// Where the report goes
+    #[arg(long, default_value = "palpate-report/demo.html")]
+    report: PathBuf,
+    /// Also writes the view of the probe's path to this SVG file
+    #[arg(long, value_name = "FILE.svg")]
+    picture: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Carrier {
+    Fifo,
+    Uart,
+}
+
+/// A run and what was run.
+struct Run {
+    trace: Trace,
+    /// On what.
+    on: String,
+    /// Sizes of the image, where there is one.
+    sizes: Vec<(&'static str, String)>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let scene = arguments.scene.scene()?;
+    let run = if arguments.host { on_host(arguments, &scene)? } else { on_board(arguments, &scene)? };
+    let mut figures = Summary::new(&run.trace).rows();
+    figures.extend(run.sizes);
+    let subtitle = format!("{} of {}, {}", scene.felt.name(), scene.model_name(), run.on);
+    let patches = scene.felt.patches();
+    let page =
+        Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, patches: &patches };
+    write_page(&page, &arguments.report)?;
+    if let Some(picture) = &arguments.picture {
+        fs::write(picture, plots::path(&page)?).with_context(|| format!("cannot write {}", picture.display()))?;
+    }
+    println!("palpate demo: {subtitle}");
+    for (name, value) in &figures {
+        println!("  {name:<20} {value}");
+    }
+    println!("  {:<20} {}", "report", arguments.report.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// On the emulated board, or on the host where no emulator can be had.
+fn on_board(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Run> {
+    let progress = Progress::new();
+    match prepare(arguments.board, scene, &progress) {
+        Ok(firmware) => run_firmware(arguments, scene, &firmware),
+        Err(Preparation::SetUp(error @ (SetUpError::NoEmulator(_) | SetUpError::NoToolchain(_)))) => {
+            eprintln!("{error}");
+            eprintln!("running the same loop compiled for the host instead; nothing is counted there");
+            on_host(arguments, scene)
+        }
+        Err(Preparation::SetUp(error @ SetUpError::NoRepository(_))) => {
+            bail!("{error}, or take --host, the same loop compiled for the host")
+        }
+        Err(Preparation::SetUp(error)) => Err(error.into()),
+        Err(Preparation::Tables(error)) => Err(error),
+    }
+}
+
+/// What can go wrong before the image runs.
+#[derive(Debug)]
+pub enum Preparation {
+    /// No emulator, no compiler, or a build that failed.
+    SetUp(SetUpError),
+    /// The scene's tables cannot be written.
+    Tables(anyhow::Error),
+}
+
+/// Bakes the scene into an image.
+///
+/// # Errors
+/// What was missing or failed.
+pub fn prepare(board: Board, scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
+    let (_folder, choice) = write_tables(board, scene).map_err(Preparation::Tables)?;
+    firmware::prepare(&choice, progress).map_err(Preparation::SetUp)
+}
+
+/// The scene's tables and settings as Rust source, in a folder that goes when dropped, and the choice of them.
+pub(super) fn write_tables(board: Board, scene: &Scene) -> anyhow::Result<(tempfile::TempDir, Choice)> {
+    let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+    fs::write(folder.path().join("body.rs"), scene.felt.source(&scene.origin())?)?;
+    fs::write(folder.path().join("settings.rs"), scene.settings_source())?;
+    let choice =
+        Choice { board, body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };
+    Ok((folder, choice))
+}
+
+fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> anyhow::Result<Run> {
+    let transport = match arguments.transport {
+        Carrier::Fifo => Transport::Fifo,
+        Carrier::Uart => Transport::Uart,
+    };
+    let mut plant = arguments.scene.plant(scene)?;
+    let mut emulator = firmware.start(transport)?;
+    let bar = progress::ticks(scene.ticks);
+    let rate = f64::from(scene.settings.rate);
+    let trace = simulation::run(&mut emulator, &mut plant, rate, scene.ticks, scene.enable_at, |done| bar.tell(done))?;
+    drop(bar);
+    // As a device would carry it: files of the host are the emulator's.
+    let image = firmware.images.of(Transport::Uart);
+    let sizes = vec![("flash", format!("{} bytes", image.flash)), ("RAM, static", format!("{} bytes", image.ram))];
+    let (core, machine) = (arguments.board.core(), arguments.board.machine());
+    let on = format!("firmware on an emulated {core} ({machine}) over {}", transport.binary());
+    Ok(Run { trace, on, sizes })
+}
+
+fn on_host(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Run> {
+    let trace = sim::run_on_host(&arguments.scene, scene)?;
+    Ok(Run { trace, on: "the loop compiled for the host".to_owned(), sizes: Vec::new() })
+}

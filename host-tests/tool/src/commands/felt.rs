@@ -1,0 +1,156 @@
+//! What is felt in a scene: one patch of a model, or the whole body.
+
+use super::progress;
+use anyhow::Context;
+use glam::DVec3;
+use palpate::body::Body;
+use palpate::math::{Vec3, vec3};
+use palpate::patch::{Patch as _, SplinePatch};
+use palpate_bake::source::{Origin, body_source, rust_source};
+use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch};
+use palpate_truth::oracle::Surface;
+use std::f64::consts::PI;
+use std::path::Path;
+
+/// How far a hand reaches around a body, seen from its middle: from above to this angle, radians, along either axis.
+const AROUND: f64 = 0.6 * PI;
+
+/// What the servo touches. It lives as long as the program: a servo keeps its surface in flash.
+#[derive(Debug)]
+pub enum Felt {
+    /// One patch.
+    Patch {
+        /// In double precision.
+        surface: NurbsPatch,
+        /// Its table.
+        baked: Box<BakedPatch>,
+        /// As the servo sees it.
+        patch: &'static SplinePatch,
+    },
+    /// All patches of a model, joined.
+    Body {
+        /// Its tables.
+        baked: Box<BakedBody>,
+        /// What its faces are called.
+        labels: Vec<String>,
+        /// As the servo sees it.
+        body: &'static Body,
+        /// The model's name.
+        name: String,
+    },
+}
+
+impl Felt {
+    /// The patch of this name or number; without one, the body, or the only patch.
+    ///
+    /// # Errors
+    /// What is wrong with the model, or that there is no such patch.
+    pub fn read(model: &Model, file: &Path, patch: Option<&str>) -> anyhow::Result<Self> {
+        let label = file.display().to_string();
+        let index = match patch {
+            Some(wanted) => Some(patch_index(model, file, wanted)?),
+            None => (model.patches.len() == 1).then_some(0),
+        };
+        if let Some(index) = index {
+            let baked = BakedPatch::all(model, &label)?.swap_remove(index);
+            let patch: &'static SplinePatch = Box::leak(Box::new(baked.to_patch()?));
+            return Ok(Self::Patch { surface: model.patches[index].clone(), baked: Box::new(baked), patch });
+        }
+        let baked = BakedBody::new(model, &label)?;
+        let options = baked.locator_options();
+        let bar = progress::work();
+        let all = options.depth + options.deeper;
+        let (baked, _) = baked.located(&options, &|depth, _| bar.tell("depths of the octree", depth, all))?;
+        drop(bar);
+        let body: &'static Body = Box::leak(Box::new(baked.to_body()?));
+        Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone() })
+    }
+
+    /// What to call it.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Patch { surface, .. } => surface.name.as_deref().unwrap_or("a patch"),
+            Self::Body { name, .. } => name,
+        }
+    }
+
+    /// Its patches.
+    pub fn patches(&self) -> Vec<&'static SplinePatch> {
+        match self {
+            Self::Patch { patch, .. } => vec![patch],
+            Self::Body { body, .. } => body.faces().iter().map(|face| &face.patch).collect(),
+        }
+    }
+
+    /// Its tables as Rust source.
+    ///
+    /// # Errors
+    /// A bug of the baker.
+    pub fn source(&self, origin: &Origin<'_>) -> anyhow::Result<String> {
+        Ok(match self {
+            Self::Patch { baked, .. } => rust_source(origin, std::slice::from_ref(&**baked))?,
+            Self::Body { baked, labels, .. } => body_source(origin, baked, labels)?,
+        })
+    }
+
+    /// The middle of its bounding box, from a grid of points.
+    pub fn middle(&self) -> Vec3 {
+        let grid = || (0..=16).flat_map(|i| (0..=16).map(move |j| (i as f32 / 16.0, j as f32 / 16.0)));
+        let points = self.patches().into_iter().flat_map(|patch| grid().map(|(u, v)| patch.evaluate(u, v).point));
+        let (low, high) = points
+            .fold((Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY)), |(low, high), point| {
+                (low.min(point), high.max(point))
+            });
+        0.5 * (low + high)
+    }
+
+    /// Where a hand may touch: a point and the outward normal for each `(u, v)` in `[0, 1]²`. On a patch its own parameters; on a body the
+    /// direction from its middle, `(½, ½)` upwards, to a place outside, and the body's closest point to that place: continuous around a
+    /// convex body, edges and corners included.
+    pub fn places(&self) -> impl Fn(f64, f64) -> (DVec3, DVec3) + use<> {
+        let felt = match self {
+            Self::Patch { surface, .. } => Places::On(surface.clone()),
+            Self::Body { body, .. } => Places::Around { body, middle: self.middle() },
+        };
+        move |u, v| felt.at(u, v)
+    }
+}
+
+/// See [`Felt::places`].
+enum Places {
+    On(NurbsPatch),
+    Around { body: &'static Body, middle: Vec3 },
+}
+
+impl Places {
+    fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
+        match self {
+            Self::On(surface) => {
+                let at = Surface::evaluate(surface, u, v);
+                let turn = if surface.flip { -1.0 } else { 1.0 };
+                (at.point, at.tangent_u.cross(at.tangent_v).normalize_or_zero() * turn)
+            }
+            Self::Around { body, middle } => {
+                let [a, b] = [u, v].map(|share| 2.0 * AROUND * (share - 0.5));
+                let angle = a.hypot(b);
+                // sin(x)/x at 0 is 1.
+                let sideways = if angle > 1e-9 { angle.sin() / angle } else { 1.0 };
+                let direction = vec3((a * sideways) as f32, (b * sideways) as f32, angle.cos() as f32);
+                let outside = *middle + direction * body.size();
+                let found = body.locate(outside);
+                let [u, v] = found.parameters;
+                let patch = &body.faces()[usize::from(found.face)].patch;
+                let point = patch.evaluate(u, v).point;
+                (point.as_dvec3(), (outside - point).as_dvec3().normalize_or_zero())
+            }
+        }
+    }
+}
+
+fn patch_index(model: &Model, file: &Path, wanted: &str) -> anyhow::Result<usize> {
+    let by_name = model.patches.iter().position(|patch| patch.name.as_deref() == Some(wanted));
+    let by_number = || wanted.parse().ok().filter(|index| *index < model.patches.len());
+    by_name
+        .or_else(by_number)
+        .with_context(|| format!("{}: no patch {wanted:?} among {}", file.display(), model.patches.len()))
+}

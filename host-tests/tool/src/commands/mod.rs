@@ -1,0 +1,22 @@
+//! The commands of `palpate`, one file each: its arguments and what it does.
+
+pub mod bake;
+pub mod budgets;
+pub mod check;
+pub mod closest;
+pub mod cycles;
+pub mod demo;
+pub mod felt;
+pub mod figures;
+pub mod firmware;
+pub mod image;
+pub mod import;
+pub mod monitor;
+pub mod options;
+mod output;
+pub mod progress;
+pub mod race;
+pub mod sim;
+mod table_report;
+pub mod test;
+pub mod zwidth;

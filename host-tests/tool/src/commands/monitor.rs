@@ -1,0 +1,206 @@
+//! `palpate monitor`: what a running device tells of itself, live.
+
+use super::demo::write_tables;
+use super::options::SceneOptions;
+use crate::firmware::{Board, Emulator, Program, Progress};
+use crate::monitor::{Figures, Monitor, Table};
+use crate::simulation;
+use anyhow::{Context, bail};
+use clap::Args;
+use std::io::{self, ErrorKind, IsTerminal, Read, Write, stdout};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Shows rate, jitter, phase, force and faults of a running device, and records them.
+///
+/// On a terminal one line is kept up to date; elsewhere there is a line every second and at each change. It ends when the line
+/// is closed, after --seconds, or with Ctrl-C.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The serial port the device is on, such as /dev/ttyACM0
+    #[arg(long, required_unless_present = "emulator", conflicts_with = "emulator")]
+    port: Option<String>,
+    /// The port's speed
+    #[arg(long, default_value_t = 921_600)]
+    baud: u32,
+    /// An emulated board with a simulated hand, instead of a device
+    #[arg(long, value_enum)]
+    emulator: Option<Board>,
+    /// Records everything to this CSV file
+    #[arg(long, value_name = "OUT")]
+    csv: Option<PathBuf>,
+    /// Stops after this many seconds
+    #[arg(long = "for", value_name = "SECONDS")]
+    ends_after: Option<f64>,
+    #[command(flatten)]
+    scene: SceneOptions,
+}
+
+/// How long to wait for bytes before looking at the clock.
+const PATIENCE: Duration = Duration::from_millis(50);
+/// How often a terminal's line is written anew, and a line elsewhere.
+const REFRESH: Duration = Duration::from_millis(100);
+const LINE: Duration = Duration::from_secs(1);
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let mut view = View::new(arguments)?;
+    if let Some(board) = arguments.emulator {
+        watch_emulator(arguments, board, &mut view)?;
+    } else if let Some(path) = &arguments.port {
+        let port = serialport::new(path, arguments.baud).timeout(PATIENCE).open();
+        let mut port = port.with_context(|| format!("cannot open the serial port {path}"))?;
+        view.watch(&mut port)?;
+    } else {
+        bail!("either --port or --emulator");
+    }
+    view.end()
+}
+
+/// The emulated board in closed loop with the simulated device, one servo period of it in one of ours.
+fn watch_emulator(arguments: &Arguments, board: Board, view: &mut View) -> anyhow::Result<()> {
+    let scene = arguments.scene.scene()?;
+    let (_folder, choice) = write_tables(board, &scene)?;
+    let program = Program::prepare_with(&choice, "telemetry", &[], &Progress::new())?;
+    let (mut emulator, mut line) = program.start_with_telemetry()?;
+    line.set_read_timeout(Some(PATIENCE))?;
+    let mut plant = arguments.scene.plant(&scene)?;
+    let (rate, ticks, enable_at) = (f64::from(scene.settings.rate), scene.ticks, scene.enable_at);
+    let driver = std::thread::spawn(move || {
+        let start = Instant::now();
+        let pace = |done: u32| {
+            let due = Duration::from_secs_f64(f64::from(done) / rate);
+            std::thread::sleep(due.saturating_sub(start.elapsed()));
+        };
+        let outcome = simulation::run(&mut emulator, &mut plant, rate, ticks, enable_at, pace);
+        // The line closes with it, and the watching ends.
+        drop::<Emulator>(emulator);
+        outcome.map(drop)
+    });
+    view.watch(&mut line)?;
+    if driver.is_finished() {
+        driver.join().map_err(|_| anyhow::anyhow!("the simulation panicked"))??;
+    }
+    Ok(())
+}
+
+/// What is shown and recorded.
+struct View {
+    monitor: Monitor,
+    table: Option<Table>,
+    refreshes: bool,
+    start: Instant,
+    ends_after: Option<Duration>,
+    shown: Option<(Instant, u8, u8)>,
+}
+
+impl View {
+    fn new(arguments: &Arguments) -> anyhow::Result<Self> {
+        let table = |path: &PathBuf| Table::create(path).with_context(|| format!("cannot write {}", path.display()));
+        let ends_after = arguments.ends_after.map(Duration::try_from_secs_f64).transpose();
+        Ok(Self {
+            monitor: Monitor::default(),
+            table: arguments.csv.as_ref().map(table).transpose()?,
+            refreshes: stdout().is_terminal(),
+            start: Instant::now(),
+            ends_after: ends_after.context("--for is not a time")?,
+            shown: None,
+        })
+    }
+
+    /// Reads until the line closes or the time is over.
+    fn watch(&mut self, line: &mut impl Read) -> anyhow::Result<()> {
+        let mut buffer = [0; 4096];
+        while self.ends_after.is_none_or(|end| self.start.elapsed() < end) {
+            let bytes = match line.read(&mut buffer) {
+                Ok(0) => return Ok(()),
+                Ok(read) => &buffer[..read],
+                Err(error) => match error.kind() {
+                    ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted => continue,
+                    // A device that was unplugged, or an emulator that ended. What was seen so far counts.
+                    _ => {
+                        eprintln!("the line closed: {error}");
+                        return Ok(());
+                    }
+                },
+            };
+            for byte in bytes {
+                if let Some(figures) = self.monitor.feed(*byte) {
+                    self.take(&figures)?;
+                }
+            }
+            if let Some(table) = &mut self.table {
+                table.flush()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, figures: &Figures) -> anyhow::Result<()> {
+        if let Some(table) = &mut self.table {
+            table.write(figures)?;
+        }
+        let (phase, fault) = (figures.record.phase, figures.record.fault);
+        let pause = if self.refreshes { REFRESH } else { LINE };
+        let is_due = self.shown.is_none_or(|(at, shown_phase, shown_fault)| {
+            at.elapsed() >= pause || (phase, fault) != (shown_phase, shown_fault)
+        });
+        if is_due {
+            self.shown = Some((Instant::now(), phase, fault));
+            self.show(figures)?;
+        }
+        Ok(())
+    }
+
+    fn show(&self, figures: &Figures) -> io::Result<()> {
+        let rate = figures.rate.map_or_else(|| "     –   Hz".to_owned(), |rate| format!("{rate:8.1} Hz"));
+        let [shortest, longest] = figures.periods;
+        let line = format!(
+            "tick {:>8}  {rate}  period {shortest:.1} to {longest:.1} µs  took {:.1} µs  {:<9}  {:<8}  gap {:+.2} mm  force {:.2} N  {}{}",
+            figures.record.tick,
+            figures.took,
+            figures.phase(),
+            figures.contact(),
+            figures.record.gap * 1e3,
+            figures.force(),
+            figures.fault(),
+            self.losses(figures),
+        );
+        let mut output = stdout().lock();
+        if self.refreshes {
+            // Back to the start of the line, and what was there wiped away.
+            write!(output, "\r\x1b[2K{line}")?;
+        } else {
+            writeln!(output, "{line}")?;
+        }
+        output.flush()
+    }
+
+    /// What went missing, if anything did.
+    fn losses(&self, figures: &Figures) -> String {
+        let counts = [
+            ("overruns", u64::from(figures.record.overruns)),
+            ("dropped", u64::from(figures.record.dropped)),
+            ("lost", self.monitor.lost),
+            ("damaged", self.monitor.damaged),
+            ("resets", self.monitor.resets),
+        ];
+        counts.iter().filter(|(_, count)| *count > 0).map(|(name, count)| format!("  {name} {count}")).collect()
+    }
+
+    fn end(mut self) -> anyhow::Result<ExitCode> {
+        if let Some(table) = &mut self.table {
+            table.flush()?;
+        }
+        let Monitor { records, damaged, lost, resets, .. } = self.monitor;
+        if self.refreshes {
+            println!();
+        }
+        println!("{records} records, {lost} lost on the line, {damaged} of them damaged, {resets} resets");
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,233 @@
+//! What `demo` and `sim` share: the scene, and how it is set up from the command line.
+
+use super::felt::Felt;
+use crate::devices::{self, Preset, ShippedDevice};
+use crate::firmware::Link;
+use crate::models::ModelFile;
+use crate::simulation::HostLoop;
+use anyhow::{Context, bail};
+use clap::Args;
+use palpate::device::{Device, Kinematics};
+use palpate::math::vec3;
+use palpate::servo::{Safety, Servo, Settings, Surface};
+use palpate::track::Controller;
+use palpate_bake::source::Origin;
+use palpate_plant::{HandSettings, PathError, Plant, TouchingPath, TouchingSettings};
+use std::path::PathBuf;
+
+/// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every preset holds it without a limit cycle.
+const STIFFNESS: f32 = 1_000.0;
+const DAMPING: f32 = 2.0;
+
+/// The limits of a loop with a host at its link, which is gone when it is silent for 100 ms.
+const SAFETY: Safety = Safety { link_timeout: 0.1, ..Safety::DEFAULT };
+
+/// How often the hand touches: a stroke of 0.8 s.
+const TOUCHES_PER_SECOND: f64 = 1.2;
+
+/// The scene: which surface, which device, how it is to feel, and the hand.
+#[derive(Args, Debug, Clone)]
+pub struct SceneOptions {
+    /// The surface: a model file, or the name of a model that ships
+    #[arg(long, default_value = "capped_box")]
+    pub model: PathBuf,
+    /// One patch of the model, by name or index; without it, all patches joined to a body
+    #[arg(long)]
+    pub patch: Option<String>,
+    /// The device; feeling a surface takes three joints
+    #[arg(long, value_parser = devices::parser(), default_value = "woodenhaptics-2016")]
+    pub device: &'static ShippedDevice,
+    /// Servo rate, Hz
+    #[arg(long, default_value_t = 4_000.0)]
+    pub rate: f32,
+    /// Seconds to simulate
+    #[arg(long, default_value_t = 5.0)]
+    pub seconds: f64,
+    /// Seed of the hand's path
+    #[arg(long, default_value_t = 2)]
+    pub seed: u64,
+    /// Stiffness of the surface, N/m; 1,000, or what the device takes if that is less
+    #[arg(long)]
+    pub stiffness: Option<f32>,
+    /// Damping of the surface, N·s/m; 2, or what the device takes if that is less
+    #[arg(long)]
+    pub damping: Option<f32>,
+    /// Greatest force, N; the device's own limit applies as well
+    #[arg(long, alias = "greatest-force", default_value_t = 5.0)]
+    pub max_force: f32,
+    /// Corner frequency of the velocity filter, Hz
+    #[arg(long, default_value_t = 150.0)]
+    pub velocity_corner: f32,
+    /// Seconds over which the force is faded in
+    #[arg(long, default_value_t = 0.1)]
+    pub soft_start: f32,
+    /// Where the model's origin lies in the device's workspace: x,y,z in mm from its centre; centres it if not given
+    #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
+    pub at: Option<Vec<f32>>,
+}
+
+/// A scene that is ready to run.
+pub struct Scene {
+    /// The model file.
+    file: ModelFile,
+    /// What is touched.
+    pub felt: Felt,
+    /// The device.
+    pub device: &'static ShippedDevice,
+    /// The loop's settings.
+    pub settings: Settings,
+    /// Ticks to run.
+    pub ticks: u32,
+    /// The tick at which force is asked for: the witness point has converged by then.
+    pub enable_at: u32,
+}
+
+impl SceneOptions {
+    /// Reads the model and checks every option.
+    ///
+    /// # Errors
+    /// What is wrong, naming the file or the option.
+    pub fn scene(&self) -> anyhow::Result<Scene> {
+        let file = ModelFile::read(&self.model)?;
+        let model = file.model()?;
+        let felt = Felt::read(&model, &self.model, self.patch.as_deref())?;
+        let body_origin = match self.at.as_deref() {
+            Some(&[x, y, z]) => vec3(x, y, z) * 1e-3,
+            _ => -felt.middle(),
+        };
+        let device = self.device;
+        if device.source.is_none() {
+            bail!("{} has too few joints to feel a surface in space; see zwidth", device.name);
+        }
+        let limits = device.preset.limits();
+        let settings = Settings {
+            rate: self.rate,
+            stiffness: self.stiffness.unwrap_or(STIFFNESS.min(limits.stiffness)),
+            damping: self.damping.unwrap_or(DAMPING.min(limits.damping)),
+            max_force: self.max_force,
+            velocity_corner: self.velocity_corner,
+            soft_start: self.soft_start,
+            body_origin,
+        };
+        settings
+            .check(limits.stiffness, limits.damping)
+            .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
+        let ticks = self.seconds * f64::from(self.rate);
+        if !(ticks >= 1.0 && ticks <= f64::from(u32::MAX)) {
+            bail!("--seconds {} at --rate {} is not a number of ticks that can be run", self.seconds, self.rate);
+        }
+        // A tenth of a second in standby, in which the witness point converges from the middle of the patch.
+        let enable_at = (0.1 * self.rate) as u32;
+        Ok(Scene { file, felt, device, settings, ticks: ticks as u32, enable_at })
+    }
+
+    /// The simulated device with a hand that touches the scene's surface.
+    ///
+    /// # Errors
+    /// What the plant refuses.
+    pub fn plant(&self, scene: &Scene) -> anyhow::Result<Plant> {
+        let places = scene.felt.places();
+        let origin = scene.settings.body_origin.as_dvec3();
+        let point_and_normal = move |u, v| {
+            let (point, normal) = places(u, v);
+            ((point + origin).to_array(), normal.to_array())
+        };
+        // A short run sees the start of a path that a hand could follow.
+        let duration = self.seconds.max(1.0);
+        let most_touches = (TOUCHES_PER_SECOND * duration).round() as u32;
+        let path_of = |share: f64, touches| {
+            // Most touches stay on the face; in the air the hand goes over the rim.
+            let touching = TouchingSettings {
+                duration,
+                touches,
+                press_depth: [0.006, 0.014],
+                pressed_reach: 0.8,
+                ..TouchingSettings::default()
+            };
+            let part = |at: f64| 0.5 + share * (at - 0.5);
+            TouchingPath::new(|u, v| point_and_normal(part(u), part(v)), touching, self.seed)
+        };
+        // Where a surface or a seed asks for more speed than a hand has, it touches less often.
+        let is_too_fast = |path: &Result<_, PathError>| matches!(path, Err(PathError::TooFast { .. }));
+        let slower = |share| {
+            let paths = (1..=most_touches).rev().map(|touches| path_of(share, touches));
+            paths.into_iter().find(|path| !is_too_fast(path)).unwrap_or_else(|| path_of(share, 1))
+        };
+        // Where the surface is larger than the workspace, it keeps to the middle of the surface.
+        let (mechanism, preset) = (self.device.plant.mechanism(0.0), self.device.preset);
+        let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0);
+        let path = (6..=20)
+            .rev()
+            .map(|share| slower(f64::from(share) / 20.0))
+            .find(|path| {
+                path.as_ref()
+                    .map_or_else(|error| !matches!(error, PathError::TooFast { .. }), |path| path.keeps_to(has_room))
+            })
+            .with_context(|| {
+                format!(
+                    "{}: not even the middle third of the surface is in its workspace (move it with --at)",
+                    self.device.name
+                )
+            })?
+            .context("the hand finds no path")?;
+        Plant::new(&self.device.plant, HandSettings::default(), Box::new(path), f64::from(self.rate))
+            .context("the simulated device cannot start here (move the model with --at)")
+    }
+}
+
+impl Scene {
+    /// The servo loop of this scene, compiled for the host.
+    ///
+    /// # Errors
+    /// A setting that is refused.
+    pub fn host_loop(&self) -> anyhow::Result<Box<dyn Link>> {
+        match self.device.preset {
+            Preset::SerialArm(device) => self.host_loop_of(device),
+            Preset::LinkageArm(device) => self.host_loop_of(device),
+            Preset::Delta(device) => self.host_loop_of(device),
+            Preset::FiveBar(_) | Preset::Paddle(_) => bail!("{} has too few joints", self.device.name),
+        }
+    }
+
+    fn host_loop_of<K: Kinematics<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
+        match &self.felt {
+            Felt::Patch { patch, .. } => self.host_loop_on(device, *patch),
+            Felt::Body { body, .. } => self.host_loop_on(device, *body),
+        }
+    }
+
+    fn host_loop_on<K: Kinematics<3>, S: Surface>(
+        &self,
+        device: &'static Device<K, 3>,
+        surface: &'static S,
+    ) -> anyhow::Result<Box<dyn Link>> {
+        let servo = Servo::try_new(device, surface, Controller::CERTIFIED, self.settings)?.try_safety(SAFETY)?;
+        Ok(Box::new(HostLoop::new(servo)))
+    }
+
+    /// The model file's name, without its directory.
+    pub fn model_name(&self) -> &str {
+        &self.file.name
+    }
+
+    /// Where the scene's tables come from.
+    pub fn origin(&self) -> Origin<'_> {
+        Origin { model_file: &self.file.name, out_file: "body.rs", model: self.file.text.as_bytes() }
+    }
+
+    /// The loop's settings and device as the source file that an image is built with. Every number reads back as the same `f32`.
+    pub fn settings_source(&self) -> String {
+        let Settings { rate, stiffness, damping, max_force, velocity_corner, soft_start, body_origin } = self.settings;
+        let [x, y, z] = body_origin.to_array();
+        let link_timeout = SAFETY.link_timeout;
+        // A scene has three joints.
+        let [mechanism, device] = self.device.source.unwrap_or_default();
+        format!(
+            "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE}};\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
+             rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    \
+             max_force: {max_force:?},\n    velocity_corner: {velocity_corner:?},\n    \
+             soft_start: {soft_start:?},\n    body_origin: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n/// Its limits.\n\
+             pub const SAFETY: palpate::servo::Safety =\n    palpate::servo::Safety {{ link_timeout: {link_timeout:?}, ..palpate::servo::Safety::DEFAULT }};\n"
+        )
+    }
+}

@@ -1,0 +1,64 @@
+//! `palpate race`: palpate against Newton's method and what people use today.
+
+use super::output::write_whole;
+use crate::firmware::Progress;
+use crate::race::{self, Program, Scene, Who};
+use anyhow::Context as _;
+use clap::Args;
+use std::fs;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Races palpate against Newton's method, truck and parry: counted instructions, nanoseconds, errors, misses.
+///
+/// The same surfaces and the same probes for all: Table I of the paper and its convex companion, every query by itself
+/// (500 golden probes near the surface) and following a probe (10,000 rows of a smooth path, and 2,000 golden rows). A miss is
+/// a distance wrong by more than 1e-4 of the patch's size, or no answer.
+///
+/// Instructions are counted by valgrind, query by query, and repeat exactly on one machine; it is installed where that needs
+/// no password. Nanoseconds are this machine's, the quickest of five runs of each query.
+///
+/// The first run compiles the peers, which takes some minutes.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Folder for the numbers (race.csv) and the picture (race.svg)
+    #[arg(long, default_value = "palpate-report/race")]
+    out: PathBuf,
+    /// Rows of the path: how many servo ticks its 1.2 m take
+    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    rows: u32,
+    /// Leaves the peers out, which take most of the time
+    #[arg(long)]
+    without_peers: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let progress = Progress::new();
+    // Before anything is installed in vain.
+    crate::repository::root()?;
+    race::set_up(&progress)?;
+    let who = if arguments.without_peers { Who::Own } else { Who::All };
+    let program = Program::build(who, &progress)?;
+    let scenes = progress.during("judging the path", || Scene::all(arguments.rows as usize))?;
+    let mut scores = Vec::new();
+    for scene in &scenes {
+        scores.push(race::race(&program, scene, &progress).with_context(|| scene.title())?);
+    }
+    for scene in &scores {
+        println!("{}", race::text(scene));
+    }
+    let out = &arguments.out;
+    fs::create_dir_all(out).with_context(|| format!("cannot make the folder {}", out.display()))?;
+    for (name, contents) in
+        [("race.csv", race::csv(&scores.concat())?), ("race.svg", race::draw(&scores)?.into_bytes())]
+    {
+        let path = out.join(name);
+        write_whole(&path, &contents)?;
+        println!("{}", path.display());
+    }
+    Ok(ExitCode::SUCCESS)
+}

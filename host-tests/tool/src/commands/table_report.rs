@@ -1,0 +1,75 @@
+//! What baked tables take in flash, and what is known of their locator.
+
+use palpate::body::{MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE};
+use palpate_bake::body::{BakedBody, BodyBytes};
+use palpate_bake::locator::{LeafCounts, LocatorReport};
+use palpate_bake::survey::Survey;
+use std::fmt::{Error, Write as _};
+
+/// The report on a body.
+pub(super) fn of_body(body: &BakedBody, locator: &LocatorReport) -> Result<String, Error> {
+    let mut report = String::new();
+    let bytes = BodyBytes::of(body);
+    for (kind, bytes) in bytes.by_kind() {
+        row(&mut report, kind, bytes, "")?;
+    }
+    row(&mut report, "all", bytes.total(), "bytes of flash on a 32-bit target")?;
+    leaves(&mut report, locator)?;
+    let most = usize::from(if body.is_convex { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS });
+    let longest = locator.longest * usize::from(MAX_EVALUATIONS_PER_CANDIDATE);
+    let stopped = if longest > most { "; a search that is not done by then is stopped, and says so" } else { "" };
+    row(
+        &mut report,
+        "cold start",
+        longest.min(most),
+        &format!("evaluations at most{stopped}; {} entries in the longest list", locator.longest),
+    )?;
+    Ok(report)
+}
+
+/// The report on patches without a body: there is neither feature nor locator.
+pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
+    let mut report = String::new();
+    let sum = |kind: fn(&Survey) -> usize| surveys.iter().map(kind).sum::<usize>();
+    row(&mut report, "coefficients", sum(|survey| survey.bytes.coefficients), "")?;
+    row(&mut report, "borders", sum(|survey| survey.bytes.breaks), "")?;
+    row(&mut report, "records", sum(|survey| survey.bytes.record), "")?;
+    row(&mut report, "all", sum(|survey| survey.bytes.total()), "bytes of flash on a 32-bit target")?;
+    Ok(report)
+}
+
+/// What is known of the locator's leaves. Each is a cell of space, with the list of what can own the closest point of its probes.
+fn leaves(report: &mut String, locator: &LocatorReport) -> Result<(), Error> {
+    let LeafCounts { proved, convex, sampled, deep } = locator.leaves_by;
+    let share = |count: usize| format!("{:5.1} %", 100.0 * count as f64 / locator.leaves as f64);
+    row(
+        report,
+        "locator leaves",
+        locator.leaves,
+        "each list is proved to hold the closest point of every probe of its cell; the way to it:",
+    )?;
+    for (kind, count, meaning) in [
+        ("proved", proved, "each of its rectangles has one minimum, or loses no more than the tolerance"),
+        (
+            "convex",
+            convex,
+            "sampled, and wholly outside a convex body: no point that faces the probe is nearest but the closest",
+        ),
+        ("sampled", sampled, "not proved; random probes found nothing wrong"),
+        ("deep", deep, "deeper inside than a fifth of the size: neither proved nor sampled"),
+    ] {
+        row(report, &format!("  {kind}"), count, &format!("{}  {meaning}", share(count)))?;
+    }
+    if locator.loosest > 0.0 {
+        writeln!(
+            report,
+            "  where a bound is known without a proof of one minimum, {:.3} mm may be lost at most",
+            1e3 * locator.loosest
+        )?;
+    }
+    Ok(())
+}
+
+fn row(report: &mut String, kind: &str, number: usize, meaning: &str) -> std::fmt::Result {
+    writeln!(report, "{}", format!("{kind:<16} {number:>8} {meaning}").trim_end())
+}

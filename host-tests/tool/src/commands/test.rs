@@ -1,0 +1,67 @@
+//! `palpate test`: sets up what it needs and runs every test, or those for every day.
+
+use crate::firmware::{self, Board, Choice, Progress, Transport, WITH_FIRMWARE};
+use crate::repository;
+use anyhow::Context;
+use clap::Args;
+use std::env;
+use std::process::{Command, ExitCode};
+
+/// What `--quick` asks of `cargo test`: an argument a line. `.ci/quick` reads the same file.
+const QUICK: &str = include_str!("../../../../.ci/quick.tests");
+
+/// Sets up what it needs and runs every test: host, emulator, drift and budgets.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Only the tests for every day, in a few minutes: what takes long and what needs the emulator is left out.
+    #[arg(long, conflicts_with = "without_emulator")]
+    quick: bool,
+    /// Leaves the emulator out: runs only what plain `cargo test` runs.
+    #[arg(long)]
+    without_emulator: bool,
+    /// Passed on to `cargo test`.
+    #[arg(last = true)]
+    cargo_test: Vec<String>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let progress = Progress::new();
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    firmware::without_outer_cargo(&mut cargo);
+    cargo.current_dir(repository::root()?).arg("test").env_remove(WITH_FIRMWARE);
+    if arguments.quick {
+        cargo.args(quick());
+    } else {
+        cargo.arg("--workspace");
+    }
+    cargo.args(&arguments.cargo_test);
+    if !arguments.without_emulator && !arguments.quick {
+        for board in Board::ALL {
+            firmware::build_all(board, &progress)
+                .context("the tests on the emulated boards cannot run (--without-emulator leaves them out)")?;
+            let ready = firmware::prepare(&Choice { board, ..Choice::default() }, &progress)
+                .context("the tests on the emulated boards cannot run (--without-emulator leaves them out)")?;
+            progress.say(&format!("{}: {}", board.core(), ready.qemu.version));
+            for transport in [Transport::Uart, Transport::Fifo] {
+                let image = ready.images.of(transport);
+                progress.say(&format!(
+                    "image {}: {} bytes of flash, {} bytes of RAM",
+                    transport.binary(),
+                    image.flash,
+                    image.ram
+                ));
+            }
+        }
+        cargo.env(WITH_FIRMWARE, "1");
+    }
+    let status = cargo.status().with_context(|| format!("{cargo:?}"))?;
+    Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+fn quick() -> impl Iterator<Item = &'static str> {
+    QUICK.lines().filter(|line| !line.starts_with('#'))
+}

@@ -1,0 +1,128 @@
+//! `palpate zwidth`: the greatest stiffness against damping, for a device, its rates and delays.
+
+mod summary;
+mod sweeping;
+
+use sweeping::{best, sweep_with_bar};
+
+use crate::devices::{self, DEVICES, ShippedDevice};
+use crate::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words, plot};
+use anyhow::Context;
+use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueEnum};
+use palpate::device::VelocityMethod;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Finds how stiff and how damped a virtual wall may be on a device: a table, and a plot with the passive bound.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The device; `all` compares every device.
+    #[arg(long, default_value = "woodenhaptics-2016", value_parser = names())]
+    device: String,
+    /// One servo rate, Hz; all of 1, 2, 4 and 8 kHz unless given.
+    #[arg(long)]
+    rate: Option<f64>,
+    /// The velocity estimator.
+    #[arg(long, value_enum, default_value = "low-pass")]
+    velocity: Velocity,
+    /// Corner frequency of the velocity estimator, Hz.
+    #[arg(long, default_value_t = 200.0)]
+    corner: f64,
+    /// Where the plot goes; `--device all` draws none.
+    #[arg(long, default_value = "palpate-report/zwidth.svg")]
+    plot: PathBuf,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Velocity {
+    LowPass,
+    AdaptiveWindow,
+    Tracking,
+}
+
+impl Velocity {
+    fn method(self) -> VelocityMethod {
+        match self {
+            Self::LowPass => VelocityMethod::LowPass,
+            Self::AdaptiveWindow => VelocityMethod::AdaptiveWindow,
+            Self::Tracking => VelocityMethod::Tracking,
+        }
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let positive = |value: f64| value.is_finite() && value > 0.0;
+    anyhow::ensure!(
+        arguments.rate.is_none_or(|rate| positive(rate) && rate <= 100_000.0),
+        "the rate must be above 0 and at most 100 kHz"
+    );
+    anyhow::ensure!(positive(arguments.corner), "the corner must be above 0 Hz");
+    let rates = arguments.rate.map_or(RATES.to_vec(), |rate| vec![rate]);
+    let like = Loop { rate: 0.0, delay_periods: 0.0, velocity: arguments.velocity.method(), corner: arguments.corner };
+    let Some(device) = devices::named(&arguments.device) else {
+        summary::print(&rates, like)?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let slice = Slice::of(device);
+    let limits = sweep_with_bar(&slice, &rates, &DELAYS, like)?;
+    print_table(&slice, device, arguments, &rates, &limits);
+    if let Some(folder) = arguments.plot.parent() {
+        std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    }
+    plot(&arguments.plot, &slice, &limits)?;
+    println!("plot: {}", arguments.plot.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Every device's name, and `all`.
+fn names() -> PossibleValuesParser {
+    PossibleValuesParser::new(DEVICES.iter().map(|device| device.name).chain(["all"]))
+}
+
+fn print_table(slice: &Slice, device: &ShippedDevice, arguments: &Arguments, rates: &[f64], limits: &[Limit]) {
+    println!(
+        "{}: {:.4} kg, {:.3} N·s/m, {:.3} N of dry friction, {:.0} µm; velocity {:?}, {} Hz",
+        slice.name,
+        slice.mass,
+        slice.viscous,
+        slice.coulomb,
+        slice.resolution * 1e6,
+        arguments.velocity,
+        arguments.corner
+    );
+    println!("{}", device.assumed);
+    println!(
+        "greatest stiffness, N/m, simulated (passive bound), hit at 50 mm/s and pressed with 0.3 and 1 N, or 1.5 times dry friction"
+    );
+    for rate in rates {
+        print!("\n{:>5} kHz  B, N·s/m", rate / 1_000.0);
+        DELAYS.iter().for_each(|delay| print!("{:>22}", format!("delay {delay} T")));
+        println!();
+        for damping in DAMPINGS {
+            print!("{damping:>19}");
+            let row = limits.iter().filter(|limit| limit.rate == *rate && limit.damping == damping);
+            row.for_each(|limit| {
+                print!("{:>22}", format!("{} ({:.1})", in_words(slice, limit.simulated), limit.passive))
+            });
+            println!();
+        }
+    }
+    println!();
+    for delay in DELAYS {
+        let best = |rate: f64| best(limits, rate, delay)[0];
+        print!("delay {delay} T: greatest at any damping");
+        rates.iter().for_each(|rate| print!("  {} kHz {} N/m", rate / 1_000.0, in_words(slice, best(*rate))));
+        if rates.contains(&1_000.0) && rates.contains(&8_000.0) {
+            print!("  8 kHz : 1 kHz = {:.2}", best(8_000.0) / best(1_000.0));
+        }
+        println!();
+    }
+    if let Some(low) = limits.iter().find(|limit| limit.simulated < limit.passive * 0.98) {
+        println!("BELOW THE PASSIVE BOUND: {low:?}");
+    }
+}

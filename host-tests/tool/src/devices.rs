@@ -1,0 +1,183 @@
+//! The devices that ship, one row each: what the servo knows of it, and what stands in for it in simulation.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use palpate::device::{Delta, Device, FiveBar, Kinematics, LinkageArm, Paddle, SerialArm, presets};
+use palpate_plant::PlantSettings;
+
+/// A device that ships.
+#[derive(Clone, Copy, Debug)]
+pub struct ShippedDevice {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// Its full name, and what kind of device it is.
+    pub about: &'static str,
+    /// What the servo knows of it.
+    pub preset: Preset,
+    /// The simulated device.
+    pub plant: PlantSettings,
+    /// What of the simulated device's inertia and friction no source states; the plant's settings say it number by number.
+    pub assumed: &'static str,
+    /// Where the palpate library has the preset: its mechanism's type and its constant, in a source file for an image. None
+    /// with less than three joints.
+    pub source: Option<[&'static str; 2]>,
+}
+
+/// Every device that ships. A new one is a row here, a preset of the library and settings of the plant.
+pub static DEVICES: [ShippedDevice; 7] = [
+    ShippedDevice {
+        name: "woodenhaptics-2016",
+        about: "WoodenHaptics as published in 2016: three joints, serial",
+        preset: Preset::SerialArm(&presets::WOODEN_HAPTICS_2016),
+        plant: PlantSettings::wooden_haptics_2016(),
+        assumed: "turntable, rotors and friction are assumed; the links' masses are published",
+        source: Some(["SerialArm", "WOODEN_HAPTICS_2016"]),
+    },
+    ShippedDevice {
+        name: "polhem-v2",
+        about: "Polhem, second version: three joints, a linkage on a turntable",
+        preset: Preset::LinkageArm(&presets::POLHEM_V2),
+        plant: PlantSettings::polhem_v2(),
+        assumed: "turntable, rotors and friction are assumed; the links' masses are published",
+        source: Some(["LinkageArm", "POLHEM_V2"]),
+    },
+    ShippedDevice {
+        name: "phantom-premium",
+        about: "Phantom Premium: three joints, serial",
+        preset: Preset::SerialArm(&presets::PHANTOM_PREMIUM),
+        plant: PlantSettings::phantom_premium(),
+        assumed: "encoder counts are assumed; inertia and friction are published",
+        source: Some(["SerialArm", "PHANTOM_PREMIUM"]),
+    },
+    ShippedDevice {
+        name: "falcon",
+        about: "Novint Falcon: three joints, a delta",
+        preset: Preset::Delta(&presets::NOVINT_FALCON),
+        plant: PlantSettings::novint_falcon(),
+        assumed: "all masses are assumed; friction is of the published size",
+        source: Some(["Delta", "NOVINT_FALCON"]),
+    },
+    ShippedDevice {
+        name: "haply-2diy-v3",
+        about: "Haply 2diy, third version: two joints",
+        preset: Preset::FiveBar(&presets::HAPLY_2DIY_V3),
+        plant: PlantSettings::haply_2diy_v3(),
+        assumed: "all masses, friction and windings are assumed",
+        source: None,
+    },
+    ShippedDevice {
+        name: "haply-kit-v1",
+        about: "Haply development kit, first version: two joints",
+        preset: Preset::FiveBar(&presets::HAPLY_KIT_V1),
+        plant: PlantSettings::haply_kit_v1(),
+        assumed: "all masses, friction and windings are assumed",
+        source: None,
+    },
+    ShippedDevice {
+        name: "hapkit",
+        about: "Hapkit: one joint",
+        preset: Preset::Paddle(&presets::HAPKIT),
+        plant: PlantSettings::hapkit(),
+        assumed: "all masses, friction and windings are assumed",
+        source: None,
+    },
+];
+
+/// The device of this name.
+pub fn named(name: &str) -> Option<&'static ShippedDevice> {
+    DEVICES.iter().find(|device| device.name == name)
+}
+
+/// Takes the name of a device from the command line.
+pub fn parser() -> impl TypedValueParser<Value = &'static ShippedDevice> {
+    let names = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
+    // The names are the table's: each is found.
+    PossibleValuesParser::new(names).try_map(|name| named(&name).ok_or("no such device"))
+}
+
+/// What the servo knows of a device, by its mechanism. Only who matches on it need know that there are several; from there on
+/// the loop is generic, on the host as on the target.
+#[derive(Clone, Copy, Debug)]
+pub enum Preset {
+    /// Three joints, serial.
+    SerialArm(&'static Device<SerialArm, 3>),
+    /// Three joints, a linkage on a turntable.
+    LinkageArm(&'static Device<LinkageArm, 3>),
+    /// Three joints, a delta.
+    Delta(&'static Device<Delta, 3>),
+    /// Two joints.
+    FiveBar(&'static Device<FiveBar, 2>),
+    /// One joint.
+    Paddle(&'static Device<Paddle, 1>),
+}
+
+/// What a device is to be asked for at most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// N.
+    pub force: f32,
+    /// N/m.
+    pub stiffness: f32,
+    /// N·s/m.
+    pub damping: f32,
+}
+
+impl Limits {
+    fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>) -> Self {
+        Self { force: device.max_force, stiffness: device.max_stiffness, damping: device.max_damping }
+    }
+}
+
+impl Preset {
+    /// The device's limits.
+    pub fn limits(self) -> Limits {
+        match self {
+            Self::SerialArm(device) => Limits::of(device),
+            Self::LinkageArm(device) => Limits::of(device),
+            Self::Delta(device) => Limits::of(device),
+            Self::FiveBar(device) => Limits::of(device),
+            Self::Paddle(device) => Limits::of(device),
+        }
+    }
+
+    /// How much room there is to the rim of the workspace at these joint angles, rad: 1 well inside, 0 on it.
+    pub fn room(self, angles: [f64; 3]) -> f32 {
+        fn of<K: Kinematics<JOINTS>, const JOINTS: usize>(device: &Device<K, JOINTS>, angles: [f64; 3]) -> f32 {
+            let angles = core::array::from_fn(|joint| angles[joint] as f32);
+            device.room(&angles, &device.kinematics.pose(angles))
+        }
+        match self {
+            Self::SerialArm(device) => of(device, angles),
+            Self::LinkageArm(device) => of(device, angles),
+            Self::Delta(device) => of(device, angles),
+            Self::FiveBar(device) => of(device, angles),
+            Self::Paddle(device) => of(device, angles),
+        }
+    }
+
+    /// How each motor is fed.
+    pub fn feeds(self) -> &'static [palpate::device::drive::Feed] {
+        match self {
+            Self::SerialArm(device) => &device.feeds,
+            Self::LinkageArm(device) => &device.feeds,
+            Self::Delta(device) => &device.feeds,
+            Self::FiveBar(device) => &device.feeds,
+            Self::Paddle(device) => &device.feeds,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_is_told_apart_and_stands_for_a_device_of_as_many_joints_as_its_plant() {
+        for (index, device) in DEVICES.iter().enumerate() {
+            let found = DEVICES.iter().position(|other| other.name == device.name);
+            assert_eq!(found, Some(index), "{device:?}");
+            let joints = device.preset.feeds().len();
+            assert_eq!(joints, device.plant.mechanism(0.0).joints(), "{device:?}");
+            assert_eq!(device.source.is_some(), joints == 3, "{device:?}");
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! Figure 8: following a probe that moves, with gains that are good, too high and too low; and where too high begins.
+
+use super::subject::Subject;
+use anyhow::bail;
+use glam::DVec3;
+use palpate::math::Vec3;
+use palpate::track::{Controller, Gain, Integrator, Probe, ProjectionErrors, Witness};
+use palpate_truth::baselines::ErrorKinematics;
+use palpate_truth::oracle::Oracle;
+
+/// The paper's step, s.
+pub const PERIOD: f64 = 1e-3;
+/// The paper's gains, 1/s: good, chattering, slow.
+pub const GAINS: [f64; 3] = [50.0, 1300.0, 0.02];
+/// The gain at which the paper's simulation becomes unstable, 1/s.
+pub const PAPER_LIMIT: f64 = 1250.0;
+/// The probe moves for so long and then rests, s: 25 time constants `1/K` at `K = 50`.
+const MOTION: f64 = 0.5;
+/// Where the probe's foot sets out and where the witness point is put, in parameters from where the probe comes to rest:
+/// far from each other and from the goal, so that the correction of the start and the tracking show.
+const SETS_OUT: [f64; 2] = [-0.3, -0.35];
+const START: [f64; 2] = [0.3, -0.4];
+
+/// Where the probe comes to rest: there the discretisation limit of Euler's method is the paper's.
+#[derive(Clone, Copy, Debug)]
+pub struct Configuration {
+    /// The foot of the probe, `(u, v)`.
+    pub foot: [f64; 2],
+    /// The largest principal curvature there, seen from the probe, 1/m.
+    pub curvature: f64,
+    /// `‖ΔR‖`, metres.
+    pub distance: f64,
+    /// `Q`, metres.
+    pub probe: Vec3,
+}
+
+impl Configuration {
+    /// The distance at which `2 / (h (1 + κ ‖ΔR‖))` is the paper's 1250 1/s, so `κ ‖ΔR‖ = 0.6`, over the centre of a cell
+    /// of the patch (inner knots, where the curvature may jump, lie on the cells' borders): the one nearest to the middle where
+    /// the patch is convex and the foot is the closest point.
+    /// `None` if there is no such place.
+    pub fn find(subject: &Subject, oracle: &Oracle<'_>) -> Option<Self> {
+        let borders = [palpate_bake::Axis::U, palpate_bake::Axis::V].map(|axis| subject.surface.borders(axis));
+        let centres = |axis: usize| borders[axis].windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect::<Vec<_>>();
+        let mut feet: Vec<_> = centres(0).iter().flat_map(|u| centres(1).into_iter().map(|v| [*u, v])).collect();
+        let from_middle = |foot: &[f64; 2]| foot.iter().map(|parameter| (parameter - 0.5).powi(2)).sum::<f64>();
+        feet.sort_by(|a, b| from_middle(a).total_cmp(&from_middle(b)));
+        feet.into_iter().find_map(|foot| Self::over(subject, oracle, foot, 2.0 / (PERIOD * PAPER_LIMIT) - 1.0))
+    }
+
+    /// A probe over a foot with a given `κ ‖ΔR‖`; `None` where the patch is not convex or another point is nearer.
+    pub fn over(subject: &Subject, oracle: &Oracle<'_>, foot: [f64; 2], product: f64) -> Option<Self> {
+        let (surface, normal) = subject.at(foot);
+        // Seen from one metre out, the eigenvalues of M are 1 + κ.
+        let kinematics = ErrorKinematics::measure_numbers(&surface, surface.point + normal)?;
+        let [greatest, _] = kinematics.eigenvalues()?;
+        let curvature = greatest - 1.0;
+        // A radius of a hundred sizes is a plane.
+        if curvature * subject.size < 0.01 {
+            return None;
+        }
+        let distance = product / curvature;
+        let (probe, _) = subject.probe_over(oracle, foot, distance)?;
+        Some(Self { foot, curvature, distance, probe })
+    }
+
+    /// The greatest stable gain, 1/s: `z / (h (1 + κ ‖ΔR‖))`.
+    pub fn predicted_limit(&self, integrator: Integrator) -> f64 {
+        f64::from(integrator.stability_bound()) / (PERIOD * (1.0 + self.curvature * self.distance))
+    }
+
+    /// The greatest stable gain, 1/s, by bisection: from a witness point that is a little off along the worst direction, the
+    /// error shrinks below it and grows above it.
+    ///
+    /// # Errors
+    /// A limit that is nowhere near the prediction.
+    pub fn measured_limit(&self, subject: &Subject, integrator: Integrator) -> anyhow::Result<f64> {
+        let predicted = self.predicted_limit(integrator);
+        let (mut stable, mut unstable) = (0.5 * predicted, 1.5 * predicted);
+        if self.growth(subject, integrator, stable) >= 1.0 || self.growth(subject, integrator, unstable) <= 1.0 {
+            bail!("the limit of stability is not within half of the predicted {predicted:.0} 1/s");
+        }
+        // To 1e-4 of the gain.
+        while unstable - stable > 1e-4 * predicted {
+            let middle = 0.5 * (stable + unstable);
+            if self.growth(subject, integrator, middle) > 1.0 { unstable = middle } else { stable = middle }
+        }
+        Ok(0.5 * (stable + unstable))
+    }
+
+    /// By how much the error grows over a run of the firmware's controller at a fixed gain.
+    fn growth(&self, subject: &Subject, integrator: Integrator, gain: f64) -> f64 {
+        // A thousand times the rounding of f32, and so small that the linear theory holds: beyond the limit the chatter
+        // settles at an amplitude that grows from zero, and must be above this.
+        const OFFSET: f64 = 1e-4;
+        // 1/1000 beyond the limit is a factor of 1.002^1000 = 7; the share of the offset along the worst direction matters less.
+        const STEPS: usize = 1_000;
+        let controller = Controller::CERTIFIED.gain(Gain::Unlimited(gain as f32)).integrator(integrator);
+        let patch = &subject.patch;
+        let start = self.foot.map(|parameter| (parameter + OFFSET) as f32);
+        let mut witness = Witness::at(patch, start[0], start[1]);
+        let error = |witness: &Witness| {
+            let psi =
+                ProjectionErrors::new(&witness.surface, self.probe).measure_numbers().unwrap_or([f32::INFINITY; 2]);
+            f64::from(psi[0]).hypot(f64::from(psi[1]))
+        };
+        let before = error(&witness);
+        for _ in 0..STEPS {
+            controller.step(patch, &mut witness, Probe::at(self.probe), PERIOD as f32);
+        }
+        error(&witness) / before
+    }
+}
+
+/// A tick of the tracking.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// s.
+    pub time: f64,
+    /// `Q`, metres.
+    pub probe: DVec3,
+    /// `P`, metres.
+    pub witness: DVec3,
+    /// `(u, v)`.
+    pub parameters: [f64; 2],
+    /// `Ψᵘ, Ψᵛ`.
+    pub errors: [f64; 2],
+}
+
+/// The runs of the figure, one for each of [`GAINS`]: the slow one until it has converged too.
+pub fn runs(subject: &Subject, rest: &Configuration) -> [Vec<Sample>; 3] {
+    let [good, chatter, slow] = GAINS;
+    // Four time constants of the slow gain.
+    [(good, 0.7), (chatter, 0.7), (slow, 200.0)].map(|(gain, seconds)| track(subject, rest, gain, seconds))
+}
+
+/// Follows the moving probe with a fixed gain, whatever comes of it, for so many seconds.
+fn track(subject: &Subject, rest: &Configuration, gain: f64, seconds: f64) -> Vec<Sample> {
+    let controller = Controller::CERTIFIED.gain(Gain::Unlimited(gain as f32));
+    let patch = &subject.patch;
+    let start = [0, 1].map(|i| (rest.foot[i] + START[i]) as f32);
+    let mut witness = Witness::at(patch, start[0], start[1]);
+    let steps = (seconds / PERIOD).round() as usize;
+    (0..=steps)
+        .map(|step| {
+            let time = step as f64 * PERIOD;
+            let probe = probe_at(subject, rest, time);
+            let psi = ProjectionErrors::new(&witness.surface, probe).measure_numbers().unwrap_or_default();
+            let sample = Sample {
+                time,
+                probe: probe.as_dvec3(),
+                witness: witness.surface.point.as_dvec3(),
+                parameters: witness.parameters.map(f64::from),
+                errors: psi.map(f64::from),
+            };
+            controller.step(patch, &mut witness, Probe::at(probe), PERIOD as f32);
+            sample
+        })
+        .collect()
+}
+
+/// The probe keeps its distance; its foot goes to the rest in a straight line of parameters, and stops smoothly.
+fn probe_at(subject: &Subject, rest: &Configuration, time: f64) -> Vec3 {
+    let fraction = (time / MOTION).min(1.0);
+    let left = 1.0 - fraction * fraction * (3.0 - 2.0 * fraction);
+    if left == 0.0 {
+        return rest.probe;
+    }
+    let foot = [0, 1].map(|i| (rest.foot[i] + left * SETS_OUT[i]).clamp(0.0, 1.0));
+    let (surface, normal) = subject.at(foot);
+    (surface.point + normal * rest.distance).as_vec3()
+}
+
+/// A point of the sweep over distances.
+#[derive(Clone, Copy, Debug)]
+pub struct Limit {
+    /// The integrator.
+    pub integrator: Integrator,
+    /// `κ ‖ΔR‖`.
+    pub product: f64,
+    /// 1/s.
+    pub predicted: f64,
+    /// 1/s.
+    pub measured: f64,
+}
+
+/// Measures the limits of all integrators over distances from the foot where the probe of the figure rests.
+///
+/// # Errors
+/// A limit that is nowhere near the prediction.
+pub fn limits(subject: &Subject, oracle: &Oracle<'_>, rest: &Configuration) -> anyhow::Result<Vec<Limit>> {
+    let mut limits = Vec::new();
+    for integrator in [Integrator::Euler, Integrator::Heun, Integrator::RungeKutta4] {
+        for step in 1..=12 {
+            let product = f64::from(step) * 0.2;
+            let Some(configuration) = Configuration::over(subject, oracle, rest.foot, product) else { continue };
+            limits.push(Limit {
+                integrator,
+                product,
+                predicted: configuration.predicted_limit(integrator),
+                measured: configuration.measured_limit(subject, integrator)?,
+            });
+        }
+    }
+    Ok(limits)
+}

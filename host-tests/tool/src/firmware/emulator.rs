@@ -1,0 +1,258 @@
+//! A running emulator with the firmware in it.
+
+use super::qemu::Pace;
+use super::transport::Transport;
+use super::{Image, Link, LinkError, Qemu};
+use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
+use nix::sys::stat::Mode;
+use palpate::wire::Report;
+use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver};
+use std::fs::{self, File, OpenOptions};
+use std::io::{ErrorKind, Read, Write};
+use std::os::fd::{AsFd, OwnedFd};
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::process::{Child, ChildStdout, Command, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// How long a report may take. The emulator answers within a millisecond; over the UART it waits a second or so for a
+/// host that stays silent, and a loaded machine makes that several.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// How often to look whether the emulator is still there.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// A running emulator. It ends when this is dropped, or by itself if this program is gone.
+#[derive(Debug)]
+pub struct Emulator {
+    child: Child,
+    transport: Transport,
+    to_device: File,
+    from_device: File,
+    receiver: Receiver<Report>,
+    /// Bytes read ahead: those from `next` to `end` are still to be taken.
+    buffer: [u8; MAX_FRAME],
+    next: usize,
+    end: usize,
+    /// Holds the socket or FIFOs and what the emulator said.
+    folder: TempDir,
+}
+
+impl Emulator {
+    /// Starts an image.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start(qemu: &Qemu, image: &Image, transport: Transport) -> Result<Self, LinkError> {
+        let (command, folder) = command(qemu, image, Pace::Counting)?;
+        let (child, to_device, from_device) = match transport {
+            Transport::Uart => start_with_socket(command, &folder)?,
+            Transport::Fifo => start_with_fifos(command, &folder)?,
+        };
+        Ok(Self::new(child, transport, to_device, from_device, folder))
+    }
+
+    /// Starts an image that speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_telemetry(qemu: &Qemu, image: &Image) -> Result<(Self, UnixStream), LinkError> {
+        let (mut command, folder) = command(qemu, image, Pace::Brisk)?;
+        let (to_device, from_device) = open_fifos(&folder)?;
+        let (child, line) = accept_uart(&mut command, &folder)?;
+        Ok((Self::new(child, Transport::Fifo, to_device, from_device, folder), line))
+    }
+
+    /// Starts an image that speaks over FIFOs and writes to its standard output, which comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_output(qemu: &Qemu, image: &Image) -> Result<(Self, ChildStdout), LinkError> {
+        let (mut command, folder) = command(qemu, image, Pace::Brisk)?;
+        let (to_device, from_device) = open_fifos(&folder)?;
+        let mut child = command.stdout(Stdio::piped()).spawn()?;
+        let output = child.stdout.take().ok_or_else(|| LinkError::Io(ErrorKind::BrokenPipe.into()))?;
+        Ok((Self::new(child, Transport::Fifo, to_device, from_device, folder), output))
+    }
+
+    fn new(child: Child, transport: Transport, to_device: File, from_device: File, folder: TempDir) -> Self {
+        Self {
+            child,
+            transport,
+            to_device,
+            from_device,
+            receiver: Receiver::new(),
+            buffer: [0; MAX_FRAME],
+            next: 0,
+            end: 0,
+            folder,
+        }
+    }
+
+    /// Hangs up, so that the firmware finds its host gone, and waits for the emulator to end by itself.
+    ///
+    /// # Errors
+    /// [`LinkError::Silent`] if it is still running after that time.
+    pub fn hang_up(mut self, patience: Duration) -> Result<std::process::ExitStatus, LinkError> {
+        let nowhere = File::open("/dev/null")?;
+        self.to_device = nowhere.try_clone()?;
+        self.from_device = nowhere;
+        let start = Instant::now();
+        while start.elapsed() < patience {
+            if let Some(status) = self.child.try_wait()? {
+                return Ok(status);
+            }
+            std::thread::sleep(LOOK);
+        }
+        Err(LinkError::Silent(patience))
+    }
+
+    /// Waits until there is something to read.
+    fn wait(&mut self) -> Result<(), LinkError> {
+        let start = Instant::now();
+        let slice = PollTimeout::try_from(LOOK).unwrap_or(PollTimeout::ZERO);
+        loop {
+            let mut asked = [PollFd::new(self.from_device.as_fd(), PollFlags::POLLIN)];
+            match poll(&mut asked, slice) {
+                Ok(0) | Err(nix::errno::Errno::EINTR) => {}
+                Ok(_) => return Ok(()),
+                Err(error) => return Err(std::io::Error::from(error).into()),
+            }
+            if self.child.try_wait()?.is_some() {
+                return Err(self.ended());
+            }
+            if start.elapsed() > PATIENCE {
+                return Err(LinkError::Silent(PATIENCE));
+            }
+        }
+    }
+
+    /// Reads what is there.
+    fn fill(&mut self) -> Result<(), LinkError> {
+        self.wait()?;
+        self.next = 0;
+        self.end = match self.from_device.read(&mut self.buffer) {
+            Ok(0) => return Err(self.ended()),
+            Ok(read) => read,
+            Err(error) if error.kind() == ErrorKind::Interrupted => 0,
+            Err(error) => return Err(error.into()),
+        };
+        Ok(())
+    }
+
+    fn ended(&mut self) -> LinkError {
+        // The line may close a moment before the process is gone.
+        let start = Instant::now();
+        let mut status = None;
+        while status.is_none() && start.elapsed() < Duration::from_secs(2) {
+            status = self.child.try_wait().ok().flatten();
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let status = status.map_or_else(|| "it closed the line".to_owned(), |status| status.to_string());
+        LinkError::Ended { status, output: fs::read_to_string(self.folder.path().join("said")).unwrap_or_default() }
+    }
+}
+
+impl Link for Emulator {
+    fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
+        match self.to_device.write_all(bytes) {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Err(self.ended()),
+            result => Ok(result?),
+        }
+    }
+
+    fn stay_silent(&mut self) -> Result<(), LinkError> {
+        match self.transport {
+            // The device's own patience runs out.
+            Transport::Uart => Ok(()),
+            // Emulated time stands still while the device reads: say that there is nothing to say.
+            Transport::Fifo => self.send_bytes(&[DELIMITER]),
+        }
+    }
+
+    fn receive(&mut self) -> Result<Report, LinkError> {
+        loop {
+            while self.next < self.end {
+                let byte = self.buffer[self.next];
+                self.next += 1;
+                match self.receiver.feed(byte) {
+                    Some(Received::Message(report)) => return Ok(report),
+                    // The device always has something to say.
+                    Some(Received::Damaged | Received::Empty) => return Err(LinkError::Damaged),
+                    None => {}
+                }
+            }
+            self.fill()?;
+        }
+    }
+}
+
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        // It may have ended by itself: both calls then find nothing to do.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// The emulator's command line for an image, to be run in a folder of its own.
+fn command(qemu: &Qemu, image: &Image, pace: Pace) -> Result<(Command, TempDir), LinkError> {
+    let folder = tempfile::Builder::new().prefix("palpate-link-").tempdir()?;
+    let mut command = qemu.board(&image.elf, image.board, pace);
+    command.current_dir(folder.path()).stdout(Stdio::null()).stderr(File::create(folder.path().join("said"))?);
+    Ok((command, folder))
+}
+
+/// The UART is the link.
+fn start_with_socket(mut command: Command, folder: &TempDir) -> Result<(Child, File, File), LinkError> {
+    let (child, stream) = accept_uart(&mut command, folder)?;
+    let stream = File::from(OwnedFd::from(stream));
+    Ok((child, stream.try_clone()?, stream))
+}
+
+/// The FIFOs are the link.
+fn start_with_fifos(mut command: Command, folder: &TempDir) -> Result<(Child, File, File), LinkError> {
+    let (to_device, from_device) = open_fifos(folder)?;
+    Ok((command.spawn()?, to_device, from_device))
+}
+
+/// Starts the emulator with its UART on a socket. This program listens and the emulator calls: there is no moment at which one
+/// could miss the other.
+fn accept_uart(command: &mut Command, folder: &TempDir) -> Result<(Child, UnixStream), LinkError> {
+    let listener = UnixListener::bind(folder.path().join("uart"))?;
+    listener.set_nonblocking(true)?;
+    let mut child =
+        command.args(["-chardev", "socket,id=uart,path=uart,server=off", "-serial", "chardev:uart"]).spawn()?;
+    let start = Instant::now();
+    loop {
+        match listener.accept() {
+            Ok((stream, _)) => {
+                stream.set_nonblocking(false)?;
+                return Ok((child, stream));
+            }
+            Err(error) if error.kind() == ErrorKind::WouldBlock => {}
+            Err(error) => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(error.into());
+            }
+        }
+        let ended = child.try_wait()?;
+        if ended.is_some() || start.elapsed() > PATIENCE {
+            let _ = child.kill();
+            let status = child.wait()?.to_string();
+            let output = fs::read_to_string(folder.path().join("said")).unwrap_or_default();
+            return Err(LinkError::Ended { status, output });
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// Each FIFO is opened to read *and* write, which never blocks; the other end comes when the firmware opens it.
+fn open_fifos(folder: &TempDir) -> Result<(File, File), LinkError> {
+    let open = |name| {
+        let path = folder.path().join(name);
+        nix::unistd::mkfifo(&path, Mode::S_IRUSR | Mode::S_IWUSR).map_err(std::io::Error::from)?;
+        OpenOptions::new().read(true).write(true).open(path)
+    };
+    Ok((open("to-device")?, open("from-device")?))
+}

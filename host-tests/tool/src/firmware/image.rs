@@ -1,0 +1,173 @@
+//! Building the firmware image and measuring it.
+
+use super::process::output;
+use super::{BenchBoard, Board, Progress, SetUpError, Toolchain, Transport};
+use object::{Object, ObjectSection, SectionFlags, SectionKind, elf};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::{Mutex, PoisonError};
+use tempfile::TempDir;
+
+/// What goes into the image.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// The board.
+    pub board: Board,
+    /// A baked body; the board's default if `None`.
+    pub body: Option<PathBuf>,
+    /// A settings file; the board's default if `None`.
+    pub settings: Option<PathBuf>,
+}
+
+/// An image and what it takes.
+#[derive(Clone, Debug)]
+pub struct Image {
+    /// What it runs on.
+    pub board: Board,
+    /// The ELF file.
+    pub elf: PathBuf,
+    /// Bytes in flash: code, constants, and the first values of variables.
+    pub flash: u64,
+    /// Bytes of variables in RAM. The stack comes on top.
+    pub ram: u64,
+}
+
+/// The same firmware over each transport. The files are gone when this is dropped.
+#[derive(Debug)]
+pub struct Images {
+    uart: Image,
+    fifo: Image,
+    /// Keeps the files.
+    _folder: TempDir,
+}
+
+impl Images {
+    /// The image that speaks over a transport.
+    pub const fn of(&self, transport: Transport) -> &Image {
+        match transport {
+            Transport::Uart => &self.uart,
+            Transport::Fifo => &self.fifo,
+        }
+    }
+}
+
+impl Choice {
+    /// Where it is built. A body or settings of its own go apart from the rest: cargo builds anew what was built with others.
+    fn target_folder(&self, toolchain: &Toolchain) -> Result<PathBuf, SetUpError> {
+        let folder = toolchain.target_folder()?;
+        Ok(if self.body.is_some() || self.settings.is_some() { folder.join("chosen") } else { folder })
+    }
+}
+
+/// Builds the images with the body and settings of `choice`.
+///
+/// # Errors
+/// What the compiler says, or what is wrong with a file.
+pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Result<Images, SetUpError> {
+    let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
+    let build =
+        |transport: Transport| build_program(toolchain, choice, transport.binary(), &[], folder.path(), progress);
+    Ok(Images { uart: build(Transport::Uart)?, fifo: build(Transport::Fifo)?, _folder: folder })
+}
+
+/// Builds one of the board's programs into a folder, with features of its crate.
+///
+/// # Errors
+/// What the compiler says, or what is wrong with a file.
+pub fn build_program(
+    toolchain: &Toolchain,
+    choice: &Choice,
+    program: &str,
+    features: &[&str],
+    folder: &Path,
+    progress: &Progress,
+) -> Result<Image, SetUpError> {
+    // Another choice writes to the same place: the images are copied away before it may start.
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+
+    let mut cargo = cargo_build(toolchain, choice)?;
+    cargo.args(["--bin", program]);
+    for feature in features {
+        cargo.args(["--features", feature]);
+    }
+    let what = format!("building the firmware image {program} for {}", choice.board.core());
+    progress.during(&what, || output(&mut cargo))?;
+
+    let built = choice.target_folder(toolchain)?.join(toolchain.target()).join("release").join(program);
+    let elf = folder.join(program);
+    fs::copy(&built, &elf).map_err(SetUpError::io(built.display()))?;
+    measure(choice.board, elf)
+}
+
+/// Builds all programs of a board at once, on all cores: each is ready when it is asked for.
+///
+/// # Errors
+/// What is missing, or what the compiler says.
+pub fn build_all(board: Board, progress: &Progress) -> Result<(), SetUpError> {
+    let toolchain = Toolchain::set_up(board.target(), progress)?;
+    let mut cargo = cargo_build(&toolchain, &Choice { board, ..Choice::default() })?;
+    progress.during(&format!("building all firmware images for {}", board.core()), || output(cargo.arg("--bins")))?;
+    Ok(())
+}
+
+/// `cargo build` for a board, with a body and settings.
+fn cargo_build(toolchain: &Toolchain, choice: &Choice) -> Result<Command, SetUpError> {
+    let mut cargo = toolchain.cargo();
+    cargo
+        .current_dir(Board::folder()?)
+        .arg("--config")
+        .arg(choice.board.cargo_config()?)
+        .args(["build", "--release", "--target-dir"])
+        .arg(choice.target_folder(toolchain)?);
+    // The log's levels are chosen when it is compiled.
+    cargo.env("DEFMT_LOG", "info");
+    for (variable, file) in [("PALPATE_BODY", &choice.body), ("PALPATE_SETTINGS", &choice.settings)] {
+        match file {
+            Some(file) => cargo.env(variable, file.canonicalize().map_err(SetUpError::io(file.display()))?),
+            None => cargo.env_remove(variable),
+        };
+    }
+    Ok(cargo)
+}
+
+/// Builds the program of a board for the bench and gives the ELF file.
+///
+/// # Errors
+/// What the compiler says.
+pub fn build_bench(board: BenchBoard, progress: &Progress) -> Result<PathBuf, SetUpError> {
+    let toolchain = Toolchain::set_up(board.target(), progress)?;
+    let target_folder = toolchain.target_folder()?;
+    let mut cargo = toolchain.cargo();
+    cargo.current_dir(board.folder()?).args(["build", "--release", "--target-dir"]).arg(&target_folder);
+    progress.during(&format!("building the firmware for the board {}", board.name()), || output(&mut cargo))?;
+    Ok(target_folder.join(board.target()).join("release").join(board.name()))
+}
+
+/// Adds up the sections that the linker gave an address.
+fn measure(board: Board, elf: PathBuf) -> Result<Image, SetUpError> {
+    let content = fs::read(&elf).map_err(SetUpError::io(elf.display()))?;
+    let file = object::File::parse(content.as_slice()).map_err(|error| refused(&elf, &error.to_string()))?;
+    let (mut flash, mut ram) = (0, 0);
+    for section in file.sections() {
+        let SectionFlags::Elf { sh_flags, .. } = section.flags() else {
+            return Err(refused(&elf, "not an ELF file"));
+        };
+        let has = |flag| sh_flags & flag == flag;
+        if !has(elf::SHF_ALLOC) {
+            continue;
+        }
+        if section.kind() != SectionKind::UninitializedData {
+            flash += section.size();
+        }
+        if has(elf::SHF_WRITE) {
+            ram += section.size();
+        }
+    }
+    Ok(Image { board, elf, flash, ram })
+}
+
+fn refused(path: &Path, reason: &str) -> SetUpError {
+    SetUpError::Image { path: path.to_path_buf(), reason: reason.to_owned() }
+}

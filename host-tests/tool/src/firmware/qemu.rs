@@ -1,0 +1,80 @@
+//! Where the emulator is.
+
+use super::process::{apt_install, on_path, output};
+use super::{Board, Progress, SetUpError};
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const PROGRAM: &str = "qemu-system-arm";
+
+/// What the emulated clock goes by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// 64 ns an instruction whatever the host does, and time that is slept is skipped: every run is the same, and a count of
+    /// 25 MHz tells one instruction from the next.
+    Counting,
+    /// The same with 8 ns, as on a real board: time is left between two ticks for what runs below them, though a tick here has
+    /// frames to read and write that a real one has not. Instructions are not counted.
+    Brisk,
+    /// The host's clock, which is faster: nothing can be counted, and what does not look at a clock is the same.
+    Free,
+}
+
+impl Pace {
+    const fn instruction_count(self) -> Option<&'static str> {
+        match self {
+            Self::Counting => Some("shift=6,sleep=off"),
+            Self::Brisk => Some("shift=3,sleep=off"),
+            Self::Free => None,
+        }
+    }
+}
+
+/// An emulator that starts.
+#[derive(Clone, Debug)]
+pub struct Qemu {
+    program: PathBuf,
+    /// What it says about its version.
+    pub version: String,
+}
+
+impl Qemu {
+    /// The emulator that `PALPATE_QEMU` names, or the one on the search path; installed if it is missing and may be.
+    ///
+    /// # Errors
+    /// [`SetUpError::NoEmulator`], with the reason.
+    pub fn set_up(progress: &Progress) -> Result<Self, SetUpError> {
+        // Before anything is installed in vain.
+        crate::repository::root()?;
+        if let Some(program) = env::var_os("PALPATE_QEMU").filter(|program| !program.is_empty()) {
+            return Self::at(PathBuf::from(program));
+        }
+        if let Some(program) = on_path(PROGRAM) {
+            return Self::at(program);
+        }
+        apt_install(&[PROGRAM], progress).map_err(SetUpError::NoEmulator)?;
+        Self::at(on_path(PROGRAM).ok_or_else(|| SetUpError::NoEmulator(format!("{PROGRAM} did not come along")))?)
+    }
+
+    fn at(program: PathBuf) -> Result<Self, SetUpError> {
+        match output(Command::new(&program).arg("--version")) {
+            Ok(said) => Ok(Self { program, version: said.lines().next().unwrap_or_default().to_owned() }),
+            Err(error) => Err(SetUpError::NoEmulator(error.to_string())),
+        }
+    }
+
+    /// The command that runs an image on the emulated board.
+    pub fn board(&self, elf: &Path, board: Board, pace: Pace) -> Command {
+        let mut command = Command::new(&self.program);
+        command.stdin(Stdio::null()).args(["-machine", board.machine()]);
+        if let Some(count) = pace.instruction_count() {
+            command.args(["-icount", count]);
+        }
+        command
+            .args(["-nodefaults", "-no-user-config", "-display", "none", "-monitor", "none", "-nic", "none"])
+            .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
+            .arg(elf);
+        command
+    }
+}

@@ -1,0 +1,22 @@
+//! The host side of palpate: bakes model files into tables, simulates the device, runs the firmware in an emulator and
+//! prints the figures. The binary `palpate` is a thin front on this library; the tests use it directly.
+
+pub mod budgets;
+pub mod cad;
+pub mod closest;
+pub mod commands;
+pub mod cycles;
+pub mod devices;
+mod drawing;
+pub mod figures;
+pub mod firmware;
+pub mod models;
+pub mod monitor;
+pub mod proof;
+pub mod queries;
+pub mod race;
+pub mod report;
+pub mod repository;
+pub mod sides;
+pub mod simulation;
+pub mod zwidth;

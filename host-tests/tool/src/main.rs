@@ -1,0 +1,58 @@
+//! The host tool of palpate: `cargo palpate COMMAND`.
+
+use clap::{Parser, Subcommand};
+use palpate_tool::commands::{
+    bake, budgets, check, closest, cycles, demo, figures, firmware, image, import, monitor, race, sim, test, zwidth,
+};
+use std::process::ExitCode;
+
+#[derive(Parser)]
+#[command(name = "palpate", version, about = "Feel a CAD surface from a haptic device's own microcontroller")]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Demo(demo::Arguments),
+    Test(test::Arguments),
+    Check(check::Arguments),
+    Bake(bake::Arguments),
+    Budgets(budgets::Arguments),
+    Cycles(cycles::Arguments),
+    Closest(closest::Arguments),
+    Sim(sim::Arguments),
+    Figures(figures::Arguments),
+    Firmware(firmware::Arguments),
+    Image(image::Arguments),
+    Import(import::Arguments),
+    Monitor(monitor::Arguments),
+    Zwidth(zwidth::Arguments),
+    Race(race::Arguments),
+}
+
+fn main() -> ExitCode {
+    let outcome = match CommandLine::parse().command {
+        Command::Demo(arguments) => demo::run(&arguments),
+        Command::Test(arguments) => test::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Bake(arguments) => bake::run(&arguments),
+        Command::Budgets(arguments) => budgets::run(&arguments),
+        Command::Cycles(arguments) => cycles::run(&arguments),
+        Command::Closest(arguments) => closest::run(&arguments),
+        Command::Sim(arguments) => sim::run(&arguments),
+        Command::Figures(arguments) => figures::run(&arguments),
+        Command::Firmware(arguments) => firmware::run(&arguments),
+        Command::Image(arguments) => image::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
+        Command::Monitor(arguments) => monitor::run(&arguments),
+        Command::Zwidth(arguments) => zwidth::run(&arguments),
+        Command::Race(arguments) => race::run(&arguments),
+    };
+    // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).
+    outcome.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        ExitCode::from(2)
+    })
+}

@@ -1,0 +1,10 @@
+//! What a run shows: its figures as text, and one HTML file with the plots inside.
+
+mod html;
+mod page;
+pub mod plots;
+mod summary;
+
+pub use html::write_page;
+pub use page::Page;
+pub use summary::{Instructions, Summary};

@@ -1,0 +1,18 @@
+//! What a page shows.
+
+use crate::simulation::Trace;
+use palpate::patch::SplinePatch;
+
+/// What goes on the page.
+pub struct Page<'a> {
+    /// The headline.
+    pub title: &'a str,
+    /// One sentence: what was run, on what.
+    pub subtitle: &'a str,
+    /// Name and value of each figure.
+    pub figures: &'a [(&'static str, String)],
+    /// The run.
+    pub trace: &'a Trace,
+    /// The surface that was touched.
+    pub patches: &'a [&'a SplinePatch],
+}

@@ -1,0 +1,15 @@
+//! Bodies of several patches: Voronoi regions, the two-level tracker, the global start.
+//!
+//! `PALPATE_PROBES`, `PALPATE_TICKS` and `PALPATE_STARTS` set the numbers for long runs.
+
+mod cold;
+mod converging;
+mod locator;
+mod plate;
+mod refusals;
+mod regions;
+mod scene;
+mod signs;
+mod tour;
+mod tracker;
+mod walk;

@@ -1,0 +1,102 @@
+//! What the tracker must not do: take a step that leads away, or leave an edge before both of its faces have been asked.
+
+use crate::scene::repeat;
+use palpate::body::{Body, Feature, Separator, Side};
+use palpate::math::Vec3;
+use palpate::patch::SecondDerivativeBounds;
+use palpate::track::{Controller, Outcome, Probe};
+use palpate_bake::{BakedBody, Model};
+use std::path::Path;
+
+const PERIOD: f32 = 1.0 / 4_000.0;
+
+fn baked(name: &str) -> BakedBody {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models").join(format!("{name}.toml"));
+    let baked = BakedBody::new(&Model::read(&path).unwrap(), name).unwrap();
+    let options = baked.locator_options();
+    baked.located(&options, &|_, _| ()).unwrap().0
+}
+
+/// The capped box with bounds of its curvature that are a lie: steps go too far.
+fn lying() -> Body {
+    let mut baked = baked("capped_box");
+    for face in &mut baked.faces {
+        face.patch.shape.second_derivatives = SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 };
+    }
+    for edge in &mut baked.edges {
+        edge.curve.second_derivative = 0.0;
+    }
+    baked.to_body().unwrap()
+}
+
+#[test]
+fn a_step_that_leads_away_is_undone_on_faces_and_on_edges() {
+    let body = lying();
+    let seen = repeat(2_000, 41, |random| {
+        let direction = Vec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0) as f32)).normalize();
+        // Beyond the radii of curvature, some 0.1 m, a step to where the tangent leads goes too far.
+        let probe = direction * random.between(0.3, 0.6) as f32;
+        let start = [random.between(0.0, 1.0) as f32, random.between(0.0, 1.0) as f32];
+        let mut state = body.start_on(random.below(body.faces().len()) as u16, start);
+        let mut undone = [0_u32; 2];
+        for tick in 0..100 {
+            let before = state.witness.surface.point.as_dvec3().distance(probe.as_dvec3());
+            let at = state.witness.surface.point;
+            let step = body.track(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD);
+            let now = state.witness.surface.point.as_dvec3().distance(probe.as_dvec3());
+            undone[usize::from(matches!(state.feature, Feature::Edge(_)))] +=
+                u32::from(step.outcome == Outcome::Undone);
+            let coordinates = (at.abs() + probe.abs())
+                .max_element()
+                .max((state.witness.surface.point.abs() + probe.abs()).max_element())
+                + body.size();
+            // 64 roundings of the squared distance are allowed, 32 of the distance; and a few of the comparison itself.
+            let allowed = 34.0 * f64::from(f32::EPSILON * coordinates);
+            assert!(
+                now - before <= allowed,
+                "tick {tick}: {} m farther from {probe}, {:?}",
+                now - before,
+                state.feature
+            );
+        }
+        undone
+    });
+    let [faces, edges] = seen.iter().fold([0, 0], |[faces, edges], [face, edge]| [faces + face, edges + edge]);
+    println!("steps undone: {faces} on faces, {edges} on edges");
+    assert!(faces > 100 && edges > 100, "undone: {faces} on faces, {edges} on edges");
+}
+
+/// From the end of an edge, where it holds the witness point, to its second face: by way of no vertex.
+#[test]
+fn an_edge_is_not_left_for_its_vertex_before_both_faces_have_declined() {
+    let body = baked("thin_plate").to_body().unwrap();
+    let reach = 0.01 * body.size();
+    let mut tried = 0;
+    for (index, vertex) in body.vertices().iter().enumerate() {
+        let spokes = &body.spokes()[usize::from(vertex.first_spoke)..][..usize::from(vertex.spokes)];
+        for spoke in spokes {
+            let edge = &body.edges()[usize::from(spoke.edge)];
+            let [first, second] =
+                edge.faces.map(|of| match body.faces()[usize::from(of.face)].sides[usize::from(of.side)] {
+                    Side::Edge { separator: Separator::Plane { normal, .. }, .. } => normal,
+                    ref other => panic!("not a plane: {other:?}"),
+                });
+            let mut state = body.start();
+            let mut go = |along: f32, out_of: [f32; 2]| {
+                let offset = spoke.direction * along + first * out_of[0] + second * out_of[1];
+                body.step(&Controller::CERTIFIED, &mut state, Probe::at(vertex.point + offset * reach), PERIOD);
+                state.feature
+            };
+            let rested = (0..500).map(|_| go(-1.0, [1.0, 1.0])).last();
+            assert_eq!(rested, Some(Feature::Vertex(index as u16)));
+            assert_eq!(go(1.0, [1.0, 1.0]), Feature::Edge(spoke.edge));
+            // Beyond the edge's end, over the second face.
+            for _ in 0..2 {
+                let feature = go(-1.0, [1.0, -1.0]);
+                assert!(!matches!(feature, Feature::Vertex(_)), "edge {} was left for {feature:?}", spoke.edge);
+            }
+            tried += 1;
+        }
+    }
+    assert_eq!(tried, 24, "a plate has eight corners of three edges");
+}

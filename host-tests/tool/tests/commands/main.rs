@@ -1,0 +1,7 @@
+//! What the tool's commands take, refuse and print.
+
+mod figures;
+mod installed;
+mod outside;
+mod queries;
+mod race;

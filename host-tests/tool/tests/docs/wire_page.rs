@@ -1,0 +1,231 @@
+//! The page that documents the frames byte by byte, against frames as they are.
+//!
+//! What the page says is put together here with other means than the library's: the bytes of its tables, a CRC of one line and COBS
+//! by its definition. `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs wire_page` writes the tables anew.
+
+use palpate::wire::frame::{MAX_FRAME, pack};
+use palpate::wire::{Record, Report, Sensors};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::{env, fs};
+
+/// A field as it is documented.
+struct Field {
+    name: &'static str,
+    kind: &'static str,
+    value: String,
+    bytes: Vec<u8>,
+}
+
+fn var(mut number: u64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    while number >= 128 {
+        bytes.push(number as u8 | 0x80);
+        number >>= 7;
+    }
+    bytes.push(number as u8);
+    bytes
+}
+
+fn zig_zag(number: i64) -> Vec<u8> {
+    var(if number >= 0 { 2 * number } else { -2 * number - 1 } as u64)
+}
+
+fn field(name: &'static str, kind: &'static str, value: impl ToString, bytes: Vec<u8>) -> Field {
+    Field { name, kind, value: value.to_string(), bytes }
+}
+
+fn vars(name: &'static str, number: u32) -> Field {
+    field(name, "var", number, var(number.into()))
+}
+
+fn byte(name: &'static str, number: u8) -> Field {
+    field(name, "u8", number, vec![number])
+}
+
+fn floats(name: &'static str, numbers: &[f32]) -> Field {
+    let kind = match numbers.len() {
+        1 => "f32",
+        2 => "two f32",
+        _ => "three f32",
+    };
+    let value: Vec<String> = numbers.iter().map(f32::to_string).collect();
+    field(name, kind, value.join(", "), numbers.iter().flat_map(|number| number.to_le_bytes()).collect())
+}
+
+fn zig_zags(name: &'static str, numbers: [i64; 3]) -> Field {
+    let value: Vec<String> = numbers.iter().map(i64::to_string).collect();
+    field(name, "three zig-zag", value.join(", "), numbers.into_iter().flat_map(zig_zag).collect())
+}
+
+/// CRC-32, bit by bit.
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| (crc >> 1) ^ if crc & 1 == 1 { 0xEDB8_8320 } else { 0 })
+    })
+}
+
+/// The frame of a message's bytes.
+fn frame(message: &[u8]) -> Vec<u8> {
+    let mut whole = [message, &crc(message).to_le_bytes()].concat();
+    whole.push(0);
+    let mut frame = Vec::new();
+    for stretch in whole.split_inclusive(|byte| *byte == 0) {
+        assert!(stretch.len() < 255, "no message is so long");
+        frame.push(stretch.len() as u8);
+        frame.extend(&stretch[..stretch.len() - 1]);
+    }
+    frame.push(0);
+    frame
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect::<Vec<_>>().join(" ")
+}
+
+/// A message's table and frame, as the page has them.
+fn section(fields: &[Field]) -> String {
+    let mut text = String::from("| at | bytes | field | kind | value |\n|---|---|---|---|---|\n");
+    let mut message = Vec::new();
+    for Field { name, kind, value, bytes } in fields {
+        let _ = writeln!(text, "| {} | `{}` | `{name}` | {kind} | {value} |", message.len(), hexadecimal(bytes));
+        message.extend(bytes);
+    }
+    let _ = write!(text, "\nFrame: `{}`\n", hexadecimal(&frame(&message)));
+    text
+}
+
+/// The page with a message's section as it should be.
+fn with_section(page: &str, title: &str, wanted: &str) -> String {
+    let heading = format!("## {title}\n");
+    let start = page.find(&heading).unwrap_or_else(|| panic!("the page has no section {title}")) + heading.len();
+    let end = page[start..].find("\n## ").map_or(page.len(), |at| start + at);
+    let table = start + page[start..end].find("| at |").unwrap_or_else(|| panic!("section {title} has no table"));
+    format!("{}{wanted}{}", &page[..table], &page[end..])
+}
+
+/// Asserts that the library's frame of a message is that of its documented fields, and gives the section.
+fn documented<M: Serialize>(message: &M, fields: &[Field]) -> String {
+    let bytes: Vec<u8> = fields.iter().flat_map(|field| field.bytes.clone()).collect();
+    let mut buffer = [0; MAX_FRAME];
+    assert_eq!(hexadecimal(pack(message, &mut buffer).expect("it fits")), hexadecimal(&frame(&bytes)));
+    section(fields)
+}
+
+#[test]
+fn every_byte_of_a_frame_is_documented() {
+    let sensors = Sensors { tick: 70_000, counts: [-1, 0, 300], enable: true };
+    let sensors = documented(
+        &sensors,
+        &[
+            vars("tick", sensors.tick),
+            zig_zags("counts", sensors.counts.map(i64::from)),
+            field("enable", "flag", 1, vec![1]),
+        ],
+    );
+    let report = Report {
+        tick: 70_000,
+        duties: [-1_200, 0, 64],
+        phase: 3,
+        fault: 0,
+        fault_tick: 0,
+        refusal: 0,
+        reset: 1,
+        overruns: 2,
+        feature: 0x4003,
+        mode: 5,
+        contact: 2,
+        room: 100,
+        parameters: [0.5, 0.25],
+        probe: [0.05, 0.06, 0.0725],
+        gap: -0.0015,
+        force: [0.0, 0.25, 0.875],
+        frames_lost: 0,
+        steps_undone: 0,
+        instructions: 1_366,
+        digest: 0x4213_209a,
+    };
+    let report = documented(
+        &report,
+        &[
+            vars("tick", report.tick),
+            zig_zags("duties", report.duties.map(i64::from)),
+            byte("phase", report.phase),
+            byte("fault", report.fault),
+            vars("fault_tick", report.fault_tick),
+            byte("refusal", report.refusal),
+            byte("reset", report.reset),
+            vars("overruns", report.overruns),
+            vars("feature", report.feature.into()),
+            byte("mode", report.mode),
+            byte("contact", report.contact),
+            byte("room", report.room),
+            floats("parameters", &report.parameters),
+            floats("probe", &report.probe),
+            floats("gap", &[report.gap]),
+            floats("force", &report.force),
+            vars("frames_lost", report.frames_lost),
+            vars("steps_undone", report.steps_undone),
+            vars("instructions", report.instructions),
+            vars("digest", report.digest),
+        ],
+    );
+    let record = Record {
+        tick: 70_000,
+        number: 1_750,
+        clock: 170_000_000,
+        began: 0x89ab_cdef,
+        shortest: 42_496,
+        longest: 42_511,
+        took: 9_800,
+        dropped: 0,
+        phase: 3,
+        fault: 0,
+        fault_tick: 0,
+        reset: 1,
+        overruns: 2,
+        feature: 0x4003,
+        mode: 5,
+        contact: 2,
+        gap: -0.0015,
+        probe: [0.05, 0.06, 0.0725],
+        force: [0.0, 0.25, 0.875],
+        duties: [-1_200, 0, 64],
+    };
+    let record = documented(
+        &record,
+        &[
+            vars("tick", record.tick),
+            vars("number", record.number),
+            vars("clock", record.clock),
+            vars("began", record.began),
+            vars("shortest", record.shortest),
+            vars("longest", record.longest),
+            vars("took", record.took),
+            vars("dropped", record.dropped),
+            byte("phase", record.phase),
+            byte("fault", record.fault),
+            vars("fault_tick", record.fault_tick),
+            byte("reset", record.reset),
+            vars("overruns", record.overruns),
+            vars("feature", record.feature.into()),
+            byte("mode", record.mode),
+            byte("contact", record.contact),
+            floats("gap", &[record.gap]),
+            floats("probe", &record.probe),
+            floats("force", &record.force),
+            zig_zags("duties", record.duties.map(i64::from)),
+        ],
+    );
+
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/wire.md");
+    let page = fs::read_to_string(&path).expect("the page is there");
+    let sections = [("Sensors", sensors), ("Report", report), ("Record", record)];
+    let wanted = sections.iter().fold(page.clone(), |page, (title, section)| with_section(&page, title, section));
+    if env::var_os("PALPATE_WRITE").is_some() {
+        fs::write(&path, &wanted).expect("the page can be written");
+    } else {
+        assert!(page == wanted, "docs/wire.md is not what the library sends; it should be:\n{wanted}");
+    }
+}

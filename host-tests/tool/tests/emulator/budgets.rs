@@ -1,0 +1,68 @@
+//! What the hot path costs is a budget, and some of it is promised.
+
+use crate::running::is_wanted;
+use palpate_tool::budgets::{Budget, Verdict, measure};
+use palpate_tool::firmware::{Board, Progress};
+
+/// A biquadratic evaluation by Horner's rule cannot do with fewer instructions: `palpate::patch` counts them.
+const EVALUATION_FLOOR: u32 = 94;
+/// The most for a servo tick of three joints. The watch that ends contact which no motion explains is part of it.
+const SERVO_TICK: u32 = 1_700;
+/// The most for the closest point on a face of degree 3, away from its border.
+const ON_A_FACE: u32 = 560;
+
+#[test]
+fn the_hot_path_is_within_its_budget() {
+    if !is_wanted("the_hot_path_is_within_its_budget") {
+        return;
+    }
+    for board in Board::ALL {
+        compare(board);
+    }
+}
+
+fn compare(board: Board) {
+    let found = measure(board, &Progress::new()).expect("the program runs to its end");
+    let verdicts = Budget::load(board).expect("the committed budget").compare(&found);
+    let over: Vec<String> = verdicts
+        .iter()
+        .filter(|verdict| verdict.fails())
+        .map(|Verdict { name, found, allowed }| format!("{name}: {found:?} instructions, {allowed:?} recorded"))
+        .collect();
+    assert!(
+        over.is_empty(),
+        "{}: worse than the budget by more than 3 %, missing or new:\n{}\n`cargo palpate budgets --board {name}` prints all; if this is meant, \
+         record it with `cargo palpate budgets --board {name} --record`",
+        board.core(),
+        over.join("\n"),
+        name = board.name(),
+    );
+
+    let of = |name: &str| found.of(name).unwrap_or_else(|| panic!("{name} is not counted"));
+    let evaluation = of("evaluation, polynomial, degree (2, 2)");
+    assert!(
+        4 * evaluation <= 5 * EVALUATION_FLOOR,
+        "{board:?}: a biquadratic evaluation takes {evaluation} instructions"
+    );
+    let (step, evaluation) = (of("step on the face, worst"), of("evaluation, 3 x 3 spans of degree (2, 2), worst"));
+    assert!(
+        step <= 2 * evaluation,
+        "{board:?}: a step on the face takes {step} instructions, its evaluation {evaluation}"
+    );
+    // The capped box has faces of degree 3.
+    let evaluation = of("evaluation, polynomial, degree (3, 3)");
+    let closest = of("closest point of the capped box with normal, gap and contact, any, worst");
+    assert!(
+        closest <= 4 * evaluation,
+        "{board:?}: the worst tick on the capped box takes {closest} instructions, an evaluation {evaluation}"
+    );
+    for side in ["in front of it", "pressed into it"] {
+        let closest = of(&format!("closest point of the capped box, on a face, {side}, worst"));
+        assert!(
+            closest <= ON_A_FACE,
+            "{board:?}: the closest point on a face, {side}, takes {closest} instructions, an evaluation {evaluation}"
+        );
+    }
+    let tick = of("servo tick, worst");
+    assert!(tick <= SERVO_TICK, "{board:?}: a servo tick takes {tick} instructions");
+}

@@ -1,0 +1,69 @@
+//! The demo's own scene, whole: the host's loop and the firmware's agree bit for bit, tick by tick, while each drives the
+//! plant with its own duties.
+
+use crate::running::is_wanted;
+use clap::Parser;
+use palpate_tool::commands::demo::prepare;
+use palpate_tool::commands::options::{Scene, SceneOptions};
+use palpate_tool::firmware::{Board, Link, Progress, Transport};
+use palpate_tool::report::Summary;
+use palpate_tool::simulation::{Trace, run};
+
+#[derive(Parser)]
+struct Demo {
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
+    let mut plant = options.plant(scene).expect("the plant starts");
+    run(link, &mut plant, f64::from(scene.settings.rate), scene.ticks, scene.enable_at, |_| ())
+        .expect("no frame is lost")
+}
+
+/// The firmware's trace and the host's of a scene from the command line, the same in every bit of every tick.
+fn traces(arguments: &[&str]) -> [Trace; 2] {
+    let Demo { options } = Demo::parse_from(arguments);
+    let scene = options.scene().expect("the demo's scene");
+    let firmware = prepare(Board::M4, &scene, &Progress::new()).expect("the image builds");
+    let mut emulator = firmware.start(Transport::Fifo).expect("the emulator starts");
+    let device = trace(&options, &scene, &mut emulator);
+    let host = trace(&options, &scene, scene.host_loop().expect("good settings").as_mut());
+
+    assert_eq!(device.samples.len(), host.samples.len());
+    for (there, here) in device.samples.iter().zip(&host.samples) {
+        assert_eq!(there.sensors, here.sensors, "the plant saw other duties before tick {}", here.report.tick);
+        assert_eq!(there.report.digest, here.report.digest, "the states differ after tick {}", here.report.tick);
+    }
+    [device, host]
+}
+
+#[test]
+fn every_device_of_three_joints_touches_alike_on_host_and_board() {
+    if !is_wanted("the other devices on the emulated board") {
+        return;
+    }
+    // The hand needs two seconds for its touches.
+    for name in ["polhem-v2", "phantom-premium", "falcon"] {
+        let [board, _] = traces(&["demo", "--device", name, "--seconds", "2"]).map(|trace| Summary::new(&trace));
+        assert!(board.touches > 0 && board.fault.is_none() && board.steps_undone == 0, "{name}: {board}");
+        println!("{name}: {:?}", board.rows());
+    }
+}
+
+#[test]
+fn host_and_firmware_agree_in_every_bit_of_every_tick_of_the_demo() {
+    if !is_wanted("the demo on the emulated board") {
+        return;
+    }
+    let [device, host] = traces(&["demo"]);
+    let [device, host] = [device, host].map(|trace| Summary::new(&trace));
+    assert_eq!(device.state_hash, host.state_hash);
+    // A demo that touches nothing would agree too.
+    assert!(host.ticks == 20_000 && host.touches > 3 && host.mode_changes > 3 && host.contact_time > 1.0, "{host}");
+    // What else the README shows of the demo is held to the host's run of it (`docs/readme.rs`): it is the same.
+    let readme = include_str!("../../../../README.md");
+    let row = format!("  {:<20} {:08x}", "state hash", device.state_hash);
+    assert!(readme.contains(&row), "the README does not show {row:?}");
+    assert!(device.fault.is_none() && device.frames_lost == 0 && device.steps_undone == 0, "{device}");
+}

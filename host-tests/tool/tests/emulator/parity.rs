@@ -1,0 +1,60 @@
+//! A million ticks that visit everything a servo can do, on every core and on the host: the same bits.
+
+use crate::running::is_wanted;
+use palpate::servo::{Fault, Phase};
+use palpate_exercise::tally::Tally;
+use palpate_tool::firmware::{Board, Pace, Program, Progress};
+use std::io::{Write, stderr};
+use std::thread;
+use std::time::Instant;
+
+/// What the host prints, and the tallies.
+fn on_host() -> (String, Vec<Tally>) {
+    let (mut lines, mut tallies) = (String::new(), Vec::new());
+    palpate_exercise::run(&mut |name, tally| {
+        lines += &format!("{name} {tally}\n");
+        tallies.push(*tally);
+    });
+    (lines, tallies)
+}
+
+#[test]
+fn every_core_and_the_host_agree_in_every_bit_of_a_million_ticks() {
+    if !is_wanted("every_core_and_the_host_agree_in_every_bit_of_a_million_ticks") {
+        return;
+    }
+    let programs = Board::ALL.map(|board| Program::prepare(board, "parity", &[], &Progress::new()).unwrap());
+    let (host, _) = on_host();
+    thread::scope(|scope| {
+        for program in &programs {
+            let host = &host;
+            scope.spawn(move || {
+                let start = Instant::now();
+                let board = program.run(Pace::Free).unwrap();
+                let core = program.image.board.core();
+                assert_eq!(&board, host, "{core} and the host differ");
+                let seconds = start.elapsed().as_secs_f64();
+                let _ = writeln!(stderr(), "{core}: {} ticks agree, {seconds:.0} s", palpate_exercise::TICKS);
+            });
+        }
+    });
+}
+
+#[test]
+fn the_million_ticks_visit_every_mode_phase_and_fault() {
+    let (_, tallies) = on_host();
+    assert_eq!(tallies.len() as u32, palpate_exercise::TICKS / palpate_exercise::TICKS_PER_LINE);
+    let all = |of: fn(&Tally) -> u32| tallies.iter().map(of).fold(0, |all, bits| all | bits);
+    assert_eq!(all(|tally| tally.modes), 0b111_1110, "modes");
+    // No tick ends in the phase before the first tick.
+    let phases =
+        Phase::ALL.iter().filter(|phase| **phase != Phase::Reset).fold(0, |all, phase| all | 1 << *phase as u32);
+    assert_eq!(all(|tally| tally.phases), phases, "phases");
+    assert_eq!(all(|tally| tally.faults), Fault::ALL.iter().fold(0, |all, fault| all | 1 << fault.code()), "faults");
+    for (part, bits) in [0b11_1111, 0xfff, 0xff].into_iter().enumerate() {
+        let visited = tallies.iter().fold(0, |all, tally| all | tally.features[part]);
+        assert_eq!(visited, bits, "faces, edges and vertices of the capped box: part {part}");
+    }
+    let most = |of: fn(&Tally) -> u32| tallies.iter().map(of).max().unwrap();
+    assert!(most(|tally| tally.touches) > 100 && most(|tally| tally.touching) > 40_000, "{tallies:?}");
+}

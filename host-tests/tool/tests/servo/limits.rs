@@ -1,0 +1,72 @@
+//! The limit that the one-mass slice predicts, against the three-dimensional arm.
+
+use crate::surfaces::WALL;
+use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::device::{Counts, Device, SerialArm, VelocityMethod};
+use palpate::math::Vec3;
+use palpate::servo::{Input, Rendering, Servo, Settings};
+use palpate::track::Controller;
+use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_tool::devices::named;
+use palpate_tool::zwidth::{Loop, Slice, max_stiffness};
+
+const FREE: Device<SerialArm, 3> = Device { max_stiffness: 1e6, max_damping: 1e3, ..WOODEN_HAPTICS_2016 };
+
+/// Comes down at 50 mm/s from 2 mm above to 20 mm below, and stays.
+struct Hit;
+
+impl HandPath for Hit {
+    fn target(&self, time: f64) -> Vector {
+        [0.0, 0.0, (0.002 - 0.05 * time).max(-0.02)]
+    }
+    fn velocity(&self, time: f64) -> Vector {
+        [0.0, 0.0, if self.target(time)[2] > -0.02 { -0.05 } else { 0.0 }]
+    }
+}
+
+/// The swing of the probe's height at the end, in counts along the vertical, of a wall pressed by a soft hand that
+/// hardly damps.
+fn swing(stiffness: f32, damping: f32, rate: f64) -> f64 {
+    let settings = Settings {
+        rate: rate as f32,
+        stiffness,
+        damping,
+        max_force: 5.0,
+        velocity_corner: 200.0,
+        soft_start: 0.0,
+        body_origin: Vec3::ZERO,
+    };
+    // 40 N/m and 20 mm: 0.8 N. The links' weight helps: it is not carried.
+    let servo = Servo::new(&FREE, &WALL, Controller::CERTIFIED, settings)
+        .rendering(Rendering { carries_weight: false, ..Rendering::PLAIN });
+    let hand = HandSettings { stiffness: 40.0, damping: 0.1, mass: 0.0 };
+    let mut plant = Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Hit), rate).unwrap();
+    let mut state = servo.start();
+    let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+    let ticks = (2.4 * rate) as usize;
+    for tick in 0..ticks {
+        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        assert_eq!(state.fault(), None);
+        plant.advance(state.duties().map(|duty| duty.0));
+        if tick > ticks * 7 / 8 {
+            lowest = lowest.min(plant.position()[2]);
+            highest = highest.max(plant.position()[2]);
+        }
+    }
+    (highest - lowest) / Slice::of(named("woodenhaptics-2016").unwrap()).resolution
+}
+
+#[test]
+fn the_arm_holds_below_the_slice_s_limit_and_swings_above_it() {
+    for (rate, damping) in [(1_000.0, 0.0), (1_000.0, 2.0), (4_000.0, 0.0), (4_000.0, 4.0)] {
+        let servo = Loop { rate, delay_periods: 1.0, velocity: VelocityMethod::LowPass, corner: 200.0 };
+        let limit = max_stiffness(&Slice::of(named("woodenhaptics-2016").unwrap()), damping, &servo);
+        let swings = [0.5, 0.7, 1.0, 1.4, 2.0, 3.0].map(|share| swing((limit * share) as f32, damping as f32, rate));
+        println!(
+            "{rate} Hz, {damping} N·s/m: the slice's limit {limit:.0} N/m; swings at 0.5 to 3 times it {swings:.1?} counts"
+        );
+        // Friction couples the joints in three dimensions and the mass depends on the pose: half and three times.
+        assert!(swings[0] <= 2.0, "{swings:?}");
+        assert!(swings[5] > 2.0, "{swings:?}");
+    }
+}

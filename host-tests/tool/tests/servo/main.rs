@@ -1,0 +1,14 @@
+//! The servo loop against the simulated device, against faults, against arbitrary sensors and arbitrary frames.
+
+mod faults;
+mod frames;
+mod fuzz;
+mod harmed;
+mod homing;
+mod limits;
+mod passivity;
+mod surfaces;
+mod touch;
+mod traces;
+mod velocity;
+mod weight;

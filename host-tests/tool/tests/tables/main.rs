@@ -1,0 +1,11 @@
+//! From a model file to the tables: what comes out, and what is refused.
+
+mod body_source;
+mod committed;
+mod models;
+mod random_patches;
+mod splitting;
+mod spoiled_models;
+mod spoiled_seams;
+mod spoiled_tables;
+mod topology;

@@ -1,0 +1,208 @@
+//! Ways to spoil a model file: each is refused with a message that names file, patch and entry, exit status 2, no output.
+
+use palpate_bake::{BakedPatch, Model};
+use proptest::prelude::*;
+use std::error::Error;
+use std::fs;
+use std::process::Command;
+
+const GOOD: &str = r#"name = "good"
+unit = "mm"
+
+[[patch]]
+name = "top"
+degree = [2, 1]
+knots_u = [0, 0, 0, 0.5, 1, 1, 1]
+knots_v = [0, 0, 1, 1]
+points = [
+  [[0, 0, 0], [0, 9, 0]],
+  [[3, 0, 1], [3, 9, 1]],
+  [[6, 0, 1], [6, 9, 1]],
+  [[9, 0, 0], [9, 9, 0]],
+]
+
+[[patch]]
+degree = [1, 1]
+flip = true
+points = [ [[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]] ]
+"#;
+
+/// What is replaced, by what, and what the message must say.
+const SPOILED: &[(&str, &str, &str)] = &[
+    // Points.
+    ("  [[3, 0, 1], [3, 9, 1]],\n", "", r#"patch "top": knots_u has 7 knots: 3 points of degree 2 need 6"#),
+    ("[[3, 0, 1], [3, 9, 1]]", "[[3, 0, 1]]", r#"patch "top": points[1] has 1 points, points[0] has 2"#),
+    ("[3, 9, 1]", "[3, 9]", r#"patch "top": points[1][1] has 2 numbers"#),
+    ("[3, 9, 1]", "[3, 9, 1, 1, 1]", r#"patch "top": points[1][1] has 5 numbers"#),
+    ("[3, 9, 1]", "[3, nan, 1]", r#"patch "top": points[1][1]: y is NaN"#),
+    ("[3, 9, 1]", "[3, 9, -inf]", r#"patch "top": points[1][1]: z is -inf"#),
+    ("[3, 9, 1]", "[\"3\", 9, 1]", "invalid type: string"),
+    (
+        "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
+        "",
+        "patch 1: 0 points along u: degree 1 needs at least 2",
+    ),
+    (
+        "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7",
+        "[[0, 0, -5, 1], [0, 7, -5, 2]], [[1, 1, 1], [1, 1, 1]], [[7",
+        "patch 1: 3 points along u without knots_u: a Bézier patch of degree 1 has 2",
+    ),
+    // Weights.
+    ("[0, 7, -5, 2]", "[0, 7, -5, 0]", "patch 1: points[0][1]: the weight is 0"),
+    ("[0, 7, -5, 2]", "[0, 7, -5, -1]", "patch 1: points[0][1]: the weight is -1"),
+    ("[0, 7, -5, 2]", "[0, 7, -5, nan]", "patch 1: points[0][1]: the weight is NaN"),
+    ("[0, 7, -5, 2]", "[0, 7, -5, inf]", "patch 1: points[0][1]: the weight is inf"),
+    ("[0, 7, -5, 2]", "[0, 7, -5, 1e7]", "patch 1: span 0, 0: weights or knots are too uneven"),
+    // Degrees.
+    ("degree = [1, 1]", "degree = [0, 1]", "patch 1: degree along u is 0: 1 to 5"),
+    ("degree = [1, 1]", "degree = [1, 6]", "patch 1: degree along v is 6: 1 to 5"),
+    ("degree = [1, 1]", "degree = [-1, 1]", "patch 1: degree along u is -1"),
+    ("degree = [1, 1]", "degree = [1]", "invalid length 1"),
+    ("degree = [2, 1]", "degree = [5, 1]", r#"patch "top": 4 points along u: degree 5 needs at least 6"#),
+    // Knots.
+    ("0.5, 1, 1, 1]", "0.5, 1, 1]", r#"patch "top": knots_u has 6 knots: 4 points of degree 2 need 7"#),
+    ("0.5, 1, 1, 1]", "0.5, 1, 1, 1, 1]", r#"patch "top": knots_u has 8 knots"#),
+    ("0.5, 1, 1, 1]", "1.5, 1, 1, 1]", r#"patch "top": knots_u[4] = 1 is below knots_u[3] = 1.5"#),
+    ("0.5, 1, 1, 1]", "nan, 1, 1, 1]", r#"patch "top": knots_u[3] is NaN"#),
+    ("0.5, 1, 1, 1]", "1e-9, 1, 1, 1]", r#"patch "top": knots_u: 0 and 0.000000001 are too near each other"#),
+    ("0, 0, 0, 0.5, 1, 1, 1]", "0, 0, 0.1, 0.1, 0.1, 0.1, 1]", r#"patch "top": knots_u: the range of u is empty"#),
+    (
+        "0, 0, 0, 0.5, 1, 1, 1]",
+        "0, 0, 0, 0, 1, 1, 1]",
+        r#"patch "top": knots_u: 0 appears 4 times at an end: at most degree + 1 = 3"#,
+    ),
+    ("knots_v = [0, 0, 1, 1]", "knots_v = [0, 0, 0, 0]", r#"patch "top": knots_v: the range of v is empty"#),
+    ("knots_v = [0, 0, 1, 1]", "knots_v = [-1e308, -1e308, 1e308, 1e308]", r#"patch "top": knots_v: "#),
+    // Shapes.
+    (
+        "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
+        "[[0, 0, 0], [1, 0, 0]], [[2, 0, 0], [9, 0, 0]]",
+        "patch 1: it has no area",
+    ),
+    (
+        "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
+        "[[1, 1, 1], [1, 1, 1]], [[1, 1, 1], [1, 1, 1]]",
+        "patch 1: it has no area",
+    ),
+    ("[7, 7, -5, 1]", "[7, 7e9, -5, 1]", "m large"),
+    (
+        "[0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
+        "[0, 1e-7, -5, 2]], [[1e-7, 0, -5, 1], [1e-7, 1e-7, -5, 1]]",
+        "m large: from 1e-6 m",
+    ),
+    (
+        "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
+        "[[0, 0, 9e5], [0, 7, 9e5]], [[7, 0, 9e5], [7, 7, 9e5]]",
+        "patch 1: it lies 9e2 m from the origin",
+    ),
+    ("[7, 7, -5, 1]", "[7, 1e300, -5, 1]", "patch 1: it is"),
+    // The file.
+    ("unit = \"mm\"", "unit = \"inch\"", "unit \"inch\" is unknown: m, cm or mm"),
+    ("unit = \"mm\"\n", "", "missing field `unit`"),
+    ("unit = \"mm\"", "unit = \"mm\"\nscale = 2", "unknown field `scale`"),
+    ("flip = true", "flipped = true", "unknown field `flipped`"),
+    ("flip = true", "flip = 1", "invalid type: integer `1`, expected a boolean"),
+    ("flip = true", "name = \"top\"", "patches 0 and 1 are both named \"top\""),
+    ("flip = true", "name = \"\"", "patch \"\": name is empty"),
+    ("unit = \"mm\"", "unit = \"mm", "line 2"),
+];
+
+#[test]
+fn a_spoiled_model_file_is_refused_with_a_message_and_no_output() -> Result<(), Box<dyn Error>> {
+    let directory = tempfile::tempdir()?;
+    let (file, out) = (directory.path().join("spoiled.toml"), directory.path().join("out.rs"));
+    let bake = |text: &str| -> Result<(Option<i32>, String), Box<dyn Error>> {
+        fs::write(&file, text)?;
+        let run = Command::new(env!("CARGO_BIN_EXE_palpate")).arg("bake").arg(&file).arg("--out").arg(&out).output()?;
+        Ok((run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned()))
+    };
+    let (status, message) = bake(GOOD)?;
+    assert_eq!(status, Some(1), "usable, not certified: {message}");
+    fs::remove_file(&out)?;
+    let mut refused = 0;
+    let empty = [("", "missing field `unit`"), ("unit = \"mm\"\n", "the model has no patch")];
+    let edited = SPOILED.iter().map(|(from, to, expected)| {
+        assert!(GOOD.contains(from), "{from} is not in the model");
+        (GOOD.replacen(from, to, 1), *expected)
+    });
+    for (text, expected) in edited.chain(empty.map(|(text, expected)| (text.to_owned(), expected))) {
+        let (status, message) = bake(&text)?;
+        assert!(message.contains(expected), "expected {expected:?}, got: {message}");
+        assert!(message.contains("spoiled.toml"), "{message}");
+        assert_eq!(status, Some(2), "{message}");
+        assert_eq!(fs::read_dir(&directory)?.count(), 1, "nothing is written: {expected}");
+        refused += 1;
+    }
+    println!("{refused} spoiled files refused");
+    Ok(())
+}
+
+#[test]
+fn an_inner_knot_that_tears_the_surface_is_named() {
+    let torn = GOOD.replacen("[0, 0, 0, 0.5, 1, 1, 1]", "[0, 0, 0, 0.5, 0.5, 0.5, 1, 1, 1]", 1).replacen(
+        "  [[6, 0",
+        "  [[4, 0, 1], [4, 9, 1]], [[5, 0, 1], [5, 9, 1]],\n  [[6, 0",
+        1,
+    );
+    let message = Model::parse(&torn, "torn.toml").err().map(|error| error.to_string());
+    let expected =
+        "torn.toml: patch \"top\": knots_u: 0.5 appears 3 times inside: above degree 2 the surface is torn there";
+    assert_eq!(message.as_deref(), Some(expected));
+}
+
+#[test]
+fn more_spans_than_the_target_takes_are_refused() {
+    let points: Vec<_> = (0..=257).map(|i| format!("[[{i}, 0, 0], [{i}, 9, 0]]")).collect();
+    let knots: Vec<_> = [0].into_iter().chain(0..=257).chain([257]).map(|knot| knot.to_string()).collect();
+    let text = format!(
+        "name = \"long\"\nunit = \"mm\"\n[[patch]]\ndegree = [1, 1]\nknots_u = [{}]\npoints = [{}]\n",
+        knots.join(", "),
+        points.join(", ")
+    );
+    let message = Model::parse(&text, "long.toml").err().map(|error| error.to_string());
+    assert_eq!(message.as_deref(), Some("long.toml: patch 0: 257 spans along u: at most 256; cut the patch in two"));
+}
+
+#[test]
+fn a_file_that_is_not_there_is_named_once() -> Result<(), Box<dyn Error>> {
+    let run = Command::new(env!("CARGO_BIN_EXE_palpate")).args(["check", "nowhere.toml"]).output()?;
+    let message = String::from_utf8_lossy(&run.stderr);
+    assert_eq!(run.status.code(), Some(2));
+    assert_eq!(message.matches("No such file").count(), 1, "{message}");
+    Ok(())
+}
+
+/// What a slip of the hand, or malice, writes in the place of a number.
+const NUMBERS: &[&str] =
+    &["0", "-1", "1e300", "-1e-300", "nan", "inf", "0.5", "3", "1e-7", "999999999999", "0.49999999999", "\"\"", "[]"];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// However a file is mutated: a model that bakes, or an error. Never a panic.
+    #[test]
+    fn a_mutated_model_never_panics(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0..4_u8, any::<prop::sample::Index>()), 1..6),
+    ) {
+        let mut words: Vec<String> = GOOD.split_inclusive([' ', ',', '[', ']', '\n']).map(str::to_owned).collect();
+        for (place, kind, other) in edits {
+            let place = place.index(words.len());
+            match kind {
+                0 => { words.remove(place); }
+                1 => words.insert(place, words[other.index(words.len())].clone()),
+                2 => {
+                    let end: String = words[place].chars().last().into_iter().collect();
+                    words[place] = format!("{}{end}", NUMBERS[other.index(NUMBERS.len())]);
+                }
+                _ => { let other = other.index(words.len()); words.swap(place, other); }
+            }
+        }
+        if let Ok(model) = Model::parse(&words.concat(), "mutated.toml") {
+            for patch in &model.patches {
+                if let Ok(baked) = BakedPatch::new(patch) {
+                    prop_assert!(baked.to_patch().is_ok());
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! The guarantee of Theorem 1, on the convex companion of Table I: from everywhere, to the closest point, without ever
+//! leaving the patch or moving away.
+//!
+//! Covered by the theorem are the probes in the patch's external Voronoi region: those straight out from its inside.
+//! The box file has others: beyond the rim, and below the open dome. From there the far leg of an arched edge can be a second nearest
+//! point, for this patch's normals span more than 90°, and no law that only moves nearer can leave it. Such a rest
+//! betrays itself: the probe is behind the surface there. So it is checked of every run that it stays on the patch and never
+//! moves away, and that where it rests in front of the surface it rests at the closest point.
+
+use palpate::math::Vec3;
+use palpate::patch::{Patch, SplinePatch};
+use palpate::track::{Controller, Outcome, Probe, Witness};
+use palpate_bake::{BakedPatch, Model};
+use palpate_truth::measured::{grouped, measured};
+use palpate_truth::oracle::golden::{ClosestRow, read};
+use std::path::{Path, PathBuf};
+
+const STARTS: usize = 21;
+const PROBES: usize = 200;
+/// The slowest of the certified runs needs less than half of it.
+const STEP_LIMIT: usize = 1_000;
+/// A closest point is found when its distance is right to this, relative to the patch's size.
+const DISTANCE_TOLERANCE: f64 = 1e-5;
+/// Rounding of one evaluation shows at both ends of a step: 2 × 2 units in the last place of the coordinates.
+const RISE_ULPS: f64 = 4.0;
+
+fn here(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn table1c() -> SplinePatch {
+    let model = Model::read(&here("../models/table1c.toml")).expect("the model is good");
+    BakedPatch::all(&model, "table1c.toml").expect("it bakes")[0].to_patch().expect("the table is good")
+}
+
+/// What the runs showed at their worst.
+#[derive(Default)]
+struct Worst {
+    runs: usize,
+    steps: usize,
+    rise_ulps: f64,
+    distance: f64,
+    elsewhere: usize,
+    undone: usize,
+}
+
+fn run(patch: &SplinePatch, start: [f32; 2], query: Vec3, least: f64, worst: &mut Worst) {
+    let distance = |witness: &Witness| (witness.surface.point.as_dvec3() - query.as_dvec3()).length();
+    let unit = f64::from(query.abs().max_element().max(patch.size()) * f32::EPSILON);
+    let mut witness = Witness::at(patch, start[0], start[1]);
+    let mut before = distance(&witness);
+    for steps in 1..=STEP_LIMIT {
+        let step = Controller::CERTIFIED.step(patch, &mut witness, Probe::at(query), 1.0);
+        let [u, v] = witness.parameters;
+        assert!((0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v), "left the patch: {u}, {v}");
+        let now = distance(&witness);
+        worst.rise_ulps = worst.rise_ulps.max((now - before) / unit);
+        worst.undone += usize::from(step.outcome == Outcome::Undone);
+        worst.steps = worst.steps.max(steps);
+        before = now;
+        // Asked for less than f32 can place on this patch: at rest.
+        if step.outcome == Outcome::AtRest
+            || step.residual() < 4.0 * f32::EPSILON * (patch.size() + step.distance_before())
+        {
+            break;
+        }
+    }
+    let error = (before - least).abs() / f64::from(patch.size());
+    worst.runs += 1;
+    worst.distance = worst.distance.max(error);
+    if error > DISTANCE_TOLERANCE {
+        worst.elsewhere += 1;
+        let normal = witness.normal(patch).expect("the patch is regular");
+        let gap = (query - witness.surface.point).dot(normal);
+        assert!(
+            gap < 0.0,
+            "rests {gap} m in front of the surface at {:?}, not at the closest point",
+            witness.parameters
+        );
+    }
+}
+
+#[test]
+fn every_start_converges_without_leaving_the_patch_or_moving_away() {
+    let patch = table1c();
+    let (mut runs, mut covered, mut elsewhere, mut undone, mut rise_ulps) = (0, 0, 0, 0, 0.0_f64);
+    for (file, least_covered) in [("table1c_near.csv", 200), ("table1c_box.csv", 100), ("table1c_track.csv", 190)] {
+        let rows: Vec<ClosestRow> = read(&here("../truth/golden").join(file)).expect("golden data");
+        // Spread over the file: the rows of a track are neighbours.
+        let stride = (rows.len() / PROBES).max(1);
+        let (mut inside, mut outside) = (Worst::default(), Worst::default());
+        for row in rows.iter().step_by(stride).take(PROBES) {
+            // The file is in centimetres.
+            let query = (row.query() * 0.01).as_vec3();
+            let is_covered = [row.u, row.v].iter().all(|parameter| *parameter > 0.0 && *parameter < 1.0);
+            let worst = if is_covered { &mut inside } else { &mut outside };
+            for i in 0..STARTS {
+                for j in 0..STARTS {
+                    let start = [i as f32 / (STARTS - 1) as f32, j as f32 / (STARTS - 1) as f32];
+                    run(&patch, start, query, row.distance * 0.01, worst);
+                }
+            }
+        }
+        for (region, worst) in [("covered", &inside), ("not covered", &outside)] {
+            println!(
+                "{file}, {} probes {region}: at most {} steps, V up by {:.2} ulp, {} of {} runs end elsewhere, \
+                 the others within {:.1e} of the size; {} steps undone",
+                worst.runs / (STARTS * STARTS),
+                worst.steps,
+                worst.rise_ulps,
+                worst.elsewhere,
+                worst.runs,
+                if worst.elsewhere == 0 { worst.distance } else { DISTANCE_TOLERANCE },
+                worst.undone
+            );
+            (runs, undone) = (runs + worst.runs, undone + worst.undone);
+            rise_ulps = rise_ulps.max(worst.rise_ulps);
+            assert!(worst.rise_ulps <= RISE_ULPS, "{file}: V rose by {} ulp", worst.rise_ulps);
+            assert_eq!(worst.undone, 0, "{file}: the certified gain had to be undone");
+        }
+        assert_eq!(inside.elsewhere, 0, "{file}: off by {:e} of the size", inside.distance);
+        assert!(inside.runs >= least_covered * STARTS * STARTS, "{file}: only {} runs covered", inside.runs);
+        if file != "table1c_box.csv" {
+            assert_eq!(outside.elsewhere, 0, "{file}: off by {:e} of the size", outside.distance);
+        }
+        (covered, elsewhere) = (covered + inside.runs, elsewhere + outside.elsewhere);
+    }
+    measured("runs from 441 starts each on the convex companion", grouped(runs as u64));
+    measured("of them with the probe over the face, where the theorem holds", grouped(covered as u64));
+    measured("of them with the probe beyond the rim, that rest at another point", grouped(elsewhere as u64));
+    measured("greatest rise of `V` in these runs", format!("{rise_ulps:.2}"));
+    measured("steps undone in these runs", undone);
+}

@@ -1,0 +1,9 @@
+//! The closest point on a patch: what is certified, what is measured, and golden points. Each module says which variables make
+//! its runs long.
+
+mod certificates;
+mod golden;
+mod guarantee;
+mod limits;
+mod pairs;
+mod sweep;

@@ -1,0 +1,18 @@
+//! What palpate is proved against, in double precision and by other means than its own: the oracle, surfaces whose truth is
+//! known by construction, what the controller is compared with, and golden points.
+
+pub mod baselines;
+pub mod bodies;
+pub mod generate;
+pub mod locating;
+pub mod measured;
+pub mod oracle;
+
+/// The code in the documents: compiled and run with the doctests.
+#[cfg(doctest)]
+mod documents {
+    #[doc = include_str!("../../../README.md")]
+    struct Readme;
+    #[doc = include_str!("../../../docs/your-device.md")]
+    struct YourDevice;
+}

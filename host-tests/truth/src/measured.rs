@@ -1,0 +1,136 @@
+//! The rows of `docs/measured.md`, held to the tests that measure them.
+//!
+//! A row is `| claim | value | unit | printed by |`. The test that has the number calls [`measured`] with the row's claim: it
+//! prints the number, and fails if the page says another. With `PALPATE_WRITE` set the page is written anew instead.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::{env, fs};
+
+/// Variables that make tests longer than by default: then not every number has a row.
+const LENGTHS: [&str; 5] = ["PALPATE_PAIRS", "PALPATE_PROBES", "PALPATE_STARTS", "PALPATE_STEPS", "PALPATE_TICKS"];
+
+/// One writer at a time; test binaries run one after the other.
+static WRITING: Mutex<()> = Mutex::new(());
+
+/// A row of the page.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// What is said.
+    pub claim: String,
+    /// The number.
+    pub value: String,
+    /// What it is in.
+    pub unit: String,
+    /// The command that prints it.
+    pub command: String,
+}
+
+impl Row {
+    fn parse(line: &str) -> Option<Self> {
+        let cells: Vec<&str> = line.strip_prefix('|')?.strip_suffix('|')?.split('|').map(str::trim).collect();
+        let [claim, value, unit, command] = cells[..] else { return None };
+        let is_row = claim != "claim" && !claim.starts_with('-');
+        let [claim, value, unit, command] = [claim, value, unit, command].map(str::to_owned);
+        is_row.then_some(Self { claim, value, unit, command })
+    }
+
+    fn line(&self) -> String {
+        format!("| {} | {} | {} | {} |", self.claim, self.value, self.unit, self.command)
+    }
+}
+
+/// The page.
+pub fn page() -> PathBuf {
+    let package =
+        std::env::var_os("CARGO_MANIFEST_DIR").expect("cargo runs the tests, and says where their package lies");
+    Path::new(&package).join("../../docs/measured.md")
+}
+
+/// All rows of the page.
+///
+/// # Panics
+/// If the page is not there.
+pub fn rows() -> Vec<Row> {
+    fs::read_to_string(page()).expect("docs/measured.md").lines().filter_map(Row::parse).collect()
+}
+
+/// Prints a number and holds the page's row to it.
+///
+/// # Panics
+/// If the page says another number, or has no such row.
+pub fn measured(claim: &str, value: impl Display) {
+    compare(claim, &value.to_string());
+}
+
+/// As [`measured`], where only some of what a test finds has a row.
+///
+/// # Panics
+/// If the page says another number.
+pub fn measured_if_listed(claim: &str, value: impl Display) {
+    if rows().iter().any(|row| row.claim == claim) {
+        measured(claim, value);
+    }
+}
+
+/// A whole number with a comma at each thousand, as the page has them.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let comma = |(index, digit): (usize, char)| {
+        let before = index > 0 && (digits.len() - index).is_multiple_of(3);
+        before.then_some(',').into_iter().chain([digit])
+    };
+    digits.chars().enumerate().flat_map(comma).collect()
+}
+
+fn compare(claim: &str, found: &str) {
+    println!("{claim}: {found}");
+    let Some(row) = rows().into_iter().find(|row| row.claim == claim) else {
+        let is_longer = LENGTHS.iter().any(|variable| env::var_os(variable).is_some());
+        assert!(is_longer, "docs/measured.md has no row {claim:?}; the number is {found}");
+        return;
+    };
+    if row.value == found {
+        return;
+    }
+    assert!(
+        env::var_os("PALPATE_WRITE").is_some(),
+        "docs/measured.md says {claim}: {}, and it is {found} (PALPATE_WRITE=1 with the same command writes it anew)",
+        row.value
+    );
+    write(&Row { value: found.to_owned(), ..row });
+}
+
+fn write(row: &Row) {
+    let _one = WRITING.lock().expect("no writer has failed");
+    let text = fs::read_to_string(page()).expect("it was just read");
+    let with = |line: &str| match Row::parse(line) {
+        Some(old) if old.claim == row.claim => row.line(),
+        _ => line.to_owned(),
+    };
+    let lines: Vec<String> = text.lines().map(with).collect();
+    fs::write(page(), lines.join("\n") + "\n").expect("the page can be written");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_is_read_and_written_as_it_stands() {
+        let line = "| steps undone | 0 | | `cargo test` |";
+        let row = Row::parse(line).unwrap();
+        assert_eq!((row.claim.as_str(), row.value.as_str(), row.unit.as_str()), ("steps undone", "0", ""));
+        assert_eq!(Row::parse(&row.line()), Some(row));
+        for other in ["| claim | value | unit | printed by |", "|---|---|---|---|", "| a | b | c |", "text"] {
+            assert_eq!(Row::parse(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn thousands_are_grouped() {
+        let numbers = [0, 999, 1_000, 264_600, 100_000_000].map(grouped);
+        assert_eq!(numbers, ["0", "999", "1,000", "264,600", "100,000,000"]);
+    }
+}

@@ -1,0 +1,78 @@
+//! Contact that no motion explains: a depth that no wall holds a hand at, or a witness point farther off than the probe has moved
+//! since contact began.
+//!
+//! A witness point that is left behind would pull the hand back to it with all the force there is, through free air. So such contact is no force but an event,
+//! [`super::ServoState::contacts_lost`]: the force fades out, the closest point is located anew, and nothing is felt until the probe has been in front
+//! of the surface. A hand that is stronger than the device and goes through a part ends it the same way. Where it happens again and again something is wrong:
+//! [`super::Fault::ContactLost`].
+
+use crate::math::Vec3;
+
+/// What counts as contact that no motion explains, and what is done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ContactLimits {
+    /// The greatest depth, as a multiple of the one at which the surface's stiffness alone gives the greatest force; above 1.
+    pub depth: f32,
+    /// Metres up to which any depth is taken for contact: a stiff wall that is struck gives way by more than its greatest force asks for.
+    pub min_depth: f32,
+    /// Seconds over which the force fades out.
+    pub fade: f32,
+    /// How many events may follow each other, none later than [`Self::quiet`] after the one before; one more is a fault.
+    pub max_in_a_row: u32,
+    /// Seconds after which an event is forgotten.
+    pub quiet: f32,
+}
+
+impl ContactLimits {
+    /// Twice the depth of the greatest force, for beyond it the wall has given all it has, and no less than 10 mm; 5 ms of fading, which no hand takes for a
+    /// blow; three events within a second of each other.
+    pub const DEFAULT: Self = Self { depth: 2.0, min_depth: 0.01, fade: 0.005, max_in_a_row: 3, quiet: 1.0 };
+
+    pub(super) const fn is_valid(&self) -> bool {
+        self.depth > 1.0 && self.min_depth >= 0.0 && self.fade >= 0.0 && self.fade < f32::INFINITY && self.quiet >= 0.0
+    }
+}
+
+/// The limits as the tick needs them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactWatch {
+    /// Metres; infinite where nothing is watched.
+    pub max_depth: f32,
+    /// By how much the share of the force falls a tick.
+    pub fade_step: f32,
+    /// One more is a fault.
+    pub max_in_a_row: u32,
+    /// Ticks after which an event is forgotten.
+    pub quiet: u32,
+}
+
+impl ContactWatch {
+    pub(super) const fn new(limits: Option<ContactLimits>, full_force_depth: f32, rate: f32) -> Self {
+        match limits {
+            Some(ContactLimits { depth, min_depth, fade, max_in_a_row, quiet }) => Self {
+                max_depth: if depth * full_force_depth < min_depth { min_depth } else { depth * full_force_depth },
+                fade_step: if fade * rate > 1.0 { 1.0 / (fade * rate) } else { 1.0 },
+                max_in_a_row,
+                // The cast saturates.
+                quiet: (quiet * rate) as u32,
+            },
+            None => Self { max_depth: f32::INFINITY, fade_step: 1.0, max_in_a_row: u32::MAX, quiet: 0 },
+        }
+    }
+}
+
+/// What is left of contact that was lost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LostContact {
+    /// Events so far.
+    pub count: u32,
+    /// Of them those that followed each other.
+    pub in_a_row: u32,
+    /// The tick of the last one.
+    pub tick: u32,
+    /// The force when it happened, N.
+    pub force: Vec3,
+    /// Which share of it is still given.
+    pub share: f32,
+}
