@@ -1,0 +1,170 @@
+//! The quads that could stand on a side.
+
+use super::plane::Plane;
+use super::quality;
+use glam::DVec2;
+use std::collections::HashMap;
+
+/// A directed side that needs a quad on its left: of the outline, or a line between two vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Edge {
+    /// A side of the outline.
+    Border(usize),
+    /// A straight line.
+    Line(usize, usize),
+}
+
+/// A quad: its corners, its sides from each corner to the next, and what it costs.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// Vertices.
+    pub corners: [usize; 4],
+    /// Sides.
+    pub edges: [Edge; 4],
+    /// More for a bad one.
+    pub cost: f64,
+}
+
+/// Finds quads, and remembers them.
+pub struct Candidates<'p> {
+    /// The region.
+    pub plane: &'p Plane,
+    seen: Vec<Vec<usize>>,
+    starting: Vec<Vec<usize>>,
+    found: HashMap<Edge, Vec<Candidate>>,
+}
+
+/// Lines from one vertex that are tried.
+const LINES: usize = 24;
+
+impl<'p> Candidates<'p> {
+    /// Looks which vertices see each other.
+    pub fn new(plane: &'p Plane) -> Self {
+        let count = plane.vertices.len();
+        let mut seen = vec![Vec::new(); count];
+        for a in 0..count {
+            for b in a + 1..count {
+                let (of_a, of_b) = (plane.vertices[a].node, plane.vertices[b].node);
+                if (of_a.is_none() || of_a != of_b) && plane.sees(a, b) {
+                    seen[a].push(b);
+                    seen[b].push(a);
+                }
+            }
+        }
+        for (a, list) in seen.iter_mut().enumerate() {
+            let far = |b: &usize| plane.vertices[*b].point.distance(plane.vertices[a].point);
+            list.sort_by(|x, y| far(x).total_cmp(&far(y)));
+            list.truncate(LINES);
+        }
+        let mut starting = vec![Vec::new(); count];
+        for (index, border) in plane.borders.iter().enumerate() {
+            starting[border.ends[0]].push(index);
+        }
+        Self { plane, seen, starting, found: HashMap::new() }
+    }
+
+    /// Where an edge begins and ends.
+    pub fn ends(&self, edge: Edge) -> [usize; 2] {
+        match edge {
+            Edge::Border(index) => self.plane.borders[index].ends,
+            Edge::Line(a, b) => [a, b],
+        }
+    }
+
+    /// The quads on the left of an edge, the cheapest first.
+    pub fn on(&mut self, edge: Edge) -> &[Candidate] {
+        if !self.found.contains_key(&edge) {
+            let mut found = self.find(edge);
+            found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            self.found.insert(edge, found);
+        }
+        &self.found[&edge]
+    }
+
+    fn find(&self, edge: Edge) -> Vec<Candidate> {
+        let [a, b] = self.ends(edge);
+        let mut found = Vec::new();
+        for second in self.from(b) {
+            let c = self.ends(second)[1];
+            if c == a || c == b || !self.turns_left(edge, second) {
+                continue;
+            }
+            for third in self.from(c) {
+                let d = self.ends(third)[1];
+                if d == a || d == b || d == c || !self.turns_left(second, third) {
+                    continue;
+                }
+                for fourth in self.between(d, a) {
+                    if !self.turns_left(third, fourth) || !self.turns_left(fourth, edge) {
+                        continue;
+                    }
+                    let (corners, edges) = ([a, b, c, d], [edge, second, third, fourth]);
+                    let Some(cost) = quality::cost(&|s, t| self.map(&edges, s, t)) else { continue };
+                    if self.is_empty(&corners, &edges) {
+                        found.push(Candidate { corners, edges, cost });
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    fn from(&self, vertex: usize) -> impl Iterator<Item = Edge> + '_ {
+        let borders = self.starting[vertex].iter().map(|index| Edge::Border(*index));
+        borders.chain(self.seen[vertex].iter().map(move |to| Edge::Line(vertex, *to)))
+    }
+
+    fn between(&self, from: usize, to: usize) -> impl Iterator<Item = Edge> + '_ {
+        self.from(from).filter(move |edge| self.ends(*edge)[1] == to)
+    }
+
+    /// Whether the corner between two edges that follow each other is less than half a turn, and more than nothing.
+    fn turns_left(&self, first: Edge, second: Edge) -> bool {
+        let (into, out) = (self.slope(first, 1.0), self.slope(second, 0.0));
+        into.perp_dot(out) > 0.1 * into.length() * out.length()
+    }
+
+    fn slope(&self, edge: Edge, t: f64) -> DVec2 {
+        let step = 1e-3;
+        let (low, high) = if t < 0.5 { (0.0, step) } else { (1.0 - step, 1.0) };
+        self.point(edge, high) - self.point(edge, low)
+    }
+
+    /// A point of an edge, of its parameter beyond the ends too.
+    pub fn point(&self, edge: Edge, t: f64) -> DVec2 {
+        let line = |a: DVec2, b: DVec2, t: f64| a + (b - a) * t;
+        match edge {
+            Edge::Line(a, b) => line(self.plane.vertices[a].point, self.plane.vertices[b].point, t),
+            Edge::Border(index) => {
+                let points = &self.plane.borders[index].points;
+                let x = t * (points.len() - 1) as f64;
+                let k = (x.floor().max(0.0) as usize).min(points.len() - 2);
+                line(points[k], points[k + 1], x - k as f64)
+            }
+        }
+    }
+
+    fn map(&self, edges: &[Edge; 4], s: f64, t: f64) -> DVec2 {
+        let [bottom, right, top, left] = *edges;
+        let corner = |k: usize| self.plane.vertices[self.ends(edges[k])[0]].point;
+        let ruled = self.point(bottom, s) * (1.0 - t)
+            + self.point(top, 1.0 - s) * t
+            + self.point(left, 1.0 - t) * (1.0 - s)
+            + self.point(right, t) * s;
+        let corners = corner(0) * ((1.0 - s) * (1.0 - t))
+            + corner(1) * (s * (1.0 - t))
+            + corner(2) * (s * t)
+            + corner(3) * ((1.0 - s) * t);
+        ruled - corners
+    }
+
+    /// Whether no vertex of the outline lies inside.
+    fn is_empty(&self, corners: &[usize; 4], edges: &[Edge; 4]) -> bool {
+        let polygon: Vec<DVec2> =
+            edges.iter().flat_map(|edge| (0..12).map(|k| self.point(*edge, f64::from(k) / 12.0))).collect();
+        let outline = self.plane.vertices.iter().enumerate().filter(|(_, vertex)| vertex.node.is_some());
+        outline
+            .filter(|(index, _)| !corners.contains(index))
+            .all(|(_, vertex)| !crate::outline::contains(&polygon, vertex.point))
+    }
+}

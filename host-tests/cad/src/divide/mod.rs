@@ -1,0 +1,53 @@
+//! Regions into quads.
+//!
+//! A region with four corners and as many cuts on opposite sides becomes a grid ([`grid`]); any other is tiled by a search among all quads between its
+//! corners and a few points inside ([`tiling`]). Before that, cuts are handed on from side to side ([`balance`]) and made even in number ([`parity`]).
+
+pub mod balance;
+mod candidates;
+pub mod corners;
+pub mod grid;
+pub mod parity;
+mod plane;
+mod quality;
+mod steiner;
+pub mod tiling;
+
+use crate::error::ImportError;
+use crate::mesh::{Mesh, Side};
+use corners::Shape;
+
+/// Divides every region.
+///
+/// # Errors
+/// The first face that no quads were found for.
+pub fn divide(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
+    for face in 0..mesh.regions.len() {
+        close_triangle(mesh, face);
+        let quads = match Shape::of(mesh, face) {
+            Shape::Grid(starts) if grid::is_even(&mesh.regions[face].loops[0], starts) => {
+                grid::quads(mesh, face, starts)
+            }
+            _ => None,
+        };
+        let quads = match quads {
+            Some(quads) => quads,
+            None => tiling::quads(mesh, face)?,
+        };
+        mesh.regions[face].quads = quads;
+    }
+    Ok(())
+}
+
+/// A region of three sides, or two, gets a side of no length at its sharpest corners.
+fn close_triangle(mesh: &mut Mesh<'_>, face: usize) {
+    while mesh.regions[face].loops.len() == 1 && (2..4).contains(&mesh.regions[face].loops[0].len()) {
+        let angles = corners::angles(mesh, face);
+        let sides = &mut mesh.regions[face].loops[0];
+        let is_pole = |k: usize| sides[k].wire.is_none() || sides[(k + sides.len() - 1) % sides.len()].wire.is_none();
+        let corners = (0..sides.len()).filter(|k| !is_pole(*k));
+        let Some(sharpest) = corners.min_by(|a, b| angles[*a].total_cmp(&angles[*b])) else { return };
+        let (node, uv) = (sides[sharpest].ends[0], sides[sharpest].path.start());
+        sides.insert(sharpest, Side::pole(node, uv, uv));
+    }
+}

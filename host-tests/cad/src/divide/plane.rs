@@ -1,0 +1,116 @@
+//! A region in a plane: its parameters, stretched so that lengths along both are about those in space.
+
+use crate::mesh::Mesh;
+use glam::DVec2;
+
+/// Factors from parameters to millimetres: the mean of the tangents' lengths along the outline.
+pub fn scale(mesh: &Mesh<'_>, face: usize) -> DVec2 {
+    let surface = &mesh.part.faces[face].surface;
+    let (mut sum, mut count) = (DVec2::ZERO, 0.0);
+    for side in mesh.regions[face].loops.iter().flatten() {
+        for k in 0..8 {
+            let jet = surface.at(side.path.at((f64::from(k) + 0.5) / 8.0));
+            sum += DVec2::new(jet.first[0].length(), jet.first[1].length());
+            count += 1.0;
+        }
+    }
+    (sum / f64::max(count, 1.0)).max(DVec2::splat(f64::MIN_POSITIVE))
+}
+
+/// One side of the outline in the plane.
+#[derive(Clone, Debug)]
+pub struct Border {
+    /// The vertices where it begins and ends.
+    pub ends: [usize; 2],
+    /// Points along it, both ends included, equally spaced in its parameter; two if it is straight.
+    pub points: Vec<DVec2>,
+    /// Which loop, and which side of it.
+    pub place: [usize; 2],
+}
+
+/// A vertex in the plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertex {
+    /// Where.
+    pub point: DVec2,
+    /// The mesh's node; none for a point that may be put inside.
+    pub node: Option<usize>,
+    /// Directions along which its inner angle begins and ends: along the outline, and back along it. Nothing inside.
+    pub angle: Option<[DVec2; 2]>,
+}
+
+/// The region.
+#[derive(Clone, Debug)]
+pub struct Plane {
+    /// Vertices: of the outline, then inside.
+    pub vertices: Vec<Vertex>,
+    /// Sides of the outline.
+    pub borders: Vec<Border>,
+    /// The loops as polygons.
+    pub polygons: Vec<Vec<DVec2>>,
+}
+
+impl Plane {
+    /// A face's region.
+    pub fn new(mesh: &Mesh<'_>, face: usize, scale: DVec2) -> Self {
+        let (mut vertices, mut borders, mut polygons) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, sides) in mesh.regions[face].loops.iter().enumerate() {
+            let first = vertices.len();
+            let mut polygon = Vec::new();
+            for (k, side) in sides.iter().enumerate() {
+                let before = &sides[(k + sides.len() - 1) % sides.len()];
+                let along = |slope: DVec2, chord: DVec2| {
+                    let slope = if slope.length() > 1e-9 * chord.length() { slope } else { chord };
+                    (slope * scale).normalize_or_zero()
+                };
+                let out = along(side.path.slope(0.0), side.path.end() - side.path.start());
+                let back = along(-before.path.slope(1.0), before.path.start() - before.path.end());
+                let point = side.path.start() * scale;
+                vertices.push(Vertex { point, node: Some(side.ends[0]), angle: Some([out, back]) });
+                let mut points: Vec<_> = side.path.polyline().map(|uv| uv * scale).collect();
+                polygon.extend(points.iter().copied());
+                points.push(side.path.end() * scale);
+                let ends = [first + k, first + (k + 1) % sides.len()];
+                borders.push(Border { ends, points, place: [index, k] });
+            }
+            polygons.push(polygon);
+        }
+        Self { vertices, borders, polygons }
+    }
+
+    /// Whether a point is inside the outline and outside the holes.
+    pub fn contains(&self, point: DVec2) -> bool {
+        let mut inside = self.polygons.iter().map(|polygon| crate::outline::contains(polygon, point));
+        inside.next() == Some(true) && inside.all(|inside| !inside)
+    }
+
+    /// Whether the straight line between two vertices runs inside all the way.
+    pub fn sees(&self, a: usize, b: usize) -> bool {
+        let (p, q) = (self.vertices[a].point, self.vertices[b].point);
+        let way = q - p;
+        if way.length() < 1e-9 || !self.leaves(a, way) || !self.leaves(b, -way) || !self.contains(p.lerp(q, 0.5)) {
+            return false;
+        }
+        let touches = |border: &Border| {
+            let last = border.points.len() - 2;
+            border.points.windows(2).enumerate().any(|(k, pair)| {
+                // A side that begins here is left at an angle already.
+                let own = k == 0 && (border.ends[0] == a || border.ends[0] == b)
+                    || k == last && (border.ends[1] == a || border.ends[1] == b);
+                !own && crate::outline::meet([p, q], [pair[0], pair[1]])
+            })
+        };
+        !self.borders.iter().any(touches)
+    }
+
+    /// Whether a direction points into the region at a vertex, five degrees at least from both sides there.
+    fn leaves(&self, vertex: usize, way: DVec2) -> bool {
+        const LEAST: f64 = 0.087;
+        let Some([out, back]) = self.vertices[vertex].angle else { return true };
+        let turn = |from: DVec2, to: DVec2| from.perp_dot(to).atan2(from.dot(to)).rem_euclid(std::f64::consts::TAU);
+        let whole = turn(out, back);
+        let whole = if whole < 1e-9 { std::f64::consts::TAU } else { whole };
+        let here = turn(out, way);
+        here > LEAST && here < whole - LEAST
+    }
+}

@@ -1,0 +1,271 @@
+//! Any region as quads: the cheapest tiling that a search finds.
+//!
+//! A front of directed sides waits for quads on its left; at first it is the outline, holes and all. A quad takes its sides out of the front and puts
+//! the others in, turned round; when nothing waits the region is tiled. The side with the fewest quads to choose from goes first, and what costs more
+//! than the best tiling so far is left. Without points inside there are `V/2 + h − 1` quads for `V` vertices and `h` holes; each point inside is one more.
+
+use super::candidates::{Candidate, Candidates, Edge};
+use super::plane::{Plane, scale};
+use super::steiner;
+use crate::error::ImportError;
+use crate::mesh::{Mesh, Quad, Side};
+use crate::path::Path;
+use glam::DVec2;
+use std::collections::{HashMap, HashSet};
+
+/// Quads tried in a search without points inside.
+const TRIES: usize = 40_000;
+/// Quads tried in a search with them, where there are far more to choose from.
+const TRIES_INSIDE: usize = 2_500;
+/// A tiling that costs less than this a quad is taken without looking whether points inside help.
+const GOOD: f64 = 1.6;
+
+/// Tiles a face's region.
+///
+/// # Errors
+/// If no tiling was found.
+pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError> {
+    let scale = scale(mesh, face);
+    let plane = Plane::new(mesh, face, scale);
+    let mut best: Option<(f64, Plane, Vec<Candidate>)> = None;
+    for round in 0..7 {
+        let mut trial = plane.clone();
+        let points = match round {
+            0 => Vec::new(),
+            1 => steiner::inward(&plane, 0.23),
+            2 => steiner::middles(&plane, 3),
+            3 => [steiner::inward(&plane, 0.3), steiner::middles(&plane, 1)].concat(),
+            4 => steiner::middles(&plane, 6),
+            5 => steiner::inward(&plane, 0.23),
+            _ => [steiner::inward(&plane, 0.15), steiner::middles(&plane, 4)].concat(),
+        };
+        trial.vertices.extend(steiner::vertices(points));
+        let most = if round == 0 || round > 3 { TRIES } else { TRIES_INSIDE };
+        let found = Search::new(&trial, most).run(best.as_ref().map_or(f64::INFINITY, |(cost, ..)| *cost));
+        if let Some((cost, quads)) = found {
+            let good = cost <= GOOD * quads.len() as f64;
+            best = Some((cost, trial, quads));
+            if good {
+                break;
+            }
+        }
+        if round >= 1 && best.is_some() {
+            break;
+        }
+    }
+    let Some((_, mut plane, found)) = best else {
+        let count = mesh.regions[face].loops.iter().map(Vec::len).sum::<usize>();
+        let reason = format!(
+            "no division into quads was found for its outline of {count} sides ({})",
+            mesh.part.faces[face].kind
+        );
+        return Err(ImportError::face(&mesh.part.faces[face].name, reason));
+    };
+    smooth(&mut plane, &found);
+    Ok(build(mesh, face, scale, &plane, &found))
+}
+
+struct Search<'p> {
+    candidates: Candidates<'p>,
+    tries: usize,
+    most: usize,
+    best: f64,
+    quads: Option<Vec<Candidate>>,
+}
+
+#[derive(Clone, Default)]
+struct State {
+    front: Vec<Edge>,
+    lines: Vec<[usize; 2]>,
+    quads: Vec<Candidate>,
+    cost: f64,
+}
+
+impl<'p> Search<'p> {
+    fn new(plane: &'p Plane, most: usize) -> Self {
+        Self { candidates: Candidates::new(plane), tries: 0, most, best: f64::INFINITY, quads: None }
+    }
+
+    fn run(mut self, bound: f64) -> Option<(f64, Vec<Candidate>)> {
+        self.best = bound;
+        let front = (0..self.candidates.plane.borders.len()).map(Edge::Border).collect();
+        self.step(&State { front, ..State::default() });
+        self.quads.map(|quads| (self.best, quads))
+    }
+
+    fn step(&mut self, state: &State) {
+        if state.front.is_empty() {
+            if state.cost < self.best {
+                self.best = state.cost;
+                self.quads = Some(state.quads.clone());
+            }
+            return;
+        }
+        // A quad takes four sides out of the front at most.
+        if state.cost + 0.25 * state.front.len() as f64 >= self.best || self.tries > self.most {
+            return;
+        }
+        let mut fewest: Option<Vec<Candidate>> = None;
+        for edge in &state.front {
+            let most = fewest.as_ref().map_or(usize::MAX, Vec::len);
+            let all = self.candidates.on(*edge).to_vec();
+            let mut fitting = Vec::new();
+            for candidate in all {
+                if self.fits(state, &candidate) {
+                    fitting.push(candidate);
+                    if fitting.len() >= most {
+                        break;
+                    }
+                }
+            }
+            if fitting.len() < most {
+                let none = fitting.is_empty();
+                fewest = Some(fitting);
+                if none {
+                    break;
+                }
+            }
+        }
+        for candidate in fewest.unwrap_or_default() {
+            self.tries += 1;
+            let mut next = state.clone();
+            for edge in candidate.edges {
+                if let Some(place) = next.front.iter().position(|waiting| *waiting == edge) {
+                    next.front.swap_remove(place);
+                } else if let Edge::Line(a, b) = edge {
+                    next.front.push(Edge::Line(b, a));
+                    next.lines.push([a, b]);
+                }
+            }
+            next.cost += candidate.cost;
+            next.quads.push(candidate);
+            self.step(&next);
+        }
+    }
+
+    /// Whether a quad's sides wait, or are new lines that cross none.
+    fn fits(&self, state: &State, candidate: &Candidate) -> bool {
+        let point = |k: usize| self.candidates.plane.vertices[k].point;
+        candidate.edges.iter().all(|edge| {
+            if state.front.contains(edge) {
+                return true;
+            }
+            let Edge::Line(a, b) = *edge else { return false };
+            state.lines.iter().all(|[c, d]| {
+                let shared = [a, b].iter().filter(|end| **end == *c || **end == *d).count();
+                match shared {
+                    0 => !crate::outline::meet([point(a), point(b)], [point(*c), point(*d)]),
+                    1 => true,
+                    _ => false,
+                }
+            })
+        }) && !self.covers(state, candidate)
+    }
+
+    /// Whether a quad lies on a point inside that others use already.
+    fn covers(&self, state: &State, candidate: &Candidate) -> bool {
+        let inside = |k: &usize| self.candidates.plane.vertices[*k].node.is_none() && !candidate.corners.contains(k);
+        let used: HashSet<usize> = state.lines.iter().flatten().copied().filter(|k| inside(k)).collect();
+        if used.is_empty() {
+            return false;
+        }
+        let polygon: Vec<DVec2> = candidate
+            .edges
+            .iter()
+            .flat_map(|edge| (0..6).map(|k| self.candidates.point(*edge, f64::from(k) / 6.0)))
+            .collect();
+        used.iter().any(|k| crate::outline::contains(&polygon, self.candidates.plane.vertices[*k].point))
+    }
+}
+
+/// Moves the points inside to where the quads about them are best.
+fn smooth(plane: &mut Plane, quads: &[Candidate]) {
+    let inside: Vec<usize> = (0..plane.vertices.len()).filter(|k| plane.vertices[*k].node.is_none()).collect();
+    let used: Vec<usize> = inside.into_iter().filter(|k| quads.iter().any(|quad| quad.corners.contains(k))).collect();
+    let cost = |plane: &Plane, vertex: usize| -> f64 {
+        let about = quads.iter().filter(|quad| quad.corners.contains(&vertex));
+        about.map(|quad| cost_of(plane, quad)).sum()
+    };
+    for round in 0..24 {
+        let share = 0.25 * 0.8_f64.powi(round);
+        for vertex in &used {
+            let here = plane.vertices[*vertex].point;
+            let near = quads.iter().filter(|quad| quad.corners.contains(vertex)).flat_map(|quad| quad.corners);
+            let reach = near.map(|k| plane.vertices[k].point.distance(here)).fold(0.0, f64::max);
+            let mut best = (cost(plane, *vertex), here);
+            for k in 0..8 {
+                let point = here + DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_4) * (share * reach);
+                plane.vertices[*vertex].point = point;
+                let value = cost(plane, *vertex);
+                if value < best.0 && plane.contains(point) {
+                    best = (value, point);
+                }
+            }
+            plane.vertices[*vertex].point = best.1;
+        }
+    }
+}
+
+fn cost_of(plane: &Plane, quad: &Candidate) -> f64 {
+    let point = |edge: Edge, t: f64| match edge {
+        Edge::Line(a, b) => {
+            let (a, b) = (plane.vertices[a].point, plane.vertices[b].point);
+            a + (b - a) * t
+        }
+        Edge::Border(index) => {
+            let points = &plane.borders[index].points;
+            let x = t * (points.len() - 1) as f64;
+            let k = (x.floor().max(0.0) as usize).min(points.len() - 2);
+            points[k] + (points[k + 1] - points[k]) * (x - k as f64)
+        }
+    };
+    let [bottom, right, top, left] = quad.edges;
+    let corner = |k: usize| plane.vertices[quad.corners[k]].point;
+    let map = |s: f64, t: f64| {
+        point(bottom, s) * (1.0 - t) + point(top, 1.0 - s) * t + point(left, 1.0 - t) * (1.0 - s) + point(right, t) * s
+            - corner(0) * ((1.0 - s) * (1.0 - t))
+            - corner(1) * (s * (1.0 - t))
+            - corner(2) * (s * t)
+            - corner(3) * ((1.0 - s) * t)
+    };
+    super::quality::cost(&map).unwrap_or(100.0)
+}
+
+/// Nodes, wires and sides of the quads that were found.
+fn build(mesh: &mut Mesh<'_>, face: usize, scale: DVec2, plane: &Plane, found: &[Candidate]) -> Vec<Quad> {
+    let mut nodes: HashMap<usize, usize> = HashMap::new();
+    let mut lines: HashMap<[usize; 2], Side> = HashMap::new();
+    let outline = mesh.regions[face].loops.clone();
+    let mut quads = Vec::with_capacity(found.len());
+    for quad in found {
+        let mut sides = Vec::with_capacity(4);
+        for edge in quad.edges {
+            sides.push(match edge {
+                Edge::Border(index) => {
+                    let [of, side] = plane.borders[index].place;
+                    outline[of][side].clone()
+                }
+                Edge::Line(a, b) if lines.contains_key(&[a, b]) => lines[&[a, b]].clone(),
+                Edge::Line(a, b) => {
+                    let mut node = |mesh: &mut Mesh<'_>, vertex: usize| match plane.vertices[vertex].node {
+                        Some(node) => node,
+                        None => *nodes.entry(vertex).or_insert_with(|| {
+                            let uv = plane.vertices[vertex].point / scale;
+                            let point = mesh.part.faces[face].surface.at(uv).point;
+                            mesh.add_node(point)
+                        }),
+                    };
+                    let ends = [node(mesh, a), node(mesh, b)];
+                    let [from, to] = [a, b].map(|k| plane.vertices[k].point / scale);
+                    let side = mesh.add_inside(face, ends, Path::line(from, to));
+                    lines.insert([b, a], side.reversed());
+                    side
+                }
+            });
+        }
+        if let Ok(sides) = <[Side; 4]>::try_from(sides) {
+            quads.push(Quad { sides });
+        }
+    }
+    quads
+}

@@ -1,0 +1,93 @@
+//! What can be wrong with a part, as the person who made it reads it.
+
+use thiserror::Error;
+
+/// Why a part was not imported. Faces and edges go by their names or numbers in the part, entities by their numbers in the file.
+#[derive(Debug, Error)]
+pub enum ImportError {
+    /// The file cannot be opened.
+    #[error("cannot read {file}: {cause}")]
+    Read {
+        /// Which.
+        file: String,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// Not a STEP file, or one that is cut off.
+    #[error("{file} is not a whole STEP file: {message}")]
+    Syntax {
+        /// Which.
+        file: String,
+        /// What the reader says, with line and column.
+        message: String,
+    },
+    /// An entity that the shape needs cannot be read.
+    #[error("entity #{id} ({kind}) of {file} cannot be used: {reason}")]
+    Entity {
+        /// Which file.
+        file: String,
+        /// Its number.
+        id: u64,
+        /// Its type.
+        kind: String,
+        /// Why.
+        reason: String,
+    },
+    /// Nothing to feel.
+    #[error(
+        "{file} has no solid and no shell (its schema is \"{schema}\"); curves, sketches and triangle meshes are not imported"
+    )]
+    NoShape {
+        /// Which file.
+        file: String,
+        /// Its schema.
+        schema: String,
+    },
+    /// No solid of the name asked for.
+    #[error("{file} has no solid \"{name}\"; it has {known}")]
+    NoSolid {
+        /// Which file.
+        file: String,
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: String,
+    },
+    /// More than is worth trying.
+    #[error("{file} has {count} {what}; {limit} at most are imported")]
+    TooMany {
+        /// Which file.
+        file: String,
+        /// How many.
+        count: usize,
+        /// Of what.
+        what: &'static str,
+        /// How many can be.
+        limit: usize,
+    },
+    /// The product structure does not end.
+    #[error("the assembly of {file} contains itself, or is nested more than {limit} deep, at \"{product}\"")]
+    Cycle {
+        /// Which file.
+        file: String,
+        /// Where.
+        product: String,
+        /// How deep it may be.
+        limit: usize,
+    },
+    /// Something about a face.
+    #[error("{face}: {reason}")]
+    Face {
+        /// Its name.
+        face: String,
+        /// What.
+        reason: String,
+    },
+}
+
+impl ImportError {
+    /// About a face.
+    pub fn face(face: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self::Face { face: face.into(), reason: reason.into() }
+    }
+}

@@ -1,0 +1,150 @@
+//! The whole way: read, heal, outline, divide, fit, measure.
+
+use crate::bezier::Bezier;
+use crate::circles::{self, Turns};
+use crate::error::ImportError;
+use crate::measure::{self, Measured};
+use crate::mesh::Mesh;
+use crate::part::Part;
+use crate::patches::{self, Made, SHARE_OF_EDGES};
+use crate::{divide, emit, heal, outline, picture, read, report, trace};
+use std::collections::BTreeSet;
+use std::f64::consts::FRAC_PI_2;
+use std::path::Path;
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The largest deviation that is allowed, millimetres.
+    pub tolerance: f64,
+    /// Only the solids of this name.
+    pub solid: Option<String>,
+    /// Whether a picture is wanted.
+    pub picture: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { tolerance: 0.01, solid: None, picture: false }
+    }
+}
+
+/// A polynomial Bézier patch of the result.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// Its face's name, with a number where the face has more patches than one.
+    pub name: String,
+    /// Degrees and control points, millimetres.
+    pub surface: Bezier,
+    /// Whether the outward normal is against `f_u × f_v`.
+    pub flip: bool,
+}
+
+/// A part as patches.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The model file.
+    pub model: String,
+    /// What stands in it.
+    pub patches: Vec<Patch>,
+    /// What was found, for the person at the terminal.
+    pub report: Vec<String>,
+    /// The picture, if it was asked for.
+    pub picture: Option<String>,
+}
+
+/// Imports a part.
+///
+/// # Errors
+/// What is wrong with the file or with the part; or the first face that cannot be made into patches within the tolerance.
+pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
+    let mut part = read::read(path, options.solid.as_deref())?;
+    heal::take_out_seams(&mut part);
+    heal::turn_spheres(&mut part);
+    let mut mesh = outlined(&part, options.tolerance)?;
+    divide::balance::balance(&mut mesh);
+    divide::parity::even(&mut mesh)?;
+    divide::divide(&mut mesh)?;
+    let made = patches::make(&mut mesh, options.tolerance)?;
+    let measured = measure::measure(&mesh, &made, options.tolerance);
+    refuse_far(&part, &measured, options.tolerance)?;
+    let report = report::lines(&mesh, &made, &measured, options.tolerance);
+    let model = emit::toml(&part, &made, &report);
+    let picture = options.picture.then(|| picture::svg(&part, &made, &measured, options.tolerance));
+    let patch = |(name, made): (String, Made)| Patch { name, surface: made.bezier, flip: part.faces[made.face].flip };
+    let patches = emit::names(&part, &made).into_iter().zip(made).map(patch).collect();
+    Ok(Imported { model, patches, report, picture })
+}
+
+fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), ImportError> {
+    for ((off, face), which) in [(measured.out, "its patches are"), (measured.back, "it is")] {
+        if off > tolerance {
+            let reason = format!("{which} up to {off:.6} mm off, the tolerance is {tolerance} mm");
+            return Err(ImportError::face(&part.faces[face].name, reason));
+        }
+    }
+    Ok(())
+}
+
+/// The part with every face's outline closed in its parameters, and every wire cut into pieces that one curve can follow.
+fn outlined(part: &Part, tolerance: f64) -> Result<Mesh<'_>, ImportError> {
+    let mut mesh = Mesh::new(part);
+    let mut all_turns: Vec<Vec<Turns>> = Vec::new();
+    for (face, of) in part.faces.iter().enumerate() {
+        let mut turns = Vec::new();
+        let mut loops = Vec::new();
+        for uses in &of.loops {
+            let traced = trace::trace(&mesh, face, uses, tolerance)?;
+            turns.push(outline::turns(&traced.sides, traced.winding));
+            loops.push(traced.sides);
+        }
+        mesh.regions[face].loops = loops;
+        all_turns.push(turns);
+    }
+    let count = |mesh: &Mesh<'_>, wire: usize| pieces(mesh, wire, tolerance);
+    cut_bent(&mut mesh, &count, false);
+    circles::cut(&mut mesh, &all_turns, &count);
+    for (face, turns) in all_turns.iter().enumerate() {
+        outline::close(&mut mesh, face, turns)?;
+    }
+    cut_bent(&mut mesh, &count, true);
+    Ok(mesh)
+}
+
+/// Into how many pieces a wire is cut: none turns by more than a quarter, and each is one curve within the tolerance.
+fn pieces(mesh: &Mesh<'_>, wire: usize, tolerance: f64) -> usize {
+    let (_, turn) = mesh.extent(wire);
+    let mut count = ((turn - 0.05) / FRAC_PI_2).ceil().max(1.0) as usize;
+    while count < 64 {
+        let borders: Vec<f64> = [0.0].into_iter().chain(mesh.even(wire, count)).chain([1.0]).collect();
+        let near = borders.windows(2).all(|pair| {
+            let at = |t: f64| {
+                let [point, slope] = mesh.at(wire, pair[0] + (pair[1] - pair[0]) * t);
+                [point, slope * (pair[1] - pair[0])]
+            };
+            crate::fit::fit_curve(at, [at(0.0)[0], at(1.0)[0]], 5).deviation <= SHARE_OF_EDGES * tolerance
+        });
+        if near {
+            break;
+        }
+        count += 1;
+    }
+    count
+}
+
+/// Cuts the wires of the outlines that need it; those that are closed and meet no other only if `all`.
+fn cut_bent(mesh: &mut Mesh<'_>, count: &dyn Fn(&Mesh<'_>, usize) -> usize, all: bool) {
+    let sides = mesh.regions.iter().flat_map(|region| region.loops.iter().flatten());
+    let wires: BTreeSet<usize> = sides.filter_map(|side| side.wire.map(|(wire, _)| wire)).collect();
+    for wire in wires {
+        let ends = mesh.wires[wire].ends;
+        if ends[0] == ends[1] && !all {
+            continue;
+        }
+        let count = count(mesh, wire).max(if ends[0] == ends[1] { 4 } else { 1 });
+        if count > 1 {
+            let at = mesh.even(wire, count);
+            mesh.cut(wire, &at);
+        }
+    }
+}

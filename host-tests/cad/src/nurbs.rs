@@ -1,0 +1,225 @@
+//! NURBS curves and surfaces as the file has them, evaluated in double precision with two derivatives.
+
+use glam::{DVec2, DVec3, DVec4};
+
+/// The highest degree a file may use.
+pub const MAX_DEGREE: usize = 25;
+
+/// A curve in homogeneous points `(w x, w y, w z, w)`, millimetres.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// Its degree.
+    pub degree: usize,
+    /// As many as points and degree and one.
+    pub knots: Vec<f64>,
+    /// Control points.
+    pub points: Vec<DVec4>,
+}
+
+/// A surface in homogeneous points; point `(i, j)` is entry `i · counts[1] + j`.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Degrees along `u` and `v`.
+    pub degree: [usize; 2],
+    /// Knots along `u` and `v`.
+    pub knots: [Vec<f64>; 2],
+    /// Numbers of control points along `u` and `v`.
+    pub counts: [usize; 2],
+    /// Control points.
+    pub points: Vec<DVec4>,
+    /// Whether the surface meets itself, smoothly, at the ends of a parameter.
+    pub closed: [bool; 2],
+    /// Whether it meets itself there at all.
+    pub touching: [bool; 2],
+    /// Whether the side where a parameter is least or greatest is one point.
+    pub poles: [[bool; 2]; 2],
+}
+
+/// A point of a surface with its derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct Jet {
+    /// Position.
+    pub point: DVec3,
+    /// First derivatives by `u` and `v`.
+    pub first: [DVec3; 2],
+    /// Second derivatives: `uu`, `uv`, `vv`.
+    pub second: [DVec3; 3],
+}
+
+impl Jet {
+    /// `f_u × f_v`, not normalised.
+    pub fn cross(&self) -> DVec3 {
+        self.first[0].cross(self.first[1])
+    }
+}
+
+/// Basis functions that do not vanish at a parameter: values, first and second derivatives.
+struct Basis {
+    first: usize,
+    values: [[f64; MAX_DEGREE + 1]; 3],
+}
+
+impl Basis {
+    /// By the recursion of Cox and de Boor; derivatives from the functions of lower degree.
+    fn new(knots: &[f64], degree: usize, count: usize, t: f64) -> Self {
+        let upper = knots[degree + 1..count].partition_point(|knot| *knot <= t) + degree;
+        let span = upper.min(count - 1);
+        let mut rows = [[0.0; MAX_DEGREE + 1]; 3];
+        let mut row = [0.0; MAX_DEGREE + 1];
+        row[0] = 1.0;
+        // rows[k] keeps the functions of degree − k, aligned so that entry i belongs to point span − degree + i.
+        for level in 0..=degree {
+            if level > 0 {
+                let mut next = [0.0; MAX_DEGREE + 1];
+                for (i, value) in row.iter().enumerate().take(level) {
+                    let (low, high) = (knots[span + 1 + i - level], knots[span + 1 + i]);
+                    let share = if high > low { value / (high - low) } else { 0.0 };
+                    next[i] += (high - t) * share;
+                    next[i + 1] += (t - low) * share;
+                }
+                row = next;
+            }
+            if degree - level < 3 {
+                rows[degree - level] = row;
+            }
+        }
+        let differentiate = |lower: &[f64; MAX_DEGREE + 1], level: usize| {
+            let mut result = [0.0; MAX_DEGREE + 1];
+            for i in 0..level {
+                let width = knots[span + 1 + i] - knots[span + 1 + i - level];
+                let share = if width > 0.0 { level as f64 * lower[i] / width } else { 0.0 };
+                result[i] -= share;
+                result[i + 1] += share;
+            }
+            result
+        };
+        let first = if degree >= 1 { differentiate(&rows[1], degree) } else { [0.0; MAX_DEGREE + 1] };
+        let second = if degree >= 2 {
+            differentiate(&differentiate(&rows[2], degree - 1), degree)
+        } else {
+            [0.0; MAX_DEGREE + 1]
+        };
+        Self { first: span - degree, values: [rows[0], first, second] }
+    }
+}
+
+impl Curve {
+    /// The least and the greatest parameter.
+    pub fn range(&self) -> [f64; 2] {
+        [self.knots[self.degree], self.knots[self.points.len()]]
+    }
+
+    /// Position, first and second derivative at `t`, which is brought into the range.
+    pub fn at(&self, t: f64) -> [DVec3; 3] {
+        let [low, high] = self.range();
+        let basis = Basis::new(&self.knots, self.degree, self.points.len(), t.clamp(low, high));
+        let sum = |order: usize| {
+            let terms = self.points[basis.first..].iter().zip(&basis.values[order][..=self.degree]);
+            terms.map(|(point, value)| *point * *value).sum::<DVec4>()
+        };
+        let (a, b, c) = (sum(0), sum(1), sum(2));
+        let point = a.truncate() / a.w;
+        let first = (b.truncate() - point * b.w) / a.w;
+        let second = (c.truncate() - first * (2.0 * b.w) - point * c.w) / a.w;
+        [point, first, second]
+    }
+}
+
+impl Surface {
+    /// The least and the greatest value of a parameter.
+    pub fn range(&self, axis: usize) -> [f64; 2] {
+        [self.knots[axis][self.degree[axis]], self.knots[axis][self.counts[axis]]]
+    }
+
+    /// The width of the range of a parameter.
+    pub fn period(&self, axis: usize) -> f64 {
+        let [low, high] = self.range(axis);
+        high - low
+    }
+
+    /// Parameters in their ranges: round a closed one, to the nearest end of an open one.
+    pub fn wrapped(&self, uv: DVec2) -> DVec2 {
+        let wrap = |axis: usize, value: f64| {
+            let [low, high] = self.range(axis);
+            if self.closed[axis] && !(low..=high).contains(&value) {
+                low + (value - low).rem_euclid(high - low)
+            } else {
+                value.clamp(low, high)
+            }
+        };
+        DVec2::new(wrap(0, uv.x), wrap(1, uv.y))
+    }
+
+    /// The point and its derivatives.
+    pub fn at(&self, uv: DVec2) -> Jet {
+        let uv = self.wrapped(uv);
+        let [along_u, along_v] = [(0, uv.x), (1, uv.y)]
+            .map(|(axis, t)| Basis::new(&self.knots[axis], self.degree[axis], self.counts[axis], t));
+        let mut sums = [DVec4::ZERO; 6];
+        for i in 0..=self.degree[0] {
+            let row = (along_u.first + i) * self.counts[1] + along_v.first;
+            let mut line = [DVec4::ZERO; 3];
+            for (j, point) in self.points[row..=row + self.degree[1]].iter().enumerate() {
+                for (order, sum) in line.iter_mut().enumerate() {
+                    *sum += *point * along_v.values[order][j];
+                }
+            }
+            for (k, (a, b)) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)].into_iter().enumerate() {
+                sums[k] += line[b] * along_u.values[a][i];
+            }
+        }
+        let [s, u, v, uu, uv, vv] = sums;
+        let w = s.w;
+        let point = s.truncate() / w;
+        let first = [u, v].map(|d| (d.truncate() - point * d.w) / w);
+        let [fu, fv] = first;
+        let second = [
+            (uu.truncate() - fu * (2.0 * u.w) - point * uu.w) / w,
+            (uv.truncate() - fv * u.w - fu * v.w - point * uv.w) / w,
+            (vv.truncate() - fv * (2.0 * v.w) - point * vv.w) / w,
+        ];
+        Jet { point, first, second }
+    }
+
+    /// The unit normal `f_u × f_v`; at a pole, that of a point a millionth of the range away from it.
+    pub fn normal(&self, uv: DVec2) -> DVec3 {
+        let jet = self.at(uv);
+        let cross = jet.cross();
+        if cross.length() > 1e-9 * jet.first[0].length_squared().max(jet.first[1].length_squared()) {
+            return cross.normalize();
+        }
+        let [u, v] = [0, 1].map(|axis| self.range(axis));
+        let middle = DVec2::new(u[0] + u[1], v[0] + v[1]) * 0.5;
+        self.at(uv + (middle - uv) * 1e-6).cross().normalize_or_zero()
+    }
+
+    /// Finds out where the surface closes on itself and where it has poles; `near` is what counts as one point.
+    pub fn find_ends(&mut self, near: f64) {
+        const STEPS: usize = 24;
+        let at = |axis: usize, end: usize, k: usize| {
+            let [low, high] = self.range(1 - axis);
+            let along = low + (high - low) * k as f64 / STEPS as f64;
+            let fixed = self.range(axis)[end];
+            self.at(if axis == 0 { DVec2::new(fixed, along) } else { DVec2::new(along, fixed) })
+        };
+        let is_pole = |axis: usize, end: usize| {
+            (1..=STEPS).all(|k| at(axis, end, k).point.distance(at(axis, end, 0).point) <= near)
+        };
+        let poles = [0, 1].map(|axis| [0, 1].map(|end| is_pole(axis, end)));
+        let touching = [0, 1].map(|axis| {
+            poles[axis] != [true; 2] && (0..=STEPS).all(|k| at(axis, 0, k).point.distance(at(axis, 1, k).point) <= near)
+        });
+        // A crease along the seam is an edge, and no place to go through.
+        let is_smooth = |axis: usize| {
+            let width = self.period(axis);
+            (0..=STEPS).all(|k| {
+                let [a, b] = [0, 1].map(|end| at(axis, end, k).first[axis]);
+                // Where the lines along the other parameter meet there is no direction to compare.
+                a.dot(b) >= 0.999_99 * a.length() * b.length() || a.length() * width < 1e3 * near
+            })
+        };
+        let closed = [0, 1].map(|axis| touching[axis] && is_smooth(axis));
+        self.touching = touching;
+        (self.poles, self.closed) = (poles, closed);
+    }
+}

@@ -1,0 +1,107 @@
+//! Feet of perpendiculars: the parameters of the point of a surface that is nearest to a point near it.
+
+use crate::nurbs::Surface;
+use glam::{DVec2, DVec3};
+
+/// Newton's steps before giving up; from a guess on the same sheet four are usual.
+const STEPS: usize = 30;
+
+/// What [`Surface::project`] found.
+#[derive(Clone, Copy, Debug)]
+pub struct Foot {
+    /// Its parameters; of a closed surface those near the guess, which may lie outside the range.
+    pub uv: DVec2,
+    /// Its position.
+    pub point: DVec3,
+    /// How far the point was from it.
+    pub distance: f64,
+}
+
+impl Surface {
+    /// The foot near a guess: Newton's method on the squared distance, Gauss's where that is not convex, halved until it falls.
+    pub fn project(&self, point: DVec3, guess: DVec2) -> Foot {
+        let mut uv = self.kept(guess);
+        let mut jet = self.at(uv);
+        let mut best = jet.point.distance_squared(point);
+        for _ in 0..STEPS {
+            let off = jet.point - point;
+            let [su, sv] = jet.first;
+            let gradient = DVec2::new(off.dot(su), off.dot(sv));
+            let gauss = [su.dot(su), su.dot(sv), sv.dot(sv)];
+            let newton = [0, 1, 2].map(|k| gauss[k] + off.dot(jet.second[k]));
+            let Some(step) =
+                solve(newton, gradient).or_else(|| solve(gauss, gradient)).or_else(|| slope(gauss, gradient))
+            else {
+                break;
+            };
+            let mut share = 1.0;
+            let moved = loop {
+                let next = self.kept(uv - step * share);
+                let there = self.at(next);
+                let distance = there.point.distance_squared(point);
+                if distance < best {
+                    let moved = next - uv;
+                    (uv, jet, best) = (next, there, distance);
+                    break moved;
+                }
+                share *= 0.4;
+                if share < 1e-4 {
+                    break DVec2::ZERO;
+                }
+            };
+            let length = jet.first[0].length() * moved.x.abs() + jet.first[1].length() * moved.y.abs();
+            if length < 1e-12 * (1.0 + jet.point.length()) {
+                break;
+            }
+        }
+        Foot { uv, point: jet.point, distance: best.sqrt() }
+    }
+
+    /// The foot from nowhere: the best of a grid first.
+    pub fn locate(&self, point: DVec3) -> Foot {
+        let lines = [0, 1].map(|axis| {
+            let knots = &self.knots[axis][self.degree[axis]..=self.counts[axis]];
+            let spans = knots.windows(2).filter(|pair| pair[0] < pair[1]);
+            spans
+                .flat_map(|pair| (0..6).map(|k| pair[0] + (pair[1] - pair[0]) * (f64::from(k) + 0.5) / 6.0))
+                .collect::<Vec<_>>()
+        });
+        let mut starts: Vec<(f64, DVec2)> = Vec::new();
+        for u in &lines[0] {
+            for v in &lines[1] {
+                let uv = DVec2::new(*u, *v);
+                starts.push((self.at(uv).point.distance_squared(point), uv));
+            }
+        }
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let feet = starts.iter().take(4).map(|(_, uv)| self.project(point, *uv));
+        feet.min_by(|a, b| a.distance.total_cmp(&b.distance)).unwrap_or(Foot {
+            uv: DVec2::ZERO,
+            point: DVec3::ZERO,
+            distance: f64::INFINITY,
+        })
+    }
+
+    /// Into the range of each parameter that does not close.
+    fn kept(&self, uv: DVec2) -> DVec2 {
+        let keep = |axis: usize, value: f64| {
+            let [low, high] = self.range(axis);
+            if self.closed[axis] { value } else { value.clamp(low, high) }
+        };
+        DVec2::new(keep(0, uv.x), keep(1, uv.y))
+    }
+}
+
+/// The solution of a symmetric positive system, if it is one.
+fn solve([a, b, c]: [f64; 3], right: DVec2) -> Option<DVec2> {
+    let determinant = a * c - b * b;
+    let is_positive = a > 0.0 && c > 0.0 && determinant > 1e-12 * a * c;
+    is_positive.then(|| DVec2::new(c * right.x - b * right.y, a * right.y - b * right.x) / determinant)
+}
+
+/// Down the slope, each parameter by itself: all that is left beside a pole.
+fn slope([a, _, c]: [f64; 3], gradient: DVec2) -> Option<DVec2> {
+    let along = |square: f64, value: f64| if square > 1e-24 { value / square } else { 0.0 };
+    let step = DVec2::new(along(a, gradient.x), along(c, gradient.y));
+    (step != DVec2::ZERO).then_some(step)
+}

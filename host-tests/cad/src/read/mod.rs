@@ -1,0 +1,157 @@
+//! STEP in: which solids and shells, where they are placed, and their faces.
+
+mod damage;
+mod shape;
+
+use crate::error::ImportError;
+use crate::part::Part;
+use glam::{DAffine3, DMat3, DVec3};
+use shape::Gather;
+use std::fs;
+use std::path::Path;
+use step_io::StepModel;
+use step_io::scene::{ProductDef, Shell, Solid, SurfaceModel, Transform};
+
+/// Assemblies in assemblies.
+const DEEPEST: usize = 64;
+/// More than a body can have by far; they would be read for minutes and refused in the end.
+const MOST_FACES: usize = 20_000;
+/// Bytes: a file of some ten million entities.
+const LARGEST_FILE: u64 = 1 << 30;
+
+/// Solids and shells with their placements.
+struct Placed<'m> {
+    name: String,
+    shells: Vec<(Shell<'m>, bool)>,
+    placement: DAffine3,
+}
+
+/// Reads a part; all its solids, or those of one name.
+///
+/// # Errors
+/// What is wrong with the file, or that there is nothing to feel in it.
+pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
+    let file = path.display().to_string();
+    let cannot = |cause| ImportError::Read { file: file.clone(), cause };
+    let length = fs::metadata(path).map_err(cannot)?.len();
+    if length > LARGEST_FILE {
+        let count = usize::try_from(length).unwrap_or(usize::MAX);
+        return Err(ImportError::TooMany { file, count, what: "bytes", limit: LARGEST_FILE as usize });
+    }
+    let bytes = fs::read(path).map_err(cannot)?;
+    // The reader says it does not panic; a part is not worth the tool's life if it does.
+    let read = std::panic::catch_unwind(|| step_io::read(bytes.as_slice()));
+    let (model, report) = match read {
+        Ok(Ok(read)) => read,
+        Ok(Err(error)) => return Err(ImportError::Syntax { file, message: error.to_string() }),
+        Err(_) => return Err(ImportError::Syntax { file, message: "the reader gave up".to_owned() }),
+    };
+    damage::check(&bytes, &report, &file)?;
+    let gathered = std::panic::catch_unwind(|| gather(&model, &file, only));
+    let mut part = gathered.unwrap_or_else(|_| {
+        Err(ImportError::Syntax { file: file.clone(), message: "its entities do not fit together".to_owned() })
+    })?;
+    let stem = path.file_stem().map_or_else(|| "part".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    part.name = stem;
+    Ok(part)
+}
+
+fn gather(model: &StepModel, file: &str, only: Option<&str>) -> Result<Part, ImportError> {
+    let scene = model.scene();
+    let mut placed = Vec::new();
+    for root in scene.root_definitions() {
+        walk(&root, DAffine3::IDENTITY, 0, file, &mut placed)?;
+    }
+    if placed.is_empty() {
+        // Shapes that no product owns.
+        for instance in scene.all_mapped_instances() {
+            let placement = affine(instance.transform());
+            placed.extend(instance.solids().map(|solid| of_solid(&solid, placement, None)));
+            placed.extend(instance.surface_models().map(|shells| of_shells(&shells, placement, None)));
+        }
+    }
+    if placed.is_empty() {
+        placed.extend(scene.all_solids().map(|solid| of_solid(&solid, DAffine3::IDENTITY, None)));
+        placed.extend(scene.all_surface_models().map(|shells| of_shells(&shells, DAffine3::IDENTITY, None)));
+    }
+    if placed.is_empty() {
+        let schema = model.header().schema.raw.join(", ");
+        return Err(ImportError::NoShape { file: file.to_owned(), schema });
+    }
+    if let Some(name) = only {
+        let mut known: Vec<_> = placed.iter().map(|shape| format!("\"{}\"", shape.name)).collect();
+        known.dedup();
+        placed.retain(|shape| shape.name == name);
+        if placed.is_empty() {
+            let known = known.join(", ");
+            return Err(ImportError::NoSolid { file: file.to_owned(), name: name.to_owned(), known });
+        }
+    }
+    let count = placed.iter().flat_map(|shape| &shape.shells).map(|(shell, _)| shell.faces().count()).sum();
+    if count > MOST_FACES {
+        return Err(ImportError::TooMany { file: file.to_owned(), count, what: "faces", limit: MOST_FACES });
+    }
+    let units = scene.units();
+    let mut part = Part::default();
+    let scale = match &units.length {
+        Some(unit) if unit.to_si > 0.0 && unit.to_si.is_finite() => unit.to_si * 1e3,
+        _ => {
+            part.remarks.push("the file gives no unit of length; millimetres are taken".to_owned());
+            1.0
+        }
+    };
+    part.precision = units.precision.unwrap_or(0.0) * scale;
+    let mut gather = Gather::new(&mut part, scale);
+    for shape in &placed {
+        gather.begin(&shape.name, shape.placement);
+        for (shell, turned) in &shape.shells {
+            gather.shell(shell, *turned)?;
+        }
+    }
+    Ok(part)
+}
+
+/// The solids of a product and of all it is made of.
+fn walk<'m>(
+    product: &ProductDef<'m>,
+    placement: DAffine3,
+    depth: usize,
+    file: &str,
+    placed: &mut Vec<Placed<'m>>,
+) -> Result<(), ImportError> {
+    let name = product.product().map_or_else(String::new, |product| product.name().to_owned());
+    if depth > DEEPEST || placed.len() > MOST_FACES {
+        return Err(ImportError::Cycle { file: file.to_owned(), product: name, limit: DEEPEST });
+    }
+    placed.extend(product.solids().map(|solid| of_solid(&solid, placement, Some(&name))));
+    placed.extend(product.surface_models().map(|shells| of_shells(&shells, placement, Some(&name))));
+    for occurrence in product.occurrences() {
+        let Some(child) = occurrence.definition() else { continue };
+        walk(&child, placement * affine(occurrence.transform()), depth + 1, file, placed)?;
+    }
+    Ok(())
+}
+
+fn of_solid<'m>(solid: &Solid<'m>, placement: DAffine3, product: Option<&str>) -> Placed<'m> {
+    let shells = solid.outer().into_iter().chain(solid.voids());
+    let shells = shells.map(|(shell, orientation)| (shell, orientation == step_io::Orientation::Reversed)).collect();
+    Placed { name: named(solid.name(), product), shells, placement }
+}
+
+fn of_shells<'m>(model: &SurfaceModel<'m>, placement: DAffine3, product: Option<&str>) -> Placed<'m> {
+    let shells = model.shells().map(|(shell, orientation)| (shell, orientation == step_io::Orientation::Reversed));
+    Placed { name: named(model.name(), product), shells: shells.collect(), placement }
+}
+
+/// The solid's own name, or its product's.
+fn named(own: &str, product: Option<&str>) -> String {
+    let name = if own.is_empty() || own == "NONE" { product.unwrap_or("") } else { own };
+    if name.is_empty() { "solid".to_owned() } else { name.to_owned() }
+}
+
+/// A placement in the file's unit of length.
+fn affine(transform: Option<Transform>) -> DAffine3 {
+    let Some(m) = transform.and_then(|transform| transform.matrix()) else { return DAffine3::IDENTITY };
+    let column = |k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
+    DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
+}

@@ -1,0 +1,204 @@
+//! A shell's faces as NURBS: surfaces, chained loops, edges shared by their keys.
+
+use crate::error::ImportError;
+use crate::nurbs::{Curve, MAX_DEGREE, Surface};
+use crate::part::{Edge, Face, Part, Use};
+use glam::{DAffine3, DVec3};
+use std::collections::HashMap;
+use step_io::scene::{self, NurbsCurve, NurbsSurface, Shell, SurfaceKind};
+use step_io::{EntityKey, Orientation};
+
+/// Faces on their way into a part.
+pub(super) struct Gather<'p> {
+    part: &'p mut Part,
+    scale: f64,
+    placement: DAffine3,
+    edges: HashMap<EntityKey, usize>,
+    vertices: HashMap<EntityKey, usize>,
+    names: HashMap<String, usize>,
+}
+
+impl<'p> Gather<'p> {
+    pub(super) fn new(part: &'p mut Part, scale: f64) -> Self {
+        let (edges, vertices, names) = (HashMap::new(), HashMap::new(), HashMap::new());
+        Self { part, scale, placement: DAffine3::IDENTITY, edges, vertices, names }
+    }
+
+    /// Another solid: nothing of it is shared with those before.
+    pub(super) fn begin(&mut self, name: &str, placement: DAffine3) {
+        self.part.solids.push(name.to_owned());
+        self.placement = placement;
+        self.edges.clear();
+        self.vertices.clear();
+    }
+
+    pub(super) fn shell(&mut self, shell: &Shell<'_>, turned: bool) -> Result<(), ImportError> {
+        for face in shell.faces() {
+            self.face(&face, turned)?;
+        }
+        Ok(())
+    }
+
+    fn face(&mut self, face: &scene::Face<'_>, turned: bool) -> Result<(), ImportError> {
+        let name = self.unique(face.name());
+        let kind = kind(&face.surface().kind());
+        let cannot = |reason: String| ImportError::face(&name, reason);
+        let surface =
+            face.to_nurbs().ok_or_else(|| cannot(format!("its surface ({kind}) is of a kind that is not read")))?;
+        let surface = self.surface(&surface).map_err(cannot)?;
+        let against = face.orientation() == Orientation::Reversed;
+        let mut loops = Vec::new();
+        for bound in face.bounds() {
+            let mut uses = Vec::new();
+            for (edge, orientation) in bound.oriented_edges() {
+                let edge = self.edge(&edge).map_err(cannot)?;
+                uses.push(Use { edge, reversed: orientation == Orientation::Reversed });
+            }
+            if uses.is_empty() {
+                if bound.vertex().is_none() {
+                    return Err(cannot("a loop of it has no edges".to_owned()));
+                }
+                continue;
+            }
+            // Seen from the surface's own normal, the face on the left.
+            if (bound.orientation() == Orientation::Reversed) != against {
+                uses.reverse();
+                uses.iter_mut().for_each(|used| used.reversed = !used.reversed);
+            }
+            for (first, second) in uses.iter().zip(uses.iter().cycle().skip(1)) {
+                if self.part.ends(*first)[1] != self.part.ends(*second)[0] {
+                    return Err(cannot("the edges of a loop of it do not follow each other".to_owned()));
+                }
+            }
+            loops.push(uses);
+        }
+        self.part.faces.push(Face { name, kind, surface, flip: against != turned, loops });
+        Ok(())
+    }
+
+    fn unique(&mut self, own: &str) -> String {
+        let number = self.part.faces.len() + 1;
+        let base = if own.is_empty() || own == "NONE" { format!("face {number}") } else { own.to_owned() };
+        let count = self.names.entry(base.clone()).or_insert(0);
+        *count += 1;
+        if *count == 1 { base } else { format!("{base} ({number})") }
+    }
+
+    fn placed(&self, point: [f64; 3]) -> DVec3 {
+        self.placement.transform_point3(DVec3::from_array(point)) * self.scale
+    }
+
+    fn vertex(&mut self, vertex: Option<scene::Vertex<'_>>) -> Result<usize, String> {
+        let vertex = vertex.ok_or("an edge has no vertex at an end")?;
+        if let Some(index) = self.vertices.get(&vertex.key()) {
+            return Ok(*index);
+        }
+        let point = self.placed(vertex.point().ok_or("a vertex has no point")?.xyz());
+        if !point.is_finite() {
+            return Err("a vertex is at no finite place".to_owned());
+        }
+        let index = self.part.vertices.len();
+        self.part.vertices.push(point);
+        self.vertices.insert(vertex.key(), index);
+        Ok(index)
+    }
+
+    fn edge(&mut self, edge: &scene::Edge<'_>) -> Result<usize, String> {
+        if let Some(index) = self.edges.get(&edge.key()) {
+            return Ok(*index);
+        }
+        let mut ends = [self.vertex(edge.start())?, self.vertex(edge.end())?];
+        let number = self.part.edges.len() + 1;
+        let curve =
+            edge.to_nurbs().ok_or_else(|| format!("its edge {number} has a curve of a kind that is not read"))?;
+        let mut curve = self.curve(&curve).map_err(|reason| format!("its edge {number}: {reason}"))?;
+        let [low, high] = curve.range();
+        let [start, end] = [low, high].map(|t| curve.at(t)[0]);
+        let points = ends.map(|index| self.part.vertices[index]);
+        let near = self.part.precision.max(1e-4);
+        if ends[0] != ends[1] && points[0].distance(points[1]) <= 1e-7 && start.distance(end) <= near {
+            // Two vertices in one place: a closed edge.
+            ends[1] = ends[0];
+        }
+        if ends[0] == ends[1] {
+            if !edge.same_sense() {
+                curve = reversed(curve);
+            }
+        } else {
+            let gap = start.distance(points[0]).max(end.distance(points[1]));
+            if gap > near {
+                return Err(format!("its edge {number} ends {gap:.6} mm from its vertex"));
+            }
+        }
+        let index = self.part.edges.len();
+        self.part.edges.push(Edge { curve, ends });
+        self.edges.insert(edge.key(), index);
+        Ok(index)
+    }
+
+    fn curve(&self, curve: &NurbsCurve) -> Result<Curve, String> {
+        check_knots(&curve.knots, curve.degree, curve.control_points.len())?;
+        let weigh = |(point, weight): (&[f64; 3], &f64)| self.placed(*point).extend(1.0) * *weight;
+        let points: Vec<_> = curve.control_points.iter().zip(&curve.weights).map(weigh).collect();
+        if points.iter().any(|point| !point.is_finite() || point.w <= 0.0) {
+            return Err("a control point or weight is not a usable number".to_owned());
+        }
+        Ok(Curve { degree: curve.degree, knots: curve.knots.clone(), points })
+    }
+
+    fn surface(&self, surface: &NurbsSurface) -> Result<Surface, String> {
+        let counts = [surface.control_points.len(), surface.control_points.first().map_or(0, Vec::len)];
+        let degree = [surface.degree_u, surface.degree_v];
+        let knots = [surface.knots_u.clone(), surface.knots_v.clone()];
+        for axis in 0..2 {
+            check_knots(&knots[axis], degree[axis], counts[axis])?;
+        }
+        let rows = surface.control_points.iter().zip(&surface.weights);
+        let weigh = |(point, weight): (&[f64; 3], &f64)| self.placed(*point).extend(1.0) * *weight;
+        let points: Vec<_> = rows.flat_map(|(points, weights)| points.iter().zip(weights).map(weigh)).collect();
+        if points.len() != counts[0] * counts[1] || points.iter().any(|point| !point.is_finite() || point.w <= 0.0) {
+            return Err("a control point or weight of its surface is not a usable number".to_owned());
+        }
+        let mut surface =
+            Surface { degree, knots, counts, points, closed: [false; 2], touching: [false; 2], poles: [[false; 2]; 2] };
+        surface.find_ends(self.part.precision.max(1e-6));
+        Ok(surface)
+    }
+}
+
+fn check_knots(knots: &[f64], degree: usize, count: usize) -> Result<(), String> {
+    let fits = (1..=MAX_DEGREE).contains(&degree) && count > degree && knots.len() == count + degree + 1;
+    let rises = knots.windows(2).all(|pair| pair[0] <= pair[1]) && knots.iter().all(|knot| knot.is_finite());
+    if fits && rises && knots[degree] < knots[count] {
+        Ok(())
+    } else {
+        Err("its knots do not fit its points".to_owned())
+    }
+}
+
+fn reversed(mut curve: Curve) -> Curve {
+    curve.points.reverse();
+    let sum = curve.knots[0] + curve.knots[curve.knots.len() - 1];
+    curve.knots = curve.knots.iter().rev().map(|knot| sum - knot).collect();
+    curve
+}
+
+const fn kind(kind: &SurfaceKind<'_>) -> &'static str {
+    match kind {
+        SurfaceKind::Plane(_) => "plane",
+        SurfaceKind::Cylindrical(_) => "cylinder",
+        SurfaceKind::Conical(_) => "cone",
+        SurfaceKind::Spherical(_) => "sphere",
+        SurfaceKind::Toroidal(_) | SurfaceKind::DegenerateToroidal(_) => "torus",
+        SurfaceKind::Offset(_) => "offset",
+        SurfaceKind::LinearExtrusion(_) => "extrusion",
+        SurfaceKind::Revolution(_) => "revolution",
+        SurfaceKind::BSpline(_)
+        | SurfaceKind::BSplineWithKnots(_)
+        | SurfaceKind::QuasiUniform(_)
+        | SurfaceKind::Uniform(_)
+        | SurfaceKind::Bezier(_) => "b-spline",
+        SurfaceKind::Other(keyword) => keyword,
+        _ => "surface",
+    }
+}
