@@ -71,7 +71,7 @@ impl Descending {
     /// Both halves of a step at one go.
     pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> Progress {
         self.evaluate(patch, probe);
-        self.judge(poles, known, size)
+        if poles == 0 { self.judge(known, size) } else { self.judge_beside(poles, known, size) }
     }
 
     /// Whether the last evaluation is still to be judged.
@@ -87,21 +87,16 @@ impl Descending {
         self.seen = Some(Seen::new(&curved, curved.surface.point - probe));
     }
 
-    /// The second half: where to go from there. `poles` are the face's ([`super::Face::poles`]), `known` is the `φ` to beat, m²; `size` the
-    /// body's, metres.
-    #[inline]
-    pub fn judge(&mut self, poles: u8, known: f32, size: f32) -> Progress {
-        if poles == 0 { self.judge_smooth(known, size) } else { self.judge_beside(poles, known, size) }
-    }
-
-    /// On a face without poles: none of their arithmetic is compiled in.
+    /// The second half on a face without poles: where to go from there. None of the arithmetic of poles is compiled in. `known` is the `φ`
+    /// to beat, m²; `size` the body's, metres.
     #[inline(never)]
-    fn judge_smooth(&mut self, known: f32, size: f32) -> Progress {
+    pub fn judge(&mut self, known: f32, size: f32) -> Progress {
         self.judged(0, known, size)
     }
 
+    /// The second half on a face that may have poles ([`super::Face::poles`]).
     #[inline(never)]
-    fn judge_beside(&mut self, poles: u8, known: f32, size: f32) -> Progress {
+    pub fn judge_beside(&mut self, poles: u8, known: f32, size: f32) -> Progress {
         self.judged(poles, known, size)
     }
 
@@ -111,7 +106,10 @@ impl Descending {
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
             let pole = Pole::nearest(poles, at);
-            let model = Model::new(seen, pole.map_or(0.0, |pole| pole.mixed(seen.gradient)));
+            let model = match pole {
+                None => Model::new(seen),
+                Some(pole) => Model::new(seen.beside(pole)),
+            };
             let [lower, upper] = self.candidate.rectangle();
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
@@ -129,21 +127,24 @@ impl Descending {
             }
             // φ changes by d times the change of d. Beside a pole, where steps shrink with the distance to it, the last bit of φ counts too.
             let distance = sqrt(2.0 * half_squared);
-            let last_bit = if pole.is_some() { f32::EPSILON * distance } else { 0.0 };
-            let resolved = RESOLUTION * size + last_bit;
+            let mut resolved = RESOLUTION * size;
+            if pole.is_some() {
+                resolved += f32::EPSILON * distance;
+            }
             if -fall <= resolved * (distance + resolved) {
                 return Progress::Found;
             }
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
         } else {
             self.halvings += 1;
-            let change = [0, 1].map(|axis| at[axis] - self.parameters[axis]);
-            let half = match Pole::nearest(poles, self.parameters) {
-                Some(pole) => pole.halved(change),
-                None => change.map(|change| 0.5 * change),
+            self.trial = match Pole::nearest(poles, self.parameters) {
+                None => [0, 1].map(|axis| 0.5 * (self.parameters[axis] + at[axis])),
+                Some(pole) => {
+                    let half = pole.halved([0, 1].map(|axis| at[axis] - self.parameters[axis]));
+                    let [lower, upper] = self.candidate.rectangle();
+                    [0, 1].map(|axis| saturate(self.parameters[axis] + half[axis], lower[axis], upper[axis]))
+                }
             };
-            let [lower, upper] = self.candidate.rectangle();
-            self.trial = [0, 1].map(|axis| saturate(self.parameters[axis] + half[axis], lower[axis], upper[axis]));
         }
         let exhausted = self.evaluations >= MAX_EVALUATIONS_PER_CANDIDATE || self.halvings >= MAX_HALVINGS;
         if exhausted { Progress::Exhausted } else { Progress::Falling }
@@ -173,6 +174,14 @@ impl Seen {
     }
 }
 
+impl Seen {
+    /// The same in the coordinates of [`super::pole`].
+    fn beside(mut self, pole: Pole) -> Self {
+        self.newton[1] += pole.mixed(self.gradient);
+        self
+    }
+}
+
 /// The quadratic model of `φ` at a point.
 struct Model {
     gradient: [f32; 2],
@@ -181,9 +190,7 @@ struct Model {
 }
 
 impl Model {
-    /// `mixed` comes on top of the mixed second derivative.
-    fn new(Seen { gradient, form, mut newton, .. }: Seen, mixed: f32) -> Self {
-        newton[1] += mixed;
+    fn new(Seen { gradient, form, newton, .. }: Seen) -> Self {
         // Along an arc that is equally far everywhere φ is flat: what is known of the other parameter still counts.
         let mixed = [0, 2].map(|axis| if newton[axis] > FLAT * form[axis] { newton[axis] } else { form[axis] });
         let mixed = [mixed[0], newton[1], mixed[1]];

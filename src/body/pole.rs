@@ -15,11 +15,14 @@ const AT_POLE: f32 = 1.0e-6;
 impl Face {
     /// Which of its sides are poles, as bits.
     #[inline]
-    pub fn poles(&self) -> u8 {
+    pub const fn poles(&self) -> u8 {
         let [lower_u, upper_u, lower_v, upper_v] = &self.sides;
-        let bit = |side: &Side| u8::from(matches!(side, Side::Pole { .. }));
         bit(lower_u) | bit(upper_u) << 1 | bit(lower_v) << 2 | bit(upper_v) << 3
     }
+}
+
+const fn bit(side: &Side) -> u8 {
+    matches!(side, Side::Pole { .. }) as u8
 }
 
 /// A pole as seen from a point of its face.

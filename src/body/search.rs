@@ -3,6 +3,7 @@
 //! Half an evaluation a call, so that a servo tick can carry it: the search runs beside the tracker until it is done, and begins anew
 //! in whatever cell the probe is then. The same search answers a query at one go ([`Body::locate`]).
 
+use super::feature::Face;
 use super::locator::Candidate;
 use super::minimise::{Descending, Progress};
 use super::table::Body;
@@ -76,17 +77,23 @@ impl Search {
             return;
         }
         let Candidate { face, more, .. } = self.descending.candidate;
-        let Some(on) = body.faces.get(usize::from(face)) else {
-            self.ended = Some(false);
-            return;
-        };
         if !self.descending.has_evaluated() {
-            self.descending.evaluate(&on.patch, probe);
+            match body.faces.get(usize::from(face)) {
+                Some(on) => self.descending.evaluate(&on.patch, probe),
+                None => self.ended = Some(false),
+            }
             self.evaluations += 1;
             return;
         }
-        let progress = self.descending.judge(on.poles(), self.best.half_squared, body.size);
-        self.exhausted |= progress == Progress::Exhausted;
+        let known = self.best.half_squared;
+        let progress = if body.has_poles {
+            self.descending.judge_beside(body.poles_of(face), known, body.size)
+        } else {
+            self.descending.judge(known, body.size)
+        };
+        if progress == Progress::Exhausted {
+            self.exhausted = true;
+        }
         let Descending { parameters, half_squared, .. } = self.descending;
         if half_squared < self.best.half_squared {
             self.best = Best { face, parameters, half_squared };
@@ -129,6 +136,10 @@ impl Body {
             search.turn(self, probe);
         }
         search.located(search.ended.unwrap_or(false))
+    }
+
+    fn poles_of(&self, face: u16) -> u8 {
+        self.faces.get(usize::from(face)).map_or(0, Face::poles)
     }
 
     /// The candidate at an index; the constructor checked that lists end.

@@ -19,6 +19,8 @@ pub struct Body {
     /// The contact from which there is nothing to audit: the body is touched, or it is convex and the probe in front of the witness point, so
     /// that no other point is nearer.
     pub(super) sure_from: Contact,
+    /// Whether any face has a pole: where none has, the search does not ask.
+    pub(super) has_poles: bool,
     pub(super) baked_crc: Option<NonZeroU32>,
 }
 
@@ -96,7 +98,13 @@ impl Body {
             return Err(BodyError::Size);
         }
         let sure_from = if is_convex { Contact::InFront } else { Contact::Touching };
-        let body = Self { faces, edges, vertices, spokes, locator, size, sure_from, baked_crc: None };
+        let mut has_poles = false;
+        let mut index = 0;
+        while index < faces.len() {
+            has_poles |= faces[index].poles() != 0;
+            index += 1;
+        }
+        let body = Self { faces, edges, vertices, spokes, locator, size, sure_from, has_poles, baked_crc: None };
         if let Err(error) = body.check_features() {
             return Err(error);
         }

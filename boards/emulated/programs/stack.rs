@@ -63,11 +63,11 @@ static TOUCHES: AtomicU32 = AtomicU32::new(0);
 
 #[interrupt]
 fn TIMER0() {
-    static mut RUN: Option<&'static mut (Script, State)> = None;
+    static mut RUN: Option<(&'static mut Script, &'static mut State)> = None;
 
     BOARD.acknowledge_timer();
     if RUN.is_none() {
-        *RUN = begin();
+        *RUN = begin_script().zip(begin_state());
     }
     let Some((script, state)) = RUN else { return };
     let order = script.next_order();
@@ -87,12 +87,18 @@ fn TIMER0() {
 
 // What makes a state does so on the stack, and a board does it before its first interrupt: not below the tick.
 
-static PLACE: StaticCell<(Script, State)> = StaticCell::new();
+static SCRIPT: StaticCell<Script> = StaticCell::new();
+static STATE: StaticCell<State> = StaticCell::new();
 
 #[inline(never)]
-fn begin() -> Option<&'static mut (Script, State)> {
+fn begin_script() -> Option<&'static mut Script> {
     let encoders = &palpate::device::presets::WOODEN_HAPTICS_2016.encoders;
-    PLACE.try_init((Script::new(1, encoders, WOODEN_HAPTICS_REACH), SERVO.start()))
+    SCRIPT.try_init(Script::new(1, encoders, WOODEN_HAPTICS_REACH))
+}
+
+#[inline(never)]
+fn begin_state() -> Option<&'static mut State> {
+    STATE.try_init(SERVO.start())
 }
 
 #[inline(never)]

@@ -48,10 +48,13 @@ const FRICTION: Friction =
 const PASSIVITY: Passivity =
     Passivity { device_damping: 0.1, device_friction: 0.01, max_damping: 8.0, resolution: 1e-4 };
 
-/// Spring and damper alone.
+/// Spring and damper alone; contact that no motion explains is a fault at once.
 pub static PLAIN: ServoOf<SerialArm> =
-    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT)
-        .safety(Safety { link_timeout: 0.05, ..Safety::DEFAULT });
+    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT).safety(Safety {
+        link_timeout: 0.05,
+        contact: Some(ContactLimits { max_in_a_row: 0, ..ContactLimits::DEFAULT }),
+        ..Safety::DEFAULT
+    });
 
 /// Friction, texture, passivity, the window's velocity; homing, the table's check, damping after a fault.
 pub static RICH: ServoOf<SerialArm> =
@@ -80,12 +83,12 @@ pub static COUPLED: ServoOf<Delta> =
         ..Rendering::PLAIN
     });
 
-/// A five-bar on a turntable that watches for stuck sensors and lost contact, and bears some overruns.
+/// A five-bar on a turntable that watches for stuck sensors and bears some overruns. As on the body, nothing ends deep contact.
 pub static WATCHFUL: ServoOf<LinkageArm> =
     Servo::new(&POLHEM_V2, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT).safety(Safety {
         max_overruns: 1,
         stuck: Some(StuckLimits { load: 1.0, travel: 0.1 }),
-        contact: Some(ContactLimits { max_in_a_row: 0, ..ContactLimits::DEFAULT }),
+        contact: None,
         ..Safety::DEFAULT
     });
 
@@ -110,10 +113,12 @@ pub static CORRUPT: ServoOf<SerialArm> = Servo::new(&WOODEN_HAPTICS_2016, &SPOIL
 
 static SPOILT: SplinePatch = ellipsoid::PATCHES[0].with_crc(!ellipsoid::TABLE_CRC);
 
-/// The capped box.
+/// The capped box. The strokes lead right through it, deeper than any hand presses: nothing watches for lost contact, so that it is felt
+/// all the way.
 pub static BODY: ServoOf<SerialArm, Body> =
     Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, Controller::CERTIFIED, CAPPED_BOX_AT)
-        .rendering(Rendering { friction: Some(FRICTION), ..Rendering::PLAIN });
+        .rendering(Rendering { friction: Some(FRICTION), ..Rendering::PLAIN })
+        .safety(Safety { contact: None, ..Safety::DEFAULT });
 
 /// Joint angles, radians, that bring each device's probe to, around and into the bodies.
 pub const WOODEN_HAPTICS_REACH: [[f32; 2]; 3] = [[-0.32, 0.32], [0.0, 0.65], [0.65, 1.2]];

@@ -107,6 +107,7 @@ enum Kind {
     Push,
     Pop,
     StoreDown,
+    StoreUp,
     LoadUp,
     Add,
     Subtract,
@@ -117,7 +118,7 @@ enum Kind {
 }
 
 fn kind(id: u32) -> Kind {
-    const KINDS: [(ArmInsn, Kind); 28] = [
+    const KINDS: [(ArmInsn, Kind); 30] = [
         (ArmInsn::ARM_INS_B, Kind::Branch),
         (ArmInsn::ARM_INS_BL, Kind::Link),
         (ArmInsn::ARM_INS_BLX, Kind::LinkRegister),
@@ -132,6 +133,8 @@ fn kind(id: u32) -> Kind {
         (ArmInsn::ARM_INS_VPOP, Kind::Pop),
         (ArmInsn::ARM_INS_STMDB, Kind::StoreDown),
         (ArmInsn::ARM_INS_VSTMDB, Kind::StoreDown),
+        (ArmInsn::ARM_INS_STM, Kind::StoreUp),
+        (ArmInsn::ARM_INS_VSTMIA, Kind::StoreUp),
         (ArmInsn::ARM_INS_LDM, Kind::LoadUp),
         (ArmInsn::ARM_INS_VLDMIA, Kind::LoadUp),
         (ArmInsn::ARM_INS_ADD, Kind::Add),
@@ -189,7 +192,9 @@ fn growth(kind: Kind, operands: &str) -> Option<i64> {
         Kind::Push => Some(bytes()),
         Kind::Pop => Some(-bytes()),
         Kind::StoreDown if on_stack => Some(bytes()),
-        Kind::LoadUp if on_stack => Some(-bytes()),
+        Kind::StoreUp | Kind::LoadUp if on_stack => Some(-bytes()),
+        // Through the stack pointer, which stays: no `!`.
+        Kind::StoreDown | Kind::StoreUp | Kind::LoadUp => Some(0),
         Kind::Add | Kind::Subtract if operands.starts_with("sp,") => {
             let words: Vec<&str> = operands.split(", ").collect();
             let amount = match words[..] {
@@ -269,6 +274,10 @@ mod tests {
         assert_eq!(decoded(&[0xf84d, 0xed04]).grows, Some(4)); // STR lr, [sp, #-4]!
         assert_eq!(decoded(&[0xf85d, 0xeb04]).grows, Some(-4)); // LDR lr, [sp], #4
         assert_eq!(decoded(&[0xe96d, 0x0102]).grows, Some(8)); // STRD r0, r1, [sp, #-8]!
+        assert_eq!(decoded(&[0xe89d, 0x0007]).grows, Some(0)); // LDM.W sp, {r0-r2}
+        assert_eq!(decoded(&[0xe88d, 0x0007]).grows, Some(0)); // STM.W sp, {r0-r2}
+        assert_eq!(decoded(&[0xe8bd, 0x0007]).grows, Some(-12)); // POP.W {r0-r2}
+        assert_eq!(decoded(&[0xec9d, 0x0a02]).grows, Some(0)); // VLDM sp, {s0, s1}
         assert_eq!(decoded(&[0x46a5]).grows, None); // MOV sp, r4
         assert_eq!(decoded(&[0x9001]).grows, Some(0)); // STR r0, [sp, #4]
         assert_eq!(decoded(&[0xa801]).grows, Some(0)); // ADD r0, sp, #4
