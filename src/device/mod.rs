@@ -16,19 +16,17 @@ mod pose;
 pub mod presets;
 pub mod sensor;
 mod serial_arm;
-mod stop_search;
 mod velocity;
 
 pub use delta::Delta;
 pub use encoder::{Counts, Encoder};
 pub use five_bar::FiveBar;
-pub use homing::{Homing, HomingError, HomingInput, HomingProgress, HomingState, Reference, Refusal};
+pub use homing::{Homing, HomingError, HomingInput, HomingProgress, HomingState, Reference, Refusal, StopSearch};
 pub use linkage_arm::{LinkMass, LinkageArm};
 pub use motor::{Duty, Motor};
 pub use paddle::Paddle;
 pub use pose::ProbePose;
 pub use serial_arm::SerialArm;
-pub use stop_search::StopSearch;
 pub use velocity::{
     AdaptiveWindow, TrackingObserver, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState, WINDOW, Window,
 };

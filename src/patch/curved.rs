@@ -1,8 +1,9 @@
 //! A point with both tangents and all second derivatives: what a cold start needs, and the tick does not.
 
 use super::SurfacePoint;
+use super::coefficients::Coefficients;
 use super::horner::horner_step;
-use super::spline::{Coefficients, SplinePatch};
+use super::spline::SplinePatch;
 use crate::math::{Vec3, vec3};
 
 /// A point of a patch with its derivatives up to the second: one evaluation, at about twice the cost of the first derivatives alone.
@@ -35,7 +36,7 @@ impl SplinePatch {
     /// The point and its derivatives up to the second at `(u, v)`, by Horner's rule on the span that holds it.
     pub fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
         // A single span needs no search: it goes from 0 to 1.
-        let (span, [s, t]) = if self.is_one_span() { (0, [u - 0.5, v - 0.5]) } else { self.locate(u, v) };
+        let (span, [s, t]) = if self.grid.is_one_span() { (0, [u - 0.5, v - 0.5]) } else { self.grid.locate(u, v) };
         match self.spans.coefficients() {
             Coefficients::Polynomial(entries) => {
                 let d = self.taylor(entries, span, s, t);
@@ -51,7 +52,7 @@ impl SplinePatch {
 
     /// Horner's rule over one span; every loop ends with the degree.
     fn taylor<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32, t: f32) -> Taylor<D> {
-        let [rows, columns] = self.degree.map(|degree| usize::from(degree) + 1);
+        let [rows, columns] = self.grid.degree.map(|degree| usize::from(degree) + 1);
         let first = span * rows * columns;
         // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the search.
         let powers = entries.get(first..first + rows * columns).unwrap_or(&[]);

@@ -4,20 +4,25 @@
 //! 1 to 5, kept as polynomial spans so that the target evaluates by Horner's rule and never by de Boor's recursion.
 //! A new kind of surface (a cylinder, a torus) is a new file here that implements [`Patch`].
 
+mod coefficients;
 mod crc;
 mod curved;
 mod horner;
 mod shape;
+mod span_grid;
 mod spans;
 mod spline;
 
+pub use coefficients::Coefficients;
+pub(crate) use coefficients::coefficient_word;
 pub use crc::crc32;
 pub use curved::CurvedPoint;
 pub(crate) use horner::horner_step;
 pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
-pub(crate) use spans::bisect;
-pub use spline::{Coefficients, MAX_DEGREE, MAX_SPANS, Orientation, SplinePatch, TableError, span_centre};
-pub(crate) use spline::{breaks_are_valid, coefficient_word};
+use span_grid::SpanGrid;
+pub use span_grid::{MAX_SPANS, span_centre};
+pub(crate) use span_grid::{bisect, breaks_are_valid};
+pub use spline::{MAX_DEGREE, Orientation, SplinePatch, TableError};
 
 use crate::math::Vec3;
 

@@ -2,7 +2,7 @@
 //! and no degree is looked at in the tick.
 
 use super::horner::{self, Derivatives};
-use super::{Coefficients, SplinePatch, SurfacePoint, span_centre};
+use super::{Coefficients, SpanGrid, SurfacePoint};
 use crate::math::{Vec3, vec3};
 
 /// All spans of a patch.
@@ -55,18 +55,18 @@ impl Spans {
         }
     }
 
-    /// The point and both tangents at `(u, v)` of the patch whose spans these are. Inlined, as each tick goes through it.
+    /// The point and both tangents at `(u, v)` of the patch whose spans these are, with its grid. Inlined, as each tick goes through it.
     #[inline(always)]
-    pub(super) fn evaluate(&self, patch: &SplinePatch, u: f32, v: f32) -> SurfacePoint {
+    pub(super) fn evaluate(&self, grid: &SpanGrid, u: f32, v: f32) -> SurfacePoint {
         match self {
-            Self::Bilinear(spans) => whole::<3, 2, 4>(spans, patch, u, v),
-            Self::Biquadratic(spans) => whole::<3, 3, 9>(spans, patch, u, v),
-            Self::Bicubic(spans) => whole::<3, 4, 16>(spans, patch, u, v),
-            Self::RationalBilinear(spans) => whole::<4, 2, 4>(spans, patch, u, v),
-            Self::RationalBiquadratic(spans) => whole::<4, 3, 9>(spans, patch, u, v),
-            Self::RationalBicubic(spans) => whole::<4, 4, 16>(spans, patch, u, v),
-            Self::Rows(entries) => by_rows(entries, patch, u, v),
-            Self::RationalRows(entries) => by_rows(entries, patch, u, v),
+            Self::Bilinear(spans) => whole::<3, 2, 4>(spans, grid, u, v),
+            Self::Biquadratic(spans) => whole::<3, 3, 9>(spans, grid, u, v),
+            Self::Bicubic(spans) => whole::<3, 4, 16>(spans, grid, u, v),
+            Self::RationalBilinear(spans) => whole::<4, 2, 4>(spans, grid, u, v),
+            Self::RationalBiquadratic(spans) => whole::<4, 3, 9>(spans, grid, u, v),
+            Self::RationalBicubic(spans) => whole::<4, 4, 16>(spans, grid, u, v),
+            Self::Rows(entries) => by_rows(entries, grid, u, v),
+            Self::RationalRows(entries) => by_rows(entries, grid, u, v),
         }
     }
 }
@@ -75,7 +75,7 @@ impl Spans {
 #[inline(always)]
 fn whole<const D: usize, const Q: usize, const N: usize>(
     spans: &[[[f32; D]; N]],
-    patch: &SplinePatch,
+    grid: &SpanGrid,
     u: f32,
     v: f32,
 ) -> SurfacePoint
@@ -84,7 +84,7 @@ where
 {
     match spans {
         [only] => unrolled::<D, Q, N>(only, u - 0.5, v - 0.5),
-        _ => one_of::<D, Q, N>(spans, patch, u, v),
+        _ => one_of::<D, Q, N>(spans, grid, u, v),
     }
 }
 
@@ -92,14 +92,14 @@ where
 #[inline(never)]
 fn one_of<const D: usize, const Q: usize, const N: usize>(
     spans: &[[[f32; D]; N]],
-    patch: &SplinePatch,
+    grid: &SpanGrid,
     u: f32,
     v: f32,
 ) -> SurfacePoint
 where
     SurfacePoint: From<Derivatives<D>>,
 {
-    let (span, [s, t]) = patch.locate(u, v);
+    let (span, [s, t]) = grid.locate(u, v);
     // The constructor counted the entries: none is missing, this only keeps a panic out of the tick.
     spans.get(span).map_or(SurfacePoint::NOWHERE, |coefficients| unrolled::<D, Q, N>(coefficients, s, t))
 }
@@ -118,16 +118,16 @@ where
 
 /// Evaluates a span of any degree: the degree along `v` picks a loop that is unrolled for it, if there is one.
 #[inline(never)]
-fn by_rows<const D: usize>(entries: &[[f32; D]], patch: &SplinePatch, u: f32, v: f32) -> SurfacePoint
+fn by_rows<const D: usize>(entries: &[[f32; D]], grid: &SpanGrid, u: f32, v: f32) -> SurfacePoint
 where
     SurfacePoint: From<Derivatives<D>>,
 {
-    let [degree_u, degree_v] = patch.degree();
+    let [degree_u, degree_v] = grid.degree;
     let count = (usize::from(degree_u) + 1) * (usize::from(degree_v) + 1);
     let (rows, [s, t]) = if entries.len() == count {
         (Some(entries), [u - 0.5, v - 0.5])
     } else {
-        let (span, at) = patch.locate(u, v);
+        let (span, at) = grid.locate(u, v);
         (entries.get(span * count..).and_then(|rest| rest.get(..count)), at)
     };
     match (rows, degree_v) {
@@ -148,40 +148,6 @@ where
     SurfacePoint: From<Derivatives<D>>,
 {
     horner::evaluate::<D, Q>(rows, s, t).into()
-}
-
-/// The span between rising borders that holds `parameter`, and the distance from the span's centre. On a border it is either of
-/// the two.
-#[inline(always)]
-pub(super) fn locate(borders: &[f32], parameter: f32) -> (usize, f32) {
-    let spans = borders.len() - 1;
-    // Right where the borders are even, which is most often.
-    let guess = ((parameter * spans as f32) as usize).min(spans - 1);
-    let at = |span: usize| match borders.get(span..).and_then(|rest| rest.first_chunk()) {
-        Some([left, right]) if *left <= parameter && parameter <= *right => Some(span_centre(*left, *right)),
-        _ => None,
-    };
-    match at(guess) {
-        Some(centre) => (guess, parameter - centre),
-        None => bisect(borders, parameter),
-    }
-}
-
-/// Bisection: at most log2([`super::MAX_SPANS`]) rounds. A parameter beyond the borders is in the first or last span.
-#[inline(never)]
-pub(crate) fn bisect(borders: &[f32], parameter: f32) -> (usize, f32) {
-    let (mut borders, mut span) = (borders, 0);
-    while borders.len() > 2 {
-        let half = borders.len() / 2;
-        if parameter >= borders[half] {
-            borders = &borders[half..];
-            span += half;
-        } else {
-            borders = &borders[..=half];
-        }
-    }
-    let [left, right] = *borders else { return (0, 0.0) };
-    (span, parameter - span_centre(left, right))
 }
 
 impl From<Derivatives<3>> for SurfacePoint {

@@ -4,16 +4,15 @@
 //! (`s = u - centre`), which keeps Horner's rule well conditioned in `f32`. Rational patches are kept homogeneous
 //! (`w x, w y, w z, w`) and divided once.
 
-use super::spans::{Spans, locate};
-use super::{Patch, SecondDerivativeBounds, ShapeBounds, SurfacePoint};
+use super::coefficients::coefficient_word;
+use super::span_grid::{SpanGrid, breaks_are_valid};
+use super::spans::Spans;
+use super::{Coefficients, Patch, SecondDerivativeBounds, ShapeBounds, SurfacePoint};
 use core::num::NonZeroU32;
 use thiserror::Error;
 
 /// The highest degree along either parameter.
 pub const MAX_DEGREE: usize = 5;
-/// The greatest number of spans along either parameter.
-pub const MAX_SPANS: usize = 256;
-
 /// Which way the outward normal points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
@@ -23,40 +22,6 @@ pub enum Orientation {
     Inward,
 }
 
-/// The coefficients of all spans: span `(i, j)` is entry `i · spans_v + j`; in a span, row `k` holds the power `k` of
-/// `s`, and its columns the powers of `t`.
-#[derive(Clone, Copy, Debug)]
-pub enum Coefficients {
-    /// `[x, y, z]`, metres.
-    Polynomial(&'static [[f32; 3]]),
-    /// `[w x, w y, w z, w]`.
-    Rational(&'static [[f32; 4]]),
-}
-
-impl Coefficients {
-    /// How many words they are.
-    pub(crate) const fn words(&self) -> usize {
-        match self {
-            Self::Polynomial(entries) => 3 * entries.len(),
-            Self::Rational(entries) => 4 * entries.len(),
-        }
-    }
-
-    /// 1 if rational.
-    pub(crate) const fn tag(&self) -> u32 {
-        matches!(self, Self::Rational(_)) as u32
-    }
-}
-
-/// The `index`-th word of coefficients.
-pub(crate) const fn coefficient_word(coefficients: Coefficients, index: usize) -> Option<u32> {
-    match coefficients {
-        Coefficients::Polynomial(entries) if index / 3 < entries.len() => Some(entries[index / 3][index % 3].to_bits()),
-        Coefficients::Rational(entries) if index / 4 < entries.len() => Some(entries[index / 4][index % 4].to_bits()),
-        _ => None,
-    }
-}
-
 /// Why a table is refused. In a `static` it is a compile error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -64,7 +29,7 @@ pub enum TableError {
     /// A degree is 0 or above [`MAX_DEGREE`].
     #[error("the degree must be 1 to 5 along u and along v")]
     Degree,
-    /// The span borders along `u` do not run from 0 to 1, strictly rising, with at most [`MAX_SPANS`] spans.
+    /// The span borders along `u` do not run from 0 to 1, strictly rising, with at most [`super::MAX_SPANS`] spans.
     #[error("the span borders along u must rise strictly from 0 to 1, at most 256 spans")]
     BreaksU,
     /// The same along `v`.
@@ -92,9 +57,7 @@ pub enum TableError {
 #[derive(Clone, Copy, Debug)]
 pub struct SplinePatch {
     pub(super) spans: Spans,
-    pub(super) degree: [u8; 2],
-    breaks_u: &'static [f32],
-    breaks_v: &'static [f32],
+    pub(super) grid: SpanGrid,
     shape: ShapeBounds,
     /// 1 if `f_u × f_v` points out of the body, −1 if into it.
     outward: f32,
@@ -148,7 +111,7 @@ impl SplinePatch {
             Orientation::Inward => -1.0,
         };
         let spans = Spans::new(degree, coefficients);
-        Ok(Self { spans, degree, breaks_u, breaks_v, shape, outward, size, baked_crc: None })
+        Ok(Self { spans, grid: SpanGrid { degree, breaks_u, breaks_v }, shape, outward, size, baked_crc: None })
     }
 
     /// [`Self::try_new`] for a `static`: a bad table does not compile.
@@ -185,7 +148,7 @@ impl SplinePatch {
 
     /// Degrees along `u` and `v`.
     pub const fn degree(&self) -> [u8; 2] {
-        self.degree
+        self.grid.degree
     }
 
     /// Bytes of table this patch keeps in flash.
@@ -194,19 +157,19 @@ impl SplinePatch {
             Coefficients::Polynomial(entries) => entries.len() * 12,
             Coefficients::Rational(entries) => entries.len() * 16,
         };
-        coefficients + (self.breaks_u.len() + self.breaks_v.len()) * 4 + size_of::<Self>()
+        coefficients + (self.grid.breaks_u.len() + self.grid.breaks_v.len()) * 4 + size_of::<Self>()
     }
 }
 
 impl SplinePatch {
     /// The `index`-th word of the table: degrees and orientation, bounds, size, the borders along `u` and `v`, the coefficients.
     pub(crate) const fn word(&self, index: usize) -> Option<u32> {
-        let (u, v) = (self.breaks_u.len(), self.breaks_v.len());
+        let (u, v) = (self.grid.breaks_u.len(), self.grid.breaks_v.len());
         let bounds = &self.shape.second_derivatives;
         let coefficients = self.spans.coefficients();
         let value = match index {
             0 => {
-                let degrees = self.degree[0] as u32 | (self.degree[1] as u32) << 8;
+                let degrees = self.grid.degree[0] as u32 | (self.grid.degree[1] as u32) << 8;
                 let bits = self.outward.to_bits();
                 // Of all its bits: those besides the sign are known.
                 let spoiled = (bits << 1 >> 1) ^ 1.0_f32.to_bits();
@@ -222,8 +185,8 @@ impl SplinePatch {
             8 => self.shape.max_stretch,
             9 => self.shape.max_bend,
             10 => self.size,
-            _ if index - 11 < u => self.breaks_u[index - 11],
-            _ if index - 11 - u < v => self.breaks_v[index - 11 - u],
+            _ if index - 11 < u => self.grid.breaks_u[index - 11],
+            _ if index - 11 - u < v => self.grid.breaks_v[index - 11 - u],
             _ => return coefficient_word(coefficients, index - 11 - u - v),
         };
         Some(value.to_bits())
@@ -243,7 +206,7 @@ impl SplinePatch {
 impl Patch for SplinePatch {
     #[inline(always)]
     fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
-        self.spans.evaluate(self, u, v)
+        self.spans.evaluate(&self.grid, u, v)
     }
 
     fn bounds(&self) -> SecondDerivativeBounds {
@@ -269,42 +232,6 @@ impl Patch for SplinePatch {
     fn baked_crc(&self) -> Option<u32> {
         self.baked_crc.map(NonZeroU32::get)
     }
-}
-
-impl SplinePatch {
-    /// Whether there is one span, from 0 to 1 along both parameters.
-    #[inline(always)]
-    pub(super) fn is_one_span(&self) -> bool {
-        self.breaks_u.len() + self.breaks_v.len() == 4
-    }
-
-    /// The span that holds `(u, v)`, and where in it, from its centre. One copy for all kinds of coefficients.
-    #[inline(never)]
-    pub(super) fn locate(&self, u: f32, v: f32) -> (usize, [f32; 2]) {
-        let (span_u, s) = locate(self.breaks_u, u);
-        let (span_v, t) = locate(self.breaks_v, v);
-        (span_u * (self.breaks_v.len() - 1) + span_v, [s, t])
-    }
-}
-
-/// The centre a span's powers are taken about. The host expands about this very `f32`.
-pub const fn span_centre(left: f32, right: f32) -> f32 {
-    0.5 * (left + right)
-}
-
-pub(crate) const fn breaks_are_valid(breaks: &[f32]) -> bool {
-    if breaks.len() < 2 || breaks.len() > MAX_SPANS + 1 || breaks[0] != 0.0 || breaks[breaks.len() - 1] != 1.0 {
-        return false;
-    }
-    let mut index = 1;
-    while index < breaks.len() {
-        let rises = breaks[index] > breaks[index - 1];
-        if !rises {
-            return false;
-        }
-        index += 1;
-    }
-    true
 }
 
 const fn all_finite<const D: usize>(entries: &[[f32; D]]) -> bool {

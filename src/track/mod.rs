@@ -8,6 +8,7 @@
 //! boundary allows and its [`BoundaryMode`] → [`certified_gain`], the longest step proved to bring the witness nearer →
 //! cut at the patch's border → one evaluation of the patch → kept if the distance did not rise.
 
+mod border;
 mod boundary;
 mod choices;
 mod contact;
@@ -22,7 +23,8 @@ mod placement;
 mod projection;
 mod witness;
 
-pub use boundary::{BoundaryMode, Descent};
+pub use border::BoundaryMode;
+pub use boundary::Descent;
 pub use choices::ControllerError;
 pub use contact::Contact;
 pub use controller::Controller;

@@ -1,6 +1,6 @@
 //! The witness point, and what a step found out.
 
-use super::boundary::{self, BoundaryMode};
+use super::border::{BoundaryMode, is_inside};
 use crate::math::{Vec3, inverse_sqrt, saturate, sqrt};
 use crate::patch::{Patch, SurfacePoint};
 
@@ -81,7 +81,7 @@ impl Witness {
             parameters: [u, v],
             surface: patch.evaluate(u, v),
             mode: BoundaryMode::Interior,
-            is_free: boundary::is_inside([u, v]),
+            is_free: is_inside([u, v]),
             halvings: 0,
         }
     }

@@ -2,12 +2,14 @@
 
 mod refusal;
 mod state;
+mod stop_search;
 
 pub use refusal::Refusal;
 pub use state::HomingState;
+pub use stop_search::StopSearch;
 
-use super::stop_search::{Joint, Search, Seek};
-use super::{Counts, Encoder, StopSearch};
+use super::{Counts, Encoder};
+use stop_search::{Joint, Search, Seek};
 use thiserror::Error;
 
 /// What is known of the joints at a pose that can be recognised.

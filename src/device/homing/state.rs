@@ -1,8 +1,8 @@
 //! How far homing has come, from tick to tick.
 
 use super::Refusal;
-use crate::device::stop_search::Search;
-use crate::device::{Counts, StopSearch};
+use super::stop_search::{Search, StopSearch};
+use crate::device::Counts;
 
 /// What changes from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]

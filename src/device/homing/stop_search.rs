@@ -1,6 +1,7 @@
 //! A joint that looks for its end stop: slowly, gently, and only believing what it finds if it could first move away.
 
-use super::{Counts, Encoder, Refusal};
+use super::Refusal;
+use crate::device::{Counts, Encoder};
 use crate::math::saturate;
 
 /// How a joint finds its end stop. It moves away by the clearance first, for a joint that does not come off has not found a

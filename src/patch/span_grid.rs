@@ -1,0 +1,82 @@
+//! How a patch is cut into spans: degrees and borders.
+
+/// The greatest number of spans along either parameter.
+pub const MAX_SPANS: usize = 256;
+
+/// The spans of a patch: their degrees, and their borders from 0 to 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SpanGrid {
+    pub degree: [u8; 2],
+    pub breaks_u: &'static [f32],
+    pub breaks_v: &'static [f32],
+}
+
+impl SpanGrid {
+    /// Whether there is one span, from 0 to 1 along both parameters.
+    #[inline(always)]
+    pub fn is_one_span(&self) -> bool {
+        self.breaks_u.len() + self.breaks_v.len() == 4
+    }
+
+    /// The span that holds `(u, v)`, and where in it, from its centre. One copy for all kinds of coefficients.
+    #[inline(never)]
+    pub fn locate(&self, u: f32, v: f32) -> (usize, [f32; 2]) {
+        let (span_u, s) = locate(self.breaks_u, u);
+        let (span_v, t) = locate(self.breaks_v, v);
+        (span_u * (self.breaks_v.len() - 1) + span_v, [s, t])
+    }
+}
+
+/// The span between rising borders that holds `parameter`, and the distance from the span's centre. On a border it is either of
+/// the two.
+#[inline(always)]
+fn locate(borders: &[f32], parameter: f32) -> (usize, f32) {
+    let spans = borders.len() - 1;
+    // Right where the borders are even, which is most often.
+    let guess = ((parameter * spans as f32) as usize).min(spans - 1);
+    let at = |span: usize| match borders.get(span..).and_then(|rest| rest.first_chunk()) {
+        Some([left, right]) if *left <= parameter && parameter <= *right => Some(span_centre(*left, *right)),
+        _ => None,
+    };
+    match at(guess) {
+        Some(centre) => (guess, parameter - centre),
+        None => bisect(borders, parameter),
+    }
+}
+
+/// Bisection: at most log2([`MAX_SPANS`]) rounds. A parameter beyond the borders is in the first or last span.
+#[inline(never)]
+pub(crate) fn bisect(borders: &[f32], parameter: f32) -> (usize, f32) {
+    let (mut borders, mut span) = (borders, 0);
+    while borders.len() > 2 {
+        let half = borders.len() / 2;
+        if parameter >= borders[half] {
+            borders = &borders[half..];
+            span += half;
+        } else {
+            borders = &borders[..=half];
+        }
+    }
+    let [left, right] = *borders else { return (0, 0.0) };
+    (span, parameter - span_centre(left, right))
+}
+
+/// The centre a span's powers are taken about. The host expands about this very `f32`.
+pub const fn span_centre(left: f32, right: f32) -> f32 {
+    0.5 * (left + right)
+}
+
+pub(crate) const fn breaks_are_valid(breaks: &[f32]) -> bool {
+    if breaks.len() < 2 || breaks.len() > MAX_SPANS + 1 || breaks[0] != 0.0 || breaks[breaks.len() - 1] != 1.0 {
+        return false;
+    }
+    let mut index = 1;
+    while index < breaks.len() {
+        let rises = breaks[index] > breaks[index - 1];
+        if !rises {
+            return false;
+        }
+        index += 1;
+    }
+    true
+}
