@@ -41,7 +41,7 @@ pub struct Descending {
 
 /// What an evaluation found out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Progress {
+pub enum Judgement {
     /// There is more to be had.
     Falling,
     /// The minimum of the rectangle is found.
@@ -69,7 +69,7 @@ impl Descending {
     }
 
     /// Both halves of a step at one go.
-    pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> Progress {
+    pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> Judgement {
         self.evaluate(patch, probe);
         if poles == 0 { self.judge(known, size) } else { self.judge_beside(poles, known, size) }
     }
@@ -90,19 +90,19 @@ impl Descending {
     /// The second half on a face without poles: where to go from there. None of the arithmetic of poles is compiled in. `known` is the `φ`
     /// to beat, m²; `size` the body's, metres.
     #[inline(never)]
-    pub fn judge(&mut self, known: f32, size: f32) -> Progress {
+    pub fn judge(&mut self, known: f32, size: f32) -> Judgement {
         self.judged(0, known, size)
     }
 
     /// The second half on a face that may have poles ([`super::Face::poles`]).
     #[inline(never)]
-    pub fn judge_beside(&mut self, poles: u8, known: f32, size: f32) -> Progress {
+    pub fn judge_beside(&mut self, poles: u8, known: f32, size: f32) -> Judgement {
         self.judged(poles, known, size)
     }
 
     #[inline(always)]
-    fn judged(&mut self, poles: u8, known: f32, size: f32) -> Progress {
-        let Some(seen) = self.seen.take() else { return Progress::Falling };
+    fn judged(&mut self, poles: u8, known: f32, size: f32) -> Judgement {
+        let Some(seen) = self.seen.take() else { return Judgement::Falling };
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
             let pole = Pole::nearest(poles, at);
@@ -114,7 +114,7 @@ impl Descending {
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
             if self.candidate.convex && half_squared + model.greatest_fall(room) > known {
-                return Progress::Beaten;
+                return Judgement::Beaten;
             }
             (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
             let (mut change, mut fall) = model.minimiser(room);
@@ -132,7 +132,7 @@ impl Descending {
                 resolved += f32::EPSILON * distance;
             }
             if -fall <= resolved * (distance + resolved) {
-                return Progress::Found;
+                return Judgement::Found;
             }
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
         } else {
@@ -147,7 +147,7 @@ impl Descending {
             };
         }
         let exhausted = self.evaluations >= MAX_EVALUATIONS_PER_CANDIDATE || self.halvings >= MAX_HALVINGS;
-        if exhausted { Progress::Exhausted } else { Progress::Falling }
+        if exhausted { Judgement::Exhausted } else { Judgement::Falling }
     }
 }
 

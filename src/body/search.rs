@@ -5,7 +5,7 @@
 
 use super::feature::Face;
 use super::locator::Candidate;
-use super::minimise::{Descending, Progress};
+use super::minimise::{Descending, Judgement};
 use super::table::Body;
 use crate::math::Vec3;
 
@@ -91,7 +91,7 @@ impl Search {
         } else {
             self.descending.judge(known, body.size)
         };
-        if progress == Progress::Exhausted {
+        if progress == Judgement::Exhausted {
             self.exhausted = true;
         }
         let Descending { parameters, half_squared, .. } = self.descending;
@@ -99,7 +99,7 @@ impl Search {
             self.best = Best { face, parameters, half_squared };
         }
         let most = if body.is_convex() { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
-        let falls = progress == Progress::Falling;
+        let falls = progress == Judgement::Falling;
         if !falls && !more {
             self.ended = Some(!self.exhausted);
         } else if self.evaluations >= most {

@@ -61,12 +61,12 @@ pub struct Receiver<M> {
     decoder: DecoderState,
     decoded: [u8; MAX_FRAME],
     length: usize,
-    progress: Progress,
+    contents: Contents,
     message: PhantomData<fn() -> M>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Progress {
+enum Contents {
     Empty,
     Good,
     Overlong,
@@ -79,7 +79,7 @@ impl<M: DeserializeOwned> Receiver<M> {
             decoder: DecoderState::Idle,
             decoded: [0; MAX_FRAME],
             length: 0,
-            progress: Progress::Empty,
+            contents: Contents::Empty,
             message: PhantomData,
         }
     }
@@ -89,19 +89,19 @@ impl<M: DeserializeOwned> Receiver<M> {
     pub fn feed(&mut self, byte: u8) -> Option<Received<M>> {
         let step = self.decoder.feed(byte);
         if byte == DELIMITER {
-            let received = match (self.progress, step) {
-                (Progress::Empty, _) => Received::Empty,
-                (Progress::Good, Ok(DecodeResult::DataComplete)) => {
+            let received = match (self.contents, step) {
+                (Contents::Empty, _) => Received::Empty,
+                (Contents::Good, Ok(DecodeResult::DataComplete)) => {
                     self.unpack().map_or(Received::Damaged, Received::Message)
                 }
                 _ => Received::Damaged,
             };
             self.length = 0;
-            self.progress = Progress::Empty;
+            self.contents = Contents::Empty;
             return Some(received);
         }
-        if self.progress == Progress::Empty {
-            self.progress = Progress::Good;
+        if self.contents == Contents::Empty {
+            self.contents = Contents::Good;
         }
         if let Ok(DecodeResult::DataContinue(decoded)) = step {
             match self.decoded.get_mut(self.length) {
@@ -109,7 +109,7 @@ impl<M: DeserializeOwned> Receiver<M> {
                     *place = decoded;
                     self.length += 1;
                 }
-                None => self.progress = Progress::Overlong,
+                None => self.contents = Contents::Overlong,
             }
         }
         None

@@ -54,13 +54,13 @@ pub fn prove_curve(degree: usize, breaks: &[f32], coefficients: &BakedCoefficien
 }
 
 /// `N` and `w³` on one cell.
-struct Cell {
+struct DerivativeCell {
     field: Bernstein<4>,
     rounding: f64,
     halvings: usize,
 }
 
-impl Cell {
+impl DerivativeCell {
     /// At least the largest value on the cell.
     fn upper(&self) -> f64 {
         let above = |[x, y, z, w]: &[f64; 4]| ((x * x + y * y + z * z).sqrt() + self.rounding) / w;
@@ -100,7 +100,7 @@ fn supremum(
     let cell = |span: usize| {
         let reach = |axis: usize, index: usize| local_range(breaks[axis][index], breaks[axis][index + 1]);
         let ranges = [reach(0, span / spans_v), reach(1, span % spans_v)];
-        Cell::of_span(degree, &coefficients.homogeneous_span(degree, span), ranges, axes)
+        DerivativeCell::of_span(degree, &coefficients.homogeneous_span(degree, span), ranges, axes)
     };
     // A value taken somewhere: what the bound may stay above by the slack. Only for speed; any value would do.
     let mut reached: f64 = 0.0;
@@ -123,13 +123,17 @@ fn supremum(
             // A curve has nothing to halve along v.
             let axis = if degree[1] == 0 { 0 } else { cell.halvings % 2 };
             let halves = cell.field.halves(axis);
-            open.extend(halves.map(|field| Cell { field, rounding: cell.rounding, halvings: cell.halvings + 1 }));
+            open.extend(halves.map(|field| DerivativeCell {
+                field,
+                rounding: cell.rounding,
+                halvings: cell.halvings + 1,
+            }));
         }
     }
     Some(bound)
 }
 
-impl Cell {
+impl DerivativeCell {
     /// The whole of a span; `None` if a weight is not positive.
     fn of_span(degree: [usize; 2], powers: &[[f64; 4]], ranges: [[f64; 2]; 2], axes: [usize; 2]) -> Option<Self> {
         let homogeneous = Bernstein::from_powers(degree, powers, ranges[0], ranges[1]);

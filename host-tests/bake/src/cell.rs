@@ -27,7 +27,7 @@ pub(super) struct Extremes {
 
 /// The fundamental forms on a cell.
 #[derive(Clone, Debug)]
-pub(super) struct Cell {
+pub(super) struct FormCell {
     /// `e, f, g, b₁₁, b₁₂, b₂₂, w` in one degree.
     field: Bernstein<7>,
     /// What rounding has made of each.
@@ -37,7 +37,7 @@ pub(super) struct Cell {
     pub halvings: usize,
 }
 
-impl Cell {
+impl FormCell {
     /// The whole of a span; `None` if a weight is not positive.
     pub(super) fn of_span(degree: [usize; 2], powers: &[[f64; 4]], ranges: [[f64; 2]; 2]) -> Option<Self> {
         let homogeneous = Tracked::of_span(degree, powers, ranges);

@@ -11,7 +11,7 @@
 //! Across an inner knot the curvature may jump, and both sides are bounded. A crease (the patch is only C⁰) has none.
 
 use super::bounds::local_range;
-use super::cell::{Cell, Extremes};
+use super::cell::{Extremes, FormCell};
 use super::coefficients::BakedCoefficients;
 use palpate::patch::{Curvature, Orientation, SecondDerivativeBounds, ShapeBounds};
 use std::collections::VecDeque;
@@ -40,7 +40,7 @@ pub fn prove(
     let whole = |span: usize| {
         let reach = |axis: usize, index: usize| local_range(breaks[axis][index], breaks[axis][index + 1]);
         let ranges = [reach(0, span / spans_v), reach(1, span % spans_v)];
-        Cell::of_span(degree, &coefficients.homogeneous_span(degree, span), ranges)
+        FormCell::of_span(degree, &coefficients.homogeneous_span(degree, span), ranges)
     };
     let mut search = Search::new(orientation, second_derivatives);
     for span in 0..spans {
@@ -87,15 +87,15 @@ impl Search {
     }
 
     /// Values on a grid of 4 × 4 intervals.
-    fn sample(&mut self, whole: Cell) {
+    fn sample(&mut self, whole: FormCell) {
         let mut cells = vec![whole];
         for _ in 0..4 {
-            cells = cells.iter().flat_map(Cell::halves).collect();
+            cells = cells.iter().flat_map(FormCell::halves).collect();
         }
         cells.iter().for_each(|cell| self.see(cell));
     }
 
-    fn see(&mut self, cell: &Cell) {
+    fn see(&mut self, cell: &FormCell) {
         for sample in cell.samples(&self.second_derivatives) {
             // Comparisons with NaN are false, infinite values of a pole are not wanted either.
             let sample = self.outward(sample);
@@ -109,7 +109,7 @@ impl Search {
     }
 
     /// Cells in order of size, so that where the budget ends the bounds are about as good everywhere.
-    fn span(&mut self, whole: Cell, budget: usize) {
+    fn span(&mut self, whole: FormCell, budget: usize) {
         let mut open = VecDeque::from([whole]);
         let mut count = 0;
         while let Some(cell) = open.pop_front() {

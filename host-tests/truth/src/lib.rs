@@ -2,7 +2,7 @@
 //! known by construction, what the controller is compared with, and golden points.
 
 pub mod baselines;
-pub mod bodies;
+pub mod body_oracle;
 pub mod generate;
 pub mod locating;
 pub mod measured;

@@ -1,7 +1,7 @@
 //! Checks a locator by other means than its proof: random probes, the distance by many starts of the oracle.
 
 use crate::generate::Random;
-use crate::oracle::{Oracle, Surface};
+use crate::oracle::{Oracle, OraclePoint};
 use glam::DVec3;
 use palpate::body::Locator;
 use palpate_bake::Model;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 /// The closest point that a locator's list leads to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Located {
+pub struct ListMinimum {
     /// The face it is on.
     pub face: usize,
     /// Its parameters.
@@ -24,8 +24,8 @@ pub struct Located {
 }
 
 /// The best of the minima in the rectangles of a probe's list, from their centres.
-pub fn locate(surfaces: &[StoredSurface], locator: &Locator, probe: DVec3) -> Located {
-    let mut best = Located { face: 0, parameters: [0.0; 2], distance: f64::INFINITY, entries: 0, evaluations: 0 };
+pub fn locate(surfaces: &[StoredSurface], locator: &Locator, probe: DVec3) -> ListMinimum {
+    let mut best = ListMinimum { face: 0, parameters: [0.0; 2], distance: f64::INFINITY, entries: 0, evaluations: 0 };
     let mut index = locator.list(probe.as_vec3());
     while let Some(candidate) = locator.candidate(index) {
         let [low, high] = candidate.rectangle().map(|corner| corner.map(f64::from));
@@ -34,8 +34,12 @@ pub fn locate(surfaces: &[StoredSurface], locator: &Locator, probe: DVec3) -> Lo
         best.entries += 1;
         best.evaluations += found.evaluations;
         if found.distance < best.distance {
-            best =
-                Located { face: candidate.face.into(), parameters: found.parameters, distance: found.distance, ..best };
+            best = ListMinimum {
+                face: candidate.face.into(),
+                parameters: found.parameters,
+                distance: found.distance,
+                ..best
+            };
         }
         if !candidate.more {
             break;
@@ -68,7 +72,7 @@ pub struct Miss {
     /// What the oracle found, metres.
     pub distance: f64,
     /// What the list led to.
-    pub located: Located,
+    pub located: ListMinimum,
     /// Whether the probe is inside.
     pub inside: bool,
 }
@@ -120,7 +124,7 @@ fn one(
     let found = oracles.iter().map(|oracle| oracle.closest(probe)).enumerate();
     let Some((face, closest)) = found.min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance)) else { return };
     let patch = &model.patches[face];
-    let surface = Surface::evaluate(patch, closest.parameters[0], closest.parameters[1]);
+    let surface = OraclePoint::evaluate(patch, closest.parameters[0], closest.parameters[1]);
     let is_inside = surface.normal(patch.flip).dot(probe - closest.point) < 0.0;
     if is_inside && closest.distance > inside * size {
         return;

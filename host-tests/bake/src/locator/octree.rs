@@ -26,7 +26,7 @@ const LOOSE: f64 = 0.01;
 const REPAIRS: usize = 24;
 
 /// A cell that is still open.
-struct Cell<'a> {
+struct OpenCell<'a> {
     probes: Probes,
     regions: Vec<Region<'a>>,
     /// Its place among the children of its parent.
@@ -80,7 +80,7 @@ impl<'a> Search<'a> {
         self.wanted.is_none_or(|wanted| wanted.iter().any(|probe| (*probe - probes.centre).abs().cmple(half).all()))
     }
 
-    fn cell(&self, cell: &Cell<'a>, depth: usize) -> Outcome<'a> {
+    fn cell(&self, cell: &OpenCell<'a>, depth: usize) -> Outcome<'a> {
         if !self.is_wanted(&cell.probes) {
             return unwanted(&cell.probes);
         }
@@ -200,12 +200,12 @@ fn unwanted<'a>(probes: &Probes) -> Outcome<'a> {
     Outcome::Leaf(Box::new(leaf), vec![entry])
 }
 
-fn children<'a>(probes: &Probes, regions: &[Region<'a>], node: usize) -> Vec<Cell<'a>> {
+fn children<'a>(probes: &Probes, regions: &[Region<'a>], node: usize) -> Vec<OpenCell<'a>> {
     let half = 0.5 * probes.half;
     let quarter = Probes { centre: probes.centre, half };
     let cell = |child: usize| {
         let centre: DVec3 = quarter.corner(child);
-        Cell { probes: Probes { centre, half }, regions: regions.to_vec(), slot: (node, child) }
+        OpenCell { probes: Probes { centre, half }, regions: regions.to_vec(), slot: (node, child) }
     };
     (0..8).map(cell).collect()
 }

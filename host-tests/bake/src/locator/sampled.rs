@@ -10,7 +10,7 @@ use super::tables;
 use super::unique::Rectangle;
 use crate::random::Random;
 use glam::DVec3;
-use palpate::body::{Candidate, Descending, GRID, Progress};
+use palpate::body::{Candidate, Descending, GRID, Judgement};
 use palpate::math::Vec3;
 
 /// Starts of descents that a list is compared with, the nearest ones.
@@ -81,7 +81,7 @@ fn descended(faces: &Faces, candidate: &Candidate, probe: Vec3, best: &mut f32, 
         let face = usize::from(candidate.face);
         let progress = descending.step(&faces.tables[face], faces.poles(face), probe, *best, size);
         *best = best.min(descending.half_squared);
-        if progress != Progress::Falling {
+        if progress != Judgement::Falling {
             return descending.parameters;
         }
     }

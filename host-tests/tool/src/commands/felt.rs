@@ -8,7 +8,7 @@ use palpate::math::{Vec3, vec3};
 use palpate::patch::{Patch as _, SplinePatch};
 use palpate_bake::source::{Origin, body_source, rust_source};
 use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch};
-use palpate_truth::oracle::Surface;
+use palpate_truth::oracle::OraclePoint;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -126,7 +126,7 @@ impl Places {
     fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         match self {
             Self::On(surface) => {
-                let at = Surface::evaluate(surface, u, v);
+                let at = OraclePoint::evaluate(surface, u, v);
                 let turn = if surface.flip { -1.0 } else { 1.0 };
                 (at.point, at.tangent_u.cross(at.tangent_v).normalize_or_zero() * turn)
             }

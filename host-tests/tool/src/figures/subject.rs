@@ -6,7 +6,7 @@ use glam::DVec3;
 use palpate::math::Vec3;
 use palpate::patch::SplinePatch;
 use palpate_bake::{BakedPatch, NurbsPatch};
-use palpate_truth::oracle::{ClosestPoint, Oracle, Surface};
+use palpate_truth::oracle::{ClosestPoint, Oracle, OraclePoint};
 use std::path::Path;
 
 /// The first patch of a model.
@@ -42,8 +42,8 @@ impl Subject {
     }
 
     /// The surface at `(u, v)` and its outward unit normal.
-    pub fn at(&self, [u, v]: [f64; 2]) -> (Surface, DVec3) {
-        let surface = Surface::evaluate(&self.surface, u, v);
+    pub fn at(&self, [u, v]: [f64; 2]) -> (OraclePoint, DVec3) {
+        let surface = OraclePoint::evaluate(&self.surface, u, v);
         let across = surface.tangent_u.cross(surface.tangent_v).normalize_or_zero();
         (surface, if self.surface.flip { -across } else { across })
     }

@@ -7,8 +7,8 @@ use palpate::body::{Body, Feature};
 use palpate::math::Vec3;
 use palpate::track::{Controller, Probe};
 use palpate_bake::BakedBody;
-use palpate_truth::bodies::{BodyOracle, claims};
-use palpate_truth::oracle::Surface;
+use palpate_truth::body_oracle::{BodyOracle, claims};
+use palpate_truth::oracle::OraclePoint;
 use std::path::Path;
 
 /// Seconds of a tick.
@@ -77,7 +77,7 @@ impl Touring {
         for face in &baked.faces {
             for step in 0..9 * 9 {
                 let [u, v] = [step / 9, step % 9].map(|k| f64::from(k) / 8.0);
-                let point = Surface::evaluate(&face.surface, u, v).point;
+                let point = OraclePoint::evaluate(&face.surface, u, v).point;
                 (low, high) = (low.min(point), high.max(point));
             }
         }

@@ -4,7 +4,7 @@ use super::program::{Counted, Kind, Line, Run};
 use super::scene::{Query, Scene, Task};
 use glam::DVec3;
 use palpate_bake::NurbsPatch;
-use palpate_truth::oracle::Surface;
+use palpate_truth::oracle::OraclePoint;
 
 /// A distance that is wrong by more, relative to the patch's size, is a miss.
 pub const MISS: f64 = 1e-4;
@@ -85,7 +85,7 @@ fn error(patch: &NurbsPatch, query: &Query, answer: &Line) -> Option<f64> {
     let (a, b) = (answer.a?, answer.b?);
     let point = match answer.kind {
         Kind::None => return None,
-        Kind::Parameters => Surface::evaluate(patch, a.clamp(0.0, 1.0), b.clamp(0.0, 1.0)).point,
+        Kind::Parameters => OraclePoint::evaluate(patch, a.clamp(0.0, 1.0), b.clamp(0.0, 1.0)).point,
         Kind::Point => DVec3::new(a, b, answer.c?),
     };
     let error = (point.distance(query.probe) - query.distance).abs();

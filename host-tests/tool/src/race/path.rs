@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use palpate_bake::NurbsPatch;
-use palpate_truth::oracle::Surface;
+use palpate_truth::oracle::OraclePoint;
 use std::f64::consts::TAU;
 
 /// The path swings this far beyond the middle of the patch, in parameters: past every border, where the closest point rests on it.
@@ -18,7 +18,7 @@ pub fn probes(patch: &NurbsPatch, rows: usize) -> impl Iterator<Item = DVec3> {
         let swing = |turns: f64, phase: f64| (TAU * (turns * time + phase)).sin();
         let asked = [0.5 + SWING * swing(2.0, 0.1), 0.5 + SWING * swing(3.0, 0.0)];
         let [u, v] = asked.map(|parameter| parameter.clamp(0.0, 1.0));
-        let surface = Surface::evaluate(patch, u, v);
+        let surface = OraclePoint::evaluate(patch, u, v);
         let beyond = surface.tangent_u * (asked[0] - u) + surface.tangent_v * (asked[1] - v);
         let height = 0.5 * (HEIGHTS[0] + HEIGHTS[1]) + 0.5 * (HEIGHTS[1] - HEIGHTS[0]) * swing(5.0, 0.25);
         surface.point + beyond + surface.normal(patch.flip) * (height * size)

@@ -3,7 +3,7 @@
 use crate::scene::{Scene, probes, repeat};
 use palpate::body::Feature;
 use palpate::math::Vec3;
-use palpate_truth::bodies::{BodyOracle, claims};
+use palpate_truth::body_oracle::{BodyOracle, claims};
 use palpate_truth::generate::Random;
 use palpate_truth::measured::{grouped, measured_if_listed};
 use std::collections::BTreeMap;

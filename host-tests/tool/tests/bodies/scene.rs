@@ -7,10 +7,10 @@ use palpate_bake::body::BodyBytes;
 use palpate_bake::locator::LocatorOptions;
 use palpate_bake::topology::bounding_box;
 use palpate_bake::{BakedBody, Model, NurbsPatch};
-use palpate_truth::bodies::BodyOracle;
+use palpate_truth::body_oracle::BodyOracle;
 use palpate_truth::generate::Random;
 use palpate_truth::measured::{grouped, measured};
-use palpate_truth::oracle::{ClosestPoint, Surface};
+use palpate_truth::oracle::{ClosestPoint, OraclePoint};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -122,7 +122,7 @@ impl Scene {
     /// A probe up to a fifth of the size behind the surface, along the normal at a random place.
     pub fn behind(&self, random: &mut Random) -> Vec3 {
         let patch = &self.patches[random.below(self.patches.len())];
-        let surface = Surface::evaluate(patch, random.between(0.0, 1.0), random.between(0.0, 1.0));
+        let surface = OraclePoint::evaluate(patch, random.between(0.0, 1.0), random.between(0.0, 1.0));
         let normal = surface.normal(patch.flip);
         let depth = 0.2 * self.size() * random.between(0.0, 1.0);
         (surface.point - if normal.is_finite() { normal } else { DVec3::ZERO } * depth).as_vec3()

@@ -3,8 +3,8 @@
 use crate::scene::Scene;
 use glam::{DQuat, DVec3};
 use palpate::body::{EdgeFace, EdgeKind, Feature, Side};
-use palpate_truth::bodies::BodyOracle;
-use palpate_truth::oracle::Surface;
+use palpate_truth::body_oracle::BodyOracle;
+use palpate_truth::oracle::OraclePoint;
 
 /// How far into a face a way across an edge begins, in its parameters.
 const INSET: f64 = 0.1;
@@ -60,7 +60,7 @@ fn legs(scene: &Scene) -> Vec<Vec<Place>> {
     let body = &scene.body;
     let at = |face: u16, [u, v]: [f64; 2]| {
         let patch = &scene.patches[usize::from(face)];
-        let surface = Surface::evaluate(patch, u, v);
+        let surface = OraclePoint::evaluate(patch, u, v);
         Place { point: surface.point, direction: surface.normal(patch.flip) }
     };
     let mut legs: Vec<Vec<Place>> = (0..body.faces().len() as u16).map(|face| vec![at(face, [0.5; 2])]).collect();

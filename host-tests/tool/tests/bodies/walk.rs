@@ -6,7 +6,7 @@ use glam::DVec3;
 use palpate::body::Feature;
 use palpate::math::Vec3;
 use palpate::track::{Controller, Probe};
-use palpate_truth::bodies::claims;
+use palpate_truth::body_oracle::claims;
 use palpate_truth::measured::{grouped, measured_if_listed};
 use rayon::prelude::*;
 

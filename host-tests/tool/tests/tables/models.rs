@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use palpate_bake::Model;
-use palpate_truth::generate::bodies;
-use palpate_truth::oracle::Surface;
+use palpate_truth::generate::models;
+use palpate_truth::oracle::OraclePoint;
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ fn folder() -> PathBuf {
 
 #[test]
 fn the_files_are_what_the_generator_makes() -> Result<(), Box<dyn Error>> {
-    for model in bodies::all() {
+    for model in models::all() {
         let file = folder().join(model.file);
         if std::env::var_os("PALPATE_WRITE").is_some() {
             fs::write(&file, &model.text)?;
@@ -32,7 +32,7 @@ fn worst(file: &str, off: impl Fn(DVec3) -> f64) -> Result<f64, Box<dyn Error>> 
     let mut worst: f64 = 0.0;
     for patch in &model.patches {
         for (u, v) in grid().flat_map(|u| grid().map(move |v| (u, v))) {
-            worst = worst.max(off(Surface::evaluate(patch, u, v).point * 1e3).abs());
+            worst = worst.max(off(OraclePoint::evaluate(patch, u, v).point * 1e3).abs());
         }
     }
     println!("{file}: off by {worst:.1e}");
@@ -41,10 +41,10 @@ fn worst(file: &str, off: impl Fn(DVec3) -> f64) -> Result<f64, Box<dyn Error>> 
 
 #[test]
 fn the_ellipsoids_are_exact() -> Result<(), Box<dyn Error>> {
-    let [a, b, c] = bodies::HALF_AXES;
+    let [a, b, c] = models::HALF_AXES;
     let radius = |axes: [f64; 3]| move |point: DVec3| (point / DVec3::from_array(axes)).length() - 1.0;
     // Decimals of 17 digits and sums of 25 products in f64.
-    assert!(worst("sphere_body.toml", radius([bodies::RADIUS; 3]))? < 1e-12);
+    assert!(worst("sphere_body.toml", radius([models::RADIUS; 3]))? < 1e-12);
     assert!(worst("ellipsoid_body.toml", radius([a, b, c]))? < 1e-12);
     assert!(worst("ellipsoid_poles.toml", radius([a, b, c]))? < 1e-12);
     Ok(())

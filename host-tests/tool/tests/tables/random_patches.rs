@@ -4,7 +4,7 @@ use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use palpate::patch::{Curvature, Patch as _, span_centre};
 use palpate_bake::shape::SLACK;
 use palpate_bake::{BakedCoefficients, BakedPatch, Model, NurbsPatch};
-use palpate_truth::oracle::Surface;
+use palpate_truth::oracle::OraclePoint;
 use rand::{Rng as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 use std::error::Error;
@@ -96,14 +96,14 @@ fn the_table_evaluates_to_the_surface() -> Result<(), Box<dyn Error>> {
     for_each_patch(6, |random, patch| {
         let baked = BakedPatch::new(patch)?;
         let table = baked.to_patch()?;
-        let longest = |tangent: fn(&Surface) -> DVec3| {
+        let longest = |tangent: fn(&OraclePoint) -> DVec3| {
             let grid = (0..=20).flat_map(|i| (0..=20).map(move |j| (f64::from(i) / 20.0, f64::from(j) / 20.0)));
-            grid.map(|(u, v)| tangent(&Surface::evaluate(patch, u, v)).length()).fold(0.0, f64::max)
+            grid.map(|(u, v)| tangent(&OraclePoint::evaluate(patch, u, v)).length()).fold(0.0, f64::max)
         };
         let scales = [patch.size(), longest(|surface| surface.tangent_u), longest(|surface| surface.tangent_v)];
         for _ in 0..200 {
             let (u, v) = (inside_a_span(random, &baked.breaks[0]), inside_a_span(random, &baked.breaks[1]));
-            let (found, truth) = (table.evaluate(u, v), Surface::evaluate(patch, u.into(), v.into()));
+            let (found, truth) = (table.evaluate(u, v), OraclePoint::evaluate(patch, u.into(), v.into()));
             let pairs =
                 [(found.point, truth.point), (found.tangent_u, truth.tangent_u), (found.tangent_v, truth.tangent_v)];
             for (kind, ((found, truth), scale)) in pairs.into_iter().zip(scales).enumerate() {
@@ -114,7 +114,7 @@ fn the_table_evaluates_to_the_surface() -> Result<(), Box<dyn Error>> {
         // Points, unlike tangents, are continuous: borders and corners too.
         for &u in &baked.breaks[0] {
             for &v in &baked.breaks[1] {
-                let (found, truth) = (table.evaluate(u, v), Surface::evaluate(patch, u.into(), v.into()));
+                let (found, truth) = (table.evaluate(u, v), OraclePoint::evaluate(patch, u.into(), v.into()));
                 worst[0] = worst[0].max(found.point.as_dvec3().distance(truth.point) / scales[0]);
             }
         }
@@ -139,11 +139,11 @@ fn the_oracles_derivatives_are_those_of_its_points() -> Result<(), Box<dyn Error
             if is_near(&patch.knots[0], u) || is_near(&patch.knots[1], v) {
                 continue;
             }
-            let at = |u: f64, v: f64| Surface::evaluate(patch, u, v);
+            let at = |u: f64, v: f64| OraclePoint::evaluate(patch, u, v);
             let along_u =
-                |value: fn(&Surface) -> DVec3| (value(&at(u + STEP, v)) - value(&at(u - STEP, v))) / (2.0 * STEP);
+                |value: fn(&OraclePoint) -> DVec3| (value(&at(u + STEP, v)) - value(&at(u - STEP, v))) / (2.0 * STEP);
             let along_v =
-                |value: fn(&Surface) -> DVec3| (value(&at(u, v + STEP)) - value(&at(u, v - STEP))) / (2.0 * STEP);
+                |value: fn(&OraclePoint) -> DVec3| (value(&at(u, v + STEP)) - value(&at(u, v - STEP))) / (2.0 * STEP);
             let here = at(u, v);
             for (found, difference) in [
                 (here.tangent_u, along_u(|s| s.point)),
@@ -163,7 +163,7 @@ fn the_oracles_derivatives_are_those_of_its_points() -> Result<(), Box<dyn Error
 }
 
 /// A table's own span with its second derivatives, in double precision, straight from the powers.
-fn table_surface(baked: &BakedPatch, span: [usize; 2], s: f64, t: f64) -> Surface {
+fn table_surface(baked: &BakedPatch, span: [usize; 2], s: f64, t: f64) -> OraclePoint {
     let degree = baked.degree.map(usize::from);
     let count = (degree[0] + 1) * (degree[1] + 1);
     let first = (span[0] * (baked.breaks[1].len() - 1) + span[1]) * count;
@@ -186,7 +186,7 @@ fn table_surface(baked: &BakedPatch, span: [usize; 2], s: f64, t: f64) -> Surfac
     let point = a.xyz() / a.w;
     let (f_u, f_v) = ((a_u.xyz() - point * a_u.w) / a.w, (a_v.xyz() - point * a_v.w) / a.w);
     let (uu, uv, vv) = (sum(2, 0), sum(1, 1), sum(0, 2));
-    Surface {
+    OraclePoint {
         point,
         tangent_u: f_u,
         tangent_v: f_v,
@@ -197,7 +197,7 @@ fn table_surface(baked: &BakedPatch, span: [usize; 2], s: f64, t: f64) -> Surfac
 }
 
 /// Visits a grid of every span of a table, borders included.
-fn for_each_point(baked: &BakedPatch, steps: usize, mut visit: impl FnMut(&Surface)) {
+fn for_each_point(baked: &BakedPatch, steps: usize, mut visit: impl FnMut(&OraclePoint)) {
     for i in 0..baked.breaks[0].len() - 1 {
         for j in 0..baked.breaks[1].len() - 1 {
             let local = |axis: usize, span: usize, step: usize| {

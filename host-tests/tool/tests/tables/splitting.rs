@@ -5,7 +5,7 @@ use palpate_bake::split::{self, Cut, Piece};
 use palpate_bake::topology::{Border, Topology};
 use palpate_bake::{BakedBody, Model, NurbsPatch};
 use palpate_truth::generate::Random;
-use palpate_truth::oracle::Surface;
+use palpate_truth::oracle::OraclePoint;
 use std::error::Error;
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn farthest(piece: &Piece, whole: &NurbsPatch) -> f64 {
     let grid = || (0..=12).map(|k| f64::from(k) / 12.0);
     let off = |u: f64, v: f64| {
         let [s, t] = piece.source.parameters([u, v]);
-        Surface::evaluate(&piece.patch, u, v).point.distance(Surface::evaluate(whole, s, t).point)
+        OraclePoint::evaluate(&piece.patch, u, v).point.distance(OraclePoint::evaluate(whole, s, t).point)
     };
     grid().flat_map(|u| grid().map(move |v| (u, v))).map(|(u, v)| off(u, v)).fold(0.0, f64::max)
 }

@@ -5,7 +5,7 @@ use palpate::patch::Patch as _;
 use palpate_bake::{BakedPatch, Model};
 use palpate_truth::measured::measured;
 use palpate_truth::oracle::golden::{self, ClosestRow, EvaluationRow};
-use palpate_truth::oracle::{Oracle, Surface};
+use palpate_truth::oracle::{Oracle, OraclePoint};
 use serde::Deserialize;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ fn closest(model: &str, queries: &str, options: &[&str]) -> Result<Vec<(ClosestR
     for (golden, printed) in golden.iter().zip(&printed) {
         assert_eq!(printed.patch, "S");
         // p is the surface at the printed (u, v): to the accuracy of the f32 evaluation.
-        let on_surface = Surface::evaluate(patch, printed.u, printed.v).point * model.unit.per_metre();
+        let on_surface = OraclePoint::evaluate(patch, printed.u, printed.v).point * model.unit.per_metre();
         assert!(on_surface.distance(printed.point()) <= 2e-6 * SIZE, "{} off the surface", golden.query());
         // gap is the distance to the printed point, to the nine digits both are printed with.
         let gap = printed.point().distance(golden.query());

@@ -6,7 +6,7 @@ use palpate::patch::{Curvature, Patch as _, SplinePatch};
 use palpate::track::{Controller, FeedForward, Gain, Integrator, Law, Outcome, PerformanceLimits, Probe, Witness};
 use palpate_bake::{BakedPatch, Model, NurbsPatch};
 use palpate_truth::measured::measured;
-use palpate_truth::oracle::{Oracle, Surface};
+use palpate_truth::oracle::{Oracle, OraclePoint};
 use std::path::Path;
 
 /// A model of this repository: the surface, and its table.
@@ -24,8 +24,8 @@ impl Body {
         Self { name, surface, patch }
     }
 
-    fn at(&self, [u, v]: [f64; 2]) -> Surface {
-        Surface::evaluate(&self.surface, u, v)
+    fn at(&self, [u, v]: [f64; 2]) -> OraclePoint {
+        OraclePoint::evaluate(&self.surface, u, v)
     }
 
     /// The probe at a gap straight out from a point.

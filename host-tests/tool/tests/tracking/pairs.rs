@@ -14,7 +14,7 @@ use palpate::track::{CommonNormalTracker, Outcome, PairTracker, PairWitness, Pla
 use palpate_bake::BakedPatch;
 use palpate_truth::generate::{ConvexPatch, Kind, Random, fit};
 use palpate_truth::measured::{grouped, measured};
-use palpate_truth::oracle::Surface;
+use palpate_truth::oracle::OraclePoint;
 
 /// How many pairs to draw.
 fn pairs() -> u64 {
@@ -43,7 +43,7 @@ impl Body {
 
 /// The greater principal curvature, 1/m, from both fundamental forms.
 fn greatest_curvature(patch: &ConvexPatch, u: f64, v: f64) -> f64 {
-    let at = Surface::evaluate(&patch.surface, u, v);
+    let at = OraclePoint::evaluate(&patch.surface, u, v);
     let normal = patch.point_and_normal(u, v).1;
     let [e, f, g] = [at.tangent_u.dot(at.tangent_u), at.tangent_u.dot(at.tangent_v), at.tangent_v.dot(at.tangent_v)];
     let [l, m, n] = [at.second_uu, at.second_uv, at.second_vv].map(|second| -second.dot(normal));

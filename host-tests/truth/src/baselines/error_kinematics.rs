@@ -1,6 +1,6 @@
 //! How the projection errors change with the parameters: `Ψ̇ = M(x) ẋ + b(x)` of the paper's Figure 2.
 
-use crate::oracle::Surface;
+use crate::oracle::OraclePoint;
 use glam::DVec3;
 
 /// The projection errors at a point of the surface, and their derivative.
@@ -31,7 +31,7 @@ const MIN_SINE_SQUARED: f64 = 1e-8;
 
 impl ErrorKinematics {
     /// Of the measure numbers; `None` where the tangents span no plane.
-    pub fn measure_numbers(surface: &Surface, probe: DVec3) -> Option<Self> {
+    pub fn measure_numbers(surface: &OraclePoint, probe: DVec3) -> Option<Self> {
         let tangents = [surface.tangent_u, surface.tangent_v];
         let seconds = [[surface.second_uu, surface.second_uv], [surface.second_uv, surface.second_vv]];
         let [e, f, g] = [tangents[0].length_squared(), tangents[0].dot(tangents[1]), tangents[1].length_squared()];
@@ -57,7 +57,7 @@ impl ErrorKinematics {
 
     /// Of the covariant errors `g_i = ΔR · f_i`, whose derivative is the Hessian of `½ ‖ΔR‖²`, `I_ik + ΔR · f_ik`: the textbook
     /// form of the iteration, and another flow with the same rest.
-    pub fn covariant(surface: &Surface, probe: DVec3) -> Self {
+    pub fn covariant(surface: &OraclePoint, probe: DVec3) -> Self {
         let difference = surface.point - probe;
         let mixed = surface.tangent_u.dot(surface.tangent_v) + difference.dot(surface.second_uv);
         let along_u = surface.tangent_u.length_squared() + difference.dot(surface.second_uu);
@@ -104,9 +104,9 @@ mod tests {
         Model::parse(text, "test").expect("the model is good").patches.remove(0)
     }
 
-    fn check(kinematics: impl Fn(&Surface, DVec3) -> ErrorKinematics) {
+    fn check(kinematics: impl Fn(&OraclePoint, DVec3) -> ErrorKinematics) {
         let (patch, probe) = (patch(), DVec3::new(0.9, 0.2, 1.7));
-        let at = |x: [f64; 2]| kinematics(&Surface::evaluate(&patch, x[0], x[1]), probe);
+        let at = |x: [f64; 2]| kinematics(&OraclePoint::evaluate(&patch, x[0], x[1]), probe);
         for [u, v] in [[0.2, 0.3], [0.5, 0.5], [0.8, 0.15], [0.35, 0.9]] {
             let matrix = at([u, v]).matrix;
             // Central differences: h² of truncation and ε/h of rounding meet near 1e-10 for h = 1e-5.
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn parallel_tangents_have_no_error_kinematics() {
-        let flat = Surface {
+        let flat = OraclePoint {
             point: DVec3::ZERO,
             tangent_u: DVec3::X,
             tangent_v: DVec3::X * 2.0,

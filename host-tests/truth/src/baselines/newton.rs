@@ -2,7 +2,7 @@
 
 use super::ErrorKinematics;
 use super::projected;
-use crate::oracle::Surface;
+use crate::oracle::OraclePoint;
 use glam::DVec3;
 use palpate_bake::NurbsPatch;
 
@@ -60,7 +60,7 @@ impl<'a> Baseline<'a> {
 
     /// One step from `at`, in the square, for a probe at rest.
     pub fn step(&self, at: [f64; 2], probe: DVec3) -> Advance {
-        let surface = Surface::evaluate(self.patch, at[0], at[1]);
+        let surface = OraclePoint::evaluate(self.patch, at[0], at[1]);
         if self.method == Method::ProjectedNewton {
             return projected::step(self.patch, &surface, at, probe).map_or(Advance::Nowhere, Advance::To);
         }
@@ -117,7 +117,7 @@ mod tests {
                     at = next;
                 }
             }
-            let surface = Surface::evaluate(&patch, at[0], at[1]);
+            let surface = OraclePoint::evaluate(&patch, at[0], at[1]);
             let difference = surface.point - probe;
             let residual = difference.dot(surface.tangent_u).abs() + difference.dot(surface.tangent_v).abs();
             assert!(residual < 1e-14, "{method:?}, {errors:?}: {residual:e} left");

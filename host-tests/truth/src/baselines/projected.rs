@@ -1,6 +1,6 @@
 //! Projected Newton for `½ ‖ΔR‖²` over the unit square, after Bertsekas (1982).
 
-use crate::oracle::Surface;
+use crate::oracle::OraclePoint;
 use glam::DVec3;
 use palpate_bake::NurbsPatch;
 
@@ -11,7 +11,7 @@ const HALVINGS: usize = 50;
 
 /// One step: the Hessian where it is positive definite, the first fundamental form where not; parameters that press
 /// outward are held; halved until the distance falls enough. `None` at a stationary point.
-pub(super) fn step(patch: &NurbsPatch, surface: &Surface, at: [f64; 2], probe: DVec3) -> Option<[f64; 2]> {
+pub(super) fn step(patch: &NurbsPatch, surface: &OraclePoint, at: [f64; 2], probe: DVec3) -> Option<[f64; 2]> {
     let difference = surface.point - probe;
     let gradient = [difference.dot(surface.tangent_u), difference.dot(surface.tangent_v)];
     let is_outward = |i: usize, change: f64| (at[i] <= 0.0 && change < 0.0) || (at[i] >= 1.0 && change > 0.0);
@@ -27,7 +27,7 @@ pub(super) fn step(patch: &NurbsPatch, surface: &Surface, at: [f64; 2], probe: D
     let mut length = 1.0;
     for _ in 0..HALVINGS {
         let next = [0, 1].map(|i| (at[i] + length * direction[i]).clamp(0.0, 1.0));
-        let there = 0.5 * Surface::evaluate(patch, next[0], next[1]).point.distance_squared(probe);
+        let there = 0.5 * OraclePoint::evaluate(patch, next[0], next[1]).point.distance_squared(probe);
         if next != at && there <= value + SUFFICIENT * length * slope {
             return Some(next);
         }
@@ -36,7 +36,7 @@ pub(super) fn step(patch: &NurbsPatch, surface: &Surface, at: [f64; 2], probe: D
     None
 }
 
-fn direction(surface: &Surface, difference: DVec3, gradient: [f64; 2], held: [bool; 2]) -> [f64; 2] {
+fn direction(surface: &OraclePoint, difference: DVec3, gradient: [f64; 2], held: [bool; 2]) -> [f64; 2] {
     let form = [surface.tangent_u.length_squared(), surface.tangent_v.length_squared()];
     let mixed = surface.tangent_u.dot(surface.tangent_v);
     let hessian = [form[0] + difference.dot(surface.second_uu), form[1] + difference.dot(surface.second_vv)];

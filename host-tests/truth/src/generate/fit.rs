@@ -65,7 +65,7 @@ fn interpolation(degree: usize) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::Surface;
+    use crate::oracle::OraclePoint;
     use glam::DVec3;
 
     #[test]
@@ -78,7 +78,7 @@ mod tests {
         for degree in [[2, 2], [2, 3], [5, 4]] {
             let patch = fit(degree, false, |u, v| (exact(u, v).0 * exact(u, v).1).extend(exact(u, v).1));
             for (u, v) in [(0.0, 0.0), (0.21, 0.93), (0.5, 0.4), (1.0, 1.0)] {
-                let error = Surface::evaluate(&patch, u, v).point.distance(exact(u, v).0);
+                let error = OraclePoint::evaluate(&patch, u, v).point.distance(exact(u, v).0);
                 // Weights are kept to 1e-12; the interpolation's condition is below 1e3 at degree 5.
                 assert!(error < 1e-11, "{degree:?} at {u}, {v}: {error:e}");
             }

@@ -1,7 +1,7 @@
 //! The shapes.
 
 use super::{Random, fit};
-use crate::oracle::Surface;
+use crate::oracle::OraclePoint;
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use palpate_bake::NurbsPatch;
 
@@ -74,7 +74,7 @@ impl ConvexPatch {
         };
         let mut surface = fit(degree, false, homogeneous);
         // Of a convex body, every outward normal points away from every inner point.
-        let middle = Surface::evaluate(&surface, 0.5, 0.5);
+        let middle = OraclePoint::evaluate(&surface, 0.5, 0.5);
         let inner = place(kind.inner_point()).truncate();
         surface.flip = middle.tangent_u.cross(middle.tangent_v).dot(middle.point - inner) < 0.0;
         Self { kind, surface }
@@ -82,7 +82,7 @@ impl ConvexPatch {
 
     /// The outward unit normal at `(u, v)`, with the point.
     pub fn point_and_normal(&self, u: f64, v: f64) -> (DVec3, DVec3) {
-        let at = Surface::evaluate(&self.surface, u, v);
+        let at = OraclePoint::evaluate(&self.surface, u, v);
         let normal = at.tangent_u.cross(at.tangent_v).normalize();
         (at.point, if self.surface.flip { -normal } else { normal })
     }

@@ -1,6 +1,6 @@
 //! The closest point of a whole patch, edges and corners included.
 
-use super::Surface;
+use super::OraclePoint;
 use glam::DVec3;
 use palpate_bake::{Axis, NurbsPatch};
 
@@ -43,7 +43,8 @@ impl<'a> Oracle<'a> {
             };
             borders.windows(2).flat_map(inside).chain([1.0]).collect::<Vec<_>>()
         });
-        let row = |u: &f64| parameters[1].iter().map(|v| Surface::evaluate(patch, *u, *v).point).collect::<Vec<_>>();
+        let row =
+            |u: &f64| parameters[1].iter().map(|v| OraclePoint::evaluate(patch, *u, *v).point).collect::<Vec<_>>();
         let points = parameters[0].iter().flat_map(row).collect();
         Self { patch, parameters, points }
     }
@@ -77,7 +78,7 @@ impl<'a> Oracle<'a> {
     /// distance falls.
     fn newton(&self, start: [f64; 2], query: DVec3) -> ClosestPoint {
         let mut at = start;
-        let mut surface = Surface::evaluate(self.patch, at[0], at[1]);
+        let mut surface = OraclePoint::evaluate(self.patch, at[0], at[1]);
         for _ in 0..ITERATIONS {
             let difference = surface.point - query;
             let gradient = [difference.dot(surface.tangent_u), difference.dot(surface.tangent_v)];
@@ -87,7 +88,7 @@ impl<'a> Oracle<'a> {
             let mut scale = 1.0;
             let next = loop {
                 let candidate = [0, 1].map(|i| (at[i] + scale * direction[i]).clamp(0.0, 1.0));
-                let moved = Surface::evaluate(self.patch, candidate[0], candidate[1]);
+                let moved = OraclePoint::evaluate(self.patch, candidate[0], candidate[1]);
                 if moved.point.distance_squared(query) < value {
                     break Some((candidate, moved));
                 }
@@ -105,7 +106,7 @@ impl<'a> Oracle<'a> {
 }
 
 /// The Newton or Gauss–Newton direction in the free parameters; `None` if nothing is left to do.
-fn descent(surface: &Surface, difference: DVec3, gradient: [f64; 2], held: [bool; 2]) -> Option<[f64; 2]> {
+fn descent(surface: &OraclePoint, difference: DVec3, gradient: [f64; 2], held: [bool; 2]) -> Option<[f64; 2]> {
     let first = [surface.tangent_u.length_squared(), surface.tangent_v.length_squared()];
     let mixed = surface.tangent_u.dot(surface.tangent_v);
     let curved = [first[0] + difference.dot(surface.second_uu), first[1] + difference.dot(surface.second_vv)];

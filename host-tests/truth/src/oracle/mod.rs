@@ -4,7 +4,7 @@
 mod basis;
 mod closest;
 pub mod golden;
-mod surface;
+mod point;
 
 pub use closest::{ClosestPoint, Oracle};
-pub use surface::Surface;
+pub use point::OraclePoint;

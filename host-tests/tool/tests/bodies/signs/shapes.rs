@@ -1,7 +1,7 @@
 //! Closed bodies full of poles and pointed vertices, drawn from a seed, with their truth.
 
 use glam::{DVec2, DVec3};
-use palpate_truth::bodies::{triangle_distance, winding_number};
+use palpate_truth::body_oracle::{triangle_distance, winding_number};
 use palpate_truth::generate::Random;
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::fmt::Write as _;

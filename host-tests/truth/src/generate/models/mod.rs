@@ -23,7 +23,7 @@ pub const RADIUS: f64 = 50.0;
 
 /// All of them.
 pub fn all() -> Vec<GeneratedModel> {
-    let poles = "without poles: six patches of degree (4, 4), a cube blown up to a sphere (host-tests/truth/src/generate/bodies/cube_sphere.rs).";
+    let poles = "without poles: six patches of degree (4, 4), a cube blown up to a sphere (host-tests/truth/src/generate/models/cube_sphere.rs).";
     vec![
         GeneratedModel {
             file: "sphere_body.toml",

@@ -1,6 +1,6 @@
 //! The closest point of a whole body, in double precision.
 
-use crate::oracle::{ClosestPoint, Oracle, Surface};
+use crate::oracle::{ClosestPoint, Oracle, OraclePoint};
 use glam::DVec3;
 use palpate_bake::NurbsPatch;
 
@@ -97,7 +97,7 @@ impl<'a> BodyOracle<'a> {
 
 fn height(patch: &NurbsPatch, foot: &ClosestPoint, probe: DVec3) -> f64 {
     let [u, v] = foot.parameters;
-    (probe - foot.point).dot(Surface::evaluate(patch, u, v).normal(patch.flip))
+    (probe - foot.point).dot(OraclePoint::evaluate(patch, u, v).normal(patch.flip))
 }
 
 /// A pole has no height, and never decides.

@@ -6,7 +6,7 @@ use palpate_bake::NurbsPatch;
 
 /// A point of a patch with all derivatives up to the second; metres per unit of parameter, and per unit squared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surface {
+pub struct OraclePoint {
     /// `f(u, v)`.
     pub point: DVec3,
     /// `f_u`.
@@ -21,7 +21,7 @@ pub struct Surface {
     pub second_vv: DVec3,
 }
 
-impl Surface {
+impl OraclePoint {
     /// Evaluates a patch at `(u, v) ∈ [0, 1]²`.
     pub fn evaluate(patch: &NurbsPatch, u: f64, v: f64) -> Self {
         let along_u = Basis::new(&patch.knots[0], patch.degree[0], u);
