@@ -11,7 +11,7 @@ use crate::math::{Vec3, saturate, sqrt};
 use crate::patch::{CurvedPoint, SplinePatch};
 
 /// Evaluations that one candidate of a list may cost.
-pub const MAX_EVALUATIONS_PER_CANDIDATE: u8 = 16;
+pub const MAX_EVALUATIONS_PER_CANDIDATE: u8 = 32;
 /// A distance is found when the next step would change it by less than this, relative to the body's size: the rounding of `f32`
 /// coordinates of that size.
 const RESOLUTION: f32 = 2.0e-7;

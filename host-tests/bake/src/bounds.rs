@@ -11,7 +11,7 @@
 //! - Halving a cell keeps all of this, and brings the bound down to the supremum quadratically. Cells are halved until
 //!   the bound is within [`SLACK`] of a value the derivative takes (the corners of cells are values), or
 //!   [`HALVINGS`] times: the bound is then looser, never wrong.
-//! - What double precision rounds on the way is bounded from above and added ([`ROUNDING`]); the result is rounded up.
+//! - What double precision rounds on the way is bounded from above and added (`ROUNDING`); the result is rounded up.
 //!
 //! It bounds each span. Across an inner knot the second derivative may jump, and both sides are bounded; where the
 //! patch has a crease (it is only C⁰) there is no second derivative and the bound says nothing *about the crease*.
@@ -44,7 +44,7 @@ pub fn prove(
 }
 
 /// The bound `sup ‖c''‖` of a curve, which is a surface that does not change along `v`; `None` as of [`prove`]. A polynomial curve may be of degree
-/// 10: two differences are then up to 4 · 10 · 9 times the coefficients, still within the `100 · 10` that [`ROUNDING`] reckons with.
+/// 10: two differences are then up to 4 · 10 · 9 times the coefficients, still within the `100 · 10` that `ROUNDING` reckons with.
 pub fn prove_curve(degree: usize, breaks: &[f32], coefficients: &BakedCoefficients) -> Option<f32> {
     if degree == 0 {
         return Some(0.0);

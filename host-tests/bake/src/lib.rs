@@ -1,4 +1,6 @@
-//! From a model file to tables in flash.
+#![doc = include_str!("../README.md")]
+//!
+//! # How it works
 //!
 //! The way of a patch: [`Model`] (the file, checked, in metres and `f64`) → [`spline`] (its polynomial spans, rounded
 //! once to `f32`) → [`bounds`] and [`shape`] (what is proved of those very `f32` numbers) → [`BakedPatch`] → [`source`] (Rust).

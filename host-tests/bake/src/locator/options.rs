@@ -77,7 +77,7 @@ impl LocatorOptions {
 /// Why there is no locator.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum LocatorError {
-    /// A weight is not proved positive: nothing that [`BakedPatch::new`] gives.
+    /// A weight is not proved positive: nothing that `BakedPatch::new` gives.
     #[error("a weight is not proved to be positive")]
     Weight,
     /// The indices have 15 bits.

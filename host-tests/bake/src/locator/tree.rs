@@ -11,7 +11,7 @@ pub enum Kind {
     Near,
     /// All of it is outside.
     Outside,
-    /// All of it is deeper inside than [`LocatorOptions::inside`].
+    /// All of it is deeper inside than `LocatorOptions::inside`.
     Deep,
 }
 

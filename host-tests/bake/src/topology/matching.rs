@@ -2,7 +2,7 @@
 //!
 //! Two borders are one edge if they are the same *parametrised* curve, or the same run the other way: then the parameter of one is the
 //! parameter of the other, and the edge needs one curve. The same curve with another parametrisation is an error with a name of its
-//! own, see [`super::partial`].
+//! own, see `super::partial`.
 
 use super::border::Border;
 use crate::NurbsPatch;

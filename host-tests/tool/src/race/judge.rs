@@ -37,7 +37,7 @@ pub struct Score {
     pub nanoseconds: Spread<u64>,
     /// Error of the distance, relative to the patch's size, of the queries that were answered.
     pub error: Spread<f64>,
-    /// Distances wrong by more than [`MISS`], and queries not answered.
+    /// Distances wrong by more than `MISS`, and queries not answered.
     pub misses: usize,
     /// Queries not answered.
     pub unanswered: usize,
