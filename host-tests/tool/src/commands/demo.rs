@@ -20,7 +20,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t)]
     board: Board,
     /// What carries the frames: `fifo` is fast, `uart` is the board's real link
-    #[arg(long, value_enum, default_value_t = Carrier::Fifo)]
+    #[arg(long, value_enum, default_value_t = if cfg!(unix) { Carrier::Fifo } else { Carrier::Uart })]
     transport: Carrier,
     /// Run the loop compiled for the host, without the emulator
     #[arg(long)]

@@ -1,16 +1,15 @@
 //! A running emulator with the firmware in it.
 
+use super::fifos::Fifos;
+use super::line::Line;
 use super::qemu::Pace;
 use super::transport::Transport;
 use super::{Image, Link, LinkError, Qemu};
-use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
-use nix::sys::stat::Mode;
 use palpate::wire::Report;
 use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver};
-use std::fs::{self, File, OpenOptions};
-use std::io::{ErrorKind, Read, Write};
-use std::os::fd::{AsFd, OwnedFd};
-use std::os::unix::net::{UnixListener, UnixStream};
+use std::fs::{self, File};
+use std::io::ErrorKind;
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -26,8 +25,7 @@ const LOOK: Duration = Duration::from_millis(100);
 pub struct Emulator {
     child: Child,
     transport: Transport,
-    to_device: File,
-    from_device: File,
+    line: Line,
     receiver: Receiver<Report>,
     /// Bytes read ahead: those from `next` to `end` are still to be taken.
     buffer: [u8; MAX_FRAME],
@@ -43,23 +41,29 @@ impl Emulator {
     /// # Errors
     /// If the emulator does not start.
     pub fn start(qemu: &Qemu, image: &Image, transport: Transport) -> Result<Self, LinkError> {
-        let (command, folder) = command(qemu, image, Pace::Counting)?;
-        let (child, to_device, from_device) = match transport {
-            Transport::Uart => start_with_socket(command, &folder)?,
-            Transport::Fifo => start_with_fifos(command, &folder)?,
+        let (mut command, folder) = command(qemu, image, Pace::Counting)?;
+        let (child, line) = match transport {
+            Transport::Uart => {
+                let (child, stream) = accept_uart(&mut command, &folder)?;
+                (child, Line::Socket(stream))
+            }
+            Transport::Fifo => {
+                let fifos = Fifos::new(folder.path())?;
+                (command.spawn()?, Line::Fifos(fifos))
+            }
         };
-        Ok(Self::new(child, transport, to_device, from_device, folder))
+        Ok(Self::new(child, transport, line, folder))
     }
 
     /// Starts an image that speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.
     ///
     /// # Errors
     /// If the emulator does not start.
-    pub fn start_with_telemetry(qemu: &Qemu, image: &Image) -> Result<(Self, UnixStream), LinkError> {
+    pub fn start_with_telemetry(qemu: &Qemu, image: &Image) -> Result<(Self, TcpStream), LinkError> {
         let (mut command, folder) = command(qemu, image, Pace::Brisk)?;
-        let (to_device, from_device) = open_fifos(&folder)?;
-        let (child, line) = accept_uart(&mut command, &folder)?;
-        Ok((Self::new(child, Transport::Fifo, to_device, from_device, folder), line))
+        let fifos = Fifos::new(folder.path())?;
+        let (child, telemetry) = accept_uart(&mut command, &folder)?;
+        Ok((Self::new(child, Transport::Fifo, Line::Fifos(fifos), folder), telemetry))
     }
 
     /// Starts an image that speaks over FIFOs and writes to its standard output, which comes with it.
@@ -68,24 +72,14 @@ impl Emulator {
     /// If the emulator does not start.
     pub fn start_with_output(qemu: &Qemu, image: &Image) -> Result<(Self, ChildStdout), LinkError> {
         let (mut command, folder) = command(qemu, image, Pace::Brisk)?;
-        let (to_device, from_device) = open_fifos(&folder)?;
+        let fifos = Fifos::new(folder.path())?;
         let mut child = command.stdout(Stdio::piped()).spawn()?;
         let output = child.stdout.take().ok_or_else(|| LinkError::Io(ErrorKind::BrokenPipe.into()))?;
-        Ok((Self::new(child, Transport::Fifo, to_device, from_device, folder), output))
+        Ok((Self::new(child, Transport::Fifo, Line::Fifos(fifos), folder), output))
     }
 
-    fn new(child: Child, transport: Transport, to_device: File, from_device: File, folder: TempDir) -> Self {
-        Self {
-            child,
-            transport,
-            to_device,
-            from_device,
-            receiver: Receiver::new(),
-            buffer: [0; MAX_FRAME],
-            next: 0,
-            end: 0,
-            folder,
-        }
+    fn new(child: Child, transport: Transport, line: Line, folder: TempDir) -> Self {
+        Self { child, transport, line, receiver: Receiver::new(), buffer: [0; MAX_FRAME], next: 0, end: 0, folder }
     }
 
     /// Hangs up, so that the firmware finds its host gone, and waits for the emulator to end by itself.
@@ -93,9 +87,7 @@ impl Emulator {
     /// # Errors
     /// [`LinkError::Silent`] if it is still running after that time.
     pub fn hang_up(mut self, patience: Duration) -> Result<std::process::ExitStatus, LinkError> {
-        let nowhere = File::open("/dev/null")?;
-        self.to_device = nowhere.try_clone()?;
-        self.from_device = nowhere;
+        self.line = Line::Closed;
         let start = Instant::now();
         while start.elapsed() < patience {
             if let Some(status) = self.child.try_wait()? {
@@ -106,36 +98,20 @@ impl Emulator {
         Err(LinkError::Silent(patience))
     }
 
-    /// Waits until there is something to read.
-    fn wait(&mut self) -> Result<(), LinkError> {
+    /// Reads what is there, or waits for it.
+    fn fill(&mut self) -> Result<(), LinkError> {
+        self.next = 0;
+        self.end = 0;
         let start = Instant::now();
-        let slice = PollTimeout::try_from(LOOK).unwrap_or(PollTimeout::ZERO);
-        loop {
-            let mut asked = [PollFd::new(self.from_device.as_fd(), PollFlags::POLLIN)];
-            match poll(&mut asked, slice) {
-                Ok(0) | Err(nix::errno::Errno::EINTR) => {}
-                Ok(_) => return Ok(()),
-                Err(error) => return Err(std::io::Error::from(error).into()),
-            }
-            if self.child.try_wait()?.is_some() {
-                return Err(self.ended());
-            }
-            if start.elapsed() > PATIENCE {
-                return Err(LinkError::Silent(PATIENCE));
+        while self.end == 0 {
+            match self.line.receive(&mut self.buffer, LOOK)? {
+                Some(0) => return Err(self.ended()),
+                Some(read) => self.end = read,
+                None if self.child.try_wait()?.is_some() => return Err(self.ended()),
+                None if start.elapsed() > PATIENCE => return Err(LinkError::Silent(PATIENCE)),
+                None => {}
             }
         }
-    }
-
-    /// Reads what is there.
-    fn fill(&mut self) -> Result<(), LinkError> {
-        self.wait()?;
-        self.next = 0;
-        self.end = match self.from_device.read(&mut self.buffer) {
-            Ok(0) => return Err(self.ended()),
-            Ok(read) => read,
-            Err(error) if error.kind() == ErrorKind::Interrupted => 0,
-            Err(error) => return Err(error.into()),
-        };
         Ok(())
     }
 
@@ -154,8 +130,10 @@ impl Emulator {
 
 impl Link for Emulator {
     fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
-        match self.to_device.write_all(bytes) {
-            Err(error) if error.kind() == ErrorKind::BrokenPipe => Err(self.ended()),
+        match self.line.send(bytes) {
+            Err(error) if matches!(error.kind(), ErrorKind::BrokenPipe | ErrorKind::ConnectionReset) => {
+                Err(self.ended())
+            }
             result => Ok(result?),
         }
     }
@@ -202,31 +180,20 @@ fn command(qemu: &Qemu, image: &Image, pace: Pace) -> Result<(Command, TempDir),
     Ok((command, folder))
 }
 
-/// The UART is the link.
-fn start_with_socket(mut command: Command, folder: &TempDir) -> Result<(Child, File, File), LinkError> {
-    let (child, stream) = accept_uart(&mut command, folder)?;
-    let stream = File::from(OwnedFd::from(stream));
-    Ok((child, stream.try_clone()?, stream))
-}
-
-/// The FIFOs are the link.
-fn start_with_fifos(mut command: Command, folder: &TempDir) -> Result<(Child, File, File), LinkError> {
-    let (to_device, from_device) = open_fifos(folder)?;
-    Ok((command.spawn()?, to_device, from_device))
-}
-
-/// Starts the emulator with its UART on a socket. This program listens and the emulator calls: there is no moment at which one
+/// Starts the emulator with its UART on a socket of this machine. This program listens and the emulator calls: there is no moment at which one
 /// could miss the other.
-fn accept_uart(command: &mut Command, folder: &TempDir) -> Result<(Child, UnixStream), LinkError> {
-    let listener = UnixListener::bind(folder.path().join("uart"))?;
+fn accept_uart(command: &mut Command, folder: &TempDir) -> Result<(Child, TcpStream), LinkError> {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
     listener.set_nonblocking(true)?;
-    let mut child =
-        command.args(["-chardev", "socket,id=uart,path=uart,server=off", "-serial", "chardev:uart"]).spawn()?;
+    let port = listener.local_addr()?.port();
+    let socket = format!("socket,id=uart,host=127.0.0.1,port={port},server=off,nodelay=on");
+    let mut child = command.args(["-chardev", &socket, "-serial", "chardev:uart"]).spawn()?;
     let start = Instant::now();
     loop {
         match listener.accept() {
             Ok((stream, _)) => {
                 stream.set_nonblocking(false)?;
+                stream.set_nodelay(true)?;
                 return Ok((child, stream));
             }
             Err(error) if error.kind() == ErrorKind::WouldBlock => {}
@@ -245,14 +212,4 @@ fn accept_uart(command: &mut Command, folder: &TempDir) -> Result<(Child, UnixSt
         }
         std::thread::sleep(Duration::from_millis(2));
     }
-}
-
-/// Each FIFO is opened to read *and* write, which never blocks; the other end comes when the firmware opens it.
-fn open_fifos(folder: &TempDir) -> Result<(File, File), LinkError> {
-    let open = |name| {
-        let path = folder.path().join(name);
-        nix::unistd::mkfifo(&path, Mode::S_IRUSR | Mode::S_IWUSR).map_err(std::io::Error::from)?;
-        OpenOptions::new().read(true).write(true).open(path)
-    };
-    Ok((open("to-device")?, open("from-device")?))
 }

@@ -13,7 +13,13 @@
 mod board;
 mod debian;
 mod emulator;
+#[cfg(unix)]
+mod fifos;
+#[cfg(not(unix))]
+#[path = "no_fifos.rs"]
+mod fifos;
 mod image;
+mod line;
 mod link;
 pub(crate) mod process;
 mod program;

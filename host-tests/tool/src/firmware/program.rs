@@ -2,7 +2,7 @@
 
 use super::process::output;
 use super::{Board, Choice, Emulator, Image, LinkError, Pace, Progress, Qemu, SetUpError, Toolchain, image};
-use std::os::unix::net::UnixStream;
+use std::net::TcpStream;
 use std::process::{Child, ChildStdout, Stdio};
 use tempfile::TempDir;
 
@@ -67,7 +67,7 @@ impl Program {
     ///
     /// # Errors
     /// If the emulator does not start.
-    pub fn start_with_telemetry(&self) -> Result<(Emulator, UnixStream), LinkError> {
+    pub fn start_with_telemetry(&self) -> Result<(Emulator, TcpStream), LinkError> {
         Emulator::start_with_telemetry(&self.qemu, &self.image)
     }
 

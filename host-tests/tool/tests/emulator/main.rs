@@ -12,4 +12,6 @@ mod path;
 mod proofs;
 mod round_trip;
 mod running;
+// Its serial port is a pseudo terminal.
+#[cfg(unix)]
 mod telemetry;

@@ -10,7 +10,7 @@ use palpate::wire::{Report, Sensors};
 use palpate_tool::firmware::{Board, Emulator, Link, Program, Progress};
 use std::fs::{self, File};
 use std::io::{Read, Write};
-use std::os::unix::net::UnixStream;
+use std::net::TcpStream;
 use std::process::{Command, Stdio};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -30,7 +30,7 @@ fn drive(mut emulator: Emulator) -> Vec<Report> {
 }
 
 /// Reads a line to its end, in frames, each with its delimiter.
-fn frames(mut line: UnixStream) -> JoinHandle<Vec<Vec<u8>>> {
+fn frames(mut line: TcpStream) -> JoinHandle<Vec<Vec<u8>>> {
     std::thread::spawn(move || {
         let mut bytes = Vec::new();
         // The emulator may be killed in the middle of a byte: what came before it counts.
