@@ -64,3 +64,56 @@ impl Along {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec3;
+    use crate::patch::Coefficients;
+
+    /// 2 m along x, from the middle.
+    const fn straight(second_derivative: f32) -> SplineCurve {
+        SplineCurve {
+            degree: 1,
+            breaks: &[0.0, 1.0],
+            coefficients: Coefficients::Polynomial(&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]),
+            second_derivative,
+        }
+    }
+
+    #[test]
+    fn a_step_is_as_long_as_the_bound_of_the_bend_allows() {
+        let curve = straight(8.0);
+        let at = curve.evaluate(0.25);
+        // 0.5 m farther along and 1.2 m beside it: 1.3 m away.
+        let along = Along::new(&at, at.point + vec3(0.5, 1.2, 0.0));
+        assert_eq!([along.stretch, along.gradient], [4.0, -1.0]);
+        // w = 1/4, s = 1/4, K w² = 1/2: the gain is s / ((√s + K w²)² + 1.3 K w²) = 0.25 / 1.65.
+        let expected = 0.25 + 0.25 * 0.25 / 1.65;
+        assert!((along.advanced(&curve, 0.25) - expected).abs() < f32::EPSILON, "{}", along.advanced(&curve, 0.25));
+        // Where nothing bends, all the way.
+        assert_eq!(along.advanced(&straight(0.0), 0.25), 0.5);
+    }
+
+    #[test]
+    fn beyond_a_face_is_beyond_its_separator() {
+        let curve = straight(0.0);
+        let at = curve.evaluate(0.5);
+        let plane = Separator::Plane { normal: vec3(0.0, 1.0, 0.0), offset: 0.25 };
+        // The face's cross derivative, slanted along the edge: its conormal is y all the same.
+        let ruled = Separator::Ruled(SplineCurve {
+            degree: 0,
+            breaks: &[0.0, 1.0],
+            coefficients: Coefficients::Polynomial(&[[3.0, 1.0, 0.0]]),
+            second_derivative: 0.0,
+        });
+        for (height, is_beyond) in [(0.5, true), (0.2, false), (-0.5, false)] {
+            let probe = vec3(0.1, height, 0.0);
+            assert_eq!(Along::new(&at, probe).is_beyond(&plane, &at, 0.5, probe), is_beyond, "{height}");
+        }
+        for (height, is_beyond) in [(0.5, true), (-0.5, false)] {
+            let probe = vec3(0.1, height, 0.0);
+            assert_eq!(Along::new(&at, probe).is_beyond(&ruled, &at, 0.5, probe), is_beyond, "{height}");
+        }
+    }
+}

@@ -118,3 +118,22 @@ fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
     // Most curves have one span, from 0 to 1.
     if breaks.len() == 2 { (0, parameter - 0.5) } else { bisect(breaks, parameter) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_without_a_bound_is_refused() {
+        let curve = |second_derivative| SplineCurve {
+            degree: 0,
+            breaks: &[0.0, 1.0],
+            coefficients: Coefficients::Polynomial(&[[0.0; 3]]),
+            second_derivative,
+        };
+        assert!(curve(0.0).is_valid() && curve(f32::MAX).is_valid());
+        for bad in [-1.0, f32::INFINITY, f32::NAN] {
+            assert!(!curve(bad).is_valid(), "{bad}");
+        }
+    }
+}

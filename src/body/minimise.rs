@@ -183,6 +183,7 @@ impl Seen {
 }
 
 /// The quadratic model of `φ` at a point.
+#[derive(Debug)]
 struct Model {
     gradient: [f32; 2],
     /// `[uu, uv, vv]`, positive definite but for poles.
@@ -263,4 +264,29 @@ fn least_of_line(slope: f32, bend: f32, [low, high]: [f32; 2]) -> f32 {
 
 fn is_positive_definite([a, b, c]: [f32; 3]) -> bool {
     a > 0.0 && a * c - b * b > MIN_DETERMINANT * a * c
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the least of a grid that has the minimiser's corners and sides on it.
+    #[test]
+    fn the_minimiser_of_a_model_is_the_least_on_its_rectangle() {
+        let room = [[-1.0, -0.5], [0.75, 1.0]];
+        for hessian in [[2.0, 0.5, 1.0], [1.0, -0.8, 1.5], [0.5, 0.0, 4.0]] {
+            for turn in 0..24 {
+                let (sine, cosine) = crate::math::sin_cos(turn as f32 * core::f32::consts::TAU / 24.0);
+                let model = Model { gradient: [1.5 * cosine, sine], hessian };
+                let (at, fall) = model.minimiser(room);
+                assert!(at[0] >= -1.0 && at[0] <= 0.75 && at[1] >= -0.5 && at[1] <= 1.0, "{at:?}");
+                assert!((model.value(at) - fall).abs() < 1e-6);
+                for (i, j) in (0..=56).flat_map(|i| (0..=48).map(move |j| (i, j))) {
+                    let other = [i as f32 / 32.0 - 1.0, j as f32 / 32.0 - 0.5];
+                    // Rounding of values below 8.
+                    assert!(model.value(other) >= fall - 4.0 * f32::EPSILON, "{model:?}: {at:?}, {other:?}");
+                }
+            }
+        }
+    }
 }

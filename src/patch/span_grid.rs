@@ -80,3 +80,17 @@ pub(crate) const fn breaks_are_valid(breaks: &[f32]) -> bool {
     }
     true
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_spans_as_can_be_and_no_more() {
+        let even: [f32; MAX_SPANS + 2] = core::array::from_fn(|index| index as f32 / MAX_SPANS as f32);
+        assert!(breaks_are_valid(&even[..=MAX_SPANS]));
+        let mut more: [f32; MAX_SPANS + 2] = core::array::from_fn(|index| index as f32 / (MAX_SPANS + 1) as f32);
+        more[MAX_SPANS + 1] = 1.0;
+        assert!(!breaks_are_valid(&more));
+    }
+}

@@ -270,4 +270,22 @@ mod tests {
             assert_ne!(SplinePatch { outward, ..patch }.word(0), patch.word(0), "bit {bit}");
         }
     }
+
+    #[test]
+    fn a_table_says_what_it_is_made_of() {
+        static ROUND: [[f32; 4]; 4] = [[0.0, 0.0, 0.0, 1.0]; 4];
+        static FLAT: [[f32; 3]; 4] = [[7.0, 8.0, 9.0], [1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [0.0; 3]];
+        let patch = |coefficients| {
+            let shape = ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 });
+            SplinePatch::from_table([1, 1], &[0.0, 1.0], &[0.0, 1.0], coefficients, shape, Orientation::Outward, 1.0)
+        };
+        let (flat, round) = (patch(Coefficients::Polynomial(&FLAT)), patch(Coefficients::Rational(&ROUND)));
+        assert_eq!((flat.word(0), round.word(0)), (Some(0x0000_0101), Some(0x0001_0101)));
+        assert_eq!((flat.baked_crc(), flat.with_crc(5).baked_crc()), (None, Some(5)));
+        // The coefficients come last, one after the other.
+        let words: [Option<u32>; 13] = core::array::from_fn(|index| flat.word(15 + index));
+        let numbers = FLAT.as_flattened();
+        assert!(words[..12].iter().zip(numbers).all(|(word, number)| *word == Some(number.to_bits())), "{words:?}");
+        assert_eq!(words[12], None);
+    }
 }

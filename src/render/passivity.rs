@@ -166,4 +166,12 @@ mod tests {
         CONTROL.control(&mut energy, Vec3::ZERO, &motion(0.0), false, GREATEST);
         assert_eq!(energy.stored, -2e-3);
     }
+
+    #[test]
+    fn what_the_greatest_force_alone_limits_is_not_cut() {
+        // So much is stored that the most that may be given is the greatest force.
+        let mut energy = Energy { stored: 1.0, ..Energy::default() };
+        let force = CONTROL.control(&mut energy, Vec3::Z * 9.0, &motion(-0.001), true, GREATEST);
+        assert!((force.length() - GREATEST).abs() < 1e-5 && !energy.is_active());
+    }
 }

@@ -14,7 +14,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         }
         self.surface.lose(&mut state.witness);
         let lost = &mut state.lost_contact;
-        let follows = lost.count > 0 && state.ticks.wrapping_sub(lost.tick) <= self.contact_watch.quiet;
+        let follows = state.ticks.wrapping_sub(lost.tick) <= self.contact_watch.quiet;
         // Without force a hand may lead the probe through anything, as often as it likes.
         let felt = u32::from(state.phase == Phase::Running);
         lost.in_a_row = if follows { lost.in_a_row.saturating_add(felt) } else { felt };

@@ -303,4 +303,24 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn without_a_plane_the_step_is_the_gradient_over_the_trace() {
+        let errors = ProjectionErrors {
+            difference: Vec3::ZERO,
+            gradient: [3.0, -5.0],
+            form: crate::track::FirstFundamentalForm { e: 6.0, f: 0.0, g: 2.0 },
+        };
+        let free = Descent::new(Law::Covariant, &errors, [0.5, 0.5]);
+        assert_eq!((free.direction, free.slope), ([-3.0 / 8.0, 5.0 / 8.0], 34.0 / 8.0));
+        assert_eq!(Descent::new(Law::Covariant, &errors, [0.0, 0.5]).direction, [0.0, 5.0 / 8.0]);
+        assert_eq!(Descent::new(Law::Covariant, &errors, [0.5, 1.0]).direction, [-3.0 / 8.0, 0.0]);
+    }
+
+    #[test]
+    fn a_halved_step_is_the_same_step_and_shorter() {
+        let whole = Descent { direction: [0.5, -0.25], slope: 3.0, length_squared: 5.0, mode: BoundaryMode::Interior };
+        let quarter = Descent { direction: [0.125, -0.0625], slope: 0.75, length_squared: 1.25, ..whole };
+        assert_eq!((whole.halved(0), whole.halved(2)), (whole, quarter));
+    }
 }

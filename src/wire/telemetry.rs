@@ -233,4 +233,10 @@ mod tests {
         // Periods that were not told are not lost with the records.
         assert_eq!([record.shortest, record.longest], [PERIOD, PERIOD]);
     }
+
+    #[test]
+    fn duties_of_fewer_joints_are_followed_by_zeros() {
+        assert_eq!(first_three(&[Duty(-7), Duty(300)]), [-7, 300, 0]);
+        assert_eq!(first_three(&[Duty(1), Duty(2), Duty(3), Duty(4)]), [1, 2, 3]);
+    }
 }
