@@ -1,15 +1,16 @@
 //! The only file that names a mathematics library. Each function says its error and what it costs on a Cortex-M4F.
 //!
-//! Nothing here uses fused multiply-add: without the hardware instruction it is software `f64`, and with it the host and
-//! the target would differ in the last bit.
+//! Nothing here uses fused multiply-add: without the hardware instruction it is software `f64`, and with it the host
+//! and the target would differ in the last bit.
 
 pub use glam::{Vec2, Vec3, vec2, vec3};
 
 /// `1/√x` for a normal positive `x`. About 20 instructions, no division.
 ///
-/// Error at most 2 units in the last place (tested for all mantissas and both parities of the exponent, on which alone it
-/// depends); anything finite for what is not a normal positive number. Halving and negating the exponent gives 3.5 % (the constant is
-/// J. Blinn's and G. Tarolli's, C. Lomont, *Fast inverse square root*, 2003); each Newton step `y (3 − x y²)/2` squares the error.
+/// Error at most 2 units in the last place (tested for all mantissas and both parities of the exponent, on which alone
+/// it depends); anything finite for what is not a normal positive number. Halving and negating the exponent gives 3.5 %
+/// (the constant is J. Blinn's and G. Tarolli's, C. Lomont, *Fast inverse square root*, 2003); each Newton step `y (3 −
+/// x y²)/2` squares the error.
 #[inline]
 pub fn inverse_sqrt(x: f32) -> f32 {
     let half = 0.5 * x;
@@ -20,10 +21,11 @@ pub fn inverse_sqrt(x: f32) -> f32 {
     y + y * (0.5 - half * y * y)
 }
 
-/// Square root. About 25 instructions, against 51 for `libm::sqrtf`, which has no Cortex-M path; inline assembly is not ours.
+/// Square root. About 25 instructions, against 51 for `libm::sqrtf`, which has no Cortex-M path; inline assembly is not
+/// ours.
 ///
-/// Error at most 2 units in the last place; exact for 0 and infinity; 0 below the normal numbers; NaN for a negative `x` and for a
-/// NaN.
+/// Error at most 2 units in the last place; exact for 0 and infinity; 0 below the normal numbers; NaN for a negative
+/// `x` and for a NaN.
 #[inline]
 pub fn sqrt(x: f32) -> f32 {
     if (f32::MIN_POSITIVE..f32::INFINITY).contains(&x) {
@@ -40,19 +42,20 @@ pub fn sqrt(x: f32) -> f32 {
 /// How far [`sqrt_from_above`] may lie above the root, as a factor: `3/√8`, rounded up.
 pub const ROOT_EXCESS: f32 = 1.060_661;
 
-/// Not below `√x`, and at most [`ROOT_EXCESS`] times it for a normal `x`; `x` finite and not negative. Four instructions: for
-/// bounds that need no digits.
+/// Not below `√x`, and at most [`ROOT_EXCESS`] times it for a normal `x`; `x` finite and not negative. Four
+/// instructions: for bounds that need no digits.
 ///
-/// The bits of a float are a piecewise linear logarithm, which halving takes to a root. With the mantissa `1 + m` and an even
-/// exponent that is `1 + m/2 ≥ √(1 + m)`, with an odd one `(3 + m)/2 ≥ √(2 (1 + m))`, both by the inequality of the means; worst where
-/// the two meet, `3/2` for `√2`. The bit that halving drops is made good by one unit in the last place.
+/// The bits of a float are a piecewise linear logarithm, which halving takes to a root. With the mantissa `1 + m` and
+/// an even exponent that is `1 + m/2 ≥ √(1 + m)`, with an odd one `(3 + m)/2 ≥ √(2 (1 + m))`, both by the inequality of
+/// the means; worst where the two meet, `3/2` for `√2`. The bit that halving drops is made good by one unit in the last
+/// place.
 #[inline]
 pub fn sqrt_from_above(x: f32) -> f32 {
     f32::from_bits((x.to_bits() >> 1) + 0x1fc0_0001)
 }
 
-/// `x` brought into `[low, high]`; a NaN becomes `low`. Plain comparisons: `f32::max` leaves the sign of zero open, and with
-/// it the last bit that host and target must share; `f32::clamp` panics where the ends are not in order.
+/// `x` brought into `[low, high]`; a NaN becomes `low`. Plain comparisons: `f32::max` leaves the sign of zero open, and
+/// with it the last bit that host and target must share; `f32::clamp` panics where the ends are not in order.
 #[inline]
 pub fn saturate(x: f32, low: f32, high: f32) -> f32 {
     if x > low { if x < high { x } else { high } } else { low }
@@ -68,8 +71,8 @@ pub fn saturate(x: f32, low: f32, high: f32) -> f32 {
 pub fn sin_cos(x: f32) -> (f32, f32) {
     const HALF_PI_HIGH: f32 = 1.570_312_5;
     const HALF_PI_LOW: f32 = 4.838_268e-4;
-    // 3·2²²: added to a number of quarter turns it leaves no bits for a fraction, so that the sum is rounded to a whole number, which
-    // stands in its last bits. A NaN stays visible in the remainder.
+    // 3·2²²: added to a number of quarter turns it leaves no bits for a fraction, so that the sum is rounded to a whole
+    // number, which stands in its last bits. A NaN stays visible in the remainder.
     const WHOLE: f32 = 12_582_912.0;
     let rounded = x * core::f32::consts::FRAC_2_PI + WHOLE;
     let quarter = rounded.to_bits();
@@ -86,8 +89,8 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
     }
 }
 
-/// The angle of the vector `(x, y)` from the x axis, radians, in `[−π, π]`; 0 for the zero vector. About 60 instructions,
-/// a division among them; `libm::atan2f` branches over twice as many.
+/// The angle of the vector `(x, y)` from the x axis, radians, in `[−π, π]`; 0 for the zero vector. About 60
+/// instructions, a division among them; `libm::atan2f` branches over twice as many.
 ///
 /// Error at most 3e-7 absolute (a rounding of π). The argument is brought below tan π/8; the polynomial is the
 /// single-precision minimax one of the Cephes library (see [`sin_cos`]).

@@ -1,5 +1,5 @@
-//! Says which board the image is for, lays the linker's files where it finds them, and says which body and settings go into
-//! the image.
+//! Says which board the image is for, lays the linker's files where it finds them, and says which body and settings go
+//! into the image.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};

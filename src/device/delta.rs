@@ -3,20 +3,20 @@
 use super::{GRAVITY, Kinematics, ProbePose};
 use crate::math::{Vec3, atan2, sin_cos, sqrt, vec3};
 
-/// Newton steps after the closed-form start. On the Falcon, over its workspace, the start is off by 2.9 mm, and steps leave
-/// 50 µm, then 20 nm, then roundings.
+/// Newton steps after the closed-form start. On the Falcon, over its workspace, the start is off by 2.9 mm, and steps
+/// leave 50 µm, then 20 nm, then roundings.
 const REFINEMENTS: usize = 3;
 
 /// Three legs about the z axis, each a thigh on a motor and a shin that is a parallelogram on two short stubs.
 ///
-/// Joint angles, radians: each thigh's, zero when it points outward, positive towards +z, where the probe is. A leg's own
-/// frame has u outward along its `direction`, v to the left of it seen from +z, and w along z; there, with the probe at
-/// `(u, v, w)` of it, the leg closes when
-/// `√((u − reach − a cos θ)² + (w − a sin θ)²) = stub + √(b² − (v − side)²)` (Stamper 1997).
-/// Without stubs that is a sphere about the knee, and three spheres meet in closed form; with them the forward map starts
-/// there and takes a fixed number of Newton steps.
+/// Joint angles, radians: each thigh's, zero when it points outward, positive towards +z, where the probe is. A leg's
+/// own frame has u outward along its `direction`, v to the left of it seen from +z, and w along z; there, with the
+/// probe at `(u, v, w)` of it, the leg closes when `√((u − reach − a cos θ)² + (w − a sin θ)²) = stub + √(b² − (v −
+/// side)²)` (Stamper 1997). Without stubs that is a sphere about the knee, and three spheres meet in closed form; with
+/// them the forward map starts there and takes a fixed number of Newton steps.
 ///
-/// The Jacobian follows from the legs' unit shins `sᵢ`: `sᵢ · Ṗ = cᵢ θ̇ᵢ`, with `cᵢ` the shin's share of the knee's speed.
+/// The Jacobian follows from the legs' unit shins `sᵢ`: `sᵢ · Ṗ = cᵢ θ̇ᵢ`, with `cᵢ` the shin's share of the knee's
+/// speed.
 ///
 /// The frame: z out of the base towards the probe, x and y as the legs' directions say, origin in the workspace centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +39,8 @@ pub struct Delta {
     pub up: Vec3,
     /// Mass that hangs on the probe, half the shins included, kg; zero if not known.
     pub carried_mass: f32,
-    /// Mass of a thigh, with the other half of its shin at the knee, times the distance of the centre from the hip, kg·m.
+    /// Mass of a thigh, with the other half of its shin at the knee, times the distance of the centre from the hip,
+    /// kg·m.
     pub thigh_moment: f32,
 }
 

@@ -7,13 +7,13 @@ pub struct Counts(pub i32);
 
 /// An encoder on a motor shaft, seen through the transmission.
 ///
-/// A counter that reads `n` says that line `n` was passed and line `n + 1` not yet: the joint is anywhere between the two,
-/// and least wrong on average in the middle. Read at the line itself, every angle would lean half a count the same way, and a
-/// spring with it: 2 % of the force of a wall pressed in by 1.3 mm on a Falcon. So [`Self::angle_at_zero`] is the middle of
-/// count zero, which costs the tick nothing.
+/// A counter that reads `n` says that line `n` was passed and line `n + 1` not yet: the joint is anywhere between the
+/// two, and least wrong on average in the middle. Read at the line itself, every angle would lean half a count the same
+/// way, and a spring with it: 2 % of the force of a wall pressed in by 1.3 mm on a Falcon. So [`Self::angle_at_zero`]
+/// is the middle of count zero, which costs the tick nothing.
 ///
-/// Where the counter was set to zero by hand in some pose, and not at a line, the pose itself is anywhere in count zero: an
-/// offset of up to half a count stays, which only homing on a mark or a stop finds.
+/// Where the counter was set to zero by hand in some pose, and not at a line, the pose itself is anywhere in count
+/// zero: an offset of up to half a count stays, which only homing on a mark or a stop finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoder {
     /// Joint angle per count, radians; negative where the encoder counts the other way.
@@ -28,8 +28,8 @@ impl Encoder {
         Self { radians_per_count, angle_at_zero: angle_at_line + 0.5 * radians_per_count }
     }
 
-    /// An encoder of `counts_per_revolution` (after quadrature) on a motor geared down `ratio : 1` to the joint, whose count
-    /// steps from −1 to 0 at `angle_at_line`, radians. A negative ratio turns the direction round.
+    /// An encoder of `counts_per_revolution` (after quadrature) on a motor geared down `ratio : 1` to the joint, whose
+    /// count steps from −1 to 0 at `angle_at_line`, radians. A negative ratio turns the direction round.
     pub const fn geared(counts_per_revolution: f32, ratio: f32, angle_at_line: f32) -> Self {
         Self::new(core::f32::consts::TAU / (counts_per_revolution * ratio), angle_at_line)
     }

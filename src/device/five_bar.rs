@@ -6,9 +6,9 @@ use crate::math::{Vec2, Vec3, sin_cos, sqrt, vec2};
 /// Two cranks on fixed pivots, joined by two rods that meet at a hinge.
 ///
 /// Joint angles, radians, counter-clockwise from the x axis: the first crank's about the origin, the second's about
-/// `(second_pivot, 0)`. The cranks end in the elbows `A` and `B`; the rods from there meet at the hinge `C`, on the `side` of
-/// the line from `A` to `B`. The probe sits on the first rod, `tool` from `A` towards `C`. The frame lies in the
-/// mechanism's plane; z stays zero.
+/// `(second_pivot, 0)`. The cranks end in the elbows `A` and `B`; the rods from there meet at the hinge `C`, on the
+/// `side` of the line from `A` to `B`. The probe sits on the first rod, `tool` from `A` towards `C`. The frame lies in
+/// the mechanism's plane; z stays zero.
 ///
 /// Forward map: circles about `A` and `B` intersect. With `h = B − A`:
 /// `C = A + (L₁² − L₂² + h²)/(2 h²) · h ± √(…) · h⊥`. Jacobian: the rods keep their lengths,

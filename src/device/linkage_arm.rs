@@ -22,9 +22,9 @@ impl LinkMass {
 
 /// A turntable that carries an upright [`FiveBar`].
 ///
-/// Joint angles, radians: `a` turns the table about the vertical z axis; the other two are the cranks', counter-clockwise
-/// from the horizontal. The five-bar's x is the distance from the turntable's axis less `pivot_reach`, its y the height:
-/// `x = r cos a`, `y = r sin a`, `z = h`, less the workspace centre.
+/// Joint angles, radians: `a` turns the table about the vertical z axis; the other two are the cranks',
+/// counter-clockwise from the horizontal. The five-bar's x is the distance from the turntable's axis less
+/// `pivot_reach`, its y the height: `x = r cos a`, `y = r sin a`, `z = h`, less the workspace centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkageArm {
     /// The linkage in the upright plane. Its own workspace centre is not used.
@@ -39,8 +39,8 @@ pub struct LinkageArm {
 }
 
 impl LinkageArm {
-    /// How the height of a link's centre changes with the cranks, metres per radian. The link starts at a point that moves
-    /// with `start`, and points along `span` from there, whose end moves `sweep` faster than its start.
+    /// How the height of a link's centre changes with the cranks, metres per radian. The link starts at a point that
+    /// moves with `start`, and points along `span` from there, whose end moves `sweep` faster than its start.
     fn lift(link: &LinkMass, start: [Vec2; 2], span: Vec2, sweep: [Vec2; 2]) -> [f32; 2] {
         // A rigid link turns by `span⊥ · sweep / span²`, and its centre's height changes with the offset's own x.
         let length = span.length();

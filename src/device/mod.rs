@@ -1,8 +1,8 @@
 //! The device: encoder counts to joint angles to the probe, and a force at the probe back to motor duty.
 //!
 //! One direction in, one out: [`sensor`] → [`Encoder`] → [`Kinematics`] → … → [`Kinematics`] (transposed Jacobian) →
-//! [`Motor`] → [`drive`]. [`Homing`] finds out where the joints are to begin with. A new device is a [`Kinematics`] and a
-//! preset in [`presets`]; one, two and three joints are alike to the servo.
+//! [`Motor`] → [`drive`]. [`Homing`] finds out where the joints are to begin with. A new device is a [`Kinematics`] and
+//! a preset in [`presets`]; one, two and three joints are alike to the servo.
 
 mod delta;
 pub mod drive;
@@ -40,12 +40,12 @@ pub const GRAVITY: f32 = 9.81;
 ///
 /// The device's frame is each mechanism's own; its documentation says where the axes point.
 pub trait Kinematics<const JOINTS: usize> {
-    /// Probe position and Jacobian at these joint angles, radians. [`ProbePose::UNREACHABLE`], all NaN, where the mechanism
-    /// cannot be closed.
+    /// Probe position and Jacobian at these joint angles, radians. [`ProbePose::UNREACHABLE`], all NaN, where the
+    /// mechanism cannot be closed.
     fn pose(&self, angles: [f32; JOINTS]) -> ProbePose<JOINTS>;
 
-    /// The pose, and with it the joint torques, N·m, that carry the weight of the links: together, for they share sines and
-    /// cosines. Zero where the masses are not known or do not load the joints.
+    /// The pose, and with it the joint torques, N·m, that carry the weight of the links: together, for they share sines
+    /// and cosines. Zero where the masses are not known or do not load the joints.
     #[inline]
     fn held_pose(&self, angles: [f32; JOINTS]) -> (ProbePose<JOINTS>, [f32; JOINTS]) {
         (self.pose(angles), [0.0; JOINTS])
@@ -90,18 +90,18 @@ const RIM: f32 = 0.05;
 const MARGIN_RIM: f32 = 0.25;
 
 impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
-    /// Whether these joint angles, radians, are in the workspace: each in its range, the mechanism closed, and far enough
-    /// from a singularity for forces to make sense. False for NaN.
+    /// Whether these joint angles, radians, are in the workspace: each in its range, the mechanism closed, and far
+    /// enough from a singularity for forces to make sense. False for NaN.
     pub fn in_workspace(&self, angles: [f32; JOINTS]) -> bool {
         let in_range = |(angle, [least, most]): (&f32, &[f32; 2])| least <= angle && angle <= most;
         angles.iter().zip(&self.joint_range).all(in_range)
             && self.kinematics.pose(angles).singularity_margin() >= self.min_margin
     }
 
-    /// How much room there is to the rim of the workspace, for these joint angles (radians) and their pose: 1 well inside, 0 on
-    /// the rim and outside, and in between the share of the last 0.05 rad of a joint's range or of the last quarter of the
-    /// least margin over a singularity, whichever is less. A force times this lets go smoothly at the rim, and keeps its
-    /// direction.
+    /// How much room there is to the rim of the workspace, for these joint angles (radians) and their pose: 1 well
+    /// inside, 0 on the rim and outside, and in between the share of the last 0.05 rad of a joint's range or of the
+    /// last quarter of the least margin over a singularity, whichever is less. A force times this lets go smoothly at
+    /// the rim, and keeps its direction.
     #[inline]
     pub fn room(&self, angles: &[f32; JOINTS], pose: &ProbePose<JOINTS>) -> f32 {
         let mut to_stop = RIM;
@@ -123,8 +123,8 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
 
     /// What each drive is to be told so that its motor gives this duty of torque at this joint rate, rad/s.
     ///
-    /// Unless `live` it is zero: a bridge makes up for back-EMF even where no torque is asked for, and after a fault the rates
-    /// are not to be believed. On zero volts a motor brakes by itself.
+    /// Unless `live` it is zero: a bridge makes up for back-EMF even where no torque is asked for, and after a fault
+    /// the rates are not to be believed. On zero volts a motor brakes by itself.
     #[inline]
     pub fn feed(&self, live: bool, duties: [Duty; JOINTS], joint_rates: [f32; JOINTS]) -> [Duty; JOINTS] {
         if !live {

@@ -14,8 +14,8 @@ impl Duty {
     /// The duty nearest to a fraction of full scale. Beyond ±1 it is full scale; a NaN is zero.
     #[inline]
     pub fn from_fraction(fraction: f32) -> Self {
-        // The cast truncates, so the half rounds to nearest; it saturates and makes a NaN 0. To 32 bits it is one instruction,
-        // to 16 it would be a dozen.
+        // The cast truncates, so the half rounds to nearest; it saturates and makes a NaN 0. To 32 bits it is one
+        // instruction, to 16 it would be a dozen.
         let half = if fraction < 0.0 { -0.5 } else { 0.5 };
         Self(((fraction * 32_767.0 + half) as i32).clamp(-32_767, 32_767) as i16)
     }
@@ -35,8 +35,8 @@ pub struct Motor {
 }
 
 impl Motor {
-    /// A motor of torque constant `torque_constant` (N·m/A) whose amplifier gives `current_at_full` amperes at full duty,
-    /// geared down `ratio : 1` to the joint. A negative ratio turns the direction round.
+    /// A motor of torque constant `torque_constant` (N·m/A) whose amplifier gives `current_at_full` amperes at full
+    /// duty, geared down `ratio : 1` to the joint. A negative ratio turns the direction round.
     pub const fn current_driven(torque_constant: f32, current_at_full: f32, ratio: f32) -> Self {
         Self { torque_at_full: torque_constant * current_at_full * ratio }
     }

@@ -6,8 +6,8 @@ use crate::math::{sin_cos, vec3};
 /// A handle on one axis.
 ///
 /// Joint angle, radians: zero with the handle upright, positive towards x. The probe's place is the arc the handle has
-/// gone, as such devices are programmed: `x = r θ`, so that one dimension stays one. The frame's x axis points the way the
-/// handle goes; y and z stay zero.
+/// gone, as such devices are programmed: `x = r θ`, so that one dimension stays one. The frame's x axis points the way
+/// the handle goes; y and z stay zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paddle {
     /// From the axis to the hand, `r`, metres.

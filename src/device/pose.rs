@@ -32,10 +32,10 @@ impl<const JOINTS: usize> ProbePose<JOINTS> {
 
     /// How far from a singularity, m/rad: a lower bound of the Jacobian's least singular value, exact for one joint.
     ///
-    /// However the joints turn, a unit of joint rates moves the probe at least this fast; a joint torque of 1 N·m can press
-    /// with at most its inverse, in newtons. From `σ₁σ₂σ₃ = |det J|` and `σ₁σ₂ ≤ (σ₁² + σ₂²)/2`:
-    /// `σ₃ ≥ 2 |det J| / ‖J‖²`; for two joints `σ₂ ≥ |j₁ × j₂| / ‖J‖` (Frobenius norms). Zero at a singularity and where
-    /// the pose is not finite, and for more than three joints.
+    /// However the joints turn, a unit of joint rates moves the probe at least this fast; a joint torque of 1 N·m can
+    /// press with at most its inverse, in newtons. From `σ₁σ₂σ₃ = |det J|` and `σ₁σ₂ ≤ (σ₁² + σ₂²)/2`: `σ₃ ≥ 2 |det J|
+    /// / ‖J‖²`; for two joints `σ₂ ≥ |j₁ × j₂| / ‖J‖` (Frobenius norms). Zero at a singularity and where the pose is
+    /// not finite, and for more than three joints.
     pub fn singularity_margin(&self) -> f32 {
         let squares = self.jacobian.iter().fold(0.0, |sum, column| sum + column.length_squared());
         let margin = match self.jacobian.as_slice() {

@@ -21,8 +21,9 @@ pub struct SerialArm {
     pub second_link: f32,
     /// The centre of the workspace, metres from the foot of the turntable.
     pub workspace_centre: Vec3,
-    /// What each link lifts, as a mass at its end, kg: its own mass times the distance of its centre from its axis over its
-    /// length, and for the first also all that hangs on its end. Negative where it is overbalanced; zero if not known.
+    /// What each link lifts, as a mass at its end, kg: its own mass times the distance of its centre from its axis over
+    /// its length, and for the first also all that hangs on its end. Negative where it is overbalanced; zero if not
+    /// known.
     pub end_masses: [f32; 2],
 }
 

@@ -107,7 +107,8 @@ mod tests {
 
     #[test]
     fn on_a_surface_that_turns_only_what_lies_along_it_pulls() {
-        // Over a ball of 20 mm by 0.02 rad, in steps of 0.5 mrad: the chord to where it began dips under the tangent plane.
+        // Over a ball of 20 mm by 0.02 rad, in steps of 0.5 mrad: the chord to where it began dips under the tangent
+        // plane.
         let mut anchor = Anchor::default();
         for step in 0..=40 {
             let (sine, cosine) = crate::math::sin_cos(step as f32 * 5e-4);

@@ -1,9 +1,9 @@
 //! From the witness point to a force.
 //!
 //! [`crate::track::Contact`] says whether the surface is touched. [`Penalty`] says how it pushes back, [`Friction`] how
-//! it holds along the surface, [`Texture`] what is added; [`Coupling`] puts a virtual tool between probe and surface. Then
-//! the force passes the limits of [`limit`] and, if asked for, [`Passivity`]. [`bounds`] says beforehand what a device can
-//! bear; [`Detents`] is for devices with one joint.
+//! it holds along the surface, [`Texture`] what is added; [`Coupling`] puts a virtual tool between probe and surface.
+//! Then the force passes the limits of [`limit`] and, if asked for, [`Passivity`]. [`bounds`] says beforehand what a
+//! device can bear; [`Detents`] is for devices with one joint.
 
 pub mod bounds;
 mod coupling;

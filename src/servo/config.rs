@@ -165,9 +165,9 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
 
     /// The same loop, which finds out in [`Phase::Calibrate`] where the joints are.
     ///
-    /// Until that is done no angle is believed: ranges are not looked at, there is no pose, and only homing itself drives the
-    /// motors, within the torque and speed it was given and only while force is asked for; otherwise it waits. A refusal is [`super::Fault::Homing`],
-    /// and [`ServoState::homing`] has the reason.
+    /// Until that is done no angle is believed: ranges are not looked at, there is no pose, and only homing itself
+    /// drives the motors, within the torque and speed it was given and only while force is asked for; otherwise it
+    /// waits. A refusal is [`super::Fault::Homing`], and [`ServoState::homing`] has the reason.
     pub const fn homing(self, homing: Homing<JOINTS>) -> Self {
         Self { homing: Some(homing), ..self }
     }
@@ -177,8 +177,8 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         self.start_after(ResetReason::PowerOn)
     }
 
-    /// The state before the first tick after a reset. One by the watchdog or a brown-out is a fault from the start, and so are tables that are
-    /// not what was baked ([`Safety::checks_tables`]): they are read whole here.
+    /// The state before the first tick after a reset. One by the watchdog or a brown-out is a fault from the start, and
+    /// so are tables that are not what was baked ([`Safety::checks_tables`]): they are read whole here.
     pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS, S::Witness> {
         let mut table_check = TableCheck::default();
         let is_good = self.expected_crc().is_none_or(|expected| table_check.run(self.surface, expected));

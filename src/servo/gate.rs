@@ -3,13 +3,13 @@
 use super::Fault;
 use crate::device::{Duty, Motor};
 
-/// The duties for joint torques, N·m: those of the force that is `felt`, on top of those that carry the `weight`. And what
-/// the felt ones were scaled by.
+/// The duties for joint torques, N·m: those of the force that is `felt`, on top of those that carry the `weight`. And
+/// what the felt ones were scaled by.
 ///
 /// The weight comes first: it is not given up for a force, or the arm would sag just where it presses hardest. What the
-/// motors have left above it, on either side, bounds the felt torques; beyond that they are scaled, all together, so that the
-/// felt force keeps its direction. (A weight beyond full scale by itself is scaled as a whole, and a force that would add to
-/// it is zero.) Unless `drives`, the duties are zero.
+/// motors have left above it, on either side, bounds the felt torques; beyond that they are scaled, all together, so
+/// that the felt force keeps its direction. (A weight beyond full scale by itself is scaled as a whole, and a force
+/// that would add to it is zero.) Unless `drives`, the duties are zero.
 ///
 /// # Errors
 /// [`Fault::NotFinite`] if a torque is not a finite number.

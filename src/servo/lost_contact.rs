@@ -1,10 +1,11 @@
-//! Contact that no motion explains: a depth that no wall holds a hand at, or a witness point farther off than the probe has moved
-//! since contact began.
+//! Contact that no motion explains: a depth that no wall holds a hand at, or a witness point farther off than the probe
+//! has moved since contact began.
 //!
-//! A witness point that is left behind would pull the hand back to it with all the force there is, through free air. So such contact is no force but an event,
-//! [`super::ServoState::contacts_lost`]: the force fades out, the closest point is located anew, and nothing is felt until the probe has been in front
-//! of the surface. A hand that is stronger than the device and goes through a part ends it the same way. Where it happens again and again something is wrong:
-//! [`super::Fault::ContactLost`].
+//! A witness point that is left behind would pull the hand back to it with all the force there is, through free air. So
+//! such contact is no force but an event,
+//! [`super::ServoState::contacts_lost`]: the force fades out, the closest point is located anew, and nothing is felt
+//! until the probe has been in front of the surface. A hand that is stronger than the device and goes through a part
+//! ends it the same way. Where it happens again and again something is wrong: [`super::Fault::ContactLost`].
 
 use crate::math::Vec3;
 
@@ -12,21 +13,24 @@ use crate::math::Vec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactLimits {
-    /// The greatest depth, as a multiple of the one at which the surface's stiffness alone gives the greatest force; above 1.
+    /// The greatest depth, as a multiple of the one at which the surface's stiffness alone gives the greatest force;
+    /// above 1.
     pub depth: f32,
-    /// Metres up to which any depth is taken for contact: a stiff wall that is struck gives way by more than its greatest force asks for.
+    /// Metres up to which any depth is taken for contact: a stiff wall that is struck gives way by more than its
+    /// greatest force asks for.
     pub min_depth: f32,
     /// Seconds over which the force fades out.
     pub fade: f32,
-    /// How many events may follow each other, none later than [`Self::quiet`] after the one before; one more is a fault.
+    /// How many events may follow each other, none later than [`Self::quiet`] after the one before; one more is a
+    /// fault.
     pub max_in_a_row: u32,
     /// Seconds after which an event is forgotten.
     pub quiet: f32,
 }
 
 impl ContactLimits {
-    /// Twice the depth of the greatest force, for beyond it the wall has given all it has, and no less than 10 mm; 5 ms of fading, which no hand takes for a
-    /// blow; three events within a second of each other.
+    /// Twice the depth of the greatest force, for beyond it the wall has given all it has, and no less than 10 mm; 5 ms
+    /// of fading, which no hand takes for a blow; three events within a second of each other.
     pub const DEFAULT: Self = Self { depth: 2.0, min_depth: 0.01, fade: 0.005, max_in_a_row: 3, quiet: 1.0 };
 
     pub(super) const fn is_valid(&self) -> bool {

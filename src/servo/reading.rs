@@ -49,8 +49,9 @@ impl<const JOINTS: usize, W> ServoState<JOINTS, W> {
         self.lost_contact.count
     }
 
-    /// Whether the surface is touched and the probe deeper inside than its least radius of curvature: the closest point is no longer unique
-    /// there, and the witness point not proved to follow (theory §11). Ordinary where a small fillet is pressed.
+    /// Whether the surface is touched and the probe deeper inside than its least radius of curvature: the closest point
+    /// is no longer unique there, and the witness point not proved to follow (theory §11). Ordinary where a small
+    /// fillet is pressed.
     #[inline]
     pub const fn is_too_deep(&self) -> bool {
         self.is_too_deep
@@ -110,8 +111,8 @@ impl<const JOINTS: usize, W> ServoState<JOINTS, W> {
         self.rates
     }
 
-    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force is
-    /// multiplied by it.
+    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force
+    /// is multiplied by it.
     #[inline]
     pub const fn room(&self) -> f32 {
         self.room

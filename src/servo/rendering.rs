@@ -21,11 +21,11 @@ pub struct Rendering {
     pub max_slew: f32,
     /// Whether the motors carry the weight of the device's own links, as far as its kinematics knows it.
     ///
-    /// The torques that do come on top of the force's, last before the gate, which gives them what they need first. They fade
-    /// in with the force, for at the start the hand still carries what the motors did not, and would be lifted by a step.
-    /// They are no part of [`super::ServoState::force`], nor of what the greatest force, the slew limit and the passivity
-    /// control look at: they are conservative, and give back what they took. At the rim of the workspace they stay. Without
-    /// [`super::Phase::Running`], and so after any fault, they are zero.
+    /// The torques that do come on top of the force's, last before the gate, which gives them what they need first.
+    /// They fade in with the force, for at the start the hand still carries what the motors did not, and would be
+    /// lifted by a step. They are no part of [`super::ServoState::force`], nor of what the greatest force, the slew
+    /// limit and the passivity control look at: they are conservative, and give back what they took. At the rim of the
+    /// workspace they stay. Without [`super::Phase::Running`], and so after any fault, they are zero.
     pub carries_weight: bool,
 }
 

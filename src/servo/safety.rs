@@ -14,13 +14,13 @@ pub enum SafeOutput {
     Damping(f32),
 }
 
-/// When a joint sensor counts as stuck: the force that the hand feels loads its joint beyond dry friction, and its count stays
-/// the same, while another joint moves far.
+/// When a joint sensor counts as stuck: the force that the hand feels loads its joint beyond dry friction, and its
+/// count stays the same, while another joint moves far.
 ///
-/// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves another joint by `travel` meanwhile
-/// would have to balance the load on this one to within its dry friction all the way, on the one curve on which it does not
-/// turn. Below friction no hand is needed for that, so what is below counts as no load. A device with one joint has no others:
-/// there this finds nothing. One joint is looked at a tick.
+/// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves another joint by `travel`
+/// meanwhile would have to balance the load on this one to within its dry friction all the way, on the one curve on
+/// which it does not turn. Below friction no hand is needed for that, so what is below counts as no load. A device with
+/// one joint has no others: there this finds nothing. One joint is looked at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {
@@ -31,10 +31,11 @@ pub struct StuckLimits {
 }
 
 impl StuckLimits {
-    /// Five times dry friction, so that a hand would have to balance the load to a fifth of it, while another joint comes 0.6 rad,
-    /// some 60 mm at the probe. Where simulated hands slide about under load, a Falcon's joint stays where it is over 0.5 rad
-    /// under its own friction and over 0.28 rad under three times that, but never over 0.01 rad under five times; a joint of a
-    /// device with little friction turns back while another goes on for 0.27 rad at most, of Polhem's short crank.
+    /// Five times dry friction, so that a hand would have to balance the load to a fifth of it, while another joint
+    /// comes 0.6 rad, some 60 mm at the probe. Where simulated hands slide about under load, a Falcon's joint stays
+    /// where it is over 0.5 rad under its own friction and over 0.28 rad under three times that, but never over 0.01
+    /// rad under five times; a joint of a device with little friction turns back while another goes on for 0.27 rad at
+    /// most, of Polhem's short crank.
     pub const DEFAULT: Self = Self { load: 5.0, travel: 0.6 };
 }
 
@@ -56,8 +57,8 @@ pub struct Safety {
     pub stuck: Option<StuckLimits>,
     /// When contact counts as lost; `None` does not watch.
     pub contact: Option<ContactLimits>,
-    /// Whether tables that carry the CRC they were baked with are checked: whole before the first tick, and again and again
-    /// after, a word a tick.
+    /// Whether tables that carry the CRC they were baked with are checked: whole before the first tick, and again and
+    /// again after, a word a tick.
     pub checks_tables: bool,
 }
 

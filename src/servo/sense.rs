@@ -3,8 +3,8 @@
 use super::{Fault, ServoState};
 use crate::device::{Counts, Device, Encoder, VelocityEstimator};
 
-/// Takes this tick's counts into the state: joint angles and rates. Unless the angles are `placed`, for homing is under way,
-/// only their changes mean something.
+/// Takes this tick's counts into the state: joint angles and rates. Unless the angles are `placed`, for homing is under
+/// way, only their changes mean something.
 ///
 /// # Errors
 /// The fault, if an angle lies outside the joint's range or jumped faster than the device can move (the state keeps its

@@ -54,8 +54,8 @@ pub struct ServoState<const JOINTS: usize, W = PatchWitness> {
     pub(super) velocities: [VelocityState; JOINTS],
     /// Since when each joint has not moved under load.
     pub(super) stillness: Stillness<JOINTS>,
-    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force is
-    /// multiplied by it.
+    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force
+    /// is multiplied by it.
     pub(super) room: f32,
     /// The probe in the body's frame, metres.
     pub(super) probe: Vec3,

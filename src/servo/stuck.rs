@@ -20,8 +20,9 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
 
     /// Looks at the next joint, one a tick: whether it has not moved by a count under load while another moved far.
     ///
-    /// `felt` is the torque on each joint of the force that the hand feels, N·m, without what carries the links, which their
-    /// weight balances; `friction` is each joint's dry friction. A joint whose friction is not known is not watched.
+    /// `felt` is the torque on each joint of the force that the hand feels, N·m, without what carries the links, which
+    /// their weight balances; `friction` is each joint's dry friction. A joint whose friction is not known is not
+    /// watched.
     #[inline]
     pub(super) fn is_broken(
         &mut self,

@@ -1,4 +1,5 @@
-//! The tables in flash are read over and over, whole before the first tick and then a word a tick, and their CRC compared.
+//! The tables in flash are read over and over, whole before the first tick and then a word a tick, and their CRC
+//! compared.
 
 use super::Surface;
 use crate::body::TableCursor;
@@ -16,7 +17,8 @@ pub struct TableCheck {
 }
 
 impl TableCheck {
-    /// Reads one word more, some 60 instructions. False if the tables were read to their end and their CRC is not the expected one.
+    /// Reads one word more, some 60 instructions. False if the tables were read to their end and their CRC is not the
+    /// expected one.
     #[inline]
     pub fn step<S: Surface>(&mut self, surface: &S, expected: u32) -> bool {
         let found = surface.table_word(self.place);
@@ -32,7 +34,8 @@ impl TableCheck {
         true
     }
 
-    /// Reads the tables once, from their start to their end: before the first tick, for it takes time in proportion to their size. True if they are good.
+    /// Reads the tables once, from their start to their end: before the first tick, for it takes time in proportion to
+    /// their size. True if they are good.
     pub fn run<S: Surface>(&mut self, surface: &S, expected: u32) -> bool {
         *self = Self { passes: self.passes, ..Self::default() };
         let before = self.passes;

@@ -1,5 +1,5 @@
-//! What changes, logged with defmt (feature `defmt`). Call it where the records of [`super::telemetry`] come out, below the servo: the
-//! log's transport may wait, the loop may not.
+//! What changes, logged with defmt (feature `defmt`). Call it where the records of [`super::telemetry`] come out, below
+//! the servo: the log's transport may wait, the loop may not.
 
 use super::Record;
 use crate::servo::{Fault, Phase, ResetReason};
@@ -12,8 +12,8 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Logs what this record changes: phase, feature, boundary mode and contact as information, overruns and dropped records as warnings, a
-    /// fault as an error.
+    /// Logs what this record changes: phase, feature, boundary mode and contact as information, overruns and dropped
+    /// records as warnings, a fault as an error.
     pub fn log(&mut self, record: &Record) {
         let tick = record.tick;
         let last = self.last.replace(*record);

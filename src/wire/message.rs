@@ -60,8 +60,8 @@ pub struct Report {
     pub digest: u32,
 }
 
-/// From the device, as telemetry: the loop at a tick, and its timing since the record before. The board's counter runs freely
-/// and wraps at 32 bits.
+/// From the device, as telemetry: the loop at a tick, and its timing since the record before. The board's counter runs
+/// freely and wraps at 32 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Record {

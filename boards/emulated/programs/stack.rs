@@ -1,5 +1,5 @@
-//! How deep the stack gets in a hundred thousand interrupts that visit every mode: paints it, runs, and prints the bytes
-//! that are no longer painted.
+//! How deep the stack gets in a hundred thousand interrupts that visit every mode: paints it, runs, and prints the
+//! bytes that are no longer painted.
 
 #![no_std]
 #![no_main]

@@ -22,8 +22,8 @@ static PLACE: StaticCell<ServoLoop<UartLink>> = StaticCell::new();
 
 #[interrupt]
 fn TIMER0() {
-    // Made in an interrupt of its own, in the only place that uses it: no lock is needed to hand it over, and the first tick is on
-    // time, though checking the tables takes longer than a period.
+    // Made in an interrupt of its own, in the only place that uses it: no lock is needed to hand it over, and the first
+    // tick is on time, though checking the tables takes longer than a period.
     static mut SERVO_LOOP: Option<&'static mut ServoLoop<UartLink>> = None;
 
     BOARD.acknowledge_timer();

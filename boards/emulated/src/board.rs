@@ -18,8 +18,8 @@ pub struct Board {
 }
 
 impl Board {
-    /// mps2-an386, a Cortex-M4F, and mps2-an500, a Cortex-M7 (application notes AN386 and AN500): around the core they are the
-    /// same.
+    /// mps2-an386, a Cortex-M4F, and mps2-an500, a Cortex-M7 (application notes AN386 and AN500): around the core they
+    /// are the same.
     pub const DESIGN_KIT: Self = Self {
         clock: 25_000_000,
         timer: 0x4000_0000,

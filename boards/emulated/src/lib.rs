@@ -1,8 +1,8 @@
 //! palpate on the emulated boards: mps2-an386 (Cortex-M4F), mps2-an500 (Cortex-M7) and mps2-an505 (Cortex-M33).
 //!
-//! Where a real device has encoders and motors, these boards have a link to a host: one frame with the sensors in, one with
-//! the report out, a tick. The programs in `programs/` are the same on each; where a board differs is [`board::BOARD`], its
-//! memory map and what `m4.toml`, `m7.toml` or `m33.toml` tells the compiler.
+//! Where a real device has encoders and motors, these boards have a link to a host: one frame with the sensors in, one
+//! with the report out, a tick. The programs in `programs/` are the same on each; where a board differs is
+//! [`board::BOARD`], its memory map and what `m4.toml`, `m7.toml` or `m33.toml` tells the compiler.
 //!
 //! To bring palpate to a board of your own, begin with a board for the bench; of what is here, it needs
 //! - [`servo_loop`]: read the encoders instead of a frame, write the duties to the PWM;

@@ -1,4 +1,5 @@
-//! Faults put into the tick on purpose, each behind a feature of its name: what looks for them in the image must find them.
+//! Faults put into the tick on purpose, each behind a feature of its name: what looks for them in the image must find
+//! them.
 
 #[cfg(feature = "planted-alloc")]
 mod alloc;

@@ -18,7 +18,8 @@ const SILENT_TICKS: u32 = 5;
 /// Frames looked at in one tick while late ones come.
 const FRAMES_PER_TICK: u32 = 4;
 
-/// From the sensors in hand to the duties applied; waiting for the host does not count, for a real device has its sensors by it.
+/// From the sensors in hand to the duties applied; waiting for the host does not count, for a real device has its
+/// sensors by it.
 const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate);
 
 /// The servo loop over a link.

@@ -80,7 +80,8 @@ pub struct InstructionCounter {
     overhead: u32,
 }
 
-/// Instructions in a second of the emulator's time under `-icount shift=6`: 64 ns each. On a real core, cycles: the clock.
+/// Instructions in a second of the emulator's time under `-icount shift=6`: 64 ns each. On a real core, cycles: the
+/// clock.
 pub const INSTRUCTIONS_PER_SECOND: u32 = 15_625_000;
 
 impl InstructionCounter {

@@ -1,8 +1,10 @@
-//! Copies the hot path and its tables to where the chip is fastest, before any Rust runs: `memory.x` says what and where.
+//! Copies the hot path and its tables to where the chip is fastest, before any Rust runs: `memory.x` says what and
+//! where.
 
 use core::arch::global_asm;
 
-// cortex-m-rt's reset handler calls `__pre_init` first of all. In assembly, since no Rust may run before its memory is there.
+// cortex-m-rt's reset handler calls `__pre_init` first of all. In assembly, since no Rust may run before its memory is
+// there.
 global_asm!(
     ".section .text.__pre_init, \"ax\", %progbits",
     ".global __pre_init",

@@ -1,7 +1,7 @@
 //! palpate on a Raspberry Pi Pico 2: three magnetic angle sensors, three bridges, a button that asks for force.
 //!
-//! The servo runs in the interrupt of a PWM slice that is used as a timer; nothing can delay it. Below it `main` sends telemetry and
-//! feeds the watchdog. The README has the wiring; [`body`] is what to change first.
+//! The servo runs in the interrupt of a PWM slice that is used as a timer; nothing can delay it. Below it `main` sends
+//! telemetry and feeds the watchdog. The README has the wiring; [`body`] is what to change first.
 
 #![no_std]
 #![no_main]

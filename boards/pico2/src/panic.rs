@@ -1,5 +1,5 @@
-//! What happens when the code is wrong: the bridges are disabled, by the register, trusting nothing that ran before. Then the
-//! watchdog resets the chip, and the loop starts in a fault that says so.
+//! What happens when the code is wrong: the bridges are disabled, by the register, trusting nothing that ran before.
+//! Then the watchdog resets the chip, and the loop starts in a fault that says so.
 
 use core::panic::PanicInfo;
 

@@ -19,8 +19,8 @@ pub struct Encoders {
     _pins: Pins,
 }
 
-/// Sets a timer to count both edges of both channels, each filtered by eight samples at its clock. A macro, since each timer has
-/// a type of its own.
+/// Sets a timer to count both edges of both channels, each filtered by eight samples at its clock. A macro, since each
+/// timer has a type of its own.
 macro_rules! start {
     ($timer:expr, $rcc:expr) => {
         $timer.ccmr1_input().write(|w| w.cc1s().ti1().cc2s().ti2().ic1f().fck_int_n8().ic2f().fck_int_n8());

@@ -1,7 +1,7 @@
 //! palpate on a Nucleo-G474RE: three encoders, three current amplifiers, a button that asks for force.
 //!
-//! The servo runs in the interrupt of TIM7, which nothing can delay. Below it `main` sends telemetry and feeds the watchdog.
-//! The README has the wiring; [`body`] is what to change first.
+//! The servo runs in the interrupt of TIM7, which nothing can delay. Below it `main` sends telemetry and feeds the
+//! watchdog. The README has the wiring; [`body`] is what to change first.
 
 #![no_std]
 #![no_main]

@@ -1,7 +1,8 @@
 //! palpate on a Teensy 4.1: three magnetic angle sensors, three current amplifiers, a button that asks for force.
 //!
-//! The servo runs in the interrupt of the periodic timer (PIT), which nothing can delay. Below it `main` sends telemetry and feeds the
-//! watchdog. The README has the wiring; [`body`] is what to change first, `build.rs` is the memory map.
+//! The servo runs in the interrupt of the periodic timer (PIT), which nothing can delay. Below it `main` sends
+//! telemetry and feeds the watchdog. The README has the wiring; [`body`] is what to change first, `build.rs` is the
+//! memory map.
 
 #![no_std]
 #![no_main]

@@ -1,8 +1,8 @@
 //! The mechanism of the simulated device: a turntable that carries a parallelogram of two links.
 //!
-//! Written from the drawing in double precision and independently of the library's f32 kinematics, so that the two check
-//! each other. Joint angles, radians: `a` turns the table about the vertical, `b` tilts the first link from the vertical,
-//! `c` tilts the second link down from the horizontal (absolute, not relative to `b`).
+//! Written from the drawing in double precision and independently of the library's f32 kinematics, so that the two
+//! check each other. Joint angles, radians: `a` turns the table about the vertical, `b` tilts the first link from the
+//! vertical, `c` tilts the second link down from the horizontal (absolute, not relative to `b`).
 
 use super::vector::{Matrix, Vector, difference};
 
@@ -189,7 +189,8 @@ mod tests {
             let [ahead, behind] = [step, -step].map(|h| arm().position(add_scaled(angles, rates, h)));
             let moved = scaled(difference(ahead, behind), 0.5 / step);
             let velocity = times(&arm().jacobian(angles), rates);
-            // The difference is off by step²/6 times a third derivative of about 0.45 m × 8³ rad³/s³: 4e-9; rounding 1e-11.
+            // The difference is off by step²/6 times a third derivative of about 0.45 m × 8³ rad³/s³: 4e-9; rounding
+            // 1e-11.
             assert!(norm(difference(moved, velocity)) < 1e-8, "{angles:?}");
         }
     }

@@ -1,7 +1,7 @@
 //! The simulated delta, after Stamper's drawing.
 //!
-//! The forward map is Newton's method in f64 on the legs' closures as differences of squares; the inverse is closed form.
-//! Lumped: each shin is half at its knee and half at the probe.
+//! The forward map is Newton's method in f64 on the legs' closures as differences of squares; the inverse is closed
+//! form. Lumped: each shin is half at its knee and half at the probe.
 
 use super::lumped::{Geometry, Point, Points};
 use super::vector::{Matrix, Vector, add_scaled, difference, dot, inverse, norm, scaled, times};

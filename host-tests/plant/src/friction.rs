@@ -9,9 +9,9 @@ const SWEEPS: usize = 50;
 /// The friction torques, N·m, that leave the least motion at the end of a step.
 ///
 /// `rates` are the joint rates at the step's end without dry friction, rad/s, and `mobility` is the step, s, times the
-/// inverse mass matrix: friction torques `f` make them `rates + mobility f`. Each `|f| ≤ limit`; where it is less the joint
-/// comes to rest, where it is equal it opposes the motion. (A linear complementarity problem, solved joint by joint;
-/// after J. J. Moreau's time stepping.)
+/// inverse mass matrix: friction torques `f` make them `rates + mobility f`. Each `|f| ≤ limit`; where it is less the
+/// joint comes to rest, where it is equal it opposes the motion. (A linear complementarity problem, solved joint by
+/// joint; after J. J. Moreau's time stepping.)
 pub fn dry_friction(rates: Vector, mobility: &Matrix, limits: Vector) -> Vector {
     let mut torques = [0.0; 3];
     for _ in 0..SWEEPS {

@@ -47,9 +47,9 @@ impl HandSettings {
 }
 
 impl Default for HandSettings {
-    /// 300 N/m and 5 N·s/m: assumed, a light grip on a stylus. For scale, one fit to a whole arm on a haptic device gave
-    /// 135 N/m, 6.5 N·s/m and 0.55 kg (figure 3 of doi 10.1038/srep18004). No mass by default: the lighter the probe,
-    /// the faster it meets the surface's stiffness, so a hand without mass is the harder case for the servo.
+    /// 300 N/m and 5 N·s/m: assumed, a light grip on a stylus. For scale, one fit to a whole arm on a haptic device
+    /// gave 135 N/m, 6.5 N·s/m and 0.55 kg (figure 3 of doi 10.1038/srep18004). No mass by default: the lighter the
+    /// probe, the faster it meets the surface's stiffness, so a hand without mass is the harder case for the servo.
     fn default() -> Self {
         Self { stiffness: 300.0, damping: 5.0, mass: 0.0 }
     }

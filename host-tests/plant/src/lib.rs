@@ -1,9 +1,9 @@
 //! The simulated device and the hand that holds it: what the servo is proved against.
 //!
-//! A [`Plant`] takes motor duties and gives encoder counts, as the real device does. All its numbers are f64 and its own,
-//! in [`PlantSettings`]: nothing is taken from the library, so that each checks the other. The same settings, hand and
-//! duties give the same trace, bit for bit, on the same platform. Devices of one and two joints leave
-//! the other entries of counts and duties alone.
+//! A [`Plant`] takes motor duties and gives encoder counts, as the real device does. All its numbers are f64 and its
+//! own, in [`PlantSettings`]: nothing is taken from the library, so that each checks the other. The same settings, hand
+//! and duties give the same trace, bit for bit, on the same platform. Devices of one and two joints leave the other
+//! entries of counts and duties alone.
 
 mod arm;
 mod delta;
@@ -119,7 +119,8 @@ impl Plant {
         self.encoders.iter_mut().for_each(FaultyEncoder::tick);
     }
 
-    /// From now on an encoder has this fault, or none. The joint is counted from 0; one that is not there is left alone.
+    /// From now on an encoder has this fault, or none. The joint is counted from 0; one that is not there is left
+    /// alone.
     pub fn inject(&mut self, joint: usize, fault: Option<EncoderFault>) {
         if let (Some(encoder), Some(angle)) = (self.encoders.get_mut(joint), self.mechanics.angles.get(joint)) {
             encoder.inject(fault, *angle);
@@ -273,8 +274,8 @@ mod tests {
             let in_force = (3.0 - periods).min(1.0);
             let torque = 10_000.0 / 32_767.0 * 3.0 * 0.0259 * 16.0;
             let rate = torque / plant.mechanism().mass_matrix(plant.angles())[0][0] * in_force / RATE;
-            // The current jumps within a sub-step, whose mean is half: at the two ends they cancel, unless one end is yet
-            // to come; half a sub-step of 20. Otherwise the inertia's change over 0.1 mrad.
+            // The current jumps within a sub-step, whose mean is half: at the two ends they cancel, unless one end is
+            // yet to come; half a sub-step of 20. Otherwise the inertia's change over 0.1 mrad.
             let bound = if periods == 2.0 { 0.5 / 20.0 + 1e-3 } else { 1e-3 };
             assert!((plant.rates()[0] / rate - 1.0).abs() < bound, "{periods}: {} {rate}", plant.rates()[0]);
         }

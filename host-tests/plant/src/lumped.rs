@@ -7,7 +7,8 @@ use super::mechanism::Mechanism;
 use super::vector::{Matrix, Vector, add_scaled, dot, norm, scaled, times};
 use std::fmt::Debug;
 
-/// A point mass, or an angle with its moment of inertia (then `place` holds the angle, and m and kg read rad and kg·m²).
+/// A point mass, or an angle with its moment of inertia (then `place` holds the angle, and m and kg read rad and
+/// kg·m²).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
     /// Mass that must be moved, kg.
@@ -27,8 +28,8 @@ pub type Points = [Point; 8];
 pub trait Geometry: Debug + Send + Sync {
     /// How many joints it has.
     fn joints(&self) -> usize;
-    /// The points at these joint angles. The first is the probe, m from the workspace centre; not finite where the mechanism
-    /// cannot be closed.
+    /// The points at these joint angles. The first is the probe, m from the workspace centre; not finite where the
+    /// mechanism cannot be closed.
     fn points(&self, angles: Vector) -> Points;
     /// The joint angles that put the probe at a position; none if out of reach.
     fn angles(&self, position: Vector) -> Option<Vector>;

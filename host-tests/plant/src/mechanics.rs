@@ -1,8 +1,8 @@
 //! The equation of motion `M q̈ + h(q, q̇) = τ_motor + τ_gravity − d q̇ + f + Jᵀ F_hand`, a step at a time.
 //!
-//! Classical Runge–Kutta of fourth order for what is smooth; the dry friction `f` is found once a step (see `friction`) and
-//! held over it, so that a joint that sticks does not creep. Only +, −, ×, ÷, √ and trigonometry: the same platform gives
-//! the same bits.
+//! Classical Runge–Kutta of fourth order for what is smooth; the dry friction `f` is found once a step (see `friction`)
+//! and held over it, so that a joint that sticks does not creep. Only +, −, ×, ÷, √ and trigonometry: the same platform
+//! gives the same bits.
 
 use super::friction::dry_friction;
 use super::mechanism::Mechanism;
@@ -25,8 +25,8 @@ pub struct Mechanics {
     pub rates: Vector,
 }
 
-/// Stiffness and damping of an end stop at the joint, N·m/rad and N·m·s: assumed, hard rubber. 0.1 N·m press it in by half a
-/// count.
+/// Stiffness and damping of an end stop at the joint, N·m/rad and N·m·s: assumed, hard rubber. 0.1 N·m press it in by
+/// half a count.
 const STOP: [f64; 2] = [1_000.0, 1.0];
 
 /// An end stop's torque, N·m: it pushes back, and never pulls.
@@ -42,8 +42,8 @@ fn stop_torque([least, most]: [f64; 2], angle: f64, rate: f64) -> f64 {
 }
 
 impl Mechanics {
-    /// One step of `period` s under constant motor torques, N·m. `hand(half_steps, position, velocity)` is the force on the
-    /// probe, N, `half_steps` (0, 1, 2) half steps into the step.
+    /// One step of `period` s under constant motor torques, N·m. `hand(half_steps, position, velocity)` is the force on
+    /// the probe, N, `half_steps` (0, 1, 2) half steps into the step.
     pub fn step(&mut self, period: f64, motor_torques: Vector, hand: impl Fn(usize, Vector, Vector) -> Vector) {
         let acceleration = |half_steps, angles, rates, constant: Vector| {
             let torques = add_scaled(self.smooth_torques(half_steps, angles, rates, &hand), constant, 1.0);
@@ -242,8 +242,8 @@ mod tests {
             let time = f64::from(index) * STEP;
             let decay = (-viscous * time / inertia).exp();
             let expected = ((start + coulomb / viscous) * decay - coulomb / viscous).max(0.0);
-            // In the one step in which it stops, the friction's mean over the step is all that is known: f h / I = 4e-5.
-            // Elsewhere friction is constant and the rest exact to rounding.
+            // In the one step in which it stops, the friction's mean over the step is all that is known: f h / I =
+            // 4e-5. Elsewhere friction is constant and the rest exact to rounding.
             let bound = if (time - stop).abs() < 2.0 * STEP { coulomb * STEP / inertia } else { 1e-11 };
             assert!((body.rates[0] - expected).abs() < bound, "{time} s: {} {expected}", body.rates[0]);
             if stopped.is_none() && body.rates[0].abs() < 1e-11 {
@@ -265,8 +265,8 @@ mod tests {
             }
             for (angle, before) in body.angles.into_iter().zip(start) {
                 let moved = (angle - before).abs();
-                // A second of creep at the rounding of the torques, 1e-18 N·m over 2e-3 kg·m²; against, at 1 % above the
-                // limit, an acceleration of 0.02 rad/s² or more.
+                // A second of creep at the rounding of the torques, 1e-18 N·m over 2e-3 kg·m²; against, at 1 % above
+                // the limit, an acceleration of 0.02 rad/s² or more.
                 if moves { assert!(moved > 1e-3, "{moved}") } else { assert!(moved < 1e-12, "{moved}") }
             }
         }

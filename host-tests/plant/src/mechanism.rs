@@ -6,8 +6,9 @@ use std::fmt::Debug;
 
 /// Geometry and inertia of a device's moving parts.
 ///
-/// One to three joints; the entries of the others are zero in vectors and Jacobians, and one on the mass matrix's diagonal,
-/// so that they stay where they are. Written in f64 apart from the library's kinematics, so that the two check each other.
+/// One to three joints; the entries of the others are zero in vectors and Jacobians, and one on the mass matrix's
+/// diagonal, so that they stay where they are. Written in f64 apart from the library's kinematics, so that the two
+/// check each other.
 pub trait Mechanism: Debug + Send + Sync {
     /// How many joints it has.
     fn joints(&self) -> usize;
@@ -15,7 +16,8 @@ pub trait Mechanism: Debug + Send + Sync {
     fn position(&self, angles: Vector) -> Vector;
     /// `∂position/∂angles` by rows, m/rad.
     fn jacobian(&self, angles: Vector) -> Matrix;
-    /// The joint angles that put the probe at a position (as far as the mechanism's dimensions go); none if out of reach.
+    /// The joint angles that put the probe at a position (as far as the mechanism's dimensions go); none if out of
+    /// reach.
     fn angles(&self, position: Vector) -> Option<Vector>;
     /// The joint-space mass matrix, kg·m²: the kinetic energy is `½ q̇ᵀ M q̇`.
     fn mass_matrix(&self, angles: Vector) -> Matrix;

@@ -34,8 +34,8 @@ pub struct Motor {
     pub current_at_full: f64,
     /// The most the amplifier gives, A.
     pub current_limit: f64,
-    /// Joint torque per ampere, N·m/A, and back-EMF per joint rate, V·s/rad; negative where the motor turns the joint the
-    /// other way.
+    /// Joint torque per ampere, N·m/A, and back-EMF per joint rate, V·s/rad; negative where the motor turns the joint
+    /// the other way.
     pub torque_per_ampere: f64,
 }
 
@@ -46,8 +46,8 @@ impl Motor {
         current.clamp(-self.current_limit, self.current_limit)
     }
 
-    /// The current after a step of `period` s from `before`, under a duty at a joint rate, rad/s. `left_over` is how much of
-    /// the distance to its aim a current loop leaves after the step.
+    /// The current after a step of `period` s from `before`, under a duty at a joint rate, rad/s. `left_over` is how
+    /// much of the distance to its aim a current loop leaves after the step.
     fn next(&self, before: f64, duty: i16, rate: f64, period: f64, left_over: f64) -> f64 {
         let back_emf = self.torque_per_ampere * rate;
         let chase = |aim: f64| aim + (before - aim) * left_over;
@@ -88,7 +88,8 @@ pub struct Drives {
 impl Drives {
     /// Drives at rest. `delay` counts sub-steps; `time_constant` and `sub_step` are in s.
     pub fn new(motors: [Motor; 3], delay: u64, time_constant: f64, sub_step: f64) -> Self {
-        // The trapezoidal rule for i' = (aim − i)/τ, off by (h/τ)³/12 a step; without a time constant the aim is met at once.
+        // The trapezoidal rule for i' = (aim − i)/τ, off by (h/τ)³/12 a step; without a time constant the aim is met at
+        // once.
         let left_over = ((2.0 * time_constant - sub_step) / (2.0 * time_constant + sub_step)).max(0.0);
         let under_way = VecDeque::new();
         Self { motors, under_way, delay, left_over, sub_step, duties: [0; 3], currents: [0.0; 3] }

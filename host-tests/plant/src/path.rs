@@ -41,8 +41,8 @@ pub struct TouchingPath {
 }
 
 impl TouchingPath {
-    /// A path over `surface`, which gives point (m, in the device frame) and outward unit normal at `(u, v)` in [0, 1]².
-    /// The same seed gives the same path.
+    /// A path over `surface`, which gives point (m, in the device frame) and outward unit normal at `(u, v)` in [0,
+    /// 1]². The same seed gives the same path.
     ///
     /// # Errors
     /// Settings that make no sense, or a surface that is not finite.

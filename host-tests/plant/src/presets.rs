@@ -1,8 +1,8 @@
 //! The devices that can be simulated, and where their numbers come from.
 //!
-//! Written out again rather than taken from the library, in f64. Friction that no source states is small on purpose: too
-//! little is the safe side, for friction hides limit cycles. The delay of one period, where a tick's duty takes effect at the
-//! next, the current loop of 0.15 ms (about 1 kHz) and the end stops are assumed for all.
+//! Written out again rather than taken from the library, in f64. Friction that no source states is small on purpose:
+//! too little is the safe side, for friction hides limit cycles. The delay of one period, where a tick's duty takes
+//! effect at the next, the current loop of 0.15 ms (about 1 kHz) and the end stops are assumed for all.
 
 use super::arm::Link;
 use super::delta::DeltaSettings;
@@ -232,8 +232,8 @@ impl PlantSettings {
         )
     }
 
-    /// Haply development kit, first version, flat on the table. Sources as for the 2diy: HaplyHaptics/Haply-API; 1,024 counts
-    /// a turn of the motor, 12 Ω and 1 A are assumed, and the links' masses.
+    /// Haply development kit, first version, flat on the table. Sources as for the 2diy: HaplyHaptics/Haply-API; 1,024
+    /// counts a turn of the motor, 12 Ω and 1 A are assumed, and the links' masses.
     pub const fn haply_kit_v1() -> Self {
         const JOINT: JointSettings = JointSettings {
             ratio: 13.5,

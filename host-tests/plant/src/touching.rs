@@ -14,8 +14,8 @@ pub struct TouchingSettings {
     pub start_height: f64,
     /// Least and greatest depth the hand aims at below the surface, m. The probe goes as deep as the surface lets it.
     pub press_depth: [f64; 2],
-    /// How far towards the borders the hand slides while it presses, 0 (the middle) to 1 (border to border). In the air it
-    /// goes to the borders.
+    /// How far towards the borders the hand slides while it presses, 0 (the middle) to 1 (border to border). In the air
+    /// it goes to the borders.
     pub pressed_reach: f64,
     /// Greatest speed of the point aimed at, m/s. Sliding is slowed down until it holds.
     pub greatest_speed: f64,

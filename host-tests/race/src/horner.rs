@@ -1,4 +1,5 @@
-//! A biquadratic patch with all derivatives up to the second, by Horner's rule on palpate's own table, unrolled for the degree.
+//! A biquadratic patch with all derivatives up to the second, by Horner's rule on palpate's own table, unrolled for the
+//! degree.
 
 use crate::scene::Scene;
 use palpate::math::Vec3;

@@ -1,12 +1,13 @@
-//! Runs the contestants of the race on one scene. `cargo palpate race` writes the scene, runs this program once by the clock
-//! and once under an instruction counter, and judges the answers.
+//! Runs the contestants of the race on one scene. `cargo palpate race` writes the scene, runs this program once by the
+//! clock and once under an instruction counter, and judges the answers.
 //!
 //! ```text
 //! palpate-race SCENE cold|track time|count [NAME]…
 //! ```
 //!
-//! Standard output is CSV: `contestant,row,kind,a,b,c,nanoseconds`. `kind` is `parameters` (a, b are u, v), `point` (a, b, c in
-//! metres) or `none`; with `count` the last column is empty, and each query that is counted is one call of [`measure::counted`].
+//! Standard output is CSV: `contestant,row,kind,a,b,c,nanoseconds`. `kind` is `parameters` (a, b are u, v), `point` (a,
+//! b, c in metres) or `none`; with `count` the last column is empty, and each query that is counted is one call of
+//! [`measure::counted`].
 
 mod contestant;
 mod entries;

@@ -8,7 +8,8 @@ use std::time::Instant;
 /// Runs by the clock; of each query the quickest run counts, for the machine does other things, too.
 const RUNS: usize = 5;
 
-/// One query. The instruction counter counts from entering this function to leaving it: `cargo palpate race` knows its name.
+/// One query. The instruction counter counts from entering this function to leaving it: `cargo palpate race` knows its
+/// name.
 #[inline(never)]
 pub fn counted(contestant: &mut dyn Contestant, probe: &Probe) -> Answer {
     contestant.answer(probe)

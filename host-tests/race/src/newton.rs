@@ -1,5 +1,5 @@
-//! Newton's method for `½ ‖f(u, v) − Q‖²`, in single precision with second derivatives, one evaluation an iteration: as a textbook has
-//! it, and with the safeguards it needs.
+//! Newton's method for `½ ‖f(u, v) − Q‖²`, in single precision with second derivatives, one evaluation an iteration: as
+//! a textbook has it, and with the safeguards it needs.
 //!
 //! Both answer with parameters: the evaluation at the answer, which a force needs, is not asked of them.
 
@@ -146,8 +146,8 @@ fn textbook_step(patch: &Biquadratic, at: [f32; 2], probe: Vec3) -> [f32; 2] {
     [(at[0] + step_u).clamp(0.0, 1.0), (at[1] + step_v).clamp(0.0, 1.0)]
 }
 
-/// Projected Newton: Gauss–Newton where the Hessian is not positive definite, parameters that press outward held, a step that leads
-/// farther away halved. The answer and its squared distance.
+/// Projected Newton: Gauss–Newton where the Hessian is not positive definite, parameters that press outward held, a
+/// step that leads farther away halved. The answer and its squared distance.
 fn safeguarded(patch: &Biquadratic, mut at: [f32; 2], probe: Vec3, iterations: usize) -> ([f32; 2], f32) {
     let mut surface = patch.evaluate(at);
     let mut squared = surface.point.distance_squared(probe);

@@ -1,5 +1,5 @@
-//! The scene: one polynomial patch, as control points and as palpate's tables, and the probes. Lines of `key value value …`,
-//! metres; numbers are printed so that reading them gives the same bits.
+//! The scene: one polynomial patch, as control points and as palpate's tables, and the probes. Lines of `key value
+//! value …`, metres; numbers are printed so that reading them gives the same bits.
 
 use crate::contestant::Probe;
 use anyhow::{Context as _, ensure};

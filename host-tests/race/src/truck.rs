@@ -1,4 +1,5 @@
-//! `truck-geometry`: Newton's method on B-splines in double precision; without a hint from the nearest of 51 × 51 samples.
+//! `truck-geometry`: Newton's method on B-splines in double precision; without a hint from the nearest of 51 × 51
+//! samples.
 
 use crate::contestant::{Answer, Contestant, Probe};
 use crate::ours;

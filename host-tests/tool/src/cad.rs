@@ -1,4 +1,5 @@
-//! The importer of CAD parts: a program of its own, because its reader takes minutes to compile. It is built when a part is first imported.
+//! The importer of CAD parts: a program of its own, because its reader takes minutes to compile. It is built when a
+//! part is first imported.
 
 use crate::firmware::{Progress, SetUpError, output, without_outer_cargo};
 use crate::repository;

@@ -15,10 +15,11 @@ pub struct ShippedDevice {
     pub preset: Preset,
     /// The simulated device.
     pub plant: PlantSettings,
-    /// What of the simulated device's inertia and friction no source states; the plant's settings say it number by number.
+    /// What of the simulated device's inertia and friction no source states; the plant's settings say it number by
+    /// number.
     pub assumed: &'static str,
-    /// Where the palpate library has the preset: its mechanism's type and its constant, in a source file for an image. None
-    /// with less than three joints.
+    /// Where the palpate library has the preset: its mechanism's type and its constant, in a source file for an image.
+    /// None with less than three joints.
     pub source: Option<[&'static str; 2]>,
 }
 
@@ -94,8 +95,8 @@ pub fn parser() -> impl TypedValueParser<Value = &'static ShippedDevice> {
     PossibleValuesParser::new(names).try_map(|name| named(&name).ok_or("no such device"))
 }
 
-/// What the servo knows of a device, by its mechanism. Only who matches on it need know that there are several; from there on
-/// the loop is generic, on the host as on the target.
+/// What the servo knows of a device, by its mechanism. Only who matches on it need know that there are several; from
+/// there on the loop is generic, on the host as on the target.
 #[derive(Clone, Copy, Debug)]
 pub enum Preset {
     /// Three joints, serial.

@@ -1,4 +1,5 @@
-//! Model files as commands name them: by a path, one that ships by its bare name, or a CAD part, which is imported on the way.
+//! Model files as commands name them: by a path, one that ships by its bare name, or a CAD part, which is imported on
+//! the way.
 
 use crate::cad;
 use palpate_bake::{Model, ModelError};

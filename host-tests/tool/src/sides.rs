@@ -1,8 +1,9 @@
 //! On which side of a closed body a probe is, from the feature that holds its closest point.
 //!
-//! On a face the normal says it; on an edge the sum of the normals of its faces; at a vertex the sum over all of its cone, which is in the
-//! tables ([`palpate::body::Vertex::outward`]). Each is exact where the feature does hold the closest point, so the
-//! point that the firmware's arithmetic has found is first followed to its end in double precision, over the borders too.
+//! On a face the normal says it; on an edge the sum of the normals of its faces; at a vertex the sum over all of its
+//! cone, which is in the tables ([`palpate::body::Vertex::outward`]). Each is exact where the feature does hold the
+//! closest point, so the point that the firmware's arithmetic has found is first followed to its end in double
+//! precision, over the borders too.
 
 use glam::DVec3;
 use palpate::body::{Body, EdgeFace, Side};

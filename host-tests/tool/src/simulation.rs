@@ -8,8 +8,8 @@ use palpate::wire::{Report, Sensors};
 use palpate_plant::Plant;
 use std::time::Duration;
 
-/// The servo loop compiled for the host, behind the same link as the firmware: the frames and the way from a frame to an
-/// input are those of the board.
+/// The servo loop compiled for the host, behind the same link as the firmware: the frames and the way from a frame to
+/// an input are those of the board.
 pub struct HostLoop<'a, S: Surface, K> {
     servo: Servo<'a, S, K, 3>,
     state: ServoState<3, S::Witness>,
@@ -81,8 +81,8 @@ pub struct Trace {
     pub samples: Vec<Sample>,
 }
 
-/// Runs `ticks` ticks of a loop against a plant. Force is asked for from tick `enable_at` on; before it the witness point
-/// converges in standby. `progress` is told each tick done.
+/// Runs `ticks` ticks of a loop against a plant. Force is asked for from tick `enable_at` on; before it the witness
+/// point converges in standby. `progress` is told each tick done.
 ///
 /// # Errors
 /// What the link reports.

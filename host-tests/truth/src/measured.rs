@@ -1,7 +1,8 @@
 //! The rows of `docs/measured.md`, held to the tests that measure them.
 //!
-//! A row is `| claim | value | unit | printed by |`. The test that has the number calls [`measured`] with the row's claim: it
-//! prints the number, and fails if the page says another. With `PALPATE_WRITE` set the page is written anew instead.
+//! A row is `| claim | value | unit | printed by |`. The test that has the number calls [`measured`] with the row's
+//! claim: it prints the number, and fails if the page says another. With `PALPATE_WRITE` set the page is written anew
+//! instead.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};

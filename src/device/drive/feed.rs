@@ -35,14 +35,14 @@ pub struct VoltageFeed {
     pub current_at_full: f32,
     /// Turns of the motor for one of the joint, `N`; negative where it turns the other way.
     pub ratio: f32,
-    /// How much of the back-EMF is made up for, 0 to 1. Short of 1, so that an error in `k` or in the rate cannot drive the
-    /// motor on; what is left brakes.
+    /// How much of the back-EMF is made up for, 0 to 1. Short of 1, so that an error in `k` or in the rate cannot drive
+    /// the motor on; what is left brakes.
     pub back_emf_share: f32,
 }
 
 impl VoltageFeed {
-    /// The bridge's duty for a duty of torque at a joint rate, rad/s. Beyond the supply it is full scale; at a rate that is
-    /// not finite it is zero. The inductance is left out: it delays the torque by L/R, about one tick.
+    /// The bridge's duty for a duty of torque at a joint rate, rad/s. Beyond the supply it is full scale; at a rate
+    /// that is not finite it is zero. The inductance is left out: it delays the torque by L/R, about one tick.
     #[inline]
     pub fn command(&self, torque: Duty, joint_rate: f32) -> Duty {
         if !joint_rate.is_finite() {

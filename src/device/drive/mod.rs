@@ -1,8 +1,8 @@
 //! From duty of torque to the pins of a drive, by embedded-hal.
 //!
-//! A [`Duty`] is a fraction of full torque. A current-controlled amplifier takes it as it is ([`SetPointDrive`]); a bare
-//! bridge gives a voltage ([`HBridge`]), so the duty goes through a [`VoltageFeed`] before, which makes up for resistance
-//! and back-EMF.
+//! A [`Duty`] is a fraction of full torque. A current-controlled amplifier takes it as it is ([`SetPointDrive`]); a
+//! bare bridge gives a voltage ([`HBridge`]), so the duty goes through a [`VoltageFeed`] before, which makes up for
+//! resistance and back-EMF.
 
 mod feed;
 mod h_bridge;

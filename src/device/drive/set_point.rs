@@ -19,10 +19,12 @@ pub struct SetPointRange {
 pub struct SetPointRangeError;
 
 impl SetPointRange {
-    /// 10 % to 90 %, which Maxon's ESCON amplifiers take as a pulse-width set-point: what lies outside is a broken wire.
+    /// 10 % to 90 %, which Maxon's ESCON amplifiers take as a pulse-width set-point: what lies outside is a broken
+    /// wire.
     pub const TEN_TO_NINETY: Self = Self { full_back: 3_277, full_ahead: 29_490 };
 
-    /// A range between two pulse widths, each from 0 to 1. The first stands for full current back; it may be the larger.
+    /// A range between two pulse widths, each from 0 to 1. The first stands for full current back; it may be the
+    /// larger.
     ///
     /// # Errors
     /// A range that is empty or not within 0 and 1.

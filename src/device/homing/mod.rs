@@ -17,8 +17,8 @@ use thiserror::Error;
 pub enum Reference<const JOINTS: usize> {
     /// The hand holds the device still in a mechanical reference pose, at these joint angles, radians.
     Pose([f32; JOINTS]),
-    /// As a pose, with absolute sensors that must read these counts there, give or take the tolerance: what is kept from
-    /// assembly tells a device that was put down wrong, or put together wrong.
+    /// As a pose, with absolute sensors that must read these counts there, give or take the tolerance: what is kept
+    /// from assembly tells a device that was put down wrong, or put together wrong.
     KnownPose {
         /// Joint angles at the pose, radians.
         angles: [f32; JOINTS],
@@ -163,7 +163,8 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         encoders
     }
 
-    /// Takes note of an index mark that a joint passed at a count, between two ticks. Other ways of homing have no marks.
+    /// Takes note of an index mark that a joint passed at a count, between two ticks. Other ways of homing have no
+    /// marks.
     pub fn pass_index(&self, state: &mut HomingState<JOINTS>, joint: usize, counts: Counts) {
         if let (Reference::Index(_), Some(mark)) = (&self.reference, state.marks.get_mut(joint)) {
             *mark = mark.or(Some(counts));

@@ -4,8 +4,8 @@ use super::Refusal;
 use crate::device::{Counts, Encoder};
 use crate::math::saturate;
 
-/// How a joint finds its end stop. It moves away by the clearance first, for a joint that does not come off has not found a
-/// stop but is jammed; then towards the stop until it stands still under full torque.
+/// How a joint finds its end stop. It moves away by the clearance first, for a joint that does not come off has not
+/// found a stop but is jammed; then towards the stop until it stands still under full torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopSearch {
     /// Joint angle at the stop, radians.
@@ -14,8 +14,8 @@ pub struct StopSearch {
     pub speed: f32,
     /// The greatest torque, N·m: above dry friction and weight, below what would hurt.
     pub torque: f32,
-    /// How far it moves away first, radians. Make it all of the way to the other stop, less a little, to prove that nothing is in
-    /// between.
+    /// How far it moves away first, radians. Make it all of the way to the other stop, less a little, to prove that
+    /// nothing is in between.
     pub clearance: f32,
     /// How far the stop may be from there, radians: beyond there is none.
     pub travel: f32,
@@ -122,7 +122,8 @@ mod tests {
 
     const SEARCH: StopSearch = StopSearch { angle: 0.5, speed: 1.0, torque: 0.2, clearance: 0.1, travel: 1.0 };
 
-    /// Steps a joint that is said to be at these counts, mrad, at these rates, rad/s; gives what ended it, and the tick.
+    /// Steps a joint that is said to be at these counts, mrad, at these rates, rad/s; gives what ended it, and the
+    /// tick.
     fn ends(place: impl Fn(i32) -> i32, rate: impl Fn(i32) -> f32) -> Option<(i32, Result<i32, Refusal>)> {
         let mut search = Search::default();
         (0..5_000).find_map(|tick| {

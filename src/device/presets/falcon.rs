@@ -14,19 +14,18 @@ const RATIO: f32 = 0.110 / 0.014_25;
 
 /// Novint Falcon, a delta that stands on its side.
 ///
-/// Stamper's lengths in mm: a 60, b 102.5, c 14.43, d = e 11.25, f −25, r 40, s −23.09; legs at 90°, −30° and −150°, each
-/// plus 15°; drum 110 mm on a shaft of 14.25 mm; 320 lines, four counts each: 38 µm at a thigh's end; 35° at zero counts.
-/// Source: libnifalcon, `FalconGeometry.h`; its Jacobian has `sin² θ₂` where `sin θ₂ sin θ₃` belongs and is not followed.
-/// 8.9 N: CHAI3D.
-/// The frame is libnifalcon's: seen from the front x to the right, y up, z towards the hand; the origin is moved to the
-/// middle of the workspace, 120 mm before the base.
-/// At 4 kHz 2,000 N/m and 5 N·s/m are recommended at most: pressed in simulation the force is stiffness times depth to 2 %, and
-/// there is no limit cycle. At the 3,000 N/m and 20 N·s/m in use on it none is either, but dry friction holds the grip anywhere
-/// in a count, and half a count of 65 µm is 3 % of the millimetre that such a wall yields to a hand.
-/// The joint range keeps out what lies 80 mm and more to the side, where the forward map's steps leave up to 41 µm.
-/// Assumed, for no source was found that states them: torque of the motors, such that they give 8.9 N in every direction there;
-/// friction of a joint; and the masses: 150 g of plate and grip, shins of 15 g, thighs of 60 g with their centre 20 mm out,
-/// together 1.7 N at the grip. Weigh yours: a grip that rises or sinks by itself says by how much they are wrong.
+/// Stamper's lengths in mm: a 60, b 102.5, c 14.43, d = e 11.25, f −25, r 40, s −23.09; legs at 90°, −30° and −150°,
+/// each plus 15°; drum 110 mm on a shaft of 14.25 mm; 320 lines, four counts each: 38 µm at a thigh's end; 35° at zero
+/// counts. Source: libnifalcon, `FalconGeometry.h`; its Jacobian has `sin² θ₂` where `sin θ₂ sin θ₃` belongs and is not
+/// followed. 8.9 N: CHAI3D. The frame is libnifalcon's: seen from the front x to the right, y up, z towards the hand;
+/// the origin is moved to the middle of the workspace, 120 mm before the base. At 4 kHz 2,000 N/m and 5 N·s/m are
+/// recommended at most: pressed in simulation the force is stiffness times depth to 2 %, and there is no limit cycle.
+/// At the 3,000 N/m and 20 N·s/m in use on it none is either, but dry friction holds the grip anywhere in a count, and
+/// half a count of 65 µm is 3 % of the millimetre that such a wall yields to a hand. The joint range keeps out what
+/// lies 80 mm and more to the side, where the forward map's steps leave up to 41 µm. Assumed, for no source was found
+/// that states them: torque of the motors, such that they give 8.9 N in every direction there; friction of a joint; and
+/// the masses: 150 g of plate and grip, shins of 15 g, thighs of 60 g with their centre 20 mm out, together 1.7 N at
+/// the grip. Weigh yours: a grip that rises or sinks by itself says by how much they are wrong.
 pub const NOVINT_FALCON: Device<Delta, 3> = Device {
     kinematics: Delta {
         thigh: 0.060,

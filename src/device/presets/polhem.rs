@@ -13,14 +13,14 @@ const ENCODERS: [Encoder; 3] = {
 
 /// Polhem, second version: an arm whose second link hangs on a crank and a rod.
 ///
-/// Not the plain arm its stated 100, 165 and 130.8 mm suggest: its own kinematics (forsslund/hfabapi, `hfab_polhem.h`) is a
-/// five-bar on a turntable, with pivots 34 mm apart, cranks 165 and 25 mm, rods 34 and 190 mm, and the probe 130.8 mm out
-/// on the short rod's other side. Masses and centres with covers are from there too. Capstans 28.8534, 13.6981 and
-/// 13.7281 mm on bodies of 175, 100 and 100 mm; 4,096 counts, so 35 µm at the first link's end; 0.0603, 0.0538 and
-/// 0.0538 N·m/A, 3 A; 5 N, 2,000 N/m; directions: the second motor turns against its body.
-/// The frame: x towards the user at `a = 0`, z up, origin (204.5, 0, 32.5) mm from the pivots' middle.
-/// Assumed: greatest damping. At 4 kHz 2,000 N/m and 5 N·s/m are recommended: pressed in simulation the force is stiffness times
-/// depth to 1 %, and no count moves.
+/// Not the plain arm its stated 100, 165 and 130.8 mm suggest: its own kinematics (forsslund/hfabapi, `hfab_polhem.h`)
+/// is a five-bar on a turntable, with pivots 34 mm apart, cranks 165 and 25 mm, rods 34 and 190 mm, and the probe 130.8
+/// mm out on the short rod's other side. Masses and centres with covers are from there too. Capstans 28.8534, 13.6981
+/// and 13.7281 mm on bodies of 175, 100 and 100 mm; 4,096 counts, so 35 µm at the first link's end; 0.0603, 0.0538 and
+/// 0.0538 N·m/A, 3 A; 5 N, 2,000 N/m; directions: the second motor turns against its body. The frame: x towards the
+/// user at `a = 0`, z up, origin (204.5, 0, 32.5) mm from the pivots' middle. Assumed: greatest damping. At 4 kHz 2,000
+/// N/m and 5 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1 %, and no count
+/// moves.
 pub const POLHEM_V2: Device<LinkageArm, 3> = Device {
     kinematics: LinkageArm {
         linkage: FiveBar {
@@ -59,7 +59,8 @@ pub const POLHEM_V2: Device<LinkageArm, 3> = Device {
     max_damping: 5.0,
 };
 
-/// Where [`POLHEM_V2`] is put down to be calibrated: the source's offsets of 8,312, −10,366 and 19,764 counts, as angles.
+/// Where [`POLHEM_V2`] is put down to be calibrated: the source's offsets of 8,312, −10,366 and 19,764 counts, as
+/// angles.
 pub const POLHEM_V2_REFERENCE: Reference<3> = {
     let [a, b, c] = ENCODERS;
     Reference::Pose([8_312.0 * a.radians_per_count, -10_366.0 * b.radians_per_count, 19_764.0 * c.radians_per_count])

@@ -9,13 +9,12 @@ use crate::math::vec3;
 /// Lengths 80, 205 and 245 mm; capstan 10 mm on bodies of 160, 120 and 120 mm (16:1, 12:1, 12:1); 2,000 counts a turn;
 /// 0.0259 N·m/A at 3 A; 5 N, 1,000 N/m, 8 N·s/m. Source: the configuration of the project's CHAI3D driver
 /// (woody-experimental, `cWoodenDevice`). Zero counts is the calibration pose: first link upright, second level.
-/// Directions are those of the driver's USB variant, in which the turntable's encoder counts against its motor.
-/// At the workspace centre the first link's motor is at full duty with 4.8 N along x; along y and z 5 N are within reach.
-/// Link masses 170 and 110 g with centres at 51 and 91 mm, from the same driver; its gravity compensation lifts the second
-/// link at the sum of both centres instead of at the first link's end, which is not followed here.
-/// At 4 kHz 1,000 N/m and 2 to 8 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1 %, and no
-/// count moves.
-/// The joint range and the greatest rate are ours: wide enough for its workspace and for a hand at 3 m/s.
+/// Directions are those of the driver's USB variant, in which the turntable's encoder counts against its motor. At the
+/// workspace centre the first link's motor is at full duty with 4.8 N along x; along y and z 5 N are within reach. Link
+/// masses 170 and 110 g with centres at 51 and 91 mm, from the same driver; its gravity compensation lifts the second
+/// link at the sum of both centres instead of at the first link's end, which is not followed here. At 4 kHz 1,000 N/m
+/// and 2 to 8 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1 %, and no count
+/// moves. The joint range and the greatest rate are ours: wide enough for its workspace and for a hand at 3 m/s.
 pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
         base_height: 0.080,
@@ -51,8 +50,8 @@ mod tests {
 
     #[test]
     fn wooden_haptics_resolves_what_is_published() {
-        // Published for the probe: 43, 54 and 64 µm, to the micrometre. The levers are the reach at the workspace centre and
-        // the two links.
+        // Published for the probe: 43, 54 and 64 µm, to the micrometre. The levers are the reach at the workspace
+        // centre and the two links.
         for ((encoder, lever), micrometres) in
             WOODEN_HAPTICS_2016.encoders.iter().zip([0.220, 0.205, 0.245]).zip([43.0, 54.0, 64.0])
         {

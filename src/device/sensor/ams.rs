@@ -31,8 +31,8 @@ const FIELD: u16 = 0b11 << 10;
 /// One sensor. The bus runs in mode 1 (clock idle low, sampled on the falling edge), at most 10 MHz, 16 bits a frame.
 ///
 /// **The data in a frame answer the frame before.** Read once a tick, the angle is that of the last tick's end: a whole
-/// period old, which the stability bound must count as delay. [`Self::read_fresh`] spends two frames instead and is as old as
-/// one frame takes, about 2 µs.
+/// period old, which the stability bound must count as delay. [`Self::read_fresh`] spends two frames instead and is as
+/// old as one frame takes, about 2 µs.
 ///
 /// A frame: bit 15 makes the parity of the whole even; bit 14 asks for a read, or answers that the last command was
 /// damaged; the rest is address or data (data sheets of both chips).
@@ -59,8 +59,8 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
         self.bus
     }
 
-    /// Clears the sensor's error flags, checks that it is there, settled and sees its magnet, and asks for the angle. Three
-    /// frames. Call it before the first [`Self::read`] and after any error.
+    /// Clears the sensor's error flags, checks that it is there, settled and sees its magnet, and asks for the angle.
+    /// Three frames. Call it before the first [`Self::read`] and after any error.
     ///
     /// A bus that is stuck low reads as parity-clean zeros; the settled bit, which is then missing, tells that apart.
     ///
@@ -90,8 +90,8 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
         Ok(())
     }
 
-    /// The angle as it was at the end of the last frame, 0 to 16,383 a turn; asks for the next. One frame. `None` if the last
-    /// frame did not ask for it: after an error, before [`Self::start`].
+    /// The angle as it was at the end of the last frame, 0 to 16,383 a turn; asks for the next. One frame. `None` if
+    /// the last frame did not ask for it: after an error, before [`Self::start`].
     ///
     /// # Errors
     /// Bus, parity, the error flag, or a bus that only gives ones.

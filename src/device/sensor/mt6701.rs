@@ -3,7 +3,8 @@
 use super::SensorError;
 use embedded_hal::spi::SpiDevice;
 
-/// One sensor. SSI is a one-way SPI: select, 24 clocks, deselect; data change on the rising edge of the clock, so mode 1.
+/// One sensor. SSI is a one-way SPI: select, 24 clocks, deselect; data change on the rising edge of the clock, so mode
+/// 1.
 ///
 /// A frame, most significant bit first: 14 bits of angle, 4 of status (lost track, button, field too weak, field too
 /// strong), and the CRC-6 of these 18, polynomial `x⁶ + x + 1`, starting from zero (data sheet).

@@ -1,5 +1,6 @@
-//! A long seeded run of the servo that visits everything it can do: every boundary mode, phase and fault, contact in and
-//! out, every rendering and mechanism. The same code runs on a board and on the host, and what it prints must be the same.
+//! A long seeded run of the servo that visits everything it can do: every boundary mode, phase and fault, contact in
+//! and out, every rendering and mechanism. The same code runs on a board and on the host, and what it prints must be
+//! the same.
 
 #![no_std]
 

@@ -1,7 +1,7 @@
 //! The loop's own square root, sine and cosine, and arc tangent, beside those of two libraries.
 //!
-//! Each is behind a function that is not inlined. The call counts, and so do the few instructions that hide argument and
-//! result from the compiler: the same for all.
+//! Each is behind a function that is not inlined. The call counts, and so do the few instructions that hide argument
+//! and result from the compiler: the same for all.
 
 use core::f32::consts::{PI, TAU};
 use core::hint::black_box;

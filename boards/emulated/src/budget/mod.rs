@@ -1,8 +1,8 @@
 //! What the hot path costs, in counted instructions: the figures that `cargo palpate budgets` compares.
 //!
-//! Each figure is a line on the host's console, `name = instructions`. Everything but the counter is plain library code:
-//! another core needs its own counter and nothing else. A call counts too: what is measured is behind a function that
-//! is not inlined, and the compiler does not know its patch.
+//! Each figure is a line on the host's console, `name = instructions`. Everything but the counter is plain library
+//! code: another core needs its own counter and nothing else. A call counts too: what is measured is behind a function
+//! that is not inlined, and the compiler does not know its patch.
 
 mod closest;
 mod evaluation;

@@ -1,5 +1,5 @@
-//! Patches of every degree, of one span. What they look like does not matter: the evaluation has no branch that depends on a
-//! coefficient.
+//! Patches of every degree, of one span. What they look like does not matter: the evaluation has no branch that depends
+//! on a coefficient.
 
 use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
 

@@ -28,7 +28,8 @@ struct Walk {
 }
 
 impl Walk {
-    /// One step of Newton's method a tick, from the last tick's angles: the path moves a tenth of a millimetre in between.
+    /// One step of Newton's method a tick, from the last tick's angles: the path moves a tenth of a millimetre in
+    /// between.
     fn counts(&mut self, position: Vec3) -> [Counts; 3] {
         let pose = DEVICE.kinematics.pose(self.angles);
         let [a, b, c] = pose.jacobian;

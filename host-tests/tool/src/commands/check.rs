@@ -17,9 +17,10 @@ use std::process::ExitCode;
 
 /// Validates a model and says what is known of each patch.
 ///
-/// A patch is certified if it is proved to be regular, convex (up to rounding), smooth, with normals less than 90° apart, and to lead every probe
-/// up to half the body's size over it to its closest point. What is not proved is sampled, and said to be. The second table has the limits of
-/// performance for explicit Euler at --rate, a probe up to --distance away and moving at --speed. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
+/// A patch is certified if it is proved to be regular, convex (up to rounding), smooth, with normals less than 90°
+/// apart, and to lead every probe up to half the body's size over it to its closest point. What is not proved is
+/// sampled, and said to be. The second table has the limits of performance for explicit Euler at --rate, a probe up to
+/// --distance away and moving at --speed. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The model: a file (TOML), or the name of one that ships.

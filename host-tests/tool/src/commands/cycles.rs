@@ -1,4 +1,5 @@
-//! `palpate cycles`: what the hot path may take on real cores, estimated from the instructions that the emulator executes.
+//! `palpate cycles`: what the hot path may take on real cores, estimated from the instructions that the emulator
+//! executes.
 
 use crate::cycles::{Core, Figure, estimate};
 use crate::firmware::{Board, Progress};
@@ -7,8 +8,8 @@ use std::process::ExitCode;
 
 /// Estimates the cycles of the hot path on a Cortex-M4F and a Cortex-M7.
 ///
-/// The emulator executes each core's own image and logs every instruction; a model of the core adds their cycles up. It is an
-/// estimate, given as a range, and no measurement.
+/// The emulator executes each core's own image and logs every instruction; a model of the core adds their cycles up. It
+/// is an estimate, given as a range, and no measurement.
 #[derive(Args, Debug)]
 pub struct Arguments {}
 

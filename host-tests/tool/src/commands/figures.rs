@@ -13,19 +13,20 @@ use std::process::ExitCode;
 
 /// Draws the paper's Figures 3 and 6 to 9, with the numbers beside them.
 ///
-/// Of a model of several patches: Figure 3, slices through its Voronoi regions as the tables have them, and Figure 9, a probe's way
-/// around it with u, v and the active feature. Of a model of one patch:
+/// Of a model of several patches: Figure 3, slices through its Voronoi regions as the tables have them, and Figure 9, a
+/// probe's way around it with u, v and the active feature. Of a model of one patch:
 ///
-/// Figure 6: a start from which the witness point meets a border, follows it and leaves it again; the one that shows it best
-/// of a fixed grid of probes and starts. Figure 7: from which of 21 x 21 starts Newton's method, with and without saturation at
-/// the borders, and the firmware's controller find the closest point (to 1e-4 of the size), over seeded probes straight out from the
-/// patch. Figure 8: following a moving probe with gains that are good, too high and too low, and the measured limits of stability
-/// beside the predicted ones.
+/// Figure 6: a start from which the witness point meets a border, follows it and leaves it again; the one that shows it
+/// best of a fixed grid of probes and starts. Figure 7: from which of 21 x 21 starts Newton's method, with and without
+/// saturation at the borders, and the firmware's controller find the closest point (to 1e-4 of the size), over seeded
+/// probes straight out from the patch. Figure 8: following a moving probe with gains that are good, too high and too
+/// low, and the measured limits of stability beside the predicted ones.
 ///
 /// The same arguments write the same bytes.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Model: a file, or the name of one that ships. Table I of the paper, its convex companion and the capped box if not given
+    /// Model: a file, or the name of one that ships. Table I of the paper, its convex companion and the capped box if
+    /// not given
     #[arg(long)]
     model: Vec<PathBuf>,
     /// Draws only what the models look like, as nets of lines; all models that ship if none is given

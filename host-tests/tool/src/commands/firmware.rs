@@ -7,8 +7,8 @@ use std::process::{Command, ExitCode};
 
 /// Runs cargo in a board's folder, with a compiler for its target: set up if it is missing.
 ///
-/// `palpate firmware build --release` builds the images as `demo` and `test` do. What a board's own settings say holds too,
-/// such as the runner that flashes it: `palpate firmware --board stm32g4 run --release`.
+/// `palpate firmware build --release` builds the images as `demo` and `test` do. What a board's own settings say holds
+/// too, such as the runner that flashes it: `palpate firmware --board stm32g4 run --release`.
 #[derive(Args, Debug)]
 #[command(trailing_var_arg = true)]
 pub struct Arguments {

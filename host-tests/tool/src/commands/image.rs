@@ -11,7 +11,8 @@ pub const TICK: &str = "palpate_emulated::body::tick";
 /// What a core puts on the stack when an interrupt comes: 8 words of integers, 18 of floats, and one to align.
 pub const EXCEPTION_FRAME: i64 = 4 * (8 + 18 + 1);
 
-/// Prints what an emulated board's image takes of flash, RAM and stack, and what is proved of the tick from its machine code.
+/// Prints what an emulated board's image takes of flash, RAM and stack, and what is proved of the tick from its machine
+/// code.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The board
@@ -63,8 +64,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(if bad.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// The deepest stack of a whole image: the program, one interrupt on top of it. Nothing interrupts the interrupt: it is the only
-/// one.
+/// The deepest stack of a whole image: the program, one interrupt on top of it. Nothing interrupts the interrupt: it is
+/// the only one.
 ///
 /// # Errors
 /// Why there is no bound.

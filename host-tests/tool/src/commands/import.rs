@@ -8,11 +8,13 @@ use std::process::ExitCode;
 
 /// Makes a model file of a CAD part (STEP: AP203, AP214, AP242).
 ///
-/// Faces become polynomial patches of degree 5 at most, each edge one curve that both its faces share, so that nothing gapes. Faces with any outline and
-/// holes are divided into quads, without a side that ends on another's middle. The result is compared with the part on dense points, both ways, and
-/// refused where it is farther off than the tolerance. Patches go by the names of their faces, with a number where a face has more than one.
+/// Faces become polynomial patches of degree 5 at most, each edge one curve that both its faces share, so that nothing
+/// gapes. Faces with any outline and holes are divided into quads, without a side that ends on another's middle. The
+/// result is compared with the part on dense points, both ways, and refused where it is farther off than the tolerance.
+/// Patches go by the names of their faces, with a number where a face has more than one.
 ///
-/// All solids and shells of the file, where the assembly places them, become one model. Exit status 2, a sentence and no file if something is wrong.
+/// All solids and shells of the file, where the assembly places them, become one model. Exit status 2, a sentence and
+/// no file if something is wrong.
 ///
 /// The first run compiles the reader, which takes some minutes.
 #[derive(Args, Debug)]

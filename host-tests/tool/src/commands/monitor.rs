@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 
 /// Shows rate, jitter, phase, force and faults of a running device, and records them.
 ///
-/// On a terminal one line is kept up to date; elsewhere there is a line every second and at each change. It ends when the line
-/// is closed, after --seconds, or with Ctrl-C.
+/// On a terminal one line is kept up to date; elsewhere there is a line every second and at each change. It ends when
+/// the line is closed, after --seconds, or with Ctrl-C.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The serial port the device is on, such as /dev/ttyACM0

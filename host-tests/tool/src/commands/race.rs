@@ -12,11 +12,11 @@ use std::process::ExitCode;
 /// Races palpate against Newton's method, truck and parry: counted instructions, nanoseconds, errors, misses.
 ///
 /// The same surfaces and the same probes for all: Table I of the paper and its convex companion, every query by itself
-/// (500 golden probes near the surface) and following a probe (10,000 rows of a smooth path, and 2,000 golden rows). A miss is
-/// a distance wrong by more than 1e-4 of the patch's size, or no answer.
+/// (500 golden probes near the surface) and following a probe (10,000 rows of a smooth path, and 2,000 golden rows). A
+/// miss is a distance wrong by more than 1e-4 of the patch's size, or no answer.
 ///
-/// Instructions are counted by valgrind, query by query, and repeat exactly on one machine; it is installed where that needs
-/// no password. Nanoseconds are this machine's, the quickest of five runs of each query.
+/// Instructions are counted by valgrind, query by query, and repeat exactly on one machine; it is installed where that
+/// needs no password. Nanoseconds are this machine's, the quickest of five runs of each query.
 ///
 /// The first run compiles the peers, which takes some minutes.
 #[derive(Args, Debug)]

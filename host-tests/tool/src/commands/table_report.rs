@@ -38,7 +38,8 @@ pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
     Ok(report)
 }
 
-/// What is known of the locator's leaves. Each is a cell of space, with the list of what can own the closest point of its probes.
+/// What is known of the locator's leaves. Each is a cell of space, with the list of what can own the closest point of
+/// its probes.
 fn leaves(report: &mut String, locator: &LocatorReport) -> Result<(), Error> {
     let LeafCounts { proved, convex, sampled, deep } = locator.leaves_by;
     let share = |count: usize| format!("{:5.1} %", 100.0 * count as f64 / locator.leaves as f64);

@@ -1,5 +1,5 @@
-//! Estimated cycles of the hot path on cores that the emulator does not time: each instruction that was executed, in its order,
-//! through a stated model of the core.
+//! Estimated cycles of the hot path on cores that the emulator does not time: each instruction that was executed, in
+//! its order, through a stated model of the core.
 //!
 //! An estimate, not a measurement: the emulator executes the right instructions and knows nothing of pipelines. What is
 //! stated is a range, and a real core with code and tables in memory without wait states is expected within it.

@@ -1,8 +1,8 @@
 //! What an instruction costs on a core.
 //!
-//! Cortex-M4F: Arm's *Cortex-M4 Technical Reference Manual*, "Processor instruction timings" and "FPU instruction set". Arm publishes
-//! no such table of the Cortex-M7; its range runs from two instructions in every cycle and every branch foreseen to one at a
-//! time and no conditional branch foreseen.
+//! Cortex-M4F: Arm's *Cortex-M4 Technical Reference Manual*, "Processor instruction timings" and "FPU instruction set".
+//! Arm publishes no such table of the Cortex-M7; its range runs from two instructions in every cycle and every branch
+//! foreseen to one at a time and no conditional branch foreseen.
 
 use crate::proof::{Flow, Instruction};
 

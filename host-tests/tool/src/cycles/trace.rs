@@ -36,8 +36,8 @@ struct Window {
     executed: Vec<u64>,
 }
 
-/// Runs the program that counts on a board until each of [`ROOTS`] was called often enough, and gives what the calls took on
-/// its core.
+/// Runs the program that counts on a board until each of [`ROOTS`] was called often enough, and gives what the calls
+/// took on its core.
 ///
 /// # Errors
 /// What cannot be built, run or read.
@@ -126,8 +126,8 @@ pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Ro
 /// The emulator's blocks end at multiples of this, if not before.
 const PAGE: u64 = 1024;
 
-/// The instructions of a block and the ones behind it up to where it leads: it ends with one that may lead elsewhere, or at the end
-/// of a page, where the next block goes on.
+/// The instructions of a block and the ones behind it up to where it leads: it ends with one that may lead elsewhere,
+/// or at the end of a page, where the next block goes on.
 fn straight(costs: &Costs, from: u64, then: u64) -> Vec<u64> {
     let mut executed = Vec::new();
     let mut at = from;

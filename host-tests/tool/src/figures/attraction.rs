@@ -12,11 +12,12 @@ use rand_pcg::Pcg64Mcg;
 
 /// Starts along each parameter, borders included.
 pub const STARTS: usize = 21;
-/// A run has found the closest point if it ends this near to it, relative to the patch's size. On both patches at hand the runs
-/// leave a wide gap: Newton's end within 3e-8 of it, ours within 2e-6 (roundings of `f32`), and all others beyond 5e-2 or outside.
+/// A run has found the closest point if it ends this near to it, relative to the patch's size. On both patches at hand
+/// the runs leave a wide gap: Newton's end within 3e-8 of it, ours within 2e-6 (roundings of `f32`), and all others
+/// beyond 5e-2 or outside.
 pub const TOLERANCE: f64 = 1e-4;
-/// Steps a run may take. What arrives on the patches at hand needs 600 at most (ours, from a probe near to Table I), Newton's
-/// methods 81: those that still bounce about after so many are counted as lost.
+/// Steps a run may take. What arrives on the patches at hand needs 600 at most (ours, from a probe near to Table I),
+/// Newton's methods 81: those that still bounce about after so many are counted as lost.
 const STEP_LIMIT: usize = 1_000;
 
 /// A controller of the comparison.

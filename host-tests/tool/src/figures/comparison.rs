@@ -56,9 +56,9 @@ impl Comparison {
 }
 
 /// The probe whose basin under Newton is nearest to the mean in size, among those with a start that tells the paper's
-/// story: Newton leaves the patch, saturation bounces off the border at least twice and still arrives. Of its starts the one
-/// that bounces least, then the one that saturation is done with first. Without such a probe, the most average one and its
-/// first start from which Newton fails.
+/// story: Newton leaves the patch, saturation bounces off the border at least twice and still arrives. Of its starts
+/// the one that bounces least, then the one that saturation is done with first. Without such a probe, the most average
+/// one and its first start from which Newton fails.
 fn representative(subject: &Subject, targets: &[Target], shares: &[[f64; Contender::ALL.len()]]) -> (usize, [f64; 2]) {
     let mean = shares.iter().map(|row| row[0]).sum::<f64>() / shares.len() as f64;
     let mut order: Vec<usize> = (0..targets.len()).collect();

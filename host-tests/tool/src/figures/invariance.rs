@@ -50,15 +50,16 @@ pub struct Passage {
     pub arrives: f64,
 }
 
-/// The search looks at feet of the probe in a grid of cells over the patch, at these distances in sizes, and at starts in a grid.
+/// The search looks at feet of the probe in a grid of cells over the patch, at these distances in sizes, and at starts
+/// in a grid.
 const FEET: usize = 7;
 const DISTANCES: [f64; 3] = [0.1, 0.3, 0.6];
 const STARTS: usize = 11;
 
 impl Passage {
-    /// The passage that shows the mode changes best, of a grid of probes and starts: interior, one border, interior; each
-    /// projection error rises at some time; and the shortest of the three stretches is as long as it can be. `None` if no
-    /// passage of the grid has those modes.
+    /// The passage that shows the mode changes best, of a grid of probes and starts: interior, one border, interior;
+    /// each projection error rises at some time; and the shortest of the three stretches is as long as it can be.
+    /// `None` if no passage of the grid has those modes.
     pub fn search(subject: &Subject, mut progress: impl FnMut(usize, usize)) -> Option<Self> {
         let oracle = subject.oracle();
         let mut best: Option<(f64, Self)> = None;

@@ -127,8 +127,8 @@ pub fn view_of<'a>(subject: &Subject, points: impl IntoIterator<Item = &'a [f64;
         .unwrap_or(View::FRONT_RIGHT)
 }
 
-/// The view, of eight round the surface and three heights, that sees these lines from the patch to the probe longest, and
-/// the patch under them not from behind.
+/// The view, of eight round the surface and three heights, that sees these lines from the patch to the probe longest,
+/// and the patch under them not from behind.
 pub fn view_across(subject: &Subject, lines: &[([f64; 2], DVec3)]) -> View {
     let normal: DVec3 = lines.iter().map(|(at, _)| subject.at(*at).1).sum();
     let views = (0..8).flat_map(|eighth| {

@@ -48,8 +48,8 @@ impl Subject {
         (surface, if self.surface.flip { -across } else { across })
     }
 
-    /// A probe straight out from `foot`, at the position the firmware can hold, with its closest point; `None` where some
-    /// other point of the patch is nearer than the foot.
+    /// A probe straight out from `foot`, at the position the firmware can hold, with its closest point; `None` where
+    /// some other point of the patch is nearer than the foot.
     pub fn probe_over(&self, oracle: &Oracle<'_>, foot: [f64; 2], distance: f64) -> Option<(Vec3, ClosestPoint)> {
         let (surface, normal) = self.at(foot);
         let probe = (surface.point + normal * distance).as_vec3();

@@ -16,8 +16,8 @@ pub const GAINS: [f64; 3] = [50.0, 1300.0, 0.02];
 pub const PAPER_LIMIT: f64 = 1250.0;
 /// The probe moves for so long and then rests, s: 25 time constants `1/K` at `K = 50`.
 const MOTION: f64 = 0.5;
-/// Where the probe's foot sets out and where the witness point is put, in parameters from where the probe comes to rest:
-/// far from each other and from the goal, so that the correction of the start and the tracking show.
+/// Where the probe's foot sets out and where the witness point is put, in parameters from where the probe comes to
+/// rest: far from each other and from the goal, so that the correction of the start and the tracking show.
 const SETS_OUT: [f64; 2] = [-0.3, -0.35];
 const START: [f64; 2] = [0.3, -0.4];
 
@@ -35,10 +35,9 @@ pub struct Configuration {
 }
 
 impl Configuration {
-    /// The distance at which `2 / (h (1 + κ ‖ΔR‖))` is the paper's 1250 1/s, so `κ ‖ΔR‖ = 0.6`, over the centre of a cell
-    /// of the patch (inner knots, where the curvature may jump, lie on the cells' borders): the one nearest to the middle where
-    /// the patch is convex and the foot is the closest point.
-    /// `None` if there is no such place.
+    /// The distance at which `2 / (h (1 + κ ‖ΔR‖))` is the paper's 1250 1/s, so `κ ‖ΔR‖ = 0.6`, over the centre of a
+    /// cell of the patch (inner knots, where the curvature may jump, lie on the cells' borders): the one nearest to the
+    /// middle where the patch is convex and the foot is the closest point. `None` if there is no such place.
     pub fn find(subject: &Subject, oracle: &Oracle<'_>) -> Option<Self> {
         let borders = [palpate_bake::Axis::U, palpate_bake::Axis::V].map(|axis| subject.surface.borders(axis));
         let centres = |axis: usize| borders[axis].windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect::<Vec<_>>();
@@ -69,8 +68,8 @@ impl Configuration {
         f64::from(integrator.stability_bound()) / (PERIOD * (1.0 + self.curvature * self.distance))
     }
 
-    /// The greatest stable gain, 1/s, by bisection: from a witness point that is a little off along the worst direction, the
-    /// error shrinks below it and grows above it.
+    /// The greatest stable gain, 1/s, by bisection: from a witness point that is a little off along the worst
+    /// direction, the error shrinks below it and grows above it.
     ///
     /// # Errors
     /// A limit that is nowhere near the prediction.
@@ -93,7 +92,8 @@ impl Configuration {
         // A thousand times the rounding of f32, and so small that the linear theory holds: beyond the limit the chatter
         // settles at an amplitude that grows from zero, and must be above this.
         const OFFSET: f64 = 1e-4;
-        // 1/1000 beyond the limit is a factor of 1.002^1000 = 7; the share of the offset along the worst direction matters less.
+        // 1/1000 beyond the limit is a factor of 1.002^1000 = 7; the share of the offset along the worst direction
+        // matters less.
         const STEPS: usize = 1_000;
         let controller = Controller::CERTIFIED.gain(Gain::Unlimited(gain as f32)).integrator(integrator);
         let patch = &subject.patch;

@@ -8,7 +8,8 @@ use palpate::track::Integrator;
 use plotters::element::{DashedPathElement, PathElement};
 use plotters::prelude::*;
 
-/// Ticks between the snapshots of panel (A): with `K = 50` and a step of 1 ms the correction of the start shows in the first few.
+/// Ticks between the snapshots of panel (A): with `K = 50` and a step of 1 ms the correction of the start shows in the
+/// first few.
 const SNAPSHOT: usize = 12;
 
 /// The figure, as SVG text: runs at the good, the chattering and the slow gain.

@@ -1,5 +1,5 @@
-//! Debian's Rust for the boards: its packages bring a compiler and the library's source, but no library for their targets.
-//! That is built once and kept in a cache.
+//! Debian's Rust for the boards: its packages bring a compiler and the library's source, but no library for their
+//! targets. That is built once and kept in a cache.
 
 use super::process::{apt_install, existing, output};
 use super::way::{Way, has_core};

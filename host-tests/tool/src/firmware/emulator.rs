@@ -55,7 +55,8 @@ impl Emulator {
         Ok(Self::new(child, transport, line, folder))
     }
 
-    /// Starts an image that speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.
+    /// Starts an image that speaks over FIFOs and tells of itself over its UART: the line it does that on comes with
+    /// it.
     ///
     /// # Errors
     /// If the emulator does not start.
@@ -180,8 +181,8 @@ fn command(qemu: &Qemu, image: &Image, pace: Pace) -> Result<(Command, TempDir),
     Ok((command, folder))
 }
 
-/// Starts the emulator with its UART on a socket of this machine. This program listens and the emulator calls: there is no moment at which one
-/// could miss the other.
+/// Starts the emulator with its UART on a socket of this machine. This program listens and the emulator calls: there is
+/// no moment at which one could miss the other.
 fn accept_uart(command: &mut Command, folder: &TempDir) -> Result<(Child, TcpStream), LinkError> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
     listener.set_nonblocking(true)?;

@@ -1,4 +1,5 @@
-//! Two FIFOs in a folder, which the firmware opens through semihosting. Only a Unix has them: elsewhere `no_fifos.rs` stands in.
+//! Two FIFOs in a folder, which the firmware opens through semihosting. Only a Unix has them: elsewhere `no_fifos.rs`
+//! stands in.
 
 use nix::errno::Errno;
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
@@ -17,7 +18,8 @@ pub(super) struct Fifos {
 }
 
 impl Fifos {
-    /// Makes them. Each is opened to read *and* write, which never blocks; the other end comes when the firmware opens it.
+    /// Makes them. Each is opened to read *and* write, which never blocks; the other end comes when the firmware opens
+    /// it.
     pub fn new(folder: &Path) -> io::Result<Self> {
         let open = |name| {
             let path = folder.join(name);

@@ -53,7 +53,8 @@ impl Images {
 }
 
 impl Choice {
-    /// Where it is built. A body or settings of its own go apart from the rest: cargo builds anew what was built with others.
+    /// Where it is built. A body or settings of its own go apart from the rest: cargo builds anew what was built with
+    /// others.
     fn target_folder(&self, toolchain: &Toolchain) -> Result<PathBuf, SetUpError> {
         let folder = toolchain.target_folder()?;
         Ok(if self.body.is_some() || self.settings.is_some() { folder.join("chosen") } else { folder })

@@ -26,7 +26,8 @@ impl Line {
         }
     }
 
-    /// Reads what is there, or waits for it: how many bytes, 0 if the other end has hung up, `None` if nothing came in that time.
+    /// Reads what is there, or waits for it: how many bytes, 0 if the other end has hung up, `None` if nothing came in
+    /// that time.
     pub fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
         let read = match self {
             Self::Socket(stream) => {

@@ -50,8 +50,8 @@ impl Program {
         output(&mut self.qemu.board(&self.image.elf, self.image.board, pace))
     }
 
-    /// Runs it with every block of instructions logged that begins in one of these ranges (start, length): a line `Trace …` each
-    /// on its standard error.
+    /// Runs it with every block of instructions logged that begins in one of these ranges (start, length): a line
+    /// `Trace …` each on its standard error.
     ///
     /// # Errors
     /// If the emulator does not start.

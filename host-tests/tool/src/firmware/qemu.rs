@@ -11,11 +11,11 @@ const PROGRAM: &str = "qemu-system-arm";
 /// What the emulated clock goes by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// 64 ns an instruction whatever the host does, and time that is slept is skipped: every run is the same, and a count of
-    /// 25 MHz tells one instruction from the next.
+    /// 64 ns an instruction whatever the host does, and time that is slept is skipped: every run is the same, and a
+    /// count of 25 MHz tells one instruction from the next.
     Counting,
-    /// The same with 8 ns, as on a real board: time is left between two ticks for what runs below them, though a tick here has
-    /// frames to read and write that a real one has not. Instructions are not counted.
+    /// The same with 8 ns, as on a real board: time is left between two ticks for what runs below them, though a tick
+    /// here has frames to read and write that a real one has not. Instructions are not counted.
     Brisk,
     /// The host's clock, which is faster: nothing can be counted, and what does not look at a clock is the same.
     Free,

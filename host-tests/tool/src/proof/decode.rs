@@ -213,8 +213,8 @@ fn growth(kind: Kind, operands: &str) -> Option<i64> {
                 None => Some(0),
             }
         }
-        // Whatever else names the stack pointer first, or writes it back, moves it in a way that is not followed; a comparison
-        // would be harmless, and compilers make none.
+        // Whatever else names the stack pointer first, or writes it back, moves it in a way that is not followed; a
+        // comparison would be harmless, and compilers make none.
         _ if operands.starts_with("sp,") || operands.contains("[sp") && operands.contains("]!") || on_stack => None,
         _ => Some(0),
     }

@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A loop: instructions each of which can be reached from each other without leaving them.
 #[derive(Clone, Debug)]
 pub struct Loop {
-    /// Where it is entered: in one place mostly; in several, where the compiler took the first round apart; in none, where
-    /// nothing leads.
+    /// Where it is entered: in one place mostly; in several, where the compiler took the first round apart; in none,
+    /// where nothing leads.
     pub heads: BTreeSet<u64>,
     /// Its instructions.
     pub body: BTreeSet<u64>,
@@ -15,8 +15,8 @@ pub struct Loop {
     pub depth: usize,
 }
 
-/// Every loop of a function, the outer before the inner. An inner loop is what still goes round when the outer one's head is
-/// taken away.
+/// Every loop of a function, the outer before the inner. An inner loop is what still goes round when the outer one's
+/// head is taken away.
 pub fn loops(function: &Function) -> Vec<Loop> {
     let all: BTreeSet<u64> = function.instructions.keys().copied().collect();
     let mut found = Vec::new();

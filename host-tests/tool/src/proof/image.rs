@@ -166,8 +166,8 @@ fn function(
     let mut tables = BTreeMap::new();
     for instruction in instructions.values() {
         let Flow::Table(width) = instruction.flow else { continue };
-        // The entries run from behind the jump to where code begins again. What is there for alignment alone is a zero, which would lead
-        // to the table itself, and then NOPs.
+        // The entries run from behind the jump to where code begins again. What is there for alignment alone is a zero,
+        // which would lead to the table itself, and then NOPs.
         let from = instruction.address + instruction.length;
         let to = kinds.range(from + 1..end).find(|(_, code)| **code).map_or(end, |(at, _)| *at);
         let mut table = bytes(from, to);

@@ -26,8 +26,8 @@ impl Lines {
         Ok(Self(addr2line::Loader::new(path)?))
     }
 
-    /// The lines an instruction came from, the innermost first: a function that was inlined, then where it was called, and
-    /// so on.
+    /// The lines an instruction came from, the innermost first: a function that was inlined, then where it was called,
+    /// and so on.
     pub fn places(&self, address: u64) -> Vec<Place> {
         let mut places = Vec::new();
         let Ok(mut frames) = self.0.find_frames(address) else { return places };
@@ -41,8 +41,8 @@ impl Lines {
         places
     }
 
-    /// The function of the source that a loop is in: the innermost that its ways back have in common, apart from the core
-    /// library's iterators. Empty if that is not known.
+    /// The function of the source that a loop is in: the innermost that its ways back have in common, apart from the
+    /// core library's iterators. Empty if that is not known.
     pub fn home(&self, function: &Function, found: &Loop) -> String {
         let goes_back = |address: &&u64| {
             let (next, _) = function.successors(&function.instructions[*address]);

@@ -1,8 +1,8 @@
 //! What can be proved of an image from its machine code alone, whatever the compiler made of the source.
 //!
 //! The whole call tree of a function is read: each instruction, each branch, each call. What cannot be followed (a call
-//! through a pointer, a jump into the middle of another function, a stack pointer set from a register) is itself a finding,
-//! never passed over.
+//! through a pointer, a jump into the middle of another function, a stack pointer set from a register) is itself a
+//! finding, never passed over.
 
 mod decode;
 mod flow;

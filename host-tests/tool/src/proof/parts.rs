@@ -4,8 +4,9 @@ use super::{Code, Lines, Place};
 use crate::repository;
 use std::collections::BTreeMap;
 
-/// Bytes of code by part of the project; each instruction belongs to the innermost function that is not the core library's,
-/// whatever it was inlined into. `flash` is what the image takes in all; what is no code is `tables and constants`.
+/// Bytes of code by part of the project; each instruction belongs to the innermost function that is not the core
+/// library's, whatever it was inlined into. `flash` is what the image takes in all; what is no code is `tables and
+/// constants`.
 pub fn flash_by_part(code: &Code, lines: &Lines, flash: u64) -> Vec<(String, u64)> {
     let mut parts: BTreeMap<String, u64> = BTreeMap::new();
     for function in code.functions() {

@@ -52,8 +52,8 @@ fn is_panic(name: &str) -> bool {
     parts.iter().any(|part| name.contains(part))
 }
 
-/// Whether a function is one of the compiler's routines for `f64` (Run-time ABI for the Arm Architecture, §4.1.2; the names
-/// of GCC's library otherwise).
+/// Whether a function is one of the compiler's routines for `f64` (Run-time ABI for the Arm Architecture, §4.1.2; the
+/// names of GCC's library otherwise).
 pub fn is_double_routine(name: &str) -> bool {
     let short = name.rsplit("::").next().unwrap_or(name);
     if let Some(eabi) = short.strip_prefix("__aeabi_") {

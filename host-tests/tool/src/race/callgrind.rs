@@ -1,6 +1,6 @@
-//! Counting instructions with valgrind's callgrind: exact, the same from run to run, and quick enough for every query of every
-//! contestant. Hardware counters are closed in most virtual machines; single-stepping counts as exactly, but some
-//! 70,000 instructions a second are too few for peers that need millions a query.
+//! Counting instructions with valgrind's callgrind: exact, the same from run to run, and quick enough for every query
+//! of every contestant. Hardware counters are closed in most virtual machines; single-stepping counts as exactly, but
+//! some 70,000 instructions a second are too few for peers that need millions a query.
 
 use crate::firmware::{Progress, apt_install, on_path};
 use anyhow::{Context as _, ensure};
@@ -8,8 +8,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The function that is one query, for both options that name it. Two patterns, because callgrind keeps what it is told of a pattern in
-/// one place and forgets the first option when the second names the same.
+/// The function that is one query, for both options that name it. Two patterns, because callgrind keeps what it is told
+/// of a pattern in one place and forgets the first option when the second names the same.
 const COLLECT: &str = "palpate_race::measure::counted*";
 const DUMP: &str = "*measure::counted*";
 
@@ -28,7 +28,8 @@ pub(super) fn set_up(progress: &Progress) -> anyhow::Result<()> {
         .context("valgrind is missing: it counts the instructions")
 }
 
-/// A command that counts each call of [`COLLECT`] into a part of `file`. The program and its arguments are still to be added.
+/// A command that counts each call of [`COLLECT`] into a part of `file`. The program and its arguments are still to be
+/// added.
 pub(super) fn command(file: &Path) -> Command {
     let mut command = Command::new("valgrind");
     command.args(["--quiet", "--tool=callgrind", "--combine-dumps=yes", "--compress-strings=yes"]);

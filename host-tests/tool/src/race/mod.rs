@@ -1,6 +1,6 @@
-//! The race: the same surface and the same probes for palpate, for Newton's method and for what people use today, with answers judged by
-//! golden points. The contestants are a package of their own (`host-tests/race`), run once by the clock and once under
-//! valgrind, which counts instructions exactly.
+//! The race: the same surface and the same probes for palpate, for Newton's method and for what people use today, with
+//! answers judged by golden points. The contestants are a package of their own (`host-tests/race`), run once by the
+//! clock and once under valgrind, which counts instructions exactly.
 
 mod budget;
 mod callgrind;

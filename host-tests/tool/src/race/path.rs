@@ -5,7 +5,8 @@ use palpate_bake::NurbsPatch;
 use palpate_truth::oracle::OraclePoint;
 use std::f64::consts::TAU;
 
-/// The path swings this far beyond the middle of the patch, in parameters: past every border, where the closest point rests on it.
+/// The path swings this far beyond the middle of the patch, in parameters: past every border, where the closest point
+/// rests on it.
 const SWING: f64 = 0.52;
 /// Heights over the surface between which the probe rises and sinks, in sizes of the patch.
 const HEIGHTS: [f64; 2] = [0.005, 0.1];

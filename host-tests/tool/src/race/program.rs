@@ -92,7 +92,8 @@ impl Program {
         read(&output(add_arguments(&mut command, scene, folder.path(), "time", only)?)?)
     }
 
-    /// Counts the instructions of each query, or of one in [`Scene::stride`], for the contestants of these names or for all.
+    /// Counts the instructions of each query, or of one in [`Scene::stride`], for the contestants of these names or for
+    /// all.
     ///
     /// # Errors
     /// If valgrind or the program does not run.

@@ -29,7 +29,8 @@ impl Task {
     }
 }
 
-/// As many queries as this are counted at least, if there are so many: enough for 99 %, and counting one takes milliseconds.
+/// As many queries as this are counted at least, if there are so many: enough for 99 %, and counting one takes
+/// milliseconds.
 const COUNTED: usize = 2_000;
 
 /// A query and how far the closest point really is, metres.

@@ -12,8 +12,8 @@ pub const DELAYS: [f64; 3] = [0.5, 1.0, 2.0];
 pub const DAMPINGS: [f64; 11] = [0.0, 0.01, 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// The stiffness below which a wall is not worth the name, N/m.
 const LEAST: f64 = 30.0;
-/// Steady pushes into the wall, N; and the least, as a multiple of dry friction: a probe that friction alone holds away from
-/// the wall does not try it.
+/// Steady pushes into the wall, N; and the least, as a multiple of dry friction: a probe that friction alone holds away
+/// from the wall does not try it.
 const PUSHES: [f64; 2] = [0.3, 1.0];
 const PUSH_OVER_FRICTION: f64 = 1.5;
 /// Steps a decade from one stiffness to the next; then halvings between the last that held and the first that did not:
@@ -36,9 +36,10 @@ pub struct Limit {
     pub passive: f64,
 }
 
-/// The stiffness, N/m, from which on all walls are one: half a count, the least depth there is to read, asks for full force
-/// already. What lies above pushes all or nothing, but for its damping, and the search ends there. Where even that wall comes
-/// to rest there is no greatest stiffness: dry friction takes more out of the probe in a count than full force puts in.
+/// The stiffness, N/m, from which on all walls are one: half a count, the least depth there is to read, asks for full
+/// force already. What lies above pushes all or nothing, but for its damping, and the search ends there. Where even
+/// that wall comes to rest there is no greatest stiffness: dry friction takes more out of the probe in a count than
+/// full force puts in.
 pub fn all_or_nothing(slice: &Slice) -> f64 {
     2.0 * slice.max_force / slice.resolution
 }

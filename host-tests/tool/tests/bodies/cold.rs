@@ -54,8 +54,9 @@ fn check(scene: &Scene, what: &str, seed: u64, tolerance: f64, pick: impl Fn(&mu
     dearest
 }
 
-/// Outside, every probe of a convex body. Inside the bound of the evaluations comes first: near the medial axis, where two closest points or a whole arc of
-/// them are as good as the same, it may stop the search. Nothing is felt from there until the probe has been in front, and until then the audit goes on.
+/// Outside, every probe of a convex body. Inside the bound of the evaluations comes first: near the medial axis, where
+/// two closest points or a whole arc of them are as good as the same, it may stop the search. Nothing is felt from
+/// there until the probe has been in front, and until then the audit goes on.
 fn convex(name: &'static str, inside: f64) {
     let scene = Scene::load(name);
     assert!(scene.body.is_convex(), "{name} is to take the short lists");

@@ -1,5 +1,5 @@
-//! The locator's lists against golden points and the oracle. `PALPATE_PROBES` sets the number of random probes, `PALPATE_MODEL`,
-//! `PALPATE_TOLERANCE` and `PALPATE_CONVEX` which model a further run is about, and how.
+//! The locator's lists against golden points and the oracle. `PALPATE_PROBES` sets the number of random probes,
+//! `PALPATE_MODEL`, `PALPATE_TOLERANCE` and `PALPATE_CONVEX` which model a further run is about, and how.
 
 use glam::DVec3;
 use palpate::body::{Candidate, GRID};
@@ -145,7 +145,8 @@ fn a_spoiled_list_is_found_by_the_check() -> Result<(), Box<dyn Error>> {
 #[test]
 fn wrong_seams_are_refused() -> Result<(), Box<dyn Error>> {
     let subject = Subject::read("capped_box.toml")?;
-    // The only face, with no border of its own but one: probes beyond the others have nothing. No list is short enough, so that cells are small.
+    // The only face, with no border of its own but one: probes beyond the others have nothing. No list is short enough,
+    // so that cells are small.
     let other = |side| vec![BorderSide { face: 0, side, reversed: false }];
     let seams = Seams { edges: vec![other(0)], vertices: Vec::new(), poles: vec![[false; 4]] };
     let options = LocatorOptions { depth: 4, entries: 0, deep_entries: 0, fineness: 0.25, ..LocatorOptions::default() };

@@ -8,8 +8,8 @@ use palpate_truth::generate::Random;
 use palpate_truth::measured::{grouped, measured_if_listed};
 use std::collections::BTreeMap;
 
-/// Relative to the size. A probe nearer than this to a border between regions is a tie: the tables are `f32`, and some ten of its
-/// roundings lie between a probe and a verdict.
+/// Relative to the size. A probe nearer than this to a border between regions is a tie: the tables are `f32`, and some
+/// ten of its roundings lie between a probe and a verdict.
 const TIE: f32 = 2e-6;
 /// A parameter this near its end is on the border: `f32` tables against the oracle's `f64`.
 const END: f64 = 2e-6;

@@ -93,7 +93,8 @@ impl Scene {
         (low + span * DVec3::from_array(std::array::from_fn(|_| random.between(0.0, 1.0)))).as_vec3()
     }
 
-    /// The first probe around a closed convex body that is outside, with the points of all patches that are nearest to `within` metres.
+    /// The first probe around a closed convex body that is outside, with the points of all patches that are nearest to
+    /// `within` metres.
     pub fn outside(
         &self,
         oracle: &BodyOracle<'_>,
@@ -128,7 +129,8 @@ impl Scene {
         (surface.point - if normal.is_finite() { normal } else { DVec3::ZERO } * depth).as_vec3()
     }
 
-    /// The features on which the nearest points lie: one, or a face and what is beside it where a point is within `end` of its border.
+    /// The features on which the nearest points lie: one, or a face and what is beside it where a point is within `end`
+    /// of its border.
     pub fn owners(&self, nearest: &[(usize, ClosestPoint)], end: f64) -> Vec<Feature> {
         let mut owners = Vec::new();
         for (index, foot) in nearest {

@@ -16,8 +16,9 @@ struct Place {
     direction: DVec3,
 }
 
-/// A polyline from one feature to the next until all were passed: faces at their middle, edges from one face across to the other, vertices.
-/// Heights lie between 1 % and 11 % of the size, and the line has a vertex every hundredth of it at least, far less than what it then cuts short.
+/// A polyline from one feature to the next until all were passed: faces at their middle, edges from one face across to
+/// the other, vertices. Heights lie between 1 % and 11 % of the size, and the line has a vertex every hundredth of it
+/// at least, far less than what it then cuts short.
 pub fn tour(scene: &Scene) -> Vec<DVec3> {
     let oracle = scene.oracle();
     let size = scene.size();

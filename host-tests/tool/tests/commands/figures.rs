@@ -115,8 +115,8 @@ fn figure_8_chatters_above_the_predicted_limit() -> anyhow::Result<()> {
             |run: &Vec<tracking::Sample>| run.last().map_or(1.0, |sample| sample.errors[0].hypot(sample.errors[1]));
         let runs = tracking::runs(&subject, &rest);
         let [good, chatter, slow] = [0, 1, 2].map(|index: usize| end(&runs[index]));
-        // Parameters: f32 rounds the errors at some 1e-7; the chatter is as wide as the span where the curvature stays; the
-        // slow gain has worked for four of its time constants, so a fiftieth of the start of 0.5 is left.
+        // Parameters: f32 rounds the errors at some 1e-7; the chatter is as wide as the span where the curvature stays;
+        // the slow gain has worked for four of its time constants, so a fiftieth of the start of 0.5 is left.
         assert!(good < 1e-5 && chatter > 0.01 && slow < 0.02, "{name}: {good:e} {chatter:e} {slow:e}");
         // And after one constant, 50 s, not yet.
         let early = &runs[2][25_000].errors;

@@ -27,8 +27,8 @@ fn repository() -> PathBuf {
     palpate_tool::repository::root().expect("tests run in it")
 }
 
-/// Cargo as a stranger calls it, but without a network, and with one folder for what it builds, so that a second run of the
-/// tests finds it built.
+/// Cargo as a stranger calls it, but without a network, and with one folder for what it builds, so that a second run of
+/// the tests finds it built.
 fn cargo(folder: &Path, arguments: &[&str]) -> Result<Output, Box<dyn Error>> {
     let mut cargo = Command::new("cargo");
     palpate_tool::firmware::without_outer_cargo(&mut cargo);
@@ -66,8 +66,8 @@ fn a_crate_outside_of_the_repository_bakes_a_shipped_model_and_finds_a_closest_p
     let run = cargo(&folder, &["run"])?;
     assert!(run.status.success(), "{}", said(&run));
     assert!(!said(&run).contains("warning"), "{}", said(&run));
-    // What the tool says of the same probe, in the model's millimetres. Each search ends within its own steps of the closest
-    // point, where the distance is level: it is the distance that agrees, to the spacing of f32.
+    // What the tool says of the same probe, in the model's millimetres. Each search ends within its own steps of the
+    // closest point, where the distance is level: it is the distance that agrees, to the spacing of f32.
     fs::write(folder.join("probe.csv"), "qx,qy,qz\n20,30,80\n")?;
     let mut closest = Command::new(env!("CARGO_BIN_EXE_palpate"));
     closest.args(["closest", "--model", "capped_box", "--queries"]).arg(folder.join("probe.csv"));

@@ -1,4 +1,5 @@
-//! What palpate spends in the race, against the committed budgets. The peers are left out: they take minutes to compile.
+//! What palpate spends in the race, against the committed budgets. The peers are left out: they take minutes to
+//! compile.
 
 use palpate_tool::firmware::{Progress, WITH_FIRMWARE};
 use palpate_tool::race::{self, Budget, Counted, Program, Scene, Task, Who, excesses};

@@ -1,7 +1,7 @@
 //! The import graph of every crate: no circle between files, and none between the folders that are its layers.
 //!
-//! `cargo test -p palpate-tool --test docs imports -- --nocapture` prints the layers. An arrow goes from a file to the file that
-//! defines what it names, through any re-exports; tests are left out, and so is what a file only passes on.
+//! `cargo test -p palpate-tool --test docs imports -- --nocapture` prints the layers. An arrow goes from a file to the
+//! file that defines what it names, through any re-exports; tests are left out, and so is what a file only passes on.
 
 use proc_macro2::{TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};

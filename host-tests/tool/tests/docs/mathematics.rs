@@ -1,7 +1,8 @@
-//! The loop's own square root, sine and cosine, and arc tangent beside `libm` and `micromath`: the table in `docs/measured.md`.
+//! The loop's own square root, sine and cosine, and arc tangent beside `libm` and `micromath`: the table in
+//! `docs/measured.md`.
 //!
-//! Errors are of a dense sweep on the host, where the same single-precision code gives the same bits; instructions are the Cortex-M4F's
-//! budget, counted in the emulator.
+//! Errors are of a dense sweep on the host, where the same single-precision code gives the same bits; instructions are
+//! the Cortex-M4F's budget, counted in the emulator.
 
 use crate::pages::{compare, text};
 use micromath::F32;

@@ -1,7 +1,8 @@
 //! The page that documents the frames byte by byte, against frames as they are.
 //!
-//! What the page says is put together here with other means than the library's: the bytes of its tables, a CRC of one line and COBS
-//! by its definition. `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs wire_page` writes the tables anew.
+//! What the page says is put together here with other means than the library's: the bytes of its tables, a CRC of one
+//! line and COBS by its definition. `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs wire_page` writes the
+//! tables anew.
 
 use palpate::wire::frame::{MAX_FRAME, pack};
 use palpate::wire::{Record, Report, Sensors};

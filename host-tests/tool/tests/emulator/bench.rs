@@ -39,8 +39,8 @@ fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest(
             .collect();
 
         let [first, end] = fast(board);
-        // The library's functions, by the length and name of its crate; libm's square root; the interrupt itself. A thunk is the
-        // linker's way to such a function from afar.
+        // The library's functions, by the length and name of its crate; libm's square root; the interrupt itself. A
+        // thunk is the linker's way to such a function from afar.
         let of_the_tick = |name: &str| {
             let is_ours = name == interrupt(board) || name.contains("7palpate") || name.contains("4libm");
             is_ours && !name.contains("Thunk")
@@ -53,7 +53,8 @@ fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest(
         assert!(functions.iter().any(|(name, ..)| name == interrupt(board)), "{board:?}: no {}", interrupt(board));
         assert!(bytes > 4_000, "{board:?}: a tick of {bytes} bytes is none");
 
-        // A set-up that the compiler proves to panic, such as a clock that the voltage does not allow, leaves next to nothing of main.
+        // A set-up that the compiler proves to panic, such as a clock that the voltage does not allow, leaves next to
+        // nothing of main.
         let main = functions.iter().filter(|(name, ..)| name.contains("cortex_m_rt_main")).map(|(.., size)| size);
         let main: u64 = main.sum();
         assert!(main > 4_000, "{board:?}: a main of {main} bytes never comes to its loop");

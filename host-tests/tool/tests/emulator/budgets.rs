@@ -8,8 +8,8 @@ use palpate_tool::firmware::{Board, Progress};
 const EVALUATION_FLOOR: u32 = 94;
 /// The most for a servo tick of three joints. The watch that ends contact which no motion explains is part of it.
 const SERVO_TICK: u32 = 1_700;
-/// The most for any tick of the closest point on the capped box with normal, gap and contact: four evaluations of its faces, and the
-/// sign that a vertex's cone gives.
+/// The most for any tick of the closest point on the capped box with normal, gap and contact: four evaluations of its
+/// faces, and the sign that a vertex's cone gives.
 const ANY_TICK: u32 = 720;
 /// The most for the closest point on a face of degree 3, away from its border.
 const ON_A_FACE: u32 = 560;

@@ -1,5 +1,5 @@
-//! The demo's own scene, whole: the host's loop and the firmware's agree bit for bit, tick by tick, while each drives the
-//! plant with its own duties.
+//! The demo's own scene, whole: the host's loop and the firmware's agree bit for bit, tick by tick, while each drives
+//! the plant with its own duties.
 
 use crate::running::is_wanted;
 use clap::Parser;

@@ -1,5 +1,5 @@
-//! What goes wrong on the line, in the middle of a run, with the motors pushing: they stop within the tick, the fault is
-//! named, and nothing but a reset starts them again.
+//! What goes wrong on the line, in the middle of a run, with the motors pushing: they stop within the tick, the fault
+//! is named, and nothing but a reset starts them again.
 
 use crate::path::{TICKS, sensors};
 use crate::running::{TRANSPORTS, firmware, is_wanted};

@@ -1,4 +1,5 @@
-//! The firmware image on the emulated board. Runs with `cargo palpate test`; plain `cargo test` says what it leaves out.
+//! The firmware image on the emulated board. Runs with `cargo palpate test`; plain `cargo test` says what it leaves
+//! out.
 
 mod agreement;
 mod bench;

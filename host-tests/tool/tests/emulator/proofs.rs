@@ -41,7 +41,8 @@ fn no_tick_panics_allocates_recurses_computes_in_f64_or_loops_without_a_bound() 
         for program in ["uart", "fifo"] {
             let image = read(board, program, &[]);
             let tree = image.tree();
-            // A tree of one small function would prove nothing: evaluation, controller and servo are hundreds of instructions.
+            // A tree of one small function would prove nothing: evaluation, controller and servo are hundreds of
+            // instructions.
             let size: usize = tree.functions().map(|function| function.instructions.len()).sum();
             assert!(size > 1_000, "{board:?}: the tick is {size} instructions");
             assert!(tree.findings().is_empty(), "{board:?}, {program}: {:#?}", tree.findings());

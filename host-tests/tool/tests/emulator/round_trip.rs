@@ -40,7 +40,8 @@ fn the_counted_instructions_are_the_same_in_every_run() {
         sorted[sorted.len() / 2],
         counts.iter().max().unwrap()
     );
-    // A tick evaluates a patch and a pose: hundreds of instructions. Of a 4 kHz tick it has 40,000 on a small real core.
+    // A tick evaluates a patch and a pose: hundreds of instructions. Of a 4 kHz tick it has 40,000 on a small real
+    // core.
     assert!(counts.iter().all(|count| (300..10_000).contains(count)), "{counts:?}");
 }
 

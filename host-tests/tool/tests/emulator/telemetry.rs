@@ -1,4 +1,5 @@
-//! Telemetry from the emulated board over a line that loses and damages frames, through `palpate monitor` into a CSV file.
+//! Telemetry from the emulated board over a line that loses and damages frames, through `palpate monitor` into a CSV
+//! file.
 
 use crate::path::{TICKS, sensors};
 use crate::running::is_wanted;
@@ -163,7 +164,8 @@ fn what_the_board_tells_is_recorded_though_the_line_is_bad() {
         }
         assert!(get(row, "dropped") == 0.0, "{row:?}");
     }
-    // It was worth recording: force, and a fault with the tick in which it was seen. The record of that very tick may be one that was spoiled.
+    // It was worth recording: force, and a fault with the tick in which it was seen. The record of that very tick may
+    // be one that was spoiled.
     assert!(rows.iter().any(|row| get(row, "force") > 0.5));
     assert!(rows.iter().any(|row| get(row, "fault_tick") == f64::from(TICKS) && get(row, "fault") == 3.0));
 }

@@ -153,7 +153,8 @@ fn the_oracles_derivatives_are_those_of_its_points() -> Result<(), Box<dyn Error
                 (here.second_uv, along_u(|s| s.tangent_v)),
                 (here.second_vv, along_v(|s| s.tangent_v)),
             ] {
-                // Spans may be a fiftieth of the range: third derivatives of 0.1 m · 50³, times STEP², is the truncation.
+                // Spans may be a fiftieth of the range: third derivatives of 0.1 m · 50³, times STEP², is the
+                // truncation.
                 let scale = 1e-3 * found.length() + 1e-4;
                 assert!(found.distance(difference) <= scale, "degree {:?}: {found} {difference}", patch.degree);
             }
@@ -306,8 +307,8 @@ fn curvature_stretch_and_bend_hold_and_are_tight() -> Result<(), Box<dyn Error>>
         all.sort_by(f64::total_cmp);
         let at = |share: f64| all[((all.len() - 1) as f64 * share) as usize];
         println!("{kind:<20} beyond the samples: median {:.4}, 90 % {:.4}, most {:.4}", at(0.5), at(0.9), at(1.0));
-        // The slack is 2 % of a value that is taken. The rest is what a grid misses of a peak; the last tenth has narrow peaks, next
-        // to where the tangents are nearly parallel, or ran out of cells: looser, not wrong.
+        // The slack is 2 % of a value that is taken. The rest is what a grid misses of a peak; the last tenth has
+        // narrow peaks, next to where the tangents are nearly parallel, or ran out of cells: looser, not wrong.
         assert!(at(0.5) <= SLACK && at(0.9) <= 0.05, "{kind}");
     }
     assert!(unbounded <= patches / 20, "{unbounded} of {patches} without a bound");

@@ -1,4 +1,5 @@
-//! Ways to spoil what lies between patches: each is refused with a message that names file and patches, exit status 2, no output.
+//! Ways to spoil what lies between patches: each is refused with a message that names file and patches, exit status 2,
+//! no output.
 
 use std::error::Error;
 use std::fs;

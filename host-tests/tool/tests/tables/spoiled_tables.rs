@@ -1,4 +1,5 @@
-//! Ways to spoil the tables of a body: the constructor refuses what cannot be followed, and the CRC finds every flipped bit.
+//! Ways to spoil the tables of a body: the constructor refuses what cannot be followed, and the CRC finds every flipped
+//! bit.
 
 use palpate::body::{Body, BodyError, EdgeFace, EdgeKind, LEAF, TableCursor};
 use palpate::math::Vec3;
@@ -354,7 +355,8 @@ impl Walk {
     }
 }
 
-/// The words leave no number out: whichever is changed by its last bit, the constructor refuses the table or its CRC is another.
+/// The words leave no number out: whichever is changed by its last bit, the constructor refuses the table or its CRC is
+/// another.
 #[test]
 fn every_number_of_the_tables_is_in_the_words() -> Result<(), Box<dyn Error>> {
     for baked in [&*BOX, &*POLES] {

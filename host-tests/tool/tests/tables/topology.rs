@@ -46,7 +46,8 @@ const KNOWN: &[Known] = &[
         pieces: 1,
         is_convex: false,
     },
-    // Wall and two rims: 4 faces each, 4 rings of 4 arcs, 3 · 4 straight or round lines. A cap: 5 faces, 4 sides, 4 diagonals, 4 corners.
+    // Wall and two rims: 4 faces each, 4 rings of 4 arcs, 3 · 4 straight or round lines. A cap: 5 faces, 4 sides, 4
+    // diagonals, 4 corners.
     Known {
         file: "rounded_cylinder",
         faces: 3 * 4 + 2 * 5,
@@ -56,9 +57,10 @@ const KNOWN: &[Known] = &[
         pieces: 1,
         is_convex: true,
     },
-    // Body, handle, spout and lid. 32 · 4 sides, of which 8 are poles (of the lid's knob and of the bottom) and 16 are open (rim, lid and
-    // both ends of handle and spout, 4 + 4 + 2 · 2 + 2 · 2); the rest meet in pairs. Body and lid are discs, handle and spout tubes:
-    // V − E + F = 1 + 1 + 0 + 0 with V = 38; but the handle ends at (−2, 0, 0.9), where rings of the body meet, and that is one vertex.
+    // Body, handle, spout and lid. 32 · 4 sides, of which 8 are poles (of the lid's knob and of the bottom) and 16 are
+    // open (rim, lid and both ends of handle and spout, 4 + 4 + 2 · 2 + 2 · 2); the rest meet in pairs. Body and lid
+    // are discs, handle and spout tubes: V − E + F = 1 + 1 + 0 + 0 with V = 38; but the handle ends at (−2, 0, 0.9),
+    // where rings of the body meet, and that is one vertex.
     Known {
         file: "teapot",
         faces: 32,
@@ -111,7 +113,8 @@ fn features_are_those_of_the_shape() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Every border of every face in `f32` against the edge's curve, and the separator against the conormal in double precision.
+/// Every border of every face in `f32` against the edge's curve, and the separator against the conormal in double
+/// precision.
 #[test]
 fn curves_and_separators_are_those_of_the_faces() -> Result<(), Box<dyn Error>> {
     for (known, baked) in KNOWN.iter().zip(BODIES.iter()) {

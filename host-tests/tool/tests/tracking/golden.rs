@@ -139,7 +139,8 @@ fn tracking_follows_the_probe_with_one_step_a_row_and_better_with_four() -> Resu
     for (ticks, limit) in [("1", 2e-4), ("4", 1e-5)] {
         let rows = closest("table1c.toml", "table1c_track.csv", &["--mode", "track", "--ticks", ticks])?;
         assert_eq!(rows[0].1.status, "converged");
-        // A tick is one step of the controller, and on a patch that is not a closed convex body one evaluation of the rolling audit.
+        // A tick is one step of the controller, and on a patch that is not a closed convex body one evaluation of the
+        // rolling audit.
         let most = 2 * ticks.parse::<u32>()?;
         assert!(rows[1..].iter().all(|(_, row)| row.status == "tracking" && row.steps <= most));
         let worst = rows[20..].iter().map(|row| excess(row).abs()).fold(0.0, f64::max);

@@ -1,5 +1,5 @@
-//! The limits of performance against measurement: where the gain stops being stable, how far the witness point lags, how fast
-//! the exponential gain is, and that the bounds they are computed from are bounds.
+//! The limits of performance against measurement: where the gain stops being stable, how far the witness point lags,
+//! how fast the exponential gain is, and that the bounds they are computed from are bounds.
 
 use glam::DVec3;
 use palpate::patch::{Curvature, Patch as _, SplinePatch};
@@ -228,7 +228,8 @@ fn the_lag_behind_a_moving_probe_is_within_its_bound() {
                         // At 1 m/s and 1 kHz the lag is as large as the radius of curvature: the proof ends there.
                         assert!(bound.is_finite() || speed / rate > 5e-4, "no bound at {speed} m/s, {rate} Hz");
                         if share < 1.0 {
-                            // What the lag and the way of a tick leave of the first order, beside the radius of curvature.
+                            // What the lag and the way of a tick leave of the first order, beside the radius of
+                            // curvature.
                             let beyond = 2.0 * greatest * (found.largest + speed / rate);
                             assert!(
                                 found.to_first_order <= 1.0 + beyond,
@@ -316,7 +317,8 @@ fn the_exponential_gain_decays_at_least_exponentially_until_it_is_capped() {
                 let now = excess(&witness);
                 if step.gain < limit.gain {
                     free += 1;
-                    // V falls at least at rate · λ_min(I) · ‖ΔR‖ in continuous time; a step below the certified gain keeps half.
+                    // V falls at least at rate · λ_min(I) · ‖ΔR‖ in continuous time; a step below the certified gain
+                    // keeps half.
                     let factor = 1.0 - 0.5 * f64::from(rate) * stretch;
                     assert!(now <= factor * before + floor(&body), "{name}: {before} to {now}, {factor}");
                 } else {

@@ -1,5 +1,5 @@
-//! The closest point on a patch: what is certified, what is measured, and golden points. Each module says which variables make
-//! its runs long.
+//! The closest point on a patch: what is certified, what is measured, and golden points. Each module says which
+//! variables make its runs long.
 
 mod certificates;
 mod golden;

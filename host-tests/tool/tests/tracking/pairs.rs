@@ -1,11 +1,12 @@
-//! Two patches: the closest pair of moving bodies and the common normal of intersecting ones, against pairs that are known because
-//! they are built that way.
+//! Two patches: the closest pair of moving bodies and the common normal of intersecting ones, against pairs that are
+//! known because they are built that way.
 //!
-//! Body B is placed so that a point of its patch faces a point of A's patch along a common normal, at a chosen distance. Both bodies
-//! are convex, so the two tangent planes separate them and that distance is the least; at a negative one it is the pair of the common
-//! normal, whatever the shapes.
+//! Body B is placed so that a point of its patch faces a point of A's patch along a common normal, at a chosen
+//! distance. Both bodies are convex, so the two tangent planes separate them and that distance is the least; at a
+//! negative one it is the pair of the common normal, whatever the shapes.
 //!
-//! `PALPATE_PAIRS=10000 cargo test --release --test tracking pairs -- --nocapture` is the long mode; without the variable 1,000 pairs are drawn.
+//! `PALPATE_PAIRS=10000 cargo test --release --test tracking pairs -- --nocapture` is the long mode; without the
+//! variable 1,000 pairs are drawn.
 
 use glam::DVec3;
 use palpate::math::Vec3;

@@ -5,8 +5,8 @@ use glam::DVec3;
 
 /// The projection errors at a point of the surface, and their derivative.
 ///
-/// With the tangents `f_i` (`i` is `u` or `v`), `ΔR = f − Q` and the first fundamental form `I_ij = f_i · f_j`, the errors
-/// solve `I Ψ = g`, `g_i = ΔR · f_i`. Differentiated along `x_k`: `I ∂_kΨ = ∂_k g − (∂_k I) Ψ`, where
+/// With the tangents `f_i` (`i` is `u` or `v`), `ΔR = f − Q` and the first fundamental form `I_ij = f_i · f_j`, the
+/// errors solve `I Ψ = g`, `g_i = ΔR · f_i`. Differentiated along `x_k`: `I ∂_kΨ = ∂_k g − (∂_k I) Ψ`, where
 ///
 /// - `∂_k g_i = f_i · f_k + ΔR · f_ik`,
 /// - `((∂_k I) Ψ)_i = Σ_j (f_ik · f_j + f_i · f_jk) Ψ_j`.
@@ -15,9 +15,9 @@ use glam::DVec3;
 ///
 /// `M = 1 + I⁻¹ B`, `B_ik = Δ N · f_ik − f_i · Σ_j f_jk Ψ_j`.
 ///
-/// The first term of `B` is `Δ` times the second fundamental form, the second the Christoffel symbols times the errors. At
-/// the closest point (`Ψ = 0`) the eigenvalues of `M` are `1 + κ ‖ΔR‖`, with the principal curvatures `κ` seen from `Q`. For
-/// a patch and a probe at rest `b = 0`.
+/// The first term of `B` is `Δ` times the second fundamental form, the second the Christoffel symbols times the errors.
+/// At the closest point (`Ψ = 0`) the eigenvalues of `M` are `1 + κ ‖ΔR‖`, with the principal curvatures `κ` seen from
+/// `Q`. For a patch and a probe at rest `b = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorKinematics {
     /// `Ψ`, the measure numbers of Eq. (4) (or the covariant errors).
@@ -55,8 +55,8 @@ impl ErrorKinematics {
         Some(Self { errors, matrix: [[1.0 + along_u[0], along_v[0]], [along_u[1], 1.0 + along_v[1]]] })
     }
 
-    /// Of the covariant errors `g_i = ΔR · f_i`, whose derivative is the Hessian of `½ ‖ΔR‖²`, `I_ik + ΔR · f_ik`: the textbook
-    /// form of the iteration, and another flow with the same rest.
+    /// Of the covariant errors `g_i = ΔR · f_i`, whose derivative is the Hessian of `½ ‖ΔR‖²`, `I_ik + ΔR · f_ik`: the
+    /// textbook form of the iteration, and another flow with the same rest.
     pub fn covariant(surface: &OraclePoint, probe: DVec3) -> Self {
         let difference = surface.point - probe;
         let mixed = surface.tangent_u.dot(surface.tangent_v) + difference.dot(surface.second_uv);

@@ -17,8 +17,8 @@ pub enum Method {
     ProjectedNewton,
 }
 
-/// Which errors Newton's method drives to zero. The paper's text leaves it open: its Eq. (4) defines measure numbers, and the
-/// iteration it calls equivalent drives the covariant errors. The answers are the same, the basins are not.
+/// Which errors Newton's method drives to zero. The paper's text leaves it open: its Eq. (4) defines measure numbers,
+/// and the iteration it calls equivalent drives the covariant errors. The answers are the same, the basins are not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Errors {
     /// `Ψ = I⁻¹ g`, Eq. (4).

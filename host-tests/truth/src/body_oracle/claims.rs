@@ -8,7 +8,8 @@ use palpate::math::Vec3;
 pub struct Claims {
     /// Those that do.
     pub features: Vec<Feature>,
-    /// The least absolute value of all tests that were decided, metres: near 0 the probe lies on a border between regions.
+    /// The least absolute value of all tests that were decided, metres: near 0 the probe lies on a border between
+    /// regions.
     pub margin: f32,
 }
 
@@ -21,7 +22,8 @@ struct Foot {
 /// Starts on an edge.
 const STARTS: u32 = 32;
 
-/// All claims on a probe outside the body. A face claims no probe behind it: `is_behind` says so of a face, and is asked only where it matters.
+/// All claims on a probe outside the body. A face claims no probe behind it: `is_behind` says so of a face, and is
+/// asked only where it matters.
 pub fn claims(body: &Body, probe: Vec3, is_behind: impl Fn(usize) -> bool) -> Claims {
     let mut margin = f32::INFINITY;
     let mut features = Vec::new();
@@ -103,8 +105,9 @@ fn foot(curve: &SplineCurve, probe: Vec3) -> Foot {
         }
         t = next;
     }
-    // Single precision sees the least distance only to the root of its resolution, but where the slope vanishes to all of it. The best of several
-    // lengths: the whole step turns the slope round where the edge is curved as much as the probe is far.
+    // Single precision sees the least distance only to the root of its resolution, but where the slope vanishes to all
+    // of it. The best of several lengths: the whole step turns the slope round where the edge is curved as much as the
+    // probe is far.
     let slope = |t: f32| {
         let at = curve.evaluate(t);
         ((probe - at.point).dot(at.tangent), at.tangent.length_squared())

@@ -20,7 +20,8 @@ pub struct Truth {
     pub feet: Vec<ClosestPoint>,
     /// Index of the patch with the nearest.
     pub nearest: usize,
-    /// Height of the probe over each patch's foot along the outward normal there, metres. At a pole, where there is no normal, NaN.
+    /// Height of the probe over each patch's foot along the outward normal there, metres. At a pole, where there is no
+    /// normal, NaN.
     pub heights: Vec<f64>,
 }
 
@@ -52,8 +53,8 @@ impl<'a> BodyOracle<'a> {
         Self { patches, oracles: patches.iter().map(Oracle::new).collect(), boxes }
     }
 
-    /// The closest point of the body and those of other patches that are at most `within` metres farther, with the patches' indices, the nearest
-    /// first. Patches whose bounding box is too far are left out.
+    /// The closest point of the body and those of other patches that are at most `within` metres farther, with the
+    /// patches' indices, the nearest first. Patches whose bounding box is too far are left out.
     pub fn nearest(&self, probe: DVec3, within: f64) -> Vec<(usize, ClosestPoint)> {
         let distance = |[low, high]: &[DVec3; 2]| probe.distance(probe.clamp(*low, *high));
         let mut order: Vec<_> = self.boxes.iter().map(distance).enumerate().collect();

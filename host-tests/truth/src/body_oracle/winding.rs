@@ -21,10 +21,11 @@ pub fn segment_distance(probe: DVec3, from: DVec3, to: DVec3) -> f64 {
     probe.distance(from + along * t)
 }
 
-/// How often closed triangles, anticlockwise seen from outside, wind around a probe: 1 inside, 0 outside, up to rounding.
+/// How often closed triangles, anticlockwise seen from outside, wind around a probe: 1 inside, 0 outside, up to
+/// rounding.
 ///
-/// The solid angle `Ω` of a triangle has `tan Ω/2 = a·(b×c) / (|a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|)` (A. van Oosterom and J. Strackee,
-/// *The solid angle of a plane triangle*, 1983).
+/// The solid angle `Ω` of a triangle has `tan Ω/2 = a·(b×c) / (|a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|)` (A. van
+/// Oosterom and J. Strackee, *The solid angle of a plane triangle*, 1983).
 pub fn winding_number(probe: DVec3, triangles: &[[DVec3; 3]]) -> f64 {
     let half_angle = |triangle: &[DVec3; 3]| {
         let [a, b, c] = triangle.map(|corner| corner - probe);

@@ -3,8 +3,8 @@
 use glam::{DVec4, Vec4Swizzles as _};
 use palpate_bake::NurbsPatch;
 
-/// The Bézier patch of a polynomial `(u, v) ↦ (w x, w y, w z, w)` of at most these degrees: its values at a grid of as many
-/// points as there are coefficients determine it. The weights must come out positive.
+/// The Bézier patch of a polynomial `(u, v) ↦ (w x, w y, w z, w)` of at most these degrees: its values at a grid of as
+/// many points as there are coefficients determine it. The weights must come out positive.
 pub fn fit(degree: [usize; 2], flip: bool, homogeneous: impl Fn(f64, f64) -> DVec4) -> NurbsPatch {
     let [rows, columns] = degree.map(|degree| degree + 1);
     let at = |index: usize, degree: usize| index as f64 / degree as f64;
@@ -34,8 +34,8 @@ pub fn fit(degree: [usize; 2], flip: bool, homogeneous: impl Fn(f64, f64) -> DVe
     }
 }
 
-/// The matrix from values at `k/degree` to Bernstein coefficients: the inverse of `B_j(k/degree)`, by Gauss and Jordan with
-/// pivots.
+/// The matrix from values at `k/degree` to Bernstein coefficients: the inverse of `B_j(k/degree)`, by Gauss and Jordan
+/// with pivots.
 fn interpolation(degree: usize) -> Vec<Vec<f64>> {
     let size = degree + 1;
     let bernstein = |j: usize, x: f64| {

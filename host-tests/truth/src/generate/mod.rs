@@ -1,8 +1,8 @@
-//! Convex patches drawn from a seed: caps of ellipsoids and paraboloids, cylinders, planes and quartic graphs, degrees 1 to
-//! 5, polynomial and rational, with skewed and unevenly spread parametrisations.
+//! Convex patches drawn from a seed: caps of ellipsoids and paraboloids, cylinders, planes and quartic graphs, degrees
+//! 1 to 5, polynomial and rational, with skewed and unevenly spread parametrisations.
 //!
-//! Each is an exact NURBS patch of a surface whose convexity needs no computation, so the closest point to a probe straight out
-//! from a point of the patch is that point.
+//! Each is an exact NURBS patch of a surface whose convexity needs no computation, so the closest point to a probe
+//! straight out from a point of the patch is that point.
 
 mod fit;
 pub mod models;

@@ -40,7 +40,8 @@ impl Kind {
 pub struct ConvexPatch {
     /// What it is cut from.
     pub kind: Kind,
-    /// The patch, millimetres to decimetres large, near the origin, turned any way; its normals point out of the convex body.
+    /// The patch, millimetres to decimetres large, near the origin, turned any way; its normals point out of the convex
+    /// body.
     pub surface: NurbsPatch,
 }
 

@@ -10,7 +10,8 @@ use std::fmt::Write as _;
 pub enum Shape {
     /// Triangles, anticlockwise seen from outside.
     Polyhedron(Vec<[DVec3; 3]>),
-    /// What a closed polygon of (radius, height) sweeps about z, from a point of the axis to another, upwards on the outside.
+    /// What a closed polygon of (radius, height) sweeps about z, from a point of the axis to another, upwards on the
+    /// outside.
     Revolved(Vec<DVec2>),
 }
 
@@ -137,7 +138,8 @@ pub fn hull(points: &[DVec3]) -> Vec<[DVec3; 3]> {
     faces
 }
 
-/// An octahedron whose edges are halved once, every vertex at a distance of its own from the centre: ridges, valleys and saddles.
+/// An octahedron whose edges are halved once, every vertex at a distance of its own from the centre: ridges, valleys
+/// and saddles.
 pub fn star(random: &mut Random) -> Vec<[DVec3; 3]> {
     let mut radii: Vec<(DVec3, f64)> = Vec::new();
     let mut placed = |direction: DVec3| {

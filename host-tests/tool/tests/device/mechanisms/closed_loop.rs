@@ -31,8 +31,8 @@ fn pulled_home(case: &Case, stiffness: f32, damping: f32) -> (f64, f64, f64) {
 fn a_spring_pulls_the_probe_of_every_device_home() {
     for case in cases() {
         // Stiffness and damping about half of what is recommended; and how far off weight and dry friction may keep it:
-        // the links' weight at the probe, under 1 N (Falcon 1.9 N of plate, shins and thighs), and dry friction over the
-        // shortest lever, on the spring.
+        // the links' weight at the probe, under 1 N (Falcon 1.9 N of plate, shins and thighs), and dry friction over
+        // the shortest lever, on the spring.
         let (stiffness, damping, force) = match case.name {
             "WoodenHaptics 2016" => (400.0, 4.0, 1.1),
             "Polhem v2" => (800.0, 4.0, 3.5),
@@ -68,8 +68,8 @@ fn a_force_accelerates_the_probe_as_the_mass_matrix_says() {
         let command = (case.drive)(tick.angles, [0.0; 3], narrow(force));
         (0..8).for_each(|_| plant.advance(command));
 
-        // Joint momenta `M q̇ = Jᵀ F t`, joint by joint, so that none can hide. Eight periods less the period of delay and the
-        // 0.15 ms of the current loop, or the L/R of the winding.
+        // Joint momenta `M q̇ = Jᵀ F t`, joint by joint, so that none can hide. Eight periods less the period of delay
+        // and the 0.15 ms of the current loop, or the L/R of the winding.
         let lag = match case.name {
             "Hapkit" => 1e-3 / 10.0,
             "Haply 2diy v3" => 1e-3 / 4.0,
@@ -84,7 +84,8 @@ fn a_force_accelerates_the_probe_as_the_mass_matrix_says() {
         for joint in 0..case.joints {
             let momentum: f64 = (0..3).map(|other| mass[joint][other] * plant.rates()[other]).sum();
             let impulse: f64 = (0..3).map(|i| jacobian[i][joint] * force[i]).sum::<f64>() * time;
-            // A millisecond or two of 1 N turns the Jacobian by less than 1 %; on a bridge back-EMF takes a few percent.
+            // A millisecond or two of 1 N turns the Jacobian by less than 1 %; on a bridge back-EMF takes a few
+            // percent.
             let share = if lag == 1.5e-4 { 0.01 } else { 0.08 };
             assert!(
                 (momentum - impulse).abs() < share * largest,

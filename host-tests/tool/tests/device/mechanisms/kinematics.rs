@@ -77,8 +77,8 @@ fn jacobian_agrees_with_differences_of_both_forward_maps() {
                     core::array::from_fn(|i| (ahead[i] - behind[i]) / (2.0 * step))
                 };
                 let oracle = slope(1e-5, &|angles| mechanism.position(angles));
-                // In f32 the step is as large as 4e-3 rad, a power of two, lest the place's rounding drown it: 3e-8 m over
-                // twice that is 4e-6 m/rad; and one more power of it, extrapolated, takes the truncation away.
+                // In f32 the step is as large as 4e-3 rad, a power of two, lest the place's rounding drown it: 3e-8 m
+                // over twice that is 4e-6 m/rad; and one more power of it, extrapolated, takes the truncation away.
                 let own = |step| slope(step, &|angles: Triple| (case.pose)(angles.map(|angle| angle as f32)).position);
                 let (coarse, fine) = (own(1.0 / 128.0), own(1.0 / 256.0));
                 let own: Triple = core::array::from_fn(|i| (4.0 * fine[i] - coarse[i]) / 3.0);
@@ -157,7 +157,8 @@ fn what_cannot_be_closed_or_is_stretched_out_is_outside() {
     // The rod to the crank is 190 mm, the elbow and its other end 136 mm apart, and the short rod 34 mm.
     assert!(POLHEM_V2.kinematics.pose([0.0, 2.4, 1.0]).position.is_nan());
     assert!(!POLHEM_V2.in_workspace([0.0, 2.4, 1.0]));
-    // Cranks in line with the pivots, rods all but in line: 178 mm between elbows, 180 mm of rods. It closes, but barely moves.
+    // Cranks in line with the pivots, rods all but in line: 178 mm between elbows, 180 mm of rods. It closes, but
+    // barely moves.
     assert!(HAPLY_2DIY_V3.kinematics.pose([PI, 0.0]).position.is_finite());
     assert!(!HAPLY_2DIY_V3.in_workspace([PI, 0.0]));
     // One knee out, two in: no plate fits.
@@ -201,7 +202,8 @@ fn the_delta_s_inverse_undoes_its_forward_map_to_rounding() {
         count += 1;
     }
     println!("Novint Falcon: forward undoes inverse to {worst:.1e} m at {count} places");
-    // Angles err by 3e-7 rad and by roundings of a ratio, stretched by up to 0.1 m/rad; lengths of 0.17 m round at 1.5e-8.
+    // Angles err by 3e-7 rad and by roundings of a ratio, stretched by up to 0.1 m/rad; lengths of 0.17 m round at
+    // 1.5e-8.
     assert!(count > 4_000 && worst < 3e-7, "{worst:e} m at {count} places");
     assert_eq!(delta.angles(vec3(0.0, 0.0, 0.2)), None);
     assert_eq!(delta.angles(vec3(f32::NAN, 0.0, 0.0)), None);

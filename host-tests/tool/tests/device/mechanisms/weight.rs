@@ -64,8 +64,8 @@ fn readings_lean_neither_way() {
             }
             let mean = sum / f64::from(PLACES);
             println!("{} joint {joint}: mean {mean:.4} counts, worst {worst:.3}", case.name);
-            // Places at random would give 0.29/√4000 = 0.005; read at the line the mean would be a half. A count is 2e-4 rad or
-            // more, and f32 rounds an angle of a radian or two to 1.2e-7: a thousandth of it.
+            // Places at random would give 0.29/√4000 = 0.005; read at the line the mean would be a half. A count is
+            // 2e-4 rad or more, and f32 rounds an angle of a radian or two to 1.2e-7: a thousandth of it.
             assert!(mean.abs() < 0.01 && worst < 0.505, "{} joint {joint}: {mean} {worst}", case.name);
         }
     }

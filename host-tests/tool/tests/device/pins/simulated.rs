@@ -130,8 +130,8 @@ fn a_fed_bridge_gives_the_torque_asked_for_at_speed_and_a_bare_one_does_not() {
         }
         plant.currents()[0]
     });
-    // A quarter of 1.2 A. Back-EMF is 0.025 · 17.45 · 0.3/0.0657 = 1.99 V, which takes 0.2 A; the preset makes up for four
-    // fifths of it. To a milliampere for the duty's steps and the last of the start.
+    // A quarter of 1.2 A. Back-EMF is 0.025 · 17.45 · 0.3/0.0657 = 1.99 V, which takes 0.2 A; the preset makes up for
+    // four fifths of it. To a milliampere for the duty's steps and the last of the start.
     for (current, expected) in currents.into_iter().zip([0.3 - 0.1994, 0.3 - 0.0399]) {
         assert!((current - expected).abs() < 1e-3, "{currents:?}");
     }

@@ -1,18 +1,19 @@
 //! An exact sphere without poles: six rational patches of degree (4, 4).
 //!
 //! # Derivation
-//! A pair of complex numbers `ψ = (a, b)`, a spinor, names the point `(2 Re āb, 2 Im āb, |a|² − |b|²) / (|a|² + |b|²)` of the unit
-//! sphere; a common factor does not matter. So a polynomial `ψ(u, v)` of degree (2, 2) is a rational patch of degree (4, 4)
-//! that lies on the sphere exactly.
+//! A pair of complex numbers `ψ = (a, b)`, a spinor, names the point `(2 Re āb, 2 Im āb, |a|² − |b|²) / (|a|² + |b|²)`
+//! of the unit sphere; a common factor does not matter. So a polynomial `ψ(u, v)` of degree (2, 2) is a rational patch
+//! of degree (4, 4) that lies on the sphere exactly.
 //!
-//! The face about +z of a cube blown up to the sphere has its corners at `(±1, ±1, 1)/√3` and great circles between them. Take corner
-//! spinors `ψ = (cos θ/2, e^{iφ} sin θ/2)` with `cos θ = 1/√3` and `φ` an odd multiple of 45°. The segment from one spinor to another is the short
-//! great circle if their product `⟨ψ, χ⟩` is real and positive. For neighbouring corners it is not: its argument is
-//! `α = arctan(tan² θ/2) = 15°`, a quarter of half the face's solid angle 2π/3. (That the phases do not close around the face is why no
-//! patch of degree (2, 2) does it.) So a border is the segment to `e^{−iα} χ` times a linear factor whose argument makes the α good:
-//! `((1 − t) ψ + t e^{−iα} χ) ((1 − t) + t e^{iα})`, of degree 2, with control spinors `ψ, (e^{−iα} χ + e^{iα} ψ)/2, χ`. The factor's square
-//! is common to all four homogeneous coordinates: the border is the great circle, at a pace that is the same from both ends.
-//! The middle control spinor is free; `(cos θ/2 · cos² α, 0)` continues the pattern of the others.
+//! The face about +z of a cube blown up to the sphere has its corners at `(±1, ±1, 1)/√3` and great circles between
+//! them. Take corner spinors `ψ = (cos θ/2, e^{iφ} sin θ/2)` with `cos θ = 1/√3` and `φ` an odd multiple of 45°. The
+//! segment from one spinor to another is the short great circle if their product `⟨ψ, χ⟩` is real and positive. For
+//! neighbouring corners it is not: its argument is `α = arctan(tan² θ/2) = 15°`, a quarter of half the face's solid
+//! angle 2π/3. (That the phases do not close around the face is why no patch of degree (2, 2) does it.) So a border is
+//! the segment to `e^{−iα} χ` times a linear factor whose argument makes the α good: `((1 − t) ψ + t e^{−iα} χ) ((1 −
+//! t) + t e^{iα})`, of degree 2, with control spinors `ψ, (e^{−iα} χ + e^{iα} ψ)/2, χ`. The factor's square is common
+//! to all four homogeneous coordinates: the border is the great circle, at a pace that is the same from both ends. The
+//! middle control spinor is free; `(cos θ/2 · cos² α, 0)` continues the pattern of the others.
 
 use super::text::BezierPatch;
 use palpate_bake::bernstein_product_share;
@@ -70,8 +71,8 @@ fn conjugate_product([a, b]: Complex, other: Complex) -> Complex {
     product([a, -b], other)
 }
 
-/// A control point of the face about +z, `x, y, z, w`, from the eighth of the net that the others mirror: so that all symmetries
-/// of the cube, and with them the borders that two faces share, hold to the last bit.
+/// A control point of the face about +z, `x, y, z, w`, from the eighth of the net that the others mirror: so that all
+/// symmetries of the cube, and with them the borders that two faces share, hold to the last bit.
 fn symmetric_point(net: &[[[f64; 4]; 5]; 5], i: usize, j: usize) -> [f64; 4] {
     let (x_off, y_off) = (i as isize - 2, j as isize - 2);
     let (large, small) = (x_off.abs().max(y_off.abs()), x_off.abs().min(y_off.abs()));

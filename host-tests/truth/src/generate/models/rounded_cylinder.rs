@@ -47,8 +47,8 @@ pub(super) fn patches(shape: Shape) -> Vec<BezierPatch> {
     patches
 }
 
-/// A disc: a square whose corners lie halfway out, and between each of its sides and the circle a patch ruled by straight lines. Along the
-/// side the weights are 1, as the square's are; along the arc they are the arc's.
+/// A disc: a square whose corners lie halfway out, and between each of its sides and the circle a patch ruled by
+/// straight lines. Along the side the weights are 1, as the square's are; along the arc they are the arc's.
 fn cap(kind: &str, radius: f64, z: f64, flip: bool) -> Vec<BezierPatch> {
     let corner = |turns: usize| {
         let [[x, y, _], ..] = quarter(turns);
