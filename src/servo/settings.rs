@@ -18,7 +18,7 @@ pub struct Settings {
     pub velocity_corner: f32,
     /// Seconds over which the force is faded in after force was asked for.
     pub soft_start: f32,
-    /// Where the body's origin lies in the device's frame, metres.
+    /// Where the origin of the body's tables lies in the device's frame, metres. Baked source says with `CENTRE` where that lies in the model.
     pub body_origin: Vec3,
 }
 

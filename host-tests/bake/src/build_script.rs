@@ -26,7 +26,7 @@ use thiserror::Error;
 /// }
 /// ```
 ///
-/// `part::SURFACE` is what a `Servo` takes. `palpate check part.toml` says what is proved of it.
+/// `part::SURFACE` is what a `Servo` takes, and `part::CENTRE` says where its frame lies in the model. `palpate check part.toml` says what is proved of it.
 #[derive(Clone, Debug)]
 pub struct Bake {
     model: PathBuf,
@@ -110,6 +110,7 @@ impl Bake {
             model_file: &name.to_string_lossy(),
             out_file: &out_file.to_string_lossy(),
             model: text.as_bytes(),
+            centre: model.centre,
         };
         let source = source::source(&origin, &model, &body).map_err(|cause| BakeError::Source { file, cause })?;
         fs::write(&out, source).map_err(|cause| BakeError::Write { file: out.display().to_string(), cause })?;

@@ -33,9 +33,6 @@ impl RawPatch {
 /// Lengths for which squares and products of four of them stay far inside the range of `f32`.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e3;
 
-/// Coordinates above this many sizes leave less than 1e-5 of the size to the spacing of `f32`, 6e-8 of the coordinate.
-const FARTHEST: f64 = 100.0;
-
 /// A patch thinner than the spacing of `f32` is a curve in the table.
 const LEAST_AREA: f64 = f32::EPSILON as f64;
 
@@ -89,10 +86,6 @@ impl NurbsPatch {
         // Also refuses NaN, from coordinates that overflow.
         if !SIZES.contains(&size) {
             return Err(Fault::Size { size });
-        }
-        let distance = self.points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max);
-        if distance > FARTHEST * size {
-            return Err(Fault::FarAway { distance, limit: FARTHEST });
         }
         // f_u × f_v has degree 3 p - 1 at most: a grid of 15 intervals a span misses it only if it is 0 everywhere.
         let mut largest: f64 = 0.0;

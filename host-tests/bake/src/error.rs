@@ -60,6 +60,20 @@ pub enum ModelError {
         /// What is wrong.
         fault: Fault,
     },
+    /// The body lies too far away from the origin for the digits of its own file.
+    #[error(
+        "{file}: the body lies {distance:e} m from the origin, above {limit:e} times its size of {size:e} m: move the origin nearer"
+    )]
+    FarAway {
+        /// The file.
+        file: String,
+        /// The largest coordinate, metres.
+        distance: f64,
+        /// The largest side of the bounding box, metres.
+        size: f64,
+        /// The limit, in sizes.
+        limit: f64,
+    },
     /// The patches do not make a body.
     #[error("{file}: {fault}")]
     Seam {
@@ -239,13 +253,15 @@ pub enum Fault {
         /// The largest side of its bounding box, metres.
         size: f64,
     },
-    /// The patch lies too far away from the origin for single precision.
-    #[error("it lies {distance:e} m from the origin, above {limit:e} times its size: move the origin nearer")]
-    FarAway {
-        /// The largest coordinate, metres.
-        distance: f64,
-        /// The limit.
-        limit: f64,
+    /// The patch is too small beside the rest of the body.
+    #[error("it is {size:e} m large, below {share:e} of the body's {body:e} m: single precision cannot hold both")]
+    Tiny {
+        /// The largest side of its bounding box, metres.
+        size: f64,
+        /// The body's, metres.
+        body: f64,
+        /// What share of it is the least.
+        share: f64,
     },
     /// A bound does not fit single precision.
     #[error("its second derivatives cannot be bounded in single precision: weights or knots are too uneven")]

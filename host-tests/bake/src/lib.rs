@@ -19,6 +19,7 @@ mod coefficients;
 mod convexity;
 mod error;
 mod form;
+mod frame;
 pub mod graph;
 mod jet;
 mod knots;

@@ -13,7 +13,9 @@
 
 use super::check::RawPatch;
 use super::error::ModelError;
+use super::frame;
 use super::patch::NurbsPatch;
+use glam::DVec3;
 use serde::Deserialize;
 use std::path::Path;
 
@@ -55,7 +57,10 @@ pub struct Model {
     pub name: String,
     /// What the file is in; `closest` answers in it.
     pub unit: Unit,
-    /// Its patches, in metres, at least one.
+    /// Where the origin of the patches' frame, the tables', lies in the file, metres: zero unless the body lies far from the file's
+    /// own origin. A place of the file less this is one of the tables.
+    pub centre: DVec3,
+    /// Its patches, in metres, in a frame near the body; at least one.
     pub patches: Vec<NurbsPatch>,
 }
 
@@ -99,8 +104,9 @@ impl Model {
             let label = patch.name.as_ref().map_or_else(|| index.to_string(), |name| format!("\"{name}\""));
             patch.check(unit.per_metre()).map_err(|fault| ModelError::Patch { file: file(), patch: label, fault })
         };
-        let patches = raw.patch.into_iter().enumerate().map(check).collect::<Result<_, _>>()?;
-        Ok(Self { name: raw.name, unit, patches })
+        let mut patches: Vec<_> = raw.patch.into_iter().enumerate().map(check).collect::<Result<_, _>>()?;
+        let centre = frame::centred(&mut patches, file)?;
+        Ok(Self { name: raw.name, unit, centre, patches })
     }
 
     /// What a patch goes by: its name, or its index if it has none.

@@ -3,6 +3,7 @@
 use anyhow::{Context as _, bail, ensure};
 use glam::DVec3;
 use palpate::math::Vec3;
+use palpate_bake::Model;
 use std::path::Path;
 
 /// A query point.
@@ -10,19 +11,20 @@ use std::path::Path;
 pub struct Query {
     /// As given, in the file's unit.
     pub given: DVec3,
-    /// As the firmware gets it, metres.
+    /// As the firmware gets it, metres, in the frame of the tables.
     pub probe: Vec3,
 }
 
 /// Its square, the largest number the controller forms of it, is far below the end of `f32`, 3e38.
 const FARTHEST: f64 = 1e9;
 
-/// Reads the columns `qx`, `qy`, `qz`, in a unit that goes `per_metre` times into a metre. Lines that begin with `#` are comments.
+/// Reads the columns `qx`, `qy`, `qz`, in the unit and the frame of a model. Lines that begin with `#` are comments.
 ///
 /// # Errors
 /// What is wrong, with file and line.
-pub fn read(path: &Path, per_metre: f64) -> anyhow::Result<Vec<Query>> {
+pub fn read(path: &Path, model: &Model) -> anyhow::Result<Vec<Query>> {
     let file = path.display();
+    let per_metre = model.unit.per_metre();
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
@@ -53,7 +55,7 @@ pub fn read(path: &Path, per_metre: f64) -> anyhow::Result<Vec<Query>> {
             ensure!(coordinate.abs() <= FARTHEST * per_metre, "{file}:{line}: {name} is beyond {FARTHEST:e} m");
         }
         let given = DVec3::from_array(coordinates);
-        queries.push(Query { given, probe: (given / per_metre).as_vec3() });
+        queries.push(Query { given, probe: (given / per_metre - model.centre).as_vec3() });
     }
     Ok(queries)
 }

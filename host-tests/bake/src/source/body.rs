@@ -47,7 +47,7 @@ pub fn body_source(origin: &Origin<'_>, body: &BakedBody, labels: &[String]) -> 
         let _ = write!(source, "\n// Edge {index}.\n{}", pretty(numbers)?);
     }
     let _ = write!(source, "\n{}", pretty(lists(body, &breaks))?);
-    let _ = write!(source, "\n{}", pretty(whole(body, crc))?);
+    let _ = write!(source, "\n{}", pretty(whole(body, crc, &origin.centre()))?);
     Ok(source)
 }
 
@@ -216,7 +216,7 @@ fn vector(vector: Vec3) -> TokenStream {
 }
 
 /// The locator and the body.
-fn whole(body: &BakedBody, crc: u32) -> TokenStream {
+fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
     let locator = &body.locator;
     let nodes = locator.nodes.iter().map(|node| {
         let children = node.map(Literal::u16_unsuffixed);
@@ -254,5 +254,6 @@ fn whole(body: &BakedBody, crc: u32) -> TokenStream {
         /// The body.
         #[allow(dead_code)]
         pub const SURFACE: &Surface = &BODY;
+        #centre
     }
 }

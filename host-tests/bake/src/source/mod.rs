@@ -12,6 +12,7 @@ pub use body::{SourceError, body_source};
 use crate::baked::BakedPatch;
 use crate::body::BakedBody;
 use crate::model::Model;
+use glam::DVec3;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use sha2::{Digest as _, Sha256};
@@ -29,6 +30,8 @@ pub struct Origin<'a> {
     pub out_file: &'a str,
     /// The model file's bytes; their SHA-256 goes into the header.
     pub model: &'a [u8],
+    /// Where the tables' frame lies in the model, metres; see [`Model::centre`].
+    pub centre: DVec3,
 }
 
 impl Origin<'_> {
@@ -44,6 +47,18 @@ impl Origin<'_> {
             "// Baked table, not for editing: palpate bake {model_file} --out {out_file}\n\
              // Table format {FORMAT_VERSION}. SHA-256 of the model file: {digest}\n"
         )
+    }
+
+    /// The constant that says where the tables' frame lies.
+    fn centre(&self) -> TokenStream {
+        // It has few enough bits to be exact.
+        let [x, y, z] = self.centre.as_vec3().to_array().map(number::number);
+        quote! {
+            /// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the tables. With the
+            /// model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
+            #[allow(dead_code)]
+            pub const CENTRE: palpate::math::Vec3 = palpate::math::vec3(#x, #y, #z);
+        }
     }
 }
 
@@ -67,6 +82,7 @@ pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String
         [first, ..] => Literal::u32_unsuffixed(first.to_patch().map_or(0, |patch| patch.table_crc())),
         [] => Literal::u32_unsuffixed(0),
     };
+    let centre = origin.centre();
     let statics = quote! {
         /// All patches of the model, in the order of its file.
         #[allow(dead_code)]
@@ -81,6 +97,7 @@ pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String
         /// CRC-32 of its numbers, [`palpate::patch::SplinePatch::table_crc`], computed when it was baked.
         #[allow(dead_code)]
         pub const TABLE_CRC: u32 = #crc;
+        #centre
     };
     let _ = write!(source, "\n{}", pretty(statics)?);
     Ok(source)

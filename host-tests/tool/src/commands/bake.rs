@@ -57,8 +57,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         (loaded.body, report) = (body, Some(of_locator));
     }
     if let Some(out) = &arguments.out {
-        let origin =
-            Origin { model_file: &loaded.file.name, out_file: &file_name(out)?, model: loaded.file.text.as_bytes() };
+        let origin = Origin {
+            model_file: &loaded.file.name,
+            out_file: &file_name(out)?,
+            model: loaded.file.text.as_bytes(),
+            centre: loaded.model.centre,
+        };
         let text = source::source(&origin, &loaded.model, &loaded.body)?;
         write_whole(out, text.as_bytes())?;
     }

@@ -56,7 +56,7 @@ enum Mode {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let model = models::read(&arguments.model)?;
     let per_metre = model.unit.per_metre();
-    let queries = queries::read(&arguments.queries, per_metre)?;
+    let queries = queries::read(&arguments.queries, &model)?;
     let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
     // The tables reach as far as the queries do, and are baked where there are some.
     let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             }
             (Mode::Cold, _) => solver.cold(query.probe).0,
         };
-        let point = found.point.as_dvec3() * per_metre;
+        let point = (found.point.as_dvec3() + model.centre) * per_metre;
         let [u, v] = found.parameters;
         let distance = point.distance(query.given);
         let gap = if found.is_inside { -distance } else { distance };

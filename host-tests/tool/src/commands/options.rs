@@ -7,8 +7,8 @@ use crate::models::ModelFile;
 use crate::simulation::HostLoop;
 use anyhow::{Context, bail};
 use clap::Args;
+use glam::DVec3;
 use palpate::device::{Device, Kinematics};
-use palpate::math::vec3;
 use palpate::servo::{Safety, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::source::Origin;
@@ -63,13 +63,15 @@ pub struct SceneOptions {
     pub soft_start: f32,
     /// Where the model's origin lies in the device's workspace: x,y,z in mm from its centre; centres it if not given
     #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
-    pub at: Option<Vec<f32>>,
+    pub at: Option<Vec<f64>>,
 }
 
 /// A scene that is ready to run.
 pub struct Scene {
     /// The model file.
     file: ModelFile,
+    /// Where the frame of its tables lies in the model, metres.
+    pub centre: DVec3,
     /// What is touched.
     pub felt: Felt,
     /// The device.
@@ -92,7 +94,7 @@ impl SceneOptions {
         let model = file.model()?;
         let felt = Felt::read(&model, &self.model, self.patch.as_deref())?;
         let body_origin = match self.at.as_deref() {
-            Some(&[x, y, z]) => vec3(x, y, z) * 1e-3,
+            Some(&[x, y, z]) => (DVec3::new(x, y, z) * 1e-3 + model.centre).as_vec3(),
             _ => -felt.middle(),
         };
         let device = self.device;
@@ -118,7 +120,7 @@ impl SceneOptions {
         }
         // A tenth of a second in standby, in which the witness point converges from the middle of the patch.
         let enable_at = (0.1 * self.rate) as u32;
-        Ok(Scene { file, felt, device, settings, ticks: ticks as u32, enable_at })
+        Ok(Scene { file, centre: model.centre, felt, device, settings, ticks: ticks as u32, enable_at })
     }
 
     /// The simulated device with a hand that touches the scene's surface.
@@ -212,7 +214,12 @@ impl Scene {
 
     /// Where the scene's tables come from.
     pub fn origin(&self) -> Origin<'_> {
-        Origin { model_file: &self.file.name, out_file: "body.rs", model: self.file.text.as_bytes() }
+        Origin {
+            model_file: &self.file.name,
+            out_file: "body.rs",
+            model: self.file.text.as_bytes(),
+            centre: self.centre,
+        }
     }
 
     /// The loop's settings and device as the source file that an image is built with. Every number reads back as the same `f32`.

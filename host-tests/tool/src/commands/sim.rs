@@ -6,6 +6,7 @@ use crate::report::Summary;
 use crate::simulation::{self, Trace};
 use anyhow::Context;
 use clap::Args;
+use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -28,7 +29,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let trace = run_on_host(&arguments.scene, &scene)?;
     print!("{}", Summary::new(&trace));
     if let Some(path) = &arguments.csv {
-        write_csv(&trace, path).with_context(|| format!("cannot write {}", path.display()))?;
+        write_csv(&trace, scene.centre, path).with_context(|| format!("cannot write {}", path.display()))?;
         println!("  {:<20} {}", "recorded to", path.display());
     }
     Ok(ExitCode::SUCCESS)
@@ -47,8 +48,8 @@ pub fn run_on_host(options: &SceneOptions, scene: &Scene) -> anyhow::Result<Trac
     Ok(trace)
 }
 
-/// One row a tick; SI units.
-fn write_csv(trace: &Trace, path: &Path) -> anyhow::Result<()> {
+/// One row a tick; SI units, the probe in the model's own frame.
+fn write_csv(trace: &Trace, centre: DVec3, path: &Path) -> anyhow::Result<()> {
     let mut writer = csv::Writer::from_path(path)?;
     writer.write_record([
         "time", "count_a", "count_b", "count_c", "duty_a", "duty_b", "duty_c", "phase", "fault", "mode", "contact",
@@ -61,11 +62,16 @@ fn write_csv(trace: &Trace, path: &Path) -> anyhow::Result<()> {
         row.extend(report.duties.map(|duty| duty.to_string()));
         row.extend([report.phase, report.fault, report.mode, report.contact].map(|number| number.to_string()));
         row.extend(report.parameters.map(|parameter| parameter.to_string()));
-        row.extend(report.probe.map(|component| component.to_string()));
+        row.extend([0, 1, 2].map(|axis| placed(report.probe[axis], centre[axis])));
         row.push(report.gap.to_string());
         row.extend(report.force.map(|component| component.to_string()));
         writer.write_record(row)?;
     }
     writer.flush()?;
     Ok(())
+}
+
+/// A coordinate of the tables' frame in the model's; where they are one, with the digits of `f32`.
+fn placed(coordinate: f32, centre: f64) -> String {
+    if centre == 0.0 { coordinate.to_string() } else { format!("{:.9}", f64::from(coordinate) + centre) }
 }

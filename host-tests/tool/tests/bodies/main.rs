@@ -5,6 +5,7 @@
 mod cold;
 mod converging;
 mod locator;
+mod placement;
 mod plate;
 mod refusals;
 mod regions;

@@ -66,6 +66,7 @@ fn files() -> Vec<String> {
         refused("unit = \"inch\""),
         refused("unit = \"mm\""),
         refused(&format!("unit = \"mm\"\n{named}{plain}{plain}{named}")),
+        refused(&format!("unit = \"m\"\n{}", plain.replace("0]", "2000]"))),
     ]
 }
 
@@ -91,7 +92,7 @@ fn faults() -> Vec<Fault> {
         Fault::TooManySpans { axis: v, count: 300 },
         Fault::NoArea,
         Fault::Size { size: 4e4 },
-        Fault::FarAway { distance: 900.0, limit: 100.0 },
+        Fault::Tiny { size: 7e-3, body: 900.0, share: 1e-5 },
         Fault::NoBounds,
         Fault::Uneven { u: 0, v: 2 },
     ];
@@ -114,7 +115,7 @@ fn faults() -> Vec<Fault> {
         | Fault::TooManySpans { .. }
         | Fault::NoArea
         | Fault::Size { .. }
-        | Fault::FarAway { .. }
+        | Fault::Tiny { .. }
         | Fault::NoBounds
         | Fault::Uneven { .. } => all,
     }

@@ -44,7 +44,8 @@ fn baked() -> Result<(String, BakedBody), Box<dyn Error>> {
     let text = half_ball();
     let model = Model::parse(&text, "half_ball.toml")?;
     let body = BakedBody::new(&model, "half_ball.toml")?;
-    let origin = Origin { model_file: "half_ball.toml", out_file: "half_ball.rs", model: text.as_bytes() };
+    let origin =
+        Origin { model_file: "half_ball.toml", out_file: "half_ball.rs", model: text.as_bytes(), centre: model.centre };
     Ok((body_source(&origin, &body, &body.labels(&model))?, body))
 }
 

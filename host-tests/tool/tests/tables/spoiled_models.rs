@@ -93,7 +93,7 @@ const SPOILED: &[(&str, &str, &str)] = &[
     (
         "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
         "[[0, 0, 9e5], [0, 7, 9e5]], [[7, 0, 9e5], [7, 7, 9e5]]",
-        "patch 1: it lies 9e2 m from the origin",
+        "patch \"top\": it is 9e-3 m large, below 1e-5 of the body's",
     ),
     ("[7, 7, -5, 1]", "[7, 1e300, -5, 1]", "patch 1: it is"),
     // The file.

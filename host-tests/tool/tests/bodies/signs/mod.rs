@@ -38,7 +38,7 @@ fn wrong(shape: &Shape, random: &mut Random) -> usize {
     let baked = BakedBody::new(&model, "drawn").unwrap_or_else(|error| panic!("{error}\n{text}"));
     let vertices = shape.vertices();
     let probes: Vec<_> = (0..from_environment("PALPATE_PROBES", 200))
-        .map(|_| (1e-3 * draw(shape, &vertices, random)).as_vec3())
+        .map(|_| (1e-3 * draw(shape, &vertices, random) - model.centre).as_vec3())
         .collect();
     let wide: Vec<_> = probes.iter().map(|probe| probe.as_dvec3()).collect();
     let options = baked.locator_options();
@@ -48,7 +48,7 @@ fn wrong(shape: &Shape, random: &mut Random) -> usize {
     let mut wrong = 0;
     for probe in probes {
         let (found, _) = solver.cold(probe);
-        let (distance, is_inside) = shape.truth(1e3 * probe.as_dvec3());
+        let (distance, is_inside) = shape.truth(1e3 * (probe.as_dvec3() + model.centre));
         let size = 1e3 * f64::from(body.size());
         let off = (1e3 * found.point.as_dvec3().distance(probe.as_dvec3()) - distance) / size;
         let is_wrong_side = distance > ON_SURFACE * size && is_inside.is_some_and(|inside| inside != found.is_inside);

@@ -4,8 +4,11 @@
 mod cube_sphere;
 mod octants;
 mod plate;
+mod rounded_box;
 mod rounded_cylinder;
 mod text;
+
+pub use rounded_box::rounded_box;
 
 /// A model file that ships.
 #[derive(Clone, Debug)]
