@@ -130,12 +130,6 @@ fn blossom(degree: usize, power: usize, index: usize, [a, b]: [f64; 2]) -> f64 {
     (0..=power).map(term).sum::<f64>() / binomial(degree, power)
 }
 
-/// How much the product of coefficient `own` of one polynomial and `other` of another adds to coefficient `own + other` of their
-/// product.
-pub fn product_share(degree: usize, own: usize, degree_other: usize, other: usize) -> f64 {
-    binomial(degree, own) * binomial(degree_other, other) / binomial(degree + degree_other, own + other)
-}
-
 /// Exact up to the degree 15 of a second derivative of a rational quintic.
 pub(super) fn binomial(n: usize, k: usize) -> f64 {
     // Of more than n there are none: the product passes 0.

@@ -39,7 +39,6 @@ mod tracked;
 
 pub use axis::Axis;
 pub use baked::BakedPatch;
-pub use bernstein::product_share as bernstein_product_share;
 pub use body::{BakedBody, LocatorTable};
 pub use build_script::{Bake, BakeError};
 pub use coefficients::BakedCoefficients;

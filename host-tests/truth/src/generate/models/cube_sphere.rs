@@ -16,7 +16,6 @@
 //! middle control spinor is free; `(cos θ/2 · cos² α, 0)` continues the pattern of the others.
 
 use super::text::BezierPatch;
-use palpate_bake::bernstein_product_share;
 use std::f64::consts::FRAC_PI_4;
 
 /// A complex number.
@@ -29,7 +28,7 @@ fn face() -> [[[f64; 4]; 5]; 5] {
     let spinors = spinors();
     let mut net = [[[0.0; 4]; 5]; 5];
     for (i, j, k, l) in (0..81).map(|n| (n % 3, n / 3 % 3, n / 9 % 3, n / 27)) {
-        let share = bernstein_product_share(2, i, 2, k) * bernstein_product_share(2, j, 2, l);
+        let share = quartic_share(i, k) * quartic_share(j, l);
         let ([a, b], [c, d]) = (spinors[i][j], spinors[k][l]);
         let [re, im] = conjugate_product(a, d);
         // Summed over all pairs, the parts that are not symmetric in the two spinors cancel.
@@ -117,4 +116,12 @@ pub(super) fn patches(half_axes: [f64; 3]) -> Vec<BezierPatch> {
             BezierPatch { name: name.to_owned(), degree: [4, 4], points, flip: false }
         })
         .collect()
+}
+
+/// How much the product of the Bernstein coefficients `i` and `k` of two parabolas adds to coefficient `i + k` of the
+/// quartic: `C(2, i) C(2, k) / C(4, i + k)`.
+fn quartic_share(i: usize, k: usize) -> f64 {
+    const OF_TWO: [f64; 3] = [1.0, 2.0, 1.0];
+    const OF_FOUR: [f64; 5] = [1.0, 4.0, 6.0, 4.0, 1.0];
+    OF_TWO[i] * OF_TWO[k] / OF_FOUR[i + k]
 }
