@@ -287,5 +287,8 @@ mod tests {
         let numbers = FLAT.as_flattened();
         assert!(words[..12].iter().zip(numbers).all(|(word, number)| *word == Some(number.to_bits())), "{words:?}");
         assert_eq!(words[12], None);
+        // Of rational ones, four a point.
+        let last: [Option<u32>; 3] = core::array::from_fn(|index| round.word(29 + index));
+        assert_eq!(last, [Some(0), Some(1.0_f32.to_bits()), None]);
     }
 }

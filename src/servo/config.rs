@@ -218,3 +218,38 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
+    use crate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+    use crate::servo::ContactLimits;
+
+    static WALL: SplinePatch = SplinePatch::from_table(
+        [1, 1],
+        &[0.0, 1.0],
+        &[0.0, 1.0],
+        Coefficients::Polynomial(&[[0.0, 0.0, 0.0], [0.0, 0.2, 0.0], [0.2, 0.0, 0.0], [0.0, 0.0, 0.0]]),
+        ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
+        Orientation::Outward,
+        0.2,
+    );
+
+    #[test]
+    fn settings_become_what_the_tick_needs() {
+        let with = |max_force, stiffness| {
+            let settings = Settings { rate: 4_000.0, max_force, stiffness, ..Settings::DEFAULT };
+            Servo::try_new(&DEVICE, &WALL, Controller::CERTIFIED, settings).unwrap()
+        };
+        assert_eq!(with(1.0, 20.0).penalty.max_force, 1.0);
+        // No more than the device bears.
+        assert_eq!(with(1_000.0, 20.0).penalty.max_force, DEVICE.max_force);
+        // 1 N at 20 N/m is 5 cm deep: contact is lost at twice that.
+        assert_eq!(with(1.0, 20.0).contact_watch.max_depth, 0.1);
+        let limits = ContactLimits { depth: 4.0, ..ContactLimits::DEFAULT };
+        let safety = Safety { link_timeout: 0.05, contact: Some(limits), ..Safety::DEFAULT };
+        let careful = with(1.0, 20.0).try_safety(safety).unwrap();
+        assert_eq!((careful.link_ticks, careful.contact_watch.max_depth), (200, 0.2));
+    }
+}
