@@ -20,8 +20,11 @@ pub struct Solver<'a> {
 pub enum Status {
     /// Cold: every candidate was searched to its end.
     Converged,
-    /// Cold: the evaluations were used up, or the query is farther off than the locator's tables can reach.
+    /// Cold: a candidate was given up short of its minimum.
     StepLimit,
+    /// Cold: the query is farther off than the locator's tables reach. The list of the nearest cell was searched, which is
+    /// not proved to hold the closest point of a query from there.
+    Far,
     /// One row of a track.
     Tracking,
     /// One row of a track while the body is touched: the point is the god-object, and the sign that of its gap.
@@ -59,9 +62,11 @@ impl<'a> Solver<'a> {
         while !state.is_located {
             self.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), 1.0);
         }
-        // Beyond its cube the locator's list is not proved to be complete.
-        let status =
-            if located.complete && self.body.locator().holds(probe) { Status::Converged } else { Status::StepLimit };
+        let status = match (self.body.locator().holds(probe), located.complete) {
+            (false, _) => Status::Far,
+            (true, true) => Status::Converged,
+            (true, false) => Status::StepLimit,
+        };
         let face = usize::from(located.face);
         let [u, v] = located.parameters;
         let point = Witness::at(&self.body.faces()[face].patch, u, v).surface.point;

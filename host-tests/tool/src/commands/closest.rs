@@ -16,12 +16,14 @@ use std::process::ExitCode;
 /// none; gap is the distance from the query to p, negative when the query is inside a closed body; steps counts the
 /// patch evaluations spent.
 ///
-/// cold takes every row by itself: the locator's table names the parts of patches that can own the closest point, a second-order
-/// search runs in each; status is converged, or step-limit if the evaluations were used up or the query is farther off than any table reaches.
+/// cold takes every row by itself: the locator's table names the parts of patches that can own the closest point, a
+/// second-order search runs in each; status is converged, step-limit if one was given up short of its minimum, or far if
+/// the query lies beyond the locator's reach (bake --margin), where its lists are not proved to be complete.
 ///
-/// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is
-/// --ticks ticks of the tracker, and after a jump of more than an eighth of the body's size as many more as locate it anew; status is tracking, or god-object while the
-/// body is touched: then p is the point that stays on the surface where the probe went in, and the sign of gap is its own.
+/// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is --ticks ticks of the
+/// tracker, and after a jump of more than an eighth of the body's size as many more as locate it anew; status is
+/// tracking, or god-object while the body is touched: then p is the point that stays on the surface where the probe went
+/// in, and the sign of gap is its own.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The model: a file (TOML), or the name of one that ships.
@@ -87,6 +89,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let status = match found.status {
             Status::Converged => "converged",
             Status::StepLimit => "step-limit",
+            Status::Far => "far",
             Status::Tracking => "tracking",
             Status::GodObject => "god-object",
         };

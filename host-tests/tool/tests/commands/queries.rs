@@ -76,3 +76,12 @@ fn rows_that_jump_are_located_anew() -> Result<(), Box<dyn Error>> {
     }
     Ok(())
 }
+
+#[test]
+fn a_query_beyond_the_locator_is_said_to_be_far() -> Result<(), Box<dyn Error>> {
+    let (_, output) = closest("qx,qy,qz\n50,50,90\n50,50,90000\n", &[])?;
+    let answers = output.ok_or("no output")?;
+    let statuses: Vec<&str> = answers.lines().filter_map(|line| line.rsplit(',').next()).collect();
+    assert_eq!(statuses, ["status", "converged", "far"], "{answers}");
+    Ok(())
+}
