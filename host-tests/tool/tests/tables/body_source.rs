@@ -62,6 +62,7 @@ fn the_compiled_source_has_the_bits_of_the_baked_body() -> Result<(), Box<dyn Er
     assert_eq!(baked()?.0, source, "the same to the byte");
     let crc = body.to_body()?.table_crc();
     assert_eq!((compiled::TABLE_CRC, compiled::BODY.table_crc()), (crc, crc));
+    assert_eq!(compiled::BODY.baked_crc(), Some(crc), "what the loop compares with");
     // What a board takes, whatever the model.
     let surface: &compiled::Surface = compiled::SURFACE;
     assert_eq!((surface.table_crc(), surface.faces().len()), (crc, 8));
