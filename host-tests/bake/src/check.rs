@@ -13,7 +13,8 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(super) struct RawPatch {
     pub name: Option<String>,
-    pub degree: [i64; 2],
+    // A list of any length: read as a pair, the parser would drop a third number without a word.
+    pub degree: Vec<i64>,
     pub knots_u: Option<Vec<f64>>,
     pub knots_v: Option<Vec<f64>>,
     pub points: Vec<Vec<Vec<f64>>>,
@@ -33,15 +34,20 @@ impl RawPatch {
 /// Lengths for which squares and products of four of them stay far inside the range of `f32`.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e3;
 
+/// Differences and products of two such knots stay inside the range of `f64`.
+const LARGEST_KNOT: f64 = 1e150;
+
 /// A patch thinner than the spacing of `f32` is a curve in the table.
 const LEAST_AREA: f64 = f32::EPSILON as f64;
 
 impl NurbsPatch {
     /// Checks a patch as it stands in a file whose unit goes `per_metre` times into a metre.
     fn from_raw(raw: RawPatch, per_metre: f64) -> Result<Self, Fault> {
+        let [along_u, along_v] = raw.degree[..] else {
+            return Err(Fault::DegreeCount { count: raw.degree.len() });
+        };
         let mut degree = [0; 2];
-        for (axis, index) in [(Axis::U, 0), (Axis::V, 1)] {
-            let given = raw.degree[index];
+        for (axis, index, given) in [(Axis::U, 0, along_u), (Axis::V, 1, along_v)] {
             degree[index] = usize::try_from(given)
                 .ok()
                 .filter(|degree| (1..=MAX_DEGREE).contains(degree))
@@ -124,6 +130,9 @@ fn check_knots(knots: Vec<f64>, axis: Axis, points: usize, degree: usize) -> Res
     if let Some(index) = knots.iter().position(|knot| !knot.is_finite()) {
         return Err(Fault::KnotNotFinite { axis, index, value: knots[index] });
     }
+    if let Some(index) = knots.iter().position(|knot| knot.abs() > LARGEST_KNOT) {
+        return Err(Fault::KnotTooLarge { axis, index, value: knots[index], limit: LARGEST_KNOT });
+    }
     if let Some(index) = (1..knots.len()).find(|&index| knots[index] < knots[index - 1]) {
         return Err(Fault::KnotDecreases { axis, index, value: knots[index], before: knots[index - 1] });
     }
@@ -146,8 +155,7 @@ fn check_knots(knots: Vec<f64>, axis: Axis, points: usize, degree: usize) -> Res
     if borders.len() - 1 > MAX_SPANS {
         return Err(Fault::TooManySpans { axis, count: borders.len() - 1 });
     }
-    // A narrower span is less than one step of f32 near 1, and far narrower than any that is meant. NaN comes of knots
-    // whose range overflows.
+    // A narrower span is less than one step of f32 near 1, and far narrower than any that is meant.
     let is_wide = |pair: &[f64]| pair[1] - pair[0] >= f64::from(f32::EPSILON) && (pair[0] as f32) < pair[1] as f32;
     if let Some(pair) = borders.windows(2).find(|pair| !is_wide(pair)) {
         let back = |mapped: f64| first + mapped * width;

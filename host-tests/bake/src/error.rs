@@ -62,7 +62,7 @@ pub enum ModelError {
     },
     /// The body lies too far away from the origin for the digits of its own file.
     #[error(
-        "{file}: the body lies {distance:e} m from the origin, above {limit:e} times its size of {size:e} m: move the origin nearer"
+        "{file}: the body lies {distance:.1e} m from the origin, above {limit:e} times its size of {size:.1e} m: move the origin nearer"
     )]
     FarAway {
         /// The file.
@@ -90,6 +90,12 @@ pub enum Fault {
     /// The name is empty.
     #[error("name is empty: leave it out and the patch goes by its index")]
     EmptyName,
+    /// Not one degree for each parameter.
+    #[error("degree has {count} numbers: one along u and one along v")]
+    DegreeCount {
+        /// How many.
+        count: usize,
+    },
     /// A degree is out of range.
     #[error("degree along {axis} is {degree}: 1 to {MAX_DEGREE}")]
     Degree {
@@ -182,6 +188,18 @@ pub enum Fault {
         /// What the file says.
         value: f64,
     },
+    /// A knot with which nothing can be computed.
+    #[error("knots_{axis}[{index}] is {value:e}: {limit:e} at most, either way")]
+    KnotTooLarge {
+        /// Along which parameter.
+        axis: Axis,
+        /// Which.
+        index: usize,
+        /// What the file says.
+        value: f64,
+        /// The limit.
+        limit: f64,
+    },
     /// A knot is below the one before it.
     #[error("knots_{axis}[{index}] = {value} is below knots_{axis}[{}] = {before}", index - 1)]
     KnotDecreases {
@@ -247,6 +265,16 @@ pub enum Fault {
     /// The patch is a point, a curve, or thinner than single precision can tell.
     #[error("it has no area: all its points lie on one curve or in one point")]
     NoArea,
+    /// The patch is so narrow that two of its borders are one.
+    #[error("it is a sliver, at most {width:.1e} m wide along {axis}: borders within {tolerance:.1e} m are one")]
+    Sliver {
+        /// Along which parameter.
+        axis: Axis,
+        /// Length of its longest control polygon along it, metres.
+        width: f64,
+        /// What counts as one, metres.
+        tolerance: f64,
+    },
     /// The patch is smaller or larger than the arithmetic is meant for.
     #[error("it is {size:e} m large: from 1e-6 m to 1e3 m; is the unit right?")]
     Size {
@@ -254,7 +282,7 @@ pub enum Fault {
         size: f64,
     },
     /// The patch is too small beside the rest of the body.
-    #[error("it is {size:e} m large, below {share:e} of the body's {body:e} m: single precision cannot hold both")]
+    #[error("it is {size:.1e} m large, below {share:e} of the body's {body:.1e} m: single precision cannot hold both")]
     Tiny {
         /// The largest side of its bounding box, metres.
         size: f64,

@@ -3,8 +3,10 @@
 //! Single precision knows a coordinate to 6e-8 of itself, so that a body far from its origin would lose digits. Its centre is taken off in double
 //! precision before anything is rounded, and is kept: what asks in the file's frame takes it off too.
 
+use super::axis::Axis;
 use super::error::{Fault, ModelError};
 use super::patch::NurbsPatch;
+use super::topology::TOLERANCE;
 use glam::DVec3;
 
 /// A body with no coordinate beyond this many of its sizes stays in the frame of its file: the step of `f32` there is at most
@@ -28,10 +30,8 @@ pub(super) fn centred(patches: &mut [NurbsPatch], file: impl Fn() -> String) -> 
     let high = points().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
     let size = (high - low).max_element();
     for (index, patch) in patches.iter().enumerate() {
-        let own = patch.size();
-        if own < LEAST_SHARE * size {
+        if let Err(fault) = check_beside(patch, size) {
             let patch = patch.name.as_ref().map_or_else(|| index.to_string(), |name| format!("\"{name}\""));
-            let fault = Fault::Tiny { size: own, body: size, share: LEAST_SHARE };
             return Err(ModelError::Patch { file: file(), patch, fault });
         }
     }
@@ -47,4 +47,30 @@ pub(super) fn centred(patches: &mut [NurbsPatch], file: impl Fn() -> String) -> 
     let centre = (0.5 * (low + high) / grain).round() * grain + DVec3::ZERO;
     patches.iter_mut().flat_map(|patch| &mut patch.points).for_each(|point| *point -= centre);
     Ok(centre)
+}
+
+/// Checks that a patch can be told from nothing beside a body of some size.
+fn check_beside(patch: &NurbsPatch, body: f64) -> Result<(), Fault> {
+    let size = patch.size();
+    if size < LEAST_SHARE * body {
+        return Err(Fault::Tiny { size, body, share: LEAST_SHARE });
+    }
+    let tolerance = TOLERANCE * body;
+    for axis in [Axis::U, Axis::V] {
+        let width = longest_polygon(patch, axis);
+        if width <= tolerance {
+            return Err(Fault::Sliver { axis, width, tolerance });
+        }
+    }
+    Ok(())
+}
+
+/// No curve of a patch along a parameter is longer than the longest of its control polygons.
+fn longest_polygon(patch: &NurbsPatch, axis: Axis) -> f64 {
+    let (rows, columns) = (patch.counts[0], patch.counts[1]);
+    let (lines, count) = if axis == Axis::U { (columns, rows) } else { (rows, columns) };
+    let at =
+        |line: usize, k: usize| patch.points[if axis == Axis::U { k * columns + line } else { line * columns + k }];
+    let length = |line: usize| (1..count).map(|k| at(line, k).distance(at(line, k - 1))).sum::<f64>();
+    (0..lines).map(length).fold(0.0, f64::max)
 }

@@ -34,6 +34,7 @@ pub mod source;
 pub mod spline;
 pub mod split;
 pub mod survey;
+mod syntax;
 pub mod topology;
 mod tracked;
 

@@ -15,6 +15,7 @@ use super::check::RawPatch;
 use super::error::ModelError;
 use super::frame;
 use super::patch::NurbsPatch;
+use super::syntax;
 use glam::DVec3;
 use serde::Deserialize;
 use std::path::Path;
@@ -83,8 +84,8 @@ impl Model {
     /// The first thing wrong with it.
     pub fn parse(text: &str, file: &str) -> Result<Self, ModelError> {
         let file = || file.to_owned();
-        let raw: RawModel =
-            toml::from_str(text).map_err(|error| ModelError::Syntax { file: file(), message: error.to_string() })?;
+        let raw: RawModel = toml::from_str(text)
+            .map_err(|error| ModelError::Syntax { file: file(), message: syntax::message(text, &error) })?;
         let unit = match raw.unit.as_str() {
             "m" => Unit::Metre,
             "cm" => Unit::Centimetre,

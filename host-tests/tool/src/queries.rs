@@ -34,8 +34,9 @@ pub fn read(path: &Path, model: &Model) -> anyhow::Result<Vec<Query>> {
     ensure!(!header.is_empty(), "{file}: empty: a header with qx, qy, qz is needed");
     let mut columns = [0; 3];
     for (column, name) in columns.iter_mut().zip(["qx", "qy", "qz"]) {
-        let position = header.iter().position(|field| field == name);
-        *column = position.with_context(|| format!("{file}: no column {name} in the header"))?;
+        let mut positions = header.iter().enumerate().filter(|(_, field)| *field == name).map(|(index, _)| index);
+        *column = positions.next().with_context(|| format!("{file}: {}", missing(name, &header)))?;
+        ensure!(positions.next().is_none(), "{file}: column {name} stands twice in the header");
     }
     let mut queries = Vec::new();
     for record in reader.records() {
@@ -58,4 +59,19 @@ pub fn read(path: &Path, model: &Model) -> anyhow::Result<Vec<Query>> {
         queries.push(Query { given, probe: (given / per_metre - model.centre).as_vec3() });
     }
     Ok(queries)
+}
+
+/// Why a column is not there, as far as the header tells.
+fn missing(name: &str, header: &csv::StringRecord) -> String {
+    let other = [(';', "semicolons"), ('\t', "tabs"), ('|', "bars")];
+    let parted = other.iter().find(|(sign, _)| header.iter().any(|field| field.split(*sign).any(|part| part == name)));
+    if let Some((_, signs)) = parted {
+        return format!(
+            "no column {name} in the header: it is parted by {signs}; columns are parted by commas, and decimals have a point"
+        );
+    }
+    match header.iter().find(|field| field.eq_ignore_ascii_case(name)) {
+        Some(alike) => format!("no column {name} in the header, only {alike}: names are in small letters"),
+        None => format!("no column {name} in the header"),
+    }
 }

@@ -75,6 +75,7 @@ fn faults() -> Vec<Fault> {
     let (u, v) = (Axis::U, Axis::V);
     let all = vec![
         Fault::EmptyName,
+        Fault::DegreeCount { count: 3 },
         Fault::Degree { axis: u, degree: 6 },
         Fault::TooFewPoints { axis: u, count: 2, degree: 2 },
         Fault::BezierPoints { axis: v, count: 4, degree: 2 },
@@ -84,6 +85,7 @@ fn faults() -> Vec<Fault> {
         Fault::Weight { row: 1, column: 0, value: -1.0 },
         Fault::KnotCount { axis: u, count: 6, points: 4, degree: 2 },
         Fault::KnotNotFinite { axis: u, index: 3, value: f64::INFINITY },
+        Fault::KnotTooLarge { axis: u, index: 0, value: -1e308, limit: 1e150 },
         Fault::KnotDecreases { axis: u, index: 4, value: 0.5, before: 0.75 },
         Fault::Torn { axis: u, value: 0.5, times: 3, degree: 2 },
         Fault::EndMultiplicity { axis: u, value: 0.0, times: 4, degree: 2 },
@@ -91,6 +93,7 @@ fn faults() -> Vec<Fault> {
         Fault::KnotsTooNear { axis: u, first: 0.5, second: 0.500_000_01 },
         Fault::TooManySpans { axis: v, count: 300 },
         Fault::NoArea,
+        Fault::Sliver { axis: u, width: 4e-8, tolerance: 6e-8 },
         Fault::Size { size: 4e4 },
         Fault::Tiny { size: 7e-3, body: 900.0, share: 1e-5 },
         Fault::NoBounds,
@@ -98,6 +101,7 @@ fn faults() -> Vec<Fault> {
     ];
     match all[0] {
         Fault::EmptyName
+        | Fault::DegreeCount { .. }
         | Fault::Degree { .. }
         | Fault::TooFewPoints { .. }
         | Fault::BezierPoints { .. }
@@ -107,6 +111,7 @@ fn faults() -> Vec<Fault> {
         | Fault::Weight { .. }
         | Fault::KnotCount { .. }
         | Fault::KnotNotFinite { .. }
+        | Fault::KnotTooLarge { .. }
         | Fault::KnotDecreases { .. }
         | Fault::Torn { .. }
         | Fault::EndMultiplicity { .. }
@@ -114,6 +119,7 @@ fn faults() -> Vec<Fault> {
         | Fault::KnotsTooNear { .. }
         | Fault::TooManySpans { .. }
         | Fault::NoArea
+        | Fault::Sliver { .. }
         | Fault::Size { .. }
         | Fault::Tiny { .. }
         | Fault::NoBounds

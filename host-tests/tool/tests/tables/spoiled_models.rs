@@ -57,7 +57,8 @@ const SPOILED: &[(&str, &str, &str)] = &[
     ("degree = [1, 1]", "degree = [0, 1]", "patch 1: degree along u is 0: 1 to 5"),
     ("degree = [1, 1]", "degree = [1, 6]", "patch 1: degree along v is 6: 1 to 5"),
     ("degree = [1, 1]", "degree = [-1, 1]", "patch 1: degree along u is -1"),
-    ("degree = [1, 1]", "degree = [1]", "invalid length 1"),
+    ("degree = [1, 1]", "degree = [1]", "patch 1: degree has 1 numbers: one along u and one along v"),
+    ("degree = [1, 1]", "degree = [1, 1, 1]", "patch 1: degree has 3 numbers: one along u and one along v"),
     ("degree = [2, 1]", "degree = [5, 1]", r#"patch "top": 4 points along u: degree 5 needs at least 6"#),
     // Knots.
     ("0.5, 1, 1, 1]", "0.5, 1, 1]", r#"patch "top": knots_u has 6 knots: 4 points of degree 2 need 7"#),
@@ -72,7 +73,12 @@ const SPOILED: &[(&str, &str, &str)] = &[
         r#"patch "top": knots_u: 0 appears 4 times at an end: at most degree + 1 = 3"#,
     ),
     ("knots_v = [0, 0, 1, 1]", "knots_v = [0, 0, 0, 0]", r#"patch "top": knots_v: the range of v is empty"#),
-    ("knots_v = [0, 0, 1, 1]", "knots_v = [-1e308, -1e308, 1e308, 1e308]", r#"patch "top": knots_v: "#),
+    (
+        "knots_v = [0, 0, 1, 1]",
+        "knots_v = [-1e308, -1e308, 1e308, 1e308]",
+        r#"patch "top": knots_v[0] is -1e308: 1e150 at most"#,
+    ),
+    ("knots_v = [0, 0, 1, 1]", "knots_v = [0, 0, 1e308, 1e308]", r#"patch "top": knots_v[2] is 1e308: 1e150 at most"#),
     // Shapes.
     (
         "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
@@ -93,9 +99,14 @@ const SPOILED: &[(&str, &str, &str)] = &[
     (
         "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
         "[[0, 0, 9e5], [0, 7, 9e5]], [[7, 0, 9e5], [7, 7, 9e5]]",
-        "patch \"top\": it is 9e-3 m large, below 1e-5 of the body's",
+        "patch \"top\": it is 9.0e-3 m large, below 1e-5 of the body's",
     ),
     ("[7, 7, -5, 1]", "[7, 1e300, -5, 1]", "patch 1: it is"),
+    (
+        "[[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]]",
+        "[[0, 0, -5], [0, 7, -5]], [[1e-6, 0, -5], [9e-7, 7, -5]]",
+        "patch 1: it is a sliver, at most 1.0e-9 m wide along u",
+    ),
     // The file.
     ("unit = \"mm\"", "unit = \"inch\"", "unit \"inch\" is unknown: m, cm or mm"),
     ("unit = \"mm\"\n", "", "missing field `unit`"),
@@ -135,6 +146,19 @@ fn a_spoiled_model_file_is_refused_with_a_message_and_no_output() -> Result<(), 
     }
     println!("{refused} spoiled files refused");
     Ok(())
+}
+
+#[test]
+fn what_is_nested_too_deeply_is_said_with_its_line() {
+    let deep = |line: String| format!("unit = \"mm\"\n{line}\n[[patch]]\n");
+    let nested = |open: &str, close: &str| format!("points = {}1{}", open.repeat(200), close.repeat(200));
+    for line in
+        [format!("{}a = 1", "a.".repeat(500)), format!("[{}a]", "a.".repeat(500)), nested("[", "]"), nested("{a=", "}")]
+    {
+        let message = Model::parse(&deep(line), "deep.toml").expect_err("it is deep").to_string();
+        assert!(message.starts_with("deep.toml: TOML parse error at line 2, column "), "{message}");
+        assert!(message.lines().all(|line| line.chars().count() < 200), "{message}");
+    }
 }
 
 #[test]
