@@ -33,6 +33,14 @@ pub enum ImportError {
         /// Why.
         reason: String,
     },
+    /// Not a part's file.
+    #[error("{file} has the schema \"{schema}\"; parts of AP203, AP214 and AP242 are imported")]
+    Schema {
+        /// Which file.
+        file: String,
+        /// What it says.
+        schema: String,
+    },
     /// Nothing to feel.
     #[error(
         "{file} has no solid and no shell (its schema is \"{schema}\"); curves, sketches and triangle meshes are not imported"

@@ -80,7 +80,7 @@ fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), Im
     for ((off, face), which) in [(measured.out, "its patches are"), (measured.back, "it is")] {
         if off > tolerance {
             let reason = format!("{which} up to {off:.6} mm off, the tolerance is {tolerance} mm");
-            return Err(ImportError::face(&part.faces[face].name, reason));
+            return Err(ImportError::face(part.faces[face].label(), reason));
         }
     }
     Ok(())

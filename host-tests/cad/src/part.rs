@@ -27,6 +27,8 @@ pub struct Part {
 pub struct Face {
     /// Its name and number in the part: unique.
     pub name: String,
+    /// Its number in the file, if that is known.
+    pub number: Option<u64>,
     /// What its surface is, in the file's words.
     pub kind: &'static str,
     /// The whole surface.
@@ -76,4 +78,16 @@ impl Part {
         let [a, b] = self.edges[used.edge].ends;
         if used.reversed { [b, a] } else { [a, b] }
     }
+}
+
+impl Face {
+    /// What messages call it.
+    pub fn label(&self) -> String {
+        label(&self.name, self.number)
+    }
+}
+
+/// A face's name with its number in the file.
+pub fn label(name: &str, number: Option<u64>) -> String {
+    number.map_or_else(|| name.to_owned(), |number| format!("{name} (#{number})"))
 }

@@ -41,7 +41,7 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, ImportErro
         if count > MOST {
             let worst = (0..mesh.regions.len()).max_by_key(|face| mesh.regions[*face].quads.len()).unwrap_or(0);
             let reason = format!("the part takes more than {MOST} patches, most of them here; try a greater tolerance");
-            return Err(ImportError::face(&mesh.part.faces[worst].name, reason));
+            return Err(ImportError::face(mesh.part.faces[worst].label(), reason));
         }
         let mut cuts: BTreeSet<usize> = BTreeSet::new();
         let mut raised = false;
@@ -84,7 +84,7 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, ImportErro
         strips::cut(mesh, &cuts.into_iter().collect::<Vec<_>>());
     }
     let worst = (0..mesh.regions.len()).max_by_key(|face| mesh.regions[*face].quads.len()).unwrap_or(0);
-    Err(ImportError::face(&mesh.part.faces[worst].name, format!("it does not come within {tolerance} mm by cutting")))
+    Err(ImportError::face(mesh.part.faces[worst].label(), format!("it does not come within {tolerance} mm by cutting")))
 }
 
 fn check(mesh: &Mesh<'_>, made: Vec<Made>) -> Result<Vec<Made>, ImportError> {
@@ -96,7 +96,7 @@ fn check(mesh: &Mesh<'_>, made: Vec<Made>) -> Result<Vec<Made>, ImportError> {
                 "a patch of it, about ({:.3}, {:.3}, {:.3}) mm, is not proved to have a tangent plane everywhere",
                 centre.x, centre.y, centre.z
             );
-            Err(ImportError::face(&mesh.part.faces[bad.face].name, reason))
+            Err(ImportError::face(mesh.part.faces[bad.face].label(), reason))
         }
     }
 }

@@ -83,7 +83,7 @@ fn check_joint(face: &Face, from: DVec2, to: DVec2, limit: f64) -> Result<(), Im
     if gap <= near {
         return Ok(());
     }
-    Err(ImportError::face(&face.name, format!("a loop of it leaps {gap:.6} mm in its surface's parameters")))
+    Err(ImportError::face(face.label(), format!("a loop of it leaps {gap:.6} mm in its surface's parameters")))
 }
 
 /// Whole periods that bring a point nearest to another.
@@ -164,7 +164,7 @@ fn trace_edge(mesh: &Mesh<'_>, face: &Face, used: Use, limit: f64) -> Result<Pat
     }
     if farthest > limit {
         let number = used.edge + 1;
-        return Err(ImportError::face(&face.name, format!("its edge {number} lies {farthest:.6} mm off it")));
+        return Err(ImportError::face(face.label(), format!("its edge {number} lies {farthest:.6} mm off it")));
     }
     // Of a straight one two samples say all.
     let straight = |k: usize| feet[0].lerp(feet[STEPS], k as f64 / STEPS as f64);

@@ -21,7 +21,7 @@ pub fn even(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
         let Some(face) = (0..mesh.regions.len()).find(|face| is_odd(mesh, *face)) else { return Ok(()) };
         let Some(way) = way(mesh, face, false).or_else(|| way(mesh, face, true)) else {
             let reason = "its outline has an odd number of sides, and no neighbour can take the one more";
-            return Err(ImportError::face(&mesh.part.faces[face].name, reason));
+            return Err(ImportError::face(mesh.part.faces[face].label(), reason));
         };
         for wire in way {
             let at = mesh.even(wire, 2);
@@ -31,7 +31,7 @@ pub fn even(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
     }
     let face = (0..mesh.regions.len()).find(|face| is_odd(mesh, *face));
     face.map_or(Ok(()), |face| {
-        Err(ImportError::face(&mesh.part.faces[face].name, "its outline keeps an odd number of sides"))
+        Err(ImportError::face(mesh.part.faces[face].label(), "its outline keeps an odd number of sides"))
     })
 }
 

@@ -59,7 +59,7 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError>
             "no division into quads was found for its outline of {count} sides ({})",
             mesh.part.faces[face].kind
         );
-        return Err(ImportError::face(&mesh.part.faces[face].name, reason));
+        return Err(ImportError::face(mesh.part.faces[face].label(), reason));
     };
     smooth(&mut plane, &found);
     Ok(build(mesh, face, scale, &plane, &found))

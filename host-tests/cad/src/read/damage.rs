@@ -1,5 +1,6 @@
 //! Entities that could not be read: those that the shape needs are refused by number.
 
+use super::statements::Statement;
 use crate::error::ImportError;
 use std::collections::HashMap;
 use step_io::{DropKind, Report};
@@ -34,12 +35,12 @@ const LOOKS: [&str; 10] =
     ["STYLE", "COLOUR", "PCURVE", "DIMENSION", "TOLERANCE", "ANNOTATION", "CALLOUT", "DRAUGHTING", "ASPECT", "CAMERA"];
 
 /// Refuses a file of which the reader dropped what the shape needs.
-pub fn check(bytes: &[u8], report: &Report, file: &str) -> Result<(), ImportError> {
+pub fn check(statements: &[Statement<'_>], report: &Report, file: &str) -> Result<(), ImportError> {
     if report.dropped.is_empty() {
         return Ok(());
     }
-    let types = types(bytes);
-    let name = |id: u64| types.get(&id).cloned().unwrap_or_else(|| "of no type".to_owned());
+    let types: HashMap<u64, &str> = statements.iter().map(|of| (of.id, of.kind.as_str())).collect();
+    let name = |id: u64| types.get(&id).map_or_else(|| "of no type".to_owned(), |name| (*name).to_owned());
     let is_needed = |id: u64| {
         let name = name(id);
         NEEDED.iter().any(|needed| name.contains(needed)) && !LOOKS.iter().any(|looks| name.contains(looks))
@@ -54,29 +55,4 @@ pub fn check(bytes: &[u8], report: &Report, file: &str) -> Result<(), ImportErro
         reason.to_string()
     };
     Err(ImportError::Entity { file: file.to_owned(), id: *id, kind: name(*id), reason })
-}
-
-/// The type of every entity, as far as a glance at the text tells: what stands behind `#id =`.
-fn types(bytes: &[u8]) -> HashMap<u64, String> {
-    let text = String::from_utf8_lossy(bytes);
-    let mut types = HashMap::new();
-    for statement in text.split(';') {
-        let Some((id, rest)) = statement.trim_start().strip_prefix('#').and_then(|rest| rest.split_once('=')) else {
-            continue;
-        };
-        let Ok(id) = id.trim().parse() else { continue };
-        let rest = rest.trim_start();
-        let name: String = if let Some(parts) = rest.strip_prefix('(') {
-            // A complex entity: all its parts.
-            let words = parts.split(|c: char| !(c.is_ascii_uppercase() || c == '_' || c.is_ascii_digit()));
-            words
-                .filter(|word| word.len() > 3 && word.starts_with(|c: char| c.is_ascii_uppercase()))
-                .collect::<Vec<_>>()
-                .join("+")
-        } else {
-            rest.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect()
-        };
-        types.insert(id, name);
-    }
-    types
 }

@@ -1,16 +1,20 @@
 //! STEP in: which solids and shells, where they are placed, and their faces.
 
 mod damage;
+mod sense;
 mod shape;
+mod statements;
 
 use crate::error::ImportError;
 use crate::part::Part;
 use glam::{DAffine3, DMat3, DVec3};
 use shape::Gather;
+use statements::Numbers;
+use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
-use step_io::StepModel;
 use step_io::scene::{ProductDef, Shell, Solid, SurfaceModel, Transform};
+use step_io::{EntityKey, StepModel};
 
 /// Assemblies in assemblies.
 const DEEPEST: usize = 64;
@@ -19,9 +23,13 @@ const MOST_FACES: usize = 20_000;
 /// Bytes: a file of some ten million entities.
 const LARGEST_FILE: u64 = 1 << 30;
 
+/// Parts of the names of the application protocols whose shapes are read: AP203, AP214, AP242.
+const SCHEMAS: [&str; 5] = ["CONFIG_CONTROL_DESIGN", "AP203", "AUTOMOTIVE_DESIGN", "AP214", "AP242"];
+
 /// Solids and shells with their placements.
 struct Placed<'m> {
     name: String,
+    solid: Option<EntityKey>,
     shells: Vec<(Shell<'m>, bool)>,
     placement: DAffine3,
 }
@@ -46,8 +54,18 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
         Ok(Err(error)) => return Err(ImportError::Syntax { file, message: error.to_string() }),
         Err(_) => return Err(ImportError::Syntax { file, message: "the reader gave up".to_owned() }),
     };
-    damage::check(&bytes, &report, &file)?;
-    let gathered = std::panic::catch_unwind(|| gather(&model, &file, only));
+    let schema = model.header().schema.raw.join(", ");
+    if !SCHEMAS.iter().any(|known| schema.to_ascii_uppercase().contains(known)) {
+        return Err(ImportError::Schema { file, schema });
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    let statements = statements::statements(&text);
+    damage::check(&statements, &report, &file)?;
+    if let Some(sense::Nonsense { id, kind, reason }) = sense::find(&statements) {
+        return Err(ImportError::Entity { file, id, kind, reason });
+    }
+    let numbers = Numbers::new(&statements);
+    let gathered = std::panic::catch_unwind(|| gather(&model, &file, only, &numbers));
     let mut part = gathered.unwrap_or_else(|_| {
         Err(ImportError::Syntax { file: file.clone(), message: "its entities do not fit together".to_owned() })
     })?;
@@ -56,11 +74,11 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
     Ok(part)
 }
 
-fn gather(model: &StepModel, file: &str, only: Option<&str>) -> Result<Part, ImportError> {
+fn gather(model: &StepModel, file: &str, only: Option<&str>, numbers: &Numbers) -> Result<Part, ImportError> {
     let scene = model.scene();
     let mut placed = Vec::new();
     for root in scene.root_definitions() {
-        walk(&root, DAffine3::IDENTITY, 0, file, &mut placed)?;
+        walk(&root, DAffine3::IDENTITY, 0, file, numbers, &mut placed)?;
     }
     if placed.is_empty() {
         // Shapes that no product owns.
@@ -77,6 +95,13 @@ fn gather(model: &StepModel, file: &str, only: Option<&str>) -> Result<Part, Imp
     if placed.is_empty() {
         let schema = model.header().schema.raw.join(", ");
         return Err(ImportError::NoShape { file: file.to_owned(), schema });
+    }
+    let reached: HashSet<_> = placed.iter().filter_map(|shape| shape.solid).collect();
+    if let Some(lost) = scene.all_solids().find(|solid| !reached.contains(&solid.key()))
+        && only.is_none()
+    {
+        let reason = format!("no product of the assembly has the solid \"{}\"", lost.name());
+        return Err(entity(file, numbers, lost.key(), &reason));
     }
     if let Some(name) = only {
         let mut known: Vec<_> = placed.iter().map(|shape| format!("\"{}\"", shape.name)).collect();
@@ -101,7 +126,7 @@ fn gather(model: &StepModel, file: &str, only: Option<&str>) -> Result<Part, Imp
         }
     };
     part.precision = units.precision.unwrap_or(0.0) * scale;
-    let mut gather = Gather::new(&mut part, scale);
+    let mut gather = Gather::new(&mut part, scale, numbers);
     for shape in &placed {
         gather.begin(&shape.name, shape.placement);
         for (shell, turned) in &shape.shells {
@@ -117,6 +142,7 @@ fn walk<'m>(
     placement: DAffine3,
     depth: usize,
     file: &str,
+    numbers: &Numbers,
     placed: &mut Vec<Placed<'m>>,
 ) -> Result<(), ImportError> {
     let name = product.product().map_or_else(String::new, |product| product.name().to_owned());
@@ -127,7 +153,12 @@ fn walk<'m>(
     placed.extend(product.surface_models().map(|shells| of_shells(&shells, placement, Some(&name))));
     for occurrence in product.occurrences() {
         let Some(child) = occurrence.definition() else { continue };
-        walk(&child, placement * affine(occurrence.transform()), depth + 1, file, placed)?;
+        let (transform, before) = (occurrence.transform(), placed.len());
+        let is_placed = transform.as_ref().is_some_and(|transform| transform.matrix().is_some());
+        walk(&child, placement * affine(transform), depth + 1, file, numbers, placed)?;
+        if !is_placed && placed.len() > before {
+            return Err(entity(file, numbers, occurrence.key(), "the file does not say where this product lies"));
+        }
     }
     Ok(())
 }
@@ -135,12 +166,18 @@ fn walk<'m>(
 fn of_solid<'m>(solid: &Solid<'m>, placement: DAffine3, product: Option<&str>) -> Placed<'m> {
     let shells = solid.outer().into_iter().chain(solid.voids());
     let shells = shells.map(|(shell, orientation)| (shell, orientation == step_io::Orientation::Reversed)).collect();
-    Placed { name: named(solid.name(), product), shells, placement }
+    Placed { name: named(solid.name(), product), solid: Some(solid.key()), shells, placement }
 }
 
 fn of_shells<'m>(model: &SurfaceModel<'m>, placement: DAffine3, product: Option<&str>) -> Placed<'m> {
     let shells = model.shells().map(|(shell, orientation)| (shell, orientation == step_io::Orientation::Reversed));
-    Placed { name: named(model.name(), product), shells: shells.collect(), placement }
+    Placed { name: named(model.name(), product), solid: None, shells: shells.collect(), placement }
+}
+
+/// About an entity, by its number where that is known.
+fn entity(file: &str, numbers: &Numbers, key: EntityKey, reason: &str) -> ImportError {
+    let (id, kind) = numbers.of(key).unwrap_or((0, "of a kind without a number"));
+    ImportError::Entity { file: file.to_owned(), id, kind: kind.to_owned(), reason: reason.to_owned() }
 }
 
 /// The solid's own name, or its product's.

@@ -1,8 +1,9 @@
 //! A shell's faces as NURBS: surfaces, chained loops, edges shared by their keys.
 
+use super::statements::Numbers;
 use crate::error::ImportError;
 use crate::nurbs::{Curve, MAX_DEGREE, Surface};
-use crate::part::{Edge, Face, Part, Use};
+use crate::part::{self, Edge, Face, Part, Use};
 use glam::{DAffine3, DVec3};
 use std::collections::HashMap;
 use step_io::scene::{self, NurbsCurve, NurbsSurface, Shell, SurfaceKind};
@@ -16,12 +17,13 @@ pub(super) struct Gather<'p> {
     edges: HashMap<EntityKey, usize>,
     vertices: HashMap<EntityKey, usize>,
     names: HashMap<String, usize>,
+    numbers: &'p Numbers,
 }
 
 impl<'p> Gather<'p> {
-    pub(super) fn new(part: &'p mut Part, scale: f64) -> Self {
+    pub(super) fn new(part: &'p mut Part, scale: f64, numbers: &'p Numbers) -> Self {
         let (edges, vertices, names) = (HashMap::new(), HashMap::new(), HashMap::new());
-        Self { part, scale, placement: DAffine3::IDENTITY, edges, vertices, names }
+        Self { part, scale, placement: DAffine3::IDENTITY, edges, vertices, names, numbers }
     }
 
     /// Another solid: nothing of it is shared with those before.
@@ -42,7 +44,9 @@ impl<'p> Gather<'p> {
     fn face(&mut self, face: &scene::Face<'_>, turned: bool) -> Result<(), ImportError> {
         let name = self.unique(face.name());
         let kind = kind(&face.surface().kind());
-        let cannot = |reason: String| ImportError::face(&name, reason);
+        let number = self.numbers.of(face.key()).map(|(number, _)| number);
+        let label = part::label(&name, number);
+        let cannot = |reason: String| ImportError::face(&label, reason);
         let surface =
             face.to_nurbs().ok_or_else(|| cannot(format!("its surface ({kind}) is of a kind that is not read")))?;
         let surface = self.surface(&surface).map_err(cannot)?;
@@ -72,7 +76,7 @@ impl<'p> Gather<'p> {
             }
             loops.push(uses);
         }
-        self.part.faces.push(Face { name, kind, surface, flip: against != turned, loops });
+        self.part.faces.push(Face { name, number, kind, surface, flip: against != turned, loops });
         Ok(())
     }
 
