@@ -1,7 +1,7 @@
 //! A patch as the target has it: the table, in `f32`.
 
 use super::coefficients::BakedCoefficients;
-use super::error::{Fault, ModelError};
+use super::error::{ModelError, PatchFault};
 use super::model::Model;
 use super::patch::NurbsPatch;
 use super::{bounds, shape, spline};
@@ -30,26 +30,26 @@ impl BakedPatch {
     /// Bakes one patch.
     ///
     /// # Errors
-    /// [`Fault::Uneven`] where the weights or knots do not fit `f32`.
-    pub fn new(patch: &NurbsPatch) -> Result<Self, Fault> {
+    /// [`PatchFault::Uneven`] where the weights or knots do not fit `f32`.
+    pub fn new(patch: &NurbsPatch) -> Result<Self, PatchFault> {
         let baked = Self::without_shape(patch)?;
         let bounds = baked.shape.second_derivatives;
         let shape = shape::prove(patch.degree, &baked.breaks, &baked.coefficients, baked.orientation, bounds);
-        Ok(Self { shape: shape.ok_or(Fault::NoBounds)?, ..baked })
+        Ok(Self { shape: shape.ok_or(PatchFault::NoBounds)?, ..baked })
     }
 
     /// Bakes one patch with the bounds that the controller's gain needs and no others: curvature and stretch are proved by a
     /// search that takes seconds on some patches, and a sweep over thousands does without.
     ///
     /// # Errors
-    /// [`Fault::Uneven`] where the weights or knots do not fit `f32`.
-    pub fn without_shape(patch: &NurbsPatch) -> Result<Self, Fault> {
-        let spans = spline::extract(patch).map_err(|spline::UnevenSpan([u, v])| Fault::Uneven { u, v })?;
+    /// [`PatchFault::Uneven`] where the weights or knots do not fit `f32`.
+    pub fn without_shape(patch: &NurbsPatch) -> Result<Self, PatchFault> {
+        let spans = spline::extract(patch).map_err(|spline::UnevenSpan([u, v])| PatchFault::Uneven { u, v })?;
         let spans_v = spans.breaks[1].len() - 1;
         for (span, powers) in spans.powers.iter().enumerate() {
             // Rounded here, once; a number beyond f32 becomes infinite.
             if powers.iter().any(|entry| !entry.as_vec4().is_finite()) {
-                return Err(Fault::Uneven { u: span / spans_v, v: span % spans_v });
+                return Err(PatchFault::Uneven { u: span / spans_v, v: span % spans_v });
             }
         }
         let entries = spans.powers.iter().flatten();
@@ -59,7 +59,7 @@ impl BakedPatch {
             BakedCoefficients::Polynomial(entries.map(|entry| entry.truncate().as_vec3().to_array()).collect())
         };
         let orientation = if patch.flip { Orientation::Inward } else { Orientation::Outward };
-        let bounds = bounds::prove(patch.degree, &spans.breaks, &coefficients).ok_or(Fault::NoBounds)?;
+        let bounds = bounds::prove(patch.degree, &spans.breaks, &coefficients).ok_or(PatchFault::NoBounds)?;
         Ok(Self {
             name: patch.name.clone(),
             degree: patch.degree.map(|degree| degree as u8),

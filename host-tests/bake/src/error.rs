@@ -58,7 +58,7 @@ pub enum ModelError {
         /// Its name, or its index if it has none.
         patch: String,
         /// What is wrong.
-        fault: Fault,
+        fault: PatchFault,
     },
     /// The body lies too far away from the origin for the digits of its own file.
     #[error(
@@ -86,7 +86,7 @@ pub enum ModelError {
 
 /// What is wrong with a patch.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum Fault {
+pub enum PatchFault {
     /// The name is empty.
     #[error("name is empty: leave it out and the patch goes by its index")]
     EmptyName,

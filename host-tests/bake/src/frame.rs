@@ -4,7 +4,7 @@
 //! precision before anything is rounded, and is kept: what asks in the file's frame takes it off too.
 
 use super::axis::Axis;
-use super::error::{Fault, ModelError};
+use super::error::{ModelError, PatchFault};
 use super::patch::NurbsPatch;
 use super::topology::TOLERANCE;
 use glam::DVec3;
@@ -50,16 +50,16 @@ pub(super) fn centred(patches: &mut [NurbsPatch], file: impl Fn() -> String) -> 
 }
 
 /// Checks that a patch can be told from nothing beside a body of some size.
-fn check_beside(patch: &NurbsPatch, body: f64) -> Result<(), Fault> {
+fn check_beside(patch: &NurbsPatch, body: f64) -> Result<(), PatchFault> {
     let size = patch.size();
     if size < LEAST_SHARE * body {
-        return Err(Fault::Tiny { size, body, share: LEAST_SHARE });
+        return Err(PatchFault::Tiny { size, body, share: LEAST_SHARE });
     }
     let tolerance = TOLERANCE * body;
     for axis in [Axis::U, Axis::V] {
         let width = longest_polygon(patch, axis);
         if width <= tolerance {
-            return Err(Fault::Sliver { axis, width, tolerance });
+            return Err(PatchFault::Sliver { axis, width, tolerance });
         }
     }
     Ok(())

@@ -43,7 +43,7 @@ pub use baked::BakedPatch;
 pub use body::{BakedBody, LocatorTable};
 pub use build_script::{Bake, BakeError};
 pub use coefficients::BakedCoefficients;
-pub use error::{Fault, ModelError};
+pub use error::{ModelError, PatchFault};
 pub use model::{Model, Unit};
 pub use patch::NurbsPatch;
 pub use random::Random;

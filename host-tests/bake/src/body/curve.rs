@@ -3,7 +3,7 @@
 use super::border::BorderSpans;
 use super::polynomial::Piecewise;
 use crate::bounds;
-use crate::{BakedCoefficients, Fault};
+use crate::{BakedCoefficients, PatchFault};
 use glam::{DVec3, Vec4Swizzles as _};
 use palpate::body::SplineCurve;
 use palpate::patch::Coefficients;
@@ -25,8 +25,8 @@ impl BakedCurve {
     /// The curve of an edge.
     ///
     /// # Errors
-    /// [`Fault::NoBounds`] where a number or a bound does not fit `f32`.
-    pub fn of_edge(border: &BorderSpans) -> Result<Self, Fault> {
+    /// [`PatchFault::NoBounds`] where a number or a bound does not fit `f32`.
+    pub fn of_edge(border: &BorderSpans) -> Result<Self, PatchFault> {
         if border.has_constant_weight() {
             let weight = border.curve.spans[0][0].w;
             return Self::polynomial(&border.curve.map(|power| power.xyz() * (1.0 / weight)).trimmed(1));
@@ -39,14 +39,14 @@ impl BakedCurve {
     /// A polynomial curve.
     ///
     /// # Errors
-    /// [`Fault::NoBounds`] where a number or a bound does not fit `f32`.
-    pub fn polynomial(curve: &Piecewise<DVec3>) -> Result<Self, Fault> {
+    /// [`PatchFault::NoBounds`] where a number or a bound does not fit `f32`.
+    pub fn polynomial(curve: &Piecewise<DVec3>) -> Result<Self, PatchFault> {
         let entries = curve.spans.iter().flatten().map(|power| power.as_vec3().to_array()).collect();
         Self::new(curve.degree(), curve.breaks.clone(), BakedCoefficients::Polynomial(entries))
     }
 
-    fn new(degree: usize, breaks: Vec<f32>, coefficients: BakedCoefficients) -> Result<Self, Fault> {
-        let second_derivative = bounds::prove_curve(degree, &breaks, &coefficients).ok_or(Fault::NoBounds)?;
+    fn new(degree: usize, breaks: Vec<f32>, coefficients: BakedCoefficients) -> Result<Self, PatchFault> {
+        let second_derivative = bounds::prove_curve(degree, &breaks, &coefficients).ok_or(PatchFault::NoBounds)?;
         Ok(Self { degree: degree as u8, breaks, coefficients, second_derivative })
     }
 

@@ -19,7 +19,7 @@ use super::model::Model;
 use super::patch::NurbsPatch;
 use super::split::{Piece, Provenance};
 use super::topology::{Border, BorderRole, SeamFault, Sense, Topology, bounding_box};
-use super::{BakedPatch, Fault, parallel, spline};
+use super::{BakedPatch, PatchFault, parallel, spline};
 use border::BorderSpans;
 use glam::DVec3;
 use palpate::body::{Body, BodyError, Edge, EdgeFace, EdgeKind, Face, MAX_FACES, Side, Spoke, Vertex};
@@ -194,11 +194,11 @@ impl BakedBody {
             .enumerate()
             .map(|(index, patch)| {
                 spline::extract(patch)
-                    .map_err(|spline::UnevenSpan([u, v])| Fault::Uneven { u, v })
+                    .map_err(|spline::UnevenSpan([u, v])| PatchFault::Uneven { u, v })
                     .map_err(patch_fault(index))
             })
             .collect::<Result<_, _>>()?;
-        let side = |border: Border| -> Result<BakedSide, Fault> {
+        let side = |border: Border| -> Result<BakedSide, PatchFault> {
             let (edge, sense) = match topology.roles[border.patch][border.side] {
                 BorderRole::Pole { vertex } => return Ok(BakedSide::Pole { vertex: vertex as u16 }),
                 BorderRole::Edge { edge, sense } => (edge, sense),

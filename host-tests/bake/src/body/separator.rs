@@ -3,7 +3,7 @@
 use super::border::BorderSpans;
 use super::curve::BakedCurve;
 use crate::topology::Border;
-use crate::{Fault, NurbsPatch};
+use crate::{NurbsPatch, PatchFault};
 use glam::DVec3;
 use palpate::body::Separator;
 use palpate::math::Vec3;
@@ -34,8 +34,8 @@ impl BakedSeparator {
     /// whether the sides at the edge's ends 0 and 1 are points.
     ///
     /// # Errors
-    /// [`Fault::NoBounds`] where a number does not fit `f32`.
-    pub fn new(patch: &NurbsPatch, border: Border, spans: &BorderSpans, poles: [bool; 2]) -> Result<Self, Fault> {
+    /// [`PatchFault::NoBounds`] where a number does not fit `f32`.
+    pub fn new(patch: &NurbsPatch, border: Border, spans: &BorderSpans, poles: [bool; 2]) -> Result<Self, PatchFault> {
         if let Some(plane) = plane(patch, border) {
             return Ok(plane);
         }

@@ -12,7 +12,7 @@ pub use knots::cut_in_two;
 pub use piece::{Piece, Provenance};
 pub use strips::{Cut, cut};
 
-use super::error::{Fault, ModelError};
+use super::error::{ModelError, PatchFault};
 use super::model::Model;
 use super::spline;
 use super::topology::{SeamFault, Topology};
@@ -32,7 +32,7 @@ pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
         let uneven = |spline::UnevenSpan([u, v])| ModelError::Patch {
             file: file.to_owned(),
             patch: label(piece.source, model),
-            fault: Fault::Uneven { u, v },
+            fault: PatchFault::Uneven { u, v },
         };
         spline::extract(&piece.patch).map_err(uneven)?;
     }

@@ -2,7 +2,7 @@
 
 use crate::pages::{blocks, cells, text};
 use palpate_bake::topology::SeamFault;
-use palpate_bake::{Axis, BakedBody, Fault, Model, ModelError};
+use palpate_bake::{Axis, BakedBody, Model, ModelError, PatchFault};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -44,7 +44,7 @@ fn every_refusal_is_listed_with_its_message() {
 #[test]
 fn every_message_names_the_file_and_the_patch() {
     let file = "part.toml".to_owned();
-    let patch = ModelError::Patch { file: file.clone(), patch: "\"top\"".to_owned(), fault: Fault::NoArea };
+    let patch = ModelError::Patch { file: file.clone(), patch: "\"top\"".to_owned(), fault: PatchFault::NoArea };
     assert!(patch.to_string().starts_with("part.toml: patch \"top\": it has no area"));
     let seam = ModelError::Seam { file, fault: SeamFault::NoVolume };
     assert!(seam.to_string().starts_with("part.toml: the body"));
@@ -71,59 +71,59 @@ fn files() -> Vec<String> {
 }
 
 /// One of each; the match below does not compile where one is missing.
-fn faults() -> Vec<Fault> {
+fn faults() -> Vec<PatchFault> {
     let (u, v) = (Axis::U, Axis::V);
     let all = vec![
-        Fault::EmptyName,
-        Fault::DegreeCount { count: 3 },
-        Fault::Degree { axis: u, degree: 6 },
-        Fault::TooFewPoints { axis: u, count: 2, degree: 2 },
-        Fault::BezierPoints { axis: v, count: 4, degree: 2 },
-        Fault::RaggedRow { row: 1, count: 3, expected: 2 },
-        Fault::PointLength { row: 1, column: 0, count: 2 },
-        Fault::Coordinate { row: 1, column: 0, coordinate: 'y', value: f64::NAN },
-        Fault::Weight { row: 1, column: 0, value: -1.0 },
-        Fault::KnotCount { axis: u, count: 6, points: 4, degree: 2 },
-        Fault::KnotNotFinite { axis: u, index: 3, value: f64::INFINITY },
-        Fault::KnotTooLarge { axis: u, index: 0, value: -1e308, limit: 1e150 },
-        Fault::KnotDecreases { axis: u, index: 4, value: 0.5, before: 0.75 },
-        Fault::Torn { axis: u, value: 0.5, times: 3, degree: 2 },
-        Fault::EndMultiplicity { axis: u, value: 0.0, times: 4, degree: 2 },
-        Fault::EmptyRange { axis: u, value: 1.0 },
-        Fault::KnotsTooNear { axis: u, first: 0.5, second: 0.500_000_01 },
-        Fault::TooManySpans { axis: v, count: 300 },
-        Fault::NoArea,
-        Fault::Sliver { axis: u, width: 4e-8, tolerance: 6e-8 },
-        Fault::Size { size: 4e4 },
-        Fault::Tiny { size: 7e-3, body: 900.0, share: 1e-5 },
-        Fault::NoBounds,
-        Fault::Uneven { u: 0, v: 2 },
+        PatchFault::EmptyName,
+        PatchFault::DegreeCount { count: 3 },
+        PatchFault::Degree { axis: u, degree: 6 },
+        PatchFault::TooFewPoints { axis: u, count: 2, degree: 2 },
+        PatchFault::BezierPoints { axis: v, count: 4, degree: 2 },
+        PatchFault::RaggedRow { row: 1, count: 3, expected: 2 },
+        PatchFault::PointLength { row: 1, column: 0, count: 2 },
+        PatchFault::Coordinate { row: 1, column: 0, coordinate: 'y', value: f64::NAN },
+        PatchFault::Weight { row: 1, column: 0, value: -1.0 },
+        PatchFault::KnotCount { axis: u, count: 6, points: 4, degree: 2 },
+        PatchFault::KnotNotFinite { axis: u, index: 3, value: f64::INFINITY },
+        PatchFault::KnotTooLarge { axis: u, index: 0, value: -1e308, limit: 1e150 },
+        PatchFault::KnotDecreases { axis: u, index: 4, value: 0.5, before: 0.75 },
+        PatchFault::Torn { axis: u, value: 0.5, times: 3, degree: 2 },
+        PatchFault::EndMultiplicity { axis: u, value: 0.0, times: 4, degree: 2 },
+        PatchFault::EmptyRange { axis: u, value: 1.0 },
+        PatchFault::KnotsTooNear { axis: u, first: 0.5, second: 0.500_000_01 },
+        PatchFault::TooManySpans { axis: v, count: 300 },
+        PatchFault::NoArea,
+        PatchFault::Sliver { axis: u, width: 4e-8, tolerance: 6e-8 },
+        PatchFault::Size { size: 4e4 },
+        PatchFault::Tiny { size: 7e-3, body: 900.0, share: 1e-5 },
+        PatchFault::NoBounds,
+        PatchFault::Uneven { u: 0, v: 2 },
     ];
     match all[0] {
-        Fault::EmptyName
-        | Fault::DegreeCount { .. }
-        | Fault::Degree { .. }
-        | Fault::TooFewPoints { .. }
-        | Fault::BezierPoints { .. }
-        | Fault::RaggedRow { .. }
-        | Fault::PointLength { .. }
-        | Fault::Coordinate { .. }
-        | Fault::Weight { .. }
-        | Fault::KnotCount { .. }
-        | Fault::KnotNotFinite { .. }
-        | Fault::KnotTooLarge { .. }
-        | Fault::KnotDecreases { .. }
-        | Fault::Torn { .. }
-        | Fault::EndMultiplicity { .. }
-        | Fault::EmptyRange { .. }
-        | Fault::KnotsTooNear { .. }
-        | Fault::TooManySpans { .. }
-        | Fault::NoArea
-        | Fault::Sliver { .. }
-        | Fault::Size { .. }
-        | Fault::Tiny { .. }
-        | Fault::NoBounds
-        | Fault::Uneven { .. } => all,
+        PatchFault::EmptyName
+        | PatchFault::DegreeCount { .. }
+        | PatchFault::Degree { .. }
+        | PatchFault::TooFewPoints { .. }
+        | PatchFault::BezierPoints { .. }
+        | PatchFault::RaggedRow { .. }
+        | PatchFault::PointLength { .. }
+        | PatchFault::Coordinate { .. }
+        | PatchFault::Weight { .. }
+        | PatchFault::KnotCount { .. }
+        | PatchFault::KnotNotFinite { .. }
+        | PatchFault::KnotTooLarge { .. }
+        | PatchFault::KnotDecreases { .. }
+        | PatchFault::Torn { .. }
+        | PatchFault::EndMultiplicity { .. }
+        | PatchFault::EmptyRange { .. }
+        | PatchFault::KnotsTooNear { .. }
+        | PatchFault::TooManySpans { .. }
+        | PatchFault::NoArea
+        | PatchFault::Sliver { .. }
+        | PatchFault::Size { .. }
+        | PatchFault::Tiny { .. }
+        | PatchFault::NoBounds
+        | PatchFault::Uneven { .. } => all,
     }
 }
 
