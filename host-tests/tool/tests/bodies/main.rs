@@ -2,6 +2,7 @@
 //!
 //! `PALPATE_PROBES`, `PALPATE_TICKS` and `PALPATE_STARTS` set the numbers for long runs.
 
+mod brushes;
 mod cold;
 mod converging;
 mod locator;
