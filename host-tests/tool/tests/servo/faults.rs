@@ -196,6 +196,32 @@ fn phase_instants(trace: &Trace, phase: Phase) -> Vec<usize> {
     (0..trace.states.len() - AFTER - 10).filter(|tick| trace.states[*tick].phase() == phase).collect()
 }
 
+/// A stopped loop lets go, or brakes the hand if that was chosen.
+#[test]
+fn after_a_stop_the_device_is_limp_or_damped() {
+    let (device, patch) = (device(), decayed());
+    for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
+        let servo = Servo::new(&device, &patch, Controller::CERTIFIED, SETTINGS).safety(safety(output));
+        let trace = Trace::record(&servo, 7);
+        let instants: Vec<usize> = phase_instants(&trace, Phase::Running).into_iter().step_by(50).collect();
+        let mut braked = 0;
+        for from in &instants {
+            let mut state = trace.states[*from];
+            servo.note(&mut state, Event::Stop);
+            assert_eq!(state.duties(), [Duty::ZERO; 3], "at once");
+            for tick in from + 1..from + 4 {
+                servo.tick(&mut state, Input::Sensors { counts: trace.counts[tick], enable: enable(tick) });
+                assert_safe(&state, output, true);
+            }
+            braked += usize::from(state.duties() != [Duty::ZERO; 3]);
+        }
+        println!("{output:?}: braked {braked} of {}", instants.len());
+        // A hand at rest asks for nothing.
+        let expected = if output == SafeOutput::Zero { 0..=0 } else { instants.len() / 2..=instants.len() };
+        assert!(instants.len() > 20 && expected.contains(&braked), "{output:?}: {braked} of {}", instants.len());
+    }
+}
+
 #[test]
 fn every_fault_in_every_phase_is_safe_named_and_latched() {
     let (device, patch) = (device(), decayed());
