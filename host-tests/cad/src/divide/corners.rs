@@ -62,7 +62,7 @@ pub fn angles(mesh: &Mesh<'_>, face: usize) -> Vec<f64> {
 }
 
 /// The sides from one corner to the next, four times.
-pub fn four<'a>(sides: &'a [Side], starts: [usize; 4]) -> [Vec<&'a Side>; 4] {
+pub fn four(sides: &[Side], starts: [usize; 4]) -> [Vec<&Side>; 4] {
     [0, 1, 2, 3].map(|k| {
         let (from, to) = (starts[k], starts[(k + 1) % 4]);
         let count = (to + sides.len() - from) % sides.len();

@@ -79,8 +79,8 @@ fn way(mesh: &Mesh<'_>, from: usize, into_triangles: bool) -> Option<Vec<usize>>
         }
     }
     // Breadth first over faces and the wire by which each was entered.
-    let mut queue: VecDeque<(usize, Option<usize>)> = VecDeque::from([(from, None)]);
-    let mut before: HashMap<(usize, Option<usize>), (usize, Option<usize>)> = HashMap::new();
+    let mut queue: VecDeque<State> = VecDeque::from([(from, None)]);
+    let mut before: HashMap<State, State> = HashMap::new();
     while let Some((face, entered)) = queue.pop_front() {
         let is_end = is_odd(mesh, face) || into_triangles && is_triangle(mesh, face);
         if entered.is_some() && face != from && is_end {
@@ -112,10 +112,10 @@ fn way(mesh: &Mesh<'_>, from: usize, into_triangles: bool) -> Option<Vec<usize>>
     None
 }
 
-fn back(
-    mut state: (usize, Option<usize>),
-    before: &HashMap<(usize, Option<usize>), (usize, Option<usize>)>,
-) -> Vec<usize> {
+/// A region, and the wire by which it was come to.
+type State = (usize, Option<usize>);
+
+fn back(mut state: State, before: &HashMap<State, State>) -> Vec<usize> {
     let mut way = Vec::new();
     while let Some(wire) = state.1 {
         way.push(wire);
