@@ -2,6 +2,7 @@
 
 use crate::body::BakedBody;
 use crate::error::ModelError;
+use crate::flaws;
 use crate::locator::LocatorError;
 use crate::model::Model;
 use crate::source::{self, Origin, SourceError};
@@ -98,6 +99,12 @@ impl Bake {
         let text = fs::read_to_string(&self.model).map_err(read)?;
         let model = Model::parse(&text, &file)?;
         let mut body = BakedBody::new(&model, &file)?;
+        let surfaces: Vec<_> = body.faces.iter().map(|face| face.surface.clone()).collect();
+        let labels = body.labels(&model);
+        for flaw in flaws::find(&surfaces, &body.topology) {
+            let words = flaw.describe(&|index| labels[index].clone(), model.centre, model.unit);
+            println!("cargo::warning={file}: {words}");
+        }
         if body.faces.len() > 1 {
             let options = body.locator_options().reaching(self.margin);
             let located = body.located(&options, &|_, _| ());

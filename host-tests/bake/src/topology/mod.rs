@@ -99,17 +99,23 @@ impl Topology {
         self.edges.iter().all(|edge| edge.partner.is_some())
     }
 
-    /// Into how many pieces the faces fall that hang together by edges.
-    pub fn components(&self) -> usize {
+    /// The piece that each face belongs to: faces that hang together by edges have one number.
+    pub fn pieces(&self) -> Vec<usize> {
         let mut piece: Vec<usize> = (0..self.roles.len()).collect();
         for edge in &self.edges {
             let Some((other, _)) = edge.partner else { continue };
             let (from, to) = (piece[edge.owner.patch], piece[other.patch]);
             piece.iter_mut().filter(|of| **of == from).for_each(|of| *of = to);
         }
-        piece.sort_unstable();
-        piece.dedup();
-        piece.len()
+        piece
+    }
+
+    /// Into how many pieces the faces fall.
+    pub fn components(&self) -> usize {
+        let mut pieces = self.pieces();
+        pieces.sort_unstable();
+        pieces.dedup();
+        pieces.len()
     }
 
     /// Euler's characteristic `V − E + F`: 2 of a closed body without holes; a pole is a vertex and no edge.

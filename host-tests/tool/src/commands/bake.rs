@@ -77,7 +77,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         };
         print(text.as_bytes())?;
     }
-    let verdict = check::worst(&surveys);
+    let flaws = loaded.flaws();
+    for flaw in &flaws {
+        eprintln!("{}: {}", arguments.model.display(), loaded.describe(flaw));
+    }
+    let verdict = check::worst(&surveys, &flaws);
     eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
     Ok(check::exit_code(verdict))
 }

@@ -7,6 +7,7 @@ use palpate::body::EdgeKind;
 use palpate::track::{Integrator, PerformanceLimits};
 use palpate_bake::body::BakedSide;
 use palpate_bake::certificate::Finding;
+use palpate_bake::flaws::{self, Flaw};
 use palpate_bake::locator::LocatorOptions;
 use palpate_bake::survey::{Regularity, Survey, Verdict};
 use palpate_bake::{BakedBody, Model, Unit};
@@ -64,6 +65,20 @@ impl Loaded {
         self.body.faces.par_iter().map(|face| Survey::new(&face.surface, &face.patch, range)).collect()
     }
 
+    /// What is wrong with the body as a whole.
+    pub(super) fn flaws(&self) -> Vec<Flaw> {
+        let surfaces: Vec<_> = self.body.faces.iter().map(|face| face.surface.clone()).collect();
+        flaws::find(&surfaces, &self.body.topology)
+    }
+
+    /// A flaw in words, in the model's unit and frame.
+    pub(super) fn describe(&self, flaw: &Flaw) -> String {
+        let (labels, unit) = (self.body.labels(&self.model), self.model.unit);
+        let name = |index: usize| labels.get(index).cloned().unwrap_or_default();
+        let kind = if flaw.is_wrong() { "flaw" } else { "note" };
+        format!("{kind}: {}", flaw.describe(&name, self.model.centre, unit))
+    }
+
     /// What the faces go by.
     pub(super) fn labels(&self) -> Vec<String> {
         self.body.labels(&self.model).iter().map(|label| label.replace('"', "")).collect()
@@ -83,8 +98,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     verdicts(&mut report, wide, &labels, &surveys)?;
     tables(&mut report, wide, unit, &labels, &surveys)?;
     features(&mut report, &loaded.body)?;
+    let flaws = loaded.flaws();
+    for flaw in &flaws {
+        writeln!(report, "{}", loaded.describe(flaw))?;
+    }
     limits(&mut report, arguments, &labels, &surveys)?;
-    let verdict = worst(&surveys);
+    let verdict = worst(&surveys, &flaws);
     let certified = surveys.iter().filter(|survey| survey.verdict == Verdict::Certified).count();
     writeln!(
         report,
@@ -220,8 +239,11 @@ fn limits(report: &mut String, arguments: &Arguments, labels: &[String], surveys
     Ok(())
 }
 
-/// The verdict on a model is that on its worst patch.
-pub(super) fn worst(surveys: &[Survey]) -> Verdict {
+/// The verdict on a model is that on its worst patch; what is proved of patches does not hold of a body that cuts itself.
+pub(super) fn worst(surveys: &[Survey], flaws: &[Flaw]) -> Verdict {
+    if flaws.iter().any(Flaw::is_wrong) {
+        return Verdict::Usable;
+    }
     surveys.iter().map(|survey| survey.verdict).max().unwrap_or(Verdict::Usable)
 }
 

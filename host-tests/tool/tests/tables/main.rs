@@ -2,6 +2,7 @@
 
 mod body_source;
 mod committed;
+mod flaws;
 mod models;
 mod random_patches;
 mod splitting;
