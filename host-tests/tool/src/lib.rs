@@ -2,6 +2,7 @@
 //! prints the figures. The binary `palpate` is a thin front on this library; the tests use it directly.
 
 pub mod budgets;
+pub mod cache;
 pub mod cad;
 pub mod closest;
 pub mod commands;

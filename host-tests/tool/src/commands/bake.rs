@@ -4,6 +4,7 @@ use super::check::{self, Loaded};
 use super::output::{print, write_whole};
 use super::progress;
 use super::table_report;
+use crate::cache;
 use anyhow::Context as _;
 use clap::Args;
 use palpate_bake::graph;
@@ -52,9 +53,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let options = loaded.body.locator_options().reaching(arguments.margin);
         let bar = progress::work();
         let all = options.depth + options.deeper;
-        let (body, of_locator) =
-            loaded.body.located(&options, &|depth, _| bar.tell("depths of the octree", depth, all))?;
-        (loaded.body, report) = (body, Some(of_locator));
+        let progress = |depth, _| bar.tell("depths of the octree", depth, all);
+        if arguments.table_report {
+            let (body, of_locator) = loaded.body.located(&options, &progress)?;
+            (loaded.body, report) = (body, Some(of_locator));
+        } else {
+            loaded.body = cache::located(loaded.body, &loaded.file.text, &options, None, &progress)?;
+        }
     }
     if let Some(out) = &arguments.out {
         let origin = Origin {

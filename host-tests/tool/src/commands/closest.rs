@@ -3,7 +3,8 @@
 use super::output::{print, write_whole};
 use super::progress;
 use crate::closest::{Solver, Status};
-use crate::{models, queries};
+use crate::models::ModelFile;
+use crate::{cache, queries};
 use clap::{Args, ValueEnum};
 use palpate_bake::BakedBody;
 use std::path::PathBuf;
@@ -56,7 +57,8 @@ enum Mode {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let model = models::read(&arguments.model)?;
+    let file = ModelFile::read(&arguments.model)?;
+    let model = file.model()?;
     let per_metre = model.unit.per_metre();
     let queries = queries::read(&arguments.queries, &model)?;
     let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
@@ -64,7 +66,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
     let options = baked.locator_options().reaching(baked.sizes_beyond(&probes));
     let bar = progress::work();
-    let baked = baked.located_for(&probes, &options, &|depth, _| bar.tell("octree", depth, options.depth))?;
+    let progress = |depth, _| bar.tell("octree", depth, options.depth);
+    let baked = cache::located(baked, &file.text, &options, Some(&probes), &progress)?;
     drop(bar);
     let body = baked.to_body()?;
     let solver = Solver::new(&body, &baked);

@@ -1,6 +1,7 @@
 //! What is felt in a scene: one patch of a model, or the whole body.
 
 use super::progress;
+use crate::cache;
 use anyhow::Context;
 use glam::DVec3;
 use palpate::body::Body;
@@ -41,11 +42,11 @@ pub enum Felt {
 }
 
 impl Felt {
-    /// The patch of this name or number; without one, the body, or the only patch.
+    /// The patch of this name or number; without one, the body, or the only patch. `text` is the model's.
     ///
     /// # Errors
     /// What is wrong with the model, or that there is no such patch.
-    pub fn read(model: &Model, file: &Path, patch: Option<&str>) -> anyhow::Result<Self> {
+    pub fn read(model: &Model, text: &str, file: &Path, patch: Option<&str>) -> anyhow::Result<Self> {
         let label = file.display().to_string();
         let index = match patch {
             Some(wanted) => Some(patch_index(model, file, wanted)?),
@@ -60,7 +61,8 @@ impl Felt {
         let options = baked.locator_options();
         let bar = progress::work();
         let all = options.depth + options.deeper;
-        let (baked, _) = baked.located(&options, &|depth, _| bar.tell("depths of the octree", depth, all))?;
+        let progress = |depth, _| bar.tell("depths of the octree", depth, all);
+        let baked = cache::located(baked, text, &options, None, &progress)?;
         drop(bar);
         let body: &'static Body = Box::leak(Box::new(baked.to_body()?));
         Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone() })

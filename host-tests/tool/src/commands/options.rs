@@ -92,7 +92,7 @@ impl SceneOptions {
     pub fn scene(&self) -> anyhow::Result<Scene> {
         let file = ModelFile::read(&self.model)?;
         let model = file.model()?;
-        let felt = Felt::read(&model, &self.model, self.patch.as_deref())?;
+        let felt = Felt::read(&model, &file.text, &self.model, self.patch.as_deref())?;
         let body_origin = match self.at.as_deref() {
             Some(&[x, y, z]) => (DVec3::new(x, y, z) * 1e-3 + model.centre).as_vec3(),
             _ => -felt.middle(),

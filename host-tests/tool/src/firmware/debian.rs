@@ -4,9 +4,10 @@
 use super::process::{apt_install, existing, output};
 use super::way::{Way, has_core};
 use super::{Progress, SetUpError, without_outer_cargo};
+use crate::cache;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::{env, fs};
 
 pub(super) const RUSTC: &str = "/usr/bin/rustc";
 pub(super) const CARGO: &str = "/usr/bin/cargo";
@@ -87,13 +88,10 @@ fn find_linker() -> Option<PathBuf> {
     versions.max().map(|(_, linker)| linker)
 }
 
-/// `PALPATE_CACHE`, or `palpate` in the user's cache folder.
+/// The cache, by its whole path.
 fn cache_folder() -> Result<PathBuf, SetUpError> {
-    let variable = |name| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let folder = variable("PALPATE_CACHE")
-        .or_else(|| variable("XDG_CACHE_HOME").map(|cache| cache.join("palpate")))
-        .or_else(|| variable("HOME").map(|home| home.join(".cache/palpate")))
-        .ok_or_else(|| SetUpError::NoToolchain("no cache folder: set PALPATE_CACHE".to_owned()))?;
+    let folder =
+        cache::folder().ok_or_else(|| SetUpError::NoToolchain("no cache folder: set PALPATE_CACHE".to_owned()))?;
     // rustc runs elsewhere: the path must not depend on where this program was started.
     std::path::absolute(&folder).map_err(SetUpError::io(folder.display()))
 }

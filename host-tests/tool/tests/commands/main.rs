@@ -1,5 +1,6 @@
 //! What the tool's commands take, refuse and print.
 
+mod cache;
 mod figures;
 mod installed;
 mod outside;
