@@ -12,6 +12,8 @@ use crate::patch::{CurvedPoint, SplinePatch};
 
 /// Evaluations that one candidate of a list may cost.
 pub const MAX_EVALUATIONS_PER_CANDIDATE: u8 = 32;
+/// The same on a convex body, whose search is shorter.
+pub const MAX_EVALUATIONS_PER_CANDIDATE_CONVEX: u8 = 16;
 /// A distance is found when the next step would change it by less than this, relative to the body's size: the rounding of `f32`
 /// coordinates of that size.
 const RESOLUTION: f32 = 2.0e-7;
@@ -36,7 +38,8 @@ pub struct Descending {
     /// What the last evaluation said, until it is judged.
     seen: Option<Seen>,
     halvings: u8,
-    evaluations: u8,
+    /// Evaluations that it may still cost.
+    left: u8,
 }
 
 /// What an evaluation found out.
@@ -53,8 +56,8 @@ pub enum Judgement {
 }
 
 impl Descending {
-    /// From the middle of a candidate's rectangle.
-    pub fn new(candidate: Candidate) -> Self {
+    /// From the middle of a candidate's rectangle, for so many evaluations at most.
+    pub fn new(candidate: Candidate, most: u8) -> Self {
         let [lower, upper] = candidate.rectangle();
         let middle = [0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1])];
         Self {
@@ -64,7 +67,7 @@ impl Descending {
             trial: middle,
             seen: None,
             halvings: 0,
-            evaluations: 0,
+            left: most,
         }
     }
 
@@ -83,7 +86,7 @@ impl Descending {
     #[inline(never)]
     pub fn evaluate(&mut self, patch: &SplinePatch, probe: Vec3) {
         let curved = patch.evaluate_curved(self.trial[0], self.trial[1]);
-        self.evaluations += 1;
+        self.left = self.left.wrapping_sub(1);
         self.seen = Some(Seen::new(&curved, curved.surface.point - probe));
     }
 
@@ -146,7 +149,7 @@ impl Descending {
                 }
             };
         }
-        let exhausted = self.evaluations >= MAX_EVALUATIONS_PER_CANDIDATE || self.halvings >= MAX_HALVINGS;
+        let exhausted = self.left == 0 || self.halvings >= MAX_HALVINGS;
         if exhausted { Judgement::Exhausted } else { Judgement::Falling }
     }
 }

@@ -21,7 +21,7 @@ mod words;
 pub use curve::{CurvePoint, MAX_CURVE_DEGREE, SplineCurve};
 pub use feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Separator, Side, Spoke, Vertex};
 pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES};
-pub use minimise::{Descending, Judgement, MAX_EVALUATIONS_PER_CANDIDATE};
+pub use minimise::{Descending, Judgement, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
 pub use search::{Located, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, Search};
 pub use table::{Body, BodyError};
 pub use tracker::{BodyStep, BodyWitness};

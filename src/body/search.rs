@@ -5,7 +5,7 @@
 
 use super::feature::Face;
 use super::locator::Candidate;
-use super::minimise::{Descending, Judgement};
+use super::minimise::{Descending, Judgement, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
 use super::table::Body;
 use crate::math::Vec3;
 
@@ -56,7 +56,7 @@ impl Search {
     pub fn new(body: &Body, probe: Vec3) -> Self {
         let entry = body.locator.list(probe);
         Self {
-            descending: Descending::new(body.candidate(entry)),
+            descending: body.descending(entry),
             entry: entry as u16,
             evaluations: 0,
             best: Best { face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
@@ -106,7 +106,7 @@ impl Search {
             self.ended = Some(false);
         } else if !falls {
             self.entry += 1;
-            self.descending = Descending::new(body.candidate(usize::from(self.entry)));
+            self.descending = body.descending(usize::from(self.entry));
         }
     }
 
@@ -136,6 +136,12 @@ impl Body {
             search.turn(self, probe);
         }
         search.located(search.ended.unwrap_or(false))
+    }
+
+    /// A search from the middle of the candidate at an index.
+    fn descending(&self, entry: usize) -> Descending {
+        let most = if self.is_convex() { MAX_EVALUATIONS_PER_CANDIDATE_CONVEX } else { MAX_EVALUATIONS_PER_CANDIDATE };
+        Descending::new(self.candidate(entry), most)
     }
 
     fn poles_of(&self, face: u16) -> u8 {

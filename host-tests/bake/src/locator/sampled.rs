@@ -10,7 +10,7 @@ use super::tables;
 use super::unique::Rectangle;
 use crate::random::Random;
 use glam::DVec3;
-use palpate::body::{Candidate, Descending, GRID, Judgement};
+use palpate::body::{Candidate, Descending, GRID, Judgement, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
 use palpate::math::Vec3;
 
 /// Starts of descents that a list is compared with, the nearest ones.
@@ -76,7 +76,7 @@ fn start(faces: &Faces, region: &Region<'_>) -> (Vec3, Candidate, f32) {
 
 /// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this descent's included.
 fn descended(faces: &Faces, candidate: &Candidate, probe: Vec3, best: &mut f32, size: f32) -> [f32; 2] {
-    let mut descending = Descending::new(*candidate);
+    let mut descending = Descending::new(*candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX);
     loop {
         let face = usize::from(candidate.face);
         let progress = descending.step(&faces.tables[face], faces.poles(face), probe, *best, size);

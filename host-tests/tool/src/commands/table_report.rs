@@ -1,6 +1,8 @@
 //! What baked tables take in flash, and what is known of their locator.
 
-use palpate::body::{MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE};
+use palpate::body::{
+    MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
+};
 use palpate_bake::body::{BakedBody, BodyBytes};
 use palpate_bake::locator::{LeafCounts, LocatorReport};
 use palpate_bake::survey::Survey;
@@ -15,8 +17,12 @@ pub(super) fn of_body(body: &BakedBody, locator: &LocatorReport) -> Result<Strin
     }
     row(&mut report, "all", bytes.total(), "bytes of flash on a 32-bit target")?;
     leaves(&mut report, locator)?;
-    let most = usize::from(if body.is_convex { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS });
-    let longest = locator.longest * usize::from(MAX_EVALUATIONS_PER_CANDIDATE);
+    let (most, per_candidate) = if body.is_convex {
+        (MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX)
+    } else {
+        (MAX_EVALUATIONS, MAX_EVALUATIONS_PER_CANDIDATE)
+    };
+    let (most, longest) = (usize::from(most), locator.longest * usize::from(per_candidate));
     let stopped = if longest > most { "; a search that is not done by then is stopped, and says so" } else { "" };
     row(
         &mut report,
