@@ -48,7 +48,11 @@ pub(super) fn failure(
             near.select_nth_unstable_by(STARTS, |a, b| a.0.total_cmp(&b.0));
             near.truncate(STARTS);
         }
-        near.iter().find_map(|(_, (_, candidate, _))| {
+        near.iter().enumerate().find_map(|(index, (_, (_, candidate, _)))| {
+            // Regions smaller than a step of the grid share their rectangle, and with it the descent.
+            if near[..index].iter().any(|(_, (_, known, _))| known == candidate) {
+                return None;
+            }
             let mut best = f32::INFINITY;
             let parameters = descended(faces, candidate, probe, &mut best, size as f32);
             let distance = f64::from((2.0 * best).sqrt());

@@ -92,11 +92,10 @@ impl Subject<'_> {
         if pieces.iter().all(|piece| self.has_strict_minima(piece)) {
             return Minima::One;
         }
-        let Some(loss) =
-            pieces.iter().map(|piece| self.loss(piece)).try_fold(0.0, |most: f64, loss| Some(most.max(loss?)))
-        else {
+        let mut loss = 0.0;
+        if pieces.iter().any(|piece| self.raise_loss(piece, &mut loss).is_none()) {
             return Minima::Unknown;
-        };
+        }
         Minima::Within((nearest * nearest + loss).sqrt() - nearest)
     }
 
@@ -207,25 +206,33 @@ impl Subject<'_> {
         is_positive(&piece.hessian, Part::Inside, probes)
     }
 
-    /// The most that `−δᵀHδ` can be for `δ` within the rectangle; `None` across a crease.
-    fn loss(&self, piece: &Piece) -> Option<f64> {
+    /// Raises a loss to the most that `−δᵀHδ` can be on a piece for `δ` within the rectangle; `None` across a crease. What is bounded below the loss as
+    /// a whole is in its quarters too.
+    fn raise_loss(&self, piece: &Piece, most: &mut f64) -> Option<()> {
         if !self.overlaps(piece) {
-            return Some(0.0);
+            return Some(());
         }
         if self.is_creased(piece) {
             return None;
         }
         if is_positive(&piece.hessian, Part::Inside, &self.query.probes) {
-            return Some(0.0);
+            return Some(());
+        }
+        let loss = self.loss(piece);
+        if loss <= *most {
+            return Some(());
         }
         if piece.level < LEVELS - 1
             && let Some(quarters) = piece.quarters()
         {
-            return quarters
-                .iter()
-                .map(|quarter| self.loss(quarter))
-                .try_fold(0.0, |most: f64, loss| Some(most.max(loss?)));
+            return quarters.iter().try_for_each(|quarter| self.raise_loss(quarter, most));
         }
+        *most = most.max(loss);
+        Some(())
+    }
+
+    /// A bound of `−δᵀHδ` on a piece.
+    fn loss(&self, piece: &Piece) -> f64 {
         let [low, high] = self.rectangle.parameters();
         let [du, dv] = [high[0] - low[0], high[1] - low[1]];
         let probes = &self.query.probes;
@@ -237,7 +244,7 @@ impl Subject<'_> {
         let free =
             |along: f64, reach: f64, other: f64| if along > 0.0 { (uv * other / along).min(reach) } else { reach };
         let lowest = [form(du, dv), form(free(uu, du, dv), dv), form(du, free(vv, dv, du)), 0.0];
-        Some(-lowest.into_iter().fold(0.0, f64::min))
+        -lowest.into_iter().fold(0.0, f64::min)
     }
 }
 
