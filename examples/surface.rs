@@ -38,7 +38,7 @@ static PATCH: SplinePatch = TABLE.with_crc(TABLE.table_crc());
 static SERVO: Servo<'static, SplinePatch, SerialArm, 3> = Servo::new(
     &DEVICE,
     &PATCH,
-    Controller::CERTIFIED,
+    Controller::SECOND_ORDER,
     Settings {
         rate: 4_000.0,
         stiffness: 800.0,

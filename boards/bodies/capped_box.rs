@@ -1,6 +1,6 @@
 // Baked table, not for editing: palpate bake capped_box.toml --out capped_box.rs
-// Table format 3. SHA-256 of the model file: 21e70fde5e93324ff67d2d8e8050f949f102ea8475d56dd65d5be85ec60a6a0b
-// A body of 6 faces, 12 edges and 8 vertices. CRC-32 of its numbers: 3d497e96
+// Table format 4. SHA-256 of the model file: 21e70fde5e93324ff67d2d8e8050f949f102ea8475d56dd65d5be85ec60a6a0b
+// A body of 6 faces, 12 edges and 8 vertices. CRC-32 of its numbers: 6de57b6c
 
 // Span borders.
 #[rustfmt::skip]
@@ -258,6 +258,14 @@ static FACES: [palpate::body::Face; 6] = [
                     uv: 0.008000003,
                     vv: 0.048000004,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 4.46869e-9,
+                    uuv: 0.016000008,
+                    uvv: 0.016000008,
+                    vvv: 5.66869e-9,
+                    jump_uu: 1.0654187e-15,
+                    jump_vv: 1.351521e-15,
+                },
                 curvature: palpate::patch::Curvature {
                     min: 10.41762,
                     max: 27.820251,
@@ -332,6 +340,14 @@ static FACES: [palpate::body::Face; 6] = [
                     uv: 0.03200001,
                     vv: 6.0176547e-10,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 4.46869e-9,
+                    uuv: 0.06400001,
+                    uvv: 5.18869e-9,
+                    vvv: 5.12869e-9,
+                    jump_uu: 1.0654187e-15,
+                    jump_vv: 1.222775e-15,
+                },
                 curvature: palpate::patch::Curvature {
                     min: -0.0,
                     max: -0.0,
@@ -393,6 +409,14 @@ static FACES: [palpate::body::Face; 6] = [
                     uu: 0.048000004,
                     uv: 0.024000004,
                     vv: 4.6676557e-10,
+                },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 5.6686895e-9,
+                    uuv: 0.048000008,
+                    uvv: 6.98869e-9,
+                    vvv: 5.12869e-9,
+                    jump_uu: 1.3515209e-15,
+                    jump_vv: 1.222775e-15,
                 },
                 curvature: palpate::patch::Curvature {
                     min: -0.0,
@@ -456,6 +480,14 @@ static FACES: [palpate::body::Face; 6] = [
                     uv: 0.03200001,
                     vv: 6.0176547e-10,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 4.46869e-9,
+                    uuv: 0.06400001,
+                    uvv: 5.18869e-9,
+                    vvv: 5.12869e-9,
+                    jump_uu: 1.0654187e-15,
+                    jump_vv: 1.222775e-15,
+                },
                 curvature: palpate::patch::Curvature {
                     min: -0.0,
                     max: -0.0,
@@ -517,6 +549,14 @@ static FACES: [palpate::body::Face; 6] = [
                     uu: 0.048000004,
                     uv: 0.024000004,
                     vv: 4.5117712e-10,
+                },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 4.179127e-9,
+                    uuv: 0.048000008,
+                    uvv: 5.4991274e-9,
+                    vvv: 3.6391268e-9,
+                    jump_uu: 9.963815e-16,
+                    jump_vv: 8.6763544e-16,
                 },
                 curvature: palpate::patch::Curvature {
                     min: -0.0,
@@ -580,6 +620,14 @@ static FACES: [palpate::body::Face; 6] = [
                     uv: 4.6765362e-11,
                     vv: 4.6765362e-11,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 5.66869e-9,
+                    uuv: 4.46869e-9,
+                    uvv: 4.46869e-9,
+                    vvv: 4.46869e-9,
+                    jump_uu: 1.351521e-15,
+                    jump_vv: 1.0654187e-15,
+                },
                 curvature: palpate::patch::Curvature {
                     min: -0.0,
                     max: -0.0,
@@ -636,6 +684,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_0),
             second_derivative: 0.048000004,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 0,
@@ -656,6 +706,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_1),
             second_derivative: 0.048000004,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 0,
@@ -676,6 +728,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_2),
             second_derivative: 0.06400001,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 0,
@@ -696,6 +750,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_3),
             second_derivative: 0.06400001,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 0,
@@ -716,6 +772,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_4),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 1,
@@ -736,6 +794,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_5),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 1,
@@ -756,6 +816,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_6),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 1,
@@ -776,6 +838,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_7),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 2,
@@ -796,6 +860,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_8),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 2,
@@ -816,6 +882,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_9),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 3,
@@ -836,6 +904,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_10),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 3,
@@ -856,6 +926,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_11),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 4,
@@ -1174,7 +1246,7 @@ static ENTRIES: [u32; 503] = [
 ];
 /// CRC-32 of the body's numbers, [`palpate::body::Body::table_crc`], computed when it was baked.
 #[allow(dead_code)]
-pub const TABLE_CRC: u32 = 1028226710;
+pub const TABLE_CRC: u32 = 1843755884;
 /// The body.
 #[allow(dead_code, long_running_const_eval)]
 #[rustfmt::skip]
@@ -1199,7 +1271,7 @@ pub type Surface = palpate::body::Body;
 /// The body.
 #[allow(dead_code)]
 pub const SURFACE: &Surface = &BODY;
-/// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the tables. With the
-/// model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
+/// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
+/// tables. With the model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
 #[allow(dead_code)]
 pub const CENTRE: palpate::math::Vec3 = palpate::math::vec3(0.0, 0.0, 0.0);

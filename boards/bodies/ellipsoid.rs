@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake ellipsoid.toml --out ellipsoid.rs
-// Table format 3. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
+// Table format 4. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
 
 // Patch 0, "cap".
 #[rustfmt::skip]
@@ -34,6 +34,14 @@ pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
                     uv: 0.07750345,
                     vv: 0.14129409,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.7256523,
+                    uuv: 0.18439472,
+                    uvv: 0.24201487,
+                    vvv: 0.5475642,
+                    jump_uu: 1.7300898e-7,
+                    jump_vv: 1.3054948e-7,
+                },
                 curvature: palpate::patch::Curvature {
                     min: 7.9618325,
                     max: 43.74316,
@@ -55,8 +63,8 @@ pub type Surface = palpate::patch::SplinePatch;
 pub const SURFACE: &Surface = &PATCHES[0];
 /// CRC-32 of its numbers, [`palpate::patch::SplinePatch::table_crc`], computed when it was baked.
 #[allow(dead_code)]
-pub const TABLE_CRC: u32 = 543639650;
-/// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the tables. With the
-/// model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
+pub const TABLE_CRC: u32 = 2552934459;
+/// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
+/// tables. With the model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
 #[allow(dead_code)]
 pub const CENTRE: palpate::math::Vec3 = palpate::math::vec3(0.0, 0.0, 0.0);

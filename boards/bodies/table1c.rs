@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake table1c.toml --out table1c.rs
-// Table format 3. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
+// Table format 4. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
 
 // Patch 0, "S".
 #[rustfmt::skip]
@@ -106,6 +106,14 @@ pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
                     uv: 7.01481e-10,
                     vv: 0.45000005,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.0,
+                    uuv: 2.0109108e-7,
+                    uvv: 2.0109108e-7,
+                    vvv: 0.0,
+                    jump_uu: 0.45000005,
+                    jump_vv: 0.45891178,
+                },
                 curvature: palpate::patch::Curvature {
                     min: -2.959249e-10,
                     max: 70.97095,
@@ -127,8 +135,8 @@ pub type Surface = palpate::patch::SplinePatch;
 pub const SURFACE: &Surface = &PATCHES[0];
 /// CRC-32 of its numbers, [`palpate::patch::SplinePatch::table_crc`], computed when it was baked.
 #[allow(dead_code)]
-pub const TABLE_CRC: u32 = 3525732538;
-/// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the tables. With the
-/// model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
+pub const TABLE_CRC: u32 = 2188311744;
+/// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
+/// tables. With the model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
 #[allow(dead_code)]
 pub const CENTRE: palpate::math::Vec3 = palpate::math::vec3(0.0, 0.0, 0.0);

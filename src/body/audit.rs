@@ -5,17 +5,24 @@ use super::search::{Located, Search};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
-use crate::track::{Contact, Witness};
+use crate::track::Contact;
 
-/// The distance of another candidate must be shorter by this part before the tracker changes over: far above what `f32` rounds, far
-/// below what a hand feels.
+/// The distance of another candidate must be shorter by this part before the tracker changes over: far above what `f32`
+/// rounds, far below what a hand feels.
 const NEARER: f32 = 1.0e-3;
 
 impl Body {
     /// One part of the search for a start, or of the rolling audit: its beginning, half an evaluation, or
     /// its end. `follows` is whether the probe is near that of the last tick. Whether the tracker may step.
     #[inline(never)]
-    pub(super) fn search(&self, state: &mut BodyWitness, probe: Vec3, follows: bool, step: &mut BodyStep) -> bool {
+    pub(super) fn search(
+        &self,
+        is_curved: bool,
+        state: &mut BodyWitness,
+        probe: Vec3,
+        follows: bool,
+        step: &mut BodyStep,
+    ) -> bool {
         if !follows {
             if !probe.is_finite() {
                 return false;
@@ -40,17 +47,18 @@ impl Body {
         state.search = None;
         let known = 0.5 * (state.witness.surface.point - probe).length_squared();
         if !state.is_located || found.half_squared < (1.0 - NEARER) * known {
-            self.set_down(state, &found, probe, step);
+            self.set_down(is_curved, state, &found, probe, step);
         }
         state.is_audited = true;
-        false
+        steps_too && !step.switched
     }
 
     /// Sets the witness point down where the search has ended. One evaluation.
-    fn set_down(&self, state: &mut BodyWitness, found: &Located, probe: Vec3, step: &mut BodyStep) {
+    fn set_down(&self, is_curved: bool, state: &mut BodyWitness, found: &Located, probe: Vec3, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(found.face)) else { return };
         let [u, v] = found.parameters;
-        let witness = Witness::at(&face.patch, u, v);
+        let mut witness = state.witness;
+        witness.set_down(&face.patch, [u, v], is_curved);
         step.evaluations += 1;
         // The probe has moved since the search began.
         let nearer =

@@ -6,7 +6,7 @@ use crate::patch::{Coefficients, MAX_SPANS, bisect, horner_step};
 /// The highest degree of a curve: the cross derivative of a rational patch of degree 5 has twice its degree.
 pub const MAX_CURVE_DEGREE: usize = 10;
 
-/// A point of a curve with its tangent: one evaluation.
+/// A point of a curve with its tangent and second derivative: one evaluation.
 ///
 /// # Units
 /// Metres; the tangent in metres per unit of parameter, *not* normalised.
@@ -16,13 +16,15 @@ pub struct CurvePoint {
     pub point: Vec3,
     /// `c' = dc/dt`.
     pub tangent: Vec3,
+    /// `½ c''`, metres per unit of parameter squared.
+    pub half_second: Vec3,
 }
 
 /// A piecewise polynomial or rational curve over `[0, 1]`, as a table in flash.
 ///
 /// # Shapes
-/// `breaks` are the span borders, rising from 0 to 1. Span `i` has `degree + 1` coefficients, entry `k` the power `k` of the
-/// distance from the span's centre.
+/// `breaks` are the span borders, rising from 0 to 1. Span `i` has `degree + 1` coefficients, entry `k` the power `k`
+/// of the distance from the span's centre.
 #[derive(Clone, Copy, Debug)]
 pub struct SplineCurve {
     /// 1 to [`MAX_CURVE_DEGREE`]; 0 is a constant.
@@ -31,7 +33,8 @@ pub struct SplineCurve {
     pub breaks: &'static [f32],
     /// Coefficients of all spans.
     pub coefficients: Coefficients,
-    /// `sup ‖c''‖`, metres per unit of parameter squared, rounding included; what the certified step along the curve needs.
+    /// `sup ‖c''‖`, metres per unit of parameter squared, rounding included; what the certified step along the curve
+    /// needs.
     pub second_derivative: f32,
 }
 
@@ -50,23 +53,35 @@ impl SplineCurve {
         bounded && count == spans * (self.degree as usize + 1) && crate::patch::breaks_are_valid(self.breaks)
     }
 
-    /// The point and the tangent at `t`. Parameters outside `[0, 1]` extrapolate the nearest span; the tracker never asks
-    /// for them.
+    /// The point with its derivatives at `t`. Parameters outside `[0, 1]` extrapolate the nearest span; the tracker
+    /// never asks for them.
     #[inline(never)]
     pub fn evaluate(&self, t: f32) -> CurvePoint {
         let (span, s) = locate(self.breaks, t);
         match self.coefficients {
             Coefficients::Polynomial(entries) => {
-                let (value, along) = self.span(entries, span, s);
-                CurvePoint { point: Vec3::from_array(value), tangent: Vec3::from_array(along) }
+                let [value, along, half] = self.span(entries, span, s);
+                let [point, tangent, half_second] = [value, along, half].map(Vec3::from_array);
+                CurvePoint { point, tangent, half_second }
             }
             Coefficients::Rational(entries) => {
-                let ([x, y, z, w], [x_t, y_t, z_t, w_t]) = self.span(entries, span, s);
+                let [(a, w), (a_t, w_t), (a_tt, w_tt)] =
+                    self.span(entries, span, s).map(|[x, y, z, w]| (vec3(x, y, z), w));
                 let inverse = 1.0 / w;
-                let point = vec3(x, y, z) * inverse;
-                CurvePoint { point, tangent: (vec3(x_t, y_t, z_t) - point * w_t) * inverse }
+                let point = a * inverse;
+                let tangent = (a_t - point * w_t) * inverse;
+                CurvePoint { point, tangent, half_second: (a_tt - tangent * w_t - point * w_tt) * inverse }
             }
         }
+    }
+
+    /// [`crate::patch::Patch::beyond_knots`] of a curve.
+    #[inline]
+    pub(super) fn beyond_knots(&self, from: f32, to: f32) -> f32 {
+        if self.breaks.len() == 2 {
+            return 0.0;
+        }
+        crate::patch::beyond(self.breaks, bisect(self.breaks, from).0, bisect(self.breaks, to).0, to)
     }
 
     /// The point alone.
@@ -82,18 +97,20 @@ impl SplineCurve {
         }
     }
 
-    /// Value and derivative on one span.
+    /// Value, derivative, and half the second derivative on one span.
     #[inline]
-    fn span<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32) -> ([f32; D], [f32; D]) {
-        let Some((highest, lower)) = self.powers(entries, span).split_last() else { return ([0.0; D], [0.0; D]) };
-        let Some((next, lower)) = lower.split_last() else { return (*highest, [0.0; D]) };
+    fn span<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32) -> [[f32; D]; 3] {
+        let zero = [0.0; D];
+        let Some((highest, lower)) = self.powers(entries, span).split_last() else { return [zero; 3] };
+        let Some((next, lower)) = lower.split_last() else { return [*highest, zero, zero] };
         // The derivative begins with the highest: a step of Horner's rule before it would multiply zero.
-        let (mut value, mut along) = (horner_step(*highest, s, *next), *highest);
+        let (mut value, mut along, mut half) = (horner_step(*highest, s, *next), *highest, zero);
         for coefficient in lower.iter().rev() {
+            half = horner_step(half, s, along);
             along = horner_step(along, s, value);
             value = horner_step(value, s, *coefficient);
         }
-        (value, along)
+        [value, along, half]
     }
 
     /// The coefficients of one span.

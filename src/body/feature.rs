@@ -57,8 +57,8 @@ pub enum Separator {
         /// Metres.
         offset: f32,
     },
-    /// The face's derivative across the border, out of the face, in the edge's parameter: `±f_u` or `±f_v` times any positive
-    /// function. The conormal is its part normal to the edge. Exact: a polynomial of the patch's own numbers.
+    /// The face's derivative across the border, out of the face, in the edge's parameter: `±f_u` or `±f_v` times any
+    /// positive function. The conormal is its part normal to the edge. Exact: a polynomial of the patch's own numbers.
     Ruled(SplineCurve),
 }
 
@@ -83,6 +83,11 @@ pub enum EdgeKind {
 pub struct Edge {
     /// The curve, never one point.
     pub curve: SplineCurve,
+    /// `sup ‖c'''‖`, metres per unit of parameter cubed: what the step of second order along the edge needs. Infinite
+    /// where nothing is proved.
+    pub third_derivative: f32,
+    /// The largest jump of `c''` across a knot, metres per unit of parameter squared. Infinite at a crease.
+    pub jump: f32,
     /// The faces on it: two (of which both may be the same face), or one and [`EdgeFace::NONE`] for an open border.
     pub faces: [EdgeFace; 2],
     /// The vertices at `t = 0` and `t = 1`.
@@ -110,8 +115,9 @@ impl EdgeFace {
 pub struct Vertex {
     /// Where, metres.
     pub point: Vec3,
-    /// Unit vector along the sum of the faces' normals, each times the angle that it fills here: a probe that is closest to the vertex
-    /// is outside a closed body where it lies on this side. Zero where that says nothing, and on an open border.
+    /// Unit vector along the sum of the faces' normals, each times the angle that it fills here: a probe that is
+    /// closest to the vertex is outside a closed body where it lies on this side. Zero where that says nothing, and on
+    /// an open border.
     pub outward: Vec3,
     /// Its spokes: `first_spoke .. first_spoke + spokes` of the body's list.
     pub first_spoke: u16,

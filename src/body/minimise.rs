@@ -1,9 +1,9 @@
 //! Second order: the distance from a probe to one rectangle of a patch's parameters.
 //!
 //! With `φ = ½ ‖f − Q‖²`, gradient `g` and Hessian `H = I + ΔR · D²f`, each step goes to the minimiser of
-//! `g · δ + ½ δᵀ H δ` over the rectangle, where `H` is positive definite; where it is not, `I` stands in for what of its diagonal is
-//! not positive, or for all of it (Gauss–Newton).
-//! A step that does not lower `φ` is halved. Beside a pole the step is one in polar coordinates ([`super::pole`]).
+//! `g · δ + ½ δᵀ H δ` over the rectangle, where `H` is positive definite; where it is not, `I` stands in for what of
+//! its diagonal is not positive, or for all of it (Gauss–Newton). A step that does not lower `φ` is halved. Beside a
+//! pole the step is one in polar coordinates ([`super::pole`]).
 
 use super::locator::Candidate;
 use super::pole::Pole;
@@ -90,8 +90,8 @@ impl Descending {
         self.seen = Some(Seen::new(&curved, curved.surface.point - probe));
     }
 
-    /// The second half on a face without poles: where to go from there. None of the arithmetic of poles is compiled in. `known` is the `φ`
-    /// to beat, m²; `size` the body's, metres.
+    /// The second half on a face without poles: where to go from there. None of the arithmetic of poles is compiled in.
+    /// `known` is the `φ` to beat, m²; `size` the body's, metres.
     #[inline(never)]
     pub fn judge(&mut self, known: f32, size: f32) -> Judgement {
         self.judged(0, known, size)
@@ -128,7 +128,8 @@ impl Descending {
                     (change, fall) = around;
                 }
             }
-            // φ changes by d times the change of d. Beside a pole, where steps shrink with the distance to it, the last bit of φ counts too.
+            // φ changes by d times the change of d. Beside a pole, where steps shrink with the distance to it, the last
+            // bit of φ counts too.
             let distance = sqrt(2.0 * half_squared);
             let mut resolved = RESOLUTION * size;
             if pole.is_some() {
@@ -170,7 +171,7 @@ impl Seen {
         let surface = &curved.surface;
         let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
         let form = [f_u.dot(f_u), f_u.dot(f_v), f_v.dot(f_v)];
-        let bend = [curved.second_uu, curved.second_uv, curved.second_vv].map(|second| difference.dot(second));
+        let bend = curved.second.along(difference);
         let newton = [form[0] + bend[0], form[1] + bend[1], form[2] + bend[2]];
         let gradient = [difference.dot(f_u), difference.dot(f_v)];
         Self { half_squared: 0.5 * difference.length_squared(), gradient, form, newton }
@@ -218,8 +219,8 @@ impl Model {
         along(0) + along(1)
     }
 
-    /// The minimiser of the model over `room`, and the model's value there. In two variables either the free minimiser lies
-    /// inside, or the best of the four sides is the minimiser.
+    /// The minimiser of the model over `room`, and the model's value there. In two variables either the free minimiser
+    /// lies inside, or the best of the four sides is the minimiser.
     fn minimiser(&self, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let [a, b, c] = self.hessian;
         let [p, q] = self.gradient;

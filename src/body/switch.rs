@@ -1,23 +1,24 @@
-//! The top level: from which feature the tracker goes to which other one. A switch never moves the witness point by more than rounding.
+//! The top level: from which feature the tracker goes to which other one. A switch never moves the witness point by
+//! more than rounding.
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::feature::{EdgeFace, EdgeKind, Feature, Side};
+use super::feature::{EdgeFace, EdgeKind, Face, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
-use crate::patch::SurfacePoint;
+use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::track::{BoundaryMode, Witness};
 
 /// Faces of an edge.
 pub(super) const BOTH: u8 = 2;
 
 impl Body {
-    /// Hands over through the side that holds the witness point. While the witness point is free there is nothing to ask: the controller
-    /// brings it to the side through which the probe has left, and there the measure numbers of the projection errors change sign where
-    /// the probe passes the separator. Whether it switched.
+    /// Hands over through the side that holds the witness point. While the witness point is free there is nothing to
+    /// ask: the controller brings it to the side through which the probe has left, and there the measure numbers of the
+    /// projection errors change sign where the probe passes the separator. Whether it switched.
     #[inline(never)]
-    pub(super) fn leave_face(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+    pub(super) fn leave_face(&self, index: u16, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Some(face) = self.faces.get(usize::from(index)) else { return false };
         let [u, v] = state.witness.parameters;
         // At a corner the side that the step along the other one would meet.
@@ -35,21 +36,22 @@ impl Body {
             Side::Edge { edge, reversed, .. } => {
                 let along = if number < 2 { v } else { u };
                 let t = if *reversed { 1.0 - along } else { along };
-                self.cross_side(index, *edge, t, number < 2, state, step)
+                self.cross_side(index, *edge, t, [number < 2, *reversed], is_curved, state, step)
             }
         };
         step.switched
     }
 
-    /// From a face to the one beyond the edge, if that takes the probe: over a smooth edge it does, for between the two lies no region.
-    /// Otherwise to the edge.
+    /// From a face to the one beyond the edge, if that takes the probe: over a smooth edge it does, for between the two
+    /// lies no region. Otherwise to the edge.
     #[inline]
     fn cross_side(
         &self,
         from: u16,
         index: u16,
         t: f32,
-        is_along_v: bool,
+        [is_along_v, is_reversed]: [bool; 2],
+        is_curved: bool,
         state: &mut BodyWitness,
         step: &mut BodyStep,
     ) -> bool {
@@ -58,25 +60,27 @@ impl Body {
         let other = edge.faces[usize::from(!from_second)];
         let is_other = other.face != from && other != EdgeFace::NONE;
         if is_other && (edge.kind == EdgeKind::Smooth || self.takes_across(other, t, is_along_v, state)) {
-            return self.enter_across(other.face, other.side, t, state, step);
+            return self.enter_across(other, t, is_curved, state, step);
         }
-        let (at, probe) = (edge.curve.evaluate(t), state.probe);
-        let squared = (state.witness.surface.point - probe).length_squared();
-        if !self.is_no_rise((at.point - probe).length_squared(), squared, at.point, probe) {
-            return false;
-        }
+        // The border of the face is the edge: no evaluation.
+        let Witness { surface, second, .. } = &state.witness;
+        let (tangent, half_second) =
+            if is_along_v { (surface.tangent_v, second.half_vv) } else { (surface.tangent_u, second.half_uu) };
+        let at =
+            CurvePoint { point: surface.point, tangent: if is_reversed { -tangent } else { tangent }, half_second };
         state.rest_on_edge(index, t, &at);
-        (state.asks_second, state.declined) = (is_other && from_second, u8::from(is_other));
+        state.declined = u8::from(is_other);
         true
     }
 
-    /// Whether the face beyond a side takes the probe, at the witness point with the parameter `t` of the edge there. Which way the tangent
-    /// along the edge points does not matter. Not inlined: what it keeps on the stack is not there when the other face is evaluated.
+    /// Whether the face beyond a side takes the probe, at the witness point with the parameter `t` of the edge there.
+    /// Which way the tangent along the edge points does not matter. Not inlined: what it keeps on the stack is not
+    /// there when the other face is evaluated.
     #[inline(never)]
     fn takes_across(&self, other: EdgeFace, t: f32, is_along_v: bool, state: &BodyWitness) -> bool {
         let surface = &state.witness.surface;
         let tangent = if is_along_v { surface.tangent_v } else { surface.tangent_u };
-        let at = CurvePoint { point: surface.point, tangent };
+        let at = CurvePoint { point: surface.point, tangent, half_second: Vec3::ZERO };
         self.takes(other, &Along::new(&at, state.probe), &at, t, state.probe)
     }
 
@@ -89,26 +93,29 @@ impl Body {
         }
     }
 
-    /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point; otherwise one step
-    /// along it.
+    /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point;
+    /// otherwise one step along it.
     #[inline(never)]
-    pub(super) fn tick_on_edge(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) {
+    pub(super) fn tick_on_edge(&self, index: u16, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(edge) = self.edges.get(usize::from(index)) else { return };
         let (t, probe) = (state.witness.parameters[0], state.probe);
-        let at = CurvePoint { point: state.witness.surface.point, tangent: state.witness.surface.tangent_u };
+        let Witness { surface, second, .. } = &state.witness;
+        let at = CurvePoint { point: surface.point, tangent: surface.tangent_u, half_second: second.half_uu };
         let along = Along::new(&at, probe);
-        // One face a tick, in turn.
-        let of = edge.faces[usize::from(state.asks_second)];
-        state.asks_second = !state.asks_second;
-        if self.takes(of, &along, &at, t, probe) {
-            step.switched = self.enter_across(of.face, of.side, t, state, step);
-            return;
+        // An edge that has just been come to asks in the next tick.
+        if !step.switched {
+            for of in edge.faces {
+                if self.takes(of, &along, &at, t, probe) {
+                    step.switched = self.enter_across(of, t, is_curved, state, step);
+                    return;
+                }
+            }
+            state.declined = BOTH;
         }
-        state.declined = (state.declined + 1).min(BOTH);
-        if state.declined == BOTH && along.is_held(t) {
+        if !along.is_held(t) {
+            step.outcome = self.slide(index, &along, is_curved, state);
+        } else if state.declined == BOTH {
             step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
-        } else {
-            step.outcome = self.slide(index, &along, state);
         }
     }
 
@@ -132,26 +139,53 @@ impl Body {
             step.switched = true;
             let t = if at_upper_end { 1.0 } else { 0.0 };
             state.rest_on_edge(edge, t, &curve.evaluate(t));
-            (state.asks_second, state.declined) = (false, 0);
+            state.declined = 0;
         }
     }
 
     /// Into a face over one of its sides, at the edge's parameter. The point stays the same. One evaluation.
     #[inline(never)]
-    fn enter_across(&self, index: u16, number: u8, t: f32, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+    fn enter_across(
+        &self,
+        of: EdgeFace,
+        t: f32,
+        is_curved: bool,
+        state: &mut BodyWitness,
+        step: &mut BodyStep,
+    ) -> bool {
+        let EdgeFace { face: index, side: number } = of;
         let Some(face) = self.faces.get(usize::from(index)) else { return false };
         let Some(side) = face.sides.get(usize::from(number)) else { return false };
-        let along = if matches!(side, Side::Edge { reversed: true, .. }) { 1.0 - t } else { t };
-        let [u, v] = match number {
-            0 => [0.0, along],
-            1 => [1.0, along],
-            2 => [along, 0.0],
-            _ => [along, 1.0],
-        };
+        let [u, v] = on_side(number, side, t);
         state.feature = Feature::Face(index);
-        state.witness = Witness::at(&face.patch, u, v);
+        state.witness.set_down(&face.patch, [u, v], is_curved);
         step.evaluations += 1;
         true
+    }
+
+    /// The face beyond a smooth edge, and the parameters there of a point of a face's side.
+    #[inline(never)]
+    pub(super) fn across(&self, face: &Face, [u, v]: [f32; 2], held: BoundaryMode) -> Option<(u16, [f32; 2])> {
+        let (number, along) = match held {
+            BoundaryMode::LowerU => (0, v),
+            BoundaryMode::UpperU => (1, v),
+            BoundaryMode::LowerV => (2, u),
+            BoundaryMode::UpperV => (3, u),
+            BoundaryMode::Corner | BoundaryMode::Interior => return None,
+        };
+        let Side::Edge { edge: index, reversed, .. } = face.sides.get(number)? else { return None };
+        let edge = self.edges.get(usize::from(*index))?;
+        if edge.kind != EdgeKind::Smooth {
+            return None;
+        }
+        // Both may be sides of one face.
+        let [first, second] = edge.faces;
+        let is_first = usize::from(first.side) == number
+            && self.faces.get(usize::from(first.face)).is_some_and(|of| core::ptr::eq(of, face));
+        let other = if is_first { second } else { first };
+        let side = self.faces.get(usize::from(other.face))?.sides.get(usize::from(other.side))?;
+        let t = if *reversed { 1.0 - along } else { along };
+        Some((other.face, on_side(other.side, side, t)))
     }
 
     #[inline]
@@ -159,8 +193,26 @@ impl Body {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return false };
         state.feature = Feature::Vertex(index);
         let surface = SurfacePoint { point: vertex.point, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
-        state.witness =
-            Witness { parameters: [0.0; 2], surface, mode: BoundaryMode::Corner, is_free: false, halvings: 0 };
+        state.witness = Witness {
+            parameters: [0.0; 2],
+            surface,
+            second: SecondDerivatives::NONE,
+            mode: BoundaryMode::Corner,
+            is_free: false,
+            halvings: 0,
+        };
         true
+    }
+}
+
+/// The parameters of a face at the parameter of the edge along one of its sides.
+#[inline]
+fn on_side(number: u8, side: &Side, t: f32) -> [f32; 2] {
+    let along = if matches!(side, Side::Edge { reversed: true, .. }) { 1.0 - t } else { t };
+    match number {
+        0 => [0.0, along],
+        1 => [1.0, along],
+        2 => [along, 0.0],
+        _ => [along, 1.0],
     }
 }

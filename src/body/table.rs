@@ -1,6 +1,6 @@
 //! A body as tables in flash, checked when it is built.
 
-use super::feature::{Edge, EdgeFace, Face, Separator, Side, Spoke, Vertex};
+use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
 use super::locator::{Candidate, LEAF, Locator, MAX_FACES};
 use crate::math::Vec3;
 use crate::track::Contact;
@@ -16,11 +16,13 @@ pub struct Body {
     pub(super) spokes: &'static [Spoke],
     pub(super) locator: Locator,
     pub(super) size: f32,
-    /// The contact from which there is nothing to audit: the body is touched, or it is convex and the probe in front of the witness point, so
-    /// that no other point is nearer.
+    /// The contact from which there is nothing to audit: the body is touched, or it is convex and the probe in front of
+    /// the witness point, so that no other point is nearer.
     pub(super) sure_from: Contact,
     /// Whether any face has a pole: where none has, the search does not ask.
     pub(super) has_poles: bool,
+    /// Whether any edge is smooth: where none is, a step that ends at the border of a face does not ask.
+    pub(super) has_smooth_edges: bool,
     pub(super) baked_crc: Option<NonZeroU32>,
 }
 
@@ -38,7 +40,8 @@ pub enum BodyError {
         /// Which side.
         side: u8,
     },
-    /// An edge's curve is malformed, or it names a face or vertex that is not there, or one of its faces does not refer back to it.
+    /// An edge's curve is malformed or one of its bounds negative, or it names a face or vertex that is not there, or
+    /// one of its faces does not refer back to it.
     #[error("edge {edge} has a malformed curve or does not fit its faces and vertices")]
     Edge {
         /// The edge.
@@ -77,8 +80,8 @@ pub enum BodyError {
 }
 
 impl Body {
-    /// Checks the tables and takes them. `is_convex` says that no closest point but the global one exists for a probe outside
-    /// (theory §8); `size` is the largest side of the bounding box, metres.
+    /// Checks the tables and takes them. `is_convex` says that no closest point but the global one exists for a probe
+    /// outside (theory §8); `size` is the largest side of the bounding box, metres.
     ///
     /// # Errors
     /// The first thing wrong.
@@ -104,7 +107,24 @@ impl Body {
             has_poles |= faces[index].poles() != 0;
             index += 1;
         }
-        let body = Self { faces, edges, vertices, spokes, locator, size, sure_from, has_poles, baked_crc: None };
+        let mut has_smooth_edges = false;
+        index = 0;
+        while index < edges.len() {
+            has_smooth_edges |= matches!(edges[index].kind, EdgeKind::Smooth);
+            index += 1;
+        }
+        let body = Self {
+            faces,
+            edges,
+            vertices,
+            spokes,
+            locator,
+            size,
+            sure_from,
+            has_poles,
+            has_smooth_edges,
+            baked_crc: None,
+        };
         if let Err(error) = body.check_features() {
             return Err(error);
         }
@@ -216,7 +236,8 @@ impl Body {
             let ends = (edge.ends[0] as usize) < self.vertices.len() && (edge.ends[1] as usize) < self.vertices.len();
             let faces =
                 self.is_side(edge.faces[0], index) && (is_none(edge.faces[1]) || self.is_side(edge.faces[1], index));
-            if !(edge.curve.is_valid() && ends && faces) {
+            let bounded = edge.third_derivative >= 0.0 && edge.jump >= 0.0;
+            if !(edge.curve.is_valid() && bounded && ends && faces) {
                 return Err(BodyError::Edge { edge: index as u16 });
             }
             index += 1;

@@ -2,19 +2,20 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::feature::Feature;
+use super::feature::{Face, Feature};
 use super::search::Search;
 use super::table::Body;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
-use crate::track::{BoundaryMode, Contact, Controller, Outcome, Probe, Witness};
+use crate::track::{Aim, BoundaryMode, Contact, Controller, Outcome, Probe, Witness};
 
-/// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew, once it rests or slows down.
+/// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew, once
+/// it rests or slows down.
 const JUMP: f32 = 0.125;
-/// A rise of the squared distance below this many units of the coordinates, times the distance, is rounding: a point of a border is
-/// computed from the patch and from the edge's own curve.
+/// A rise of the squared distance below this many units of the coordinates, times the distance, is rounding: a point of
+/// a border is computed from the patch and from the edge's own curve.
 const ROUNDING: f32 = 64.0 * f32::EPSILON;
-/// So far beyond its reach, in sizes of the body, a witness point is where nothing explains it: a hundred times what a sum of rounded paths
-/// loses in a second.
+/// So far beyond its reach, in sizes of the body, a witness point is where nothing explains it: a hundred times what a
+/// sum of rounded paths loses in a second.
 const UNEXPLAINED: f32 = 1.0e-3;
 
 /// The tracker's whole state: at most 256 bytes for a body of any size.
@@ -22,7 +23,8 @@ const UNEXPLAINED: f32 = 1.0e-3;
 pub struct BodyWitness {
     /// The feature that owns the closest point, as far as is known.
     pub feature: Feature,
-    /// The witness point. On an edge `parameters[0]` is the edge's parameter and `tangent_u` its tangent.
+    /// The witness point. On an edge `parameters[0]` is the edge's parameter, `tangent_u` its tangent and `half_uu`
+    /// half its second derivative.
     pub witness: Witness,
     /// Unit vector out of the body at the witness point; zero before the first tick on a face.
     pub normal: Vec3,
@@ -32,20 +34,19 @@ pub struct BodyWitness {
     pub contact: Contact,
     /// Whether the witness point has been located. Until then there is no gap and no force.
     pub is_located: bool,
-    /// Whether a search has ended since the witness point was set down: until then it may be on the far side of the body.
+    /// Whether a search has ended since the witness point was set down: until then it may be on the far side of the
+    /// body.
     pub(super) is_audited: bool,
     /// Behind the surface: whether the tracker has its turn, or the audit.
     pub(super) rests: bool,
-    /// On an edge: which of its faces is asked next.
-    pub(super) asks_second: bool,
     /// On an edge: how many of its faces have been asked since it was entered and did not take the probe.
     pub(super) declined: u8,
     /// The search for a global start, or the rolling audit, once begun.
     pub(super) search: Option<Search>,
     /// The probe of the last tick; infinite before the first.
     pub(super) probe: Vec3,
-    /// While the body is touched, no less than the probe can be away from a witness point that follows it, metres: as far as it was when contact
-    /// began, and as it has moved since.
+    /// While the body is touched, no less than the probe can be away from a witness point that follows it, metres: as
+    /// far as it was when contact began, and as it has moved since.
     pub(crate) reach: f32,
 }
 
@@ -60,7 +61,8 @@ pub struct BodyStep {
     pub searched: bool,
     /// Evaluations of patches spent, second-order ones included.
     pub evaluations: u8,
-    /// Whether the body is touched with a witness point farther from the probe than the probe has moved since contact began.
+    /// Whether the body is touched with a witness point farther from the probe than the probe has moved since contact
+    /// began.
     pub unexplained: bool,
 }
 
@@ -84,7 +86,6 @@ impl Body {
             is_located: false,
             is_audited: false,
             rests: false,
-            asks_second: false,
             declined: 0,
             search: None,
             probe: Vec3::INFINITY,
@@ -92,8 +93,8 @@ impl Body {
         }
     }
 
-    /// The state with the witness point set down on a face, wherever the probe may be. Of parameters that are not in `[0, 1]` the
-    /// nearest that are; an index that is no face's gives [`Self::start`].
+    /// The state with the witness point set down on a face, wherever the probe may be. Of parameters that are not in
+    /// `[0, 1]` the nearest that are; an index that is no face's gives [`Self::start`].
     pub fn start_on(&self, face: u16, [u, v]: [f32; 2]) -> BodyWitness {
         let mut state = self.start();
         if let Some(on) = self.faces.get(usize::from(face)) {
@@ -120,22 +121,24 @@ impl Body {
         step
     }
 
-    /// The closest point: a switch to a neighbouring feature, or one controller step on the active one; at most one evaluation of a patch,
-    /// and half of one of second order for the search. Bounded, and without a panic; a probe that is not finite moves nothing.
+    /// The closest point: a switch to a neighbouring feature, or one controller step on the active one; at most one
+    /// evaluation of a patch, and half of one for the search, or one where it ends. Bounded, and without a panic; a
+    /// probe that is not finite moves nothing.
     ///
-    /// The distance to the probe never rises by more than rounding, at a switch neither. Outside, the witness point ends at a point that no
-    /// neighbouring feature improves: on a convex body with the probe in front of it that is the closest one, otherwise the rolling audit
-    /// finds it. While the body is touched there is no audit: the witness point is the god-object (theory §11), which hands over across common
-    /// edges only.
+    /// The distance to the probe never rises by more than rounding, at a switch neither. Outside, the witness point
+    /// ends at a point that no neighbouring feature improves: on a convex body with the probe in front of it that is
+    /// the closest one, otherwise the rolling audit finds it. While the body is touched there is no audit: the witness
+    /// point is the god-object (theory §11), which hands over across common edges only.
     ///
-    /// Contact decides, so [`Self::meet`] belongs after each tick that was not `searched`. Without it the probe counts as behind the surface:
-    /// the audit has every second tick.
+    /// Contact decides, so [`Self::meet`] belongs after each tick that was not `searched`. Without it the probe counts
+    /// as behind the surface: the audit has every second tick.
     #[inline(always)]
     pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
         let mut step = BodyStep::NOTHING;
+        let is_curved = controller.is_second_order();
         let follows = self.follows(state, probe.position);
         let has_turn = follows && self.has_turn(state);
-        if !has_turn && !self.search(state, probe.position, follows, &mut step) {
+        if !has_turn && !self.search(is_curved, state, probe.position, follows, &mut step) {
             step.searched = true;
             return step;
         }
@@ -143,17 +146,52 @@ impl Body {
         match state.feature {
             Feature::Face(index) => {
                 let stays = state.witness.is_free || state.witness.mode == BoundaryMode::Interior;
-                if (stays || !self.leave_face(index, state, &mut step))
+                if (stays || !self.leave_face(index, is_curved, state, &mut step))
                     && let Some(face) = self.faces.get(usize::from(index))
                 {
-                    step.outcome = controller.step(&face.patch, &mut state.witness, probe, period).outcome;
-                    step.evaluations += 1;
+                    if is_curved {
+                        self.step_curved(face, state, probe.position, &mut step);
+                    } else {
+                        step.outcome = controller.step(&face.patch, &mut state.witness, probe, period).outcome;
+                        step.evaluations += 1;
+                    }
+                    return step;
                 }
             }
-            Feature::Edge(index) => self.tick_on_edge(index, state, &mut step),
             Feature::Vertex(index) => self.leave_vertex(index, state, &mut step),
+            Feature::Edge(_) => {}
+        }
+        // Also one that has just been come to.
+        if let Feature::Edge(index) = state.feature {
+            self.tick_on_edge(index, is_curved, state, &mut step);
         }
         step
+    }
+
+    /// One step of second order on a face. Where it ends at a smooth edge that the probe has passed, it ends on the
+    /// face beyond.
+    #[inline(always)]
+    fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
+        let mut aim = Aim::of(&face.patch, &state.witness, probe);
+        let mut patch = &face.patch;
+        if aim.beyond != BoundaryMode::Interior
+            && self.has_smooth_edges
+            && let Some((index, parameters)) = self.across(face, aim.landing.parameters, aim.beyond)
+            && let Some(other) = self.faces.get(usize::from(index))
+        {
+            state.feature = Feature::Face(index);
+            step.switched = true;
+            patch = &other.patch;
+            (aim.landing.parameters, aim.beyond) = (parameters, BoundaryMode::Interior);
+        } else if !aim.has_slope() {
+            state.witness.mode = aim.beyond;
+            return;
+        }
+        state.witness.mode = aim.beyond;
+        let [u, v] = aim.landing.parameters;
+        let reached = patch.evaluate_curved(u, v);
+        step.evaluations += 1;
+        step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
     }
 
     /// Whether the probe is near that of the last tick. Not if it is not finite.
@@ -168,8 +206,8 @@ impl Body {
         jump * jump
     }
 
-    /// Whether the tick is the tracker's alone: there is nothing to audit, or, from behind, it is its turn. From behind, the far side of a
-    /// convex body holds a witness point as well; there tracker and audit take turns.
+    /// Whether the tick is the tracker's alone: there is nothing to audit, or, from behind, it is its turn. From
+    /// behind, the far side of a convex body holds a witness point as well; there tracker and audit take turns.
     #[inline]
     fn has_turn(&self, state: &mut BodyWitness) -> bool {
         match state.contact {
@@ -184,10 +222,14 @@ impl Body {
 
     /// One step along an edge; undone if the distance would rise.
     #[inline]
-    pub(super) fn slide(&self, index: u16, along: &Along, state: &mut BodyWitness) -> Outcome {
+    pub(super) fn slide(&self, index: u16, along: &Along, is_curved: bool, state: &mut BodyWitness) -> Outcome {
         let Some(edge) = self.edges.get(usize::from(index)) else { return Outcome::AtRest };
         let (t, probe) = (state.witness.parameters[0], state.probe);
-        let next = along.advanced(&edge.curve, t);
+        let minimiser = if is_curved { along.minimiser(edge, state.witness.second.half_uu, t) } else { None };
+        let next = match minimiser {
+            Some(next) => next,
+            None => along.advanced(&edge.curve, t),
+        };
         if next == t {
             return Outcome::AtRest;
         }
@@ -225,6 +267,7 @@ impl BodyWitness {
         self.witness.surface.point = at.point;
         self.witness.surface.tangent_u = at.tangent;
         self.witness.surface.tangent_v = Vec3::ZERO;
+        self.witness.second.half_uu = at.half_second;
         self.witness.mode = if t <= 0.0 || t >= 1.0 { BoundaryMode::Corner } else { BoundaryMode::LowerV };
         self.witness.is_free = false;
         self.witness.halvings = 0;

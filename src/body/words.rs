@@ -1,8 +1,9 @@
 //! Every number of a body's tables as 32-bit words, for the check that flash still holds what was baked.
 //!
-//! The tables are a list of *records* — one for the body, then the faces, edges, vertices, spokes, and the locator's nodes and
-//! entries — and a record is a list of words. A word is found by a [`TableCursor`] in a bounded number of steps, whatever the size of the body.
-//! Addresses are left out: they are the linker's. What a slice's address leads to is read, and its length is in the words.
+//! The tables are a list of *records* — one for the body, then the faces, edges, vertices, spokes, and the locator's
+//! nodes and entries — and a record is a list of words. A word is found by a [`TableCursor`] in a bounded number of
+//! steps, whatever the size of the body. Addresses are left out: they are the linker's. What a slice's address leads to
+//! is read, and its length is in the words.
 
 use super::curve::SplineCurve;
 use super::feature::{Edge, EdgeFace, Face, Separator, Side, Spoke, Vertex};
@@ -22,7 +23,8 @@ pub struct TableCursor {
 }
 
 impl TableCursor {
-    /// Where to read on after what was `found` here; `None` at the end of the table. The end of a record takes a reading of its own.
+    /// Where to read on after what was `found` here; `None` at the end of the table. The end of a record takes a
+    /// reading of its own.
     #[inline]
     pub const fn after(self, found: Option<u32>) -> Option<Self> {
         match (found, self.word) {
@@ -166,7 +168,7 @@ impl SplineCurve {
 }
 
 impl Edge {
-    /// Faces, ends and kind, then the curve.
+    /// Faces, ends and kind, what is proved of the third derivative, then the curve.
     fn word(&self, word: usize) -> Option<u32> {
         let [first, second] = self.faces;
         let face = |of: EdgeFace| u32::from(of.face) | u32::from(of.side) << 16;
@@ -174,7 +176,9 @@ impl Edge {
             0 => Some(face(first) | (self.kind as u32) << 24),
             1 => Some(face(second)),
             2 => Some(pair(self.ends[0], self.ends[1])),
-            _ => self.curve.word(word - 3),
+            3 => Some(self.third_derivative.to_bits()),
+            4 => Some(self.jump.to_bits()),
+            _ => self.curve.word(word - 5),
         }
     }
 }

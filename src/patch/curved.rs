@@ -1,12 +1,14 @@
-//! A point with both tangents and all second derivatives: what a cold start needs, and the tick does not.
+//! A point with both tangents and all second derivatives: what a step of second order needs, in the tick and in the
+//! search.
 
 use super::SurfacePoint;
-use super::coefficients::Coefficients;
-use super::horner::horner_step;
+use super::span_grid::SpanGrid;
+use super::spans::{Spans, rows_at};
 use super::spline::SplinePatch;
+use super::taylor::{self, Taylor};
 use crate::math::{Vec3, vec3};
 
-/// A point of a patch with its derivatives up to the second: one evaluation, at about twice the cost of the first derivatives alone.
+/// A point of a patch with its derivatives up to the second: one evaluation.
 ///
 /// # Units
 /// Metres, metres per unit of parameter, metres per unit squared.
@@ -14,139 +16,162 @@ use crate::math::{Vec3, vec3};
 pub struct CurvedPoint {
     /// The point and both tangents.
     pub surface: SurfacePoint,
-    /// `f_uu`.
-    pub second_uu: Vec3,
-    /// `f_uv`.
-    pub second_uv: Vec3,
-    /// `f_vv`.
-    pub second_vv: Vec3,
+    /// The second derivatives.
+    pub second: SecondDerivatives,
 }
 
-/// Value and derivatives of a polynomial with `D` components; second derivatives of one variable are halved, as Horner's rule
-/// gives them.
-struct Taylor<const D: usize> {
-    value: [f32; D],
-    along: [[f32; D]; 2],
-    half_ss: [f32; D],
-    mixed: [f32; D],
-    half_tt: [f32; D],
+/// The second derivatives at a point of a patch, those of one variable halved: as Horner's rule gives them, and as a
+/// quadratic model wants them.
+///
+/// # Units
+/// Metres per unit of parameter squared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecondDerivatives {
+    /// `½ f_uu`.
+    pub half_uu: Vec3,
+    /// `f_uv`.
+    pub uv: Vec3,
+    /// `½ f_vv`.
+    pub half_vv: Vec3,
+}
+
+impl SecondDerivatives {
+    /// Those of a plane that is evenly parametrised.
+    pub const NONE: Self = Self { half_uu: Vec3::ZERO, uv: Vec3::ZERO, half_vv: Vec3::ZERO };
+
+    /// `(ΔR · f_uu, ΔR · f_uv, ΔR · f_vv)`: what bending adds to the Hessian of `½ ‖ΔR‖²`.
+    #[inline(always)]
+    pub fn along(&self, difference: Vec3) -> [f32; 3] {
+        let [uu, uv, vv] = [self.half_uu, self.uv, self.half_vv].map(|second| difference.dot(second));
+        [uu + uu, uv, vv + vv]
+    }
+
+    /// `D²f[w, w]`.
+    #[inline]
+    pub fn bend(&self, [w_u, w_v]: [f32; 2]) -> Vec3 {
+        self.half_uu * (2.0 * w_u * w_u) + self.uv * (2.0 * (w_u * w_v)) + self.half_vv * (2.0 * w_v * w_v)
+    }
+}
+
+impl CurvedPoint {
+    /// What a table without coefficients would give, if there were one.
+    const NOWHERE: Self = Self { surface: SurfacePoint::NOWHERE, second: SecondDerivatives::NONE };
 }
 
 impl SplinePatch {
     /// The point and its derivatives up to the second at `(u, v)`, by Horner's rule on the span that holds it.
+    #[inline(always)]
     pub fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
-        // A single span needs no search: it goes from 0 to 1.
-        let (span, [s, t]) = if self.grid.is_one_span() { (0, [u - 0.5, v - 0.5]) } else { self.grid.locate(u, v) };
-        match self.spans.coefficients() {
-            Coefficients::Polynomial(entries) => {
-                let d = self.taylor(entries, span, s, t);
-                let [tangent_u, tangent_v] = d.along.map(Vec3::from_array);
-                let surface = SurfacePoint { point: Vec3::from_array(d.value), tangent_u, tangent_v };
-                let second_uu = Vec3::from_array(d.half_ss) * 2.0;
-                let second_vv = Vec3::from_array(d.half_tt) * 2.0;
-                CurvedPoint { surface, second_uu, second_uv: Vec3::from_array(d.mixed), second_vv }
-            }
-            Coefficients::Rational(entries) => divide_by_weight(&self.taylor(entries, span, s, t)),
+        match self.spans {
+            Spans::Bilinear(spans) => whole::<3, 2, 4>(spans, &self.grid, u, v),
+            Spans::Biquadratic(spans) => whole::<3, 3, 9>(spans, &self.grid, u, v),
+            Spans::Bicubic(spans) => whole::<3, 4, 16>(spans, &self.grid, u, v),
+            Spans::RationalBilinear(spans) => whole::<4, 2, 4>(spans, &self.grid, u, v),
+            Spans::RationalBiquadratic(spans) => whole::<4, 3, 9>(spans, &self.grid, u, v),
+            Spans::RationalBicubic(spans) => whole::<4, 4, 16>(spans, &self.grid, u, v),
+            Spans::Rows(entries) => by_rows(entries, &self.grid, u, v),
+            Spans::RationalRows(entries) => by_rows(entries, &self.grid, u, v),
         }
-    }
-
-    /// Horner's rule over one span; every loop ends with the degree.
-    fn taylor<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32, t: f32) -> Taylor<D> {
-        let [rows, columns] = self.grid.degree.map(|degree| usize::from(degree) + 1);
-        let first = span * rows * columns;
-        // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the search.
-        let powers = entries.get(first..first + rows * columns).unwrap_or(&[]);
-        let zero = [0.0; D];
-        let mut d = Taylor { value: zero, along: [zero; 2], half_ss: zero, mixed: zero, half_tt: zero };
-        for (index, row) in powers.chunks_exact(columns).rev().enumerate() {
-            let row = Row::new(row, t);
-            // Of a derivative that is zero so far there is nothing to multiply: the first rows are not like the others.
-            match index {
-                0 => (d.value, d.along[1], d.half_tt) = (row.value, row.along, row.half),
-                1 => {
-                    (d.along[0], d.mixed) = (d.value, d.along[1]);
-                    d.join(&row, s);
-                }
-                _ => {
-                    d.half_ss = if index == 2 { d.along[0] } else { horner_step(d.half_ss, s, d.along[0]) };
-                    d.along[0] = horner_step(d.along[0], s, d.value);
-                    d.mixed = horner_step(d.mixed, s, d.along[1]);
-                    d.join(&row, s);
-                }
-            }
-        }
-        d
     }
 }
 
-impl<const D: usize> Taylor<D> {
-    /// One row more for what is not derived along `s`.
+/// Evaluates one of these spans of `N` coefficients, `Q` a row. A single one needs no search: it goes from 0 to 1.
+#[inline(always)]
+fn whole<const D: usize, const Q: usize, const N: usize>(
+    spans: &[[[f32; D]; N]],
+    grid: &SpanGrid,
+    u: f32,
+    v: f32,
+) -> CurvedPoint
+where
+    CurvedPoint: From<Taylor<D>>,
+{
+    match spans {
+        [only] => unrolled::<D, Q, N>(only, u - 0.5, v - 0.5),
+        _ => one_of::<D, Q, N>(spans, grid, u, v),
+    }
+}
+
+#[inline(never)]
+fn one_of<const D: usize, const Q: usize, const N: usize>(
+    spans: &[[[f32; D]; N]],
+    grid: &SpanGrid,
+    u: f32,
+    v: f32,
+) -> CurvedPoint
+where
+    CurvedPoint: From<Taylor<D>>,
+{
+    let (span, [s, t]) = grid.locate(u, v);
+    // The constructor counted the entries: none is missing, this only keeps a panic out of the tick.
+    spans.get(span).map_or(CurvedPoint::NOWHERE, |coefficients| unrolled::<D, Q, N>(coefficients, s, t))
+}
+
+#[inline(never)]
+fn unrolled<const D: usize, const Q: usize, const N: usize>(coefficients: &[[f32; D]; N], s: f32, t: f32) -> CurvedPoint
+where
+    CurvedPoint: From<Taylor<D>>,
+{
+    taylor::evaluate::<D, Q>(coefficients, s, t).into()
+}
+
+/// Evaluates a span of any degree, by loops: slower, and small.
+#[inline(never)]
+fn by_rows<const D: usize>(entries: &[[f32; D]], grid: &SpanGrid, u: f32, v: f32) -> CurvedPoint
+where
+    CurvedPoint: From<Taylor<D>>,
+{
+    match rows_at(entries, grid, u, v) {
+        Some((rows, [s, t])) => taylor::evaluate_rows(rows, usize::from(grid.degree[1]) + 1, s, t).into(),
+        None => CurvedPoint::NOWHERE,
+    }
+}
+
+impl From<Taylor<3>> for CurvedPoint {
     #[inline(always)]
-    fn join(&mut self, row: &Row<D>, s: f32) {
-        self.value = horner_step(self.value, s, row.value);
-        self.along[1] = horner_step(self.along[1], s, row.along);
-        self.half_tt = horner_step(self.half_tt, s, row.half);
-    }
-}
-
-/// A row's polynomial in `t` with its first derivative, and half its second.
-struct Row<const D: usize> {
-    value: [f32; D],
-    along: [f32; D],
-    half: [f32; D],
-}
-
-impl<const D: usize> Row<D> {
-    #[inline(always)]
-    fn new(coefficients: &[[f32; D]], t: f32) -> Self {
-        let zero = [0.0; D];
-        let mut row = Self { value: zero, along: zero, half: zero };
-        let mut powers = coefficients.iter().rev();
-        if let Some(power) = powers.next() {
-            row.value = *power;
+    fn from(d: Taylor<3>) -> Self {
+        let [tangent_u, tangent_v] = d.along.map(Vec3::from_array);
+        Self {
+            surface: SurfacePoint { point: Vec3::from_array(d.value), tangent_u, tangent_v },
+            second: SecondDerivatives {
+                half_uu: Vec3::from_array(d.half_ss),
+                uv: Vec3::from_array(d.mixed),
+                half_vv: Vec3::from_array(d.half_tt),
+            },
         }
-        if let Some(power) = powers.next() {
-            row.along = row.value;
-            row.value = horner_step(row.value, t, *power);
-        }
-        if let Some(power) = powers.next() {
-            row.half = row.along;
-            row.along = horner_step(row.along, t, row.value);
-            row.value = horner_step(row.value, t, *power);
-        }
-        for power in powers {
-            row.half = horner_step(row.half, t, row.along);
-            row.along = horner_step(row.along, t, row.value);
-            row.value = horner_step(row.value, t, *power);
-        }
-        row
     }
 }
 
 /// Leibniz' rule on `w P = A`, solved for the highest derivative of `P`.
-fn divide_by_weight(d: &Taylor<4>) -> CurvedPoint {
-    let split = |[x, y, z, w]: [f32; 4]| (vec3(x, y, z), w);
-    let ((a, w), (a_u, w_u), (a_v, w_v)) = (split(d.value), split(d.along[0]), split(d.along[1]));
-    let ((a_uu, w_uu), (a_uv, w_uv), (a_vv, w_vv)) = (split(d.half_ss), split(d.mixed), split(d.half_tt));
-    let inverse = 1.0 / w;
-    let point = a * inverse;
-    let tangent_u = (a_u - point * w_u) * inverse;
-    let tangent_v = (a_v - point * w_v) * inverse;
-    CurvedPoint {
-        surface: SurfacePoint { point, tangent_u, tangent_v },
-        second_uu: (a_uu - tangent_u * w_u - point * w_uu) * (2.0 * inverse),
-        second_uv: (a_uv - tangent_u * w_v - tangent_v * w_u - point * w_uv) * inverse,
-        second_vv: (a_vv - tangent_v * w_v - point * w_vv) * (2.0 * inverse),
+impl From<Taylor<4>> for CurvedPoint {
+    #[inline(always)]
+    fn from(d: Taylor<4>) -> Self {
+        let split = |[x, y, z, w]: [f32; 4]| (vec3(x, y, z), w);
+        let ((a, w), (a_u, w_u), (a_v, w_v)) = (split(d.value), split(d.along[0]), split(d.along[1]));
+        let ((a_uu, w_uu), (a_uv, w_uv), (a_vv, w_vv)) = (split(d.half_ss), split(d.mixed), split(d.half_tt));
+        let inverse = 1.0 / w;
+        let point = a * inverse;
+        let tangent_u = (a_u - point * w_u) * inverse;
+        let tangent_v = (a_v - point * w_v) * inverse;
+        Self {
+            surface: SurfacePoint { point, tangent_u, tangent_v },
+            second: SecondDerivatives {
+                half_uu: (a_uu - tangent_u * w_u - point * w_uu) * inverse,
+                uv: (a_uv - tangent_u * w_v - tangent_v * w_u - point * w_uv) * inverse,
+                half_vv: (a_vv - tangent_v * w_v - point * w_vv) * inverse,
+            },
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::patch::{Orientation, Patch as _, SecondDerivativeBounds, ShapeBounds};
+    use crate::patch::{Coefficients, Orientation, Patch as _, SecondDerivativeBounds, ShapeBounds};
 
     const BOUNDS: ShapeBounds = ShapeBounds::unknown(SecondDerivativeBounds { uu: 1.0, uv: 1.0, vv: 1.0 });
-    /// As wide as makes the error of the difference, a sixth of the step squared times the third derivative, and its rounding alike.
+    /// As wide as makes the error of the difference, a sixth of the step squared times the third derivative, and its
+    /// rounding alike.
     const STEP: f32 = 1.0 / 64.0;
 
     /// Numbers without a pattern, the weights near 1.
@@ -183,10 +208,10 @@ mod tests {
             let [right, left] = [STEP, -STEP].map(|step| patch.evaluate(u + step, v));
             let [above, below] = [STEP, -STEP].map(|step| patch.evaluate(u, v + step));
             let differences = [
-                (curved.second_uu, right.tangent_u - left.tangent_u),
-                (curved.second_uv, right.tangent_v - left.tangent_v),
-                (curved.second_uv, above.tangent_u - below.tangent_u),
-                (curved.second_vv, above.tangent_v - below.tangent_v),
+                (curved.second.half_uu * 2.0, right.tangent_u - left.tangent_u),
+                (curved.second.uv, right.tangent_v - left.tangent_v),
+                (curved.second.uv, above.tangent_u - below.tangent_u),
+                (curved.second.half_vv * 2.0, above.tangent_v - below.tangent_v),
             ];
             for (found, change) in differences {
                 let known = change / (2.0 * STEP);

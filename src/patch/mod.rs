@@ -12,16 +12,17 @@ mod shape;
 mod span_grid;
 mod spans;
 mod spline;
+mod taylor;
 
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficient_word;
 pub use crc::crc32;
-pub use curved::CurvedPoint;
+pub use curved::{CurvedPoint, SecondDerivatives};
 pub(crate) use horner::horner_step;
-pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds};
+pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds, ThirdDerivativeBounds};
 use span_grid::SpanGrid;
 pub use span_grid::{MAX_SPANS, span_centre};
-pub(crate) use span_grid::{bisect, breaks_are_valid};
+pub(crate) use span_grid::{beyond, bisect, breaks_are_valid};
 pub use spline::{MAX_DEGREE, Orientation, SplinePatch, TableError};
 
 use crate::math::Vec3;
@@ -43,6 +44,12 @@ pub struct SurfacePoint {
 impl SurfacePoint {
     /// Zero throughout: what a table without coefficients would give, if there were one.
     const NOWHERE: Self = Self { point: Vec3::ZERO, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
+
+    /// `Df w`.
+    #[inline]
+    pub(crate) fn along(&self, [w_u, w_v]: [f32; 2]) -> Vec3 {
+        self.tangent_u * w_u + self.tangent_v * w_v
+    }
 }
 
 /// A parametric surface patch over `[0, 1]²`.
@@ -50,6 +57,21 @@ pub trait Patch {
     /// The point and both tangents at `(u, v)`. Parameters outside `[0, 1]` extrapolate the nearest span; the
     /// controller never asks for them.
     fn evaluate(&self, u: f32, v: f32) -> SurfacePoint;
+
+    /// The same with all second derivatives. A patch that does not give them is stepped on to first order: nothing is
+    /// certified with those of a plane as long as [`ShapeBounds::third_derivatives`] does not say that it is one.
+    #[inline]
+    fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
+        CurvedPoint { surface: self.evaluate(u, v), second: SecondDerivatives::NONE }
+    }
+
+    /// How far a step from one pair of parameters to another goes beyond the knots that it crosses, along `u` and along
+    /// `v`: the sum of the squares. The knot that it starts on counts where the evaluation took the span that the step
+    /// leaves. 0 within a span.
+    #[inline]
+    fn beyond_knots(&self, _from: [f32; 2], _to: [f32; 2]) -> [f32; 2] {
+        [0.0; 2]
+    }
 
     /// Bounds on the second derivatives over the whole patch.
     fn bounds(&self) -> SecondDerivativeBounds;
@@ -65,8 +87,8 @@ pub trait Patch {
     /// The largest side of the patch's bounding box, in metres: what relative tolerances are measured against.
     fn size(&self) -> f32;
 
-    /// The `index`-th word of the patch's table, for the check that flash still holds what was baked; `None` past the end, and
-    /// always for a patch without a table.
+    /// The `index`-th word of the patch's table, for the check that flash still holds what was baked; `None` past the
+    /// end, and always for a patch without a table.
     fn table_word(&self, _index: usize) -> Option<u32> {
         None
     }

@@ -3,8 +3,8 @@
 /// Upper bounds, over the whole patch, of the norms of the second partial derivatives.
 ///
 /// They are what the controller needs to know about the shape to choose a step that provably brings the witness point
-/// nearer (see [`crate::track::certified_gain`]). The host proves them from the control points; they hold for the stored
-/// coefficients and include their rounding.
+/// nearer (see [`crate::track::certified_gain`]). The host proves them from the control points; they hold for the
+/// stored coefficients and include their rounding.
 ///
 /// # Units
 /// Metres per unit of parameter squared.
@@ -18,10 +18,53 @@ pub struct SecondDerivativeBounds {
     pub vv: f32,
 }
 
+/// Upper bounds, over the whole patch, of the norms of the third partial derivatives, and of the jumps of the second
+/// ones where spans meet.
+///
+/// They are what says how far the quadratic model of a step of second order may be trusted (theory §12). Infinite where
+/// nothing is proved, as the jump at a crease.
+///
+/// # Units
+/// Metres per unit of parameter cubed; the jumps, metres per unit squared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThirdDerivativeBounds {
+    /// `sup ‖f_uuu‖`.
+    pub uuu: f32,
+    /// `sup ‖f_uuv‖`.
+    pub uuv: f32,
+    /// `sup ‖f_uvv‖`.
+    pub uvv: f32,
+    /// `sup ‖f_vvv‖`.
+    pub vvv: f32,
+    /// The largest jump of `f_uu` across a knot of `u`. Of a patch that is C¹ no other second derivative jumps there.
+    pub jump_uu: f32,
+    /// The largest jump of `f_vv` across a knot of `v`.
+    pub jump_vv: f32,
+}
+
+impl ThirdDerivativeBounds {
+    /// Nothing is known.
+    pub const UNBOUNDED: Self = Self {
+        uuu: f32::INFINITY,
+        uuv: f32::INFINITY,
+        uvv: f32::INFINITY,
+        vvv: f32::INFINITY,
+        jump_uu: f32::INFINITY,
+        jump_vv: f32::INFINITY,
+    };
+
+    /// Whether these can be bounds: not negative, no NaN.
+    const fn is_possible(&self) -> bool {
+        let Self { uuu, uuv, uvv, vvv, jump_uu, jump_vv } = *self;
+        uuu >= 0.0 && uuv >= 0.0 && uvv >= 0.0 && vvv >= 0.0 && jump_uu >= 0.0 && jump_vv >= 0.0
+    }
+}
+
 /// Bounds of the normal curvature, over a patch or at a point of it.
 ///
 /// # Units
-/// 1/m, positive where the surface is convex seen from outside the body: `1/r` on a ball, `−1/r` in a hollow of radius `r`.
+/// 1/m, positive where the surface is convex seen from outside the body: `1/r` on a ball, `−1/r` in a hollow of radius
+/// `r`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature {
     /// Not above the least principal curvature.
@@ -45,21 +88,23 @@ impl Curvature {
 
 /// What is proved of a patch's shape, over the whole of it.
 ///
-/// The host proves the bounds of the stored coefficients by enclosures over cells, and lies above the truth by at most a stated slack
-/// or says so. What it could not bound (the curvature near a pole, where the tangents span no plane) is infinite, and the
-/// least stretch there 0: what is computed from such a bound says "none" too, it is never wrong.
+/// The host proves the bounds of the stored coefficients by enclosures over cells, and lies above the truth by at most
+/// a stated slack or says so. What it could not bound (the curvature near a pole, where the tangents span no plane) is
+/// infinite, and the least stretch there 0: what is computed from such a bound says "none" too, it is never wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShapeBounds {
     /// Of the second derivatives: finite always.
     pub second_derivatives: SecondDerivativeBounds,
+    /// Of the third derivatives, and of what the second ones jump.
+    pub third_derivatives: ThirdDerivativeBounds,
     /// Of the normal curvature with respect to the outward normal.
     pub curvature: Curvature,
     /// Not above the least eigenvalue of the first fundamental form `I`, m²: `wᵀ I w ≥ min_stretch · ‖w‖²`.
     pub min_stretch: f32,
     /// Not below its greatest eigenvalue, m².
     pub max_stretch: f32,
-    /// Not below `(uu w_u² + 2 uv |w_u w_v| + vv w_v²) / (wᵀ I w)` for any change `w` of the parameters, with the bounds of
-    /// the second derivatives above: the curvature, 1/m, that the certified gain reckons with. Never below
+    /// Not below `(uu w_u² + 2 uv |w_u w_v| + vv w_v²) / (wᵀ I w)` for any change `w` of the parameters, with the
+    /// bounds of the second derivatives above: the curvature, 1/m, that the certified gain reckons with. Never below
     /// the greatest curvature, for it counts how the parameters crowd as well.
     pub max_bend: f32,
 }
@@ -69,6 +114,7 @@ impl ShapeBounds {
     pub const fn unknown(second_derivatives: SecondDerivativeBounds) -> Self {
         Self {
             second_derivatives,
+            third_derivatives: ThirdDerivativeBounds::UNBOUNDED,
             curvature: Curvature::UNBOUNDED,
             min_stretch: 0.0,
             max_stretch: f32::INFINITY,
@@ -82,7 +128,7 @@ impl ShapeBounds {
         let finite = uu < f32::INFINITY && uv < f32::INFINITY && vv < f32::INFINITY;
         let positive = uu >= 0.0 && uv >= 0.0 && vv >= 0.0 && self.min_stretch >= 0.0 && self.max_bend >= 0.0;
         let curvature = self.curvature.min <= self.curvature.max;
-        finite && positive && curvature && self.min_stretch <= self.max_stretch
+        finite && positive && curvature && self.third_derivatives.is_possible() && self.min_stretch <= self.max_stretch
     }
 }
 
@@ -96,6 +142,7 @@ mod tests {
         assert!(unknown.is_possible() && !unknown.curvature.is_convex());
         let flat = ShapeBounds { curvature: Curvature::FLAT, max_bend: 0.0, ..unknown };
         assert!(flat.is_possible() && flat.curvature.is_convex());
+        let third = ThirdDerivativeBounds::UNBOUNDED;
         let derivatives = SecondDerivativeBounds { uu: f32::INFINITY, uv: 0.0, vv: 0.0 };
         for wrong in [
             ShapeBounds { curvature: Curvature { min: 2.0, max: 1.0 }, ..unknown },
@@ -103,6 +150,8 @@ mod tests {
             ShapeBounds { min_stretch: 2.0, max_stretch: 1.0, ..unknown },
             ShapeBounds { min_stretch: f32::NAN, ..unknown },
             ShapeBounds { max_bend: -1.0, ..unknown },
+            ShapeBounds { third_derivatives: ThirdDerivativeBounds { uvv: -1.0, ..third }, ..unknown },
+            ShapeBounds { third_derivatives: ThirdDerivativeBounds { jump_vv: f32::NAN, ..third }, ..unknown },
             ShapeBounds::unknown(derivatives),
         ] {
             assert!(!wrong.is_possible(), "{wrong:?}");

@@ -25,6 +25,24 @@ impl SpanGrid {
         let (span_v, t) = locate(self.breaks_v, v);
         (span_u * (self.breaks_v.len() - 1) + span_v, [s, t])
     }
+
+    /// [`super::Patch::beyond_knots`], with the spans that the evaluation takes.
+    #[inline(never)]
+    pub fn beyond_borders(&self, from: [f32; 2], to: [f32; 2]) -> [f32; 2] {
+        let along = |borders: &'static [f32], from: f32, to: f32| {
+            let (left, reached) = (locate(borders, from).0, locate(borders, to).0);
+            if left == reached { 0.0 } else { beyond(borders, left, reached, to) }
+        };
+        [along(self.breaks_u, from[0], to[0]), along(self.breaks_v, from[1], to[1])]
+    }
+}
+
+/// The squares of how far `to` lies beyond the borders between two spans, and their sum.
+#[inline(never)]
+pub(crate) fn beyond(borders: &[f32], left: usize, reached: usize, to: f32) -> f32 {
+    let (first, last) = if left < reached { (left, reached) } else { (reached, left) };
+    let crossed = borders.get(first + 1..=last).unwrap_or(&[]);
+    crossed.iter().fold(0.0, |sum, knot| sum + (to - knot) * (to - knot))
 }
 
 /// The span between rising borders that holds `parameter`, and the distance from the span's centre. On a border it is either of

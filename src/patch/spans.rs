@@ -1,5 +1,5 @@
-//! The spans of a patch as the evaluation wants them: for the commonest degrees an array each, so that all loops are unrolled
-//! and no degree is looked at in the tick.
+//! The spans of a patch as the evaluation wants them: for the commonest degrees an array each, so that all loops are
+//! unrolled and no degree is looked at in the tick.
 
 use super::horner::{self, Derivatives};
 use super::{Coefficients, SpanGrid, SurfacePoint};
@@ -55,7 +55,8 @@ impl Spans {
         }
     }
 
-    /// The point and both tangents at `(u, v)` of the patch whose spans these are, with its grid. Inlined, as each tick goes through it.
+    /// The point and both tangents at `(u, v)` of the patch whose spans these are, with its grid. Inlined, as each tick
+    /// goes through it.
     #[inline(always)]
     pub(super) fn evaluate(&self, grid: &SpanGrid, u: f32, v: f32) -> SurfacePoint {
         match self {
@@ -122,24 +123,34 @@ fn by_rows<const D: usize>(entries: &[[f32; D]], grid: &SpanGrid, u: f32, v: f32
 where
     SurfacePoint: From<Derivatives<D>>,
 {
+    let Some((rows, [s, t])) = rows_at(entries, grid, u, v) else { return SurfacePoint::NOWHERE };
+    match grid.degree[1] {
+        1 => unrolled_along_v::<D, 2>(rows, s, t),
+        2 => unrolled_along_v::<D, 3>(rows, s, t),
+        // Rational ones of so high a degree are rare, and 3 KB of flash are not.
+        degree_v @ 3.. if D == 4 => horner::evaluate_rows(rows, usize::from(degree_v) + 1, s, t).into(),
+        3 => unrolled_along_v::<D, 4>(rows, s, t),
+        4 => unrolled_along_v::<D, 5>(rows, s, t),
+        _ => unrolled_along_v::<D, 6>(rows, s, t),
+    }
+}
+
+/// The coefficients of the span that holds `(u, v)`, and where in it, from its centre. Of a table as it was counted
+/// there are some.
+#[inline(always)]
+pub(super) fn rows_at<'a, const D: usize>(
+    entries: &'a [[f32; D]],
+    grid: &SpanGrid,
+    u: f32,
+    v: f32,
+) -> Option<(&'a [[f32; D]], [f32; 2])> {
     let [degree_u, degree_v] = grid.degree;
     let count = (usize::from(degree_u) + 1) * (usize::from(degree_v) + 1);
-    let (rows, [s, t]) = if entries.len() == count {
-        (Some(entries), [u - 0.5, v - 0.5])
-    } else {
-        let (span, at) = grid.locate(u, v);
-        (entries.get(span * count..).and_then(|rest| rest.get(..count)), at)
-    };
-    match (rows, degree_v) {
-        (Some(rows), 1) => unrolled_along_v::<D, 2>(rows, s, t),
-        (Some(rows), 2) => unrolled_along_v::<D, 3>(rows, s, t),
-        // Rational ones of so high a degree are rare, and 3 KB of flash are not.
-        (Some(rows), 3..) if D == 4 => horner::evaluate_rows(rows, usize::from(degree_v) + 1, s, t).into(),
-        (Some(rows), 3) => unrolled_along_v::<D, 4>(rows, s, t),
-        (Some(rows), 4) => unrolled_along_v::<D, 5>(rows, s, t),
-        (Some(rows), _) => unrolled_along_v::<D, 6>(rows, s, t),
-        (None, _) => SurfacePoint::NOWHERE,
+    if entries.len() == count {
+        return Some((entries, [u - 0.5, v - 0.5]));
     }
+    let (span, at) = grid.locate(u, v);
+    Some((entries.get(span * count..)?.get(..count)?, at))
 }
 
 #[inline(never)]

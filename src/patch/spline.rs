@@ -7,7 +7,7 @@
 use super::coefficients::coefficient_word;
 use super::span_grid::{SpanGrid, breaks_are_valid};
 use super::spans::Spans;
-use super::{Coefficients, Patch, SecondDerivativeBounds, ShapeBounds, SurfacePoint};
+use super::{Coefficients, CurvedPoint, Patch, SecondDerivativeBounds, ShapeBounds, SurfacePoint};
 use core::num::NonZeroU32;
 use thiserror::Error;
 
@@ -41,8 +41,8 @@ pub enum TableError {
     /// A coefficient is not finite.
     #[error("a coefficient is not finite")]
     CoefficientNotFinite,
-    /// A second-derivative bound is negative or not finite, or another bound is NaN or out of order. An infinite curvature or
-    /// a least stretch of 0 is accepted: it says "no bound".
+    /// A second-derivative bound is negative or not finite, or another bound is NaN or out of order. An infinite
+    /// curvature or third derivative, or a least stretch of 0, is accepted: it says "no bound".
     #[error("a second-derivative bound is negative or not finite, or a bound of the shape is NaN or out of order")]
     Bounds,
     /// The size is not positive and finite.
@@ -140,7 +140,8 @@ impl SplinePatch {
     }
 
     /// The same table with the CRC that its words had when it was baked: the loop compares them with it, see
-    /// [`crate::servo::Safety::checks_tables`]. A patch of a body needs none, the body has one. (A CRC of 0, one in 2³², is none.)
+    /// [`crate::servo::Safety::checks_tables`]. A patch of a body needs none, the body has one. (A CRC of 0, one in
+    /// 2³², is none.)
     #[must_use]
     pub const fn with_crc(self, baked: u32) -> Self {
         Self { baked_crc: NonZeroU32::new(baked), ..self }
@@ -162,10 +163,11 @@ impl SplinePatch {
 }
 
 impl SplinePatch {
-    /// The `index`-th word of the table: degrees and orientation, bounds, size, the borders along `u` and `v`, the coefficients.
+    /// The `index`-th word of the table: degrees and orientation, bounds, size, the borders along `u` and `v`, the
+    /// coefficients.
     pub(crate) const fn word(&self, index: usize) -> Option<u32> {
         let (u, v) = (self.grid.breaks_u.len(), self.grid.breaks_v.len());
-        let bounds = &self.shape.second_derivatives;
+        let (bounds, third) = (&self.shape.second_derivatives, &self.shape.third_derivatives);
         let coefficients = self.spans.coefficients();
         let value = match index {
             0 => {
@@ -179,15 +181,21 @@ impl SplinePatch {
             2 => bounds.uu,
             3 => bounds.uv,
             4 => bounds.vv,
-            5 => self.shape.curvature.min,
-            6 => self.shape.curvature.max,
-            7 => self.shape.min_stretch,
-            8 => self.shape.max_stretch,
-            9 => self.shape.max_bend,
-            10 => self.size,
-            _ if index - 11 < u => self.grid.breaks_u[index - 11],
-            _ if index - 11 - u < v => self.grid.breaks_v[index - 11 - u],
-            _ => return coefficient_word(coefficients, index - 11 - u - v),
+            5 => third.uuu,
+            6 => third.uuv,
+            7 => third.uvv,
+            8 => third.vvv,
+            9 => third.jump_uu,
+            10 => third.jump_vv,
+            11 => self.shape.curvature.min,
+            12 => self.shape.curvature.max,
+            13 => self.shape.min_stretch,
+            14 => self.shape.max_stretch,
+            15 => self.shape.max_bend,
+            16 => self.size,
+            _ if index - HEAD < u => self.grid.breaks_u[index - HEAD],
+            _ if index - HEAD - u < v => self.grid.breaks_v[index - HEAD - u],
+            _ => return coefficient_word(coefficients, index - HEAD - u - v),
         };
         Some(value.to_bits())
     }
@@ -203,7 +211,20 @@ impl SplinePatch {
     }
 }
 
+/// Words before the borders.
+const HEAD: usize = 17;
+
 impl Patch for SplinePatch {
+    #[inline(always)]
+    fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
+        self.evaluate_curved(u, v)
+    }
+
+    #[inline(always)]
+    fn beyond_knots(&self, from: [f32; 2], to: [f32; 2]) -> [f32; 2] {
+        if self.grid.is_one_span() { [0.0; 2] } else { self.grid.beyond_borders(from, to) }
+    }
+
     #[inline(always)]
     fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
         self.spans.evaluate(&self.grid, u, v)
@@ -283,12 +304,12 @@ mod tests {
         assert_eq!((flat.word(0), round.word(0)), (Some(0x0000_0101), Some(0x0001_0101)));
         assert_eq!((flat.baked_crc(), flat.with_crc(5).baked_crc()), (None, Some(5)));
         // The coefficients come last, one after the other.
-        let words: [Option<u32>; 13] = core::array::from_fn(|index| flat.word(15 + index));
+        let words: [Option<u32>; 13] = core::array::from_fn(|index| flat.word(HEAD + 4 + index));
         let numbers = FLAT.as_flattened();
         assert!(words[..12].iter().zip(numbers).all(|(word, number)| *word == Some(number.to_bits())), "{words:?}");
         assert_eq!(words[12], None);
         // Of rational ones, four a point.
-        let last: [Option<u32>; 3] = core::array::from_fn(|index| round.word(29 + index));
+        let last: [Option<u32>; 3] = core::array::from_fn(|index| round.word(HEAD + 18 + index));
         assert_eq!(last, [Some(0), Some(1.0_f32.to_bits()), None]);
     }
 }

@@ -240,7 +240,7 @@ mod tests {
     fn settings_become_what_the_tick_needs() {
         let with = |max_force, stiffness| {
             let settings = Settings { rate: 4_000.0, max_force, stiffness, ..Settings::DEFAULT };
-            Servo::try_new(&DEVICE, &WALL, Controller::CERTIFIED, settings).unwrap()
+            Servo::try_new(&DEVICE, &WALL, Controller::SECOND_ORDER, settings).unwrap()
         };
         assert_eq!(with(1.0, 20.0).penalty.max_force, 1.0);
         // No more than the device bears.

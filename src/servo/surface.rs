@@ -16,8 +16,8 @@ pub trait Surface {
     /// One tick: bounded work, no panic. `period` in seconds.
     fn follow(&self, controller: &Controller, witness: &mut Self::Witness, probe: Probe, period: f32) -> Touched;
 
-    /// Ends contact that no motion explains: where the closest point is has to be found anew, and nothing is touched until the probe has been
-    /// in front.
+    /// Ends contact that no motion explains: where the closest point is has to be found anew, and nothing is touched
+    /// until the probe has been in front.
     fn lose(&self, witness: &mut Self::Witness);
 
     /// Whether the probe is so deep behind the surface that the witness point is no longer proved to follow it.
@@ -25,8 +25,8 @@ pub trait Surface {
         false
     }
 
-    /// A word of the tables, for the check that flash still holds what was baked; `None` past the end of the cursor's record, and of the
-    /// tables. Bounded work.
+    /// A word of the tables, for the check that flash still holds what was baked; `None` past the end of the cursor's
+    /// record, and of the tables. Bounded work.
     fn table_word(&self, cursor: TableCursor) -> Option<u32>;
 
     /// CRC-32 of all those words as they were baked; `None` for tables that carry none: they are not checked.
@@ -129,7 +129,8 @@ pub(super) fn witness_words(witness: &Witness, mut take: impl FnMut(u32)) {
         take(parameter.to_bits());
     }
     let surface = &witness.surface;
-    for vector in [surface.point, surface.tangent_u, surface.tangent_v] {
+    let second = &witness.second;
+    for vector in [surface.point, surface.tangent_u, surface.tangent_v, second.half_uu, second.uv, second.half_vv] {
         for coordinate in vector.to_array() {
             take(coordinate.to_bits());
         }

@@ -63,6 +63,17 @@ impl Border {
     }
 }
 
+/// The mode at `(u, v)` with these parameters held.
+#[inline]
+pub(super) fn held([u, v]: [f32; 2], [is_u, is_v]: [bool; 2]) -> BoundaryMode {
+    match (is_u, is_v) {
+        (false, false) => BoundaryMode::Interior,
+        (true, true) => BoundaryMode::Corner,
+        (true, false) => Border::of(u).mode_along_u(),
+        (false, true) => Border::of(v).mode_along_v(),
+    }
+}
+
 /// Whether both parameters are farther from every border than the least normal number, so that no direction is blocked. Each is one
 /// comparison of bits: those of a positive number rise with it, and a sign bit is larger than all.
 #[inline(always)]

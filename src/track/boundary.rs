@@ -1,8 +1,8 @@
 //! The boundary automaton: which way the witness point may go, and where a step has to stop.
 //!
 //! One view covers the five modes of Eq. (1) and the corners: the direction is the minimiser of
-//! `½ δᵀ I δ + gᵀ δ` over the directions the boundary allows. Strictly convex in two variables, it has one minimiser, and
-//! the set of constraints active there is the mode.
+//! `½ δᵀ I δ + gᵀ δ` over the directions the boundary allows. Strictly convex in two variables, it has one minimiser,
+//! and the set of constraints active there is the mode.
 
 use super::border::{Border, BoundaryMode, is_inside, is_within};
 use super::law::Law;
@@ -20,17 +20,19 @@ pub struct Descent {
     pub direction: [f32; 2],
     /// `s = −gᵀ w`, the fall of `½ ‖ΔR‖²` to first order, metres squared. Never negative without feed-forward.
     pub slope: f32,
-    /// An upper bound of `wᵀ I w`, the squared length of the step in space, metres squared. Without feed-forward it is `s`.
+    /// An upper bound of `wᵀ I w`, the squared length of the step in space, metres squared. Without feed-forward it is
+    /// `s`.
     pub length_squared: f32,
     /// The mode.
     pub mode: BoundaryMode,
 }
 
 impl Descent {
-    /// The direction a witness point takes under a law: the best that the boundary allows, halved after steps that had to be undone.
+    /// The direction a witness point takes under a law: the best that the boundary allows, halved after steps that had
+    /// to be undone.
     #[inline(always)]
     pub fn of(law: Law, errors: &ProjectionErrors, witness: &Witness) -> Self {
-        if law == Law::MeasureNumbers
+        if law != Law::Covariant
             && witness.is_free
             && let Some(direction) = errors.correction()
         {
@@ -43,7 +45,7 @@ impl Descent {
     #[inline(always)]
     pub fn new(law: Law, errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
         match law {
-            Law::MeasureNumbers => Self::measured(errors, parameters),
+            Law::MeasureNumbers | Law::SecondOrder => Self::measured(errors, parameters),
             Law::Covariant => Self::projected_gradient(errors, parameters.map(Border::of)),
         }
     }
@@ -142,10 +144,11 @@ pub struct Landing {
     pub is_inside: bool,
 }
 
-/// The point a step reaches: `(u, v) + gain · direction`, cut where it would leave `[0, 1]²`; `None` where that is not a number.
+/// The point a step reaches: `(u, v) + gain · direction`, cut where it would leave `[0, 1]²`; `None` where that is not
+/// a number.
 ///
-/// Cutting (and not clamping each parameter by itself) keeps the step on the segment along which the distance is proved to
-/// fall. A component that points outward from its border already is left out: an integrator's mean may have one.
+/// Cutting (and not clamping each parameter by itself) keeps the step on the segment along which the distance is proved
+/// to fall. A component that points outward from its border already is left out: an integrator's mean may have one.
 #[inline(always)]
 pub fn advance([u, v]: [f32; 2], direction: [f32; 2], gain: f32) -> Option<Landing> {
     let parameters = [u + gain * direction[0], v + gain * direction[1]];

@@ -1,5 +1,6 @@
 //! The switching controller of Theorem 1: one step a tick.
 
+use super::aim::Aim;
 use super::boundary::{self, Descent, Landing, MAX_HALVINGS};
 use super::gain::certified_gain;
 use super::law::{FeedForward, Gain, Integrator, Law};
@@ -9,9 +10,10 @@ use super::{feed_forward, integrate};
 use crate::math::{ROOT_EXCESS, Vec3, sqrt, sqrt_from_above};
 use crate::patch::{Patch, SurfacePoint};
 
-/// The controller's configuration. Begin with [`Controller::CERTIFIED`] and choose, as in
+/// The controller's configuration. Begin with [`Controller::SECOND_ORDER`], or with [`Controller::CERTIFIED`] and
+/// choose, as in
 /// `Controller::CERTIFIED.gain(Gain::Constant(500.0))`. Keep it in a `static`: what is not chosen costs nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controller {
     /// Which direction.
     pub(super) law: Law,
@@ -23,14 +25,23 @@ pub struct Controller {
     pub(super) integrator: Integrator,
 }
 
-/// A rise of the squared distance is rounding as long as it is below this many units in the last place of the coordinates
-/// and the size (partial sums are as large as either), times the distance. Horner's rule at degree 5 in both
-/// parameters rounds about 20 times a coordinate, at both ends of a step, and uneven weights double it; a rise `δ` of the
-/// distance shows as `2 R δ`. So `V` may rise by 32 units in the last place, 4 µm on a body of 1 m.
+/// A rise of the squared distance is rounding as long as it is below this many units in the last place of the
+/// coordinates and the size (partial sums are as large as either), times the distance. Horner's rule at degree 5 in
+/// both parameters rounds about 20 times a coordinate, at both ends of a step, and uneven weights double it; a rise `δ`
+/// of the distance shows as `2 R δ`. So `V` may rise by 32 units in the last place, 4 µm on a body of 1 m.
 const ROUNDING: f32 = 64.0 * f32::EPSILON;
 
+impl Default for Controller {
+    fn default() -> Self {
+        Self::SECOND_ORDER
+    }
+}
+
 impl Controller {
-    /// Theorem 1 at the largest gain that is proved monotone, one evaluation a tick: the default on the target.
+    /// The certified law of second order, one evaluation a tick: the default.
+    pub const SECOND_ORDER: Self = Self { law: Law::SecondOrder, ..Self::CERTIFIED };
+
+    /// Theorem 1 at the largest gain that is proved monotone, one evaluation a tick: the paper's law.
     pub const CERTIFIED: Self = Self {
         law: Law::MeasureNumbers,
         gain: Gain::Certified,
@@ -40,14 +51,55 @@ impl Controller {
 
     /// One step of the chosen law towards the point of the patch closest to the probe, over `period` seconds.
     ///
-    /// Invariance: `(u, v)` stays in `[0, 1]²`. Descent, unless the gain is [`Gain::Unlimited`]: the computed distance to
-    /// the probe never rises by more than rounding; a step that would is undone. With [`Integrator::Euler`] and bounds that hold none
-    /// has to be. Work: [`Integrator::evaluations`] of the patch. No panic; a probe that is not finite leaves the witness
-    /// point where it is.
+    /// Invariance: `(u, v)` stays in `[0, 1]²`. Descent, unless the gain is [`Gain::Unlimited`]: the computed distance
+    /// to the probe never rises by more than rounding; a step that would is undone. With [`Integrator::Euler`] and
+    /// bounds that hold none has to be. Work: [`Integrator::evaluations`] of the patch. No panic; a probe that is not
+    /// finite leaves the witness point where it is.
     ///
     /// Inlined where it is called, so that the compiler sees what is chosen there and drops the rest.
     #[inline(always)]
     pub fn step<P: Patch>(&self, patch: &P, witness: &mut Witness, probe: Probe, period: f32) -> Step {
+        if self.is_second_order() {
+            self.step_second_order(patch, witness, probe)
+        } else {
+            self.step_first_order(patch, witness, probe, period)
+        }
+    }
+
+    /// Whether the witness point's second derivatives are looked at.
+    #[inline(always)]
+    pub(crate) const fn is_second_order(&self) -> bool {
+        matches!(
+            self,
+            Self {
+                law: Law::SecondOrder,
+                gain: Gain::Certified,
+                feed_forward: FeedForward::None,
+                integrator: Integrator::Euler
+            }
+        )
+    }
+
+    #[inline(always)]
+    fn step_second_order<P: Patch>(&self, patch: &P, witness: &mut Witness, probe: Probe) -> Step {
+        let aim = Aim::of(patch, witness, probe.position);
+        witness.mode = aim.mode;
+        let (squared, slope, gain) = (aim.squared, aim.slope, aim.gain);
+        if !aim.has_slope() {
+            return Step {
+                distance_squared_before: squared,
+                residual_squared: 0.0,
+                gain: 0.0,
+                outcome: Outcome::AtRest,
+            };
+        }
+        let Landing { parameters: [u, v], .. } = aim.landing;
+        let outcome = aim.settle(&patch.evaluate_curved(u, v), witness, probe.position, patch.size());
+        Step { distance_squared_before: squared, residual_squared: slope, gain, outcome }
+    }
+
+    #[inline(always)]
+    fn step_first_order<P: Patch>(&self, patch: &P, witness: &mut Witness, probe: Probe, period: f32) -> Step {
         let errors = ProjectionErrors::new(&witness.surface, probe.position);
         let squared = errors.difference.length_squared();
         let plain = Descent::of(self.law, &errors, witness);
@@ -127,7 +179,7 @@ impl Controller {
 
 /// Whether `x > 0`; of a NaN its sign. As bits it is one comparison, and no bits are waited for.
 #[inline]
-fn is_above_zero(x: f32) -> bool {
+pub(super) fn is_above_zero(x: f32) -> bool {
     x.to_bits().cast_signed() > 0
 }
 
@@ -139,7 +191,7 @@ fn least(gain: f32, limit: f32) -> f32 {
 
 /// Whether the squared distance rose by more than rounding. Written so that NaN counts as a rise.
 #[inline(always)]
-fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, size: f32) -> bool {
+pub(super) fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, size: f32) -> bool {
     let now = (after.point - probe).length_squared();
     if now <= squared {
         return false;

@@ -1,11 +1,16 @@
-//! What can be chosen about the controller. All of it is configuration: in a `static` the choice is made by the compiler and
-//! what is not chosen leaves no code in the image.
+//! What can be chosen about the controller. All of it is configuration: in a `static` the choice is made by the
+//! compiler and what is not chosen leaves no code in the image.
 
 /// Which direction drives the witness point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Law {
-    /// Eq. (1): the projection errors as measure numbers, `−Ψ = −I⁻¹ g`; along an edge `−g_v/G` or `−g_u/E`. Insensitive to
-    /// the parametrisation.
+    /// The minimiser of the quadratic model of `½ ‖ΔR‖²` over the whole patch, in full where the distance is proved to
+    /// fall, otherwise as much of it as is proved to, or the step of [`Self::MeasureNumbers`], whichever is proved to
+    /// bring more (theory §12). Converges quadratically. The certified gain, no feed-forward and Euler belong to it;
+    /// with another choice of these it is [`Self::MeasureNumbers`].
+    SecondOrder,
+    /// Eq. (1): the projection errors as measure numbers, `−Ψ = −I⁻¹ g`; along an edge `−g_v/G` or `−g_u/E`.
+    /// Insensitive to the parametrisation.
     #[default]
     MeasureNumbers,
     /// The projected gradient `−g / (E + G)`, each component that points outward at a border set to zero. The plain
@@ -21,8 +26,8 @@ pub enum Gain {
     Certified,
     /// This `K`, 1/s, or the certified gain where that is less.
     Constant(f32),
-    /// Remark 1: `K = rate · ‖ΔR‖² / (Ψᵘ² + Ψᵛ²)`, `rate` in 1/(m² s), or the certified gain where that is less. Without a
-    /// bound it would grow beyond all limits as the witness point arrives.
+    /// Remark 1: `K = rate · ‖ΔR‖² / (Ψᵘ² + Ψᵛ²)`, `rate` in 1/(m² s), or the certified gain where that is less.
+    /// Without a bound it would grow beyond all limits as the witness point arrives.
     Exponential(f32),
     /// This `K`, 1/s, whatever comes of it: no certificate, no step undone. For measuring where the limits lie.
     Unlimited(f32),

@@ -4,10 +4,13 @@
 //! errors `Ψ` are the measure numbers of `ΔR` in the basis of the tangents (Eq. (4)): `ΔR = Ψᵘ f_u + Ψᵛ f_v + Δ N`.
 //! `V = ‖ΔR‖ − E`, with `E` the least distance, is the Lyapunov function of every mode.
 //!
-//! The way of a step: [`ProjectionErrors`] of the new probe at the cached surface point → [`Descent`], the direction the
-//! boundary allows and its [`BoundaryMode`] → [`certified_gain`], the longest step proved to bring the witness nearer →
-//! cut at the patch's border → one evaluation of the patch → kept if the distance did not rise.
+//! The way of a step of the paper's law: [`ProjectionErrors`] of the new probe at the cached surface point →
+//! [`Descent`], the direction the boundary allows and its [`BoundaryMode`] → [`certified_gain`], the longest step
+//! proved to bring the witness nearer → cut at the patch's border → one evaluation of the patch → kept if the distance
+//! did not rise. The default, [`Controller::SECOND_ORDER`], goes to where the quadratic model of the distance is least
+//! over the square, as far as that is proved to bring the witness nearer (theory §12).
 
+mod aim;
 mod border;
 mod boundary;
 mod choices;
@@ -21,8 +24,10 @@ mod limits;
 mod pair;
 mod placement;
 mod projection;
+mod second_order;
 mod witness;
 
+pub(crate) use aim::Aim;
 pub use border::BoundaryMode;
 pub use boundary::Descent;
 pub use choices::ControllerError;

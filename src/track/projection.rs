@@ -35,7 +35,7 @@ pub struct ProjectionErrors {
 
 /// The least `sin²` of the angle between the tangents at which the first fundamental form is inverted. Below it the
 /// determinant, a difference of nearly equal numbers, would have fewer than ten good bits.
-const MIN_SINE_SQUARED: f32 = 1.0e-4;
+pub(super) const MIN_SINE_SQUARED: f32 = 1.0e-4;
 
 impl ProjectionErrors {
     /// The errors of the probe against a surface point.

@@ -2,7 +2,7 @@
 
 use super::border::{BoundaryMode, is_inside};
 use crate::math::{Vec3, inverse_sqrt, saturate, sqrt};
-use crate::patch::{Patch, SurfacePoint};
+use crate::patch::{CurvedPoint, Patch, SecondDerivatives, SurfacePoint};
 
 /// The probe as the controller sees it, in the body's frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,9 +27,12 @@ pub struct Witness {
     pub parameters: [f32; 2],
     /// The patch evaluated there.
     pub surface: SurfacePoint,
+    /// Its second derivatives there; a controller that does not look at them leaves them alone.
+    pub second: SecondDerivatives,
     /// The boundary mode of the last step.
     pub mode: BoundaryMode,
-    /// Whether the next step need look neither at the borders, for both parameters are away from them, nor at `halvings`.
+    /// Whether the next step need look neither at the borders, for both parameters are away from them, nor at
+    /// `halvings`.
     pub is_free: bool,
     /// How often the next step is halved: once more after each in a row that had to be undone.
     pub halvings: u8,
@@ -43,8 +46,8 @@ pub enum Outcome {
     Moved,
     /// There was nowhere nearer to go.
     AtRest,
-    /// The step would have raised the distance by more than rounding can explain and was undone; the next is half as long.
-    /// With bounds that hold, on a patch that is C¹, it does not happen.
+    /// The step would have raised the distance by more than rounding can explain and was undone; the next is half as
+    /// long. With bounds that hold, on a patch that is C¹, it does not happen.
     Undone,
 }
 
@@ -76,14 +79,30 @@ impl Step {
 impl Witness {
     /// A witness point at `(u, v)`, moved into `[0, 1]²` if it lies outside; NaN is 0. One evaluation.
     pub fn at<P: Patch>(patch: &P, u: f32, v: f32) -> Self {
-        let (u, v) = (saturate(u, 0.0, 1.0), saturate(v, 0.0, 1.0));
+        let [u, v] = [u, v].map(|parameter| saturate(parameter, 0.0, 1.0));
+        let CurvedPoint { surface, second } = patch.evaluate_curved(u, v);
         Self {
             parameters: [u, v],
-            surface: patch.evaluate(u, v),
+            surface,
+            second,
             mode: BoundaryMode::Interior,
             is_free: is_inside([u, v]),
             halvings: 0,
         }
+    }
+
+    /// Sets the point down at `(u, v)` in `[0, 1]²`. One evaluation, with second derivatives where these are looked at.
+    #[inline(always)]
+    pub(crate) fn set_down<P: Patch>(&mut self, patch: &P, [u, v]: [f32; 2], is_curved: bool) {
+        if is_curved {
+            let reached = patch.evaluate_curved(u, v);
+            (self.surface, self.second) = (reached.surface, reached.second);
+        } else {
+            self.surface = patch.evaluate(u, v);
+        }
+        self.parameters = [u, v];
+        self.is_free = is_inside(self.parameters);
+        (self.mode, self.halvings) = (BoundaryMode::Interior, 0);
     }
 
     /// The outward unit normal at the witness point; `None` where the tangents span no plane.

@@ -1,8 +1,8 @@
 //! Telemetry that does not disturb the loop: a queue of fixed capacity from the servo's interrupt to a sender below it.
 //!
-//! [`Recorder`] runs in the interrupt, after the duties are applied: a few comparisons a tick, and now and then one record
-//! copied into the queue. It never waits. A queue without room costs records, which are counted, and never time. Whoever
-//! holds the other end packs and sends them ([`super::frame::pack`]), or logs them, at its leisure.
+//! [`Recorder`] runs in the interrupt, after the duties are applied: a few comparisons a tick, and now and then one
+//! record copied into the queue. It never waits. A queue without room costs records, which are counted, and never time.
+//! Whoever holds the other end packs and sends them ([`super::frame::pack`]), or logs them, at its leisure.
 
 use super::Record;
 use crate::device::Duty;
@@ -41,8 +41,8 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder that makes a record every so many ticks, and in between whenever phase, fault, feature, boundary mode or
-    /// contact changes. `clock` is the frequency of the board's counter, Hz.
+    /// A recorder that makes a record every so many ticks, and in between whenever phase, fault, feature, boundary mode
+    /// or contact changes. `clock` is the frequency of the board's counter, Hz.
     pub const fn new(queue: Producer<'a, Record>, clock: u32, every: u32) -> Self {
         Self {
             queue,
@@ -174,7 +174,7 @@ mod tests {
 
     /// Ticks so many times from the tick at hand, each a period apart and 300 counts long.
     fn ticks(recorder: &mut Recorder<'_>, state: &mut ServoState<3>, ticks: u32) {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::CERTIFIED, SETTINGS);
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::SECOND_ORDER, SETTINGS);
         for _ in 0..ticks {
             // Near the end of the counter, so that it wraps.
             let began = (u32::MAX - 5 * PERIOD).wrapping_add(state.ticks() * PERIOD);
@@ -184,7 +184,7 @@ mod tests {
     }
 
     fn start() -> ServoState<3> {
-        Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::CERTIFIED, SETTINGS).start()
+        Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::SECOND_ORDER, SETTINGS).start()
     }
 
     #[test]
@@ -193,7 +193,7 @@ mod tests {
         let (producer, mut consumer) = queue.split();
         let (mut recorder, mut state) = (Recorder::new(producer, 4_000_000, 10), start());
         ticks(&mut recorder, &mut state, 100);
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::CERTIFIED, SETTINGS);
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::SECOND_ORDER, SETTINGS);
         servo.note(&mut state, Event::Stop);
         ticks(&mut recorder, &mut state, 2);
 

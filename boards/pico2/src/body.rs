@@ -45,6 +45,7 @@ pub const SETTINGS: Settings = Settings {
     body_origin: vec3(-0.05, -0.05, -0.06),
 };
 
-/// Everything the servo knows. No host watches: the device runs by itself. The table is checked at boot and over and over.
+/// Everything the servo knows. No host watches: the device runs by itself. The table is checked at boot and over and
+/// over.
 pub static SERVO: Servo<'static, table::Surface, SerialArm, 3> =
-    Servo::new(&DEVICE, table::SURFACE, Controller::CERTIFIED, SETTINGS);
+    Servo::new(&DEVICE, table::SURFACE, Controller::SECOND_ORDER, SETTINGS);

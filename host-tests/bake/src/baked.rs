@@ -1,5 +1,6 @@
 //! A patch as the target has it: the table, in `f32`.
 
+use super::axis::Axis;
 use super::coefficients::BakedCoefficients;
 use super::error::{ModelError, PatchFault};
 use super::model::Model;
@@ -33,13 +34,15 @@ impl BakedPatch {
     /// [`PatchFault::Uneven`] where the weights or knots do not fit `f32`.
     pub fn new(patch: &NurbsPatch) -> Result<Self, PatchFault> {
         let baked = Self::without_shape(patch)?;
-        let bounds = baked.shape.second_derivatives;
-        let shape = shape::prove(patch.degree, &baked.breaks, &baked.coefficients, baked.orientation, bounds);
-        Ok(Self { shape: shape.ok_or(PatchFault::NoBounds)?, ..baked })
+        let ShapeBounds { second_derivatives, third_derivatives, .. } = baked.shape;
+        let shape =
+            shape::prove(patch.degree, &baked.breaks, &baked.coefficients, baked.orientation, second_derivatives)
+                .ok_or(PatchFault::NoBounds)?;
+        Ok(Self { shape: ShapeBounds { third_derivatives, ..shape }, ..baked })
     }
 
-    /// Bakes one patch with the bounds that the controller's gain needs and no others: curvature and stretch are proved by a
-    /// search that takes seconds on some patches, and a sweep over thousands does without.
+    /// Bakes one patch with the bounds that the controller's gain needs and no others: curvature and stretch are proved
+    /// by a search that takes seconds on some patches, and a sweep over thousands does without.
     ///
     /// # Errors
     /// [`PatchFault::Uneven`] where the weights or knots do not fit `f32`.
@@ -60,12 +63,15 @@ impl BakedPatch {
         };
         let orientation = if patch.flip { Orientation::Inward } else { Orientation::Outward };
         let bounds = bounds::prove(patch.degree, &spans.breaks, &coefficients).ok_or(PatchFault::NoBounds)?;
+        let has_crease = [Axis::U, Axis::V].map(|axis| !patch.creases(axis).is_empty());
+        let third_derivatives =
+            bounds::prove_third(patch.degree, &spans.breaks, &coefficients, has_crease).ok_or(PatchFault::NoBounds)?;
         Ok(Self {
             name: patch.name.clone(),
             degree: patch.degree.map(|degree| degree as u8),
             breaks: spans.breaks,
             coefficients,
-            shape: ShapeBounds::unknown(bounds),
+            shape: ShapeBounds { third_derivatives, ..ShapeBounds::unknown(bounds) },
             orientation,
             size: patch.size() as f32,
         })
@@ -83,8 +89,8 @@ impl BakedPatch {
         model.patches.iter().enumerate().map(bake).collect()
     }
 
-    /// The patch as the firmware has it, with the same bits. Its numbers stay allocated for good: for a host that bakes a
-    /// few models in its life.
+    /// The patch as the firmware has it, with the same bits. Its numbers stay allocated for good: for a host that bakes
+    /// a few models in its life.
     ///
     /// # Errors
     /// What the library finds wrong with the table: nothing, if it was baked.

@@ -1,12 +1,16 @@
 //! Proved bounds of a baked patch's curvature and stretch.
 //!
 //! # Why it is a proof
-//! - It is of the surface the target has: the stored `f32` coefficients over each span as the target's subtraction sees it.
-//! - `super::cell` turns the span into polynomials, and bounds what curvature and stretch can be on a cell by Taylor forms
+//! - It is of the surface the target has: the stored `f32` coefficients over each span as the target's subtraction sees
+//! it.
+//! - `super::cell` turns the span into polynomials, and bounds what curvature and stretch can be on a cell by Taylor
+//! forms
 //!   (`super::form`) that enclose, rounding included. Halving a cell keeps that.
-//! - The bound of a patch is the worst of its cells. Cells are halved until their bound is within [`SLACK`] of a value that is taken,
+//! - The bound of a patch is the worst of its cells. Cells are halved until their bound is within [`SLACK`] of a value
+//! that is taken,
 //!   or [`HALVINGS`] times, or until the span's share of [`CELLS`] is used up: the bound is then looser, never wrong.
-//! - Where the tangents are not proved to span a plane there is no curvature to bound: near a pole the bound is infinite.
+//! - Where the tangents are not proved to span a plane there is no curvature to bound: near a pole the bound is
+//! infinite.
 //!
 //! Across an inner knot the curvature may jump, and both sides are bounded. A crease (the patch is only C⁰) has none.
 
@@ -21,10 +25,12 @@ pub const SLACK: f64 = 0.02;
 /// How often a cell is halved at most: 9 times along each parameter. A pole's cells, which stay without a bound, are
 /// then a 500th of a span wide.
 pub const HALVINGS: usize = 18;
-/// Cells of a patch, shared by its spans (each has 1024 at least): a few seconds of work for a rational patch of degree 5, hundredths for degree 2.
+/// Cells of a patch, shared by its spans (each has 1024 at least): a few seconds of work for a rational patch of degree
+/// 5, hundredths for degree 2.
 pub const CELLS: usize = 16_384;
-/// A direction that bends inward by less than this, relative to the largest curvature, is straight but for the rounding of the
-/// coefficients to `f32` (6e-8 of coordinates that are some ten times what the bending moves them). It is not pursued further, and not called convex.
+/// A direction that bends inward by less than this, relative to the largest curvature, is straight but for the rounding
+/// of the coefficients to `f32` (6e-8 of coordinates that are some ten times what the bending moves them). It is not
+/// pursued further, and not called convex.
 pub const FLAT: f64 = 1e-6;
 
 /// Bounds of a table's shape, or `None` if a weight is not proved positive.
@@ -154,12 +160,12 @@ impl Search {
             Curvature::UNBOUNDED
         };
         ShapeBounds {
-            second_derivatives: self.second_derivatives,
             curvature,
             // From below 0 is a bound as well.
             min_stretch: down(self.proved.stretch[0]).max(0.0),
             max_stretch: up(self.proved.stretch[1]),
             max_bend: if self.bounded { up(self.proved.bend).max(0.0) } else { f32::INFINITY },
+            ..ShapeBounds::unknown(self.second_derivatives)
         }
     }
 }

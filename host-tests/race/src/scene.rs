@@ -95,8 +95,14 @@ fn body(patch: SplinePatch, size: f32, lines: &HashMap<&str, &str>) -> anyhow::R
         coefficients: Coefficients::Polynomial(&[[0.0; 3]]),
         second_derivative: 0.0,
     };
-    let edge =
-        |side| Edge { curve, faces: [EdgeFace { face: 0, side }, EdgeFace::NONE], ends: [0; 2], kind: EdgeKind::Open };
+    let edge = |side| Edge {
+        curve,
+        third_derivative: 0.0,
+        jump: 0.0,
+        faces: [EdgeFace { face: 0, side }, EdgeFace::NONE],
+        ends: [0; 2],
+        kind: EdgeKind::Open,
+    };
     let edges: Vec<Edge> = [0, 1, 2, 3].map(edge).into();
     let vertices = vec![Vertex { point: Vec3::ZERO, outward: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true }];
     Ok(Body::try_new(faces.leak(), edges.leak(), vertices.leak(), &[], locator, size, false)?)

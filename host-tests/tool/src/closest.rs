@@ -22,8 +22,8 @@ pub enum Status {
     Converged,
     /// Cold: a candidate was given up short of its minimum.
     StepLimit,
-    /// Cold: the query is farther off than the locator's tables reach. The list of the nearest cell was searched, which is
-    /// not proved to hold the closest point of a query from there.
+    /// Cold: the query is farther off than the locator's tables reach. The list of the nearest cell was searched, which
+    /// is not proved to hold the closest point of a query from there.
     Far,
     /// One row of a track.
     Tracking,
@@ -60,7 +60,7 @@ impl<'a> Solver<'a> {
         // The same search, one evaluation a tick; it ends within the bound of `Body::locate`.
         let located = self.body.locate(probe);
         while !state.is_located {
-            self.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), 1.0);
+            self.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), 1.0);
         }
         let status = match (self.body.locator().holds(probe), located.complete) {
             (false, _) => Status::Far,
@@ -74,15 +74,15 @@ impl<'a> Solver<'a> {
         (Found { evaluations: u32::from(located.evaluations), status, ..found }, state)
     }
 
-    /// Follows a probe that has moved: `ticks` ticks of the tracker, and after a jump as many more as it takes until the closest point is
-    /// located anew. `probe` in metres.
+    /// Follows a probe that has moved: `ticks` ticks of the tracker, and after a jump as many more as it takes until
+    /// the closest point is located anew. `probe` in metres.
     pub fn track(&self, state: &mut BodyWitness, probe: Vec3, ticks: u32) -> Found {
         let mut evaluations = 0;
         let mut spent = 0;
         while spent < ticks || !state.is_located {
             spent += 1;
             // The gain is certified, not a rate: the period does not matter.
-            let step = self.body.step(&Controller::CERTIFIED, state, Probe::at(probe), 1.0);
+            let step = self.body.step(&Controller::SECOND_ORDER, state, Probe::at(probe), 1.0);
             evaluations += u32::from(step.evaluations);
         }
         let (face, parameters) = self.on_a_face(state);

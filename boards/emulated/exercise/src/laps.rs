@@ -50,7 +50,7 @@ const PASSIVITY: Passivity =
 
 /// Spring and damper alone; contact that no motion explains is a fault at once.
 pub static PLAIN: ServoOf<SerialArm> =
-    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT).safety(Safety {
+    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT).safety(Safety {
         link_timeout: 0.05,
         contact: Some(ContactLimits { max_in_a_row: 0, ..ContactLimits::DEFAULT }),
         ..Safety::DEFAULT
@@ -58,7 +58,7 @@ pub static PLAIN: ServoOf<SerialArm> =
 
 /// Friction, texture, passivity, the window's velocity; homing, the table's check, damping after a fault.
 pub static RICH: ServoOf<SerialArm> =
-    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT)
+    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT)
         .rendering(Rendering {
             velocity: VelocityMethod::AdaptiveWindow,
             friction: Some(FRICTION),
@@ -76,16 +76,17 @@ pub static RICH: ServoOf<SerialArm> =
 
 /// A virtual tool on a rational patch, felt with a delta.
 pub static COUPLED: ServoOf<Delta> =
-    Servo::new(&NOVINT_FALCON, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT).rendering(Rendering {
+    Servo::new(&NOVINT_FALCON, &ellipsoid::PATCHES[0], Controller::SECOND_ORDER, ELLIPSOID_AT).rendering(Rendering {
         velocity: VelocityMethod::Tracking,
         coupling: Some(Coupling { stiffness: 500.0, damping: 3.0, mass: 0.02 }),
         friction: Some(FRICTION),
         ..Rendering::PLAIN
     });
 
-/// A five-bar on a turntable that watches for stuck sensors and bears some overruns. As on the body, nothing ends deep contact.
+/// A five-bar on a turntable that watches for stuck sensors and bears some overruns. As on the body, nothing ends deep
+/// contact.
 pub static WATCHFUL: ServoOf<LinkageArm> =
-    Servo::new(&POLHEM_V2, &table1c::PATCHES[0], Controller::CERTIFIED, TABLE_1C_AT).safety(Safety {
+    Servo::new(&POLHEM_V2, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT).safety(Safety {
         max_overruns: 1,
         stuck: Some(StuckLimits { load: 1.0, travel: 0.1 }),
         contact: None,
@@ -99,24 +100,26 @@ const WEAK: Device<SerialArm, 3> = Device {
 };
 
 /// Motors that are asked for NaN.
-pub static BROKEN: ServoOf<SerialArm> = Servo::new(&WEAK, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT);
+pub static BROKEN: ServoOf<SerialArm> =
+    Servo::new(&WEAK, &ellipsoid::PATCHES[0], Controller::SECOND_ORDER, ELLIPSOID_AT);
 
 const SHORT_SHINNED: Device<Delta, 3> =
     Device { kinematics: Delta { shin: 0.055, ..NOVINT_FALCON.kinematics }, ..NOVINT_FALCON };
 
 /// Shins so short that the legs cannot meet everywhere.
 pub static SHORT: ServoOf<Delta> =
-    Servo::new(&SHORT_SHINNED, &ellipsoid::PATCHES[0], Controller::CERTIFIED, ELLIPSOID_AT);
+    Servo::new(&SHORT_SHINNED, &ellipsoid::PATCHES[0], Controller::SECOND_ORDER, ELLIPSOID_AT);
 
 /// A table that is not the one that was baked.
-pub static CORRUPT: ServoOf<SerialArm> = Servo::new(&WOODEN_HAPTICS_2016, &SPOILT, Controller::CERTIFIED, ELLIPSOID_AT);
+pub static CORRUPT: ServoOf<SerialArm> =
+    Servo::new(&WOODEN_HAPTICS_2016, &SPOILT, Controller::SECOND_ORDER, ELLIPSOID_AT);
 
 static SPOILT: SplinePatch = ellipsoid::PATCHES[0].with_crc(!ellipsoid::TABLE_CRC);
 
-/// The capped box. The strokes lead right through it, deeper than any hand presses: nothing watches for lost contact, so that it is felt
-/// all the way.
+/// The capped box. The strokes lead right through it, deeper than any hand presses: nothing watches for lost contact,
+/// so that it is felt all the way.
 pub static BODY: ServoOf<SerialArm, Body> =
-    Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, Controller::CERTIFIED, CAPPED_BOX_AT)
+    Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, Controller::SECOND_ORDER, CAPPED_BOX_AT)
         .rendering(Rendering { friction: Some(FRICTION), ..Rendering::PLAIN })
         .safety(Safety { contact: None, ..Safety::DEFAULT });
 

@@ -1,4 +1,5 @@
-//! One tick of the body's tracker: the switch between features, and one step on the active one; then what the loop asks of the point.
+//! One tick of the body's tracker: the switch between features, and one step on the active one; then what the loop asks
+//! of the point.
 
 use core::hint::black_box;
 
@@ -20,7 +21,7 @@ const TRAVEL: Vec3 = vec3(0.045, 0.034, 0.032);
 
 #[inline(never)]
 fn tick(body: &Body, witness: &mut BodyWitness, position: &Vec3) -> BodyStep {
-    body.track(&Controller::CERTIFIED, witness, Probe::at(*position), 2.5e-4)
+    body.track(&Controller::SECOND_ORDER, witness, Probe::at(*position), 2.5e-4)
 }
 
 #[inline(never)]

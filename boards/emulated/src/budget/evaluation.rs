@@ -1,8 +1,8 @@
-//! One evaluation: point and both tangents.
+//! One evaluation: point and both tangents, and with all second derivatives.
 
 use core::hint::black_box;
 
-use palpate::patch::{Patch, SplinePatch, SurfacePoint};
+use palpate::patch::{CurvedPoint, Patch, SplinePatch, SurfacePoint};
 use semihosting::println;
 
 use super::patches::{POLYNOMIAL, RATIONAL};
@@ -18,6 +18,11 @@ fn evaluate(patch: &SplinePatch, u: f32, v: f32) -> SurfacePoint {
     patch.evaluate(u, v)
 }
 
+#[inline(never)]
+fn evaluate_curved(patch: &SplinePatch, u: f32, v: f32) -> CurvedPoint {
+    patch.evaluate_curved(u, v)
+}
+
 pub fn run(counter: &mut InstructionCounter) {
     for (kind, patches) in [("polynomial", &POLYNOMIAL), ("rational", &RATIONAL)] {
         for patch in black_box(patches) {
@@ -26,6 +31,9 @@ pub fn run(counter: &mut InstructionCounter) {
             black_box(point);
             let [degree_u, degree_v] = patch.degree();
             println!("\"evaluation, {kind}, degree ({degree_u}, {degree_v})\" = {instructions}");
+            let (point, instructions) = counter.count(|| evaluate_curved(patch, u, v));
+            black_box(point);
+            println!("\"second order, {kind}, degree ({degree_u}, {degree_v})\" = {instructions}");
         }
     }
     let mut spans = Tally::new();

@@ -2,9 +2,10 @@
 
 use super::{BakedBody, BakedSeparator, BakedSide};
 
-/// Sizes of the records on a 32-bit target, in bytes: a face with its patch and sides, an edge, a vertex, a spoke, and the body itself.
-const FACE: usize = 204;
-const EDGE: usize = 44;
+/// Sizes of the records on a 32-bit target, in bytes: a face with its patch and sides, an edge, a vertex, a spoke, and
+/// the body itself.
+const FACE: usize = 228;
+const EDGE: usize = 52;
 const VERTEX: usize = 32;
 const SPOKE: usize = 16;
 const BODY: usize = 76;

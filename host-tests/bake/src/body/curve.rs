@@ -50,6 +50,15 @@ impl BakedCurve {
         Ok(Self { degree: degree as u8, breaks, coefficients, second_derivative })
     }
 
+    /// `sup ‖c'''‖` and the largest jump of `c''`: what a step of second order needs of the curve of an edge.
+    ///
+    /// # Errors
+    /// [`PatchFault::NoBounds`] where a bound does not fit `f32`.
+    pub fn third_derivative(&self) -> Result<[f32; 2], PatchFault> {
+        bounds::prove_third_of_curve(usize::from(self.degree), &self.breaks, &self.coefficients)
+            .ok_or(PatchFault::NoBounds)
+    }
+
     /// The curve as the firmware has it; its numbers stay allocated for good.
     pub fn to_curve(&self) -> SplineCurve {
         let coefficients = match &self.coefficients {

@@ -84,6 +84,8 @@ pub enum BakedSide {
 pub struct BakedEdge {
     /// The curve.
     pub curve: BakedCurve,
+    /// `sup ‖c'''‖`, and the largest jump of `c''`.
+    pub third_derivative: [f32; 2],
     /// The faces on it.
     pub faces: [EdgeFace; 2],
     /// The vertices at its ends.
@@ -111,11 +113,12 @@ pub enum TableFault {
 impl BakedBody {
     /// Bakes a model, in pieces where it must be ([`super::split::prepared`]); `file` is what messages call it.
     ///
-    /// The body counts as convex if it is closed and of one piece, if every face is convex (proved, or proved up to rounding where it is
-    /// straight: see [`super::survey`]), and if every edge is [`EdgeKind::Convex`] or [`EdgeKind::Smooth`]. Then it is locally convex
-    /// everywhere, and a closed surface that is so bounds a convex body (van Heijenoort, *On locally convex manifolds*, 1952).
-    /// Of this the faces' share is proved; the edges' kinds are sampled, and nothing is proved of poles: a body with poles is never
-    /// called convex, for the curvature has no bound there.
+    /// The body counts as convex if it is closed and of one piece, if every face is convex (proved, or proved up to
+    /// rounding where it is straight: see [`super::survey`]), and if every edge is [`EdgeKind::Convex`] or
+    /// [`EdgeKind::Smooth`]. Then it is locally convex everywhere, and a closed surface that is so bounds a convex body
+    /// (van Heijenoort, *On locally convex manifolds*, 1952). Of this the faces' share is proved; the edges' kinds are
+    /// sampled, and nothing is proved of poles: a body with poles is never called convex, for the curvature has no
+    /// bound there.
     ///
     /// # Errors
     /// What is wrong with the model's patches, or between them.
@@ -141,8 +144,8 @@ impl BakedBody {
         points.iter().map(beyond).fold(0.0, f64::max)
     }
 
-    /// The same body with a locator that names for each cell of space what can own the closest point. `progress` is told the depth that
-    /// begins and the number of its cells.
+    /// The same body with a locator that names for each cell of space what can own the closest point. `progress` is
+    /// told the depth that begins and the number of its cells.
     ///
     /// # Errors
     /// Tables that would not fit their indices.
@@ -155,8 +158,8 @@ impl BakedBody {
         Ok((Self { locator, ..self }, report))
     }
 
-    /// As [`Self::located`], but only for some probes, metres, for which the lists are the same; those of cells that hold none of them are good
-    /// for nothing.
+    /// As [`Self::located`], but only for some probes, metres, for which the lists are the same; those of cells that
+    /// hold none of them are good for nothing.
     ///
     /// # Errors
     /// Tables that would not fit their indices.
@@ -228,8 +231,11 @@ impl BakedBody {
             .map(|edge| {
                 let spans = BorderSpans::new(&spans[edge.owner.patch], patches[edge.owner.patch].degree, edge.owner);
                 let face = |border: Border| EdgeFace { face: border.patch as u16, side: border.side as u8 };
+                let curve = BakedCurve::of_edge(&spans).map_err(patch_fault(edge.owner.patch))?;
+                let third_derivative = curve.third_derivative().map_err(patch_fault(edge.owner.patch))?;
                 Ok(BakedEdge {
-                    curve: BakedCurve::of_edge(&spans).map_err(patch_fault(edge.owner.patch))?,
+                    curve,
+                    third_derivative,
                     faces: [face(edge.owner), edge.partner.map_or(EdgeFace::NONE, |(border, _)| face(border))],
                     ends: edge.ends.map(|vertex| vertex as u16),
                     kind: edge.kind,
@@ -263,8 +269,8 @@ impl BakedBody {
         self.faces.iter().map(|face| super::split::label(face.source, model)).collect()
     }
 
-    /// The body as the firmware has it, with the same bits. Its numbers stay allocated for good: for a host that bakes a few
-    /// models in its life.
+    /// The body as the firmware has it, with the same bits. Its numbers stay allocated for good: for a host that bakes
+    /// a few models in its life.
     ///
     /// # Errors
     /// What the library finds wrong with the tables: nothing, if they were baked.
@@ -276,6 +282,8 @@ impl BakedBody {
         }
         let edge = |edge: &BakedEdge| Edge {
             curve: edge.curve.to_curve(),
+            third_derivative: edge.third_derivative[0],
+            jump: edge.third_derivative[1],
             faces: edge.faces,
             ends: edge.ends,
             kind: edge.kind,

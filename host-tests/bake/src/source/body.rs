@@ -22,8 +22,8 @@ pub enum SourceError {
     Syntax(#[from] syn::Error),
 }
 
-/// The source: `pub static BODY: Body`, checked when it is compiled, and `pub const TABLE_CRC: u32` of all its numbers. `labels` name
-/// the faces.
+/// The source: `pub static BODY: Body`, checked when it is compiled, and `pub const TABLE_CRC: u32` of all its numbers.
+/// `labels` name the faces.
 ///
 /// # Errors
 /// Where the library refuses the tables, or they do not parse: bugs.
@@ -179,9 +179,12 @@ fn edge(index: usize, edge: &BakedEdge, breaks: &Breaks) -> TokenStream {
         EdgeKind::Mixed => quote!(Mixed),
         EdgeKind::Open => quote!(Open),
     };
+    let [third_derivative, jump] = edge.third_derivative.map(number);
     quote! {
         palpate::body::Edge {
             curve: #curve,
+            third_derivative: #third_derivative,
+            jump: #jump,
             faces: [#(#faces),*],
             ends: [#(#ends),*],
             kind: palpate::body::EdgeKind::#kind,

@@ -19,7 +19,7 @@ use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
 
 /// Version of the form of the tables; raised when older firmware cannot take them.
-pub const FORMAT_VERSION: u32 = 3;
+pub const FORMAT_VERSION: u32 = 4;
 
 /// What the header says.
 #[derive(Clone, Copy, Debug)]
@@ -54,8 +54,8 @@ impl Origin<'_> {
         // It has few enough bits to be exact.
         let [x, y, z] = self.centre.as_vec3().to_array().map(number::number);
         quote! {
-            /// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the tables. With the
-            /// model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
+            /// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
+            /// tables. With the model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
             #[allow(dead_code)]
             pub const CENTRE: palpate::math::Vec3 = palpate::math::vec3(#x, #y, #z);
         }

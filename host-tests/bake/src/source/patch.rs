@@ -40,6 +40,9 @@ pub(super) fn joined([breaks_u, breaks_v, coefficients]: [Ident; 3], patch: &Bak
     };
     let derivatives = patch.shape.second_derivatives;
     let [uu, uv, vv] = [derivatives.uu, derivatives.uv, derivatives.vv].map(number);
+    let third = patch.shape.third_derivatives;
+    let [uuu, uuv, uvv, vvv] = [third.uuu, third.uuv, third.uvv, third.vvv].map(number);
+    let [jump_uu, jump_vv] = [third.jump_uu, third.jump_vv].map(number);
     let [least, greatest] = [patch.shape.curvature.min, patch.shape.curvature.max].map(number);
     let [min_stretch, max_stretch] = [patch.shape.min_stretch, patch.shape.max_stretch].map(number);
     let max_bend = number(patch.shape.max_bend);
@@ -56,6 +59,14 @@ pub(super) fn joined([breaks_u, breaks_v, coefficients]: [Ident; 3], patch: &Bak
             palpate::patch::Coefficients::#kind(&#coefficients),
             palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds { uu: #uu, uv: #uv, vv: #vv },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: #uuu,
+                    uuv: #uuv,
+                    uvv: #uvv,
+                    vvv: #vvv,
+                    jump_uu: #jump_uu,
+                    jump_vv: #jump_vv,
+                },
                 curvature: palpate::patch::Curvature { min: #least, max: #greatest },
                 min_stretch: #min_stretch,
                 max_stretch: #max_stretch,

@@ -15,7 +15,8 @@ use palpate_bake::source::Origin;
 use palpate_plant::{HandSettings, PathError, Plant, TouchingPath, TouchingSettings};
 use std::path::PathBuf;
 
-/// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every preset holds it without a limit cycle.
+/// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every preset holds it without a limit
+/// cycle.
 const STIFFNESS: f32 = 1_000.0;
 const DAMPING: f32 = 2.0;
 
@@ -203,7 +204,7 @@ impl Scene {
         device: &'static Device<K, 3>,
         surface: &'static S,
     ) -> anyhow::Result<Box<dyn Link>> {
-        let servo = Servo::try_new(device, surface, Controller::CERTIFIED, self.settings)?.try_safety(SAFETY)?;
+        let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, self.settings)?.try_safety(SAFETY)?;
         Ok(Box::new(HostLoop::new(servo)))
     }
 
@@ -222,7 +223,8 @@ impl Scene {
         }
     }
 
-    /// The loop's settings and device as the source file that an image is built with. Every number reads back as the same `f32`.
+    /// The loop's settings and device as the source file that an image is built with. Every number reads back as the
+    /// same `f32`.
     pub fn settings_source(&self) -> String {
         let Settings { rate, stiffness, damping, max_force, velocity_corner, soft_start, body_origin } = self.settings;
         let [x, y, z] = body_origin.to_array();

@@ -54,7 +54,7 @@ fn brush(scene: &Scene, oracle: &BodyOracle<'_>, random: &mut Random) -> Felt {
     let mut felt = Felt { ends: [from, to], ..Felt::default() };
     for tick in 0..ticks {
         let probe = from + (to - from) * (tick as f32 / ticks as f32);
-        let step = body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD);
+        let step = body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
         // As the loop does: a stroke that runs through the body lengthwise is no contact that a wall could explain.
         if step.unexplained || -state.gap > ContactLimits::DEFAULT.min_depth {
             body.lose(&mut state);

@@ -1,4 +1,5 @@
-//! What the tracker must not do: take a step that leads away, or leave an edge before both of its faces have been asked.
+//! What the tracker must not do: take a step that leads away, or leave an edge before both of its faces have been
+//! asked.
 
 use crate::scene::repeat;
 use palpate::body::{Body, Feature, Separator, Side};
@@ -84,7 +85,7 @@ fn an_edge_is_not_left_for_its_vertex_before_both_faces_have_declined() {
             let mut state = body.start();
             let mut go = |along: f32, out_of: [f32; 2]| {
                 let offset = spoke.direction * along + first * out_of[0] + second * out_of[1];
-                body.step(&Controller::CERTIFIED, &mut state, Probe::at(vertex.point + offset * reach), PERIOD);
+                body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(vertex.point + offset * reach), PERIOD);
                 state.feature
             };
             let rested = (0..500).map(|_| go(-1.0, [1.0, 1.0])).last();

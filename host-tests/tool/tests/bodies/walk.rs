@@ -10,8 +10,9 @@ use palpate_truth::body_oracle::claims;
 use palpate_truth::measured::{grouped, measured_if_listed};
 use rayon::prelude::*;
 
-/// Ticks for which another feature than the owner may be active at a stretch. A probe that changes region is a step beyond the border; the
-/// closest points of the sides lag a few steps behind, and a way over a vertex takes one switch a tick: edge, vertex, edge, face.
+/// Ticks for which another feature than the owner may be active at a stretch. A probe that changes region is a step
+/// beyond the border; the closest points of the sides lag a few steps behind, and a way over a vertex takes one switch
+/// a tick: edge, vertex, edge, face.
 const LATE: u32 = 6;
 /// Seconds.
 const PERIOD: f64 = 2.5e-4;
@@ -47,7 +48,7 @@ fn track(scene: &Scene, way: impl Iterator<Item = DVec3>) -> Vec<Tick> {
     for probe in way.map(|probe| probe.as_vec3()) {
         let before = state.witness.surface.point.distance(probe);
         let was_located = state.is_located;
-        let step = scene.body.step(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD as f32);
+        let step = scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD as f32);
         let distance = state.witness.surface.point.distance(probe);
         if was_located {
             let (rise, feature) = (distance - before, state.feature);

@@ -1,6 +1,6 @@
 // Baked table, not for editing: palpate bake half_ball.toml --out half_ball.rs
-// Table format 3. SHA-256 of the model file: 8f0233ab18bff9eeb1e114f105852a17a7926877df3c21b33703ab64693ef0be
-// A body of 8 faces, 12 edges and 6 vertices. CRC-32 of its numbers: 6939220b
+// Table format 4. SHA-256 of the model file: 8f0233ab18bff9eeb1e114f105852a17a7926877df3c21b33703ab64693ef0be
+// A body of 8 faces, 12 edges and 6 vertices. CRC-32 of its numbers: dc8ac532
 
 // Span borders.
 #[rustfmt::skip]
@@ -320,6 +320,14 @@ static FACES: [palpate::body::Face; 8] = [
                     uv: 0.07658906,
                     vv: 0.08498841,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.20947182,
+                    uuv: 0.12639898,
+                    uvv: 0.131351,
+                    vvv: 0.21142238,
+                    jump_uu: 4.9941974e-8,
+                    jump_vv: 5.0407024e-8,
+                },
                 curvature: palpate::patch::Curvature {
                     min: f32::NEG_INFINITY,
                     max: f32::INFINITY,
@@ -385,6 +393,14 @@ static FACES: [palpate::body::Face; 8] = [
                     uv: 0.050177176,
                     vv: 4.1335137e-11,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.20947184,
+                    uuv: 0.083342575,
+                    uvv: 4.6001225e-9,
+                    vvv: 4.6001225e-9,
+                    jump_uu: 4.9941978e-8,
+                    jump_vv: 1.0967547e-15,
+                },
                 curvature: palpate::patch::Curvature {
                     min: f32::NEG_INFINITY,
                     max: f32::INFINITY,
@@ -441,6 +457,14 @@ static FACES: [palpate::body::Face; 8] = [
                     uu: 0.084102675,
                     uv: 0.07658906,
                     vv: 0.08498841,
+                },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.20947182,
+                    uuv: 0.12639898,
+                    uvv: 0.131351,
+                    vvv: 0.21142238,
+                    jump_uu: 4.9941974e-8,
+                    jump_vv: 5.0407024e-8,
                 },
                 curvature: palpate::patch::Curvature {
                     min: f32::NEG_INFINITY,
@@ -507,6 +531,14 @@ static FACES: [palpate::body::Face; 8] = [
                     uv: 0.050177176,
                     vv: 4.1335137e-11,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.20947184,
+                    uuv: 0.083342575,
+                    uvv: 4.6001225e-9,
+                    vvv: 4.6001225e-9,
+                    jump_uu: 4.9941978e-8,
+                    jump_vv: 1.0967547e-15,
+                },
                 curvature: palpate::patch::Curvature {
                     min: f32::NEG_INFINITY,
                     max: f32::INFINITY,
@@ -563,6 +595,14 @@ static FACES: [palpate::body::Face; 8] = [
                     uu: 0.084102675,
                     uv: 0.07658906,
                     vv: 0.08498841,
+                },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.20947182,
+                    uuv: 0.12639898,
+                    uvv: 0.131351,
+                    vvv: 0.21142238,
+                    jump_uu: 4.9941974e-8,
+                    jump_vv: 5.0407024e-8,
                 },
                 curvature: palpate::patch::Curvature {
                     min: f32::NEG_INFINITY,
@@ -629,6 +669,14 @@ static FACES: [palpate::body::Face; 8] = [
                     uv: 0.050177176,
                     vv: 4.1335137e-11,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.20947184,
+                    uuv: 0.083342575,
+                    uvv: 4.6001225e-9,
+                    vvv: 4.6001225e-9,
+                    jump_uu: 4.9941978e-8,
+                    jump_vv: 1.0967547e-15,
+                },
                 curvature: palpate::patch::Curvature {
                     min: f32::NEG_INFINITY,
                     max: f32::INFINITY,
@@ -685,6 +733,14 @@ static FACES: [palpate::body::Face; 8] = [
                     uu: 0.084102675,
                     uv: 0.07658906,
                     vv: 0.08498841,
+                },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.20947182,
+                    uuv: 0.12639898,
+                    uvv: 0.131351,
+                    vvv: 0.21142238,
+                    jump_uu: 4.9941974e-8,
+                    jump_vv: 5.0407024e-8,
                 },
                 curvature: palpate::patch::Curvature {
                     min: f32::NEG_INFINITY,
@@ -751,6 +807,14 @@ static FACES: [palpate::body::Face; 8] = [
                     uv: 0.050177176,
                     vv: 4.1335137e-11,
                 },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: 0.20947184,
+                    uuv: 0.083342575,
+                    uvv: 4.6001225e-9,
+                    vvv: 4.6001225e-9,
+                    jump_uu: 4.9941978e-8,
+                    jump_vv: 1.0967547e-15,
+                },
                 curvature: palpate::patch::Curvature {
                     min: f32::NEG_INFINITY,
                     max: f32::INFINITY,
@@ -806,6 +870,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Rational(&EDGE_0),
             second_derivative: 0.084102675,
         },
+        third_derivative: 0.20947182,
+        jump: 4.9941974e-8,
         faces: [
             palpate::body::EdgeFace {
                 face: 0,
@@ -826,6 +892,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Rational(&EDGE_1),
             second_derivative: 0.084102675,
         },
+        third_derivative: 0.20947182,
+        jump: 4.9941974e-8,
         faces: [
             palpate::body::EdgeFace {
                 face: 0,
@@ -846,6 +914,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Rational(&EDGE_2),
             second_derivative: 0.084102675,
         },
+        third_derivative: 0.20947182,
+        jump: 4.9941974e-8,
         faces: [
             palpate::body::EdgeFace {
                 face: 0,
@@ -866,6 +936,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_3),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 1,
@@ -886,6 +958,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_4),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 1,
@@ -906,6 +980,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Rational(&EDGE_5),
             second_derivative: 0.084102675,
         },
+        third_derivative: 0.20947182,
+        jump: 4.9941974e-8,
         faces: [
             palpate::body::EdgeFace {
                 face: 2,
@@ -926,6 +1002,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Rational(&EDGE_6),
             second_derivative: 0.084102675,
         },
+        third_derivative: 0.20947182,
+        jump: 4.9941974e-8,
         faces: [
             palpate::body::EdgeFace {
                 face: 2,
@@ -946,6 +1024,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_7),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 3,
@@ -966,6 +1046,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Rational(&EDGE_8),
             second_derivative: 0.084102675,
         },
+        third_derivative: 0.20947182,
+        jump: 4.9941974e-8,
         faces: [
             palpate::body::EdgeFace {
                 face: 4,
@@ -986,6 +1068,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Rational(&EDGE_9),
             second_derivative: 0.084102675,
         },
+        third_derivative: 0.20947182,
+        jump: 4.9941974e-8,
         faces: [
             palpate::body::EdgeFace {
                 face: 4,
@@ -1006,6 +1090,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Polynomial(&EDGE_10),
             second_derivative: 0.0,
         },
+        third_derivative: 0.0,
+        jump: 0.0,
         faces: [
             palpate::body::EdgeFace {
                 face: 5,
@@ -1026,6 +1112,8 @@ static EDGES: [palpate::body::Edge; 12] = [
             coefficients: palpate::patch::Coefficients::Rational(&EDGE_11),
             second_derivative: 0.084102675,
         },
+        third_derivative: 0.20947182,
+        jump: 4.9941974e-8,
         faces: [
             palpate::body::EdgeFace {
                 face: 6,
@@ -1218,7 +1306,7 @@ static ENTRIES: [u32; 8] = [
 ];
 /// CRC-32 of the body's numbers, [`palpate::body::Body::table_crc`], computed when it was baked.
 #[allow(dead_code)]
-pub const TABLE_CRC: u32 = 1765351947;
+pub const TABLE_CRC: u32 = 3700081970;
 /// The body.
 #[allow(dead_code, long_running_const_eval)]
 #[rustfmt::skip]
@@ -1243,7 +1331,7 @@ pub type Surface = palpate::body::Body;
 /// The body.
 #[allow(dead_code)]
 pub const SURFACE: &Surface = &BODY;
-/// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the tables. With the
-/// model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
+/// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
+/// tables. With the model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
 #[allow(dead_code)]
 pub const CENTRE: palpate::math::Vec3 = palpate::math::vec3(0.0, 0.0, 0.0);

@@ -17,7 +17,8 @@ mod settings {
 }
 
 static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> =
-    Servo::new(&settings::DEVICE, tables::SURFACE, Controller::CERTIFIED, settings::SETTINGS).safety(settings::SAFETY);
+    Servo::new(&settings::DEVICE, tables::SURFACE, Controller::SECOND_ORDER, settings::SETTINGS)
+        .safety(settings::SAFETY);
 
 #[test]
 fn every_board_and_the_host_agree_in_every_bit_of_every_tick() {

@@ -6,11 +6,15 @@ use palpate_tool::firmware::{Board, Progress};
 
 /// A biquadratic evaluation by Horner's rule cannot do with fewer instructions: `palpate::patch` counts them.
 const EVALUATION_FLOOR: u32 = 94;
+/// The same with all second derivatives: `src/patch/taylor.rs` counts them.
+const CURVED_FLOOR: u32 = 115;
 /// The most for a servo tick of three joints. The watch that ends contact which no motion explains is part of it.
 const SERVO_TICK: u32 = 1_700;
-/// The most for any tick of the closest point on the capped box with normal, gap and contact: four evaluations of its
-/// faces, and the sign that a vertex's cone gives.
-const ANY_TICK: u32 = 720;
+/// The most for any tick of the closest point on the capped box with normal, gap and contact. What the second order
+/// costs beyond the 720 of the first buys a witness point that follows a probe at 1 m/s to a millionth of the size
+/// between two edges: a step at the border, or one that is certain only in part, has its model's minimiser over the
+/// square and the exact certificate in the one tick.
+const ANY_TICK: u32 = 1_000;
 /// The most for the closest point on a face of degree 3, away from its border.
 const ON_A_FACE: u32 = 560;
 
@@ -47,10 +51,10 @@ fn compare(board: Board) {
         4 * evaluation <= 5 * EVALUATION_FLOOR,
         "{board:?}: a biquadratic evaluation takes {evaluation} instructions"
     );
-    let (step, evaluation) = (of("step on the face, worst"), of("evaluation, 3 x 3 spans of degree (2, 2), worst"));
+    let evaluation = of("second order, polynomial, degree (2, 2)");
     assert!(
-        step <= 2 * evaluation,
-        "{board:?}: a step on the face takes {step} instructions, its evaluation {evaluation}"
+        4 * evaluation <= 5 * CURVED_FLOOR,
+        "{board:?}: a biquadratic evaluation with second derivatives takes {evaluation} instructions"
     );
     let closest = of("closest point of the capped box with normal, gap and contact, any, worst");
     assert!(closest <= ANY_TICK, "{board:?}: the worst tick on the capped box takes {closest} instructions");

@@ -17,9 +17,10 @@ use rand_pcg::Pcg64;
 const INSTANTS: usize = 1_000;
 /// Ticks of good sensors after a fault, in which it must not come loose.
 const AFTER: usize = 30;
-/// Of the table check: 27 words and two ends.
-const TICKS_PER_PASS: u32 = 29;
-/// Until a sensor that stands still is called stuck by limits that allow next to no travel: each joint is looked at twice.
+/// Of the table check: 33 words and two ends.
+const TICKS_PER_PASS: u32 = 35;
+/// Until a sensor that stands still is called stuck by limits that allow next to no travel: each joint is looked at
+/// twice.
 const STUCK_TICKS: u32 = 6;
 
 /// What injecting a fault came to.
@@ -92,7 +93,8 @@ impl Bench<'_> {
                 if felt.abs() < 10.0 * self.device.dry_friction[joint] || state.counts().is_none() {
                     return Seen::Not; // without load a joint may rest
                 }
-                // The last count again, while the other joints come a count a tick: twice three ticks, for one joint is looked at a tick.
+                // The last count again, while the other joints come a count a tick: twice three ticks, for one joint is
+                // looked at a tick.
                 let mut bad = counts;
                 bad[joint] = state.counts().unwrap()[joint];
                 for _ in 0..STUCK_TICKS {
@@ -135,7 +137,7 @@ impl Bench<'_> {
                 Seen::Now { believable: true }
             }
             Fault::TableCorrupt => {
-                self.patch.bit.set(Some(self.below(27 * 32)));
+                self.patch.bit.set(Some(self.below(33 * 32)));
                 // The pass under way may have gone by; the next one has not.
                 for _ in 0..2 * TICKS_PER_PASS {
                     if state.fault().is_none() {
@@ -227,11 +229,11 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
     let (device, patch) = (device(), decayed());
     let mut seen = [[0_usize; Phase::ALL.len()]; 17];
     for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
-        let servo = Servo::new(&device, &patch, Controller::CERTIFIED, SETTINGS).safety(safety(output));
+        let servo = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS).safety(safety(output));
         let trace = Trace::record(&servo, 7);
-        let strict = Servo::new(&device, &patch, Controller::CERTIFIED, SETTINGS)
+        let strict = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS)
             .safety(Safety { stuck: Some(StuckLimits { travel: 1e-4, ..StuckLimits::DEFAULT }), ..safety(output) });
-        let shallow = Servo::new(&device, &patch, Controller::CERTIFIED, Settings { max_force: 1e-4, ..SETTINGS })
+        let shallow = Servo::new(&device, &patch, Controller::SECOND_ORDER, Settings { max_force: 1e-4, ..SETTINGS })
             .safety(Safety {
                 contact: Some(ContactLimits { max_in_a_row: 0, min_depth: 0.0, ..ContactLimits::DEFAULT }),
                 ..safety(output)
@@ -316,7 +318,7 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
 #[test]
 fn a_stuck_encoder_is_found_while_the_others_go_on() {
     // The turntable sweeps over the wall under load while the first link's encoder says the same again and again.
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::CERTIFIED, SETTINGS)
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
         // Half the usual way: the wall ends after 0.4 rad.
         .safety(Safety { stuck: Some(StuckLimits { travel: 0.3, ..StuckLimits::DEFAULT }), ..Safety::DEFAULT });
     let mut state = servo.start();
@@ -343,7 +345,7 @@ fn a_stuck_encoder_is_found_while_the_others_go_on() {
 #[test]
 fn overruns_are_counted_and_tolerated_as_allowed() {
     let safety = Safety { max_overruns: 2, ..Safety::DEFAULT };
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::CERTIFIED, SETTINGS).safety(safety);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
     let mut state = servo.start();
     let good = Input::Sensors { counts: [Counts(0); 3], enable: true };
     for _ in 0..100 {
@@ -365,7 +367,7 @@ fn overruns_are_counted_and_tolerated_as_allowed() {
 #[test]
 fn the_loop_is_armed_only_when_settled_homed_and_checked() {
     let (device, patch) = (device(), decayed());
-    let servo = Servo::new(&device, &patch, Controller::CERTIFIED, SETTINGS).safety(safety(SafeOutput::Zero));
+    let servo = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS).safety(safety(SafeOutput::Zero));
     let mut state = servo.start();
     let good = Input::Sensors { counts: [Counts(0); 3], enable: true };
     assert_eq!(state.phase(), Phase::Reset);
@@ -395,7 +397,7 @@ fn the_loop_is_armed_only_when_settled_homed_and_checked() {
 fn a_stale_table_is_never_armed() {
     let (device, mut patch) = (device(), decayed());
     patch.baked = Some(WALL.table_crc() ^ 1);
-    let servo = Servo::new(&device, &patch, Controller::CERTIFIED, SETTINGS);
+    let servo = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS);
     let mut state = servo.start();
     for _ in 0..10 {
         servo.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });

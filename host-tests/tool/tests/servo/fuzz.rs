@@ -64,7 +64,7 @@ fn fuzz<P: Patch>(
     let settings = Settings { body_origin: vec3(0.025, 0.0, 0.205), ..SETTINGS };
     let stuck = Some(StuckLimits { load: 1.0, travel: 0.2 });
     let safety = Safety { output, stuck, ..Safety::DEFAULT };
-    let servo = Servo::try_new(device, patch, Controller::CERTIFIED, settings).unwrap();
+    let servo = Servo::try_new(device, patch, Controller::SECOND_ORDER, settings).unwrap();
     let servo = servo.try_rendering(rendering).unwrap().try_safety(safety).unwrap();
     let mut random = Pcg64::seed_from_u64(seed);
     let mut state = servo.start();

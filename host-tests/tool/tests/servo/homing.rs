@@ -84,7 +84,7 @@ fn arm_servo(
     stops: [StopSearch; 3],
     timeout: u32,
 ) -> Servo<'static, palpate::patch::SplinePatch, palpate::device::SerialArm, 3> {
-    Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::CERTIFIED, SETTINGS).homing(homing(
+    Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).homing(homing(
         &WOODEN_HAPTICS_2016,
         stops,
         timeout,
@@ -111,7 +111,8 @@ fn an_arm_finds_its_stops_and_then_its_angles() {
         let encoders = WOODEN_HAPTICS_2016.encoders;
         for joint in 0..3 {
             let off = (f64::from(state.angles()[joint]) - plant.angles()[joint]).abs();
-            // The stop yields 1 mrad a N·m, of which the weight adds 0.3; and both readings, there and here, are a count.
+            // The stop yields 1 mrad a N·m, of which the weight adds 0.3; and both readings, there and here, are a
+            // count.
             let bound = f64::from(ARM_STOPS[joint].torque + 0.3) * 1e-3
                 + 1.1 * f64::from(encoders[joint].radians_per_count.abs());
             assert!(off < bound, "joint {joint}: {off} rad off, bound {bound}");
@@ -132,7 +133,7 @@ fn a_pantograph_finds_the_stops_its_source_states() {
     let servo = Servo::new(
         &HAPLY_2DIY_V3,
         &WALL,
-        Controller::CERTIFIED,
+        Controller::SECOND_ORDER,
         palpate::servo::Settings { stiffness: 200.0, damping: 0.5, ..SETTINGS },
     )
     .homing(homing(&HAPLY_2DIY_V3, stops, TICKS));

@@ -37,7 +37,7 @@ fn swing(stiffness: f32, damping: f32, rate: f64) -> f64 {
         body_origin: Vec3::ZERO,
     };
     // 40 N/m and 20 mm: 0.8 N. The links' weight helps: it is not carried.
-    let servo = Servo::new(&FREE, &WALL, Controller::CERTIFIED, settings)
+    let servo = Servo::new(&FREE, &WALL, Controller::SECOND_ORDER, settings)
         .rendering(Rendering { carries_weight: false, ..Rendering::PLAIN });
     let hand = HandSettings { stiffness: 40.0, damping: 0.1, mass: 0.0 };
     let mut plant = Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Hit), rate).unwrap();

@@ -37,7 +37,7 @@ fn touch(stiffness: f32, damping: f32, viscous: f64, control: Passivity, seed: u
         body_origin: Vec3::ZERO,
     };
     let rendering = Rendering { passivity: Some(control), ..Rendering::PLAIN };
-    let servo = Servo::new(&FREE, &WALL, Controller::CERTIFIED, settings).rendering(rendering);
+    let servo = Servo::new(&FREE, &WALL, Controller::SECOND_ORDER, settings).rendering(rendering);
     let level = |u: f64, v: f64| ([0.1 * (u - 0.5), 0.1 * (v - 0.5), 0.0], [0.0, 0.0, 1.0]);
     let touching = TouchingSettings { duration: 10.0, touches: 15, ..TouchingSettings::default() };
     let path = TouchingPath::new(level, touching, seed).unwrap();

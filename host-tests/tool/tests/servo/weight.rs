@@ -13,8 +13,8 @@ fn moved(a: Vector, b: Vector) -> f64 {
     (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// How far the probe moves, m, in the half second after the hand lets go, and how far in the quarter of one after it; that is cut
-/// short where it falls beyond `far`, before it hits a stop.
+/// How far the probe moves, m, in the half second after the hand lets go, and how far in the quarter of one after it;
+/// that is cut short where it falls beyond `far`, before it hits a stop.
 fn drifts<K: Kinematics<3>>(
     device: &Device<K, 3>,
     plant: PlantSettings,
@@ -26,7 +26,7 @@ fn drifts<K: Kinematics<3>>(
     let servo = Servo::new(
         device,
         &WALL,
-        Controller::CERTIFIED,
+        Controller::SECOND_ORDER,
         palpate::servo::Settings { body_origin: vec3(0.0, 0.0, 0.5), ..SETTINGS },
     )
     .rendering(Rendering { carries_weight, ..Rendering::PLAIN });
@@ -68,8 +68,8 @@ fn holds_and_sags<K: Kinematics<3>>(name: &str, device: &Device<K, 3>, plant: Pl
         );
         // The hand lets go of what friction left on its spring; then nothing moves.
         assert!(at_once < 1e-4 && later < 1e-6, "{name} {place:?}: {at_once} {later}");
-        // Half a step of duty, half a count of angle and f32 leave less than 1e-4 N·m, of some 1e-3 kg·m²: 0.1 rad/s² for
-        // half a second are 12 mrad, 3 mm; measured a fifteenth of that. A third is asked for.
+        // Half a step of duty, half a count of angle and f32 leave less than 1e-4 N·m, of some 1e-3 kg·m²: 0.1 rad/s²
+        // for half a second are 12 mrad, 3 mm; measured a fifteenth of that. A third is asked for.
         assert!(slides < 1e-3, "{name} {place:?}: {slides}");
         assert!(falls >= sag, "{name} {place:?}: {falls}");
     }
@@ -86,7 +86,7 @@ fn with_the_hand_off_the_arm_stays_and_without_compensation_it_sags() {
 #[test]
 fn no_motor_carries_a_weight_after_a_fault_and_unless_asked() {
     for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::CERTIFIED, SETTINGS)
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
             .safety(Safety { output, ..Safety::DEFAULT });
         // 30 mm over the wall, at rest.
         let input = |enable| Input::Sensors { counts: [Counts(0), Counts(-1_314), Counts(3_465 - 450)], enable };

@@ -5,6 +5,7 @@ mod committed;
 mod flaws;
 mod models;
 mod random_patches;
+mod second_order;
 mod splitting;
 mod spoiled_models;
 mod spoiled_seams;

@@ -9,14 +9,14 @@ use rand::{Rng as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 use std::error::Error;
 
-struct Random(Pcg64);
+pub struct Random(Pcg64);
 
 impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    fn below(&mut self, end: usize) -> usize {
+    pub fn below(&mut self, end: usize) -> usize {
         (self.0.next_u64() % end as u64) as usize
     }
 
@@ -66,7 +66,7 @@ impl Random {
     }
 }
 
-fn for_each_patch(
+pub fn for_each_patch(
     repeats: usize,
     mut check: impl FnMut(&mut Random, &NurbsPatch) -> Result<(), Box<dyn Error>>,
 ) -> Result<(), Box<dyn Error>> {
@@ -164,7 +164,7 @@ fn the_oracles_derivatives_are_those_of_its_points() -> Result<(), Box<dyn Error
 }
 
 /// A table's own span with its second derivatives, in double precision, straight from the powers.
-fn table_surface(baked: &BakedPatch, span: [usize; 2], s: f64, t: f64) -> OraclePoint {
+pub fn table_surface(baked: &BakedPatch, span: [usize; 2], s: f64, t: f64) -> OraclePoint {
     let degree = baked.degree.map(usize::from);
     let count = (degree[0] + 1) * (degree[1] + 1);
     let first = (span[0] * (baked.breaks[1].len() - 1) + span[1]) * count;

@@ -136,7 +136,7 @@ fn cold_queries_find_the_closest_point_of_the_whole_patch() -> Result<(), Box<dy
 
 #[test]
 fn tracking_follows_the_probe_with_one_step_a_row_and_better_with_four() -> Result<(), Box<dyn Error>> {
-    for (ticks, limit) in [("1", 2e-4), ("4", 1e-5)] {
+    for (ticks, limit) in [("1", 1e-5), ("4", 3e-7)] {
         let rows = closest("table1c.toml", "table1c_track.csv", &["--mode", "track", "--ticks", ticks])?;
         assert_eq!(rows[0].1.status, "converged");
         // A tick is one step of the controller, and on a patch that is not a closed convex body one evaluation of the

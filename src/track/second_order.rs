@@ -1,0 +1,218 @@
+//! The second-order law: the minimiser of the quadratic model over the whole square, taken in full where the distance
+//! is proved to fall.
+//!
+//! Theory §12 has lemma, rule and theorem. With `w` the step, `s = −gᵀw`, `h = wᵀ H w`, `a = Df w`, `b = D²f[w, w]`,
+//! `m₃` the bound of `D³f[w, w, w]` and `j` that of what second derivatives jump on the way, the fraction `t` of the step
+//! changes `R ‖ΔR‖` by at most
+//!
+//! `−s t + ½ (h + R j) t² + (3 a·b + R m₃) t³/6 + |b|² t⁴/8`.
+
+use super::border::{self, BoundaryMode};
+use super::projection::{MIN_SINE_SQUARED, ProjectionErrors};
+use super::witness::Witness;
+use crate::math::{saturate, sqrt, sqrt_from_above, vec3};
+use crate::patch::{Patch, ShapeBounds};
+
+/// The least determinant of the Hessian, as a part of `E G`, at which the model is solved: below it a difference of
+/// nearly equal numbers has few good bits, by the angle of the tangents or next to a focus.
+const MIN_DETERMINANT: f32 = 1.0e-3;
+
+/// The least eigenvalue of a shifted model against `I`.
+const LEAST_EIGENVALUE: f32 = 0.05;
+
+/// The quadratic model of `½ ‖ΔR‖²` at the witness point: `gᵀw + ½ wᵀ H w`, `H = I + ΔR · D²f` positive definite.
+#[derive(Clone, Copy)]
+pub(super) struct Model {
+    gradient: [f32; 2],
+    /// `[uu, uv, vv]`.
+    hessian: [f32; 3],
+    determinant: f32,
+}
+
+/// A step to the minimiser.
+#[derive(Clone, Copy)]
+pub(super) struct Plan {
+    /// Change `w` of the parameters.
+    pub change: [f32; 2],
+    /// Where it leads, in `[0, 1]²`.
+    pub parameters: [f32; 2],
+    /// [`border::is_inside`] of that.
+    pub is_inside: bool,
+    /// What holds the witness point where it is.
+    pub mode: BoundaryMode,
+    /// What holds it where the step ends, as far as the model goes.
+    pub beyond: BoundaryMode,
+    /// `s = −gᵀw`, metres squared; not below `wᵀ H w`.
+    pub slope: f32,
+}
+
+impl Model {
+    /// The model at a witness point; `None` where it is not safely convex.
+    #[inline(always)]
+    pub(super) fn new(errors: &ProjectionErrors, witness: &Witness) -> Option<Self> {
+        let form = &errors.form;
+        let [uu, uv, vv] = witness.second.along(errors.difference);
+        let hessian @ [a, b, c] = [form.e + uu, form.f + uv, form.g + vv];
+        let determinant = a * c - b * b;
+        let is_convex = determinant > MIN_DETERMINANT * (form.e * form.g) && a > 0.0;
+        is_convex.then_some(Self { gradient: errors.gradient, hessian, determinant })
+    }
+
+    /// The model shifted to `H + σ I`, where `H` is not convex: its least eigenvalue against `I` is then as far above 0
+    /// as that of `H` is below. `None` where the tangents span no plane.
+    #[inline(never)]
+    pub(super) fn shifted(errors: &ProjectionErrors, witness: &Witness) -> Option<Self> {
+        let form = &errors.form;
+        let area = form.determinant();
+        if !(area > MIN_SINE_SQUARED * (form.e * form.g)) {
+            return None;
+        }
+        let [uu, uv, vv] = witness.second.along(errors.difference);
+        let [a, b, c] = [form.e + uu, form.f + uv, form.g + vv];
+        // Half the sum of the eigenvalues, and half their difference.
+        let mean = 0.5 * (form.e * c + form.g * a - 2.0 * (form.f * b)) / area;
+        let off = sqrt(saturate(mean * mean - (a * c - b * b) / area, 0.0, f32::MAX));
+        let least = mean - off;
+        let shift = saturate(-least, LEAST_EIGENVALUE, f32::MAX) - least;
+        let hessian @ [a, b, c] = [a + shift * form.e, b + shift * form.f, c + shift * form.g];
+        Some(Self { gradient: errors.gradient, hessian, determinant: a * c - b * b })
+    }
+
+    /// The step to its free minimiser, wherever that is.
+    #[inline(always)]
+    pub(super) fn free(&self, [u, v]: [f32; 2]) -> Plan {
+        let [along_u, along_v] = self.gradient;
+        let [a, b, c] = self.hessian;
+        let inverse = -1.0 / self.determinant;
+        let change = [(c * along_u - b * along_v) * inverse, (a * along_v - b * along_u) * inverse];
+        let parameters = [u + change[0], v + change[1]];
+        let (is_inside, slope) = (border::is_inside(parameters), self.slope(change));
+        Plan { change, parameters, is_inside, mode: BoundaryMode::Interior, beyond: BoundaryMode::Interior, slope }
+    }
+
+    #[inline(always)]
+    fn slope(&self, [w_u, w_v]: [f32; 2]) -> f32 {
+        -self.gradient[0] * w_u - self.gradient[1] * w_v
+    }
+
+    /// The minimiser where the free one is not inside: on a side that this violates.
+    #[inline(always)]
+    pub(super) fn on_border(&self, from: [f32; 2], free: [f32; 2]) -> Plan {
+        let [a, b, c] = self.hessian;
+        let [along_u, along_v] = self.gradient;
+        let to = [from[0] + free[0], from[1] + free[1]];
+        let target = [saturate(to[0], 0.0, 1.0), saturate(to[1], 0.0, 1.0)];
+        // On a side of u, and of v: each a step of one parameter, cut at its ends.
+        let side_u = || {
+            let slope = along_v + b * (target[0] - from[0]);
+            [target[0], saturate(from[1] - slope / c, 0.0, 1.0)]
+        };
+        let side_v = || {
+            let slope = along_u + b * (target[1] - from[1]);
+            [saturate(from[0] - slope / a, 0.0, 1.0), target[1]]
+        };
+        let parameters = match (to[0] != target[0], to[1] != target[1]) {
+            (false, false) => target,
+            (true, false) => side_u(),
+            (false, true) => side_v(),
+            (true, true) => {
+                let (on_u, on_v) = (side_u(), side_v());
+                let value = |[u, v]: [f32; 2]| {
+                    let [w_u, w_v] = [u - from[0], v - from[1]];
+                    w_u * (along_u + 0.5 * a * w_u + b * w_v) + w_v * (along_v + 0.5 * c * w_v)
+                };
+                if value(on_u) <= value(on_v) { on_u } else { on_v }
+            }
+        };
+        let change = [parameters[0] - from[0], parameters[1] - from[1]];
+        // What the model would gain beyond a border that it reaches.
+        let pushes = |axis: usize, slope: f32| {
+            let at = parameters[axis];
+            (at <= 0.0 && slope > 0.0) || (at >= 1.0 && slope < 0.0)
+        };
+        let pushes_u = pushes(0, along_u + a * change[0] + b * change[1]);
+        let pushes_v = pushes(1, along_v + b * change[0] + c * change[1]);
+        let beyond = border::held(parameters, [pushes_u, pushes_v]);
+        let mode = border::held(parameters, [pushes_u && change[0] == 0.0, pushes_v && change[1] == 0.0]);
+        let is_inside = border::is_inside(parameters);
+        // What is not a number, or too large for one, goes nowhere.
+        let slope = if (free[0] + free[1]).is_finite() { self.slope(change) } else { 0.0 };
+        Plan { change, parameters, is_inside, mode, beyond, slope }
+    }
+}
+
+/// What bounds say of a step: `R` from above, `m₂` of `‖D²f[w, w]‖`, `m₃` of `‖D³f[w, w, w]‖`.
+struct Terms {
+    distance: f32,
+    bend: f32,
+    twist: f32,
+}
+
+impl Terms {
+    #[inline(always)]
+    fn new([w_u, w_v]: [f32; 2], shape: &ShapeBounds, squared: f32) -> Self {
+        let (x, y) = (w_u.abs(), w_v.abs());
+        let (xx, xy, yy) = (x * x, x * y, y * y);
+        let (second, third) = (&shape.second_derivatives, &shape.third_derivatives);
+        let bend = second.uu * xx + 2.0 * second.uv * xy + second.vv * yy;
+        let twist = x * (third.uuu * xx + 3.0 * third.uuv * xy) + y * (third.vvv * yy + 3.0 * third.uvv * xy);
+        Self { distance: sqrt_from_above(squared), bend, twist }
+    }
+
+    /// Whether the full step between two knots lowers `R ‖ΔR‖` by a quarter of the slope, by bounds alone: `h ≤ s`,
+    /// `|a·b| ≤ ℓ m₂`, `ℓ² = h − ΔR·b ≤ s + R m₂`, so
+    /// `−s + s/2 + (3 ℓ m₂ + R m₃)/6 + m₂²/4 ≤ −s/4` is enough (an eighth would be).
+    #[inline(always)]
+    fn is_certain(&self, slope: f32) -> bool {
+        let Self { distance, bend, twist } = *self;
+        let length = sqrt_from_above(slope + distance * bend);
+        bend * (2.0 * length + bend) + (2.0 / 3.0) * (distance * twist) <= slope
+    }
+}
+
+impl Plan {
+    /// Whether the full step is proved to lower `R ‖ΔR‖` by a quarter of the slope, by bounds alone. Only between two
+    /// knots.
+    #[inline(always)]
+    pub(super) fn is_certain<P: Patch>(&self, patch: &P, witness: &Witness, squared: f32) -> bool {
+        Terms::new(self.change, &patch.shape(), squared).is_certain(self.slope)
+            && patch.beyond_knots(witness.parameters, self.parameters) == [0.0; 2]
+    }
+}
+
+/// The fraction of a step that is proved to lower `R ‖ΔR‖` by half of that fraction of the slope; the whole of it
+/// where that lowers it by a quarter. With `h`, `a·b` and `b` as they are at the witness point, and with knots on the
+/// way. Apart, and with numbers for what registers hold, so that the tick that does not need it keeps nothing in memory
+/// for it.
+#[inline(never)]
+pub(super) fn exact_share<P: Patch>(
+    patch: &P,
+    witness: &Witness,
+    x: f32,
+    y: f32,
+    z: f32,
+    [w_u, w_v]: [f32; 2],
+    slope: f32,
+) -> f32 {
+    let (shape, [u, v]) = (patch.shape(), witness.parameters);
+    let difference = witness.surface.point - vec3(x, y, z);
+    let Terms { distance, twist, .. } = Terms::new([w_u, w_v], &shape, difference.length_squared());
+    // Not a number where a jump is without bound and no knot is crossed.
+    let jump = |beyond: f32, bound: f32| if beyond > 0.0 { beyond * bound } else { 0.0 };
+    let [beyond_u, beyond_v] = patch.beyond_knots([u, v], [u + w_u, v + w_v]);
+    let third = &shape.third_derivatives;
+    let jumps = jump(beyond_u, third.jump_uu) + jump(beyond_v, third.jump_vv);
+    let (way, bend) = (witness.surface.along([w_u, w_v]), witness.second.bend([w_u, w_v]));
+    let (cubic, quartic) = (3.0 * way.dot(bend) + distance * twist, bend.length_squared());
+    let half = 0.5 * (way.length_squared() + difference.dot(bend) + distance * jumps);
+    // A bound that is infinite says nothing; times zero it is not a number.
+    if !(half + cubic).is_finite() {
+        return 0.0;
+    }
+    if half + cubic * (1.0 / 6.0) + 0.125 * quartic <= 0.75 * slope {
+        return 1.0;
+    }
+    let steep = if cubic > 0.0 { cubic } else { 0.0 } + 0.75 * quartic;
+    let share = slope / (half + sqrt_from_above(half * half + 0.5 * steep * slope));
+    saturate(share, 0.0, 1.0)
+}
