@@ -38,7 +38,8 @@ impl Along {
     pub(super) fn minimiser(&self, edge: &Edge, half_second: Vec3, t: f32) -> Option<f32> {
         let bend = self.difference.dot(half_second);
         let hessian = self.stretch + bend + bend;
-        if !(hessian > MIN_CURVATURE * self.stretch) {
+        let is_convex = hessian > MIN_CURVATURE * self.stretch;
+        if !is_convex {
             return None;
         }
         let target = saturate(t - self.gradient / hessian, 0.0, 1.0);

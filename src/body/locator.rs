@@ -1,7 +1,7 @@
 //! The locator: an octree in flash that says which parts of which faces can own the closest point of a probe.
 //!
-//! A leaf is a list of candidates, each a rectangle of the parameters of one face. The host proves, where it can, that the closest
-//! point of every probe of the cell lies in one of them, and that the distance has one minimum in each.
+//! A leaf is a list of candidates, each a rectangle of the parameters of one face. The host proves, where it can, that
+//! the closest point of every probe of the cell lies in one of them, and that the distance has one minimum in each.
 
 use crate::math::Vec3;
 
@@ -37,15 +37,16 @@ pub struct Candidate {
     pub lower: [u8; 2],
     /// The greatest.
     pub upper: [u8; 2],
-    /// Whether half the squared distance is proved to be convex in `(u, v)` over the rectangle, for every probe of the cell: then it has
-    /// one minimum there, and every point of the rectangle gives a lower bound of it.
+    /// Whether half the squared distance is proved to be convex in `(u, v)` over the rectangle, for every probe of the
+    /// cell: then it has one minimum there, and every point of the rectangle gives a lower bound of it.
     pub convex: bool,
     /// Whether more candidates follow in the list.
     pub more: bool,
 }
 
 impl Candidate {
-    /// As an entry: from the lowest bit 5 bits each of lower and upper `u`, lower and upper `v`, 10 of the face, convex, more.
+    /// As an entry: from the lowest bit 5 bits each of lower and upper `u`, lower and upper `v`, 10 of the face,
+    /// convex, more.
     pub const fn pack(&self) -> u32 {
         let rectangle = self.lower[0] as u32
             | (self.upper[0] as u32) << 5
@@ -73,8 +74,8 @@ impl Candidate {
 }
 
 impl Locator {
-    /// The index of the first entry for a probe; one outside the root cube gets the list of the nearest cell, which is then not
-    /// proved to be complete. At most [`MAX_DEPTH`] rounds.
+    /// The index of the first entry for a probe; one outside the root cube gets the list of the nearest cell, which is
+    /// then not proved to be complete. At most [`MAX_DEPTH`] rounds.
     #[inline]
     pub fn list(&self, probe: Vec3) -> usize {
         let mut centre = self.corner + Vec3::splat(0.5 * self.side);

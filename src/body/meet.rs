@@ -9,8 +9,8 @@ use crate::patch::Patch as _;
 use crate::track::{BoundaryMode, Contact};
 
 impl Body {
-    /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been called. Until the witness
-    /// point is located, and for a probe that is not finite, nothing changes.
+    /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been
+    /// called. Until the witness point is located, and for a probe that is not finite, nothing changes.
     #[inline(always)]
     pub fn meet(&self, state: &mut BodyWitness, probe: Vec3) {
         if !state.is_located {
@@ -45,19 +45,20 @@ impl Body {
         }
     }
 
-    /// Whether the probe is deeper inside than the least radius of curvature of the face that holds the witness point: the closest point
-    /// is no longer unique, and the witness point is not proved to follow (theory §11).
+    /// Whether the probe is deeper inside than the least radius of curvature of the face that holds the witness point:
+    /// the closest point is no longer unique, and the witness point is not proved to follow (theory §11).
     pub fn is_too_deep(&self, state: &BodyWitness) -> bool {
         let Feature::Face(index) = state.feature else { return false };
         let curvature = |face: &super::feature::Face| face.patch.shape().curvature.max;
         self.faces.get(usize::from(index)).is_some_and(|face| -state.gap * curvature(face) > 1.0)
     }
 
-    /// On an edge or a vertex: normal and gap from the witness point towards the probe outside, the other way inside. Where the edge does
-    /// not say which side the probe is on it is where it was: nothing goes through the surface without a face. A convex edge says "outside"
-    /// once neither of its faces has taken the probe: inside, where they meet at less than 180°, each direction from the edge is within 90° of
-    /// one of them, and that one takes it. So contact holds where the witness point crosses the edge, and does not begin there. `is_outside` is what
-    /// a vertex says.
+    /// On an edge or a vertex: normal and gap from the witness point towards the probe outside, the other way inside.
+    /// Where the edge does not say which side the probe is on it is where it was: nothing goes through the surface
+    /// without a face. A convex edge says "outside" once neither of its faces has taken the probe: inside, where they
+    /// meet at less than 180°, each direction from the edge is within 90° of one of them, and that one takes it. So
+    /// contact holds where the witness point crosses the edge, and does not begin there. `is_outside` is what a vertex
+    /// says.
     #[inline(never)]
     fn meet_border(&self, state: &mut BodyWitness, probe: Vec3, kind: EdgeKind, is_outside: Option<bool>) {
         let away = probe - state.witness.surface.point;
@@ -86,8 +87,8 @@ impl Body {
         self.touch(state, away, contact);
     }
 
-    /// On which side of a closed body a probe is that a vertex holds, if it does: no edge leads nearer from there. `None` if not, or if the vertex
-    /// does not say.
+    /// On which side of a closed body a probe is that a vertex holds, if it does: no edge leads nearer from there.
+    /// `None` if not, or if the vertex does not say.
     fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
         let height = towards.dot(vertex.outward);
         let first = usize::from(vertex.first_spoke);
@@ -96,8 +97,8 @@ impl Body {
         if holds && height != 0.0 { Some(height > 0.0) } else { None }
     }
 
-    /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe has left behind:
-    /// that one is located anew.
+    /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe
+    /// has left behind: that one is located anew.
     #[inline]
     fn touch(&self, state: &mut BodyWitness, away: Vec3, contact: Contact) {
         let begins = contact == Contact::Touching && state.contact == Contact::InFront;

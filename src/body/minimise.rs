@@ -14,8 +14,8 @@ use crate::patch::{CurvedPoint, SplinePatch};
 pub const MAX_EVALUATIONS_PER_CANDIDATE: u8 = 32;
 /// The same on a convex body, whose search is shorter.
 pub const MAX_EVALUATIONS_PER_CANDIDATE_CONVEX: u8 = 16;
-/// A distance is found when the next step would change it by less than this, relative to the body's size: the rounding of `f32`
-/// coordinates of that size.
+/// A distance is found when the next step would change it by less than this, relative to the body's size: the rounding
+/// of `f32` coordinates of that size.
 const RESOLUTION: f32 = 2.0e-7;
 /// A determinant below this part of the product of the diagonal is rounding.
 const MIN_DETERMINANT: f32 = 1.0e-4;

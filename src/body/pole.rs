@@ -1,11 +1,13 @@
 //! Second order beside a pole: a side of a face that is one point.
 //!
-//! Around a pole the surface is `p + w d(y)`, like polar coordinates: all of `f_y` shrinks with the distance `w` from the pole, so that a change of `y` that is
-//! good here is far too long a little farther out, and leads around the pole a little nearer to it. Searched for is instead `η` in
-//! `y + η w / (w + ω)`, with `ω` the change of `w`: a step in the tangent plane. In `(η, ω)` the gradient is the same and the mixed second derivative of
-//! `φ` is `φ_yw − φ_y / w`; on a planar triangle that makes the quadratic model the distance itself.
+//! Around a pole the surface is `p + w d(y)`, like polar coordinates: all of `f_y` shrinks with the distance `w` from
+//! the pole, so that a change of `y` that is good here is far too long a little farther out, and leads around the pole
+//! a little nearer to it. Searched for is instead `η` in `y + η w / (w + ω)`, with `ω` the change of `w`: a step in the
+//! tangent plane. In `(η, ω)` the gradient is the same and the mixed second derivative of `φ` is `φ_yw − φ_y / w`; on a
+//! planar triangle that makes the quadratic model the distance itself.
 //!
-//! At the pole there is no `φ_y`. The slope `φ_w` into the face is then a function of `y`, and `φ_yw` says where it falls.
+//! At the pole there is no `φ_y`. The slope `φ_w` into the face is then a function of `y`, and `φ_yw` says where it
+//! falls.
 
 use super::feature::{Face, Side};
 
@@ -59,7 +61,8 @@ impl Pole {
         if self.away > AT_POLE { -self.inward * gradient[1 - self.axis] / self.away } else { 0.0 }
     }
 
-    /// From a step `(η, ω)` to the change of the parameters. One that ends at the pole keeps its `η`: where on the pole does not matter.
+    /// From a step `(η, ω)` to the change of the parameters. One that ends at the pole keeps its `η`: where on the pole
+    /// does not matter.
     pub(super) fn unrolled(&self, change: [f32; 2]) -> [f32; 2] {
         let left = self.away + self.inward * change[self.axis];
         let mut unrolled = change;
@@ -79,8 +82,9 @@ impl Pole {
         self.unrolled(half)
     }
 
-    /// At the pole, where the slope into the face is not downhill here: the step to the end of the range where it should be, and what it should gain. `bend` is
-    /// `φ_uv`, `form` the first fundamental form's `[uu, uv, vv]`, `room` how far the parameters may go.
+    /// At the pole, where the slope into the face is not downhill here: the step to the end of the range where it
+    /// should be, and what it should gain. `bend` is `φ_uv`, `form` the first fundamental form's `[uu, uv, vv]`, `room`
+    /// how far the parameters may go.
     pub(super) fn around(
         &self,
         gradient: [f32; 2],

@@ -1,7 +1,7 @@
 //! The global start: the candidates of the probe's cell, half an evaluation at a time.
 //!
-//! Half an evaluation a call, so that a servo tick can carry it: the search runs beside the tracker until it is done, and begins anew
-//! in whatever cell the probe is then. The same search answers a query at one go ([`Body::locate`]).
+//! Half an evaluation a call, so that a servo tick can carry it: the search runs beside the tracker until it is done,
+//! and begins anew in whatever cell the probe is then. The same search answers a query at one go ([`Body::locate`]).
 
 use super::feature::Face;
 use super::locator::Candidate;
@@ -70,7 +70,8 @@ impl Search {
         self.descending.has_evaluated()
     }
 
-    /// Half of a step: one evaluation, or what follows from it. The probe may move a little between two calls. Nothing once it is done.
+    /// Half of a step: one evaluation, or what follows from it. The probe may move a little between two calls. Nothing
+    /// once it is done.
     #[inline]
     pub fn turn(&mut self, body: &Body, probe: Vec3) {
         if self.ended.is_some() {

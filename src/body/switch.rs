@@ -13,6 +13,18 @@ use crate::track::{BoundaryMode, Witness};
 /// Faces of an edge.
 pub(super) const BOTH: u8 = 2;
 
+/// Where a face's border is left.
+#[derive(Clone, Copy)]
+struct Crossing {
+    /// The face.
+    from: u16,
+    /// The edge that the side lies on, the parameter along it, and how the side runs: along `v`, against the edge.
+    edge: u16,
+    t: f32,
+    is_along_v: bool,
+    is_reversed: bool,
+}
+
 impl Body {
     /// Hands over through the side that holds the witness point. While the witness point is free there is nothing to
     /// ask: the controller brings it to the side through which the probe has left, and there the measure numbers of the
@@ -36,7 +48,8 @@ impl Body {
             Side::Edge { edge, reversed, .. } => {
                 let along = if number < 2 { v } else { u };
                 let t = if *reversed { 1.0 - along } else { along };
-                self.cross_side(index, *edge, t, [number < 2, *reversed], is_curved, state, step)
+                let crossing = Crossing { from: index, edge: *edge, t, is_along_v: number < 2, is_reversed: *reversed };
+                self.cross_side(crossing, is_curved, state, step)
             }
         };
         step.switched
@@ -45,16 +58,8 @@ impl Body {
     /// From a face to the one beyond the edge, if that takes the probe: over a smooth edge it does, for between the two
     /// lies no region. Otherwise to the edge.
     #[inline]
-    fn cross_side(
-        &self,
-        from: u16,
-        index: u16,
-        t: f32,
-        [is_along_v, is_reversed]: [bool; 2],
-        is_curved: bool,
-        state: &mut BodyWitness,
-        step: &mut BodyStep,
-    ) -> bool {
+    fn cross_side(&self, crossing: Crossing, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+        let Crossing { from, edge: index, t, is_along_v, is_reversed } = crossing;
         let Some(edge) = self.edges.get(usize::from(index)) else { return false };
         let from_second = edge.faces[0].face != from;
         let other = edge.faces[usize::from(!from_second)];

@@ -1,8 +1,8 @@
 //! Horner's rule for a tensor-product polynomial and its two partial derivatives, in one sweep over the coefficients.
 //!
 //! # The least it can cost
-//! Counted by hand for a biquadratic polynomial span on a Cortex-M4F, in instructions. Fused multiply-add is not used, for host and
-//! target would differ; `vmla`, which rounds twice, counts as one.
+//! Counted by hand for a biquadratic polynomial span on a Cortex-M4F, in instructions. Fused multiply-add is not used,
+//! for host and target would differ; `vmla`, which rounds twice, counts as one.
 //!
 //! | | a component | three |
 //! |---|---|---|
@@ -14,9 +14,9 @@
 //! | `u`, `v` to the span's centre; call and return | | 4 |
 //! | in all | | 94 |
 //!
-//! With each of the 42 multiply-adds a `vmla`, no product shared, it would be 82; but `vmla` takes three cycles and the sums that share a
-//! product one each. The budget test holds the evaluation to 1.25 × 94. Not counted in the 94: which kind of table it is, and
-//! for a patch of several spans which one.
+//! With each of the 42 multiply-adds a `vmla`, no product shared, it would be 82; but `vmla` takes three cycles and the
+//! sums that share a product one each. The budget test holds the evaluation to 1.25 × 94. Not counted in the 94: which
+//! kind of table it is, and for a patch of several spans which one.
 
 use core::array;
 
@@ -29,8 +29,9 @@ pub(super) struct Derivatives<const D: usize> {
 
 /// Evaluates `Σᵢⱼ c[i][j] sⁱ tʲ` with `∂/∂s` and `∂/∂t`.
 ///
-/// `coefficients` are one span's: rows of `Q` entries (`Q - 1` the degree along `t`), two rows or more, row `i` for the power `i` of
-/// `s`. Work: per component `2Q - 3` multiply-adds a row and 3 a row to join them, 4 fewer for the two highest.
+/// `coefficients` are one span's: rows of `Q` entries (`Q - 1` the degree along `t`), two rows or more, row `i` for the
+/// power `i` of `s`. Work: per component `2Q - 3` multiply-adds a row and 3 a row to join them, 4 fewer for the two
+/// highest.
 #[inline(always)]
 pub(super) fn evaluate<const D: usize, const Q: usize>(coefficients: &[[f32; D]], s: f32, t: f32) -> Derivatives<D> {
     let none = Derivatives { value: [0.0; D], along_s: [0.0; D], along_t: [0.0; D] };

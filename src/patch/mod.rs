@@ -7,6 +7,7 @@
 mod coefficients;
 mod crc;
 mod curved;
+mod curved_point;
 mod horner;
 mod shape;
 mod span_grid;
@@ -17,7 +18,7 @@ mod taylor;
 pub use coefficients::Coefficients;
 pub(crate) use coefficients::coefficient_word;
 pub use crc::crc32;
-pub use curved::{CurvedPoint, SecondDerivatives};
+pub use curved_point::{CurvedPoint, SecondDerivatives};
 pub(crate) use horner::horner_step;
 pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds, ThirdDerivativeBounds};
 use span_grid::SpanGrid;

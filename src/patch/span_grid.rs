@@ -45,8 +45,8 @@ pub(crate) fn beyond(borders: &[f32], left: usize, reached: usize, to: f32) -> f
     crossed.iter().fold(0.0, |sum, knot| sum + (to - knot) * (to - knot))
 }
 
-/// The span between rising borders that holds `parameter`, and the distance from the span's centre. On a border it is either of
-/// the two.
+/// The span between rising borders that holds `parameter`, and the distance from the span's centre. On a border it is
+/// either of the two.
 #[inline(always)]
 fn locate(borders: &[f32], parameter: f32) -> (usize, f32) {
     let spans = borders.len() - 1;

@@ -18,7 +18,8 @@ pub struct Settings {
     pub velocity_corner: f32,
     /// Seconds over which the force is faded in after force was asked for.
     pub soft_start: f32,
-    /// Where the origin of the body's tables lies in the device's frame, metres. Baked source says with `CENTRE` where that lies in the model.
+    /// Where the origin of the body's tables lies in the device's frame, metres. Baked source says with `CENTRE` where
+    /// that lies in the model.
     pub body_origin: Vec3,
 }
 
@@ -50,7 +51,8 @@ pub enum SettingsError {
 }
 
 impl Settings {
-    /// 1 kHz, a soft wall and little force, within what every device that ships takes; the body's origin in that of the device.
+    /// 1 kHz, a soft wall and little force, within what every device that ships takes; the body's origin in that of the
+    /// device.
     pub const DEFAULT: Self = Self {
         rate: 1_000.0,
         stiffness: 200.0,

@@ -2,10 +2,10 @@
 
 use super::border::{self, BoundaryMode};
 use super::boundary::{self, Descent, Landing, MAX_HALVINGS};
-use super::controller::{is_above_zero, rises};
 use super::gain::certified_gain;
 use super::law::Law;
 use super::projection::ProjectionErrors;
+use super::rounding::{is_above_zero, rises};
 use super::second_order::{Model, Plan, exact_share};
 use super::witness::{Outcome, Witness};
 use crate::math::{Vec3, saturate, vec3};

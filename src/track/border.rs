@@ -74,8 +74,8 @@ pub(super) fn held([u, v]: [f32; 2], [is_u, is_v]: [bool; 2]) -> BoundaryMode {
     }
 }
 
-/// Whether both parameters are farther from every border than the least normal number, so that no direction is blocked. Each is one
-/// comparison of bits: those of a positive number rise with it, and a sign bit is larger than all.
+/// Whether both parameters are farther from every border than the least normal number, so that no direction is blocked.
+/// Each is one comparison of bits: those of a positive number rise with it, and a sign bit is larger than all.
 #[inline(always)]
 pub fn is_inside([u, v]: [f32; 2]) -> bool {
     let is_free = |x: f32| x.to_bits().wrapping_sub(LEAST.to_bits()) < 1.0_f32.to_bits() - LEAST.to_bits();

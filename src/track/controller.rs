@@ -5,10 +5,11 @@ use super::boundary::{self, Descent, Landing, MAX_HALVINGS};
 use super::gain::certified_gain;
 use super::law::{FeedForward, Gain, Integrator, Law};
 use super::projection::ProjectionErrors;
+use super::rounding::{is_above_zero, rises};
 use super::witness::{Outcome, Probe, Step, Witness};
 use super::{feed_forward, integrate};
-use crate::math::{ROOT_EXCESS, Vec3, sqrt, sqrt_from_above};
-use crate::patch::{Patch, SurfacePoint};
+use crate::math::Vec3;
+use crate::patch::Patch;
 
 /// The controller's configuration. Begin with [`Controller::SECOND_ORDER`], or with [`Controller::CERTIFIED`] and
 /// choose, as in
@@ -24,12 +25,6 @@ pub struct Controller {
     /// How the flow is integrated.
     pub(super) integrator: Integrator,
 }
-
-/// A rise of the squared distance is rounding as long as it is below this many units in the last place of the
-/// coordinates and the size (partial sums are as large as either), times the distance. Horner's rule at degree 5 in
-/// both parameters rounds about 20 times a coordinate, at both ends of a step, and uneven weights double it; a rise `δ`
-/// of the distance shows as `2 R δ`. So `V` may rise by 32 units in the last place, 4 µm on a body of 1 m.
-const ROUNDING: f32 = 64.0 * f32::EPSILON;
 
 impl Default for Controller {
     fn default() -> Self {
@@ -177,30 +172,8 @@ impl Controller {
     }
 }
 
-/// Whether `x > 0`; of a NaN its sign. As bits it is one comparison, and no bits are waited for.
-#[inline]
-pub(super) fn is_above_zero(x: f32) -> bool {
-    x.to_bits().cast_signed() > 0
-}
-
 /// The lesser of a gain and its limit; a gain that is not a number stays none.
 #[inline]
 fn least(gain: f32, limit: f32) -> f32 {
     if limit < gain { limit } else { gain }
-}
-
-/// Whether the squared distance rose by more than rounding. Written so that NaN counts as a rise.
-#[inline(always)]
-pub(super) fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, squared: f32, size: f32) -> bool {
-    let now = (after.point - probe).length_squared();
-    if now <= squared {
-        return false;
-    }
-    // The size alone is most often enough, with a root that is not above the distance.
-    if now - squared <= (ROUNDING / ROOT_EXCESS) * size * sqrt_from_above(squared) {
-        return false;
-    }
-    let coordinates = (before.point.abs() + probe.abs()).max_element() + size;
-    let within_rounding = now - squared <= ROUNDING * coordinates * sqrt(squared);
-    !within_rounding
 }

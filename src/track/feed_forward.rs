@@ -7,10 +7,10 @@ use crate::patch::SurfacePoint;
 
 /// The gradient that stands in for `g` when a step of the given gain also follows the probe's motion.
 ///
-/// A tick sees the probe where it is now, so `g` already holds what the motion of the last period, `moved`, added to it:
-/// `g_m = −(moved · f_u, moved · f_v)`. A step `−a I⁻¹ g` follows the fraction `a` of it; with the rest, `1 − a`,
-/// `−I⁻¹ (a g + (1 − a) g_m) = −a I⁻¹ (g + (1 − a)/a g_m)`, it corrects the old error with gain `a` and follows all of the
-/// motion: `ẋ = I⁻¹ Jᵀ q̇ − K Ψ` in discrete time. What the surface's curvature makes of the motion is left to the
+/// A tick sees the probe where it is now, so `g` already holds what the motion of the last period, `moved`, added to
+/// it: `g_m = −(moved · f_u, moved · f_v)`. A step `−a I⁻¹ g` follows the fraction `a` of it; with the rest, `1 − a`,
+/// `−I⁻¹ (a g + (1 − a) g_m) = −a I⁻¹ (g + (1 − a)/a g_m)`, it corrects the old error with gain `a` and follows all of
+/// the motion: `ẋ = I⁻¹ Jᵀ q̇ − K Ψ` in discrete time. What the surface's curvature makes of the motion is left to the
 /// correction: the lag shrinks by about `κ ‖ΔR‖`, not to zero.
 #[inline]
 pub fn gradient(
@@ -38,8 +38,8 @@ mod tests {
     use super::*;
     use crate::math::vec3;
 
-    /// Eq. (13), on skewed tangents: each component's motion is followed exactly where its share of the rise of the distance,
-    /// `Ψ` times the motion's component, is positive.
+    /// Eq. (13), on skewed tangents: each component's motion is followed exactly where its share of the rise of the
+    /// distance, `Ψ` times the motion's component, is positive.
     #[test]
     fn gated_follows_what_disturbs_and_leaves_what_helps() {
         let surface =

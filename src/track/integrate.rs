@@ -6,9 +6,9 @@ use crate::patch::{Patch, SurfacePoint};
 
 /// The change of `(u, v)`, for a gain of 1, that the integrator makes of the flow over a step of the given gain.
 ///
-/// `first` is the direction at the start; `direction_at` gives it elsewhere. Euler evaluates the patch no more, Heun once,
-/// Runge–Kutta three times; the evaluation at the end of the step is the caller's. Every stage is cut at the border, so no
-/// evaluation lies outside `[0, 1]²`.
+/// `first` is the direction at the start; `direction_at` gives it elsewhere. Euler evaluates the patch no more, Heun
+/// once, Runge–Kutta three times; the evaluation at the end of the step is the caller's. Every stage is cut at the
+/// border, so no evaluation lies outside `[0, 1]²`.
 #[inline]
 pub fn change<P: Patch>(
     integrator: Integrator,

@@ -7,11 +7,11 @@ use crate::patch::{Curvature, ShapeBounds};
 
 /// What a patch, or a point of it, lets the controller do at a servo rate and a distance.
 ///
-/// Near the closest point `P*` of a probe at the signed gap `d` (positive outside, negative inside), half the squared distance has
-/// the curvature `μ = 1 + κ d` along the principal direction of curvature `κ` (per squared metre moved on the surface), and a tick of explicit Euler
-/// multiplies that part of the error by `1 − K h μ`. All limits follow from the least and greatest `μ`; see each for what
-/// is proved and under which hypotheses. Nothing is assumed of a bound that is missing: an infinite curvature gives a stable gain of 0, an
-/// infinite lag, a depth of 0.
+/// Near the closest point `P*` of a probe at the signed gap `d` (positive outside, negative inside), half the squared
+/// distance has the curvature `μ = 1 + κ d` along the principal direction of curvature `κ` (per squared metre moved on
+/// the surface), and a tick of explicit Euler multiplies that part of the error by `1 − K h μ`. All limits follow from
+/// the least and greatest `μ`; see each for what is proved and under which hypotheses. Nothing is assumed of a bound
+/// that is missing: an infinite curvature gives a stable gain of 0, an infinite lag, a depth of 0.
 ///
 /// `const`, so a firmware can check its gain when it is compiled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,15 +28,18 @@ pub struct PerformanceLimits {
 }
 
 impl PerformanceLimits {
-    /// Over a whole patch, at a servo `rate` in Hz and a signed `gap` in metres (the distance `‖ΔR‖` outside, minus the depth inside).
+    /// Over a whole patch, at a servo `rate` in Hz and a signed `gap` in metres (the distance `‖ΔR‖` outside, minus the
+    /// depth inside).
     ///
     /// # Panics
-    /// Where the rate is not positive and finite or the gap is not finite: at compile time in a `const`. Not for the tick.
+    /// Where the rate is not positive and finite or the gap is not finite: at compile time in a `const`. Not for the
+    /// tick.
     pub const fn new(shape: &ShapeBounds, integrator: Integrator, rate: f32, gap: f32) -> Self {
         Self::with(shape.curvature, shape.max_bend, integrator, rate, gap)
     }
 
-    /// At a point with its own principal curvatures. The bend is not a matter of one point, so there is no monotone gain.
+    /// At a point with its own principal curvatures. The bend is not a matter of one point, so there is no monotone
+    /// gain.
     ///
     /// # Panics
     /// As [`Self::new`].
@@ -62,22 +65,24 @@ impl PerformanceLimits {
         contraction(curvature, self.gap)
     }
 
-    /// The gain `K`, 1/s, below which small errors decay and above which they may grow: `z / (h μ_max)`, `z/(h (1 + κ_max ‖ΔR‖))` outside.
+    /// The gain `K`, 1/s, below which small errors decay and above which they may grow: `z / (h μ_max)`, `z/(h (1 +
+    /// κ_max ‖ΔR‖))` outside.
     ///
-    /// With a point's own curvature this is where the linearised error stops decaying: necessary and sufficient for small
-    /// errors, while `P*` is inside a span. With a patch's bounds it is not above that of any point. It says nothing of large errors: for those
-    /// there is [`Self::monotone_gain`]. 0 where the closest point is lost, or nothing is known.
+    /// With a point's own curvature this is where the linearised error stops decaying: necessary and sufficient for
+    /// small errors, while `P*` is inside a span. With a patch's bounds it is not above that of any point. It says
+    /// nothing of large errors: for those there is [`Self::monotone_gain`]. 0 where the closest point is lost, or
+    /// nothing is known.
     pub const fn stable_gain(&self) -> f32 {
         if self.min_contraction() > 0.0 { self.stability * self.rate / self.max_contraction() } else { 0.0 }
     }
 
-    /// A gain `K`, 1/s, at which each tick of explicit Euler is proved to lower the distance to a probe that rests, from projection
-    /// errors up to `residual` metres long: `1 / (h ((1 + c r)² + c ‖ΔR‖ + (k − 1) c (2 r + ‖ΔR‖)))` with `c` the greatest bend and
-    /// `k` [`crate::math::ROOT_EXCESS`], for the roots that are taken from above.
+    /// A gain `K`, 1/s, at which each tick of explicit Euler is proved to lower the distance to a probe that rests,
+    /// from projection errors up to `residual` metres long: `1 / (h ((1 + c r)² + c ‖ΔR‖ + (k − 1) c (2 r + ‖ΔR‖)))`
+    /// with `c` the greatest bend and `k` [`crate::math::ROOT_EXCESS`], for the roots that are taken from above.
     ///
-    /// It is not above what [`super::certified_gain`] can be there, whatever the direction and the place, and near what it tends to
-    /// as the witness point arrives, but for the bend being that of one place and direction then. Proved for any patch that is C¹ along the
-    /// step, convex or not, from either side. 0 where nothing is known.
+    /// It is not above what [`super::certified_gain`] can be there, whatever the direction and the place, and near what
+    /// it tends to as the witness point arrives, but for the bend being that of one place and direction then. Proved
+    /// for any patch that is C¹ along the step, convex or not, from either side. 0 where nothing is known.
     pub const fn monotone_gain(&self, residual: f32) -> f32 {
         let distance = if self.gap >= 0.0 { self.gap } else { -self.gap };
         let reach = 1.0 + self.bend * residual;
@@ -87,11 +92,13 @@ impl PerformanceLimits {
         if gain > 0.0 { gain } else { 0.0 }
     }
 
-    /// The lag `‖P − P*‖`, metres, to expect behind a probe of this `speed`, m/s, along the surface, at the gain `gain`, 1/s, after a
-    /// tick that has seen where the probe is now: `(1 − c)/c · speed · h/μ` with `c = K h μ`, which is `speed / (K μ²)` for low gains.
+    /// The lag `‖P − P*‖`, metres, to expect behind a probe of this `speed`, m/s, along the surface, at the gain
+    /// `gain`, 1/s, after a tick that has seen where the probe is now: `(1 − c)/c · speed · h/μ` with `c = K h μ`,
+    /// which is `speed / (K μ²)` for low gains.
     ///
-    /// First order: of the linearised error with explicit Euler, in the steady state, for the direction in which it is largest. `1/μ` is there twice,
-    /// as the closest point itself moves at `speed/μ`. Not a bound: see [`Self::lag_bound`]. Infinite where the gain is not stable.
+    /// First order: of the linearised error with explicit Euler, in the steady state, for the direction in which it is
+    /// largest. `1/μ` is there twice, as the closest point itself moves at `speed/μ`. Not a bound: see
+    /// [`Self::lag_bound`]. Infinite where the gain is not stable.
     pub const fn lag(&self, gain: f32, speed: f32) -> f32 {
         if !(gain > 0.0 && gain < self.stable_gain()) {
             return f32::INFINITY;
@@ -112,19 +119,21 @@ impl PerformanceLimits {
         worst
     }
 
-    /// A bound of the lag `‖P − P*‖`, metres, that holds at every tick once it holds at one, for a probe of at most this
-    /// `speed`, m/s, in whatever direction, at the gain `gain`, 1/s, or the certified one where that is less; without
-    /// feed-forward.
+    /// A bound of the lag `‖P − P*‖`, metres, that holds at every tick once it holds at one, for a probe of at most
+    /// this `speed`, m/s, in whatever direction, at the gain `gain`, 1/s, or the certified one where that is less;
+    /// without feed-forward.
     ///
     /// Let `W = ½ (‖ΔR‖² − E²)`. Where `½ ‖ΔR‖²` is `μ`-convex along the shortest way on the surface from `P` to `P*`,
-    /// `W ≥ ½ μ ‖P − P*‖²` and the squared projection error `s ≥ 2 μ W`; as `∂W/∂Q = P* − P`, a probe that moves by `δ` raises
-    /// `√W` by at most `δ/√(2 μ)`. A step of gain `a = K h ≤ ā`, the certified one, lowers `W` by `a s (1 − a/2ā)` or more. So
-    /// a tick takes `√W` to at most `q (√W + δ/√(2 μ))` with `q² = 1 − a μ (2 − a/ā)`: input-to-state stability, with
-    /// `‖P − P*‖ ≤ q/(1 − q) · speed · h/μ` at rest. For low gains that is the first-order lag but for one `μ`.
+    /// `W ≥ ½ μ ‖P − P*‖²` and the squared projection error `s ≥ 2 μ W`; as `∂W/∂Q = P* − P`, a probe that moves by `δ`
+    /// raises `√W` by at most `δ/√(2 μ)`. A step of gain `a = K h ≤ ā`, the certified one, lowers `W` by `a s (1 −
+    /// a/2ā)` or more. So a tick takes `√W` to at most `q (√W + δ/√(2 μ))` with `q² = 1 − a μ (2 − a/ā)`:
+    /// input-to-state stability, with `‖P − P*‖ ≤ q/(1 − q) · speed · h/μ` at rest. For low gains that is the
+    /// first-order lag but for one `μ`.
     ///
-    /// Hypotheses: explicit Euler; `P` and `P*` joined by a shortest way inside the patch, from whose tangent planes the probe has
-    /// gaps between 0 and the one given here (in front of a convex patch, not farther away); no step cut at the border.
-    /// Infinite where nothing is known, and where the certified gain, less for long projection errors, does not keep up.
+    /// Hypotheses: explicit Euler; `P` and `P*` joined by a shortest way inside the patch, from whose tangent planes
+    /// the probe has gaps between 0 and the one given here (in front of a convex patch, not farther away); no step cut
+    /// at the border. Infinite where nothing is known, and where the certified gain, less for long projection errors,
+    /// does not keep up.
     pub const fn lag_bound(&self, gain: f32, speed: f32) -> f32 {
         // On the way the gap may be anything from 0 to the one given, and μ is 1 at 0.
         let least = self.min_contraction();
@@ -135,7 +144,8 @@ impl PerformanceLimits {
         let moved = speed / (self.rate * convexity);
         let greatest = self.max_contraction();
         let slope = if greatest > 1.0 { greatest } else { 1.0 };
-        // The certified gain depends on the residual, and that on the lag: from below, until it holds with a little to spare.
+        // The certified gain depends on the residual, and that on the lag: from below, until it holds with a little to
+        // spare.
         let mut bound = 0.0;
         let mut rounds = 0;
         while rounds < 32 {
@@ -157,9 +167,11 @@ impl PerformanceLimits {
         f32::INFINITY
     }
 
-    /// How deep a probe may go, metres, before the closest point is lost: `1/κ_max`, the focal depth. Infinite where nothing bends outward.
+    /// How deep a probe may go, metres, before the closest point is lost: `1/κ_max`, the focal depth. Infinite where
+    /// nothing bends outward.
     ///
-    /// Up to there `P*` stays a local minimum of the distance, from which small errors decay. Another part of the surface may be nearer before.
+    /// Up to there `P*` stays a local minimum of the distance, from which small errors decay. Another part of the
+    /// surface may be nearer before.
     pub const fn depth_limit(&self) -> f32 {
         if self.curvature.max > 0.0 { 1.0 / self.curvature.max } else { f32::INFINITY }
     }

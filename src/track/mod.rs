@@ -24,6 +24,7 @@ mod limits;
 mod pair;
 mod placement;
 mod projection;
+mod rounding;
 mod second_order;
 mod witness;
 

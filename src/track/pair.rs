@@ -75,20 +75,20 @@ impl PairWitness {
 
 /// The law of the *common normal*: the pair of points whose normals are opposite and whose difference lies along them.
 ///
-/// For bodies apart it is the closest pair, for intersecting ones the extremal pair: the greatest penetration along
-/// a common normal. The paper claims the latter from the same `V`, but there it is no minimum. With offsets `x`, `y` of the two points
-/// along a principal direction, depth `D` and curvatures `κ_A`, `κ_B`, half the squared distance is, to second order,
-/// `½ [D² + (1 − D κ_A) x² − 2 x y + (1 − D κ_B) y²]`, of determinant `−D (κ_A + κ_B − D κ_A κ_B) < 0` while
-/// `D < 1/κ_A + 1/κ_B`: a saddle, a minimum in `x − y` and a maximum in `x + y`. Each point alone sees a minimum (a closest
-/// point from inside), yet stepping in turn drives the pair apart.
+/// For bodies apart it is the closest pair, for intersecting ones the extremal pair: the greatest penetration along a
+/// common normal. The paper claims the latter from the same `V`, but there it is no minimum. With offsets `x`, `y` of
+/// the two points along a principal direction, depth `D` and curvatures `κ_A`, `κ_B`, half the squared distance is, to
+/// second order, `½ [D² + (1 − D κ_A) x² − 2 x y + (1 − D κ_B) y²]`, of determinant `−D (κ_A + κ_B − D κ_A κ_B) < 0`
+/// while `D < 1/κ_A + 1/κ_B`: a saddle, a minimum in `x − y` and a maximum in `x + y`. Each point alone sees a minimum
+/// (a closest point from inside), yet stepping in turn drives the pair apart.
 ///
-/// So the two motions get a law each. With `τ` the part of `ΔR` along the tangent planes and `ν = N_A + N_B`, zero when the normals are
-/// opposite: `w_A = −½ τ − c ν` and `w_B = +½ τ − c ν`, each projected on its own tangent plane. To first order
-/// `ν = κ_A x + κ_B y` whatever the sign of `D`, so with `c = 1/(κ_A + κ_B)` the sum decays at once and the difference by the
-/// factor `D (κ_A + κ_B)/4` a tick, from apart through contact into penetration without a switch. It is stable for
-/// `|D| (κ_A + κ_B) < 4`, locally; there is no Lyapunov function here and none is claimed. The pair is unique where the depth is below
-/// the least radius of curvature of the Minkowski difference, for which `D < 1/κ_A + 1/κ_B`, with the greatest
-/// curvatures of both bodies, is sufficient locally.
+/// So the two motions get a law each. With `τ` the part of `ΔR` along the tangent planes and `ν = N_A + N_B`, zero when
+/// the normals are opposite: `w_A = −½ τ − c ν` and `w_B = +½ τ − c ν`, each projected on its own tangent plane. To
+/// first order `ν = κ_A x + κ_B y` whatever the sign of `D`, so with `c = 1/(κ_A + κ_B)` the sum decays at once and the
+/// difference by the factor `D (κ_A + κ_B)/4` a tick, from apart through contact into penetration without a switch. It
+/// is stable for `|D| (κ_A + κ_B) < 4`, locally; there is no Lyapunov function here and none is claimed. The pair is
+/// unique where the depth is below the least radius of curvature of the Minkowski difference, for which `D < 1/κ_A +
+/// 1/κ_B`, with the greatest curvatures of both bodies, is sufficient locally.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommonNormalTracker {
     /// `c`, metres: how far the points move for a mismatch of the normals.

@@ -2,8 +2,8 @@
 //! is proved to fall.
 //!
 //! Theory §12 has lemma, rule and theorem. With `w` the step, `s = −gᵀw`, `h = wᵀ H w`, `a = Df w`, `b = D²f[w, w]`,
-//! `m₃` the bound of `D³f[w, w, w]` and `j` that of what second derivatives jump on the way, the fraction `t` of the step
-//! changes `R ‖ΔR‖` by at most
+//! `m₃` the bound of `D³f[w, w, w]` and `j` that of what second derivatives jump on the way, the fraction `t` of the
+//! step changes `R ‖ΔR‖` by at most
 //!
 //! `−s t + ½ (h + R j) t² + (3 a·b + R m₃) t³/6 + |b|² t⁴/8`.
 
@@ -64,7 +64,8 @@ impl Model {
     pub(super) fn shifted(errors: &ProjectionErrors, witness: &Witness) -> Option<Self> {
         let form = &errors.form;
         let area = form.determinant();
-        if !(area > MIN_SINE_SQUARED * (form.e * form.g)) {
+        let spans_a_plane = area > MIN_SINE_SQUARED * (form.e * form.g);
+        if !spans_a_plane {
             return None;
         }
         let [uu, uv, vv] = witness.second.along(errors.difference);

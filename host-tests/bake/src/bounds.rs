@@ -5,17 +5,15 @@
 //!   included, over each span as the target's `f32` subtraction sees it (one part in 2²³ wider than the span).
 //! - A second derivative of a polynomial span is a polynomial. In Bernstein form its values are means of its
 //!   coefficients `Nᵢⱼ`, and a norm is convex: `‖f_xy‖ ≤ max ‖Nᵢⱼ‖`.
-//! - A second derivative of a rational span `A / w` is `N / w³` with, by the quotient rule twice,
-//!   `M = A_x w − A w_x`, `N = M_y w − 2 M w_y`. With both in Bernstein form of one degree and all `Wᵢⱼ` of `w³`
-//!   positive, `N / w³` is the mean of the `Nᵢⱼ / Wᵢⱼ` with the positive shares `Wᵢⱼ Bᵢⱼ`, so `‖f_xy‖ ≤ max ‖Nᵢⱼ‖ /
-//! Wᵢⱼ`.
-//!   A third derivative is `(N_z w − 3 N w_z) / w⁴`, and the same holds.
+//! - A second derivative of a rational span `A / w` is `N / w³` with, by the quotient rule twice, `M = A_x w − A w_x`,
+//!   `N = M_y w − 2 M w_y`. With both in Bernstein form of one degree and all `Wᵢⱼ` of `w³` positive, `N / w³` is the
+//!   mean of the `Nᵢⱼ / Wᵢⱼ` with the positive shares `Wᵢⱼ Bᵢⱼ`, so `‖f_xy‖ ≤ max ‖Nᵢⱼ‖ / Wᵢⱼ`. A third derivative is
+//!   `(N_z w − 3 N w_z) / w⁴`, and the same holds.
 //! - What a second derivative jumps across a knot is the difference of two such quotients of one parameter, on one
-//! denominator
-//!   again such a quotient.
+//!   denominator again such a quotient.
 //! - Halving a cell keeps all of this, and brings the bound down to the supremum quadratically. Cells are halved until
-//!   the bound is within [`SLACK`] of a value the derivative takes (the corners of cells are values), or
-//!   [`HALVINGS`] times: the bound is then looser, never wrong.
+//!   the bound is within [`SLACK`] of a value the derivative takes (the corners of cells are values), or [`HALVINGS`]
+//!   times: the bound is then looser, never wrong.
 //! - What double precision rounds on the way is bounded from above and added (`ROUNDING`); the result is rounded up.
 //!
 //! It bounds each span. Across an inner knot the second derivative may jump, and both sides are bounded; where the

@@ -1,4 +1,5 @@
-//! Tables from a build script: the model lies beside `Cargo.toml`, and the firmware always has the tables of its present state.
+//! Tables from a build script: the model lies beside `Cargo.toml`, and the firmware always has the tables of its
+//! present state.
 
 use crate::body::BakedBody;
 use crate::error::ModelError;
@@ -27,7 +28,8 @@ use thiserror::Error;
 /// }
 /// ```
 ///
-/// `part::SURFACE` is what a `Servo` takes, and `part::CENTRE` says where its frame lies in the model. `palpate check part.toml` says what is proved of it.
+/// `part::SURFACE` is what a `Servo` takes, and `part::CENTRE` says where its frame lies in the model. `palpate check
+/// part.toml` says what is proved of it.
 #[derive(Clone, Debug)]
 pub struct Bake {
     model: PathBuf,
@@ -78,16 +80,16 @@ impl Bake {
         Self { model: model.into(), margin: 0.0 }
     }
 
-    /// How far beyond the bounding box of a body its locator reaches at least, in sizes of the body, 0 to 30; without this, as it
-    /// suits the body.
+    /// How far beyond the bounding box of a body its locator reaches at least, in sizes of the body, 0 to 30; without
+    /// this, as it suits the body.
     #[must_use]
     pub const fn reaching(mut self, sizes: f64) -> Self {
         self.margin = sizes.clamp(0.0, 30.0);
         self
     }
 
-    /// Writes the tables as Rust source into a folder, under the model file's name with the ending `.rs`, and says where. Tells
-    /// cargo to watch the model.
+    /// Writes the tables as Rust source into a folder, under the model file's name with the ending `.rs`, and says
+    /// where. Tells cargo to watch the model.
     ///
     /// # Errors
     /// What is wrong with the model, by file, patch and entry, as `palpate check` says it; or with the folder.

@@ -2,9 +2,9 @@
 //!
 //! With `f = A / w` and the cell's own parameters over the unit square, all of these are polynomials:
 //! - `e, f, g`: the first fundamental form times `w⁴`, from the tangents `(A_x w − A w_x) / w²`;
-//! - `b_xy = det(f_u, f_v, f_xy) w⁴`, up to sign the determinant of the four homogeneous vectors `Ã, Ã_u, Ã_v, Ã_xy`: the
-//!   second fundamental form times `w⁴ √d / w⁴`, where `d = e g − f²`. Products are formed before anything is bounded, so a straight
-//!   direction gives a coefficient of zero and not a difference of intervals.
+//! - `b_xy = det(f_u, f_v, f_xy) w⁴`, up to sign the determinant of the four homogeneous vectors `Ã, Ã_u, Ã_v, Ã_xy`:
+//!   the second fundamental form times `w⁴ √d / w⁴`, where `d = e g − f²`. Products are formed before anything is
+//!   bounded, so a straight direction gives a coefficient of zero and not a difference of intervals.
 //!
 //! For a symmetric form `m`, the eigenvalues relative to `I` are those of the matrix `L⁻¹ m L⁻ᵀ` with `I = L Lᵀ`:
 //! `[m₁₁ w⁴/e, (e m₁₂ − f m₁₁) w⁴/(e √d), (f² m₁₁ − 2 e f m₁₂ + e² m₂₂) w⁴/(e d)]`.
@@ -17,7 +17,8 @@ use palpate::patch::SecondDerivativeBounds;
 /// Lower and upper bounds, or the least and greatest of sampled values, over some of the patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extremes {
-    /// Principal curvatures with respect to `f_u × f_v` turned round, 1/m: positive where the surface bends away from it.
+    /// Principal curvatures with respect to `f_u × f_v` turned round, 1/m: positive where the surface bends away from
+    /// it.
     pub curvature: [f64; 2],
     /// Eigenvalues of the first fundamental form, m².
     pub stretch: [f64; 2],
@@ -124,7 +125,8 @@ impl FormCell {
         })
     }
 
-    /// Bounds over the cell: of the stretch always, of curvature and bend where the tangents are proved to span a plane.
+    /// Bounds over the cell: of the stretch always, of curvature and bend where the tangents are proved to span a
+    /// plane.
     pub(super) fn bounds(&self, derivatives: &SecondDerivativeBounds) -> (Extremes, bool) {
         let [e, f, g, b_uu, b_uv, b_vv, w] = self.forms();
         let mut extremes = Extremes {

@@ -2,11 +2,13 @@
 //!
 //! - *Regular*: the least stretch is proved positive.
 //! - *Smooth*: no knot is a crease.
-//! - *Normal cone*: the normal `f_u × f_v` is, up to a positive factor, a polynomial; on a cell it is a mean of its Bernstein coefficients. If all of them lie
-//!   within less than 45° of one axis, any two normals are less than 90° apart.
-//! - *Equilibrium*: for every probe `f(x₀) + s N(x₀)` with `x₀` in the patch and `0 ≤ s ≤ range`, all that no first-order step within the outline improves is one
-//!   point. Boxes of probes cover that region; [`super::locator`] proves one minimum for each, borders and corners included: a boundary
-//!   that traps would be a second one, so the *outline* is proved with it.
+//! - *Normal cone*: the normal `f_u × f_v` is, up to a positive factor, a polynomial; on a cell it is a mean of its
+//!   Bernstein coefficients. If all of them lie within less than 45° of one axis, any two normals are less than 90°
+//!   apart.
+//! - *Equilibrium*: for every probe `f(x₀) + s N(x₀)` with `x₀` in the patch and `0 ≤ s ≤ range`, all that no
+//!   first-order step within the outline improves is one point. Boxes of probes cover that region; [`super::locator`]
+//!   proves one minimum for each, borders and corners included: a boundary that traps would be a second one, so the
+//!   *outline* is proved with it.
 //!
 //! Where a proof fails, random probes are tried; they can disprove, or be all that is known.
 
@@ -174,8 +176,8 @@ impl Certificate {
         reasons
     }
 
-    /// The cut that is likeliest to help: at a crease, else across the direction in which the normal turns most. `None` where none would: a
-    /// pole stays a pole, and what bends inward keeps a second resting place beyond its radius.
+    /// The cut that is likeliest to help: at a crease, else across the direction in which the normal turns most. `None`
+    /// where none would: a pole stays a pole, and what bends inward keeps a second resting place beyond its radius.
     pub fn cut(&self, patch: &NurbsPatch, baked: &BakedPatch) -> Option<Cut> {
         for axis in 0..2 {
             if let Some(at) = creases(patch, axis).first() {

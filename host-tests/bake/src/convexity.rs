@@ -13,7 +13,8 @@ pub(super) const POLE: f64 = 1e-6;
 pub enum Convexity {
     /// The least curvature is proved not to be negative.
     Proved,
-    /// It is proved not to be below this, 1/m, which is nothing but rounding beside the greatest: straight somewhere, as a cylinder is.
+    /// It is proved not to be below this, 1/m, which is nothing but rounding beside the greatest: straight somewhere,
+    /// as a cylinder is.
     UpToRounding(f32),
     /// It is proved not to be below this, 1/m, and no sample is negative.
     Open(f32),
@@ -74,10 +75,11 @@ pub(super) fn convexity(patch: &NurbsPatch, baked: &BakedPatch) -> Convexity {
     }
 }
 
-/// The normal curvature, 1/m, that rounding the coefficients to `f32` can add to a patch: what a plane or a rim that runs out into one
-/// shows in its table. A coordinate moves by 2⁻²³ of the largest at most (a sum of powers); by Markov's inequality a polynomial of degree
-/// `p` that is at most `ε` on a span of width `h` has a second derivative of at most `p² (p² − 1)/3 · 4 ε/h²`; and the curvature is that over the stretch.
-/// Capped at an arrow height of 1e-5 of the size: near a pole the stretch vanishes.
+/// The normal curvature, 1/m, that rounding the coefficients to `f32` can add to a patch: what a plane or a rim that
+/// runs out into one shows in its table. A coordinate moves by 2⁻²³ of the largest at most (a sum of powers); by
+/// Markov's inequality a polynomial of degree `p` that is at most `ε` on a span of width `h` has a second derivative of
+/// at most `p² (p² − 1)/3 · 4 ε/h²`; and the curvature is that over the stretch. Capped at an arrow height of 1e-5 of
+/// the size: near a pole the stretch vanishes.
 fn curvature_of_rounding(patch: &NurbsPatch, baked: &BakedPatch) -> f64 {
     let extent = patch.points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max);
     let along = |axis: usize| {

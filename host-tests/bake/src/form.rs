@@ -1,7 +1,8 @@
-//! First-order Taylor forms: a function on a cell as `centre + slope · (x, y)`, `x, y ∈ [−1, 1]`, give or take a radius.
+//! First-order Taylor forms: a function on a cell as `centre + slope · (x, y)`, `x, y ∈ [−1, 1]`, give or take a
+//! radius.
 //!
-//! Every operation encloses: what it drops and what `f64` rounds goes into the radius. The radius of a result falls with the square of
-//! the cell's width, so few cells are enough where intervals would need thousands.
+//! Every operation encloses: what it drops and what `f64` rounds goes into the radius. The radius of a result falls
+//! with the square of the cell's width, so few cells are enough where intervals would need thousands.
 
 /// An enclosure of a function on a cell.
 #[derive(Clone, Copy, Debug)]
@@ -99,8 +100,9 @@ impl Form {
 
 /// Bounds of both eigenvalues, over the cell, of the symmetric matrix `[[a, b], [b, c]]`.
 ///
-/// The greatest eigenvalue is a convex function of the matrix, the least a concave one: over a polytope of matrices they are
-/// extreme at its corners, equal eigenvalues or not. The corners are those of the cell, with the radii added; both eigenvalues rise with `a` and `c`.
+/// The greatest eigenvalue is a convex function of the matrix, the least a concave one: over a polytope of matrices
+/// they are extreme at its corners, equal eigenvalues or not. The corners are those of the cell, with the radii added;
+/// both eigenvalues rise with `a` and `c`.
 pub(super) fn eigenvalues([a, b, c]: &[Form; 3]) -> [f64; 2] {
     let mut bounds = [f64::INFINITY, f64::NEG_INFINITY];
     let rounding = ROUNDING * (a.magnitude() + b.magnitude() + c.magnitude());

@@ -1,7 +1,8 @@
 //! The frame of the tables: near the body, wherever that lies in its file.
 //!
-//! Single precision knows a coordinate to 6e-8 of itself, so that a body far from its origin would lose digits. Its centre is taken off in double
-//! precision before anything is rounded, and is kept: what asks in the file's frame takes it off too.
+//! Single precision knows a coordinate to 6e-8 of itself, so that a body far from its origin would lose digits. Its
+//! centre is taken off in double precision before anything is rounded, and is kept: what asks in the file's frame takes
+//! it off too.
 
 use super::axis::Axis;
 use super::error::{ModelError, PatchFault};
@@ -9,18 +10,20 @@ use super::patch::NurbsPatch;
 use super::topology::TOLERANCE;
 use glam::DVec3;
 
-/// A body with no coordinate beyond this many of its sizes stays in the frame of its file: the step of `f32` there is at most
-/// 1.8e-7 of the size.
+/// A body with no coordinate beyond this many of its sizes stays in the frame of its file: the step of `f32` there is
+/// at most 1.8e-7 of the size.
 const NEAR: f64 = 1.5;
 
-/// Beyond this many sizes the nine digits that an answer in the file's frame has leave 5e-6 of the size, and the file's own digits
-/// hardly more.
+/// Beyond this many sizes the nine digits that an answer in the file's frame has leave 5e-6 of the size, and the file's
+/// own digits hardly more.
 const FARTHEST: f64 = 1e3;
 
-/// The centre is a multiple of at most this share of the size. It then has a dozen bits: it is exact in `f32`, and taking it off rounds nothing.
+/// The centre is a multiple of at most this share of the size. It then has a dozen bits: it is exact in `f32`, and
+/// taking it off rounds nothing.
 const GRAIN: f64 = 0.125;
 
-/// A patch smaller than this share of the body is lost between the steps of `f32`, 3e-8 of it, and the tolerance at which borders are one, 1e-6.
+/// A patch smaller than this share of the body is lost between the steps of `f32`, 3e-8 of it, and the tolerance at
+/// which borders are one, 1e-6.
 const LEAST_SHARE: f64 = 1e-5;
 
 /// Takes the body's centre off its patches, where it lies far from the origin, and says where it was, metres.

@@ -1,7 +1,8 @@
-//! The automaton of a body as Graphviz: its features, and between which of them the tracker switches (the paper's Figure 3 D).
+//! The automaton of a body as Graphviz: its features, and between which of them the tracker switches (the paper's
+//! Figure 3 D).
 //!
-//! A face and a face across a smooth edge hand over to each other directly: the edge's region is empty. Any other edge is a state of
-//! its own between its faces and its vertices.
+//! A face and a face across a smooth edge hand over to each other directly: the edge's region is empty. Any other edge
+//! is a state of its own between its faces and its vertices.
 
 use super::body::{BakedBody, BakedSide};
 use palpate::body::EdgeKind;

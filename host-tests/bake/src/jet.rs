@@ -1,10 +1,11 @@
-//! A patch with its first and second derivatives, in double precision, by de Boor's triangle: what the bake measures of a
-//! patch. Deliberately another way than the oracle's sums of basis functions, so that one error cannot be in both.
+//! A patch with its first and second derivatives, in double precision, by de Boor's triangle: what the bake measures of
+//! a patch. Deliberately another way than the oracle's sums of basis functions, so that one error cannot be in both.
 
 use crate::patch::NurbsPatch;
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
-/// A point of a patch with all derivatives up to the second (its 2-jet); metres per unit of parameter, and per unit squared.
+/// A point of a patch with all derivatives up to the second (its 2-jet); metres per unit of parameter, and per unit
+/// squared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jet {
     /// `f(u, v)`.
@@ -98,8 +99,8 @@ impl<'a> Triangle<'a> {
         let knot = |index: usize| self.knots[index];
         let (mut first, mut second) = (DVec4::ZERO, DVec4::ZERO);
         for level in 1..=p {
-            // The blossom with all but two, or one, of its arguments at the parameter, and the others at the knots around
-            // it: its differences are the derivatives.
+            // The blossom with all but two, or one, of its arguments at the parameter, and the others at the knots
+            // around it: its differences are the derivatives.
             if level + 1 == p {
                 let above = (points[p] - points[p - 1]) / (knot(k + 2) - knot(k));
                 let below = (points[p - 1] - points[p - 2]) / (knot(k + 1) - knot(k - 1));

@@ -3,8 +3,8 @@
 //! # How it works
 //!
 //! The way of a patch: [`Model`] (the file, checked, in metres and `f64`) → [`spline`] (its polynomial spans, rounded
-//! once to `f32`) → [`bounds`] and [`shape`] (what is proved of those very `f32` numbers) → [`BakedPatch`] → [`source`] (Rust).
-//! [`survey`] says what is known of a patch and what is not.
+//! once to `f32`) → [`bounds`] and [`shape`] (what is proved of those very `f32` numbers) → [`BakedPatch`] → [`source`]
+//! (Rust). [`survey`] says what is known of a patch and what is not.
 
 mod axis;
 mod baked;

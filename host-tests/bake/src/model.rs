@@ -58,8 +58,8 @@ pub struct Model {
     pub name: String,
     /// What the file is in; `closest` answers in it.
     pub unit: Unit,
-    /// Where the origin of the patches' frame, the tables', lies in the file, metres: zero unless the body lies far from the file's
-    /// own origin. A place of the file less this is one of the tables.
+    /// Where the origin of the patches' frame, the tables', lies in the file, metres: zero unless the body lies far
+    /// from the file's own origin. A place of the file less this is one of the tables.
     pub centre: DVec3,
     /// Its patches, in metres, in a frame near the body; at least one.
     pub patches: Vec<NurbsPatch>,

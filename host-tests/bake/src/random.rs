@@ -14,8 +14,8 @@ impl Random {
         Self(Pcg64::seed_from_u64(seed))
     }
 
-    /// A number in `[low, high)`, evenly spread. 53 bits of our own, so that the sequence does not hang on another library's
-    /// choice.
+    /// A number in `[low, high)`, evenly spread. 53 bits of our own, so that the sequence does not hang on another
+    /// library's choice.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64)
     }

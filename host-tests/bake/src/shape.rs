@@ -2,15 +2,14 @@
 //!
 //! # Why it is a proof
 //! - It is of the surface the target has: the stored `f32` coefficients over each span as the target's subtraction sees
-//! it.
+//!   it.
 //! - `super::cell` turns the span into polynomials, and bounds what curvature and stretch can be on a cell by Taylor
-//! forms
-//!   (`super::form`) that enclose, rounding included. Halving a cell keeps that.
+//!   forms (`super::form`) that enclose, rounding included. Halving a cell keeps that.
 //! - The bound of a patch is the worst of its cells. Cells are halved until their bound is within [`SLACK`] of a value
-//! that is taken,
-//!   or [`HALVINGS`] times, or until the span's share of [`CELLS`] is used up: the bound is then looser, never wrong.
+//!   that is taken, or [`HALVINGS`] times, or until the span's share of [`CELLS`] is used up: the bound is then looser,
+//!   never wrong.
 //! - Where the tangents are not proved to span a plane there is no curvature to bound: near a pole the bound is
-//! infinite.
+//!   infinite.
 //!
 //! Across an inner knot the curvature may jump, and both sides are bounded. A crease (the patch is only C⁰) has none.
 

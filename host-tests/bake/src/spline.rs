@@ -86,8 +86,9 @@ pub fn extract(patch: &NurbsPatch) -> Result<Spans, UnevenSpan> {
     Ok(Spans { breaks, powers })
 }
 
-/// Sets to zero what is only the rounding of `f64`: a power that adds less than [`NOISE`] anywhere on the span, relative to the
-/// largest coordinate and weight. Such digits carry nothing, and would make the table depend on how it was computed.
+/// Sets to zero what is only the rounding of `f64`: a power that adds less than [`NOISE`] anywhere on the span,
+/// relative to the largest coordinate and weight. Such digits carry nothing, and would make the table depend on how it
+/// was computed.
 fn drop_rounding(net: &mut [DVec4], columns: usize, half_widths: [f64; 2], extent: f64) {
     for (index, entry) in net.iter_mut().enumerate() {
         let reach = power_of(half_widths[0], index / columns) * power_of(half_widths[1], index % columns);

@@ -1,4 +1,5 @@
-//! What a parser of TOML says, with the line wherever there is one to name, and no line of a file in full that fills the screen.
+//! What a parser of TOML says, with the line wherever there is one to name, and no line of a file in full that fills
+//! the screen.
 
 /// Letters of a line that are shown.
 const SHOWN: usize = 120;

@@ -12,8 +12,8 @@ pub(super) struct Tracked {
 impl Tracked {
     /// The components of a span, from the powers of `s` and `t` over their ranges.
     ///
-    /// A blossom is a sum of at most 6 products of at most 12 factors, and two of them with a coefficient make a term of the 36: each
-    /// has seen fewer than 64 roundings relative to the sum of what the powers can reach.
+    /// A blossom is a sum of at most 6 products of at most 12 factors, and two of them with a coefficient make a term
+    /// of the 36: each has seen fewer than 64 roundings relative to the sum of what the powers can reach.
     pub(super) fn of_span(degree: [usize; 2], powers: &[[f64; 4]], ranges: [[f64; 2]; 2]) -> [Self; 4] {
         let all = Bernstein::from_powers(degree, powers, ranges[0], ranges[1]);
         let reach = ranges.map(|[low, high]| low.abs().max(high.abs()));
@@ -42,8 +42,8 @@ impl Tracked {
         Self { polynomial: self.polynomial.derivative(axis), error }
     }
 
-    /// A coefficient of the product is a mean of products, with shares that round fewer than 60 times (three binomials each way,
-    /// of degrees up to 20), in a sum of as many terms as the smaller factor has.
+    /// A coefficient of the product is a mean of products, with shares that round fewer than 60 times (three binomials
+    /// each way, of degrees up to 20), in a sum of as many terms as the smaller factor has.
     pub(super) fn times(&self, other: &Self) -> Self {
         let (a, b) = (self.largest(), other.largest());
         let terms = self.polynomial.coefficients.len().min(other.polynomial.coefficients.len());

@@ -87,8 +87,9 @@ impl Bezier {
         sums
     }
 
-    /// The patch of Coons over four curves: `bottom` and `top` run along `u`, `left` and `right` along `v`. Degrees are those of the
-    /// higher of opposite curves, or `least` if that is higher. The curves are its borders to the last bit where they have its degree.
+    /// The patch of Coons over four curves: `bottom` and `top` run along `u`, `left` and `right` along `v`. Degrees are
+    /// those of the higher of opposite curves, or `least` if that is higher. The curves are its borders to the last bit
+    /// where they have its degree.
     pub fn coons(bottom: &[DVec3], top: &[DVec3], left: &[DVec3], right: &[DVec3], least: [usize; 2]) -> Self {
         let p = (bottom.len() - 1).max(top.len() - 1).max(least[0]);
         let q = (left.len() - 1).max(right.len() - 1).max(least[1]);
@@ -117,7 +118,8 @@ impl Bezier {
         Self { degree: [p, q], points }
     }
 
-    /// The parameters of the point nearest to `point`, from a guess, by Gauss's and Newton's method in the square; and how far it is.
+    /// The parameters of the point nearest to `point`, from a guess, by Gauss's and Newton's method in the square; and
+    /// how far it is.
     pub fn project(&self, point: DVec3, guess: [f64; 2]) -> ([f64; 2], f64) {
         let [mut u, mut v] = guess;
         let [mut at, mut du, mut dv] = self.at(u, v);

@@ -1,7 +1,7 @@
 //! Closed edges that meet no other: where they are cut is free.
 //!
-//! Circles that bound one tube are cut where the lines along it meet them. Where a circle lies in a plane, the cuts look towards the corners of the
-//! other outlines there, so that the quads between are as square as they can be.
+//! Circles that bound one tube are cut where the lines along it meet them. Where a circle lies in a plane, the cuts
+//! look towards the corners of the other outlines there, so that the quads between are as square as they can be.
 
 use crate::mesh::{Mesh, Side};
 use glam::DVec2;
@@ -128,7 +128,8 @@ fn where_at(mesh: &Mesh<'_>, face: usize, axis: usize, side: &Side, value: f64) 
     if side.wire.is_some_and(|(_, against)| against) { 1.0 - t } else { t }
 }
 
-/// Circles that are tied by tubes, each with the share of its length that lies at the first one's beginning, and its sense.
+/// Circles that are tied by tubes, each with the share of its length that lies at the first one's beginning, and its
+/// sense.
 fn group(
     mesh: &Mesh<'_>,
     tubes: &[(usize, usize, [usize; 2])],

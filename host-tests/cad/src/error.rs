@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-/// Why a part was not imported. Faces and edges go by their names or numbers in the part, entities by their numbers in the file.
+/// Why a part was not imported. Faces and edges go by their names or numbers in the part, entities by their numbers in
+/// the file.
 #[derive(Debug, Error)]
 pub enum ImportError {
     /// The file cannot be opened.

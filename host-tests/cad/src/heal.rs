@@ -1,6 +1,7 @@
 //! What a file's way of writing has put in, taken out.
 //!
-//! Seams of closed surfaces are no features: an edge that a face uses in both senses is taken out, and the loop falls in two.
+//! Seams of closed surfaces are no features: an edge that a face uses in both senses is taken out, and the loop falls
+//! in two.
 
 use crate::part::{Face, Part, Use};
 use glam::{DQuat, DVec3};
@@ -42,7 +43,8 @@ pub fn take_out_seams(part: &mut Part) -> usize {
     count
 }
 
-/// Turns spheres so that a circle that bounds one alone goes round its poles: the face is a cap then, and its surface the same.
+/// Turns spheres so that a circle that bounds one alone goes round its poles: the face is a cap then, and its surface
+/// the same.
 pub fn turn_spheres(part: &mut Part) {
     for face in 0..part.faces.len() {
         let Face { kind: "sphere", loops, surface, .. } = &part.faces[face] else { continue };

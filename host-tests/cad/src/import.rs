@@ -56,7 +56,8 @@ pub struct Imported {
 /// Imports a part.
 ///
 /// # Errors
-/// What is wrong with the file or with the part; or the first face that cannot be made into patches within the tolerance.
+/// What is wrong with the file or with the part; or the first face that cannot be made into patches within the
+/// tolerance.
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut part = read::read(path, options.solid.as_deref())?;
     heal::take_out_seams(&mut part);
@@ -86,7 +87,8 @@ fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), Im
     Ok(())
 }
 
-/// The part with every face's outline closed in its parameters, and every wire cut into pieces that one curve can follow.
+/// The part with every face's outline closed in its parameters, and every wire cut into pieces that one curve can
+/// follow.
 fn outlined(part: &Part, tolerance: f64) -> Result<Mesh<'_>, ImportError> {
     let mut mesh = Mesh::new(part);
     let mut all_turns: Vec<Vec<Turns>> = Vec::new();

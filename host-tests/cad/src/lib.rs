@@ -1,9 +1,11 @@
 //! A CAD part as patches: STEP in, palpate's model file out.
 //!
-//! The way of the data: [`read`] gives faces, loops, edges and vertices as exact NURBS, placed, in millimetres; [`heal`] takes out seams; [`trace`] finds
-//! where each edge runs in the parameters of its faces, [`circles`] and [`outline`] make every outline close there; [`divide`] cuts regions into quads
-//! without a side that ends on another's middle; [`patches`] gives each wire one curve, shared by both its faces, and each quad one polynomial patch
-//! ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with the part, both ways; [`emit`] writes the model.
+//! The way of the data: [`read`] gives faces, loops, edges and vertices as exact NURBS, placed, in millimetres;
+//! [`heal`] takes out seams; [`trace`] finds where each edge runs in the parameters of its faces, [`circles`] and
+//! [`outline`] make every outline close there; [`divide`] cuts regions into quads without a side that ends on another's
+//! middle; [`patches`] gives each wire one curve, shared by both its faces, and each quad one polynomial patch
+//! ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with the part, both ways; [`emit`] writes the
+//! model.
 
 mod bezier;
 mod circles;

@@ -1,4 +1,5 @@
-//! `palpate-cad PART.step OUT.toml TOLERANCE_MM [--solid NAME] [--picture FILE.svg]`: what `cargo palpate import` runs, which has the help.
+//! `palpate-cad PART.step OUT.toml TOLERANCE_MM [--solid NAME] [--picture FILE.svg]`: what `cargo palpate import` runs,
+//! which has the help.
 
 use palpate_cad::{Options, import};
 use std::path::{Path, PathBuf};

@@ -19,7 +19,8 @@ pub struct Measured {
     pub each: Vec<f64>,
     /// Area of the patches and of the part, mm².
     pub area: [f64; 2],
-    /// Volume inside the patches and inside the part, mm³, by the divergence theorem; means nothing where the part is open.
+    /// Volume inside the patches and inside the part, mm³, by the divergence theorem; means nothing where the part is
+    /// open.
     pub volume: [f64; 2],
 }
 
@@ -151,8 +152,8 @@ fn back(mesh: &Mesh<'_>, face: usize, made: &[Made], near: f64) -> f64 {
     climb(start, 1.0 / ON_FACE as f64, &outside, &|at| at)
 }
 
-/// Areas and volumes by Gauss's quadrature, eight by eight: exact for the volume of the patches. The part's edges bend at their knots: there each
-/// quad is taken in 4 × 4 pieces.
+/// Areas and volumes by Gauss's quadrature, eight by eight: exact for the volume of the patches. The part's edges bend
+/// at their knots: there each quad is taken in 4 × 4 pieces.
 fn integrate(mesh: &Mesh<'_>, made: &[Made], measured: &mut Measured) {
     const PIECES: usize = 4;
     let nodes = gauss();

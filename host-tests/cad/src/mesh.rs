@@ -1,7 +1,7 @@
 //! The part as it is cut: nodes, wires that two sides share, regions with their outlines, and in the end quads.
 //!
-//! A wire is one curve in space, whichever face looks at it: what is made of it once is in both its faces, to the last bit. A cut through a
-//! wire cuts it in all outlines at once, so that nothing ends on the middle of a side.
+//! A wire is one curve in space, whichever face looks at it: what is made of it once is in both its faces, to the last
+//! bit. A cut through a wire cuts it in all outlines at once, so that nothing ends on the middle of a side.
 
 use crate::part::Part;
 use crate::path::Path;

@@ -1,5 +1,5 @@
-//! Outlines that close in the parameters: of a face that goes round its surface, the loops that wind and the poles are joined by a cut along
-//! the surface, which is a wire like any other, used twice.
+//! Outlines that close in the parameters: of a face that goes round its surface, the loops that wind and the poles are
+//! joined by a cut along the surface, which is a wire like any other, used twice.
 
 use crate::circles::Turns;
 use crate::error::ImportError;

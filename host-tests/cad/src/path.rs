@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 /// Intervals between the samples of a path that is not straight.
 pub const INTERVALS: usize = 32;
 
-/// A curve in the parameters of a surface over `[0, 1]`: equally spaced samples, a cubic through four of them between. Two samples are a
-/// straight line.
+/// A curve in the parameters of a surface over `[0, 1]`: equally spaced samples, a cubic through four of them between.
+/// Two samples are a straight line.
 #[derive(Clone, Debug)]
 pub struct Path(Vec<DVec2>);
 

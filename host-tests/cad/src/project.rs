@@ -18,7 +18,8 @@ pub struct Foot {
 }
 
 impl Surface {
-    /// The foot near a guess: Newton's method on the squared distance, Gauss's where that is not convex, halved until it falls.
+    /// The foot near a guess: Newton's method on the squared distance, Gauss's where that is not convex, halved until
+    /// it falls.
     pub fn project(&self, point: DVec3, guess: DVec2) -> Foot {
         let mut uv = self.kept(guess);
         let mut jet = self.at(uv);

@@ -1,4 +1,5 @@
-//! Cuts through the finished quads: a cut goes on from side to opposite side, from face to face, until it ends on a free border or meets itself.
+//! Cuts through the finished quads: a cut goes on from side to opposite side, from face to face, until it ends on a
+//! free border or meets itself.
 
 use crate::mesh::{Mesh, Quad, Side};
 use crate::path::Path;

@@ -1,5 +1,5 @@
-//! Loops in the parameters of their surfaces: where each edge runs, how often a loop winds round a closed parameter, and where it
-//! passes a pole.
+//! Loops in the parameters of their surfaces: where each edge runs, how often a loop winds round a closed parameter,
+//! and where it passes a pole.
 
 use crate::error::ImportError;
 use crate::mesh::{Mesh, Side};
@@ -60,7 +60,8 @@ pub fn area(sides: &[Side]) -> f64 {
     pairs.map(|(a, b)| 0.5 * a.perp_dot(*b)).sum()
 }
 
-/// Where a surface meets itself in a crease, an edge there lies at either end of the parameter: the way to the end at which the loop is.
+/// Where a surface meets itself in a crease, an edge there lies at either end of the parameter: the way to the end at
+/// which the loop is.
 fn across_seam(face: &Face, to: DVec2, path: &Path, period: DVec2) -> DVec2 {
     let surface = &face.surface;
     for (axis, unit) in [(0, DVec2::X), (1, DVec2::Y)] {
@@ -94,8 +95,8 @@ pub fn shift(face: &Face, to: DVec2, from: DVec2, period: DVec2) -> DVec2 {
     DVec2::new(along(0, to.x - from.x, period.x), along(1, to.y - from.y, period.y))
 }
 
-/// The side along a pole between two that meet there at different parameters. Along the lesser end of `v` the face lies to the left of rising `u`,
-/// along the greater of falling; for poles of `u` it is the other way about.
+/// The side along a pole between two that meet there at different parameters. Along the lesser end of `v` the face lies
+/// to the left of rising `u`, along the greater of falling; for poles of `u` it is the other way about.
 fn pole_between(face: &Face, last: &Side, next: &mut Side, period: DVec2) -> Option<Side> {
     let (from, to) = (last.path.end(), next.path.start());
     for axis in 0..2 {

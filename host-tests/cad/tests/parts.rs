@@ -72,7 +72,8 @@ fn bodies_are_watertight_to_the_bit() {
                 let mut turned = side.clone();
                 turned.reverse();
                 let side = side.min(turned);
-                // Raised to a neighbour's degree a curve has other control points: compared by its ends and middle instead.
+                // Raised to a neighbour's degree a curve has other control points: compared by its ends and middle
+                // instead.
                 let ends = vec![side[0], side[side.len() - 1]];
                 if ends[0] != ends[1] {
                     let mut ends = ends;

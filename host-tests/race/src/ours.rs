@@ -46,7 +46,7 @@ impl Contestant for Track {
     fn answer(&mut self, probe: &Probe) -> Answer {
         let probe = track::Probe::at(Vec3::from_array(probe.single));
         // The gain is certified, not a rate: the period does not matter.
-        Controller::SECOND_ORDER.step(&self.patch, &mut self.witness, probe, 1.0);
+        Controller::CERTIFIED.step(&self.patch, &mut self.witness, probe, 1.0);
         point(&self.witness)
     }
 }

@@ -1,6 +1,8 @@
-//! What is kept from one run to the next: locators, by the hash of what they are made of, so that no model is baked twice.
+//! What is kept from one run to the next: locators, by the hash of what they are made of, so that no model is baked
+//! twice.
 //!
-//! The cache can be deleted at any time. What cannot be read, or is not whole, is baked anew; what cannot be written is not kept.
+//! The cache can be deleted at any time. What cannot be read, or is not whole, is baked anew; what cannot be written is
+//! not kept.
 
 use glam::DVec3;
 use palpate::math::Vec3;
@@ -23,7 +25,8 @@ pub fn folder() -> Option<PathBuf> {
         .or_else(|| variable("HOME").map(|home| home.join(".cache/palpate")))
 }
 
-/// A body with its locator, kept or baked; `text` is its model's. With `wanted`, metres, only what is good for these probes is baked.
+/// A body with its locator, kept or baked; `text` is its model's. With `wanted`, metres, only what is good for these
+/// probes is baked.
 ///
 /// # Errors
 /// Tables that would not fit their indices.

@@ -64,8 +64,8 @@ impl BorderSpans {
         self.curve.spans.iter().all(is_constant)
     }
 
-    /// A positive multiple of the derivative across: that of a polynomial patch itself, of a rational one `w²` times it,
-    /// `A_u w − A w_u`, a polynomial of twice the degree.
+    /// A positive multiple of the derivative across: that of a polynomial patch itself, of a rational one `w²` times
+    /// it, `A_u w − A w_u`, a polynomial of twice the degree.
     pub fn outward(&self) -> Piecewise<DVec3> {
         if self.has_constant_weight() && self.across.spans.iter().flatten().all(|power| power.w == 0.0) {
             return self.across.map(|power| power.xyz());

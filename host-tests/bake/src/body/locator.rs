@@ -21,8 +21,8 @@ pub struct LocatorTable {
 }
 
 impl LocatorTable {
-    /// One node whose cells all list the whole of every face: complete for any probe, and nothing is said of convexity. The cube
-    /// holds the body with half its size to spare on every side.
+    /// One node whose cells all list the whole of every face: complete for any probe, and nothing is said of convexity.
+    /// The cube holds the body with half its size to spare on every side.
     pub fn of_everything(faces: usize, low: [f64; 3], high: [f64; 3]) -> Self {
         let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
         let corner = Vec3::from_array([0, 1, 2].map(|axis| (0.5 * (low[axis] + high[axis]) - size) as f32));

@@ -1,11 +1,12 @@
-//! Piecewise polynomials of one parameter: each span in powers of the distance from its `f32` centre, as the target has it.
+//! Piecewise polynomials of one parameter: each span in powers of the distance from its `f32` centre, as the target has
+//! it.
 
 use crate::bernstein::{binomial, power_of};
 use palpate::patch::span_centre;
 use std::ops::{Add, Mul, Sub};
 
-/// Of the largest value a power can add less than this: a sixth of a unit in the last place of `f32`. What is so small is
-/// left out of the tables.
+/// Of the largest value a power can add less than this: a sixth of a unit in the last place of `f32`. What is so small
+/// is left out of the tables.
 const BELOW_SINGLE: f64 = 1e-8;
 
 /// Polynomials of one degree over the spans between `breaks`, which rise from 0 to 1.
@@ -103,8 +104,9 @@ impl<V: Coefficient> Piecewise<V> {
         self
     }
 
-    /// Divides the factor out that makes it vanish at 0 or at 1, `t` or `1 − t`, up to twice: what is left has the same direction
-    /// everywhere, and has one at that end too. Other spans are left: a positive factor of their own is no matter.
+    /// Divides the factor out that makes it vanish at 0 or at 1, `t` or `1 − t`, up to twice: what is left has the same
+    /// direction everywhere, and has one at that end too. Other spans are left: a positive factor of their own is no
+    /// matter.
     pub fn without_root(mut self, at_upper_end: bool) -> Self {
         let span = if at_upper_end { self.spans.len() - 1 } else { 0 };
         let (end, inward) = if at_upper_end { (1.0, -1.0) } else { (0.0, 1.0) };

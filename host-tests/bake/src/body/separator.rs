@@ -22,7 +22,8 @@ pub enum BakedSeparator {
     Ruled(BakedCurve),
 }
 
-/// A border that strays less from its chord, in units of its largest coordinate, is straight: half a unit in the last place of `f32`.
+/// A border that strays less from its chord, in units of its largest coordinate, is straight: half a unit in the last
+/// place of `f32`.
 const STRAIGHT: f64 = 6e-8;
 /// Normals that turn less are one: the rounding of a unit vector to `f32`.
 const CONSTANT: f64 = 1e-7;
@@ -30,8 +31,8 @@ const CONSTANT: f64 = 1e-7;
 const SAMPLES: usize = 32;
 
 impl BakedSeparator {
-    /// The separator of a face at a border, in the edge's parameter. `spans` are the border's, in that parameter; `poles` says
-    /// whether the sides at the edge's ends 0 and 1 are points.
+    /// The separator of a face at a border, in the edge's parameter. `spans` are the border's, in that parameter;
+    /// `poles` says whether the sides at the edge's ends 0 and 1 are points.
     ///
     /// # Errors
     /// [`PatchFault::NoBounds`] where a number does not fit `f32`.
@@ -78,7 +79,8 @@ fn plane(patch: &NurbsPatch, border: Border) -> Option<BakedSeparator> {
     }
     let conormal = middle.conormal();
     let rounded = conormal.as_vec3();
-    // Of the stored normal, so that the plane holds the middle of the border; it is that of the whole within the tolerances.
+    // Of the stored normal, so that the plane holds the middle of the border; it is that of the whole within the
+    // tolerances.
     let offset = rounded.as_dvec3().dot(middle.point);
     Some(BakedSeparator::Plane { normal: rounded.to_array(), offset: offset as f32 })
 }

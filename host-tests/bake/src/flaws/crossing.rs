@@ -1,7 +1,8 @@
 //! Where patches cut each other.
 //!
-//! Facets that cut each other are a hint: between two curved surfaces that lie near each other facets cut where the surfaces do not. From
-//! each hint Newton's method looks for a point of both surfaces, inside both patches, at which they are not tangent.
+//! Facets that cut each other are a hint: between two curved surfaces that lie near each other facets cut where the
+//! surfaces do not. From each hint Newton's method looks for a point of both surfaces, inside both patches, at which
+//! they are not tangent.
 
 use super::facets::{Cell, Facets};
 use crate::jet::Jet;

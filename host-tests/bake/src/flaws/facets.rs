@@ -1,4 +1,5 @@
-//! Patches as triangles: watertight where the patches are, for neighbours have the same spans along the edge they share.
+//! Patches as triangles: watertight where the patches are, for neighbours have the same spans along the edge they
+//! share.
 
 use crate::Axis;
 use crate::jet::Jet;
@@ -23,7 +24,8 @@ pub(super) struct Facets {
     pub boxes: Vec<[DVec3; 2]>,
 }
 
-/// Cells a span along each parameter, of a body with few spans; and how many cells a body has at most, some seconds' work.
+/// Cells a span along each parameter, of a body with few spans; and how many cells a body has at most, some seconds'
+/// work.
 const FINEST: usize = 8;
 const MOST_CELLS: usize = 1 << 18;
 

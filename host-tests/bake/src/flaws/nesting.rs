@@ -1,7 +1,7 @@
 //! Closed pieces that lie in each other.
 //!
-//! The winding number of a closed piece is 1 inside one whose normals point out, −1 inside one whose normals point in, a hollow. A solid piece
-//! lies where all others together wind 0 times, a hollow where they do once.
+//! The winding number of a closed piece is 1 inside one whose normals point out, −1 inside one whose normals point in,
+//! a hollow. A solid piece lies where all others together wind 0 times, a hollow where they do once.
 
 use super::crossing::Crossing;
 use super::facets::Facets;
@@ -54,8 +54,8 @@ pub(super) fn find(patches: &[NurbsPatch], facets: &Facets, topology: &Topology,
     closed.iter().filter_map(flaw).collect()
 }
 
-/// Half of the solid angles of a patch's facets, seen from a point (A. van Oosterom and J. Strackee, *The solid angle of a plane
-/// triangle*, 1983).
+/// Half of the solid angles of a patch's facets, seen from a point (A. van Oosterom and J. Strackee, *The solid angle
+/// of a plane triangle*, 1983).
 fn angles(facets: &Facets, patch: usize, at: DVec3) -> f64 {
     let half = |[a, b, c]: [DVec3; 3]| {
         let [a, b, c] = [a - at, b - at, c - at];

@@ -46,7 +46,8 @@ pub(crate) enum Region<'a> {
 }
 
 impl Faces {
-    /// `None` if a weight is not proved positive, or the library refuses a table. `reach` is the greatest coordinate of a probe, in absolute value.
+    /// `None` if a weight is not proved positive, or the library refuses a table. `reach` is the greatest coordinate of
+    /// a probe, in absolute value.
     pub(crate) fn new(patches: &[BakedPatch], seams: Seams, creases: &[[Vec<f64>; 2]], reach: f64) -> Option<Self> {
         let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
         let tables = patches.iter().map(|patch| patch.to_patch().ok()).collect::<Option<_>>()?;
@@ -234,7 +235,8 @@ impl<'a> Region<'a> {
 pub(super) struct Query<'a> {
     pub probes: Probes,
     pub references: &'a [Reference],
-    /// How much nearer a point must be for a comparison to count, metres: what the rounding of the tables has parted at seams.
+    /// How much nearer a point must be for a comparison to count, metres: what the rounding of the tables has parted at
+    /// seams.
     pub seam: f64,
     /// No probe is farther from any point, metres.
     pub farthest: f64,
@@ -351,8 +353,8 @@ impl Query<'_> {
     }
 }
 
-/// A slope counts if it is more than this, relative to the longest vectors it could be the product of: what rounding the table to `f32`
-/// can turn a tangent by from one span to the next.
+/// A slope counts if it is more than this, relative to the longest vectors it could be the product of: what rounding
+/// the table to `f32` can turn a tangent by from one span to the next.
 const SURE: f64 = 1e-6;
 /// The same between faces, whose borders lie apart by the seam: so that what is gained across makes up for it.
 const OTHER: f64 = 1e-4;

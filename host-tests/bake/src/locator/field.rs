@@ -1,4 +1,5 @@
-//! Polynomials in the parameters that are affine in the probe, on a cell of the parameters, and the probes they are bounded for.
+//! Polynomials in the parameters that are affine in the probe, on a cell of the parameters, and the probes they are
+//! bounded for.
 
 use crate::bernstein::Bernstein;
 use crate::tracked::Tracked;
@@ -31,7 +32,8 @@ impl Probes {
 
 /// Polynomials of one degree with a bound of what `f64` has rounded.
 ///
-/// Values are weighted means of the coefficients, so what holds for every coefficient and is convex holds on the whole cell.
+/// Values are weighted means of the coefficients, so what holds for every coefficient and is convex holds on the whole
+/// cell.
 #[derive(Clone, Debug)]
 pub(crate) struct Field<const D: usize> {
     pub polynomial: Bernstein<D>,

@@ -1,16 +1,18 @@
 //! The locator's bake: which parts of which faces can own the closest point of a probe, proved cell by cell.
 //!
 //! # Why it is a proof
-//! The closest point of a probe lies inside a face, inside an edge or at a vertex (`Region`); those that several faces share
-//! belong to the first of them. A region is left out of a cell's list if for every probe of the cell
-//! - some point of the body is nearer than all of it (the difference of two squared distances is affine in the probe), or
-//! - the distance falls in one direction all over it, so that no point of it is even a local minimum: along the face for its inside, along the
-//!   edge or into one of its faces for an edge, into one of its faces for a vertex.
+//! The closest point of a probe lies inside a face, inside an edge or at a vertex (`Region`); those that several faces
+//! share belong to the first of them. A region is left out of a cell's list if for every probe of the cell
+//! - some point of the body is nearer than all of it (the difference of two squared distances is affine in the probe),
+//!   or
+//! - the distance falls in one direction all over it, so that no point of it is even a local minimum: along the face
+//!   for its inside, along the edge or into one of its faces for an edge, into one of its faces for a vertex.
 //!
-//! All bounds are of the stored `f32` coefficients, over boxes of probes and rectangles of parameters, with the rounding of `f64` added
-//! (`field`). Faces meet, and poles are points, up to the rounding of the tables: comparisons count beyond [`LocatorOptions::seam`] only.
-//! What is left is gathered into rectangles, and `unique` proves that each has one minimum. Where that fails at the
-//! greatest depth the leaf is counted as *loose*, with a bound of what may be lost, or as *sampled*.
+//! All bounds are of the stored `f32` coefficients, over boxes of probes and rectangles of parameters, with the
+//! rounding of `f64` added (`field`). Faces meet, and poles are points, up to the rounding of the tables: comparisons
+//! count beyond [`LocatorOptions::seam`] only. What is left is gathered into rectangles, and `unique` proves that each
+//! has one minimum. Where that fails at the greatest depth the leaf is counted as *loose*, with a bound of what may be
+//! lost, or as *sampled*.
 
 mod faces;
 pub(crate) mod field;
@@ -39,9 +41,10 @@ use field::Probes;
 use glam::DVec3;
 use octree::Search;
 
-/// Bakes the locator of a body. `creases` holds for each face the parameters, along `u` and `v`, at which it is only C⁰. `progress`
-/// is told the depth that begins and the number of its cells. With `wanted`, only the lists of these probes' cells are good, and they are those of
-/// the whole tables. The same input gives the same tables on any number of threads.
+/// Bakes the locator of a body. `creases` holds for each face the parameters, along `u` and `v`, at which it is only
+/// C⁰. `progress` is told the depth that begins and the number of its cells. With `wanted`, only the lists of these
+/// probes' cells are good, and they are those of the whole tables. The same input gives the same tables on any number
+/// of threads.
 ///
 /// # Errors
 /// Where the octree is too large for its indices, see [`LocatorError`].

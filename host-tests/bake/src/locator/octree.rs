@@ -168,8 +168,8 @@ impl<'a> Search<'a> {
         left
     }
 
-    /// Where the cell lies. Sound for a closed body: its centre's closest point says on which side it is, and no probe is farther from the
-    /// centre than the surface is.
+    /// Where the cell lies. Sound for a closed body: its centre's closest point says on which side it is, and no probe
+    /// is farther from the centre than the surface is.
     fn kind(&self, left: &[Region<'_>], query: &Query<'_>) -> Kind {
         let Some(reference) = query.references.first() else { return Kind::Near };
         let away = left.iter().map(|region| nearest(region, query, self.faces)).fold(f64::INFINITY, f64::min);

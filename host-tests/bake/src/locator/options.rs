@@ -12,7 +12,8 @@ pub struct LocatorOptions {
     pub entries: usize,
     /// Depth of the octree.
     pub depth: usize,
-    /// How much deeper it may go where a list that is not proved fails for a sampled probe and dividing its rectangles does not mend it.
+    /// How much deeper it may go where a list that is not proved fails for a sampled probe and dividing its rectangles
+    /// does not mend it.
     pub deeper: usize,
     /// Probes sampled in each cell whose list is not proved; eight times as many where much could be lost.
     pub samples: usize,
@@ -22,10 +23,11 @@ pub struct LocatorOptions {
     pub inside: f64,
     /// Entries of such a list at most.
     pub deep_entries: usize,
-    /// Entries of a list at most where the depth is used up: what is not proved is divided less to stay below, as far as that goes.
+    /// Entries of a list at most where the depth is used up: what is not proved is divided less to stay below, as far
+    /// as that goes.
     pub longest: usize,
-    /// Whether the body is proved convex: a probe outside then has no nearest point but the closest, so that cells that are wholly
-    /// outside need no proof of one minimum.
+    /// Whether the body is proved convex: a probe outside then has no nearest point but the closest, so that cells that
+    /// are wholly outside need no proof of one minimum.
     pub convex: bool,
     /// How far apart faces that meet, and the points of a pole, may be.
     pub seam: f64,
@@ -58,8 +60,8 @@ impl LocatorOptions {
         Self { margin: 1.0, samples: 64, ..Self::default() }
     }
 
-    /// With a root cube that reaches at least so far beyond the bounding box, in sizes, at the same resolution: each doubling of its
-    /// side is a level more. What the firmware's descent has no rounds for stays outside.
+    /// With a root cube that reaches at least so far beyond the bounding box, in sizes, at the same resolution: each
+    /// doubling of its side is a level more. What the firmware's descent has no rounds for stays outside.
     pub fn reaching(mut self, margin: f64) -> Self {
         while self.margin < margin && self.depth + self.deeper < MAX_DEPTH {
             self.margin = 2.0 * self.margin + 0.5;

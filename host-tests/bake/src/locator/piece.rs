@@ -1,7 +1,7 @@
 //! A rectangle of a face's parameters with everything that is bounded on it.
 //!
-//! With `f = A / w` and `B_u = A_u w − A w_u`, `C_uv = (B_u)_v w − 2 B_u w_v`, half the squared distance `φ = ½‖f − Q‖²` and its derivatives
-//! are, up to powers of the positive weight, polynomials that are affine in the probe `Q`:
+//! With `f = A / w` and `B_u = A_u w − A w_u`, `C_uv = (B_u)_v w − 2 B_u w_v`, half the squared distance `φ = ½‖f −
+//! Q‖²` and its derivatives are, up to powers of the positive weight, polynomials that are affine in the probe `Q`:
 //! - `w² (φ − φ₀) = ½‖A‖² − ½‖P‖² w² − Q · (A w − P w²)` against the value `φ₀` at any point `P`;
 //! - `w³ φ_u = (A − Q w) · B_u`;
 //! - `w⁴ φ_uv = B_u · B_v + (A − Q w) · C_uv`.

@@ -1,5 +1,5 @@
-//! Samples of a list that is not proved: they find where it fails, so that its rectangles are divided there. Where they find nothing it
-//! is sampled, and no more than that.
+//! Samples of a list that is not proved: they find where it fails, so that its rectangles are divided there. Where they
+//! find nothing it is sampled, and no more than that.
 //!
 //! A list is searched with the firmware's own code: in `f32`, by its own steps and with its own bound of them.
 
@@ -16,8 +16,8 @@ use palpate::math::Vec3;
 /// Starts of descents that a list is compared with, the nearest ones.
 const STARTS: usize = 16;
 
-/// The closer point, if one of `count` probes of a cell is led to a point that is more than `tolerance` metres farther than another that is
-/// found: its face and parameters.
+/// The closer point, if one of `count` probes of a cell is led to a point that is more than `tolerance` metres farther
+/// than another that is found: its face and parameters.
 pub(super) fn failure(
     faces: &Faces,
     probes: &Probes,
@@ -61,8 +61,8 @@ pub(super) fn failure(
     })
 }
 
-/// The middle of a region, its rectangle with a step of the grid around it, so that a descent may leave it for a neighbour's minimum, and
-/// its diameter, metres.
+/// The middle of a region, its rectangle with a step of the grid around it, so that a descent may leave it for a
+/// neighbour's minimum, and its diameter, metres.
 fn start(faces: &Faces, region: &Region<'_>) -> (Vec3, Candidate, f32) {
     let face = region.face(faces);
     let Rectangle { lower, upper } = Rectangle::around(region.rectangle(faces));
@@ -78,7 +78,8 @@ fn start(faces: &Faces, region: &Region<'_>) -> (Vec3, Candidate, f32) {
     (faces.surfaces[usize::from(face)].evaluate(middle).point.as_vec3(), candidate, region.diameter() as f32)
 }
 
-/// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this descent's included.
+/// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this descent's
+/// included.
 fn descended(faces: &Faces, candidate: &Candidate, probe: Vec3, best: &mut f32, size: f32) -> [f32; 2] {
     let mut descending = Descending::new(*candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX);
     loop {
@@ -123,7 +124,8 @@ fn searched(faces: &Faces, list: &[Candidate], probe: Vec3, size: f32) -> f64 {
     f64::from((2.0 * best).sqrt())
 }
 
-/// Divides the rectangle that a point lies in, so that each half has a start of its own; `false` if none does or it is too small.
+/// Divides the rectangle that a point lies in, so that each half has a start of its own; `false` if none does or it is
+/// too small.
 pub(super) fn divide(entries: &mut Vec<Entry>, (face, parameters): (u16, [f64; 2])) -> bool {
     let holds = |entry: &Entry| {
         let [low, high] = entry.rectangle.parameters();

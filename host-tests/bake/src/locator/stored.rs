@@ -67,7 +67,8 @@ impl StoredSurface {
         StoredPoint { point, first, second: second.map(|d| d * inverse) }
     }
 
-    /// A local minimum of the distance over a rectangle of parameters: projected Newton from a start in it, with the steps it took.
+    /// A local minimum of the distance over a rectangle of parameters: projected Newton from a start in it, with the
+    /// steps it took.
     pub fn descend(&self, query: DVec3, start: [f64; 2], rectangle: [[f64; 2]; 2]) -> Minimum {
         let [low, high] = rectangle;
         let mut at = start;
@@ -119,7 +120,8 @@ pub struct Minimum {
     pub evaluations: usize,
 }
 
-/// The Newton direction in the free parameters where the second derivative is positive definite, else the Gauss–Newton one.
+/// The Newton direction in the free parameters where the second derivative is positive definite, else the Gauss–Newton
+/// one.
 fn descent(here: &StoredPoint, difference: DVec3, gradient: [f64; 2], held: [bool; 2]) -> [f64; 2] {
     let [e, g] = here.first.map(|tangent| tangent.length_squared().max(1e-300));
     let f = here.first[0].dot(here.first[1]);

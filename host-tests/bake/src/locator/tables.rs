@@ -54,13 +54,15 @@ pub struct LocatorReport {
     pub bytes: usize,
 }
 
-/// Leaves of the octree by what is known of their lists. That a list holds the closest point of every probe of its cell is proved of all of them;
-/// these count what is known of the way to it, from the middle of a rectangle to its least distance.
+/// Leaves of the octree by what is known of their lists. That a list holds the closest point of every probe of its cell
+/// is proved of all of them; these count what is known of the way to it, from the middle of a rectangle to its least
+/// distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LeafCounts {
     /// Every rectangle is proved to have one minimum, or none that loses more than [`LocatorOptions::tolerance`].
     pub proved: usize,
-    /// Wholly outside a convex body, where no point that faces the probe is a nearest one but the closest. Sampled as well.
+    /// Wholly outside a convex body, where no point that faces the probe is a nearest one but the closest. Sampled as
+    /// well.
     pub convex: usize,
     /// Not proved: random probes of the cell found nothing wrong.
     pub sampled: usize,

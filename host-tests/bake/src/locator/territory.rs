@@ -13,7 +13,8 @@ use std::f64::consts::PI;
 
 /// How finely normals are bounded where they spread: quarterings of a span.
 const CONE_LEVEL: u8 = 4;
-/// A product of tangents that is shorter than this, relative to the longest on its cell, is a pole's and has no direction.
+/// A product of tangents that is shorter than this, relative to the longest on its cell, is a pole's and has no
+/// direction.
 const NO_NORMAL: f64 = 1e-12;
 
 /// A patch with the probes over it.
@@ -72,7 +73,8 @@ impl Territory {
         angle
     }
 
-    /// Whether the distance from every probe up to `range` over the patch has one minimum on it, within `boxes` boxes of probes.
+    /// Whether the distance from every probe up to `range` over the patch has one minimum on it, within `boxes` boxes
+    /// of probes.
     pub(crate) fn has_one_minimum(&self, range: f64, boxes: usize) -> bool {
         let mut open: Vec<_> = self.faces.spans[0]
             .iter()

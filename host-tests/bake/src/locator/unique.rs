@@ -1,11 +1,12 @@
 //! Whether the distance has one minimum on a rectangle of a face's parameters, for every probe of a box.
 //!
 //! # Why it is a proof
-//! - *Convex*: the matrix of second derivatives of `φ` is a mean of its Bernstein coefficients, and affine in the probe: if every
-//!   coefficient is positive definite at every corner of the box, so is the matrix everywhere.
-//! - *One minimum*: every point of the rectangle that no first-order step improves is a strict local minimum. Such a point is where
-//!   `φ` has a slope that the rectangle's border holds back in both parameters, or in one with `φ` convex along the other, or where `φ` is
-//!   convex. The basins of strict minima under projected gradient flow are open and fill the rectangle, which is connected: there is one.
+//! - *Convex*: the matrix of second derivatives of `φ` is a mean of its Bernstein coefficients, and affine in the
+//!   probe: if every coefficient is positive definite at every corner of the box, so is the matrix everywhere.
+//! - *One minimum*: every point of the rectangle that no first-order step improves is a strict local minimum. Such a
+//!   point is where `φ` has a slope that the rectangle's border holds back in both parameters, or in one with `φ`
+//!   convex along the other, or where `φ` is convex. The basins of strict minima under projected gradient flow are open
+//!   and fill the rectangle, which is connected: there is one.
 //! - *Within*: along the segment from any point that no first-order step improves to the best one, `φ` falls by at most
 //!   `½ max(−δᵀHδ)`, `δ` not beyond the rectangle: the distance is off by no more than what is returned.
 //!
@@ -40,7 +41,8 @@ impl Rectangle {
     /// The least one that holds a rectangle of parameters.
     pub(super) fn around([low, high]: [[f64; 2]; 2]) -> Self {
         let grid = f64::from(GRID);
-        // A rectangle that ends on the grid, as all borders do, ends there; anything else is rounded outward by more than rounding.
+        // A rectangle that ends on the grid, as all borders do, ends there; anything else is rounded outward by more
+        // than rounding.
         Self {
             lower: low.map(|x| (x * grid + if x == 1.0 { 0.0 } else { -1e-9 }).floor().max(0.0) as u8),
             upper: high.map(|x| (x * grid + if x == 0.0 { 0.0 } else { 1e-9 }).ceil().min(grid) as u8),
@@ -206,8 +208,8 @@ impl Subject<'_> {
         is_positive(&piece.hessian, Part::Inside, probes)
     }
 
-    /// Raises a loss to the most that `−δᵀHδ` can be on a piece for `δ` within the rectangle; `None` across a crease. What is bounded below the loss as
-    /// a whole is in its quarters too.
+    /// Raises a loss to the most that `−δᵀHδ` can be on a piece for `δ` within the rectangle; `None` across a crease.
+    /// What is bounded below the loss as a whole is in its quarters too.
     fn raise_loss(&self, piece: &Piece, most: &mut f64) -> Option<()> {
         if !self.overlaps(piece) {
             return Some(());

@@ -6,8 +6,8 @@ use glam::{DVec4, Vec4Swizzles as _};
 /// Knots nearer than this are one: some thousand roundings of `f64`.
 const SAME_KNOT: f64 = 1e-12;
 
-/// The parts below and above `at` along an axis (0 for `u`), each over the unit square again. Both have the very same control points where
-/// they were one.
+/// The parts below and above `at` along an axis (0 for `u`), each over the unit square again. Both have the very same
+/// control points where they were one.
 pub fn cut_in_two(patch: &NurbsPatch, axis: usize, at: f64) -> [NurbsPatch; 2] {
     let degree = patch.degree[axis];
     let lines = lines(patch, axis);
@@ -22,7 +22,8 @@ pub fn cut_in_two(patch: &NurbsPatch, axis: usize, at: f64) -> [NurbsPatch; 2] {
         }
         knots.insert(span + 1, at);
     }
-    // The knot is there `degree` times now, or as often as it was. The control point that both parts share belongs to the first of them.
+    // The knot is there `degree` times now, or as often as it was. The control point that both parts share belongs to
+    // the first of them.
     let first = knots.partition_point(|knot| *knot < at);
     let times = knots.partition_point(|knot| *knot <= at) - first;
     let shared = first + times - 1 - degree;
@@ -75,7 +76,8 @@ fn assembled(patch: &NurbsPatch, axis: usize, knots: Vec<f64>, lines: Vec<Vec<DV
         if axis == 0 { lines[j][i] } else { lines[i][j] }
     };
     let controls: Vec<DVec4> = (0..counts[0] * counts[1]).map(entry).collect();
-    // Only ratios of weights matter. By a power of two, so that the parts of a border keep the same bits but for the exponent.
+    // Only ratios of weights matter. By a power of two, so that the parts of a border keep the same bits but for the
+    // exponent.
     let largest = controls.iter().map(|control| control.w).fold(0.0, f64::max);
     let scale = (-largest.log2().ceil()).exp2();
     let mut all_knots = patch.knots.clone();

@@ -1,7 +1,8 @@
-//! Pieces of a model's patches: what cannot be baked whole is cut, and so are its neighbours where the cut runs out into them.
+//! Pieces of a model's patches: what cannot be baked whole is cut, and so are its neighbours where the cut runs out
+//! into them.
 //!
-//! [`prepared`] cuts what the tables cannot hold: patches that close on themselves, sectors of a pole of half a turn or more, and creases.
-//! [`cut`] cuts where it is asked to, for a patch that fails a certificate.
+//! [`prepared`] cuts what the tables cannot hold: patches that close on themselves, sectors of a pole of half a turn or
+//! more, and creases. [`cut`] cuts where it is asked to, for a patch that fails a certificate.
 
 mod knots;
 mod needed;

@@ -1,9 +1,11 @@
 //! What the tables cannot hold whole.
 //!
-//! - *Closed patches*: a face that meets itself along a seam is its own neighbour, and a probe that has left it has not.
-//! - *Wide poles*: the region of a face at its pole lies between the separators of its two sides there, which cut out a wedge
-//!   only if the sides span less than half a turn.
-//! - *Creases*: at a knot of full multiplicity the patch need not be smooth, and nothing that is proved of it holds across.
+//! - *Closed patches*: a face that meets itself along a seam is its own neighbour, and a probe that has left it has
+//!   not.
+//! - *Wide poles*: the region of a face at its pole lies between the separators of its two sides there, which cut out a
+//!   wedge only if the sides span less than half a turn.
+//! - *Creases*: at a knot of full multiplicity the patch need not be smooth, and nothing that is proved of it holds
+//!   across.
 
 use super::{Cut, Piece};
 use crate::topology::{Border, BorderRole, Topology};
@@ -63,8 +65,8 @@ fn is_wide_pole(patch: &NurbsPatch, topology: &Topology, piece: usize, axis: usi
     })
 }
 
-/// The angle through which the tangents across a pole turn about its axis, radians. Their tips lie on a circle about the axis, in the pole's tangent
-/// plane or, on a cone, above it.
+/// The angle through which the tangents across a pole turn about its axis, radians. Their tips lie on a circle about
+/// the axis, in the pole's tangent plane or, on a cone, above it.
 fn sector(patch: &NurbsPatch, border: Border) -> f64 {
     let directions = (0..=SAMPLES).map(|k| border.at(patch, k as f64 / SAMPLES as f64).across.normalize_or_zero());
     let directions: Vec<_> = directions.collect();

@@ -1,5 +1,5 @@
-//! Cuts that run on: a border that is cut is cut for its other face as well, and so across that face to the next, until the
-//! cut ends at a pole or an open border or comes back. Otherwise edges would meet only in part.
+//! Cuts that run on: a border that is cut is cut for its other face as well, and so across that face to the next, until
+//! the cut ends at a pole or an open border or comes back. Otherwise edges would meet only in part.
 
 use super::{Piece, cut_in_two};
 use crate::topology::Topology;
@@ -15,7 +15,8 @@ pub struct Cut {
     pub at: f64,
 }
 
-/// Cuts nearer to each other or to a border than this are one: a span of `f32` borders cannot be narrower than a few of its units.
+/// Cuts nearer to each other or to a border than this are one: a span of `f32` borders cannot be narrower than a few of
+/// its units.
 const NEAREST: f64 = 1e-5;
 
 /// Cuts pieces, and all that the cuts run through.

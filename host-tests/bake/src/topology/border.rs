@@ -33,7 +33,8 @@ pub struct BorderPoint {
 }
 
 impl BorderPoint {
-    /// The outward conormal: the unit vector in the tangent plane, normal to the border, out of the patch. Zero where there is none.
+    /// The outward conormal: the unit vector in the tangent plane, normal to the border, out of the patch. Zero where
+    /// there is none.
     pub fn conormal(&self) -> DVec3 {
         let along = self.tangent.normalize_or_zero();
         (self.across - along * self.across.dot(along)).normalize_or_zero()
@@ -92,13 +93,14 @@ impl Border {
         Jet::of(patch, u, v).point
     }
 
-    /// Whether its parameter runs with the patch on its left, seen from outside the body. Two faces that meet on an edge and
-    /// agree on where outside is run along it in opposite senses.
+    /// Whether its parameter runs with the patch on its left, seen from outside the body. Two faces that meet on an
+    /// edge and agree on where outside is run along it in opposite senses.
     pub const fn runs_with_patch_on_left(self, flip: bool) -> bool {
         (self.side == 1 || self.side == 2) != flip
     }
 
-    /// Its control points and weights, where the knots are clamped there; its knots and degree are those along [`Self::axis`].
+    /// Its control points and weights, where the knots are clamped there; its knots and degree are those along
+    /// [`Self::axis`].
     pub fn controls(self, patch: &NurbsPatch) -> Option<Vec<(DVec3, f64)>> {
         let across = 1 - self.axis();
         let (knots, degree) = (&patch.knots[across], patch.degree[across]);

@@ -1,15 +1,16 @@
 //! Which way is out at a vertex.
 //!
-//! The tangent cone of the surface at a vertex is made of rays; the part of a face is swept by a unit direction `d`, and its normal there
-//! times the angle swept is `d × dd`, up to the sense. `N = ∮ d × dd` over all faces is the angle-weighted pseudonormal, for planar and for curved
-//! cones alike.
+//! The tangent cone of the surface at a vertex is made of rays; the part of a face is swept by a unit direction `d`,
+//! and its normal there times the angle swept is `d × dd`, up to the sense. `N = ∮ d × dd` over all faces is the
+//! angle-weighted pseudonormal, for planar and for curved cones alike.
 //!
 //! # Why its sign is right
-//! By the divergence theorem on the part of a small ball that is inside the body, `N = −∫ s dω` over the directions `s` that lead inside. Where the vertex is
-//! the closest point of a probe in the direction `q`, no ray of the cone has `d · q > 0`: the half space beyond the plane normal to `q` has no surface in it,
-//! so it is inside altogether or outside altogether, and with it the probe. Outside, every `s` has `s · q ≤ 0` and `N · q ≥ 0`; inside
-//! the same holds of the complement, whose integral is `−N`, and `N · q ≤ 0` (after J. Bærentzen and H. Aanæs, *Signed distance computation using the
-//! angle weighted pseudonormal*, 2005, who show it of polyhedra).
+//! By the divergence theorem on the part of a small ball that is inside the body, `N = −∫ s dω` over the directions `s`
+//! that lead inside. Where the vertex is the closest point of a probe in the direction `q`, no ray of the cone has `d ·
+//! q > 0`: the half space beyond the plane normal to `q` has no surface in it, so it is inside altogether or outside
+//! altogether, and with it the probe. Outside, every `s` has `s · q ≤ 0` and `N · q ≥ 0`; inside the same holds of the
+//! complement, whose integral is `−N`, and `N · q ≤ 0` (after J. Bærentzen and H. Aanæs, *Signed distance computation
+//! using the angle weighted pseudonormal*, 2005, who show it of polyhedra).
 
 use super::edges::{BorderRole, TopologyEdge};
 use super::matching::Sense;
@@ -98,7 +99,8 @@ fn swept_along_pole(patch: &NurbsPatch, side: usize, rays: Rays) -> (DVec3, f64)
         let across = if is_along_v { 0 } else { 1 };
         ray(patch, at(along, 0.0), |reach| at(along, reach), across, 1.0 - 2.0 * pole, rays)
     });
-    // With `a d` the derivative away from the pole, `f_u × f_v` is `a² d × d'` beside `u = 0` and `v = 1`, and the opposite beside the two others.
+    // With `a d` the derivative away from the pole, `f_u × f_v` is `a² d × d'` beside `u = 0` and `v = 1`, and the
+    // opposite beside the two others.
     let turn = if (side == 0 || side == 3) != patch.flip { 1.0 } else { -1.0 };
     fan(&rays.collect::<Vec<_>>(), turn, || inner_normal(patch, at(0.5, CHORD)))
 }
@@ -153,7 +155,8 @@ fn inner_normal(patch: &NurbsPatch, [u, v]: [f64; 2]) -> DVec3 {
     if patch.flip { -normal } else { normal }
 }
 
-/// The sum over the plane sectors between rays that follow each other. Where two are opposite, or the same, the plane is `normal`'s.
+/// The sum over the plane sectors between rays that follow each other. Where two are opposite, or the same, the plane
+/// is `normal`'s.
 fn fan(rays: &[DVec3], turn: f64, normal: impl Fn() -> DVec3) -> (DVec3, f64) {
     rays.windows(2).fold((DVec3::ZERO, 0.0), |(sum, swept), pair| {
         let cross = pair[0].cross(pair[1]);

@@ -1,17 +1,17 @@
 //! How the faces of an edge stand to each other.
 //!
-//! Seen from outside, an edge is a ridge where a face's plane has the other face below it: `N_A · m_B > 0`, with `N_A` the
-//! outward normal of one face and `m_B` the conormal of the other that points out of *it*. The sine of the angle by which the normals turn is that number, in absolute value.
-//! It is sampled, not proved.
+//! Seen from outside, an edge is a ridge where a face's plane has the other face below it: `N_A · m_B > 0`, with `N_A`
+//! the outward normal of one face and `m_B` the conormal of the other that points out of *it*. The sine of the angle by
+//! which the normals turn is that number, in absolute value. It is sampled, not proved.
 
 use super::border::{Border, BorderPoint};
 use super::matching::Sense;
 use crate::NurbsPatch;
 use palpate::body::EdgeKind;
 
-/// Normals that turn by less than this (radians) count as equal. The distance to an edge that is taken for smooth is wrong by at most the
-/// square of it times half the distance, 5e-9 of it: less than `f32` resolves. Coordinates of nine digits turn normals by
-/// some 1e-8.
+/// Normals that turn by less than this (radians) count as equal. The distance to an edge that is taken for smooth is
+/// wrong by at most the square of it times half the distance, 5e-9 of it: less than `f32` resolves. Coordinates of nine
+/// digits turn normals by some 1e-8.
 pub const SMOOTH_ANGLE: f64 = 1e-4;
 
 /// Where an edge is looked at: the middles of this many intervals, never its ends, which may be poles.

@@ -1,15 +1,15 @@
 //! Which borders are one curve.
 //!
-//! Two borders are one edge if they are the same *parametrised* curve, or the same run the other way: then the parameter of one is the
-//! parameter of the other, and the edge needs one curve. The same curve with another parametrisation is an error with a name of its
-//! own, see `super::partial`.
+//! Two borders are one edge if they are the same *parametrised* curve, or the same run the other way: then the
+//! parameter of one is the parameter of the other, and the edge needs one curve. The same curve with another
+//! parametrisation is an error with a name of its own, see `super::partial`.
 
 use super::border::Border;
 use crate::NurbsPatch;
 use glam::DVec3;
 
-/// Points a span at which borders are compared. A span of a border is rational of degree 5 at most; two that agree at 11
-/// parameters agree everywhere, 16 leave some for conditioning.
+/// Points a span at which borders are compared. A span of a border is rational of degree 5 at most; two that agree at
+/// 11 parameters agree everywhere, 16 leave some for conditioning.
 const SAMPLES: usize = 16;
 
 /// How two borders run.
@@ -83,7 +83,8 @@ impl<'a> Candidate<'a> {
         fine.points.iter().enumerate().map(at).fold(0.0, f64::max)
     }
 
-    /// Whether knots and weights agree and all control points do: then the curves do everywhere, for a point is a mean of control points.
+    /// Whether knots and weights agree and all control points do: then the curves do everywhere, for a point is a mean
+    /// of control points.
     fn controls_agree(&self, other: &Self, sense: Sense, tolerance: f64) -> bool {
         let (axis, axis_other) = (self.border.axis(), other.border.axis());
         if self.patch.degree[axis] != other.patch.degree[axis_other] {

@@ -4,8 +4,8 @@ use super::fault::SeamFault;
 use super::matching::{Candidate, Sense};
 use glam::DVec3;
 
-/// Points along a border that are tried against another. Three of them in a row on it are no crossing and no touch: curves
-/// that touch part by more than the tolerance a 64th further on, unless they agree to second order.
+/// Points along a border that are tried against another. Three of them in a row on it are no crossing and no touch:
+/// curves that touch part by more than the tolerance a 64th further on, unless they agree to second order.
 const SAMPLES: usize = 64;
 const IN_A_ROW: usize = 3;
 /// Unmatched borders that nowhere are farther apart than this, in sizes, are a crack and no gap that is meant.
@@ -74,8 +74,8 @@ fn common_part(of: &Candidate<'_>, on: &Candidate<'_>, tolerance: f64) -> Option
     None
 }
 
-/// The distance of a point from a border: Newton's method from the nearest sample, or the nearest sample's where that is
-/// far.
+/// The distance of a point from a border: Newton's method from the nearest sample, or the nearest sample's where that
+/// is far.
 fn distance(on: &Candidate<'_>, point: DVec3, tolerance: f64) -> f64 {
     let intervals = on.points.len() - 1;
     let far = on.points.iter().enumerate().map(|(k, sample)| (sample.distance(point), k));

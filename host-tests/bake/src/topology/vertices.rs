@@ -13,8 +13,8 @@ pub struct TopologyVertex {
     pub point: DVec3,
     /// The edges that end here, in their order.
     pub spokes: Vec<TopologySpoke>,
-    /// The unit vector along the sum of the faces' normals, each times the angle that it fills there; zero where that vanishes. A probe
-    /// that is closest to the vertex is outside a closed body where it lies on this side.
+    /// The unit vector along the sum of the faces' normals, each times the angle that it fills there; zero where that
+    /// vanishes. A probe that is closest to the vertex is outside a closed body where it lies on this side.
     pub outward: DVec3,
 }
 
@@ -68,8 +68,8 @@ pub(super) fn with_spokes(
 /// A derivative shorter than this, beside the next one, is nothing but rounding.
 const VANISHING: f64 = 1e-9;
 
-/// The direction in which a border leaves one of its ends: that of its first derivative which does not vanish there, the
-/// second if the first does, a chord if both do.
+/// The direction in which a border leaves one of its ends: that of its first derivative which does not vanish there,
+/// the second if the first does, a chord if both do.
 fn departure(border: Border, patch: &NurbsPatch, at_upper_end: bool) -> DVec3 {
     let (t, inward) = if at_upper_end { (1.0, -1.0) } else { (0.0, 1.0) };
     let at = border.at(patch, t);

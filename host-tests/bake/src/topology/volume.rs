@@ -12,7 +12,8 @@ const GAUSS: [[f64; 2]; 5] = [
     [0.953_089_922_969_332, 0.118_463_442_528_094_5],
 ];
 
-/// `∮ P · N dA / 3`, m³. Of polynomial patches up to degree 3 exact up to rounding; only its sign and its being 0 are asked for.
+/// `∮ P · N dA / 3`, m³. Of polynomial patches up to degree 3 exact up to rounding; only its sign and its being 0 are
+/// asked for.
 pub fn volume(patches: &[NurbsPatch]) -> f64 {
     patches.iter().map(flux).sum::<f64>() / 3.0
 }

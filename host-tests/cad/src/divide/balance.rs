@@ -1,10 +1,11 @@
-//! Cuts handed on: a region with four corners wants as many cuts on a side as on the one opposite, at about the same places.
+//! Cuts handed on: a region with four corners wants as many cuts on a side as on the one opposite, at about the same
+//! places.
 
 use super::corners::{Shape, four};
 use crate::mesh::{Mesh, Side};
 
-/// Cuts sides until opposite ones of every region with four corners agree. Gives up on those that would make more than so many wires: they are divided
-/// as they are.
+/// Cuts sides until opposite ones of every region with four corners agree. Gives up on those that would make more than
+/// so many wires: they are divided as they are.
 pub fn balance(mesh: &mut Mesh<'_>) {
     let most = 4 * mesh.wires.len() + 400;
     while mesh.wires.len() < most {

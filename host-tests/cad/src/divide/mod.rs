@@ -1,7 +1,8 @@
 //! Regions into quads.
 //!
-//! A region with four corners and as many cuts on opposite sides becomes a grid ([`grid`]); any other is tiled by a search among all quads between its
-//! corners and a few points inside ([`tiling`]). Before that, cuts are handed on from side to side ([`balance`]) and made even in number ([`parity`]).
+//! A region with four corners and as many cuts on opposite sides becomes a grid ([`grid`]); any other is tiled by a
+//! search among all quads between its corners and a few points inside ([`tiling`]). Before that, cuts are handed on
+//! from side to side ([`balance`]) and made even in number ([`parity`]).
 
 pub mod balance;
 mod candidates;

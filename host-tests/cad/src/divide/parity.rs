@@ -1,7 +1,8 @@
 //! Even numbers of sides: no region with an odd number falls into quads.
 //!
-//! Each cut of a wire turns the parity of both its faces. Odd regions are joined in pairs by the shortest ways from face to face; the wires on the way
-//! are cut. Through a region with four corners a way goes straight, and leaves it even.
+//! Each cut of a wire turns the parity of both its faces. Odd regions are joined in pairs by the shortest ways from
+//! face to face; the wires on the way are cut. Through a region with four corners a way goes straight, and leaves it
+//! even.
 
 use super::balance;
 use super::corners::{Shape, four};
@@ -68,7 +69,8 @@ fn is_odd(mesh: &Mesh<'_>, face: usize) -> bool {
     count % 2 == 1 && !is_triangle(mesh, face)
 }
 
-/// The wires to cut between an odd region and the nearest other one, or a triangle if that is allowed, or a wire with one face.
+/// The wires to cut between an odd region and the nearest other one, or a triangle if that is allowed, or a wire with
+/// one face.
 fn way(mesh: &Mesh<'_>, from: usize, into_triangles: bool) -> Option<Vec<usize>> {
     let mut faces: HashMap<usize, Vec<usize>> = HashMap::new();
     for (face, region) in mesh.regions.iter().enumerate() {
@@ -126,7 +128,8 @@ fn back(mut state: State, before: &HashMap<State, State>) -> Vec<usize> {
     way
 }
 
-/// Whether the side opposite the one by which a region with four corners was entered is a pole: it is cut without a neighbour.
+/// Whether the side opposite the one by which a region with four corners was entered is a pole: it is cut without a
+/// neighbour.
 fn ends_in_pole(mesh: &Mesh<'_>, face: usize, entered: Option<usize>) -> bool {
     let (Some(entered), Shape::Grid(starts)) = (entered, Shape::of(mesh, face)) else { return false };
     let all = four(&mesh.regions[face].loops[0], starts);

@@ -1,4 +1,5 @@
-//! Points inside a region that quads may use: half-way in from each vertex of the outline, and the middles of where it is wide.
+//! Points inside a region that quads may use: half-way in from each vertex of the outline, and the middles of where it
+//! is wide.
 
 use super::plane::{Plane, Vertex};
 use glam::DVec2;

@@ -1,8 +1,9 @@
 //! Any region as quads: the cheapest tiling that a search finds.
 //!
-//! A front of directed sides waits for quads on its left; at first it is the outline, holes and all. A quad takes its sides out of the front and puts
-//! the others in, turned round; when nothing waits the region is tiled. The side with the fewest quads to choose from goes first, and what costs more
-//! than the best tiling so far is left. Without points inside there are `V/2 + h − 1` quads for `V` vertices and `h` holes; each point inside is one more.
+//! A front of directed sides waits for quads on its left; at first it is the outline, holes and all. A quad takes its
+//! sides out of the front and puts the others in, turned round; when nothing waits the region is tiled. The side with
+//! the fewest quads to choose from goes first, and what costs more than the best tiling so far is left. Without points
+//! inside there are `V/2 + h − 1` quads for `V` vertices and `h` holes; each point inside is one more.
 
 use super::candidates::{Candidate, Candidates, Edge};
 use super::plane::{Plane, scale};

@@ -1,7 +1,7 @@
 //! One curve in space as a Bézier curve that begins and ends where and as it does.
 //!
-//! Its ends and the directions there are kept; how fast it runs is free. So an arc of a quarter needs degree 3 for 2·10⁻⁴ of its radius, and meets
-//! the next one without a kink.
+//! Its ends and the directions there are kept; how fast it runs is free. So an arc of a quarter needs degree 3 for
+//! 2·10⁻⁴ of its radius, and meets the next one without a kink.
 
 use super::least_squares::Normal;
 use crate::bezier::{Points, bernstein, curve_at};
@@ -19,7 +19,8 @@ pub struct FittedCurve {
     pub deviation: f64,
 }
 
-/// Fits a Bézier curve of degree 1, 3 or 5 to a curve over `[0, 1]`, given by position and derivative, from one node to another.
+/// Fits a Bézier curve of degree 1, 3 or 5 to a curve over `[0, 1]`, given by position and derivative, from one node to
+/// another.
 pub fn fit_curve(exact: impl Fn(f64) -> [DVec3; 2], ends: [DVec3; 2], degree: usize) -> FittedCurve {
     let samples: Vec<_> = (0..=SAMPLES).map(|k| exact(k as f64 / SAMPLES as f64)).collect();
     let mut lengths = vec![0.0];

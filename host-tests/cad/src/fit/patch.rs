@@ -1,8 +1,9 @@
 //! The inside of a patch whose borders are given.
 //!
-//! Only the inner control points are free. What is asked of them, in the sense of least squares, is distance zero from the surface, seen along its
-//! normal, and along the borders tangents that lie in the surface's tangent plane: so that faces that are tangent stay so. How the patch runs within
-//! the surface is nobody's concern, and stays as Coons's patch has it.
+//! Only the inner control points are free. What is asked of them, in the sense of least squares, is distance zero from
+//! the surface, seen along its normal, and along the borders tangents that lie in the surface's tangent plane: so that
+//! faces that are tangent stay so. How the patch runs within the surface is nobody's concern, and stays as Coons's
+//! patch has it.
 
 use super::least_squares::Normal;
 use crate::bezier::{Bezier, Points, bernstein};
@@ -10,14 +11,15 @@ use crate::mesh::Quad;
 use crate::nurbs::Surface;
 use glam::{DVec2, DVec3};
 
-/// Weight of a border's tangent beside a distance, both in millimetres: of a patch of length 1 a slope of 1 counts as this.
+/// Weight of a border's tangent beside a distance, both in millimetres: of a patch of length 1 a slope of 1 counts as
+/// this.
 const TANGENT: f64 = 0.3;
 /// Weight of staying where it is, along the surface.
 const STAY: f64 = 0.03;
 const ROUNDS: usize = 8;
 
-/// Fits a patch of at least these degrees to the part of a surface that a quad is. `curves` are the borders bottom, right, top and left, the first
-/// and the third along `u`, the others along `v`.
+/// Fits a patch of at least these degrees to the part of a surface that a quad is. `curves` are the borders bottom,
+/// right, top and left, the first and the third along `u`, the others along `v`.
 pub fn fit_patch(surface: &Surface, quad: &Quad, curves: &[Points; 4], least: [usize; 2]) -> Bezier {
     let [bottom, right, top, left] = curves;
     let mut patch = Bezier::coons(bottom, top, left, right, least);

@@ -1,4 +1,5 @@
-//! What the reader takes and no part can have: radii that are not positive, lists of nothing, products made of themselves.
+//! What the reader takes and no part can have: radii that are not positive, lists of nothing, products made of
+//! themselves.
 
 use super::statements::Statement;
 use std::collections::{HashMap, HashSet};

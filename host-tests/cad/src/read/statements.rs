@@ -1,4 +1,5 @@
-//! A glance at the text of a file: its statements with their numbers, for messages, and for what the reader does not mind.
+//! A glance at the text of a file: its statements with their numbers, for messages, and for what the reader does not
+//! mind.
 
 use step_io::EntityKey;
 
@@ -54,8 +55,8 @@ impl Numbers {
         }
     }
 
-    /// The number and the type of an entity. The reader keeps entities of a type in the order of the file, and a file of which it dropped any of
-    /// these types is refused.
+    /// The number and the type of an entity. The reader keeps entities of a type in the order of the file, and a file
+    /// of which it dropped any of these types is refused.
     pub(super) fn of(&self, key: EntityKey) -> Option<(u64, &'static str)> {
         let (numbers, index, kind) = match key {
             EntityKey::AdvancedFace(id) => (&self.faces, id.0, "ADVANCED_FACE"),

@@ -14,9 +14,9 @@ use std::process::ExitCode;
 
 /// Writes a model's tables as Rust source, to `include!` in a module of the firmware.
 ///
-/// A model of several patches becomes a body: `pub static BODY: palpate::body::Body` and `pub const TABLE_CRC: u32`. One of a single
-/// patch becomes `pub static PATCHES: [palpate::patch::SplinePatch; 1]`, without features and without a locator. The same model gives the
-/// same bytes wherever it lies, on any number of cores.
+/// A model of several patches becomes a body: `pub static BODY: palpate::body::Body` and `pub const TABLE_CRC: u32`.
+/// One of a single patch becomes `pub static PATCHES: [palpate::patch::SplinePatch; 1]`, without features and without a
+/// locator. The same model gives the same bytes wherever it lies, on any number of cores.
 ///
 /// Exit status as `check`: 0 certified, 1 usable but not certified (the file is written), 2 bad input (it is not).
 #[derive(Args, Debug)]

@@ -239,7 +239,8 @@ fn limits(report: &mut String, arguments: &Arguments, labels: &[String], surveys
     Ok(())
 }
 
-/// The verdict on a model is that on its worst patch; what is proved of patches does not hold of a body that cuts itself.
+/// The verdict on a model is that on its worst patch; what is proved of patches does not hold of a body that cuts
+/// itself.
 pub(super) fn worst(surveys: &[Survey], flaws: &[Flaw]) -> Verdict {
     if flaws.iter().any(Flaw::is_wrong) {
         return Verdict::Usable;

@@ -18,13 +18,13 @@ use std::process::ExitCode;
 /// patch evaluations spent.
 ///
 /// cold takes every row by itself: the locator's table names the parts of patches that can own the closest point, a
-/// second-order search runs in each; status is converged, step-limit if one was given up short of its minimum, or far if
-/// the query lies beyond the locator's reach (bake --margin), where its lists are not proved to be complete.
+/// second-order search runs in each; status is converged, step-limit if one was given up short of its minimum, or far
+/// if the query lies beyond the locator's reach (bake --margin), where its lists are not proved to be complete.
 ///
-/// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is --ticks ticks of the
-/// tracker, and after a jump of more than an eighth of the body's size as many more as locate it anew; status is
-/// tracking, or god-object while the body is touched: then p is the point that stays on the surface where the probe went
-/// in, and the sign of gap is its own.
+/// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is --ticks ticks of
+/// the tracker, and after a jump of more than an eighth of the body's size as many more as locate it anew; status is
+/// tracking, or god-object while the body is touched: then p is the point that stays on the surface where the probe
+/// went in, and the sign of gap is its own.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The model: a file (TOML), or the name of one that ships.

@@ -26,8 +26,8 @@ struct Felt {
     ends: [Vec3; 2],
 }
 
-/// A straight stroke across a corner, a border or the middle of a patch, at right angles to the way out there and up to a
-/// fiftieth of the size below.
+/// A straight stroke across a corner, a border or the middle of a patch, at right angles to the way out there and up to
+/// a fiftieth of the size below.
 fn stroke(scene: &Scene, random: &mut Random) -> (Vec3, Vec3, f32) {
     let patch = &scene.patches[random.below(scene.patches.len())];
     let mut place = || match random.below(4) {

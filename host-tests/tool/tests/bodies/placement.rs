@@ -1,5 +1,5 @@
-//! Where a body lies in its file, and how small its fillets are, costs no digits: closest points in the file's own frame, against the
-//! double-precision oracle of the same body at home.
+//! Where a body lies in its file, and how small its fillets are, costs no digits: closest points in the file's own
+//! frame, against the double-precision oracle of the same body at home.
 //!
 //! `PALPATE_PROBES` sets the number for long runs.
 
@@ -18,8 +18,8 @@ use std::process::Command;
 /// What the answers may be off by, in sizes.
 const RIGHT: f64 = 1e-6;
 
-/// How far off closest points are at most, in sizes, of a body that is moved by so many sizes: in their distance from the probe, or from the
-/// surface.
+/// How far off closest points are at most, in sizes, of a body that is moved by so many sizes: in their distance from
+/// the probe, or from the surface.
 fn worst(text: &str, sizes: DVec3) -> f64 {
     let home = Model::parse(text, "home").unwrap();
     assert_eq!(home.centre, DVec3::ZERO);

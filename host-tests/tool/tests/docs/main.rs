@@ -3,6 +3,7 @@
 //!
 //! `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs` writes anew what can be written.
 
+mod columns;
 mod commands;
 mod imports;
 mod links;

@@ -294,8 +294,8 @@ fn a_start_inside_the_wall_gives_no_force() {
 #[test]
 fn the_state_is_small() {
     // What a board has to keep in RAM; most of it is the witness point, what the estimators remember, homing and the
-    // watch over stuck sensors. 36 bytes of it are the second derivatives at the witness point: with them each step is of
-    // second order at one evaluation.
+    // watch over stuck sensors. 36 bytes of it are the second derivatives at the witness point: with them each step is
+    // of second order at one evaluation.
     println!("{} bytes", size_of::<ServoState<3>>());
     assert!(size_of::<ServoState<3>>() <= 676);
 }

@@ -78,7 +78,8 @@ fn model(name: &str) -> PathBuf {
 
 #[test]
 fn the_graph_has_the_transitions_of_the_features() -> Result<(), Box<dyn Error>> {
-    // A box: each of 12 edges between 2 faces and 2 vertices. Smooth: each of 12 edges a handing over between two faces.
+    // A box: each of 12 edges between 2 faces and 2 vertices. Smooth: each of 12 edges a handing over between two
+    // faces.
     for (name, transitions, vertices) in [("thin_plate", 12 * 4, 8), ("sphere_body", 12, 0)] {
         let body = BakedBody::new(&Model::read(&model(name))?, name)?;
         let labels: Vec<_> = (0..6).map(|face| format!("the \"{face}\"\n")).collect();

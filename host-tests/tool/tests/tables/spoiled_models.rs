@@ -1,4 +1,5 @@
-//! Ways to spoil a model file: each is refused with a message that names file, patch and entry, exit status 2, no output.
+//! Ways to spoil a model file: each is refused with a message that names file, patch and entry, exit status 2, no
+//! output.
 
 use palpate_bake::{BakedPatch, Model};
 use proptest::prelude::*;

@@ -1,5 +1,6 @@
-//! Inside or outside, from the feature that holds the closest point, on bodies drawn from a seed: against the winding number of polyhedra,
-//! and the profile of bodies of revolution. Sharp, skinny, hollow and saddle-shaped vertices, each the pole of some patch.
+//! Inside or outside, from the feature that holds the closest point, on bodies drawn from a seed: against the winding
+//! number of polyhedra, and the profile of bodies of revolution. Sharp, skinny, hollow and saddle-shaped vertices, each
+//! the pole of some patch.
 //!
 //! `PALPATE_PROBES` and `PALPATE_BODIES` set the numbers for long runs.
 
