@@ -1,8 +1,8 @@
 //! What is wrong with a body as a whole, though every patch and every seam is right: it cuts itself, pieces of it cut
 //! or lie in each other, or it is open where it may not be meant to be.
 //!
-//! Looked for on facets ([`facets`]); a cut counts only where the surfaces themselves are found to meet there
-//! ([`crossing`]). That finds what is larger than the facets, and proves nothing.
+//! Looked for on facets (`facets`); a cut counts only where the surfaces themselves are found to meet there
+//! (`crossing`). That finds what is larger than the facets, and proves nothing.
 
 mod crossing;
 mod facets;
