@@ -56,4 +56,9 @@ fn phases_contacts_and_a_fault_are_logged_as_they_come() {
     for line in &expected {
         assert!(lines.contains(line), "no {line:?} in {lines:#?}");
     }
+    // Changes are logged, and nothing else.
+    for line in &lines {
+        let sides = line.split_once(" -> ").and_then(|(before, after)| Some((before.rsplit(' ').next()?, after)));
+        assert!(sides.is_none_or(|(before, after)| before != after), "{line:?} in {lines:#?}");
+    }
 }
