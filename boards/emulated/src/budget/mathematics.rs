@@ -19,7 +19,7 @@ pub fn run(counter: &mut InstructionCounter) {
     // Squares of lengths from a tenth of a millimetre to a metre.
     let square = |share: f32| 1e-8 + share * share * share;
     let angle = |share: f32| (2.0 * share - 1.0) * PI;
-    count(counter, "square root, palpate", square, |x| math::sqrt(x));
+    count(counter, "square root, palpate", square, math::sqrt);
     count(counter, "square root, libm", square, libm::sqrtf);
     count(counter, "square root, micromath", square, |x| F32(x).sqrt().0);
     count(counter, "sine and cosine, palpate", angle, math::sin_cos);
