@@ -173,25 +173,32 @@ impl Body {
     #[inline(always)]
     fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
         let mut aim = Aim::of(&face.patch, &state.witness, probe);
-        let mut patch = &face.patch;
+        let (mut patch, mut crossed) = (&face.patch, None);
         if aim.beyond != BoundaryMode::Interior
             && self.has_smooth_edges
             && let Some((index, parameters)) = self.across(face, aim.landing.parameters, aim.beyond)
             && let Some(other) = self.faces.get(usize::from(index))
         {
-            state.feature = Feature::Face(index);
-            step.switched = true;
-            patch = &other.patch;
+            (patch, crossed) = (&other.patch, Some(index));
             (aim.landing.parameters, aim.beyond) = (parameters, BoundaryMode::Interior);
         } else if !aim.has_slope() {
             state.witness.mode = aim.beyond;
             return;
         }
-        state.witness.mode = aim.beyond;
         let [u, v] = aim.landing.parameters;
         let reached = patch.evaluate_curved(u, v);
         step.evaluations += 1;
         step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
+        // An undone step leaves the witness point on its own face: over a seam that gapes the distance may rise.
+        match (step.outcome, crossed) {
+            (Outcome::Undone, Some(_)) => state.witness.mode = aim.mode,
+            (_, Some(index)) => {
+                state.feature = Feature::Face(index);
+                step.switched = true;
+                state.witness.mode = aim.beyond;
+            }
+            (_, None) => state.witness.mode = aim.beyond,
+        }
     }
 
     /// Whether the probe is near that of the last tick. Not if it is not finite.

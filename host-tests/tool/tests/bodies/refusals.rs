@@ -4,9 +4,9 @@
 use crate::scene::repeat;
 use palpate::body::{Body, Feature, Separator, Side};
 use palpate::math::Vec3;
-use palpate::patch::SecondDerivativeBounds;
+use palpate::patch::{Patch as _, SecondDerivativeBounds};
 use palpate::track::{Controller, Outcome, Probe};
-use palpate_bake::{BakedBody, Model};
+use palpate_bake::{BakedBody, BakedCoefficients, Model};
 use std::path::Path;
 
 const PERIOD: f32 = 1.0 / 4_000.0;
@@ -100,4 +100,49 @@ fn an_edge_is_not_left_for_its_vertex_before_both_faces_have_declined() {
         }
     }
     assert_eq!(tried, 24, "a plate has eight corners of three edges");
+}
+
+/// A ball whose seams gape: every second face lies a twentieth of the radius farther out.
+fn gaping() -> Body {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/sphere_body.toml");
+    let baked = BakedBody::new(&Model::read(&path).unwrap(), "sphere_body").unwrap();
+    let options = baked.locator_options();
+    let mut baked = baked.located_for(&[glam::DVec3::new(0.0, 0.0, 0.1)], &options, &|_, _| ()).unwrap();
+    for face in baked.faces.iter_mut().step_by(2) {
+        match &mut face.patch.coefficients {
+            BakedCoefficients::Polynomial(entries) => entries.iter_mut().flatten().for_each(|number| *number *= 1.05),
+            BakedCoefficients::Rational(entries) => {
+                entries.iter_mut().flat_map(|[x, y, z, _]| [x, y, z]).for_each(|number| *number *= 1.05);
+            }
+        }
+    }
+    baked.to_body().unwrap()
+}
+
+/// Over a seam that gapes the next face may be farther: the step is undone, and the witness point is still where it is said to be.
+#[test]
+fn an_undone_step_over_a_seam_leaves_the_witness_point_on_its_face() {
+    let body = gaping();
+    let undone: u32 = repeat(500, 43, |random| {
+        let direction = Vec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0) as f32)).normalize();
+        let probe = direction * random.between(0.06, 0.2) as f32;
+        let start = [random.between(0.0, 1.0) as f32, random.between(0.0, 1.0) as f32];
+        let mut state = body.start_on(random.below(body.faces().len()) as u16, start);
+        let mut undone = 0;
+        for tick in 0..60 {
+            let step = body.track(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
+            undone += u32::from(step.outcome == Outcome::Undone);
+            let Feature::Face(index) = state.feature else { continue };
+            let [u, v] = state.witness.parameters;
+            let point = body.faces()[usize::from(index)].patch.evaluate(u, v).point;
+            // Either way of evaluating rounds a few times.
+            let off = point.distance(state.witness.surface.point);
+            assert!(off < 1e-6, "tick {tick}: {off} m beside face {index} at {:?}", [u, v]);
+        }
+        undone
+    })
+    .into_iter()
+    .sum();
+    println!("{undone} steps undone");
+    assert!(undone > 100, "{undone} steps undone");
 }
