@@ -119,7 +119,8 @@ fn gaping() -> Body {
     baked.to_body().unwrap()
 }
 
-/// Over a seam that gapes the next face may be farther: the step is undone, and the witness point is still where it is said to be.
+/// Over a seam that gapes the next face may be farther: the step is undone, and the witness point is still where it is
+/// said to be.
 #[test]
 fn an_undone_step_over_a_seam_leaves_the_witness_point_on_its_face() {
     let body = gaping();
