@@ -145,7 +145,7 @@ impl BakedBody {
     }
 
     /// The same body with a locator that names for each cell of space what can own the closest point. `progress` is
-    /// told the depth that begins and the number of its cells.
+    /// told how much of the space is done, and how much there is.
     ///
     /// # Errors
     /// Tables that would not fit their indices.

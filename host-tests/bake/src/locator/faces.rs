@@ -2,16 +2,15 @@
 
 use super::field::{Part, Probes};
 use super::piece::{Piece, Span};
+use super::samples::{Sample, Samples};
 use super::seams::{Seams, at_corner};
 use super::stored::StoredSurface;
+use super::unique::Rectangle;
 use crate::BakedPatch;
 use crate::bounds::local_range;
 use crate::tracked::Tracked;
 use glam::DVec3;
 use palpate::patch::SplinePatch;
-
-/// Intervals of the grid on each face from which references are sought.
-const INTERVALS: usize = 16;
 
 /// All faces.
 pub(crate) struct Faces {
@@ -23,8 +22,7 @@ pub(crate) struct Faces {
     pub seams: Seams,
     /// 1 where the outward normal is `f_u × f_v`, −1 where it is turned round.
     pub turns: Vec<f64>,
-    /// A grid of points on each face.
-    samples: Vec<Vec<([f64; 2], DVec3)>>,
+    samples: Samples,
 }
 
 /// A part of the body that may hold the closest point.
@@ -54,14 +52,7 @@ impl Faces {
         let spans = (patches.iter().zip(creases).enumerate())
             .map(|(face, (patch, creases))| spans(face, patch, seams.poles[face], creases, reach))
             .collect::<Option<Vec<_>>>()?;
-        let grid = |surface: &StoredSurface| {
-            let point = |index: usize| {
-                let at = [index / (INTERVALS + 1), index % (INTERVALS + 1)].map(|k| k as f64 / INTERVALS as f64);
-                (at, surface.evaluate(at).point)
-            };
-            (0..(INTERVALS + 1) * (INTERVALS + 1)).map(point).collect::<Vec<_>>()
-        };
-        let samples: Vec<_> = surfaces.iter().map(grid).collect();
+        let samples = Samples::new(&surfaces);
         let turns = patches
             .iter()
             .map(|patch| if patch.orientation == palpate::patch::Orientation::Outward { 1.0 } else { -1.0 })
@@ -109,19 +100,10 @@ impl Faces {
         Some(piece)
     }
 
-    /// A point of one of some faces near the closest one: a local minimum of the distance.
-    pub(super) fn reference(&self, faces: &[u16], query: DVec3) -> Option<Reference> {
-        let mut best: Option<(u16, [f64; 2], f64)> = None;
-        for &face in faces {
-            for (at, point) in &self.samples[usize::from(face)] {
-                let squared = point.distance_squared(query);
-                if best.is_none_or(|(.., least)| squared < least) {
-                    best = Some((face, *at, squared));
-                }
-            }
-        }
-        let (face, at, _) = best?;
-        let minimum = self.surfaces[usize::from(face)].descend(query, at, [[0.0; 2], [1.0; 2]]);
+    /// A point of the body near the closest one: a local minimum of the distance on its face.
+    pub(super) fn reference(&self, query: DVec3) -> Option<Reference> {
+        let Sample { face, parameters, .. } = *self.samples.nearest(query)?;
+        let minimum = self.surfaces[usize::from(face)].descend(query, parameters, [[0.0; 2], [1.0; 2]]);
         Some(Reference { face, parameters: minimum.parameters, point: minimum.point, distance: minimum.distance })
     }
 }
@@ -240,6 +222,8 @@ pub(super) struct Query<'a> {
     pub seam: f64,
     /// No probe is farther from any point, metres.
     pub farthest: f64,
+    /// Rectangles of faces on which half the squared distance is known to be convex for all of the probes.
+    pub convex: &'a [(u16, Rectangle)],
 }
 
 impl Query<'_> {
@@ -296,13 +280,8 @@ impl Query<'_> {
     }
 
     fn sign_beyond(&self, piece: &Piece, axis: usize, part: Part, margin: f64) -> i8 {
-        let field = &piece.gradient[axis];
-        let mut steepest: f64 = 0.0;
-        for [_, x, y, z] in field.on(part) {
-            steepest = steepest.max(DVec3::new(*x, *y, *z).length_squared());
-        }
-        let margin = margin * self.farthest * steepest.sqrt();
-        let [low, high] = field.range(part, &self.probes);
+        let ([low, high], steepest) = piece.gradient[axis].range(part, &self.probes);
+        let margin = margin * self.farthest * steepest;
         i8::from(low > margin) - i8::from(high < -margin)
     }
 

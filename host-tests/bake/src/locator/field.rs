@@ -84,15 +84,17 @@ impl<const D: usize> Field<D> {
 
 /// A component that is affine in the probe, `a − Q · b`, of entries `[a, b]`.
 impl Field<4> {
-    /// Bounds over a part of the cell and all probes.
-    pub(crate) fn range(&self, part: Part, probes: &Probes) -> [f64; 2] {
+    /// Bounds over a part of the cell and all probes; and the greatest length of `b`.
+    pub(crate) fn range(&self, part: Part, probes: &Probes) -> ([f64; 2], f64) {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut steepest: f64 = 0.0;
         for [a, x, y, z] in self.on(part) {
             let b = DVec3::new(*x, *y, *z);
             let (middle, reach) = (a - probes.centre.dot(b), probes.half.dot(b.abs()));
             range = [range[0].min(middle - reach), range[1].max(middle + reach)];
+            steepest = steepest.max(b.length_squared());
         }
-        [range[0] - self.slack, range[1] + self.slack]
+        ([range[0] - self.slack, range[1] + self.slack], steepest.sqrt())
     }
 }
 

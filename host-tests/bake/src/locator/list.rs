@@ -1,8 +1,10 @@
 //! The list of a cell: what is left of the body, in rectangles that have one minimum each.
 
 use super::faces::{Faces, Query, Region};
-use super::unique::{Minima, Rectangle, Subject, nearest};
+use super::unique::{Minima, Proof, Rectangle, Subject, nearest};
 use palpate::body::Candidate;
+use std::cell::RefCell;
+use std::collections::HashMap;
 
 /// An entry with what is proved of it.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +31,8 @@ pub(super) struct Lister<'a> {
     pub tolerance: f64,
     /// How often what is left of a face is divided for want of a proof.
     pub divisions: usize,
+    /// What is proved of rectangles of faces, and how far their minimum is from the cell's centre: they come up again.
+    pub known: RefCell<HashMap<(u16, Rectangle), (Proof, f64)>>,
 }
 
 impl Lister<'_> {
@@ -62,6 +66,13 @@ impl Lister<'_> {
         entries
     }
 
+    /// Rectangles of faces that are proved to be convex.
+    pub(super) fn convex(&self) -> Vec<(u16, Rectangle)> {
+        let known = self.known.borrow();
+        let convex = known.iter().filter(|(_, (proof, _))| matches!(proof, Proof::Minima(Minima::Convex)));
+        convex.map(|(rectangle, _)| *rectangle).collect()
+    }
+
     fn divide(&self, face: u16, regions: &[Region<'_>], divisions: usize, entries: &mut Vec<Entry>) {
         let whole = self.entry(face, regions);
         if self.is_proved(whole.minima) || divisions == 0 || regions.len() < 2 {
@@ -90,11 +101,18 @@ impl Lister<'_> {
         let rectangles = regions.iter().map(|region| Rectangle::around(region.rectangle(self.faces)));
         let rectangle = rectangles.reduce(|a, b| a.hull(&b)).unwrap_or(Rectangle { lower: [0; 2], upper: [0; 2] });
         let least = regions.iter().map(|region| nearest(region, self.query, self.faces)).fold(f64::INFINITY, f64::min);
-        let minima = Subject { faces: self.faces, face, rectangle, query: self.query }.minima(least);
+        let known = self.known.borrow().get(&(face, rectangle)).copied();
+        let (proof, distance) = known.unwrap_or_else(|| self.look(face, rectangle));
+        Entry { face, rectangle, minima: proof.minima(least), distance }
+    }
+
+    fn look(&self, face: u16, rectangle: Rectangle) -> (Proof, f64) {
+        let proof = Subject { faces: self.faces, face, rectangle, query: self.query }.proof();
         let [low, high] = rectangle.parameters();
         let start = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
         let minimum = self.faces.surfaces[usize::from(face)].descend(self.query.probes.centre, start, [low, high]);
-        Entry { face, rectangle, minima, distance: minimum.distance }
+        self.known.borrow_mut().insert((face, rectangle), (proof, minimum.distance));
+        (proof, minimum.distance)
     }
 }
 

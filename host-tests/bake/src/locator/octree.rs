@@ -4,16 +4,33 @@ use super::faces::{Faces, Query, Reference, Region};
 use super::field::Probes;
 use super::list::{Entry, Lister};
 use super::options::LocatorOptions;
-use super::sampled;
+use super::sampled::{self, Sampler};
 use super::tree::{Child, Kind, Leaf, Octree};
 use super::unique::{Rectangle, nearest};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What came of a cell.
 enum Outcome<'a> {
     Leaf(Box<Leaf>, Vec<Entry>),
-    Inner(Vec<Region<'a>>),
+    Inner(Inherited<'a>),
+}
+
+/// What a cell hands on to its children.
+struct Inherited<'a> {
+    /// What can own the closest point.
+    regions: Vec<Region<'a>>,
+    /// Where half the squared distance is convex.
+    convex: Vec<(u16, Rectangle)>,
+}
+
+/// A cell with all that came of it.
+enum Grown {
+    Leaf(Box<Leaf>, Vec<Entry>),
+    Inner(Vec<Grown>),
 }
 
 /// How often what is left of a face is divided at most for want of a proof.
@@ -24,14 +41,6 @@ const LOOSE: f64 = 0.01;
 
 /// How often a list that samples show to fail is mended by dividing a rectangle.
 const REPAIRS: usize = 24;
-
-/// A cell that is still open.
-struct OpenCell<'a> {
-    probes: Probes,
-    regions: Vec<Region<'a>>,
-    /// Its place among the children of its parent.
-    slot: (usize, usize),
-}
 
 /// What a search needs.
 pub(super) struct Search<'a> {
@@ -45,33 +54,41 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Divides the root cube; `progress` hears which depth is done and how many cells the next one has.
+    /// Divides the root cube; `progress` hears how many of the smallest cells are done, and how many there are.
+    ///
+    /// A cell is done before its neighbours are begun: they look at the same parts of faces.
     pub(super) fn run(&self, root: Probes, progress: &(dyn Fn(usize, usize) + Sync)) -> Octree {
-        let mut tree = Octree { nodes: vec![[Child::Leaf(0); 8]], leaves: Vec::new() };
-        let mut open = vec![(root, self.faces.regions(), 0)];
-        for depth in 1..=self.options.depth + self.options.deeper {
-            let children: Vec<_> =
-                open.iter().flat_map(|(probes, regions, node)| children(probes, regions, *node)).collect();
-            progress(depth, children.len());
-            // In the order of the cells, whatever thread was first.
-            let outcomes: Vec<_> = children.par_iter().map(|cell| self.cell(cell, depth)).collect();
-            open = Vec::new();
-            for (cell, outcome) in children.into_iter().zip(outcomes) {
-                let (node, child) = cell.slot;
-                tree.nodes[node][child] = match outcome {
-                    Outcome::Leaf(leaf, entries) => {
-                        tree.leaves.push((Leaf { depth, ..*leaf }, entries));
-                        Child::Leaf(tree.leaves.len() - 1)
-                    }
-                    Outcome::Inner(regions) => {
-                        tree.nodes.push([Child::Leaf(0); 8]);
-                        open.push((cell.probes, regions, tree.nodes.len() - 1));
-                        Child::Node(tree.nodes.len() - 1)
-                    }
-                };
+        let done = AtomicUsize::new(0);
+        let all = cells_at(self.options.depth + self.options.deeper);
+        let told = |depth: usize| {
+            let share = all / cells_at(depth);
+            progress(done.fetch_add(share, Ordering::Relaxed) + share, all);
+        };
+        let whole = Inherited { regions: self.faces.regions(), convex: Vec::new() };
+        flattened(self.children(&root, &whole, 1, &told))
+    }
+
+    /// The children of a cell, by as many threads as there are; in their order, whatever thread was first.
+    fn children(
+        &self,
+        parent: &Probes,
+        inherited: &Inherited<'a>,
+        depth: usize,
+        told: &(dyn Fn(usize) + Sync),
+    ) -> Vec<Grown> {
+        let half = 0.5 * parent.half;
+        let quarter = Probes { centre: parent.centre, half };
+        let child = |index: usize| {
+            let probes = Probes { centre: quarter.corner(index), half };
+            match self.cell(probes, inherited, depth) {
+                Outcome::Leaf(leaf, entries) => {
+                    told(depth);
+                    Grown::Leaf(leaf, entries)
+                }
+                Outcome::Inner(left) => Grown::Inner(self.children(&probes, &left, depth + 1, told)),
             }
-        }
-        tree
+        };
+        (0..8).into_par_iter().map(child).collect()
     }
 
     /// Whether anybody asks for a cell; its walls belong to it.
@@ -80,30 +97,32 @@ impl<'a> Search<'a> {
         self.wanted.is_none_or(|wanted| wanted.iter().any(|probe| (*probe - probes.centre).abs().cmple(half).all()))
     }
 
-    fn cell(&self, cell: &OpenCell<'a>, depth: usize) -> Outcome<'a> {
-        if !self.is_wanted(&cell.probes) {
-            return unwanted(&cell.probes);
+    fn cell(&self, probes: Probes, inherited: &Inherited<'a>, depth: usize) -> Outcome<'a> {
+        if !self.is_wanted(&probes) {
+            return unwanted(&probes, depth);
         }
         let last = depth >= self.options.depth;
-        let probes = cell.probes;
-        let mut known: Vec<u16> = cell.regions.iter().map(|region| region.face(self.faces)).collect();
-        known.sort_unstable();
-        known.dedup();
         let places = std::iter::once(probes.centre).chain((0..8).map(|index| probes.corner(index)));
-        let references: Vec<Reference> = places.filter_map(|place| self.faces.reference(&known, place)).collect();
-        let query =
-            Query { probes, references: &references, seam: self.options.seam * self.size, farthest: self.farthest };
-        let left = self.survivors(&cell.regions, &query);
+        let references: Vec<Reference> = places.filter_map(|place| self.faces.reference(place)).collect();
+        let query = Query {
+            probes,
+            references: &references,
+            seam: self.options.seam * self.size,
+            farthest: self.farthest,
+            convex: &inherited.convex,
+        };
+        let left = self.survivors(&inherited.regions, &query);
         let kind = self.kind(&left, &query);
         let mut held: Vec<u16> = left.iter().map(|region| region.face(self.faces)).collect();
         held.sort_unstable();
         held.dedup();
         let most = self.options.entries;
         if held.len() > most && !last && kind != Kind::Deep {
-            return Outcome::Inner(left);
+            return Outcome::Inner(Inherited { regions: left, convex: inherited.convex.clone() });
         }
         let tolerance = self.options.tolerance * self.size;
-        let mut lister = Lister { faces: self.faces, query: &query, tolerance, divisions: DIVISIONS };
+        let mut lister =
+            Lister { faces: self.faces, query: &query, tolerance, divisions: DIVISIONS, known: RefCell::default() };
         let mut entries = lister.entries(&left);
         let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
         let is_enough = match kind {
@@ -113,7 +132,7 @@ impl<'a> Search<'a> {
         };
         let is_short = entries.len() <= most && proved;
         if !(last || is_enough || is_short) {
-            return Outcome::Inner(left);
+            return Outcome::Inner(Inherited { regions: left, convex: lister.convex() });
         }
         while entries.len() > self.options.longest && lister.divisions > 0 {
             lister.divisions -= 1;
@@ -123,30 +142,23 @@ impl<'a> Search<'a> {
         let is_checked = proved || kind == Kind::Deep;
         // Where much could be lost it is looked for harder.
         let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
-        let mut count = self.options.samples * if is_loose { 8 } else { 1 };
-        let mut divisions = if is_checked { 0 } else { REPAIRS };
-        while divisions > 0 {
-            let Some(point) =
-                sampled::failure(self.faces, &probes, &entries, &left, count, [0.2 * tolerance, self.size])
-            else {
-                break;
-            };
-            // Where one probe failed others will.
-            if divisions == REPAIRS {
-                count *= 16;
-            }
-            divisions -= 1;
-            if divisions == 0 || !sampled::divide(&mut entries, point) {
-                if depth < self.options.depth + self.options.deeper {
-                    return Outcome::Inner(left);
+        if !is_checked {
+            let count = self.options.samples * if is_loose { 8 } else { 1 };
+            let mut sampler = Sampler::new(self.faces, probes, &left, &entries, count, [0.2 * tolerance, self.size]);
+            for repair in 1..=REPAIRS {
+                let Some(point) = sampler.failure(&entries) else { break };
+                if repair == REPAIRS || !sampled::divide(&mut entries, point) {
+                    if depth < self.options.depth + self.options.deeper {
+                        return Outcome::Inner(Inherited { regions: left, convex: lister.convex() });
+                    }
+                    break;
                 }
-                break;
             }
         }
         let worst = entries.iter().map(|entry| entry.minima).fold(super::unique::Minima::Convex, |a, b| {
             if a.partial_cmp(&b) == Some(std::cmp::Ordering::Less) { b } else { a }
         });
-        let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth: 0, kind, minima: worst, proved };
+        let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth, kind, minima: worst, proved };
         Outcome::Leaf(Box::new(leaf), entries)
     }
 
@@ -192,20 +204,37 @@ impl<'a> Search<'a> {
 }
 
 /// A cell that is not looked into: any list will do.
-fn unwanted<'a>(probes: &Probes) -> Outcome<'a> {
+fn unwanted<'a>(probes: &Probes, depth: usize) -> Outcome<'a> {
     let minima = super::unique::Minima::Unknown;
-    let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth: 0, kind: Kind::Deep, minima, proved: false };
+    let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth, kind: Kind::Deep, minima, proved: false };
     let rectangle = Rectangle::around([[0.0; 2], [1.0; 2]]);
     let entry = Entry { face: 0, rectangle, minima, distance: 0.0 };
     Outcome::Leaf(Box::new(leaf), vec![entry])
 }
 
-fn children<'a>(probes: &Probes, regions: &[Region<'a>], node: usize) -> Vec<OpenCell<'a>> {
-    let half = 0.5 * probes.half;
-    let quarter = Probes { centre: probes.centre, half };
-    let cell = |child: usize| {
-        let centre: DVec3 = quarter.corner(child);
-        OpenCell { probes: Probes { centre, half }, regions: regions.to_vec(), slot: (node, child) }
-    };
-    (0..8).map(cell).collect()
+/// How many cells of a depth there are.
+fn cells_at(depth: usize) -> usize {
+    1 << (3 * depth)
+}
+
+/// The tree in order of depth.
+fn flattened(root: Vec<Grown>) -> Octree {
+    let mut tree = Octree { nodes: vec![[Child::Leaf(0); 8]], leaves: Vec::new() };
+    let mut open = VecDeque::from([(0, root)]);
+    while let Some((node, children)) = open.pop_front() {
+        for (index, child) in children.into_iter().enumerate() {
+            tree.nodes[node][index] = match child {
+                Grown::Leaf(leaf, entries) => {
+                    tree.leaves.push((*leaf, entries));
+                    Child::Leaf(tree.leaves.len() - 1)
+                }
+                Grown::Inner(children) => {
+                    tree.nodes.push([Child::Leaf(0); 8]);
+                    open.push_back((tree.nodes.len() - 1, children));
+                    Child::Node(tree.nodes.len() - 1)
+                }
+            };
+        }
+    }
+    tree
 }

@@ -6,90 +6,128 @@
 use super::faces::{Faces, Region};
 use super::field::Probes;
 use super::list::Entry;
+use super::starts::{Start, Starts};
 use super::tables;
-use super::unique::Rectangle;
 use crate::random::Random;
 use glam::DVec3;
-use palpate::body::{Candidate, Descending, GRID, Judgement, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
+use palpate::body::{Candidate, Descending, Judgement, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
 use palpate::math::Vec3;
 
-/// Starts of descents that a list is compared with, the nearest ones.
+/// Starts of descents that a list is compared with, at most.
 const STARTS: usize = 16;
+/// Probes about one for which a list failed.
+const ABOUT: usize = 256;
+/// How far they are from it, beside half a side of the cell.
+const FARTHEST_ABOUT: f64 = 0.5;
+/// The least of them.
+const NEAREST_ABOUT: f64 = 1e-3;
 
-/// The closer point, if one of `count` probes of a cell is led to a point that is more than `tolerance` metres farther
-/// than another that is found: its face and parameters.
-pub(super) fn failure(
-    faces: &Faces,
-    probes: &Probes,
-    entries: &[Entry],
-    regions: &[Region<'_>],
-    count: usize,
-    [tolerance, size]: [f64; 2],
-) -> Option<(u16, [f64; 2])> {
-    let list: Vec<_> = tables::list(entries).into_iter().map(Candidate::unpack).collect();
-    let starts: Vec<(Vec3, Candidate, f32)> = regions.iter().map(|region| start(faces, region)).collect();
-    let mut random = Random::new(7);
-    (0..count).find_map(|index| {
-        // Normals meet where the closest point is not unique, in a line or in a point that no probe of a box would hit.
-        let on_normal = if index % 2 == 1 { on_a_normal(faces, probes, entries, &mut random) } else { None };
-        let probe = on_normal.unwrap_or_else(|| {
-            let place = DVec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
-            probes.centre + probes.half * place
-        });
-        let probe = probe.as_vec3();
-        let listed = searched(faces, &list, probe, size as f32);
-        // No point of a region is farther from its middle than its diameter.
-        let near = starts.iter().filter_map(|start| {
-            let (squared, reach) = (start.0.distance_squared(probe), (listed - tolerance) as f32 + start.2);
-            (reach > 0.0 && squared < reach * reach).then_some((squared, start))
-        });
-        let mut near: Vec<_> = near.collect();
-        if near.len() > STARTS {
-            near.select_nth_unstable_by(STARTS, |a, b| a.0.total_cmp(&b.0));
-            near.truncate(STARTS);
+/// Probes of a cell, and what its list is compared with.
+pub(super) struct Sampler<'a> {
+    faces: &'a Faces,
+    probes: Probes,
+    starts: Starts,
+    random: Random,
+    /// Those that have to pass one after another, the same for every list.
+    drawn: Vec<Vec3>,
+    next: usize,
+    /// Metres.
+    tolerance: f32,
+    size: f32,
+}
+
+impl<'a> Sampler<'a> {
+    /// For `count` probes of a cell. A list fails if it leads to a point more than `tolerance` metres farther than
+    /// another that is found.
+    pub(super) fn new(
+        faces: &'a Faces,
+        probes: Probes,
+        regions: &[Region<'_>],
+        entries: &[Entry],
+        count: usize,
+        [tolerance, size]: [f64; 2],
+    ) -> Self {
+        let [tolerance, size] = [tolerance, size].map(|length| length as f32);
+        let mut random = Random::new(7);
+        let drawn = (0..count).map(|index| drawn(faces, &probes, entries, index, &mut random)).collect();
+        Self { faces, probes, starts: Starts::new(faces, regions), random, drawn, next: 0, tolerance, size }
+    }
+
+    /// The closer point, its face and parameters, for the next probe for which a list fails; `None` once all have
+    /// passed with this list.
+    ///
+    /// Where one probe failed others near it will: they are added.
+    pub(super) fn failure(&mut self, entries: &[Entry]) -> Option<(u16, [f64; 2])> {
+        let list: Vec<_> = tables::list(entries).into_iter().map(Candidate::unpack).collect();
+        for _ in 0..self.drawn.len() {
+            let probe = self.drawn[self.next];
+            if let Some(closer) = self.closer(&list, probe) {
+                for _ in 0..ABOUT {
+                    let reach = self.probes.half * self.random.scale(NEAREST_ABOUT, FARTHEST_ABOUT);
+                    let place = DVec3::from_array(std::array::from_fn(|_| self.random.between(-1.0, 1.0)));
+                    let Probes { centre, half } = self.probes;
+                    let about = probe.as_dvec3() + reach * place;
+                    self.drawn.push(about.clamp(centre - half, centre + half).as_vec3());
+                }
+                return Some(closer);
+            }
+            self.next = (self.next + 1) % self.drawn.len();
         }
-        near.iter().enumerate().find_map(|(index, (_, (_, candidate, _)))| {
-            // Regions smaller than a step of the grid share their rectangle, and with it the descent.
-            if near[..index].iter().any(|(_, (_, known, _))| known == candidate) {
+        None
+    }
+
+    /// A point that is closer to a probe than the one the firmware's search of a list ends with, as
+    /// [`palpate::body::Search`] goes about it.
+    fn closer(&self, list: &[Candidate], probe: Vec3) -> Option<(u16, [f64; 2])> {
+        let (least, start) = self.starts.nearest(probe)?;
+        // The likeliest first: where it ends near enough, the others can only end nearer.
+        let likely = list.iter().position(|candidate| start.is_in(candidate)).unwrap_or(0);
+        let mut best = f32::INFINITY;
+        for candidate in std::iter::once(&list[likely]).chain(&list[..likely]).chain(&list[likely + 1..]) {
+            self.descended(candidate, probe, &mut best);
+            if distance(best) <= least + self.tolerance {
                 return None;
             }
+        }
+        let enough = distance(best) - self.tolerance;
+        let mut starts = self.starts.nearer(enough, probe);
+        // Regions smaller than a step of the grid share their rectangle, and with it the descent.
+        starts.dedup_by_key(|(_, start)| start.candidate);
+        starts.iter().take(STARTS).find_map(|(_, Start { candidate, .. })| {
             let mut best = f32::INFINITY;
-            let parameters = descended(faces, candidate, probe, &mut best, size as f32);
-            let distance = f64::from((2.0 * best).sqrt());
-            (listed > distance + tolerance).then_some((candidate.face, parameters.map(f64::from)))
+            let parameters = self.descended(candidate, probe, &mut best);
+            (distance(best) < enough).then_some((candidate.face, parameters.map(f64::from)))
         })
-    })
-}
+    }
 
-/// The middle of a region, its rectangle with a step of the grid around it, so that a descent may leave it for a
-/// neighbour's minimum, and its diameter, metres.
-fn start(faces: &Faces, region: &Region<'_>) -> (Vec3, Candidate, f32) {
-    let face = region.face(faces);
-    let Rectangle { lower, upper } = Rectangle::around(region.rectangle(faces));
-    let candidate = Candidate {
-        face,
-        lower: lower.map(|step| step.saturating_sub(1)),
-        upper: upper.map(|step| (step + 1).min(GRID as u8)),
-        convex: false,
-        more: false,
-    };
-    let [low, high] = region.rectangle(faces);
-    let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
-    (faces.surfaces[usize::from(face)].evaluate(middle).point.as_vec3(), candidate, region.diameter() as f32)
-}
-
-/// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this descent's
-/// included.
-fn descended(faces: &Faces, candidate: &Candidate, probe: Vec3, best: &mut f32, size: f32) -> [f32; 2] {
-    let mut descending = Descending::new(*candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX);
-    loop {
-        let face = usize::from(candidate.face);
-        let progress = descending.step(&faces.tables[face], faces.poles(face), probe, *best, size);
-        *best = best.min(descending.half_squared);
-        if progress != Judgement::Falling {
-            return descending.parameters;
+    /// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this
+    /// descent's included.
+    fn descended(&self, candidate: &Candidate, probe: Vec3, best: &mut f32) -> [f32; 2] {
+        let mut descending = Descending::new(*candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX);
+        loop {
+            let face = usize::from(candidate.face);
+            let progress = descending.step(&self.faces.tables[face], self.faces.poles(face), probe, *best, self.size);
+            *best = best.min(descending.half_squared);
+            if progress != Judgement::Falling {
+                return descending.parameters;
+            }
         }
     }
+}
+
+/// A probe of a cell: any, or one of every second on a normal. Normals meet where the closest point is not unique, in a
+/// line or in a point that no probe of a box would hit.
+fn drawn(faces: &Faces, probes: &Probes, entries: &[Entry], index: usize, random: &mut Random) -> Vec3 {
+    let on_normal = if index % 2 == 1 { on_a_normal(faces, probes, entries, random) } else { None };
+    let probe = on_normal.unwrap_or_else(|| {
+        let place = DVec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
+        probes.centre + probes.half * place
+    });
+    probe.as_vec3()
+}
+
+fn distance(half_squared: f32) -> f32 {
+    (2.0 * half_squared).sqrt()
 }
 
 /// A probe of the cell on the normal at some point of some candidate, if that normal meets the cell.
@@ -113,15 +151,6 @@ fn on_a_normal(faces: &Faces, probes: &Probes, entries: &[Entry], random: &mut R
         (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
     }
     (enters < leaves).then(|| at.point + normal * random.between(enters, leaves))
-}
-
-/// The distance that the firmware's search of a list ends with, as [`palpate::body::Search`] goes about it.
-fn searched(faces: &Faces, list: &[Candidate], probe: Vec3, size: f32) -> f64 {
-    let mut best = f32::INFINITY;
-    for candidate in list {
-        descended(faces, candidate, probe, &mut best, size);
-    }
-    f64::from((2.0 * best).sqrt())
 }
 
 /// Divides the rectangle that a point lies in, so that each half has a start of its own; `false` if none does or it is

@@ -15,6 +15,7 @@
 use super::faces::{Faces, Query, Region};
 use super::field::{Field, Part, Probes};
 use super::piece::{LEVELS, Piece};
+use glam::DVec3;
 use palpate::body::GRID;
 
 /// What is proved of the minima on a rectangle, best first.
@@ -30,8 +31,26 @@ pub(crate) enum Minima {
     Unknown,
 }
 
+/// What is proved of the minima on a rectangle wherever the closest point is.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Proof {
+    Minima(Minima),
+    /// Twice `φ` is off by no more, m².
+    Loss(f64),
+}
+
+impl Proof {
+    /// `nearest` is at most the distance of the closest point from any probe.
+    pub(super) fn minima(self, nearest: f64) -> Minima {
+        match self {
+            Self::Minima(minima) => minima,
+            Self::Loss(loss) => Minima::Within((nearest * nearest + loss).sqrt() - nearest),
+        }
+    }
+}
+
 /// A rectangle on the grid: least and greatest step along `u` and `v`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Rectangle {
     pub lower: [u8; 2],
     pub upper: [u8; 2],
@@ -70,41 +89,48 @@ pub(super) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// What is proved; `nearest` is at most the distance of the closest point from any probe.
-    pub(super) fn minima(&self, nearest: f64) -> Minima {
+    /// What is proved.
+    pub(super) fn proof(&self) -> Proof {
         let [low, high] = self.rectangle.parameters();
         let flat = [0, 1].map(|axis| low[axis] == high[axis]);
         let pieces = &self.faces.spans[usize::from(self.face)];
         match flat {
-            [true, true] => return Minima::Convex,
+            [true, true] => return Proof::Minima(Minima::Convex),
             [true, false] | [false, true] => {
                 let axis = usize::from(flat[1]);
                 let side = (2 * axis) as u8 + u8::from(low[axis] == 1.0);
-                return if pieces.iter().all(|piece| self.is_convex_along(piece, side)) {
-                    Minima::Convex
-                } else {
-                    Minima::Unknown
-                };
+                let is_convex = pieces.iter().all(|piece| self.is_convex_along(piece, side));
+                return Proof::Minima(if is_convex { Minima::Convex } else { Minima::Unknown });
             }
             [false, false] => {}
         }
-        if pieces.iter().all(|piece| self.is_convex(piece)) {
-            return Minima::Convex;
+        if self.is_known_convex() || pieces.iter().all(|piece| self.is_convex(piece)) {
+            return Proof::Minima(Minima::Convex);
         }
         if pieces.iter().all(|piece| self.has_strict_minima(piece)) {
-            return Minima::One;
+            return Proof::Minima(Minima::One);
         }
         let mut loss = 0.0;
         if pieces.iter().any(|piece| self.raise_loss(piece, &mut loss).is_none()) {
-            return Minima::Unknown;
+            return Proof::Minima(Minima::Unknown);
         }
-        Minima::Within((nearest * nearest + loss).sqrt() - nearest)
+        Proof::Loss(loss)
     }
 
     /// Whether there is one minimum, with no bound of the loss if not.
     pub(super) fn is_unique(&self) -> bool {
         let pieces = &self.faces.spans[usize::from(self.face)];
         pieces.iter().all(|piece| self.has_strict_minima(piece))
+    }
+
+    /// Whether it is proved of a larger rectangle, and of more probes.
+    fn is_known_convex(&self) -> bool {
+        let holds = |(face, known): &(u16, Rectangle)| {
+            let Rectangle { lower, upper } = self.rectangle;
+            *face == self.face
+                && (0..2).all(|axis| known.lower[axis] <= lower[axis] && upper[axis] <= known.upper[axis])
+        };
+        self.query.convex.iter().any(holds)
     }
 
     /// Whether a piece has some of the rectangle, more than a border.
@@ -155,7 +181,7 @@ impl Subject<'_> {
         if self.is_creased(piece) {
             return false;
         }
-        if least(&piece.hessian, 2 * axis, Part::Side(side), &self.query.probes) > 0.0 {
+        if self.query.bends(piece, Part::Side(side)).least[2 * axis] > 0.0 {
             return true;
         }
         piece.quarters().is_some_and(|quarters| quarters.iter().all(|quarter| self.is_convex_along(quarter, side)))
@@ -172,7 +198,36 @@ impl Subject<'_> {
         if self.passes(piece) {
             return true;
         }
-        piece.quarters().is_some_and(|quarters| quarters.iter().all(|quarter| self.has_strict_minima(quarter)))
+        let refuted = (0..4).any(|corner| self.is_refuted(piece, corner));
+        !refuted
+            && piece.quarters().is_some_and(|quarters| quarters.iter().all(|quarter| self.has_strict_minima(quarter)))
+    }
+
+    /// Whether no part of a piece that has a corner of it passes, however small: coefficients at a corner are values.
+    fn is_refuted(&self, piece: &Piece, corner: u8) -> bool {
+        let [low, high] = self.rectangle.parameters();
+        let is_upper = |axis: usize| corner >> axis & 1 == 1;
+        let at = [0, 1].map(|axis| if is_upper(axis) { piece.high[axis] } else { piece.low[axis] });
+        // Around it there is some of the rectangle in the piece.
+        let around = (0..2).all(|axis| if is_upper(axis) { low[axis] < at[axis] } else { at[axis] < high[axis] })
+            && (0..2).all(|axis| low[axis] <= at[axis] && at[axis] <= high[axis]);
+        if !around || piece.on_pole.contains(&true) {
+            return false;
+        }
+        let part = Part::Corner(corner);
+        let slopes = [0, 1].map(|axis| self.query.sign(piece, axis, part));
+        let is_held = |axis: usize| match slopes[axis] {
+            1 => !is_upper(axis) && at[axis] == low[axis],
+            -1 => is_upper(axis) && at[axis] == high[axis],
+            _ => false,
+        };
+        let is_flat = |entry: usize| self.query.bends(piece, part).least[entry] <= 0.0;
+        match slopes {
+            [0, 0] => !is_positive(&piece.hessian, part, &self.query.probes),
+            [_, 0] => is_held(0) && is_flat(2),
+            [0, _] => is_held(1) && is_flat(0),
+            _ => false,
+        }
     }
 
     fn passes(&self, piece: &Piece) -> bool {
@@ -200,84 +255,124 @@ impl Subject<'_> {
             return false;
         }
         if slopes[0] != 0 {
-            return least(&piece.hessian, 2, Part::Inside, probes) > 0.0;
+            return self.query.bends(piece, Part::Inside).least[2] > 0.0;
         }
         if slopes[1] != 0 {
-            return least(&piece.hessian, 0, Part::Inside, probes) > 0.0;
+            return self.query.bends(piece, Part::Inside).least[0] > 0.0;
         }
         is_positive(&piece.hessian, Part::Inside, probes)
     }
 
     /// Raises a loss to the most that `−δᵀHδ` can be on a piece for `δ` within the rectangle; `None` across a crease.
-    /// What is bounded below the loss as a whole is in its quarters too.
     fn raise_loss(&self, piece: &Piece, most: &mut f64) -> Option<()> {
-        if !self.overlaps(piece) {
+        match self.loss(piece)? {
+            loss if loss > *most => self.raise_to(piece, loss, most),
+            _ => Some(()),
+        }
+    }
+
+    /// The same of a piece whose own bound is known and greater. What is bounded below the loss as a whole is in its
+    /// quarters too: the worst of them go first, so that few others are divided.
+    fn raise_to(&self, piece: &Piece, loss: f64, most: &mut f64) -> Option<()> {
+        let quarters = if piece.level < LEVELS - 1 { piece.quarters() } else { None };
+        let Some(quarters) = quarters else {
+            *most = most.max(loss);
             return Some(());
+        };
+        let mut parts = Vec::with_capacity(4);
+        for quarter in quarters {
+            parts.push((self.loss(quarter)?, quarter));
+        }
+        parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (loss, quarter) in parts {
+            if loss > *most {
+                self.raise_to(quarter, loss, most)?;
+            }
+        }
+        Some(())
+    }
+
+    /// A bound of `−δᵀHδ` on a piece, 0 where it has none of the rectangle; `None` across a crease.
+    fn loss(&self, piece: &Piece) -> Option<f64> {
+        if !self.overlaps(piece) {
+            return Some(0.0);
         }
         if self.is_creased(piece) {
             return None;
         }
         if is_positive(&piece.hessian, Part::Inside, &self.query.probes) {
-            return Some(());
+            return Some(0.0);
         }
-        let loss = self.loss(piece);
-        if loss <= *most {
-            return Some(());
-        }
-        if piece.level < LEVELS - 1
-            && let Some(quarters) = piece.quarters()
-        {
-            return quarters.iter().try_for_each(|quarter| self.raise_loss(quarter, most));
-        }
-        *most = most.max(loss);
-        Some(())
-    }
-
-    /// A bound of `−δᵀHδ` on a piece.
-    fn loss(&self, piece: &Piece) -> f64 {
         let [low, high] = self.rectangle.parameters();
         let [du, dv] = [high[0] - low[0], high[1] - low[1]];
-        let probes = &self.query.probes;
-        let [uu, vv] = [0, 2].map(|entry| least(&piece.hessian, entry, Part::Inside, probes) / piece.least_weight);
-        let mixed = [-1.0, 1.0].map(|side| -least_times(&piece.hessian, 1, side, Part::Inside, probes));
-        let uv = mixed[0].max(mixed[1]).max(0.0) / piece.least_weight;
+        let bends = self.query.bends(piece, Part::Inside);
+        let [uu, vv] = [0, 2].map(|entry| bends.least[entry] / piece.least_weight);
+        let uv = bends.greatest[1].max(-bends.least[1]).max(0.0) / piece.least_weight;
         // Extreme at a corner, or on a border of the rectangle of δ where the other is free.
         let form = |x: f64, y: f64| uu * x * x - 2.0 * uv * x * y + vv * y * y;
         let free =
             |along: f64, reach: f64, other: f64| if along > 0.0 { (uv * other / along).min(reach) } else { reach };
         let lowest = [form(du, dv), form(free(uu, du, dv), dv), form(du, free(vv, dv, du)), 0.0];
-        -lowest.into_iter().fold(0.0, f64::min)
+        Some(-lowest.into_iter().fold(0.0, f64::min))
     }
 }
 
 /// Whether the matrix of second derivatives is positive definite on a part, for all probes.
 pub(crate) fn is_positive(hessian: &Field<12>, part: Part, probes: &Probes) -> bool {
-    let corners: [_; 8] = std::array::from_fn(|index| probes.corner(index));
     let slack = hessian.slack;
+    let is_definite = |[uu, uv, vv]: [f64; 3]| {
+        let (uu, vv, uv) = (uu - slack, vv - slack, uv.abs() + slack);
+        uu > 0.0 && vv > 0.0 && uu * vv > uv * uv * (1.0 + 4.0 * f64::EPSILON)
+    };
     hessian.on(part).all(|entry| {
-        corners.iter().all(|corner| {
-            let [uu, uv, vv] = [0, 4, 8].map(|first| {
-                entry[first] - corner.x * entry[first + 1] - corner.y * entry[first + 2] - corner.z * entry[first + 3]
-            });
-            let (uu, vv, uv) = (uu - slack, vv - slack, uv.abs() + slack);
-            uu > 0.0 && vv > 0.0 && uu * vv > uv * uv * (1.0 + 4.0 * f64::EPSILON)
+        let [(uu, along_uu), (uv, along_uv), (vv, along_vv)] = [0, 4, 8].map(|first| {
+            let along = DVec3::new(entry[first + 1], entry[first + 2], entry[first + 3]);
+            (entry[first] - probes.centre.dot(along), probes.half * along)
+        });
+        // The centre's matrix is a mean of the corners'.
+        if !is_definite([uu, uv, vv]) {
+            return false;
+        }
+        let reach = |along: DVec3| along.abs().element_sum();
+        if is_definite([uu - reach(along_uu), uv.abs() + reach(along_uv), vv - reach(along_vv)]) {
+            return true;
+        }
+        let sides = [-1.0, 1.0];
+        sides.iter().all(|x| {
+            sides.iter().all(|y| {
+                sides.iter().all(|z| {
+                    let corner = DVec3::new(*x, *y, *z);
+                    is_definite([uu - corner.dot(along_uu), uv - corner.dot(along_uv), vv - corner.dot(along_vv)])
+                })
+            })
         })
     })
 }
 
-/// At most the least value of an entry (0, 1, 2 for `φ_uu`, `φ_uv`, `φ_vv`).
-fn least(hessian: &Field<12>, entry: usize, part: Part, probes: &Probes) -> f64 {
-    least_times(hessian, entry, 1.0, part, probes)
+/// Bounds of the entries `φ_uu`, `φ_uv`, `φ_vv`, up to the weight.
+pub(super) struct Bends {
+    least: [f64; 3],
+    greatest: [f64; 3],
 }
 
-fn least_times(hessian: &Field<12>, entry: usize, factor: f64, part: Part, probes: &Probes) -> f64 {
-    let mut lowest = f64::INFINITY;
-    for coefficients in hessian.on(part) {
-        let slope = glam::DVec3::from_slice(&coefficients[4 * entry + 1..4 * entry + 4]);
-        let middle = factor * (coefficients[4 * entry] - probes.centre.dot(slope));
-        lowest = lowest.min(middle - probes.half.dot(slope.abs()));
+impl Query<'_> {
+    /// Bounds over a part of a piece and all probes.
+    fn bends(&self, piece: &Piece, part: Part) -> Bends {
+        let Field { slack, .. } = piece.hessian;
+        let mut bends = Bends { least: [f64::INFINITY; 3], greatest: [f64::NEG_INFINITY; 3] };
+        for coefficients in piece.hessian.on(part) {
+            for entry in 0..3 {
+                let [value, x, y, z] = std::array::from_fn(|c| coefficients[4 * entry + c]);
+                let slope = DVec3::new(x, y, z);
+                let (middle, reach) = (value - self.probes.centre.dot(slope), self.probes.half.dot(slope.abs()));
+                bends.least[entry] = bends.least[entry].min(middle - reach);
+                bends.greatest[entry] = bends.greatest[entry].max(middle + reach);
+            }
+        }
+        bends.least = bends.least.map(|least| least - slack);
+        bends.greatest = bends.greatest.map(|greatest| greatest + slack);
+        bends
     }
-    lowest - hessian.slack
 }
 
 /// At most the distance of a region from any probe.

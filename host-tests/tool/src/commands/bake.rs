@@ -52,8 +52,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if is_body && (arguments.out.is_some() || arguments.table_report) {
         let options = loaded.body.locator_options().reaching(arguments.margin);
         let bar = progress::work();
-        let all = options.depth + options.deeper;
-        let progress = |depth, _| bar.tell("depths of the octree", depth, all);
+        let progress = |done, all| bar.tell("cells of space", done, all);
         if arguments.table_report {
             let (body, of_locator) = loaded.body.located(&options, &progress)?;
             (loaded.body, report) = (body, Some(of_locator));

@@ -66,7 +66,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
     let options = baked.locator_options().reaching(baked.sizes_beyond(&probes));
     let bar = progress::work();
-    let progress = |depth, _| bar.tell("octree", depth, options.depth);
+    let progress = |done, all| bar.tell("cells of space", done, all);
     let baked = cache::located(baked, &file.text, &options, Some(&probes), &progress)?;
     drop(bar);
     let body = baked.to_body()?;

@@ -60,8 +60,7 @@ impl Felt {
         let baked = BakedBody::new(model, &label)?;
         let options = baked.locator_options();
         let bar = progress::work();
-        let all = options.depth + options.deeper;
-        let progress = |depth, _| bar.tell("depths of the octree", depth, all);
+        let progress = |done, all| bar.tell("cells of space", done, all);
         let baked = cache::located(baked, text, &options, None, &progress)?;
         drop(bar);
         let body: &'static Body = Box::leak(Box::new(baked.to_body()?));

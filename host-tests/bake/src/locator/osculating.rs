@@ -1,0 +1,106 @@
+//! A part of a face as its middle sees it: the surface to second order, for distances that need not be exact.
+
+use super::stored::StoredSurface;
+use glam::DVec3;
+use palpate::math::Vec3;
+
+/// What the surface's third order makes of the distance, relative to what it is at the corners.
+const SAFETY: f64 = 1.5;
+
+/// The surface about the middle of a rectangle of its parameters; lengths in metres.
+pub(super) struct Osculating {
+    pub middle: Vec3,
+    first: [Vec3; 2],
+    /// `f_uu`, `f_uv`, `f_vv`.
+    second: [Vec3; 3],
+    /// From the middle to the rectangle's sides.
+    half: [f32; 2],
+    /// About as far as any point of it is from the middle, rather more.
+    pub radius: f32,
+    /// How far the part may be off.
+    off: f32,
+    /// How far it is from its tangent plane, at most about.
+    sag: f32,
+}
+
+impl Osculating {
+    /// About the middle of a rectangle, which may be a line or a point.
+    pub(super) fn new(surface: &StoredSurface, [low, high]: [[f64; 2]; 2]) -> Self {
+        let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
+        let half = [0, 1].map(|axis| 0.5 * (high[axis] - low[axis]));
+        let here = surface.evaluate(middle);
+        let (mut radius, mut off): (f64, f64) = (0.0, 0.0);
+        for u in [-1.0, 1.0] {
+            for v in [-1.0, 1.0] {
+                let [du, dv] = [u * half[0], v * half[1]];
+                let there = surface.evaluate([middle[0] + du, middle[1] + dv]).point;
+                let bend =
+                    here.second[0] * (0.5 * du * du) + here.second[1] * (du * dv) + here.second[2] * (0.5 * dv * dv);
+                let guess = here.point + here.first[0] * du + here.first[1] * dv + bend;
+                radius = radius.max(there.distance(here.point));
+                off = off.max(there.distance(guess));
+            }
+        }
+        let [uu, uv, vv] = here.second.map(DVec3::length);
+        let sag = 0.5 * uu * half[0] * half[0] + uv * half[0] * half[1] + 0.5 * vv * half[1] * half[1];
+        let single = |vector: DVec3| vector.as_vec3();
+        Self {
+            middle: single(here.point),
+            first: here.first.map(single),
+            second: here.second.map(single),
+            half: half.map(|half| half as f32),
+            radius: (radius + SAFETY * off) as f32,
+            off: (SAFETY * off) as f32,
+            sag: (SAFETY * off + sag) as f32,
+        }
+    }
+
+    /// Whether [`Self::distance`] may be below a distance; quickly.
+    pub(super) fn is_within(&self, distance: f32, probe: Vec3) -> bool {
+        let from = self.middle - probe;
+        let square = from.length_squared();
+        let reach = distance + self.radius;
+        if reach <= 0.0 || square >= reach * reach {
+            return false;
+        }
+        // On the tangent plane the square is at least what it is along its slope, which is steepest at the middle.
+        let falls = from.dot(self.first[0]).abs() * self.half[0] + from.dot(self.first[1]).abs() * self.half[1];
+        let reach = distance + self.sag;
+        square - 2.0 * falls < reach * reach
+    }
+
+    /// About the distance of a probe, rather too little than too much: that of the place where half its square, to
+    /// second order, is least.
+    #[inline]
+    pub(super) fn distance(&self, probe: Vec3) -> f32 {
+        let from = self.middle - probe;
+        let [f_u, f_v] = self.first;
+        let [p, q] = self.first.map(|tangent| from.dot(tangent));
+        let [a, b, c] = [
+            f_u.dot(f_u) + from.dot(self.second[0]),
+            f_u.dot(f_v) + from.dot(self.second[1]),
+            f_v.dot(f_v) + from.dot(self.second[2]),
+        ];
+        let [half_u, half_v] = self.half;
+        let determinant = a * c - b * b;
+        let free = [(b * q - c * p) / determinant, (b * p - a * q) / determinant];
+        if a > 0.0 && determinant > 0.0 && free[0].abs() <= half_u && free[1].abs() <= half_v {
+            return self.square_at(from, free).sqrt() - self.off;
+        }
+        let on_line = |slope: f32, bend: f32, half: f32| {
+            if bend > 0.0 { (-slope / bend).clamp(-half, half) } else { -half * slope.signum() }
+        };
+        let sides = [-1.0, 1.0].map(|side| {
+            let (u, v) = (side * half_u, side * half_v);
+            [[u, on_line(q + b * u, c, half_v)], [on_line(p + b * v, a, half_u), v]]
+        });
+        let squares = sides.iter().flatten().map(|at| self.square_at(from, *at));
+        squares.fold(f32::INFINITY, f32::min).sqrt() - self.off
+    }
+
+    /// The square of the distance of the place at a change of parameters, with `from` from the probe to the middle.
+    fn square_at(&self, from: Vec3, [u, v]: [f32; 2]) -> f32 {
+        let bend = self.second[0] * (0.5 * u * u) + self.second[1] * (u * v) + self.second[2] * (0.5 * v * v);
+        (from + self.first[0] * u + self.first[1] * v + bend).length_squared()
+    }
+}
