@@ -2,7 +2,8 @@
 
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
-    bake, budgets, check, closest, cycles, demo, figures, firmware, image, import, monitor, race, sim, test, zwidth,
+    bake, budgets, check, closest, cycles, demo, figures, firmware, image, import, monitor, parts, race, sim, test,
+    zwidth,
 };
 use std::process::ExitCode;
 
@@ -28,6 +29,7 @@ enum Command {
     Image(image::Arguments),
     Import(import::Arguments),
     Monitor(monitor::Arguments),
+    Parts(parts::Arguments),
     Zwidth(zwidth::Arguments),
     Race(race::Arguments),
 }
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         Command::Image(arguments) => image::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
+        Command::Parts(arguments) => parts::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
         Command::Race(arguments) => race::run(&arguments),
     };

@@ -2,10 +2,10 @@
 
 use super::field::{Part, Probes};
 use super::piece::{Piece, Span};
+use super::rectangle::Rectangle;
 use super::samples::{Sample, Samples};
 use super::seams::{Seams, at_corner};
 use super::stored::StoredSurface;
-use super::unique::Rectangle;
 use crate::BakedPatch;
 use crate::bounds::local_range;
 use crate::tracked::Tracked;

@@ -1,7 +1,8 @@
 //! The list of a cell: what is left of the body, in rectangles that have one minimum each.
 
 use super::faces::{Faces, Query, Region};
-use super::unique::{Minima, Proof, Rectangle, Subject, nearest};
+use super::rectangle::Rectangle;
+use super::unique::{Minima, Proof, Subject, nearest};
 use palpate::body::Candidate;
 use std::cell::RefCell;
 use std::collections::HashMap;

@@ -21,6 +21,7 @@ mod octree;
 mod options;
 mod osculating;
 mod piece;
+mod rectangle;
 mod sampled;
 mod samples;
 mod seams;
@@ -45,9 +46,9 @@ use glam::DVec3;
 use octree::Search;
 
 /// Bakes the locator of a body. `creases` holds for each face the parameters, along `u` and `v`, at which it is only
-/// C⁰. `progress` is told how much of the space is done, in the smallest cells, and how much there is. With `wanted`, only
-/// the lists of these probes' cells are good, and they are those of the whole tables. The same input gives the same
-/// tables on any number of threads.
+/// C⁰. `progress` is told how much of the space is done, in the smallest cells, and how much there is. With `wanted`,
+/// only the lists of these probes' cells are good, and they are those of the whole tables. The same input gives the
+/// same tables on any number of threads.
 ///
 /// # Errors
 /// Where the octree is too large for its indices, see [`LocatorError`].

@@ -4,10 +4,12 @@ use super::faces::{Faces, Query, Reference, Region};
 use super::field::Probes;
 use super::list::{Entry, Lister};
 use super::options::LocatorOptions;
-use super::sampled::{self, Sampler};
+use super::rectangle::Rectangle;
+use super::sampled::{self, Fault, Sampler, Sampling};
 use super::tree::{Child, Kind, Leaf, Octree};
-use super::unique::{Rectangle, nearest};
+use super::unique::nearest;
 use glam::DVec3;
+use palpate::body::{MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -139,15 +141,21 @@ impl<'a> Search<'a> {
             entries = lister.entries(&left);
         }
         let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
-        let is_checked = proved || kind == Kind::Deep;
         // Where much could be lost it is looked for harder.
         let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
-        if !is_checked {
-            let count = self.options.samples * if is_loose { 8 } else { 1 };
-            let mut sampler = Sampler::new(self.faces, probes, &left, &entries, count, [0.2 * tolerance, self.size]);
+        if !proved {
+            let count = self.options.samples * if is_loose && kind != Kind::Deep { 8 } else { 1 };
+            let evaluations = if self.options.convex { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
+            let (tolerance, size) = ((0.2 * tolerance) as f32, self.size as f32);
+            let sampling = Sampling { count, evaluations, tolerance, size };
+            let mut sampler = Sampler::new(self.faces, probes, &left, &entries, sampling);
             for repair in 1..=REPAIRS {
-                let Some(point) = sampler.failure(&entries) else { break };
-                if repair == REPAIRS || !sampled::divide(&mut entries, point) {
+                let Some(fault) = sampler.fault(&entries) else { break };
+                let is_mended = match fault {
+                    Fault::Nearer(point) => repair < REPAIRS && sampled::divide(&mut entries, point),
+                    Fault::Spent => false,
+                };
+                if !is_mended {
                     if depth < self.options.depth + self.options.deeper {
                         return Outcome::Inner(Inherited { regions: left, convex: lister.convex() });
                     }

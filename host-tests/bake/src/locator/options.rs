@@ -19,7 +19,7 @@ pub struct LocatorOptions {
     pub samples: usize,
     /// A rectangle with several minima is good enough if they differ by no more than this in distance.
     pub tolerance: f64,
-    /// Probes that are deeper inside are located coarsely.
+    /// Deeper inside, a short list is good enough without a proof.
     pub inside: f64,
     /// Entries of such a list at most.
     pub deep_entries: usize,

@@ -6,7 +6,7 @@
 use super::faces::{Faces, Region};
 use super::field::Probes;
 use super::list::Entry;
-use super::starts::{Start, Starts};
+use super::starts::Starts;
 use super::tables;
 use crate::random::Random;
 use glam::DVec3;
@@ -22,6 +22,26 @@ const FARTHEST_ABOUT: f64 = 0.5;
 /// The least of them.
 const NEAREST_ABOUT: f64 = 1e-3;
 
+/// What is wrong with a list.
+pub(super) enum Fault {
+    /// A point, of a face at parameters, is nearer than what is found.
+    Nearer((u16, [f64; 2])),
+    /// The evaluations are used up before the nearest is found.
+    Spent,
+}
+
+/// How a list is sampled.
+pub(super) struct Sampling {
+    /// Probes at first.
+    pub count: usize,
+    /// Evaluations that a search may cost.
+    pub evaluations: u16,
+    /// A list fails if it leads to a point so much farther than another that is found, metres.
+    pub tolerance: f32,
+    /// Of the body, metres.
+    pub size: f32,
+}
+
 /// Probes of a cell, and what its list is compared with.
 pub(super) struct Sampler<'a> {
     faces: &'a Faces,
@@ -31,37 +51,45 @@ pub(super) struct Sampler<'a> {
     /// Those that have to pass one after another, the same for every list.
     drawn: Vec<Vec3>,
     next: usize,
+    /// That a search may cost.
+    evaluations: u16,
     /// Metres.
     tolerance: f32,
     size: f32,
 }
 
 impl<'a> Sampler<'a> {
-    /// For `count` probes of a cell. A list fails if it leads to a point more than `tolerance` metres farther than
-    /// another that is found.
+    /// For some probes of a cell.
     pub(super) fn new(
         faces: &'a Faces,
         probes: Probes,
         regions: &[Region<'_>],
         entries: &[Entry],
-        count: usize,
-        [tolerance, size]: [f64; 2],
+        Sampling { count, evaluations, tolerance, size }: Sampling,
     ) -> Self {
-        let [tolerance, size] = [tolerance, size].map(|length| length as f32);
         let mut random = Random::new(7);
         let drawn = (0..count).map(|index| drawn(faces, &probes, entries, index, &mut random)).collect();
-        Self { faces, probes, starts: Starts::new(faces, regions), random, drawn, next: 0, tolerance, size }
+        Self {
+            faces,
+            probes,
+            starts: Starts::new(faces, regions),
+            random,
+            drawn,
+            next: 0,
+            evaluations,
+            tolerance,
+            size,
+        }
     }
 
-    /// The closer point, its face and parameters, for the next probe for which a list fails; `None` once all have
-    /// passed with this list.
+    /// What is wrong with a list for the next probe for which it fails; `None` once all have passed with this list.
     ///
     /// Where one probe failed others near it will: they are added.
-    pub(super) fn failure(&mut self, entries: &[Entry]) -> Option<(u16, [f64; 2])> {
+    pub(super) fn fault(&mut self, entries: &[Entry]) -> Option<Fault> {
         let list: Vec<_> = tables::list(entries).into_iter().map(Candidate::unpack).collect();
         for _ in 0..self.drawn.len() {
             let probe = self.drawn[self.next];
-            if let Some(closer) = self.closer(&list, probe) {
+            if let Some(fault) = self.fault_at(&list, probe) {
                 for _ in 0..ABOUT {
                     let reach = self.probes.half * self.random.scale(NEAREST_ABOUT, FARTHEST_ABOUT);
                     let place = DVec3::from_array(std::array::from_fn(|_| self.random.between(-1.0, 1.0)));
@@ -69,22 +97,22 @@ impl<'a> Sampler<'a> {
                     let about = probe.as_dvec3() + reach * place;
                     self.drawn.push(about.clamp(centre - half, centre + half).as_vec3());
                 }
-                return Some(closer);
+                return Some(fault);
             }
             self.next = (self.next + 1) % self.drawn.len();
         }
         None
     }
 
-    /// A point that is closer to a probe than the one the firmware's search of a list ends with, as
+    /// Why the point that the firmware's search of a list ends with is not the nearest to a probe, as
     /// [`palpate::body::Search`] goes about it.
-    fn closer(&self, list: &[Candidate], probe: Vec3) -> Option<(u16, [f64; 2])> {
-        let (least, start) = self.starts.nearest(probe)?;
-        // The likeliest first: where it ends near enough, the others can only end nearer.
-        let likely = list.iter().position(|candidate| start.is_in(candidate)).unwrap_or(0);
+    fn fault_at(&self, list: &[Candidate], probe: Vec3) -> Option<Fault> {
+        let least = self.starts.nearest(probe)?;
         let mut best = f32::INFINITY;
-        for candidate in std::iter::once(&list[likely]).chain(&list[..likely]).chain(&list[likely + 1..]) {
-            self.descended(candidate, probe, &mut best);
+        let mut left = self.evaluations;
+        for candidate in list {
+            // The nearest first: where it ends near enough, the others can only end nearer.
+            self.descended(candidate, probe, &mut best, &mut left);
             if distance(best) <= least + self.tolerance {
                 return None;
             }
@@ -93,18 +121,24 @@ impl<'a> Sampler<'a> {
         let mut starts = self.starts.nearer(enough, probe);
         // Regions smaller than a step of the grid share their rectangle, and with it the descent.
         starts.dedup_by_key(|(_, start)| start.candidate);
-        starts.iter().take(STARTS).find_map(|(_, Start { candidate, .. })| {
+        let nearer = |candidate: &Candidate| {
             let mut best = f32::INFINITY;
-            let parameters = self.descended(candidate, probe, &mut best);
+            let parameters = self.descended(candidate, probe, &mut best, &mut { u16::MAX });
             (distance(best) < enough).then_some((candidate.face, parameters.map(f64::from)))
-        })
+        };
+        let point = starts.iter().take(STARTS).find_map(|(_, start)| nearer(&start.candidate))?;
+        Some(if left == 0 { Fault::Spent } else { Fault::Nearer(point) })
     }
 
     /// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this
-    /// descent's included.
-    fn descended(&self, candidate: &Candidate, probe: Vec3, best: &mut f32) -> [f32; 2] {
+    /// descent's included; `left` the evaluations that the search may still cost.
+    fn descended(&self, candidate: &Candidate, probe: Vec3, best: &mut f32, left: &mut u16) -> [f32; 2] {
         let mut descending = Descending::new(*candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX);
         loop {
+            if *left == 0 {
+                return descending.parameters;
+            }
+            *left -= 1;
             let face = usize::from(candidate.face);
             let progress = descending.step(&self.faces.tables[face], self.faces.poles(face), probe, *best, self.size);
             *best = best.min(descending.half_squared);

@@ -2,7 +2,7 @@
 
 use super::faces::{Faces, Region};
 use super::osculating::Osculating;
-use super::unique::Rectangle;
+use super::rectangle::Rectangle;
 use palpate::body::{Candidate, GRID};
 use palpate::math::Vec3;
 use std::ops::Range;
@@ -20,7 +20,6 @@ pub(super) struct Starts {
 pub(super) struct Start {
     /// Its rectangle with a step of the grid around it, so that a descent may leave it for a neighbour's minimum.
     pub candidate: Candidate,
-    middle: [f32; 2],
     near: Osculating,
 }
 
@@ -39,8 +38,8 @@ impl Starts {
         Self { starts, groups }
     }
 
-    /// The one that is nearest to a probe, with its distance, metres; `None` if there are none.
-    pub(super) fn nearest(&self, probe: Vec3) -> Option<(f32, &Start)> {
+    /// The distance of the one that is nearest to a probe, metres; `None` if there are none.
+    pub(super) fn nearest(&self, probe: Vec3) -> Option<f32> {
         // A good one first: that with the nearest middle.
         let mut middle: Option<(f32, &Start)> = None;
         for group in &self.groups {
@@ -54,15 +53,12 @@ impl Starts {
             }
         }
         let (_, start) = middle?;
-        let mut nearest = (start.near.distance(probe), start);
+        let mut nearest = start.near.distance(probe);
         for group in &self.groups {
-            if group.is_within(nearest.0, probe) {
+            if group.is_within(nearest, probe) {
                 for start in &self.starts[group.starts.clone()] {
-                    if start.near.is_within(nearest.0, probe) {
-                        let distance = start.near.distance(probe);
-                        if distance < nearest.0 {
-                            nearest = (distance, start);
-                        }
+                    if start.near.is_within(nearest, probe) {
+                        nearest = nearest.min(start.near.distance(probe));
                     }
                 }
             }
@@ -94,16 +90,7 @@ impl Start {
             convex: false,
             more: false,
         };
-        let [low, high] = rectangle;
-        let middle = [0, 1].map(|axis| (0.5 * (low[axis] + high[axis])) as f32);
-        Self { candidate, middle, near: Osculating::new(&faces.surfaces[usize::from(face)], rectangle) }
-    }
-
-    /// Whether a candidate has it.
-    pub(super) fn is_in(&self, candidate: &Candidate) -> bool {
-        let [lower, upper] = candidate.rectangle();
-        let holds = |axis: usize| lower[axis] <= self.middle[axis] && self.middle[axis] <= upper[axis];
-        candidate.face == self.candidate.face && holds(0) && holds(1)
+        Self { candidate, near: Osculating::new(&faces.surfaces[usize::from(face)], rectangle) }
     }
 }
 

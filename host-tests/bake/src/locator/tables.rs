@@ -66,7 +66,7 @@ pub struct LeafCounts {
     pub convex: usize,
     /// Not proved: random probes of the cell found nothing wrong.
     pub sampled: usize,
-    /// Wholly deeper inside than [`LocatorOptions::inside`]: neither proved nor sampled.
+    /// The same, wholly deeper inside than [`LocatorOptions::inside`].
     pub deep: usize,
 }
 

@@ -3,9 +3,10 @@
 use super::faces::{Faces, Query};
 use super::field::{Part, Probes};
 use super::piece::Piece;
+use super::rectangle::Rectangle;
 use super::seams::Seams;
 use super::stored::StoredSurface;
-use super::unique::{Rectangle, Subject};
+use super::unique::Subject;
 use crate::BakedPatch;
 use glam::DVec3;
 use palpate::body::GRID;

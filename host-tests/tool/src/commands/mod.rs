@@ -14,6 +14,7 @@ pub mod import;
 pub mod monitor;
 pub mod options;
 mod output;
+pub mod parts;
 pub mod progress;
 pub mod race;
 pub mod sim;

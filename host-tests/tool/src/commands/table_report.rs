@@ -63,7 +63,7 @@ fn leaves(report: &mut String, locator: &LocatorReport) -> Result<(), Error> {
             "sampled, and wholly outside a convex body: no point that faces the probe is nearest but the closest",
         ),
         ("sampled", sampled, "not proved; random probes found nothing wrong"),
-        ("deep", deep, "deeper inside than a fifth of the size: neither proved nor sampled"),
+        ("deep", deep, "the same, deeper inside than a fifth of the size"),
     ] {
         row(report, &format!("  {kind}"), count, &format!("{}  {meaning}", share(count)))?;
     }

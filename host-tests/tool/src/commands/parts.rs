@@ -1,0 +1,158 @@
+//! `palpate parts`: what CAD parts become, a row each.
+
+use super::check::Loaded;
+use super::output::print;
+use super::progress;
+use crate::closest::Solver;
+use crate::queries;
+use anyhow::{Context as _, ensure};
+use clap::Args;
+use palpate_bake::body::BodyBytes;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Imports and bakes CAD parts, and prints a table with a row for each.
+///
+/// faces and patches; the largest deviation of the patches from the part or the other way; bytes of flash; seconds that
+/// the bake of the locator took; the share of the locator's leaves with a proof of the way down (what the others have,
+/// `bake --table-report` says). Where PART.csv lies beside PART.step, with columns qx,qy,qz,dist,inside, the greatest
+/// error of a cold query's distance and how many rows are told to lie on the wrong side; where PART_track.csv does, the
+/// greatest error of the distance at one tick a row.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The parts: .step or .stp files; models go too
+    #[arg(value_name = "PART.step", required = true)]
+    parts: Vec<PathBuf>,
+}
+
+/// What the columns are called.
+const HEADER: &str = "\
+| part | faces | patches | deviation, mm | flash, bytes | bake, s | proved, % | cold, mm | wrong side | track, mm |
+|---|---|---|---|---|---|---|---|---|---|
+";
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    print(HEADER.as_bytes())?;
+    for part in &arguments.parts {
+        print(row(part)?.as_bytes())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn row(part: &Path) -> anyhow::Result<String> {
+    let mut loaded = Loaded::read(part)?;
+    let options = loaded.body.locator_options();
+    let bar = progress::work();
+    let begun = Instant::now();
+    let (body, report) =
+        loaded.body.located(&options, &|done, all| bar.tell("cells of space", done, all)).context("no locator")?;
+    let seconds = begun.elapsed().as_secs_f64();
+    drop(bar);
+    loaded.body = body;
+    let name = part.file_stem().unwrap_or(part.as_os_str()).to_string_lossy();
+    let faces = said(&loaded.file.text, " faces (").map_or_else(|| "–".to_owned(), |number| format!("{number:.0}"));
+    let deviations = ["patches from part ", "part from patches "].map(|way| after(&loaded.file.text, way));
+    let deviation = deviations.into_iter().flatten().reduce(f64::max);
+    let proved = 100.0 * report.leaves_by.proved as f64 / report.leaves as f64;
+    let mut row = format!(
+        "| {name} | {faces} | {} | {} | {} | {seconds:.1} | {proved:.0} |",
+        loaded.model.patches.len(),
+        deviation.map_or_else(|| "–".to_owned(), |deviation| format!("{deviation:.4}")),
+        BodyBytes::of(&loaded.body).total(),
+    );
+    let cold = errors(&loaded, &part.with_extension("csv"), Mode::Cold)?;
+    let track = errors(&loaded, &part.with_file_name(format!("{name}_track.csv")), Mode::Track)?;
+    match cold {
+        Some(Errors { greatest, wrong_side }) => write!(row, " {greatest:.4} | {wrong_side} |")?,
+        None => row.push_str(" – | – |"),
+    }
+    match track {
+        Some(Errors { greatest, .. }) => writeln!(row, " {greatest:.4} |")?,
+        None => row.push_str(" – |\n"),
+    }
+    Ok(row)
+}
+
+/// The number before some words of a model's first lines.
+fn said(text: &str, words: &str) -> Option<f64> {
+    let line = text.lines().take_while(|line| line.starts_with('#')).find(|line| line.contains(words))?;
+    line.split(words).next()?.rsplit(' ').next()?.parse().ok()
+}
+
+/// The number behind some words of a model's first lines.
+fn after(text: &str, words: &str) -> Option<f64> {
+    let line = text.lines().take_while(|line| line.starts_with('#')).find(|line| line.contains(words))?;
+    line.split(words).nth(1)?.split(' ').next()?.parse().ok()
+}
+
+#[derive(Clone, Copy)]
+enum Mode {
+    Cold,
+    Track,
+}
+
+/// How far answers are off.
+struct Errors {
+    /// Of a distance, in the model's unit.
+    greatest: f64,
+    /// Rows that are told to lie on the other side, of those that are farther from the surface than the greatest error.
+    wrong_side: usize,
+}
+
+/// The firmware's answers beside the distances of a file, if it is there.
+fn errors(loaded: &Loaded, path: &Path, mode: Mode) -> anyhow::Result<Option<Errors>> {
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let queries = queries::read(path, &loaded.model)?;
+    let known = known(path)?;
+    ensure!(queries.len() == known.len(), "{}: rows without a distance", path.display());
+    let body = loaded.body.to_body()?;
+    let solver = Solver::new(&body, &loaded.body);
+    let per_metre = loaded.model.unit.per_metre();
+    let mut state = None;
+    let mut greatest: f64 = 0.0;
+    let mut sides = Vec::new();
+    for (query, (distance, inside)) in queries.iter().zip(known) {
+        let found = match (mode, &mut state) {
+            (Mode::Track, Some(state)) => solver.track(state, query.probe, 1),
+            _ => {
+                let (found, start) = solver.cold(query.probe);
+                state = Some(start);
+                found
+            }
+        };
+        let point = (found.point.as_dvec3() + loaded.model.centre) * per_metre;
+        greatest = greatest.max((point.distance(query.given) - distance).abs());
+        if inside.is_some_and(|inside| inside != found.is_inside) {
+            sides.push(distance);
+        }
+    }
+    let wrong_side = sides.into_iter().filter(|distance| *distance > greatest).count();
+    Ok(Some(Errors { greatest, wrong_side }))
+}
+
+/// The columns `dist` and `inside`, which may be empty.
+fn known(path: &Path) -> anyhow::Result<Vec<(f64, Option<bool>)>> {
+    let file = path.display();
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).with_context(|| file.to_string())?;
+    let header = reader.headers().with_context(|| file.to_string())?.clone();
+    let column = |name: &str| header.iter().position(|field| field == name);
+    let distance = column("dist").with_context(|| format!("{file}: no column dist"))?;
+    let inside = column("inside");
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.with_context(|| file.to_string())?;
+        let field = record.get(distance).unwrap_or_default();
+        let side = inside.and_then(|inside| record.get(inside)).filter(|side| !side.is_empty());
+        let distance = field.parse().with_context(|| format!("{file}: dist is \"{field}\", not a number"))?;
+        rows.push((distance, side.map(|side| side == "1")));
+    }
+    Ok(rows)
+}
