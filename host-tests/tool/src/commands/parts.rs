@@ -113,8 +113,12 @@ fn errors(loaded: &Loaded, path: &Path, mode: Mode) -> anyhow::Result<Option<Err
     let queries = queries::read(path, &loaded.model)?;
     let known = known(path)?;
     ensure!(queries.len() == known.len(), "{}: rows without a distance", path.display());
-    let body = loaded.body.to_body()?;
-    let solver = Solver::new(&body, &loaded.body);
+    // As `closest` does it: the tables reach as far as the queries do.
+    let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
+    let options = loaded.body.locator_options().reaching(loaded.body.sizes_beyond(&probes));
+    let baked = loaded.body.clone().located_for(&probes, &options, &|_, _| ())?;
+    let body = baked.to_body()?;
+    let solver = Solver::new(&body, &baked);
     let per_metre = loaded.model.unit.per_metre();
     let mut state = None;
     let mut greatest: f64 = 0.0;
