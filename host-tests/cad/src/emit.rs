@@ -30,14 +30,15 @@ pub fn toml(part: &Part, made: &[Made], header: &[String]) -> String {
 
 /// The names of the patches: their face's, with a number where it has more than one.
 pub fn names(part: &Part, made: &[Made]) -> Vec<String> {
-    let mut counts: HashMap<usize, usize> = HashMap::new();
-    made.iter().for_each(|made| *counts.entry(made.face).or_insert(0) += 1);
-    let mut next: HashMap<usize, usize> = HashMap::new();
+    let own = |made: &Made| part.faces[made.face].name.as_str();
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    made.iter().for_each(|made| *counts.entry(own(made)).or_insert(0) += 1);
+    let mut next: HashMap<&str, usize> = HashMap::new();
     let name = |made: &Made| {
-        let name = &part.faces[made.face].name;
-        let number = next.entry(made.face).or_insert(0);
+        let name = own(made);
+        let number = next.entry(name).or_insert(0);
         *number += 1;
-        if counts[&made.face] == 1 { name.clone() } else { format!("{name}/{number}") }
+        if counts[name] == 1 { name.to_owned() } else { format!("{name}/{number}") }
     };
     made.iter().map(name).collect()
 }

@@ -7,7 +7,7 @@ use crate::measure::{self, Measured};
 use crate::mesh::Mesh;
 use crate::part::Part;
 use crate::patches::{self, Made, SHARE_OF_EDGES};
-use crate::{divide, emit, heal, outline, picture, read, report, trace};
+use crate::{divide, emit, heal, outline, picture, read, report, spheres, trace};
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -61,7 +61,7 @@ pub struct Imported {
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut part = read::read(path, options.solid.as_deref())?;
     heal::take_out_seams(&mut part);
-    heal::turn_spheres(&mut part);
+    spheres::without_poles(&mut part);
     let mut mesh = outlined(&part, options.tolerance)?;
     divide::balance::balance(&mut mesh);
     divide::parity::even(&mut mesh)?;

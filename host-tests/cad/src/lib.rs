@@ -27,6 +27,7 @@ mod project;
 mod proof;
 mod read;
 mod report;
+mod spheres;
 mod strips;
 mod trace;
 

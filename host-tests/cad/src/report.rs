@@ -9,7 +9,9 @@ use std::collections::BTreeMap;
 pub fn lines(mesh: &Mesh<'_>, made: &[Made], measured: &Measured, tolerance: f64) -> Vec<String> {
     let part = mesh.part;
     let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
-    part.faces.iter().for_each(|face| *kinds.entry(face.kind).or_insert(0) += 1);
+    // A face that was divided counts once.
+    let faces: BTreeMap<&str, &str> = part.faces.iter().map(|face| (face.name.as_str(), face.kind)).collect();
+    faces.values().for_each(|kind| *kinds.entry(kind).or_insert(0) += 1);
     let kinds: Vec<String> = kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
     let mut solids = part.solids.clone();
     solids.dedup();
@@ -18,7 +20,7 @@ pub fn lines(mesh: &Mesh<'_>, made: &[Made], measured: &Measured, tolerance: f64
         format!("imported from a STEP file: {}, within {tolerance} mm", solids.join(", ")),
         format!(
             "{} faces ({}): {} patches, {} control points",
-            part.faces.len(),
+            faces.len(),
             kinds.join(", "),
             made.len(),
             points(made)
