@@ -1,7 +1,8 @@
 //! How far the result is from the part, both ways; volume and area beside the part's.
 
 use crate::bezier::Bezier;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Side};
+use crate::nurbs::Surface;
 use crate::outline::contains;
 use crate::patches::Made;
 use glam::{DVec2, DVec3};
@@ -94,7 +95,7 @@ fn back(mesh: &Mesh<'_>, face: usize, made: &[Made], near: f64) -> f64 {
     let polygons: Vec<Vec<DVec2>> = mesh.regions[face]
         .loops
         .iter()
-        .map(|sides| sides.iter().flat_map(|side| side.path.polyline().collect::<Vec<_>>()).collect())
+        .map(|sides| sides.iter().flat_map(|side| outlined(surface, side, near)).collect())
         .collect();
     let own: Vec<&Bezier> = made.iter().filter(|made| made.face == face).map(|made| &made.bezier).collect();
     let mut table: Vec<(DVec3, usize, [f64; 2])> = Vec::new();
@@ -150,6 +151,22 @@ fn back(mesh: &Mesh<'_>, face: usize, made: &[Made], near: f64) -> f64 {
     let start = (worst.0, (worst.1 - low) / scale);
     let outside = |at: DVec2| if is_inside(low + at * scale) { distance(low + at * scale) } else { 0.0 };
     climb(start, 1.0 / ON_FACE as f64, &outside, &|at| at)
+}
+
+/// Points along a side, all but the last, so many that no straight line between two is farther off than `near`,
+/// millimetres.
+fn outlined(surface: &Surface, side: &Side, near: f64) -> Vec<DVec2> {
+    const COARSE: usize = 16;
+    const MOST: f64 = 64.0;
+    let at = |k: usize, count: usize| side.path.at(k as f64 / count as f64);
+    let sag = (0..COARSE).map(|k| {
+        let middle = at(2 * k + 1, 2 * COARSE);
+        surface.at(middle).point.distance(surface.at(at(k, COARSE).midpoint(at(k + 1, COARSE))).point)
+    });
+    // The sag falls with the square of the step.
+    let finer = (sag.fold(0.0, f64::max) / near).sqrt().ceil().clamp(1.0, MOST);
+    let count = COARSE * finer as usize;
+    (0..count).map(|k| at(k, count)).collect()
 }
 
 /// Areas and volumes by Gauss's quadrature, eight by eight: exact for the volume of the patches. The part's edges bend
