@@ -1,18 +1,9 @@
 //! The quads that could stand on a side.
 
-use super::plane::Plane;
+use super::plane::{Edge, Plane};
 use super::quality;
 use glam::DVec2;
 use std::collections::HashMap;
-
-/// A directed side that needs a quad on its left: of the outline, or a line between two vertices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Edge {
-    /// A side of the outline.
-    Border(usize),
-    /// A straight line.
-    Line(usize, usize),
-}
 
 /// A quad: its corners, its sides from each corner to the next, and what it costs.
 #[derive(Clone, Debug)]
@@ -99,7 +90,8 @@ impl<'p> Candidates<'p> {
                         continue;
                     }
                     let (corners, edges) = ([a, b, c, d], [edge, second, third, fourth]);
-                    let Some(cost) = quality::cost(&|s, t| self.map(&edges, s, t)) else { continue };
+                    let map = |s: f64, t: f64| self.plane.quad_at(&edges, &corners, s, t);
+                    let Some(cost) = quality::cost(&map) else { continue };
                     if self.is_empty(&corners, &edges) {
                         found.push(Candidate { corners, edges, cost });
                     }
@@ -127,41 +119,13 @@ impl<'p> Candidates<'p> {
     fn slope(&self, edge: Edge, t: f64) -> DVec2 {
         let step = 1e-3;
         let (low, high) = if t < 0.5 { (0.0, step) } else { (1.0 - step, 1.0) };
-        self.point(edge, high) - self.point(edge, low)
-    }
-
-    /// A point of an edge, of its parameter beyond the ends too.
-    pub fn point(&self, edge: Edge, t: f64) -> DVec2 {
-        let line = |a: DVec2, b: DVec2, t: f64| a + (b - a) * t;
-        match edge {
-            Edge::Line(a, b) => line(self.plane.vertices[a].point, self.plane.vertices[b].point, t),
-            Edge::Border(index) => {
-                let points = &self.plane.borders[index].points;
-                let x = t * (points.len() - 1) as f64;
-                let k = (x.floor().max(0.0) as usize).min(points.len() - 2);
-                line(points[k], points[k + 1], x - k as f64)
-            }
-        }
-    }
-
-    fn map(&self, edges: &[Edge; 4], s: f64, t: f64) -> DVec2 {
-        let [bottom, right, top, left] = *edges;
-        let corner = |k: usize| self.plane.vertices[self.ends(edges[k])[0]].point;
-        let ruled = self.point(bottom, s) * (1.0 - t)
-            + self.point(top, 1.0 - s) * t
-            + self.point(left, 1.0 - t) * (1.0 - s)
-            + self.point(right, t) * s;
-        let corners = corner(0) * ((1.0 - s) * (1.0 - t))
-            + corner(1) * (s * (1.0 - t))
-            + corner(2) * (s * t)
-            + corner(3) * ((1.0 - s) * t);
-        ruled - corners
+        self.plane.point(edge, high) - self.plane.point(edge, low)
     }
 
     /// Whether no vertex of the outline lies inside.
     fn is_empty(&self, corners: &[usize; 4], edges: &[Edge; 4]) -> bool {
         let polygon: Vec<DVec2> =
-            edges.iter().flat_map(|edge| (0..12).map(|k| self.point(*edge, f64::from(k) / 12.0))).collect();
+            edges.iter().flat_map(|edge| (0..12).map(|k| self.plane.point(*edge, f64::from(k) / 12.0))).collect();
         let outline = self.plane.vertices.iter().enumerate().filter(|(_, vertex)| vertex.node.is_some());
         outline
             .filter(|(index, _)| !corners.contains(index))

@@ -36,6 +36,13 @@ impl Shape {
     }
 }
 
+/// Whether a region has three sides, and a corner between any two of them.
+pub fn is_triangle(mesh: &Mesh<'_>, face: usize) -> bool {
+    let loops = &mesh.regions[face].loops;
+    let has_three = loops.len() == 1 && loops[0].len() == 3 && loops[0].iter().all(|side| side.wire.is_some());
+    has_three && angles(mesh, face).into_iter().all(|angle| angle < CORNER)
+}
+
 /// The inner angle where each side of the outer outline begins, radians: in space, of the tangents there.
 pub fn angles(mesh: &Mesh<'_>, face: usize) -> Vec<f64> {
     let surface = &mesh.part.faces[face].surface;

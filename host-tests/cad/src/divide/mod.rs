@@ -1,7 +1,8 @@
 //! Regions into quads.
 //!
 //! A region with four corners and as many cuts on opposite sides becomes a grid ([`grid`]); any other is tiled by a
-//! search among all quads between its corners and a few points inside ([`tiling`]). Before that, cuts are handed on
+//! search among all quads between its corners and a few points inside ([`tiling`]), behind a ring of quads if need be
+//! ([`ring`]). Before that, cuts are handed on
 //! from side to side ([`balance`]) and made even in number ([`parity`]).
 
 pub mod balance;
@@ -11,6 +12,7 @@ pub mod grid;
 pub mod parity;
 mod plane;
 mod quality;
+mod ring;
 mod steiner;
 pub mod tiling;
 
@@ -43,6 +45,10 @@ pub fn divide(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
 /// A region of three sides, or two, gets a side of no length at its sharpest corners.
 fn close_triangle(mesh: &mut Mesh<'_>, face: usize) {
     while mesh.regions[face].loops.len() == 1 && (2..4).contains(&mesh.regions[face].loops[0].len()) {
+        let all = mesh.regions[face].loops[0].iter().all(|side| side.wire.is_some());
+        if all && mesh.regions[face].loops[0].len() == 3 && !corners::is_triangle(mesh, face) {
+            return;
+        }
         let angles = corners::angles(mesh, face);
         let sides = &mut mesh.regions[face].loops[0];
         let is_pole = |k: usize| sides[k].wire.is_none() || sides[(k + sides.len() - 1) % sides.len()].wire.is_none();

@@ -5,7 +5,7 @@
 //! even.
 
 use super::balance;
-use super::corners::{Shape, four};
+use super::corners::{Shape, four, is_triangle};
 use crate::error::ImportError;
 use crate::mesh::Mesh;
 use std::collections::{HashMap, VecDeque};
@@ -55,11 +55,6 @@ fn halve_triangle(mesh: &mut Mesh<'_>, face: usize) {
             mesh.cut(wire, &at);
         }
     }
-}
-
-fn is_triangle(mesh: &Mesh<'_>, face: usize) -> bool {
-    let loops = &mesh.regions[face].loops;
-    loops.len() == 1 && loops[0].len() == 3 && loops[0].iter().all(|side| side.wire.is_some())
 }
 
 /// Whether a region has an odd number of sides and is no triangle, which becomes a quad with a side of no length.
@@ -140,7 +135,7 @@ fn ends_in_pole(mesh: &Mesh<'_>, face: usize, entered: Option<usize>) -> bool {
 /// The wires by which a way may leave a face: of one with four corners, those opposite.
 fn exits(mesh: &Mesh<'_>, face: usize, entered: Option<usize>) -> Vec<usize> {
     let loops = &mesh.regions[face].loops;
-    if entered.is_some() && loops.len() == 1 && loops[0].len() == 3 {
+    if entered.is_some() && is_triangle(mesh, face) {
         // A triangle would become a pentagon.
         return Vec::new();
     }

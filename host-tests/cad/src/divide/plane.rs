@@ -28,6 +28,15 @@ pub struct Border {
     pub place: [usize; 2],
 }
 
+/// A directed side that needs a quad on its left: of the outline, or a line between two vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Edge {
+    /// A side of the outline.
+    Border(usize),
+    /// A straight line.
+    Line(usize, usize),
+}
+
 /// A vertex in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Vertex {
@@ -101,6 +110,46 @@ impl Plane {
             })
         };
         !self.borders.iter().any(touches)
+    }
+
+    /// Whether no two sides cross.
+    pub fn is_simple(&self) -> bool {
+        self.borders.iter().enumerate().all(|(index, border)| {
+            self.borders[index + 1..].iter().all(|other| {
+                let is_next = border.ends.iter().any(|end| other.ends.contains(end));
+                let pairs = || border.points.windows(2).flat_map(|a| other.points.windows(2).map(move |b| (a, b)));
+                is_next || !pairs().any(|(a, b)| crate::outline::meet([a[0], a[1]], [b[0], b[1]]))
+            })
+        })
+    }
+
+    /// A point of an edge, of its parameter beyond the ends too.
+    pub fn point(&self, edge: Edge, t: f64) -> DVec2 {
+        let line = |a: DVec2, b: DVec2, t: f64| a + (b - a) * t;
+        match edge {
+            Edge::Line(a, b) => line(self.vertices[a].point, self.vertices[b].point, t),
+            Edge::Border(index) => {
+                let points = &self.borders[index].points;
+                let x = t * (points.len() - 1) as f64;
+                let k = (x.floor().max(0.0) as usize).min(points.len() - 2);
+                line(points[k], points[k + 1], x - k as f64)
+            }
+        }
+    }
+
+    /// A point of a quad, by Coons's map over its edges.
+    pub fn quad_at(&self, edges: &[Edge; 4], corners: &[usize; 4], s: f64, t: f64) -> DVec2 {
+        let [bottom, right, top, left] = *edges;
+        let corner = |k: usize| self.vertices[corners[k]].point;
+        let ruled = self.point(bottom, s) * (1.0 - t)
+            + self.point(top, 1.0 - s) * t
+            + self.point(left, 1.0 - t) * (1.0 - s)
+            + self.point(right, t) * s;
+        let bilinear = corner(0) * ((1.0 - s) * (1.0 - t))
+            + corner(1) * (s * (1.0 - t))
+            + corner(2) * (s * t)
+            + corner(3) * ((1.0 - s) * t);
+        ruled - bilinear
     }
 
     /// Whether a direction points into the region at a vertex, five degrees at least from both sides there.

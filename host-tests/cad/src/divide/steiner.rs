@@ -54,7 +54,7 @@ pub fn vertices(points: Vec<DVec2>) -> impl Iterator<Item = Vertex> {
 }
 
 /// How far a ray goes before it meets the outline.
-fn hit(plane: &Plane, from: DVec2, way: DVec2) -> Option<f64> {
+pub fn hit(plane: &Plane, from: DVec2, way: DVec2) -> Option<f64> {
     let mut least = f64::INFINITY;
     for pair in plane.borders.iter().flat_map(|border| border.points.windows(2)) {
         let (a, b) = (pair[0] - from, pair[1] - from);

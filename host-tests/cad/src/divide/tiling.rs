@@ -5,8 +5,9 @@
 //! the fewest quads to choose from goes first, and what costs more than the best tiling so far is left. Without points
 //! inside there are `V/2 + h − 1` quads for `V` vertices and `h` holes; each point inside is one more.
 
-use super::candidates::{Candidate, Candidates, Edge};
-use super::plane::{Plane, scale};
+use super::candidates::{Candidate, Candidates};
+use super::plane::{Edge, Plane, scale};
+use super::ring::Ring;
 use super::steiner;
 use crate::error::ImportError;
 use crate::mesh::{Mesh, Quad, Side};
@@ -54,7 +55,8 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError>
             break;
         }
     }
-    let Some((_, mut plane, found)) = best else {
+    let found = best.map(|(_, plane, found)| (plane, found)).or_else(|| behind_a_ring(&plane));
+    let Some((mut plane, found)) = found else {
         let count = mesh.regions[face].loops.iter().map(Vec::len).sum::<usize>();
         let reason = format!(
             "no division into quads was found for its outline of {count} sides ({})",
@@ -64,6 +66,23 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError>
     };
     smooth(&mut plane, &found);
     Ok(build(mesh, face, scale, &plane, &found))
+}
+
+/// A ring along the outline, and what is left tiled by itself.
+fn behind_a_ring(outline: &Plane) -> Option<(Plane, Vec<Candidate>)> {
+    for depth in [0.3, 0.2, 0.4, 0.12] {
+        let Some(mut ring) = Ring::new(outline, depth) else { continue };
+        let bare = ring.within.clone();
+        for inside in 0..4 {
+            let points = steiner::middles(&bare, inside);
+            ring.within = bare.clone();
+            ring.within.vertices.extend(steiner::vertices(points));
+            if let Some((_, found)) = Search::new(&ring.within, TRIES).run(f64::INFINITY) {
+                return Some(ring.joined(&found));
+            }
+        }
+    }
+    None
 }
 
 struct Search<'p> {
@@ -173,7 +192,7 @@ impl<'p> Search<'p> {
         let polygon: Vec<DVec2> = candidate
             .edges
             .iter()
-            .flat_map(|edge| (0..6).map(|k| self.candidates.point(*edge, f64::from(k) / 6.0)))
+            .flat_map(|edge| (0..6).map(|k| self.candidates.plane.point(*edge, f64::from(k) / 6.0)))
             .collect();
         used.iter().any(|k| crate::outline::contains(&polygon, self.candidates.plane.vertices[*k].point))
     }
@@ -208,28 +227,7 @@ fn smooth(plane: &mut Plane, quads: &[Candidate]) {
 }
 
 fn cost_of(plane: &Plane, quad: &Candidate) -> f64 {
-    let point = |edge: Edge, t: f64| match edge {
-        Edge::Line(a, b) => {
-            let (a, b) = (plane.vertices[a].point, plane.vertices[b].point);
-            a + (b - a) * t
-        }
-        Edge::Border(index) => {
-            let points = &plane.borders[index].points;
-            let x = t * (points.len() - 1) as f64;
-            let k = (x.floor().max(0.0) as usize).min(points.len() - 2);
-            points[k] + (points[k + 1] - points[k]) * (x - k as f64)
-        }
-    };
-    let [bottom, right, top, left] = quad.edges;
-    let corner = |k: usize| plane.vertices[quad.corners[k]].point;
-    let map = |s: f64, t: f64| {
-        point(bottom, s) * (1.0 - t) + point(top, 1.0 - s) * t + point(left, 1.0 - t) * (1.0 - s) + point(right, t) * s
-            - corner(0) * ((1.0 - s) * (1.0 - t))
-            - corner(1) * (s * (1.0 - t))
-            - corner(2) * (s * t)
-            - corner(3) * ((1.0 - s) * t)
-    };
-    super::quality::cost(&map).unwrap_or(100.0)
+    super::quality::cost(&|s, t| plane.quad_at(&quad.edges, &quad.corners, s, t)).unwrap_or(100.0)
 }
 
 /// Nodes, wires and sides of the quads that were found.
