@@ -29,12 +29,19 @@ impl SpanGrid {
     /// [`super::Patch::beyond_knots`], with the spans that the evaluation takes.
     #[inline(never)]
     pub fn beyond_borders(&self, from: [f32; 2], to: [f32; 2]) -> [f32; 2] {
-        let along = |borders: &'static [f32], from: f32, to: f32| {
-            let (left, reached) = (locate(borders, from).0, locate(borders, to).0);
-            if left == reached { 0.0 } else { beyond(borders, left, reached, to) }
+        let along = |borders: &'static [f32], from: f32, to: f32| match guess(borders, from) {
+            (_, Some([left, right])) if *left <= to && to <= *right => 0.0,
+            (span, Some(_)) => beyond_span(borders, span, to),
+            (_, None) => beyond_span(borders, bisect(borders, from).0, to),
         };
         [along(self.breaks_u, from[0], to[0]), along(self.breaks_v, from[1], to[1])]
     }
+}
+
+/// [`beyond`] from a span that most often does not hold `to`.
+#[inline(never)]
+fn beyond_span(borders: &[f32], left: usize, to: f32) -> f32 {
+    beyond(borders, left, locate(borders, to).0, to)
 }
 
 /// The squares of how far `to` lies beyond the borders between two spans, and their sum.
@@ -49,17 +56,21 @@ pub(crate) fn beyond(borders: &[f32], left: usize, reached: usize, to: f32) -> f
 /// either of the two.
 #[inline(always)]
 fn locate(borders: &[f32], parameter: f32) -> (usize, f32) {
-    let spans = borders.len() - 1;
-    // Right where the borders are even, which is most often.
-    let guess = ((parameter * spans as f32) as usize).min(spans - 1);
-    let at = |span: usize| match borders.get(span..).and_then(|rest| rest.first_chunk()) {
-        Some([left, right]) if *left <= parameter && parameter <= *right => Some(span_centre(*left, *right)),
-        _ => None,
-    };
-    match at(guess) {
-        Some(centre) => (guess, parameter - centre),
-        None => bisect(borders, parameter),
+    match guess(borders, parameter) {
+        (span, Some([left, right])) => (span, parameter - span_centre(*left, *right)),
+        (_, None) => bisect(borders, parameter),
     }
+}
+
+/// The span that would hold `parameter` where the borders are even, which is most often, and its borders if it does.
+#[inline(always)]
+fn guess(borders: &[f32], parameter: f32) -> (usize, Option<&[f32; 2]>) {
+    // At most 256. As 32 bits with a sign: of 64 without one the host's conversions are long.
+    let spans = borders.len() - 1;
+    let even = (parameter * (spans as i32) as f32) as i32;
+    let span = (even.cast_unsigned() as usize).min(spans - 1);
+    let ends = borders.get(span..).and_then(|rest| rest.first_chunk());
+    (span, ends.filter(|[left, right]| *left <= parameter && parameter <= *right))
 }
 
 /// Bisection: at most log2([`MAX_SPANS`]) rounds. A parameter beyond the borders is in the first or last span.
