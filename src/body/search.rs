@@ -78,19 +78,20 @@ impl Search {
             return;
         }
         let Candidate { face, more, .. } = self.descending.candidate;
+        let Some(Face { patch, .. }) = body.faces.get(usize::from(face)) else {
+            self.ended = Some(false);
+            return;
+        };
         if !self.descending.has_evaluated() {
-            match body.faces.get(usize::from(face)) {
-                Some(on) => self.descending.evaluate(&on.patch, probe),
-                None => self.ended = Some(false),
-            }
+            self.descending.evaluate(patch, probe);
             self.evaluations += 1;
             return;
         }
         let known = self.best.half_squared;
         let progress = if body.has_poles {
-            self.descending.judge_beside(body.poles_of(face), known, body.size)
+            self.descending.judge_beside(patch, body.poles_of(face), known, body.size)
         } else {
-            self.descending.judge(known, body.size)
+            self.descending.judge(patch, known, body.size)
         };
         if progress == Judgement::Exhausted {
             self.exhausted = true;

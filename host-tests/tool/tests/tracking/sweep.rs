@@ -27,7 +27,8 @@ const STEP_LIMIT: usize = 20_000;
 const DISTANCE_TOLERANCE: f64 = 1e-5;
 /// Rounding of the evaluations at both ends of a step, in units in the last place of the coordinates or the size.
 /// Horner's rule at degrees (5, 5) rounds 2 · (5 + 5) times, by half a unit of partial sums up to twice the result, and
-/// the division by the weight doubles that: at most 40 at each end.
+/// the division by the weight doubles that: at most 40 at each end. The longer a step, the less its ends round alike: of
+/// 10⁸ the law of first order lets `V` rise by 38 at most, that of second order by 48.
 const RISE_ULPS: f64 = 80.0;
 
 #[derive(Default)]
@@ -205,9 +206,8 @@ fn sweep(controller: &Controller, law: &str) {
         for (to, count) in row.iter().enumerate().skip(1) {
             // A witness point held at one side is not at the opposite one a step later.
             let opposite = matches!((from, to), (1, 2) | (2, 1) | (3, 4) | (4, 3));
-            let is_first_order = *controller == Controller::CERTIFIED;
-            assert!(*count > 0 || opposite || !is_first_order, "from mode {from} to mode {to} never");
-            assert!(*count == 0 || !opposite || !is_first_order, "from mode {from} to mode {to}: {count} times");
+            assert!(*count > 0 || opposite, "from mode {from} to mode {to} never");
+            assert!(*count == 0 || !opposite, "from mode {from} to mode {to}: {count} times");
         }
     }
     assert!(counts.rise_ulps <= RISE_ULPS, "V rose by {} ulp", counts.rise_ulps);
