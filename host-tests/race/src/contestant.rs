@@ -18,6 +18,7 @@ pub enum Answer {
     /// `(u, v)` of the closest point.
     Parameters([f64; 2]),
     /// The closest point, metres.
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers say no more"))]
     Point([f64; 3]),
 }
 

@@ -32,6 +32,8 @@ pub fn track() -> Vec<(&'static str, Enter)> {
     let mut entries: Vec<(&'static str, Enter)> = vec![
         ("call", nobody),
         ("palpate", ours::track),
+        ("palpate-settled", ours::track_settled),
+        ("palpate-first-order", ours::track_to_first_order),
         ("newton-one-step", newton::one_step),
         ("newton", newton::track),
         ("newton-safeguarded", newton::track_safeguarded),

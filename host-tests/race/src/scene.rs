@@ -5,7 +5,9 @@ use crate::contestant::Probe;
 use anyhow::{Context as _, ensure};
 use palpate::body::{Body, Edge, EdgeFace, EdgeKind, Face, Locator, Separator, Side, SplineCurve, Vertex};
 use palpate::math::Vec3;
-use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+use palpate::patch::{
+    Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, ThirdDerivativeBounds,
+};
 use std::collections::HashMap;
 use std::fs;
 use std::str::FromStr;
@@ -50,15 +52,17 @@ impl Scene {
         let points: Vec<[f64; 3]> = triples(&doubles("points")?);
         let breaks = [singles("breaks_u")?, singles("breaks_v")?];
         let coefficients: &'static [[f32; 3]] = triples(singles("coefficients")?).leak();
-        let bounds = singles("bounds")?;
-        let [uu, uv, vv] = *bounds else { anyhow::bail!("bounds: three are needed") };
+        let [uu, uv, vv] = exactly(&lines, "second_derivatives")?;
+        let [uuu, uuv, uvv, vvv] = exactly(&lines, "third_derivatives")?;
+        let [jump_uu, jump_vv] = exactly(&lines, "jumps")?;
+        let third_derivatives = ThirdDerivativeBounds { uuu, uuv, uvv, vvv, jump_uu, jump_vv };
         let size = *singles("size")?.first().context("size")?;
         let patch = SplinePatch::try_new(
             [2, 2],
             breaks[0],
             breaks[1],
             Coefficients::Polynomial(coefficients),
-            ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }),
+            ShapeBounds { third_derivatives, ..ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }) },
             Orientation::Outward,
             size,
         )?;
@@ -80,8 +84,7 @@ impl Scene {
 }
 
 fn body(patch: SplinePatch, size: f32, lines: &HashMap<&str, &str>) -> anyhow::Result<Body> {
-    let cube = numbers::<f32>(lines, "cube")?;
-    let [x, y, z, side] = cube[..] else { anyhow::bail!("cube: four numbers are needed") };
+    let [x, y, z, side] = exactly(lines, "cube")?;
     let nodes: Vec<[u16; 8]> = numbers::<u16>(lines, "nodes")?.as_chunks().0.to_vec();
     let entries = numbers::<u32>(lines, "entries")?.leak();
     let locator = Locator { corner: Vec3::new(x, y, z), side, nodes: nodes.leak(), entries };
@@ -112,6 +115,11 @@ fn numbers<T: FromStr>(lines: &HashMap<&str, &str>, key: &str) -> anyhow::Result
     let line = lines.get(key).with_context(|| format!("no line {key}"))?;
     let number = |word: &str| word.parse::<T>().ok().with_context(|| format!("{key}: {word} is not a number"));
     line.split_whitespace().map(number).collect()
+}
+
+fn exactly<const N: usize>(lines: &HashMap<&str, &str>, key: &str) -> anyhow::Result<[f32; N]> {
+    let all = numbers(lines, key)?;
+    all.try_into().ok().with_context(|| format!("{key}: {N} numbers are needed"))
 }
 
 fn triples<T: Copy>(flat: &[T]) -> Vec<[T; 3]> {

@@ -55,7 +55,7 @@ fn draw_panel(area: &Drawing<'_>, scores: &[&Score], top: i32) -> DrawingResult 
     for (line, score) in scores.iter().enumerate() {
         let middle = top + HEAD + LINE * line as i32 + LINE / 2;
         let ink = match score.contestant.as_str() {
-            OURS => BLUE_INK,
+            ours if ours.starts_with(OURS) => BLUE_INK,
             newton if newton.starts_with("newton") => GREEN_INK,
             _ => RED_INK,
         };

@@ -112,7 +112,8 @@ impl Scene {
         let BakedCoefficients::Polynomial(coefficients) = &self.baked.coefficients else {
             bail!("{}: the race is for polynomial patches", self.model);
         };
-        let bounds = self.baked.shape.second_derivatives;
+        let second = self.baked.shape.second_derivatives;
+        let third = self.baked.shape.third_derivatives;
         let mut text = String::new();
         let mut line = |key: &str, values: String| writeln!(text, "{key} {values}");
         line("degree", words(self.patch.degree))?;
@@ -123,7 +124,9 @@ impl Scene {
         line("breaks_u", words(&self.baked.breaks[0]))?;
         line("breaks_v", words(&self.baked.breaks[1]))?;
         line("coefficients", words(coefficients.iter().flatten()))?;
-        line("bounds", words([bounds.uu, bounds.uv, bounds.vv]))?;
+        line("second_derivatives", words([second.uu, second.uv, second.vv]))?;
+        line("third_derivatives", words([third.uuu, third.uuv, third.uvv, third.vvv]))?;
+        line("jumps", words([third.jump_uu, third.jump_vv]))?;
         line("size", self.baked.size.to_string())?;
         line("cube", words(self.locator.corner.to_array().into_iter().chain([self.locator.side])))?;
         line("nodes", words(self.locator.nodes.iter().flatten()))?;
