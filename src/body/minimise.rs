@@ -144,8 +144,8 @@ impl Descending {
                 return Judgement::Found;
             }
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
-            // What the model is proved to say rightly of its minimiser need not be seen there. Half of what it falls by:
-            // of what is left after the step it says nothing else.
+            // What the model is proved to say rightly of its minimiser need not be seen there. Half of what it falls
+            // by: of what is left after the step it says nothing else.
             if pole.is_none() && model.is_newton {
                 let least = half_squared + fall;
                 // And the sum is rounded.

@@ -105,11 +105,44 @@ impl Witness {
         (self.mode, self.halvings) = (BoundaryMode::Interior, 0);
     }
 
-    /// The outward unit normal at the witness point; `None` where the tangents span no plane.
+    /// The outward unit normal at the witness point; `None` where the tangents span no plane, or none that is more
+    /// than rounding: at a pole.
     #[inline(always)]
     pub fn normal<P: Patch>(&self, patch: &P) -> Option<Vec3> {
         let across = self.surface.tangent_u.cross(self.surface.tangent_v);
-        let squared = across.length_squared();
-        (squared > f32::MIN_POSITIVE).then(|| across * (patch.orientation() * inverse_sqrt(squared)))
+        let (squared, size) = (across.length_squared(), patch.size());
+        // A tangent of zero is rounded by a few units in the last place of the size, and the other is about as long.
+        let rounding = (16.0 * f32::EPSILON) * (size * size);
+        (squared > rounding * rounding).then(|| across * (patch.orientation() * inverse_sqrt(squared)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec3;
+    use crate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+
+    #[test]
+    fn what_rounding_leaves_of_a_tangent_at_a_pole_gives_no_normal() {
+        static PLANE: [[f32; 3]; 4] = [[0.03, 0.03, 0.0], [0.0, 0.06, 0.0], [0.06, 0.0, 0.0], [0.0; 3]];
+        let patch = SplinePatch::from_table(
+            [1, 1],
+            &[0.0, 1.0],
+            &[0.0, 1.0],
+            Coefficients::Polynomial(&PLANE),
+            ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
+            Orientation::Outward,
+            0.06,
+        );
+        let mut witness = Witness::at(&patch, 0.5, 1.0);
+        let is_up = |witness: &Witness| witness.normal(&patch).is_some_and(|normal| normal.distance(Vec3::Z) < 1e-6);
+        assert!(is_up(&witness));
+        // A unit in the last place of a coordinate, across what it ought to be.
+        witness.surface.tangent_u = vec3(-3.7e-9, 0.0, 1.9e-9);
+        assert_eq!(witness.normal(&patch), None);
+        // A thousandth of a millimetre is a tangent.
+        witness.surface.tangent_u = vec3(1e-6, 0.0, 0.0);
+        assert!(is_up(&witness));
     }
 }

@@ -27,8 +27,8 @@ const STEP_LIMIT: usize = 20_000;
 const DISTANCE_TOLERANCE: f64 = 1e-5;
 /// Rounding of the evaluations at both ends of a step, in units in the last place of the coordinates or the size.
 /// Horner's rule at degrees (5, 5) rounds 2 · (5 + 5) times, by half a unit of partial sums up to twice the result, and
-/// the division by the weight doubles that: at most 40 at each end. The longer a step, the less its ends round alike: of
-/// 10⁸ the law of first order lets `V` rise by 38 at most, that of second order by 48.
+/// the division by the weight doubles that: at most 40 at each end. The longer a step, the less its ends round alike:
+/// of 10⁸ the law of first order lets `V` rise by 38 at most, that of second order by 48.
 const RISE_ULPS: f64 = 80.0;
 
 #[derive(Default)]
