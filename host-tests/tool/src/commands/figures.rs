@@ -18,9 +18,10 @@ use std::process::ExitCode;
 ///
 /// Figure 6: a start from which the witness point meets a border, follows it and leaves it again; the one that shows it
 /// best of a fixed grid of probes and starts. Figure 7: from which of 21 x 21 starts Newton's method, with and without
-/// saturation at the borders, and the firmware's controller find the closest point (to 1e-4 of the size), over seeded
+/// saturation at the borders, and the firmware's two laws find the closest point (to 1e-4 of the size), over seeded
 /// probes straight out from the patch. Figure 8: following a moving probe with gains that are good, too high and too
-/// low, and the measured limits of stability beside the predicted ones.
+/// low, and the measured limits of stability beside the predicted ones. In all of them the law of second order beside
+/// the paper's; and, not in the paper, how fast both arrive and how far they lag behind a moving probe.
 ///
 /// The same arguments write the same bytes.
 #[derive(Args, Debug)]

@@ -29,19 +29,22 @@ pub enum Contender {
     SaturatedNewton(Errors),
     /// Textbook projected Newton; not in the paper.
     ProjectedNewton,
-    /// The firmware's own controller, in `f32`.
-    Ours,
+    /// The paper's controller as the firmware has it, in `f32`, at the certified gain.
+    Switching,
+    /// The firmware's default, of second order.
+    SecondOrder,
 }
 
 impl Contender {
     /// All of them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Newton(Errors::MeasureNumbers),
         Self::SaturatedNewton(Errors::MeasureNumbers),
         Self::Newton(Errors::Covariant),
         Self::SaturatedNewton(Errors::Covariant),
         Self::ProjectedNewton,
-        Self::Ours,
+        Self::Switching,
+        Self::SecondOrder,
     ];
 
     /// What tables call it.
@@ -52,7 +55,8 @@ impl Contender {
             Self::Newton(Errors::Covariant) => "newton-covariant",
             Self::SaturatedNewton(Errors::Covariant) => "newton-covariant-saturated",
             Self::ProjectedNewton => "newton-projected",
-            Self::Ours => "switching",
+            Self::Switching => "switching",
+            Self::SecondOrder => "second-order",
         }
     }
 
@@ -62,14 +66,16 @@ impl Contender {
             Self::Newton(_) => "Newton",
             Self::SaturatedNewton(_) => "Newton with saturation",
             Self::ProjectedNewton => "projected Newton",
-            Self::Ours => "switching controller",
+            Self::Switching => "switching controller",
+            Self::SecondOrder => "second-order law",
         }
     }
 
     /// Runs from a start until it rests, leaves the patch or has made 1000 steps.
     pub fn run(self, subject: &Subject, probe: Vec3, start: [f64; 2]) -> Run {
         let (method, errors) = match self {
-            Self::Ours => return switching(subject, probe, start),
+            Self::Switching => return firmware(&Controller::CERTIFIED, subject, probe, start),
+            Self::SecondOrder => return firmware(&Controller::SECOND_ORDER, subject, probe, start),
             Self::Newton(errors) => (Method::Newton, errors),
             Self::SaturatedNewton(errors) => (Method::SaturatedNewton, errors),
             Self::ProjectedNewton => (Method::ProjectedNewton, Errors::Covariant),
@@ -148,13 +154,13 @@ fn newton(baseline: &Baseline<'_>, probe: DVec3, start: [f64; 2]) -> Run {
     Run { path, left: false }
 }
 
-fn switching(subject: &Subject, probe: Vec3, start: [f64; 2]) -> Run {
+fn firmware(controller: &Controller, subject: &Subject, probe: Vec3, start: [f64; 2]) -> Run {
     let patch = &subject.patch;
     let mut witness = Witness::at(patch, start[0] as f32, start[1] as f32);
     let mut path = vec![witness.parameters.map(f64::from)];
     for _ in 0..STEP_LIMIT {
         // The gain is certified, not a rate: the period does not matter.
-        let step = Controller::CERTIFIED.step(patch, &mut witness, Probe::at(probe), 1.0);
+        let step = controller.step(patch, &mut witness, Probe::at(probe), 1.0);
         if step.outcome == Outcome::AtRest {
             break;
         }

@@ -20,13 +20,13 @@ const MOST_DOTS: usize = 60;
 /// # Errors
 /// A panel that cannot be drawn.
 pub fn draw(subject: &Subject, comparison: &Comparison) -> anyhow::Result<String> {
-    page((900, 1230), |area| {
-        let panels = area.split_evenly((3, 2));
+    page((900, 1640), |area| {
+        let panels = area.split_evenly((DRAWN.len(), 2));
         let target = &comparison.targets[comparison.drawn];
         let view = view_of(subject, &[comparison.start, target.closest.parameters]);
         for (row, contender) in DRAWN.into_iter().enumerate() {
             let name = contender.title();
-            let letters = [["A", "B"], ["C", "D"], ["E", "F"]][row];
+            let letters = [["A", "B"], ["C", "D"], ["E", "F"], ["G", "H"]][row];
             let (run, basin) = (&comparison.runs[row], &comparison.basins[row]);
             path(&panels[2 * row], &format!("({}) {name}", letters[0]), subject, &view, target, run)?;
             let share = 100.0 * basin.share();

@@ -4,9 +4,13 @@ use super::attraction::{Basin, Contender, Run, Target, start_grid};
 use super::subject::Subject;
 use palpate_truth::baselines::Errors;
 
-/// The controllers of the paper's figure, in its order.
-pub const DRAWN: [Contender; 3] =
-    [Contender::Newton(Errors::MeasureNumbers), Contender::SaturatedNewton(Errors::MeasureNumbers), Contender::Ours];
+/// The controllers of the paper's figure, in its order, and the law of second order.
+pub const DRAWN: [Contender; 4] = [
+    Contender::Newton(Errors::MeasureNumbers),
+    Contender::SaturatedNewton(Errors::MeasureNumbers),
+    Contender::Switching,
+    Contender::SecondOrder,
+];
 
 /// All controllers on all probes.
 #[derive(Clone, Debug)]
@@ -20,9 +24,9 @@ pub struct Comparison {
     /// The start of the paths that are drawn.
     pub start: [f64; 2],
     /// The basins of [`DRAWN`] for that probe.
-    pub basins: [Basin; 3],
+    pub basins: [Basin; DRAWN.len()],
     /// The paths of [`DRAWN`] from that start.
-    pub runs: [Run; 3],
+    pub runs: [Run; DRAWN.len()],
 }
 
 impl Comparison {
@@ -63,7 +67,7 @@ fn representative(subject: &Subject, targets: &[Target], shares: &[[f64; Contend
     let mean = shares.iter().map(|row| row[0]).sum::<f64>() / shares.len() as f64;
     let mut order: Vec<usize> = (0..targets.len()).collect();
     order.sort_by(|a, b| (shares[*a][0] - mean).abs().total_cmp(&(shares[*b][0] - mean).abs()));
-    let [newton, saturated, _] = DRAWN;
+    let [newton, saturated, ..] = DRAWN;
     let fails = |index: usize, start| newton.run(subject, targets[index].probe, start).left;
     for &index in &order {
         let story = start_grid().filter(|start| fails(index, *start)).filter_map(|start| {

@@ -42,6 +42,8 @@ pub struct Passage {
     pub closest: ClosestPoint,
     /// From `P₀` on, a tick each; goes on for a quarter of its time after arrival.
     pub samples: Vec<Sample>,
+    /// The witness point of the law of second order, metres: a tick each, from `P₀` until it rests.
+    pub second_order: Vec<DVec3>,
     /// `t₁`: the border is met, s.
     pub meets_border: f64,
     /// `t₂`: the border is left, s.
@@ -122,7 +124,16 @@ impl Passage {
             }
         }
         let (meets_border, leaves_border, arrives) = (meets_border?, leaves_border?, arrives?);
-        (leaves_border < arrives).then_some(Self { probe, closest, samples, meets_border, leaves_border, arrives })
+        let second_order = second_order(subject, probe, start);
+        (leaves_border < arrives).then_some(Self {
+            probe,
+            closest,
+            samples,
+            second_order,
+            meets_border,
+            leaves_border,
+            arrives,
+        })
     }
 
     /// The stretches before, on and after the border.
@@ -156,4 +167,19 @@ impl Passage {
         let monotone = (0..2).filter(|axis| !self.error_rises(*axis)).count();
         shortest * 0.5_f64.powi(monotone as i32)
     }
+}
+
+/// The same way to second order: until a step is shorter than what single precision resolves.
+fn second_order(subject: &Subject, probe: Vec3, start: [f64; 2]) -> Vec<DVec3> {
+    let patch = &subject.patch;
+    let mut witness = Witness::at(patch, start[0] as f32, start[1] as f32);
+    let mut points = vec![witness.surface.point.as_dvec3()];
+    while points.len() < STEP_LIMIT {
+        let step = Controller::SECOND_ORDER.step(patch, &mut witness, Probe::at(probe), PERIOD as f32);
+        points.push(witness.surface.point.as_dvec3());
+        if step.outcome != Outcome::Moved || step.residual() < 4.0 * f32::EPSILON * subject.size as f32 {
+            break;
+        }
+    }
+    points
 }

@@ -39,11 +39,14 @@ pub fn draw(subject: &Subject, passage: &Passage) -> anyhow::Result<String> {
 fn path(area: &crate::drawing::Drawing<'_>, subject: &Subject, passage: &Passage) -> DrawingResult {
     let view = view_of(subject, passage.samples.iter().map(|sample| &sample.parameters));
     let probe = passage.probe.as_dvec3();
-    let mut chart = scene(area, "(A) path of the witness point", subject, &view, &[probe])?;
+    let mut chart = scene(area, "(A) path; red dots: ticks of second order", subject, &view, &[probe])?;
     for (stretch, ink) in passage.stretches().into_iter().zip([BLUE_INK, GREEN_INK, BLUE_INK]) {
         let line: Vec<_> = stretch.iter().map(|sample| view.seen(sample.point)).collect();
         chart.draw_series([PathElement::new(line, ink.stroke_width(THICK + 1))])?;
     }
+    let ticks: Vec<_> = passage.second_order.iter().map(|point| view.seen(*point)).collect();
+    chart.draw_series([PathElement::new(ticks.clone(), RED_INK.stroke_width(1))])?;
+    chart.draw_series(ticks.into_iter().map(|tick| Circle::new(tick, 5, RED_INK.filled())))?;
     sight(&mut chart, &view, probe, passage.closest.point)?;
     let [_, on_border, after] = passage.stretches();
     let named = [(passage.samples.first(), "P₀"), (on_border.first(), "t₁"), (after.first(), "t₂")];

@@ -7,6 +7,8 @@ pub mod comparison;
 pub mod invariance;
 mod invariance_plot;
 mod page;
+pub mod rate;
+mod rate_plot;
 mod shape;
 mod sheets;
 mod subject;

@@ -3,10 +3,11 @@
 use super::attraction::{Contender, seeded_targets, start_grid};
 use super::comparison::{Comparison, DRAWN};
 use super::invariance::{self, Passage};
+use super::rate::{Lag, Rate};
 use super::subject::Subject;
 use super::tour::Touring;
 use super::tracking::{self, Configuration, Limit};
-use super::{attraction_plot, invariance_plot, tour_plot, tracking_plot};
+use super::{attraction_plot, invariance_plot, rate, rate_plot, tour_plot, tracking_plot};
 use anyhow::ensure;
 use palpate::track::Integrator;
 use std::fmt::Write as _;
@@ -59,6 +60,7 @@ pub fn sheets(
         invariance(subject, |done, all| progress(Stage::Passage, done, all))?,
         attraction(subject, options, |done, all| progress(Stage::Basins, done, all))?,
         tracking(subject)?,
+        rates(subject)?,
     ])
 }
 
@@ -117,6 +119,7 @@ fn invariance(subject: &Subject, progress: impl FnMut(usize, usize)) -> anyhow::
     let rises = |axis| if passage.error_rises(axis) { "rises" } else { "falls throughout" };
     sheet.row("  |psi_u|, |psi_v|", format!("{}, {}", rises(0), rises(1)));
     sheet.row("  largest rise of ‖ΔR‖", format!("{:.1e} m", passage.largest_rise()));
+    sheet.row("  second order", format!("at rest after {} ticks", passage.second_order.len() - 1));
     sheet.files.push((format!("{}-figure6.svg", subject.name), invariance_plot::draw(subject, &passage)?));
     sheet.files.push((format!("{}-figure6.csv", subject.name), csv));
     Ok(sheet)
@@ -182,8 +185,11 @@ fn tracking(subject: &Subject) -> anyhow::Result<Sheet> {
         return Ok(sheet);
     };
     let runs = tracking::runs(subject, &rest);
+    let certified = tracking::certified_runs(subject, &rest);
     let mut csv = "gain,time_s,u,v,psi_u,psi_v,distance_mm\n".to_owned();
-    for (gain, run) in tracking::GAINS.iter().zip(&runs) {
+    let gains = tracking::GAINS.map(|gain| gain.to_string());
+    let laws = gains.iter().map(String::as_str).chain(["certified", "second-order"]);
+    for (gain, run) in laws.zip(runs.iter().chain(&certified)) {
         // The slow run is long: what it shows needs no more rows than the others.
         for sample in run.iter().step_by(run.len().div_ceil(2_000)) {
             let ([u, v], [psi_u, psi_v]) = (sample.parameters, sample.errors);
@@ -208,7 +214,16 @@ fn tracking(subject: &Subject) -> anyhow::Result<Sheet> {
         let end = run.last().map_or(0.0, |sample| sample.time);
         sheet.row(format!("  K = {gain} 1/s"), format!("‖Ψ‖ = {left:.1e} after {end:.1} s"));
     }
-    sheet.files.push((format!("{}-figure8.svg", subject.name), tracking_plot::draw(subject, &runs)?));
+    for (law, run) in ["the paper's, certified gain", "second order"].iter().zip(&certified) {
+        // From the tick on at which the start is corrected: a fifth of the motion.
+        let behind = run.iter().filter(|sample| (0.1..tracking::MOTION).contains(&sample.time));
+        let most = behind.map(|sample| sample.left).fold(0.0, f64::max);
+        sheet.row(
+            format!("  {law}"),
+            format!("a tick leaves ‖Ψ‖ = {most:.1e} at most, from 0.1 s to {} s", tracking::MOTION),
+        );
+    }
+    sheet.files.push((format!("{}-figure8.svg", subject.name), tracking_plot::draw(subject, &runs, &certified)?));
     sheet.files.push((format!("{}-figure8.csv", subject.name), csv));
     sheet.files.push((format!("{}-figure8-limits.svg", subject.name), tracking_plot::draw_limits(&limits, &rest)?));
     let mut csv = "integrator,curvature_times_distance,predicted_per_s,measured_per_s\n".to_owned();
@@ -216,5 +231,39 @@ fn tracking(subject: &Subject) -> anyhow::Result<Sheet> {
         writeln!(csv, "{integrator:?},{product:.1},{predicted:.2},{measured:.2}")?;
     }
     sheet.files.push((format!("{}-figure8-limits.csv", subject.name), csv));
+    Ok(sheet)
+}
+
+/// How fast the laws arrive, and how far behind they are: local rate and lag.
+fn rates(subject: &Subject) -> anyhow::Result<Sheet> {
+    let mut sheet = Sheet::default();
+    let oracle = subject.oracle();
+    let rates = rate::rates(subject, &oracle);
+    let Some(rest) = Configuration::find(subject, &oracle).filter(|_| !rates.is_empty()) else {
+        sheet.row("rate", "left out: no convex place to arrive at");
+        return Ok(sheet);
+    };
+    let lags = rate::lags(subject, &rest);
+    sheet.row("rate", "‖x − x*‖ after each tick of second order");
+    for Rate { place, errors: [_, second], .. } in &rates {
+        let ticks: Vec<_> = second.iter().take(6).map(|error| format!("{error:.0e}")).collect();
+        sheet.row(format!("  {place}"), ticks.join(", "));
+    }
+    for (law, index) in [("the paper's law", 0), ("second order", 1)] {
+        sheet.row(format!("  lag, {law}"), format!("grows as the speed to the power {:.2}", rate::power(&lags, index)));
+    }
+    let mut csv = "place,tick,first_order,second_order\n".to_owned();
+    for Rate { place, errors: [first, second] } in &rates {
+        for (tick, (first, second)) in first.iter().zip(second).enumerate() {
+            writeln!(csv, "{place},{tick},{first:.3e},{second:.3e}")?;
+        }
+    }
+    sheet.files.push((format!("{}-rate.csv", subject.name), csv));
+    let mut csv = "speed_m_per_s,first_order,second_order\n".to_owned();
+    for Lag { speed, errors: [first, second] } in &lags {
+        writeln!(csv, "{speed:.4},{first:.3e},{second:.3e}")?;
+    }
+    sheet.files.push((format!("{}-lag.csv", subject.name), csv));
+    sheet.files.push((format!("{}-rate.svg", subject.name), rate_plot::draw(&rates, &lags)?));
     Ok(sheet)
 }

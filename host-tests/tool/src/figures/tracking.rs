@@ -15,7 +15,7 @@ pub const GAINS: [f64; 3] = [50.0, 1300.0, 0.02];
 /// The gain at which the paper's simulation becomes unstable, 1/s.
 pub const PAPER_LIMIT: f64 = 1250.0;
 /// The probe moves for so long and then rests, s: 25 time constants `1/K` at `K = 50`.
-const MOTION: f64 = 0.5;
+pub const MOTION: f64 = 0.5;
 /// Where the probe's foot sets out and where the witness point is put, in parameters from where the probe comes to
 /// rest: far from each other and from the goal, so that the correction of the start and the tracking show.
 const SETS_OUT: [f64; 2] = [-0.3, -0.35];
@@ -125,18 +125,26 @@ pub struct Sample {
     pub parameters: [f64; 2],
     /// `Ψᵘ, Ψᵛ`.
     pub errors: [f64; 2],
+    /// `‖Ψ‖` once the tick has corrected it.
+    pub left: f64,
 }
 
 /// The runs of the figure, one for each of [`GAINS`]: the slow one until it has converged too.
 pub fn runs(subject: &Subject, rest: &Configuration) -> [Vec<Sample>; 3] {
     let [good, chatter, slow] = GAINS;
     // Four time constants of the slow gain.
-    [(good, 0.7), (chatter, 0.7), (slow, 200.0)].map(|(gain, seconds)| track(subject, rest, gain, seconds))
+    [(good, 0.7), (chatter, 0.7), (slow, 200.0)]
+        .map(|(gain, seconds)| track(subject, rest, &Controller::CERTIFIED.gain(Gain::Unlimited(gain as f32)), seconds))
 }
 
-/// Follows the moving probe with a fixed gain, whatever comes of it, for so many seconds.
-fn track(subject: &Subject, rest: &Configuration, gain: f64, seconds: f64) -> Vec<Sample> {
-    let controller = Controller::CERTIFIED.gain(Gain::Unlimited(gain as f32));
+/// The same run with what the firmware offers instead of a gain: the paper's law at the certified one, and the law of
+/// second order.
+pub fn certified_runs(subject: &Subject, rest: &Configuration) -> [Vec<Sample>; 2] {
+    [Controller::CERTIFIED, Controller::SECOND_ORDER].map(|controller| track(subject, rest, &controller, 0.7))
+}
+
+/// Follows the moving probe, whatever comes of it, for so many seconds.
+fn track(subject: &Subject, rest: &Configuration, controller: &Controller, seconds: f64) -> Vec<Sample> {
     let patch = &subject.patch;
     let start = [0, 1].map(|i| (rest.foot[i] + START[i]) as f32);
     let mut witness = Witness::at(patch, start[0], start[1]);
@@ -145,16 +153,21 @@ fn track(subject: &Subject, rest: &Configuration, gain: f64, seconds: f64) -> Ve
         .map(|step| {
             let time = step as f64 * PERIOD;
             let probe = probe_at(subject, rest, time);
-            let psi = ProjectionErrors::new(&witness.surface, probe).measure_numbers().unwrap_or_default();
-            let sample = Sample {
+            let before = witness;
+            controller.step(patch, &mut witness, Probe::at(probe), PERIOD as f32);
+            let errors = |witness: &Witness| {
+                let psi = ProjectionErrors::new(&witness.surface, probe).measure_numbers();
+                psi.unwrap_or_default().map(f64::from)
+            };
+            let left = errors(&witness);
+            Sample {
                 time,
                 probe: probe.as_dvec3(),
-                witness: witness.surface.point.as_dvec3(),
-                parameters: witness.parameters.map(f64::from),
-                errors: psi.map(f64::from),
-            };
-            controller.step(patch, &mut witness, Probe::at(probe), PERIOD as f32);
-            sample
+                witness: before.surface.point.as_dvec3(),
+                parameters: before.parameters.map(f64::from),
+                errors: errors(&before),
+                left: left[0].hypot(left[1]),
+            }
         })
         .collect()
 }

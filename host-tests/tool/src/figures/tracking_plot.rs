@@ -12,18 +12,41 @@ use plotters::prelude::*;
 /// first few.
 const SNAPSHOT: usize = 12;
 
-/// The figure, as SVG text: runs at the good, the chattering and the slow gain.
+/// The figure, as SVG text: runs at the good, the chattering and the slow gain, and those without a gain to choose.
 ///
 /// # Errors
 /// A panel that cannot be drawn.
-pub fn draw(subject: &Subject, runs: &[Vec<Sample>; 3]) -> anyhow::Result<String> {
-    page((1000, 760), |area| {
-        let panels = area.split_evenly((2, 2));
-        path(&panels[0], subject, &runs[0])?;
-        errors(&panels[1], "(B) K = 50 1/s", &runs[0])?;
-        errors(&panels[2], "(C) K = 1300 1/s: chatter", &runs[1])?;
-        errors(&panels[3], "(D) K = 0.02 1/s: slow", &runs[2])
+pub fn draw(subject: &Subject, runs: &[Vec<Sample>; 3], certified: &[Vec<Sample>; 2]) -> anyhow::Result<String> {
+    page((1000, 1140), |area| {
+        let rows = area.split_evenly((3, 1));
+        let (upper, lower) = (rows[0].split_evenly((1, 2)), rows[1].split_evenly((1, 2)));
+        path(&upper[0], subject, &runs[0])?;
+        errors(&upper[1], "(B) K = 50 1/s", &runs[0])?;
+        errors(&lower[0], "(C) K = 1300 1/s: chatter", &runs[1])?;
+        errors(&lower[1], "(D) K = 0.02 1/s: slow", &runs[2])?;
+        lags(&rows[2], [&runs[0], &certified[0], &certified[1]])
     })
+}
+
+/// What single precision leaves of the errors, and what is drawn of less.
+const LEAST: f64 = 1e-8;
+
+fn lags(area: &Drawing<'_>, runs: [&Vec<Sample>; 3]) -> DrawingResult {
+    let end = runs[0].last().map_or(1.0, |sample| sample.time);
+    let title = "(E) what a tick leaves, powers of ten";
+    let mut chart =
+        Axes { title, x: (0.0, end), y: (LEAST.log10(), 0.0), x_label: "time, s", y_label: "log₁₀ ‖Ψ‖" }.chart(area)?;
+    let laws = [
+        ("the paper's law, K = 50 1/s", RED_INK),
+        ("the paper's law, certified gain", GREEN_INK),
+        ("second order", BLUE_INK),
+    ];
+    for (run, (name, ink)) in runs.into_iter().zip(laws) {
+        let size = |sample: &Sample| sample.left.max(LEAST).log10();
+        let line: Vec<_> = run.iter().map(|sample| (sample.time, size(sample))).collect();
+        chart.draw_series([PathElement::new(line, ink.stroke_width(THIN + 1))])?.label(name).legend(key(ink));
+    }
+    legend(&mut chart, SeriesLabelPosition::UpperRight)
 }
 
 fn path(area: &Drawing<'_>, subject: &Subject, run: &[Sample]) -> DrawingResult {

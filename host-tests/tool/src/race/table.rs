@@ -14,8 +14,8 @@ pub(super) fn described(score: &Score) -> &'static str {
     match (score.contestant.as_str(), score.task) {
         (CALL, _) => "an empty call",
         (OURS, Task::Cold) => "palpate, cold",
-        (OURS, Task::Track) => "palpate, one step",
-        ("palpate-settled", _) => "palpate until settled",
+        (OURS, Task::Track) => "palpate, second order, one step",
+        ("palpate-settled", _) => "palpate, second order until settled",
         ("palpate-first-order", _) => "palpate, the paper's law, one step",
         ("newton", Task::Cold) => "Newton from the nearest of 64 cells",
         ("newton-safeguarded", Task::Cold) => "Newton safeguarded, all near cells",

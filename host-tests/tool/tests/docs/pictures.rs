@@ -47,7 +47,8 @@ fn the_shares_of_figure_7(printed: &str) {
         ("Newton, covariant errors", "newton-covariant"),
         ("… with saturation", "newton-covariant-saturated"),
         ("projected Newton with line search (not in the paper)", "newton-projected"),
-        ("the firmware's switching controller, `f32`", "switching"),
+        ("the paper's switching controller, as in the firmware, `f32`", "switching"),
+        ("the firmware's default, of second order, `f32`", "second-order"),
     ];
     let page = text("docs/figures/README.md");
     let table: Vec<Vec<&str>> = page.lines().filter_map(cells).filter(|row| row.len() == 3).skip(1).collect();
