@@ -75,6 +75,55 @@ pub fn measured_if_listed(claim: &str, value: impl Display) {
     }
 }
 
+/// Errors as a table has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Half of all are not above it.
+    pub median: f64,
+    /// 99 % are not above it.
+    pub most: f64,
+    /// 99.9 % are not above it.
+    pub all_but_a_thousandth: f64,
+    /// The greatest.
+    pub worst: f64,
+}
+
+impl Spread {
+    /// Of some numbers; 0 of none.
+    pub fn of(mut numbers: Vec<f64>) -> Self {
+        numbers.sort_by(f64::total_cmp);
+        let at = |share: f64| {
+            let index = (share * numbers.len() as f64) as usize;
+            numbers.get(index.min(numbers.len().saturating_sub(1))).copied().unwrap_or(0.0)
+        };
+        Self { median: at(0.5), most: at(0.99), all_but_a_thousandth: at(0.999), worst: at(1.0) }
+    }
+}
+
+/// Prints a table and holds the one with this header on the page to it; the cells of a row are parted by ` | `.
+///
+/// # Panics
+/// If the page has another table, or none with this header.
+pub fn measured_table(header: &str, rows: impl IntoIterator<Item = String>) {
+    let line = |cells: &str| format!("| {cells} |\n");
+    let rule = format!("|{}\n", "---|".repeat(header.split('|').count()));
+    let head = line(header) + &rule;
+    let body: String = rows.into_iter().map(|row| line(&row)).collect();
+    print!("{head}{body}");
+    let _one = WRITING.lock().expect("no writer has failed");
+    let text = fs::read_to_string(page()).expect("docs/measured.md");
+    let (before, rest) = text.split_once(&head).unwrap_or_else(|| panic!("docs/measured.md has no table {header:?}"));
+    let after = rest.find("\n\n").map_or("", |end| &rest[end + 1..]);
+    let anew = format!("{before}{head}{body}{after}");
+    if anew != text {
+        assert!(
+            env::var_os("PALPATE_WRITE").is_some(),
+            "docs/measured.md has another table {header:?} (PALPATE_WRITE=1 with the same command writes it anew)"
+        );
+        fs::write(page(), anew).expect("the page can be written");
+    }
+}
+
 /// A whole number with a comma at each thousand, as the page has them.
 pub fn grouped(number: u64) -> String {
     let digits = number.to_string();

@@ -13,6 +13,13 @@ pub struct BodyOracle<'a> {
     boxes: Vec<[DVec3; 2]>,
 }
 
+/// Points of several patches that differ by less than this part of the size are one.
+const SAME: f64 = 1e-9;
+/// Of the way to the middle of the patch.
+const OFF_THE_BORDER: f64 = 1e-4;
+/// The sine of an angle that turning by the curvature over that way can make up.
+const IN_ITS_PLANE: f64 = 1e-3;
+
 /// What is true of a probe.
 #[derive(Clone, Debug)]
 pub struct Truth {
@@ -84,6 +91,31 @@ impl<'a> BodyOracle<'a> {
         // Outside it is mostly the nearest that says so.
         let rest = (0..self.patches.len()).filter(|index| *index != nearest);
         std::iter::once(nearest).chain(rest).all(|index| is_behind(self.height(index, probe)))
+    }
+
+    /// Whether the probe is inside a closed body of any shape, by the outward normals of all patches that hold the
+    /// closest point; `None` on the surface, and where these normals do not agree (at a vertex that is a saddle).
+    pub fn is_inside(&self, probe: DVec3) -> Option<bool> {
+        let nearest = self.nearest(probe, SAME * self.scale());
+        let (_, foot) = nearest.first()?;
+        let away = (probe - foot.point).try_normalize()?;
+        let heights: Vec<f64> = nearest
+            .iter()
+            .map(|(index, foot)| {
+                // A little way off the border: a pole has no normal.
+                let [u, v] = foot.parameters.map(|parameter| parameter + OFF_THE_BORDER * (0.5 - parameter));
+                away.dot(OraclePoint::evaluate(&self.patches[*index], u, v).normal(self.patches[*index].flip))
+            })
+            .collect();
+        let sum: f64 = heights.iter().sum();
+        // Beside an edge the probe may lie in the plane of one of its faces.
+        let agree = heights.iter().all(|height| height * sum.signum() > -IN_ITS_PLANE);
+        (agree && sum.abs() > IN_ITS_PLANE).then_some(sum < 0.0)
+    }
+
+    /// A length of about the body's size.
+    fn scale(&self) -> f64 {
+        self.boxes.iter().map(|[low, high]| (*high - *low).max_element()).fold(0.0, f64::max)
     }
 
     /// The truth about a probe, metres.

@@ -4,6 +4,7 @@
 //! Each is an exact NURBS patch of a surface whose convexity needs no computation, so the closest point to a probe
 //! straight out from a point of the patch is that point.
 
+pub mod bodies;
 mod fit;
 pub mod models;
 mod shapes;

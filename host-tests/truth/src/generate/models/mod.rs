@@ -24,6 +24,11 @@ pub const HALF_AXES: [f64; 3] = [50.0, 35.0, 25.0];
 /// Radius of the sphere, mm.
 pub const RADIUS: f64 = 50.0;
 
+/// The text of an ellipsoid's model file, without poles: six patches of degree (4, 4). Half axes in millimetres.
+pub fn ellipsoid(name: &str, half_axes: [f64; 3]) -> String {
+    text::model(&format!("An ellipsoid with half axes {half_axes:?} mm."), name, &cube_sphere::patches(half_axes))
+}
+
 /// All of them.
 pub fn all() -> Vec<GeneratedModel> {
     let poles = "without poles: six patches of degree (4, 4), a cube blown up to a sphere (host-tests/truth/src/generate/models/cube_sphere.rs).";
