@@ -8,13 +8,13 @@ use palpate::servo::{ContactLimits, Surface as _};
 use palpate::track::{Contact, Controller, Probe};
 use palpate_truth::body_oracle::BodyOracle;
 use palpate_truth::generate::Random;
+use palpate_truth::generate::bodies;
 use palpate_truth::oracle::OraclePoint;
 
 /// 4 kHz.
 const PERIOD: f32 = 2.5e-4;
-
-/// Features in a row on the way out over a corner: an edge, the next one and the face beyond it.
-const HANDOVERS: u32 = 3;
+/// In sizes: a probe as near to the surface as this is not yet in free air.
+const ON_SURFACE: f64 = 1e-4;
 
 /// What a stroke felt.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,6 +24,7 @@ struct Felt {
     /// Of them in free air, farther from the surface than a stroke goes in a tick.
     in_free_air: u32,
     ends: [Vec3; 2],
+    speed: f32,
 }
 
 /// A straight stroke across a corner, a border or the middle of a patch, at right angles to the way out there and up to
@@ -45,16 +46,44 @@ fn stroke(scene: &Scene, random: &mut Random) -> (Vec3, Vec3, f32) {
     ((middle - reach).as_vec3(), (middle + reach).as_vec3(), random.scale(0.1, 2.0) as f32)
 }
 
-fn brush(scene: &Scene, oracle: &BodyOracle<'_>, random: &mut Random) -> Felt {
+/// Where a straight way is in free air: a distance says so of the way ahead, too, as far as it reaches.
+struct Air<'a> {
+    oracle: &'a BodyOracle<'a>,
+    /// Metres up to which nearness to the surface is no free air.
+    margin: f64,
+    is_free: bool,
+    /// Metres along the way.
+    until: f64,
+}
+
+impl Air<'_> {
+    /// At a probe so far along the way, metres; in order.
+    fn holds(&mut self, probe: DVec3, along: f64) -> bool {
+        if along >= self.until {
+            let distance = self.oracle.nearest(probe, 0.0)[0].1.distance;
+            let (is_free, reach) = match self.oracle.is_inside(probe) {
+                Some(true) => (false, distance + self.margin),
+                Some(false) if distance > self.margin => (true, distance - self.margin),
+                _ => (false, self.margin - distance),
+            };
+            (self.is_free, self.until) = (is_free, along + reach);
+        }
+        self.is_free
+    }
+}
+
+fn brush(scene: &Scene, oracle: &BodyOracle<'_>, controller: &Controller, random: &mut Random) -> Felt {
     let (from, to, speed) = stroke(scene, random);
     let body: &Body = &scene.body;
     let stride = speed * PERIOD;
     let ticks = (from.distance(to) / stride).ceil() as u32;
     let mut state = body.start();
-    let mut felt = Felt { ends: [from, to], ..Felt::default() };
+    let mut felt = Felt { ends: [from, to], speed, ..Felt::default() };
+    let margin = f64::from(stride) + ON_SURFACE * scene.size();
+    let mut air = Air { oracle, margin, is_free: false, until: 0.0 };
     for tick in 0..ticks {
         let probe = from + (to - from) * (tick as f32 / ticks as f32);
-        let step = body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
+        let step = body.step(controller, &mut state, Probe::at(probe), PERIOD);
         // As the loop does: a stroke that runs through the body lengthwise is no contact that a wall could explain.
         if step.unexplained || -state.gap > ContactLimits::DEFAULT.min_depth {
             body.lose(&mut state);
@@ -63,31 +92,80 @@ fn brush(scene: &Scene, oracle: &BodyOracle<'_>, random: &mut Random) -> Felt {
             continue;
         }
         felt.touching += 1;
-        let nearest = oracle.nearest(probe.as_dvec3(), 0.0);
-        let is_outside = !oracle.is_inside_convex(nearest[0].0, probe.as_dvec3());
-        if is_outside && nearest[0].1.distance > f64::from(stride) + 1e-4 * scene.size() {
-            felt.in_free_air += 1;
-        }
+        let (at, witness) = (probe.as_dvec3(), state.witness.surface.point.as_dvec3());
+        let is_free = air.holds(at, f64::from(probe.distance(from))) && !is_behind(oracle, at, witness);
+        felt.in_free_air += u32::from(is_free);
     }
     felt
 }
 
+/// Whether some of the body lies between a probe and its witness point: then it has been pushed through a thin part,
+/// which is contact as long as the wall gives no more way than [`ContactLimits`] has it.
+fn is_behind(oracle: &BodyOracle<'_>, probe: DVec3, witness: DVec3) -> bool {
+    const PLACES: u32 = 8;
+    let between = |place: u32| probe.lerp(witness, (f64::from(place) + 0.5) / f64::from(PLACES));
+    (0..PLACES).any(|place| oracle.is_inside(between(place)) == Some(true))
+}
+
+/// Strokes over a body, none of them felt in free air for more than so many ticks.
+fn brushes(scene: &Scene, controller: &Controller, most: u32) {
+    let count = from_environment("PALPATE_BRUSHES", 200);
+    let (name, oracle) = (scene.name, scene.oracle());
+    let felt = repeat(count, 5, |random| brush(scene, &oracle, controller, random));
+    let late: Vec<&Felt> = felt.iter().filter(|felt| felt.in_free_air > 0).collect();
+    let touching = felt.iter().filter(|felt| felt.touching > 0).count();
+    let worst = late.iter().max_by_key(|felt| felt.in_free_air);
+    let ticks = worst.map_or(0, |felt| felt.in_free_air);
+    let stroke = worst.map_or(String::new(), |Felt { ends: [from, to], speed, .. }| {
+        format!(", from {from} to {to} m at {speed} m/s")
+    });
+    println!(
+        "{name}: {count} brushes, {touching} felt, {} of them in free air, for {ticks} ticks at most{stroke}",
+        late.len()
+    );
+    assert!(ticks <= most, "{name}: felt in free air for {ticks} ticks{stroke}");
+    assert!(touching as u32 > count / 2, "{name}: hardly any is felt");
+}
+
+/// The tick in which the witness point of an edge's face is held there, and the probe is beyond.
+const HANDOVER: u32 = 1;
+/// Features in a row on the way out over a corner: an edge, the next one and the face beyond it.
+const HANDOVERS: u32 = 3;
+
 #[test]
 fn a_brush_is_not_felt_in_free_air() {
-    let count = from_environment("PALPATE_BRUSHES", 200);
-    for name in ["capped_box", "ellipsoid_body", "rounded_cylinder"] {
-        let scene = Scene::load(name);
-        let oracle = scene.oracle();
-        let felt = repeat(count, 5, |random| brush(scene, &oracle, random));
-        let late = felt.iter().filter(|felt| felt.in_free_air > 0).count();
-        let Some(worst) = felt.iter().max_by_key(|felt| felt.in_free_air) else { return };
-        println!(
-            "{name}: {count} brushes, {} felt, {late} of them in free air, for {} ticks at most",
-            felt.iter().filter(|felt| felt.touching > 0).count(),
-            worst.in_free_air
-        );
-        // Out over another edge than the one it came in by, the witness point is on one feature a tick.
-        assert!(worst.in_free_air <= HANDOVERS, "{name}: {} ticks, on the way {:?}", worst.in_free_air, worst.ends);
-        assert!(felt.iter().filter(|felt| felt.touching > 0).count() as u32 > count / 2, "{name}: hardly any is felt");
+    for name in ["ellipsoid_body", "rounded_cylinder", "sphere_body"] {
+        brushes(Scene::load(name), &Controller::SECOND_ORDER, 0);
     }
+    for name in ["capped_box", "thin_plate"] {
+        brushes(Scene::load(name), &Controller::SECOND_ORDER, HANDOVER);
+    }
+}
+
+#[test]
+fn a_brush_under_the_paper_s_law_is_not_felt_in_free_air() {
+    brushes(Scene::load("capped_box"), &Controller::CERTIFIED, HANDOVERS);
+    brushes(Scene::load("rounded_cylinder"), &Controller::CERTIFIED, 0);
+}
+
+#[test]
+fn a_brush_over_a_bar_with_a_groove_is_not_felt_in_free_air() {
+    let body = bodies::groove();
+    brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVER);
+}
+
+/// Edges rounded to poles, and corners that are poles of every patch around them.
+#[test]
+#[ignore = "not so yet: a corner of smooth edges, or of collapsed patches, may hold the witness point back"]
+fn a_brush_over_rounded_and_pointed_corners_is_not_felt_in_free_air() {
+    for body in [bodies::rounded(), bodies::tetrahedron()] {
+        brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVER);
+    }
+}
+
+/// Two poles of four patches each: its locator takes minutes.
+#[test]
+#[ignore = "takes minutes"]
+fn a_brush_over_the_ellipsoid_with_poles_is_not_felt_in_free_air() {
+    brushes(Scene::load("ellipsoid_poles"), &Controller::SECOND_ORDER, 0);
 }

@@ -2,14 +2,17 @@
 //!
 //! `PALPATE_PROBES`, `PALPATE_TICKS` and `PALPATE_STARTS` set the numbers for long runs.
 
+mod anywhere;
 mod brushes;
 mod cold;
 mod converging;
+mod drawn;
 mod locator;
 mod placement;
 mod plate;
 mod refusals;
 mod regions;
+mod ring;
 mod scene;
 mod signs;
 mod tour;

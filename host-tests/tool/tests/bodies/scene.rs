@@ -62,8 +62,16 @@ impl Scene {
 
     pub fn located(name: &'static str, options: impl Fn(&BakedBody) -> LocatorOptions) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models").join(format!("{name}.toml"));
-        let model = Model::read(&path).unwrap();
-        let baked = BakedBody::new(&model, name).unwrap();
+        Self::of_model(name, &Model::read(&path).unwrap(), options)
+    }
+
+    /// A model as text, with the locator that suits it.
+    pub fn parsed(name: &'static str, text: &str) -> Self {
+        Self::of_model(name, &Model::parse(text, name).unwrap(), BakedBody::locator_options)
+    }
+
+    fn of_model(name: &'static str, model: &Model, options: impl Fn(&BakedBody) -> LocatorOptions) -> Self {
+        let baked = BakedBody::new(model, name).unwrap();
         let options = options(&baked);
         let (baked, report) = baked.located(&options, &|_, _| ()).unwrap();
         println!("{name}: {report}");

@@ -1,0 +1,107 @@
+//! Single queries near and far around bodies that nobody tuned anything to: the distance, the side, and that what is
+//! called converged is. `PALPATE_PROBES` sets how many, `PALPATE_MODEL` names a file to be asked instead.
+
+use crate::scene::from_environment;
+use glam::DVec3;
+use palpate_bake::topology::bounding_box;
+use palpate_bake::{BakedBody, Model};
+use palpate_tool::closest::{Found, Solver, Status};
+use palpate_truth::body_oracle::BodyOracle;
+use palpate_truth::generate::Random;
+use palpate_truth::generate::bodies::{self, DrawnBody};
+use palpate_truth::oracle::OraclePoint;
+use rayon::prelude::*;
+use std::path::PathBuf;
+
+/// Of the size and the distance: what a search at the resolution of `f32` leaves.
+const EXACT: f64 = 1e-5;
+/// Probes within this of the surface, in sizes, are on it as far as `f32` can tell.
+const ON_SURFACE: f64 = 1e-6;
+/// Farthest probes, in sizes.
+const FAR: f64 = 5.0;
+
+/// A probe, what was found, its distance in metres, by how much that is off, and whether it is inside.
+type Asked<'a> = (&'a DVec3, (Found, f64, f64, Option<bool>));
+
+/// A third each near the surface, in the box around the body, and far off.
+fn draw(model: &Model, [low, high]: [DVec3; 2], random: &mut Random) -> DVec3 {
+    let size = (high - low).max_element();
+    match random.below(3) {
+        0 => {
+            let patch = &model.patches[random.below(model.patches.len())];
+            // A fifth of them over a border.
+            let mut place = || match random.below(10) {
+                0 => 0.0,
+                1 => 1.0,
+                _ => random.between(0.0, 1.0),
+            };
+            let [u, v] = [place(), place()];
+            OraclePoint::evaluate(patch, u, v).point + random.direction() * size * random.scale(1e-4, 0.2)
+        }
+        1 => low + (high - low) * DVec3::from_array(std::array::from_fn(|_| random.between(-0.3, 1.3))),
+        _ => 0.5 * (low + high) + random.direction() * size * random.between(0.5, FAR),
+    }
+}
+
+/// What is wrong with single queries around a body, line by line.
+fn wrong(model: &Model, name: &str, count: u32) -> Vec<String> {
+    let mut random = Random::new(71);
+    let bounds: [DVec3; 2] = bounding_box(&model.patches).into();
+    let probes: Vec<DVec3> = (0..count).map(|_| draw(model, bounds, &mut random).as_vec3().as_dvec3()).collect();
+    let baked = BakedBody::new(model, name).unwrap_or_else(|error| panic!("{error}"));
+    let options = baked.locator_options();
+    let baked = baked.located_for(&probes, &options, &|_, _| ()).unwrap_or_else(|error| panic!("{error}"));
+    let body = baked.to_body().unwrap_or_else(|error| panic!("{error}"));
+    let (solver, oracle) = (Solver::new(&body, &baked), BodyOracle::new(&model.patches));
+    let (size, is_closed) = (f64::from(body.size()), baked.topology.is_closed());
+    let query = |probe: &DVec3| {
+        let (found, _) = solver.cold(probe.as_vec3());
+        let distance = oracle.nearest(*probe, 0.0)[0].1.distance;
+        let off = (found.point.as_dvec3().distance(*probe) - distance) / (size + distance);
+        let inside = (is_closed && distance > ON_SURFACE * size).then(|| oracle.is_inside(*probe)).flatten();
+        (found, distance, off, inside)
+    };
+    let asked: Vec<Asked<'_>> = probes.par_iter().map(|probe| (probe, query(probe))).collect();
+    let far = asked.iter().filter(|(_, (found, ..))| found.status == Status::Far);
+    let of = |status: Status| {
+        let those = asked.iter().filter(move |(_, (found, ..))| found.status == status);
+        those.map(|(_, (_, _, off, _))| off.abs()).fold(0.0, f64::max)
+    };
+    println!(
+        "{name}: {count} queries, off by {:.1e} at most where converged; {} are far, off by {:.1e} at most; {} sides are sure",
+        of(Status::Converged),
+        far.count(),
+        of(Status::Far),
+        asked.iter().filter(|(_, (_, _, _, inside))| inside.is_some()).count()
+    );
+    let is_wrong = |(_, (found, _, off, inside)): &&Asked<'_>| {
+        (found.status == Status::Converged && off.abs() > EXACT)
+            || inside.is_some_and(|inside| inside != found.is_inside)
+    };
+    let line = |(probe, (found, distance, off, inside)): &Asked<'_>| {
+        format!("{name}: {probe:?}: {distance:e} m, off by {off:.1e}, inside {inside:?}; {found:?}")
+    };
+    asked.iter().filter(is_wrong).map(line).collect()
+}
+
+fn none_wrong(wrong: &[String]) {
+    assert!(wrong.is_empty(), "{} are wrong: {}", wrong.len(), wrong[..wrong.len().min(5)].join("\n"));
+}
+
+#[test]
+fn single_queries_around_ten_bodies_are_right_near_and_far() {
+    let count = from_environment("PALPATE_PROBES", 200);
+    let query = |DrawnBody { name, text }: &DrawnBody| {
+        wrong(&Model::parse(text, name).unwrap_or_else(|error| panic!("{error}")), name, count)
+    };
+    let all: Vec<DrawnBody> = bodies::ten().into_iter().chain([bodies::tetrahedron()]).collect();
+    none_wrong(&all.iter().flat_map(query).collect::<Vec<_>>());
+}
+
+#[test]
+#[ignore = "for the file that PALPATE_MODEL names"]
+fn single_queries_around_a_model_file_are_right_near_and_far() {
+    let file = PathBuf::from(std::env::var_os("PALPATE_MODEL").expect("PALPATE_MODEL names a file"));
+    let model = Model::read(&file).unwrap_or_else(|error| panic!("{error}"));
+    none_wrong(&wrong(&model, &file.display().to_string(), from_environment("PALPATE_PROBES", 200)));
+}
