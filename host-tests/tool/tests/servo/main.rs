@@ -8,6 +8,7 @@ mod homing;
 mod limits;
 mod passivity;
 mod surfaces;
+mod through;
 mod touch;
 mod traces;
 mod velocity;
