@@ -102,9 +102,9 @@ fn brush(scene: &Scene, oracle: &BodyOracle<'_>, controller: &Controller, random
 /// Whether some of the body lies between a probe and its witness point: then it has been pushed through a thin part,
 /// which is contact as long as the wall gives no more way than [`ContactLimits`] has it.
 fn is_behind(oracle: &BodyOracle<'_>, probe: DVec3, witness: DVec3) -> bool {
-    const PLACES: u32 = 8;
-    let between = |place: u32| probe.lerp(witness, (f64::from(place) + 0.5) / f64::from(PLACES));
-    (0..PLACES).any(|place| oracle.is_inside(between(place)) == Some(true))
+    // From the witness point: beside an edge there is hardly anything behind it.
+    const SHARES: [f64; 6] = [0.002, 0.01, 0.05, 0.2, 0.5, 0.8];
+    SHARES.iter().any(|share| oracle.is_inside(witness.lerp(probe, *share)) == Some(true))
 }
 
 /// Strokes over a body, none of them felt in free air for more than so many ticks.
@@ -148,19 +148,20 @@ fn a_brush_under_the_paper_s_law_is_not_felt_in_free_air() {
     brushes(Scene::load("rounded_cylinder"), &Controller::CERTIFIED, 0);
 }
 
+/// A groove, and edges rounded to poles.
 #[test]
-fn a_brush_over_a_bar_with_a_groove_is_not_felt_in_free_air() {
-    let body = bodies::groove();
-    brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVER);
-}
-
-/// Edges rounded to poles, and corners that are poles of every patch around them.
-#[test]
-#[ignore = "not so yet: a corner of smooth edges, or of collapsed patches, may hold the witness point back"]
-fn a_brush_over_rounded_and_pointed_corners_is_not_felt_in_free_air() {
-    for body in [bodies::rounded(), bodies::tetrahedron()] {
+fn a_brush_over_drawn_bodies_is_not_felt_in_free_air() {
+    for body in [bodies::groove(), bodies::rounded()] {
         brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVER);
     }
+}
+
+/// Corners that are poles of every patch around them, sharp.
+#[test]
+#[ignore = "not so yet: out over a sharp edge it takes up to seven ticks at 0.3 m/s"]
+fn a_brush_over_a_tetrahedron_is_not_felt_in_free_air() {
+    let body = bodies::tetrahedron();
+    brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVER);
 }
 
 /// Two poles of four patches each: its locator takes minutes.
