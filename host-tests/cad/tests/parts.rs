@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::PathBuf;
 
-const PARTS: [&str; 5] = ["s02", "s05", "s09", "s11", "s12"];
+const PARTS: [&str; 6] = ["s02", "s05", "s06", "s09", "s11", "s12"];
 /// The tolerance asked for, millimetres.
 const TOLERANCE: f64 = 0.01;
 
@@ -94,7 +94,7 @@ fn bodies_are_watertight_to_the_bit() {
 #[test]
 fn few_patches_do() {
     // What was reached; a mesher's route takes six times as many.
-    for (part, most) in PARTS.iter().zip([16, 26, 33, 32, 13]) {
+    for (part, most) in PARTS.iter().zip([16, 26, 6, 33, 32, 13]) {
         let count = imported(part).patches.len();
         assert!(count <= most, "{part}: {count} patches, {most} have done");
     }
@@ -129,4 +129,39 @@ fn a_greater_tolerance_is_no_more_patches() {
     let count = |tolerance: f64| import(&path, &Options { tolerance, ..Options::default() }).unwrap().patches.len();
     assert!(count(0.05) <= count(0.01));
     assert!(count(0.01) <= count(0.001));
+}
+
+/// `PALPATE_WRITE=1` writes them anew.
+#[test]
+fn the_pictures_of_the_docs_are_drawn_the_same_again() {
+    for part in ["s09", "s12"] {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../docs/figures/cad-{part}.svg"));
+        let drawn = imported(part).picture.unwrap();
+        if std::env::var_os("PALPATE_WRITE").is_some() {
+            fs::write(&path, drawn).unwrap();
+        } else {
+            assert!(fs::read_to_string(&path).unwrap() == drawn, "docs/figures/cad-{part}.svg is older than the code");
+        }
+    }
+}
+
+/// A whole sphere has no pole for a tracker to stop at.
+#[test]
+fn a_sphere_is_six_patches_without_a_pole() {
+    let patches = imported("s06").patches;
+    assert_eq!(patches.len(), 6);
+    for patch in patches {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(s, t)| patch.surface.at(s, t)[0]);
+        for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            // An edge of the cube in a sphere of 20 mm, straight.
+            assert!((a.distance(*b) - 40.0 / 3.0_f64.sqrt()).abs() < 1e-6, "{a} {b}");
+        }
+    }
+}
+
+/// Its end is two half-moons: each an arc that one cut divides, and a straight side.
+#[test]
+fn a_slotted_cylinder_is_tiled() {
+    // Both ways within the tolerance, or it would be refused.
+    assert!(imported("slotted_cylinder").patches.len() <= 40);
 }
