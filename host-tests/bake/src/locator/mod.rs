@@ -45,10 +45,13 @@ use field::Probes;
 use glam::DVec3;
 use octree::Search;
 
+/// An octree is not made coarser than this to fit its indices.
+const LEAST_DEPTH: usize = 3;
+
 /// Bakes the locator of a body. `creases` holds for each face the parameters, along `u` and `v`, at which it is only
 /// C⁰. `progress` is told how much of the space is done, in the smallest cells, and how much there is. With `wanted`,
 /// only the lists of these probes' cells are good, and they are those of the whole tables. The same input gives the
-/// same tables on any number of threads.
+/// same tables on any number of threads. Tables that would not fit their indices are made coarser, until they do.
 ///
 /// # Errors
 /// Where the octree is too large for its indices, see [`LocatorError`].
@@ -72,10 +75,15 @@ pub fn bake(
     // A probe beyond the cube takes the list of the nearest cell.
     let (least, most) = (root.centre - root.half, root.centre + root.half);
     let wanted: Option<Vec<_>> = wanted.map(|probes| probes.iter().map(|probe| probe.clamp(least, most)).collect());
-    let search =
-        Search { faces: &faces, options, size, farthest: f64::from(side) * 3.0_f64.sqrt(), wanted: wanted.as_deref() };
-    let tree = search.run(root, progress);
-    tables::pack(&tree, corner, side, options)
+    let mut options = *options;
+    loop {
+        let (farthest, wanted) = (f64::from(side) * 3.0_f64.sqrt(), wanted.as_deref());
+        let search = Search { faces: &faces, options: &options, size, farthest, wanted };
+        match tables::pack(&search.run(root, progress), corner, side, &options) {
+            Err(LocatorError::TooLarge { .. }) if options.depth > LEAST_DEPTH => options.depth -= 1,
+            done => return done,
+        }
+    }
 }
 
 /// The bounding box, as two corners, of a grid on every face.

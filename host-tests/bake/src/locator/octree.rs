@@ -38,8 +38,10 @@ enum Grown {
 /// How often what is left of a face is divided at most for want of a proof.
 const DIVISIONS: usize = 2;
 
-/// What a rectangle may lose, in sizes, before it is sampled eight times as densely.
+/// What a rectangle may lose, in sizes, before it is sampled more densely.
 const LOOSE: f64 = 0.01;
+/// So many times.
+const CLOSER: usize = 4;
 
 /// How often a list that samples show to fail is mended by dividing a rectangle.
 const REPAIRS: usize = 24;
@@ -80,9 +82,19 @@ impl<'a> Search<'a> {
     ) -> Vec<Grown> {
         let half = 0.5 * parent.half;
         let quarter = Probes { centre: parent.centre, half };
+        // Points of the body for the corners of all children, which share them.
+        let step = |index: usize, axis: usize| (index / 3_usize.pow(axis as u32) % 3) as f64 - 1.0;
+        let place =
+            |index: usize| parent.centre + parent.half * DVec3::from_array([0, 1, 2].map(|axis| step(index, axis)));
+        let lattice: Vec<_> = (0..27).map(|index| self.faces.reference(place(index))).collect();
         let child = |index: usize| {
             let probes = Probes { centre: quarter.corner(index), half };
-            match self.cell(probes, inherited, depth) {
+            let bits = |of: usize| [of & 1, of >> 1 & 1, of >> 2];
+            let corner = |corner: usize| {
+                let ([a, b, c], [x, y, z]) = (bits(index), bits(corner));
+                lattice[a + x + 3 * (b + y) + 9 * (c + z)]
+            };
+            match self.cell(probes, (0..8).map(corner), inherited, depth) {
                 Outcome::Leaf(leaf, entries) => {
                     told(depth);
                     Grown::Leaf(leaf, entries)
@@ -99,13 +111,20 @@ impl<'a> Search<'a> {
         self.wanted.is_none_or(|wanted| wanted.iter().any(|probe| (*probe - probes.centre).abs().cmple(half).all()))
     }
 
-    fn cell(&self, probes: Probes, inherited: &Inherited<'a>, depth: usize) -> Outcome<'a> {
+    /// `corners` are points of the body near its corners.
+    fn cell(
+        &self,
+        probes: Probes,
+        corners: impl Iterator<Item = Option<Reference>>,
+        inherited: &Inherited<'a>,
+        depth: usize,
+    ) -> Outcome<'a> {
         if !self.is_wanted(&probes) {
             return unwanted(&probes, depth);
         }
         let last = depth >= self.options.depth;
-        let places = std::iter::once(probes.centre).chain((0..8).map(|index| probes.corner(index)));
-        let references: Vec<Reference> = places.filter_map(|place| self.faces.reference(place)).collect();
+        let centre = std::iter::once_with(|| self.faces.reference(probes.centre));
+        let references: Vec<Reference> = centre.chain(corners).flatten().collect();
         let query = Query {
             probes,
             references: &references,
@@ -144,7 +163,7 @@ impl<'a> Search<'a> {
         // Where much could be lost it is looked for harder.
         let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
         if !proved {
-            let count = self.options.samples * if is_loose && kind != Kind::Deep { 8 } else { 1 };
+            let count = self.options.samples * if is_loose && kind != Kind::Deep { CLOSER } else { 1 };
             let evaluations = if self.options.convex { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
             let (tolerance, size) = ((0.2 * tolerance) as f32, self.size as f32);
             let sampling = Sampling { count, evaluations, tolerance, size };

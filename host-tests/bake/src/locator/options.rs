@@ -15,7 +15,7 @@ pub struct LocatorOptions {
     /// How much deeper it may go where a list that is not proved fails for a sampled probe and dividing its rectangles
     /// does not mend it.
     pub deeper: usize,
-    /// Probes sampled in each cell whose list is not proved; eight times as many where much could be lost.
+    /// Probes sampled in each cell whose list is not proved; four times as many where much could be lost.
     pub samples: usize,
     /// A rectangle with several minima is good enough if they differ by no more than this in distance.
     pub tolerance: f64,

@@ -8,6 +8,7 @@ use palpate::math::Vec3;
 const SAFETY: f64 = 1.5;
 
 /// The surface about the middle of a rectangle of its parameters; lengths in metres.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Osculating {
     pub middle: Vec3,
     first: [Vec3; 2],
@@ -37,11 +38,12 @@ impl Osculating {
                 let bend =
                     here.second[0] * (0.5 * du * du) + here.second[1] * (du * dv) + here.second[2] * (0.5 * dv * dv);
                 let guess = here.point + here.first[0] * du + here.first[1] * dv + bend;
-                radius = radius.max(there.distance(here.point));
-                off = off.max(there.distance(guess));
+                radius = radius.max(there.distance_squared(here.point));
+                off = off.max(there.distance_squared(guess));
             }
         }
-        let [uu, uv, vv] = here.second.map(DVec3::length);
+        let (radius, off) = (radius.sqrt(), off.sqrt());
+        let [uu, uv, vv] = here.second.map(|second| second.length_squared().sqrt());
         let sag = 0.5 * uu * half[0] * half[0] + uv * half[0] * half[1] + 0.5 * vv * half[1] * half[1];
         let single = |vector: DVec3| vector.as_vec3();
         Self {

@@ -7,6 +7,8 @@
 //! - `w⁴ φ_uv = B_u · B_v + (A − Q w) · C_uv`.
 
 use super::field::Field;
+use super::osculating::Osculating;
+use super::stored::StoredSurface;
 use crate::tracked::Tracked;
 use glam::DVec3;
 use std::sync::OnceLock;
@@ -41,6 +43,8 @@ pub(crate) struct Piece {
     /// At least the distance between any two of its points, metres.
     pub diameter: f64,
     quarters: OnceLock<Box<[Self; 4]>>,
+    /// As its middle sees it.
+    near: OnceLock<Osculating>,
 }
 
 /// What a span's pieces begin with.
@@ -129,6 +133,7 @@ impl Piece {
             bounds: [DVec3::ZERO; 2],
             diameter: 0.0,
             quarters: OnceLock::new(),
+            near: OnceLock::new(),
         }))
     }
 
@@ -150,6 +155,11 @@ impl Piece {
     /// Its quarters, computed when first asked for; `None` at the last level.
     pub(crate) fn quarters(&self) -> Option<&[Self; 4]> {
         (self.level < LEVELS).then(|| &**self.quarters.get_or_init(|| Box::new(self.split())))
+    }
+
+    /// As its middle sees it, computed when first asked for; the surface is its face's.
+    pub(super) fn near(&self, surface: &StoredSurface) -> Osculating {
+        *self.near.get_or_init(|| Osculating::new(surface, [self.low, self.high]))
     }
 
     fn split(&self) -> [Self; 4] {
@@ -178,6 +188,7 @@ impl Piece {
                 bounds: [DVec3::ZERO; 2],
                 diameter: 0.0,
                 quarters: OnceLock::new(),
+                near: OnceLock::new(),
             }));
         }
         pieces.try_into().unwrap_or_else(|_| unreachable!("four quarters"))

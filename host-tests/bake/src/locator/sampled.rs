@@ -170,7 +170,12 @@ fn on_a_normal(faces: &Faces, probes: &Probes, entries: &[Entry], random: &mut R
     let [low, high] = entry.rectangle.parameters();
     let parameters = [0, 1].map(|axis| random.between(low[axis], high[axis]));
     let at = faces.surfaces[usize::from(entry.face)].evaluate(parameters);
-    let normal = at.first[0].cross(at.first[1]).try_normalize()?;
+    let normal = at.first[0].cross(at.first[1]);
+    let length = normal.length_squared().sqrt();
+    if length == 0.0 {
+        return None;
+    }
+    let normal = normal / length;
     // Where the line is inside the box, slab by slab.
     let (towards, half) = (probes.centre - at.point, DVec3::splat(1.0) * probes.half);
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);

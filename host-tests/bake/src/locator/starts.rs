@@ -90,7 +90,12 @@ impl Start {
             convex: false,
             more: false,
         };
-        Self { candidate, near: Osculating::new(&faces.surfaces[usize::from(face)], rectangle) }
+        let surface = &faces.surfaces[usize::from(face)];
+        let near = match region {
+            Region::Inside(piece) => piece.near(surface),
+            Region::Side { .. } | Region::Vertex(_) => Osculating::new(surface, rectangle),
+        };
+        Self { candidate, near }
     }
 }
 

@@ -119,12 +119,18 @@ impl Territory {
     }
 
     fn angle_from(&self, piece: &Piece, axis: DVec3) -> f64 {
-        let longest = products(piece).map(|normal| normal.length()).fold(0.0, f64::max);
-        let angles = products(piece)
-            .filter(|normal| normal.length() > NO_NORMAL * longest)
-            .map(|normal| (normal * self.turn()).angle_between(axis));
+        let longest = products(piece).map(|normal| normal.length_squared()).fold(0.0, f64::max);
+        // The one with the least cosine, of which alone the angle is asked: an arc cosine takes longer than all else.
+        let mut farthest: Option<(f64, DVec3)> = None;
+        for normal in products(piece) {
+            let square = normal.length_squared();
+            let cosine = (normal * self.turn()).dot(axis) / square.sqrt();
+            if square > NO_NORMAL * NO_NORMAL * longest && farthest.is_none_or(|(least, _)| cosine < least) {
+                farthest = Some((cosine, normal * self.turn()));
+            }
+        }
         // The angle itself rounds by less.
-        let angle = angles.fold(0.0, f64::max) + 1e-7;
+        let angle = farthest.map_or(0.0, |(_, normal)| normal.angle_between(axis)) + 1e-7;
         // The hull of vectors beyond a right angle from the axis is no cone around it.
         if angle < 0.5 * PI { angle } else { PI }
     }
