@@ -1,12 +1,12 @@
 //! Every number of a body's tables as 32-bit words, for the check that flash still holds what was baked.
 //!
-//! The tables are a list of *records* — one for the body, then the faces, edges, vertices, spokes, and the locator's
-//! nodes and entries — and a record is a list of words. A word is found by a [`TableCursor`] in a bounded number of
+//! The tables are a list of *records* — one for the body, then the faces' sides and patches, edges, vertices, spokes,
+//! and the locator's nodes and entries — and a record is a list of words. A word is found by a [`TableCursor`] in a bounded number of
 //! steps, whatever the size of the body. Addresses are left out: they are the linker's. What a slice's address leads to
 //! is read, and its length is in the words.
 
 use super::curve::SplineCurve;
-use super::feature::{Edge, EdgeFace, Face, Separator, Side, Spoke, Vertex};
+use super::feature::{Edge, EdgeFace, Separator, Side, Spoke, Vertex};
 use super::locator::Locator;
 use super::table::Body;
 use crate::math::Vec3;
@@ -54,8 +54,12 @@ impl Body {
         if within(1).is_some() {
             return self.head(word);
         }
-        if let Some(index) = within(self.faces.len()) {
-            return self.faces.get(index)?.word(word);
+        if let Some(index) = within(FACE_RECORDS * self.faces.len()) {
+            let face = self.faces.get(index / FACE_RECORDS)?;
+            return match face.sides.get(index % FACE_RECORDS) {
+                Some(side) => side.word(word),
+                None => face.patch.word(word),
+            };
         }
         if let Some(index) = within(self.edges.len()) {
             return self.edges.get(index)?.word(word);
@@ -109,30 +113,10 @@ impl Body {
 /// Entries of the locator in a record.
 const ENTRIES: usize = 16;
 
-impl Face {
-    /// The sides, then the patch.
-    fn word(&self, word: usize) -> Option<u32> {
-        let mut word = word;
-        for side in &self.sides {
-            let count = side.words();
-            if word < count {
-                return side.word(word);
-            }
-            word -= count;
-        }
-        self.patch.word(word)
-    }
-}
+/// Records of a face: its sides, then its patch.
+const FACE_RECORDS: usize = 5;
 
 impl Side {
-    fn words(&self) -> usize {
-        match self {
-            Self::Pole { .. } => 1,
-            Self::Edge { separator: Separator::Plane { .. }, .. } => 5,
-            Self::Edge { separator: Separator::Ruled(curve), .. } => 1 + curve.words(),
-        }
-    }
-
     fn word(&self, word: usize) -> Option<u32> {
         match (self, word) {
             (Self::Pole { vertex }, 0) => Some(u32::from(*vertex)),
@@ -142,8 +126,8 @@ impl Side {
                 Some(u32::from(*edge) | u32::from(*reversed) << 16 | u32::from(is_ruled) << 17 | 1 << 18)
             }
             (Self::Edge { separator, .. }, _) => match separator {
-                Separator::Plane { normal, .. } if word < 4 => Some(component(*normal, word - 1)),
-                Separator::Plane { offset, .. } => Some(offset.to_bits()),
+                Separator::Plane { across, .. } if word < 4 => Some(component(*across, word - 1)),
+                Separator::Plane { offset, .. } => (word == 4).then_some(offset.to_bits()),
                 Separator::Ruled(curve) => curve.word(word - 1),
             },
         }
@@ -151,10 +135,6 @@ impl Side {
 }
 
 impl SplineCurve {
-    fn words(&self) -> usize {
-        2 + self.breaks.len() + self.coefficients.words()
-    }
-
     fn word(&self, word: usize) -> Option<u32> {
         match word {
             0 => Some(u32::from(self.degree) | self.coefficients.tag() << 8 | (self.breaks.len() as u32) << 16),

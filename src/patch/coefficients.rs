@@ -11,14 +11,6 @@ pub enum Coefficients {
 }
 
 impl Coefficients {
-    /// How many words they are.
-    pub(crate) const fn words(&self) -> usize {
-        match self {
-            Self::Polynomial(entries) => 3 * entries.len(),
-            Self::Rational(entries) => 4 * entries.len(),
-        }
-    }
-
     /// 1 if rational.
     pub(crate) const fn tag(&self) -> u32 {
         matches!(self, Self::Rational(_)) as u32
