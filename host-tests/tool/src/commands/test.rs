@@ -36,7 +36,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if arguments.quick {
         cargo.args(quick());
     } else {
-        cargo.arg("--workspace");
+        // All suites, also after one that failed: one run says all that is wrong.
+        cargo.args(["--workspace", "--no-fail-fast"]);
     }
     cargo.args(&arguments.cargo_test);
     if !arguments.without_emulator && !arguments.quick {
