@@ -23,7 +23,10 @@ impl Body {
                 let normal = state.witness.normal(&face.patch).unwrap_or(state.normal);
                 let away = probe - state.witness.surface.point;
                 let gap = away.dot(normal);
-                if gap.is_finite() {
+                // Held at a border the witness point is not where the probe goes in: what is beyond it will say.
+                let is_held = state.witness.mode != BoundaryMode::Interior;
+                let begins_there = gap < 0.0 && is_held && state.contact == Contact::InFront;
+                if gap.is_finite() && !begins_there {
                     (state.normal, state.gap) = (normal, gap);
                     self.touch(state, away, state.contact.next(gap, BoundaryMode::Interior));
                 }

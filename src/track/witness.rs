@@ -95,13 +95,23 @@ impl Witness {
     #[inline(always)]
     pub(crate) fn set_down<P: Patch>(&mut self, patch: &P, [u, v]: [f32; 2], is_curved: bool) {
         if is_curved {
-            let reached = patch.evaluate_curved(u, v);
-            (self.surface, self.second) = (reached.surface, reached.second);
+            self.rest_at([u, v], &patch.evaluate_curved(u, v));
         } else {
             self.surface = patch.evaluate(u, v);
+            self.begin_at([u, v]);
         }
-        self.parameters = [u, v];
-        self.is_free = is_inside(self.parameters);
+    }
+
+    /// Sets the point down where the patch has been evaluated.
+    #[inline(always)]
+    pub(crate) fn rest_at(&mut self, parameters: [f32; 2], reached: &CurvedPoint) {
+        (self.surface, self.second) = (reached.surface, reached.second);
+        self.begin_at(parameters);
+    }
+
+    #[inline(always)]
+    fn begin_at(&mut self, parameters: [f32; 2]) {
+        (self.parameters, self.is_free) = (parameters, is_inside(parameters));
         (self.mode, self.halvings) = (BoundaryMode::Interior, 0);
     }
 
