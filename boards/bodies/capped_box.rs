@@ -1,6 +1,6 @@
 // Baked table, not for editing: palpate bake capped_box.toml --out capped_box.rs
-// Table format 4. SHA-256 of the model file: 21e70fde5e93324ff67d2d8e8050f949f102ea8475d56dd65d5be85ec60a6a0b
-// A body of 6 faces, 12 edges and 8 vertices. CRC-32 of its numbers: 6de57b6c
+// Table format 5. SHA-256 of the model file: 21e70fde5e93324ff67d2d8e8050f949f102ea8475d56dd65d5be85ec60a6a0b
+// A body of 6 faces, 12 edges and 8 vertices. CRC-32 of its numbers: a9d065db
 
 // Span borders.
 #[rustfmt::skip]
@@ -364,7 +364,7 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 4,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(-1.0, 0.0, 0.0),
+                    across: palpate::math::vec3(-16.666666, 0.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -372,15 +372,15 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 5,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(1.0, 0.0, 0.0),
-                    offset: 0.06,
+                    across: palpate::math::vec3(16.666666, 0.0, 0.0),
+                    offset: 0.99999994,
                 },
             },
             palpate::body::Side::Edge {
                 edge: 6,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, 0.0, -1.0),
+                    across: palpate::math::vec3(0.0, 0.0, -35.714287),
                     offset: 0.0,
                 },
             },
@@ -434,7 +434,7 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 5,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, -1.0, 0.0),
+                    across: palpate::math::vec3(0.0, -25.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -442,15 +442,15 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 7,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, 1.0, 0.0),
-                    offset: 0.04,
+                    across: palpate::math::vec3(0.0, 25.0, 0.0),
+                    offset: 1.0,
                 },
             },
             palpate::body::Side::Edge {
                 edge: 8,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, 0.0, -1.0),
+                    across: palpate::math::vec3(0.0, 0.0, -38.46154),
                     offset: 0.0,
                 },
             },
@@ -504,15 +504,15 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 7,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(1.0, 0.0, 0.0),
-                    offset: 0.06,
+                    across: palpate::math::vec3(16.666666, 0.0, 0.0),
+                    offset: 0.99999994,
                 },
             },
             palpate::body::Side::Edge {
                 edge: 9,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(-1.0, 0.0, 0.0),
+                    across: palpate::math::vec3(-16.666666, 0.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -520,7 +520,7 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 10,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, -0.0, -1.0),
+                    across: palpate::math::vec3(0.0, -0.0, -35.714287),
                     offset: 0.0,
                 },
             },
@@ -574,15 +574,15 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 9,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, 1.0, 0.0),
-                    offset: 0.04,
+                    across: palpate::math::vec3(0.0, 25.0, 0.0),
+                    offset: 1.0,
                 },
             },
             palpate::body::Side::Edge {
                 edge: 4,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, -1.0, 0.0),
+                    across: palpate::math::vec3(0.0, -25.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -590,7 +590,7 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 11,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(-0.0, 0.0, -1.0),
+                    across: palpate::math::vec3(-0.0, 0.0, -38.46154),
                     offset: 0.0,
                 },
             },
@@ -644,7 +644,7 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 6,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, -1.0, 0.0),
+                    across: palpate::math::vec3(0.0, -25.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -652,15 +652,15 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 10,
                 reversed: true,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, 1.0, 0.0),
-                    offset: 0.04,
+                    across: palpate::math::vec3(0.0, 25.0, 0.0),
+                    offset: 1.0,
                 },
             },
             palpate::body::Side::Edge {
                 edge: 11,
                 reversed: true,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(-1.0, 0.0, 0.0),
+                    across: palpate::math::vec3(-16.666666, 0.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -668,8 +668,8 @@ static FACES: [palpate::body::Face; 6] = [
                 edge: 8,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(1.0, 0.0, 0.0),
-                    offset: 0.06,
+                    across: palpate::math::vec3(16.666666, 0.0, 0.0),
+                    offset: 0.99999994,
                 },
             },
         ],
@@ -1246,7 +1246,7 @@ static ENTRIES: [u32; 503] = [
 ];
 /// CRC-32 of the body's numbers, [`palpate::body::Body::table_crc`], computed when it was baked.
 #[allow(dead_code)]
-pub const TABLE_CRC: u32 = 1843755884;
+pub const TABLE_CRC: u32 = 2849007067;
 /// The body.
 #[allow(dead_code, long_running_const_eval)]
 #[rustfmt::skip]

@@ -1,6 +1,6 @@
 //! One step along an edge: the controller of one parameter.
 
-use super::curve::{CurvePoint, SplineCurve};
+use super::curve::SplineCurve;
 use super::feature::{Edge, Separator};
 use crate::math::{Vec3, saturate, sqrt_from_above};
 
@@ -18,11 +18,47 @@ pub(super) struct Along {
     pub gradient: f32,
 }
 
+/// Where a probe is, seen from the border of a face. `m` is the face's outward conormal there, as long as the derivative
+/// across the border is along it; `k` a positive number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inward {
+    /// `k ΔR · m`, below 0 where the probe is beyond the face's region.
+    product: f32,
+    /// `k ‖m‖²`.
+    square: f32,
+    /// `k`.
+    scale: f32,
+    /// The derivative across the border, outward, times the edge's tangent, m².
+    skew: f32,
+}
+
+impl Inward {
+    /// Whether the probe has left the face: `(Q − c) · m > 0`.
+    #[inline]
+    pub(super) fn is_beyond(&self) -> bool {
+        self.product < 0.0
+    }
+
+    /// Where the closest point lies on the face, as far as can be told from the border: the Gauss–Newton step across
+    /// it, shortened by `stretch`, and along it. The change of the parameter across, the parameter of the edge, and the fall of
+    /// `½ ‖ΔR‖²` to first order, m².
+    #[inline]
+    pub(super) fn landing(&self, along: &Along, t: f32, stretch: f32) -> ([f32; 2], f32) {
+        let inside = saturate(self.product / (self.square * stretch), 0.0, 1.0);
+        let beside = if along.stretch > f32::MIN_POSITIVE {
+            saturate(t + (inside * self.skew - along.gradient) / along.stretch, 0.0, 1.0)
+        } else {
+            t
+        };
+        ([inside, beside], inside * self.product / self.scale)
+    }
+}
+
 impl Along {
     #[inline]
-    pub(super) fn new(at: &CurvePoint, probe: Vec3) -> Self {
-        let difference = at.point - probe;
-        let (stretch, gradient) = (at.tangent.length_squared(), difference.dot(at.tangent));
+    pub(super) fn new(point: Vec3, tangent: Vec3, probe: Vec3) -> Self {
+        let difference = point - probe;
+        let (stretch, gradient) = (tangent.length_squared(), difference.dot(tangent));
         Self { difference, stretch, gradient }
     }
 
@@ -72,21 +108,25 @@ impl Along {
         saturate(target, 0.0, 1.0)
     }
 
-    /// Whether the probe is beyond a face's region at the parameter `t` of its edge, `(Q − c) · m > 0` with `m` the
-    /// face's conormal there.
+    /// Where the probe is, seen from the border of a face at the parameter `t` of its edge with this tangent.
     #[inline]
-    pub(super) fn is_beyond(&self, separator: &Separator, at: &CurvePoint, t: f32, probe: Vec3) -> bool {
+    pub(super) fn inward(&self, separator: &Separator, tangent: Vec3, t: f32, probe: Vec3) -> Inward {
         match separator {
-            Separator::Plane { normal, offset } => normal.dot(probe) > *offset,
+            Separator::Plane { across, offset } => {
+                let product = *offset - across.dot(probe);
+                Inward { product, square: 1.0, scale: across.length_squared(), skew: 0.0 }
+            }
             // The conormal is the part of the cross derivative that is normal to the edge; times the tangent's square
             // there is nothing to divide.
             Separator::Ruled(cross) => {
                 let cross = cross.point(t);
-                let out = self.difference.dot(cross);
+                let (out, skew) = (self.difference.dot(cross), cross.dot(tangent));
                 if self.stretch <= f32::MIN_POSITIVE {
-                    return out < 0.0;
+                    return Inward { product: out, square: f32::INFINITY, scale: 1.0, skew: 0.0 };
                 }
-                self.stretch * out < cross.dot(at.tangent) * self.gradient
+                let product = self.stretch * out - skew * self.gradient;
+                let square = self.stretch * cross.length_squared() - skew * skew;
+                Inward { product, square, scale: self.stretch, skew }
             }
         }
     }
@@ -113,7 +153,7 @@ mod tests {
         let curve = straight(8.0);
         let at = curve.evaluate(0.25);
         // 0.5 m farther along and 1.2 m beside it: 1.3 m away.
-        let along = Along::new(&at, at.point + vec3(0.5, 1.2, 0.0));
+        let along = Along::new(at.point, at.tangent, at.point + vec3(0.5, 1.2, 0.0));
         assert_eq!([along.stretch, along.gradient], [4.0, -1.0]);
         // w = 1/4, s = 1/4, K w² = 1/2: the gain is s / ((√s + K w²)² + 1.3 K w²) = 0.25 / 1.65, with
         // roots from above.
@@ -125,25 +165,50 @@ mod tests {
         assert_eq!(along.advanced(&straight(0.0), 0.25), 0.5);
     }
 
-    #[test]
-    fn beyond_a_face_is_beyond_its_separator() {
-        let curve = straight(0.0);
-        let at = curve.evaluate(0.5);
-        let plane = Separator::Plane { normal: vec3(0.0, 1.0, 0.0), offset: 0.25 };
-        // The face's cross derivative, slanted along the edge: its conormal is y all the same.
-        let ruled = Separator::Ruled(SplineCurve {
+    /// A face that grows by 4 m a unit of its parameter away from the edge, towards −y, its separator given both ways:
+    /// as a plane, and by a cross derivative that slants along the edge.
+    fn separators() -> [Separator; 2] {
+        let ruled = SplineCurve {
             degree: 0,
             breaks: &[0.0, 1.0],
-            coefficients: Coefficients::Polynomial(&[[3.0, 1.0, 0.0]]),
+            coefficients: Coefficients::Polynomial(&[[3.0, 4.0, 0.0]]),
             second_derivative: 0.0,
-        });
-        for (height, is_beyond) in [(0.5, true), (0.2, false), (-0.5, false)] {
-            let probe = vec3(0.1, height, 0.0);
-            assert_eq!(Along::new(&at, probe).is_beyond(&plane, &at, 0.5, probe), is_beyond, "{height}");
-        }
+        };
+        [Separator::Plane { across: vec3(0.0, 0.25, 0.0), offset: 0.0 }, Separator::Ruled(ruled)]
+    }
+
+    #[test]
+    fn beyond_a_face_is_beyond_its_separator() {
+        let at = straight(0.0).evaluate(0.5);
         for (height, is_beyond) in [(0.5, true), (-0.5, false)] {
             let probe = vec3(0.1, height, 0.0);
-            assert_eq!(Along::new(&at, probe).is_beyond(&ruled, &at, 0.5, probe), is_beyond, "{height}");
+            let along = Along::new(at.point, at.tangent, probe);
+            for separator in &separators() {
+                let inward = along.inward(separator, at.tangent, 0.5, probe);
+                assert_eq!(inward.is_beyond(), is_beyond, "{height}, {separator:?}");
+            }
         }
+    }
+
+    /// Of a plane face `f(w, t) = c(t) − w d`: with `d = (3, 4, 0)` and `c' = (2, 0, 0)` the foot is exact.
+    #[test]
+    fn a_flat_face_is_entered_at_the_foot_of_the_probe() {
+        let at = straight(0.0).evaluate(0.5);
+        let probe = at.point + vec3(0.2, -1.0, 3.0);
+        let along = Along::new(at.point, at.tangent, probe);
+        // Across, w = 1/4. Along, 2 Δt − 3 w = 0.2 where the derivative slants, 2 Δt = 0.2 where it does not.
+        for (separator, beside) in separators().iter().zip([0.6, 0.975]) {
+            let inward = along.inward(separator, at.tangent, 0.5, probe);
+            let ([inside, t], slope) = inward.landing(&along, 0.5, 1.0);
+            // A few roundings of numbers near 1.
+            assert!((inside - 0.25).abs() < 4.0 * f32::EPSILON, "{inside}");
+            assert!((t - beside).abs() < 4.0 * f32::EPSILON, "{t}");
+            // The square of the way across, 1 m.
+            assert!((slope - 1.0).abs() < 8.0 * f32::EPSILON, "{slope}");
+        }
+        let [plane, _] = separators();
+        let inward = along.inward(&plane, at.tangent, 0.5, probe);
+        assert_eq!(inward.landing(&along, 0.5, f32::INFINITY).0[0], 0.0, "where nothing is known of the face");
+        assert_eq!(inward.landing(&along, 0.5, 0.125).0[0], 1.0, "not beyond the other side");
     }
 }

@@ -50,15 +50,17 @@ pub enum Side {
 /// `(Q − c(t*)) · m(t*) > 0` at the parameter `t*` of the edge closest to `Q`.
 #[derive(Clone, Copy, Debug)]
 pub enum Separator {
-    /// A plane: the edge is straight and the face's normal constant along it. Left iff `normal · Q > offset`.
+    /// A plane: the edge is straight and the face's normal constant along it. Left iff `across · Q > offset`.
     Plane {
-        /// Unit vector out of the face's region.
-        normal: Vec3,
-        /// Metres.
+        /// Normal to the plane, out of the face's region: as much as the face's parameter across the border changes in
+        /// a metre, at the middle of the edge.
+        across: Vec3,
+        /// What the plane has.
         offset: f32,
     },
     /// The face's derivative across the border, out of the face, in the edge's parameter: `±f_u` or `±f_v` times any
-    /// positive function. The conormal is its part normal to the edge. Exact: a polynomial of the patch's own numbers.
+    /// positive function that is 1 at the middle of the edge. The conormal is its part normal to the edge. Exact: a
+    /// polynomial of the patch's own numbers.
     Ruled(SplineCurve),
 }
 

@@ -1,9 +1,9 @@
 //! Second order: the distance from a probe to one rectangle of a patch's parameters.
 //!
 //! With `φ = ½ ‖f − Q‖²`, gradient `g` and Hessian `H = I + ΔR · D²f`, each step goes to the minimiser of
-//! `g · δ + ½ δᵀ H δ` over the rectangle, where `H` is positive definite; where it is not, `I` stands in for what of
-//! its diagonal is not positive, or for all of it (Gauss–Newton). A step that does not lower `φ` is halved. Beside a
-//! pole the step is one in polar coordinates ([`super::pole`]).
+//! `g · δ + ½ δᵀ H δ` over the rectangle, where `H` is positive definite; where it is not, the absolute values of its
+//! diagonal stand in, which lead away from a saddle, or all of `I` (Gauss–Newton). A step that does not lower `φ` is
+//! halved. Beside a pole the step is one in polar coordinates ([`super::pole`]).
 
 use super::locator::Candidate;
 use super::pole::Pole;
@@ -24,7 +24,7 @@ const PROVED: f32 = 2.0e-6;
 const SHARE: f32 = 1.0e-4;
 /// A determinant below this part of the product of the diagonal is rounding.
 const MIN_DETERMINANT: f32 = 1.0e-4;
-/// A second derivative of `φ` below this part of that without curvature is taken for none.
+/// A second derivative of `φ` closer to 0 than this part of that without curvature is taken for so much.
 const FLAT: f32 = 1.0e-2;
 /// Halvings of one step.
 const MAX_HALVINGS: u8 = 8;
@@ -82,15 +82,25 @@ impl Descending {
         if poles == 0 { self.judge(patch, known, size) } else { self.judge_beside(patch, poles, known, size) }
     }
 
+    /// Whether nothing has been evaluated yet.
+    pub(super) const fn is_fresh(&self) -> bool {
+        self.seen.is_none() && self.half_squared == f32::INFINITY
+    }
+
     /// Whether the last evaluation is still to be judged.
     pub const fn has_evaluated(&self) -> bool {
         self.seen.is_some()
     }
 
+    /// Where the last evaluation was, and `φ` there, m², until it is judged.
+    pub(super) fn seen(&self) -> Option<([f32; 2], f32)> {
+        self.seen.map(|seen| (self.trial, seen.half_squared))
+    }
+
     /// The first half of a step: one evaluation.
     #[inline(never)]
     pub fn evaluate(&mut self, patch: &SplinePatch, probe: Vec3) {
-        let curved = patch.evaluate_curved(self.trial[0], self.trial[1]);
+        let curved = patch.evaluate_apart(self.trial);
         self.left = self.left.wrapping_sub(1);
         self.seen = Some(Seen::new(&curved, curved.surface.point - probe));
     }
@@ -114,10 +124,7 @@ impl Descending {
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
             let pole = Pole::nearest(poles, at);
-            let model = match pole {
-                None => Model::new(seen),
-                Some(pole) => Model::new(seen.beside(pole)),
-            };
+            let model = Model::new(pole.map_or(seen, |pole| seen.beside(pole)));
             let [lower, upper] = self.candidate.rectangle();
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
@@ -125,14 +132,7 @@ impl Descending {
                 return Judgement::Beaten;
             }
             (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
-            let (mut change, mut fall) = model.minimiser(room);
-            if let Some(pole) = pole {
-                change = pole.unrolled(change);
-                let bend = seen.newton[1] - seen.form[1];
-                if let Some(around) = pole.around(seen.gradient, bend, seen.form, room) {
-                    (change, fall) = around;
-                }
-            }
+            let (change, fall) = model.step(&seen, pole, room);
             // φ changes by d times the change of d. Beside a pole, where steps shrink with the distance to it, the last
             // bit of φ counts too.
             let distance = sqrt_from_above(2.0 * half_squared);
@@ -187,11 +187,10 @@ struct Seen {
 
 impl Seen {
     #[inline]
-    fn new(curved: &CurvedPoint, difference: Vec3) -> Self {
-        let surface = &curved.surface;
+    fn new(CurvedPoint { surface, second }: &CurvedPoint, difference: Vec3) -> Self {
         let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
         let form = [f_u.dot(f_u), f_u.dot(f_v), f_v.dot(f_v)];
-        let bend = curved.second.along(difference);
+        let bend = second.along(difference);
         let newton = [form[0] + bend[0], form[1] + bend[1], form[2] + bend[2]];
         let gradient = [difference.dot(f_u), difference.dot(f_v)];
         Self { half_squared: 0.5 * difference.length_squared(), gradient, form, newton }
@@ -203,6 +202,42 @@ impl Seen {
     fn beside(mut self, pole: Pole) -> Self {
         self.newton[1] += pole.mixed(self.gradient);
         self
+    }
+}
+
+/// A step of second order on a face that has poles.
+#[derive(Clone, Copy)]
+pub(super) struct StepBeside {
+    /// Where it leads.
+    pub parameters: [f32; 2],
+    /// Whether a border holds it there, by parameter.
+    pub is_held: [bool; 2],
+    /// What it should lower `φ` by, m².
+    pub fall: f32,
+}
+
+impl StepBeside {
+    /// The step from a point, in the coordinates around the nearest pole. `None` where it would be rounding, or there
+    /// is no pole.
+    #[inline(never)]
+    pub(super) fn new(poles: u8, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
+        let pole = Pole::nearest(poles, at)?;
+        let seen = Seen::new(curved, curved.surface.point - probe);
+        let room = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
+        let model = Model::new(seen.beside(pole));
+        let (change, fall) = model.step(&seen, Some(pole), room);
+        let (distance, resolved) = (sqrt(2.0 * seen.half_squared), RESOLUTION * size);
+        let is_worth_it = -fall > resolved * (distance + resolved);
+        if !is_worth_it {
+            return None;
+        }
+        let parameters = [0, 1].map(|axis| saturate(at[axis] + change[axis], 0.0, 1.0));
+        let slope = model.slope(change);
+        let is_held = [0, 1].map(|axis| {
+            let at = parameters[axis];
+            (at <= 0.0 && slope[axis] > 0.0) || (at >= 1.0 && slope[axis] < 0.0)
+        });
+        Some(Self { parameters, is_held, fall: -fall })
     }
 }
 
@@ -218,8 +253,9 @@ struct Model {
 
 impl Model {
     fn new(Seen { gradient, form, newton, .. }: Seen) -> Self {
-        // Along an arc that is equally far everywhere φ is flat: what is known of the other parameter still counts.
-        let mixed = [0, 2].map(|axis| if newton[axis] > FLAT * form[axis] { newton[axis] } else { form[axis] });
+        // Along an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of the
+        // other parameter still counts.
+        let mixed = [0, 2].map(|axis| saturate(newton[axis].abs(), FLAT * form[axis], f32::MAX));
         let mixed = [mixed[0], newton[1], mixed[1]];
         let is_newton = is_positive_definite(newton);
         let hessian = if is_newton {
@@ -234,6 +270,22 @@ impl Model {
             [trace, 0.0, trace]
         };
         Self { gradient, hessian, is_newton }
+    }
+
+    /// The step to the minimiser, beside a pole in the coordinates of [`super::pole`], and the model's value there.
+    #[inline(always)]
+    fn step(&self, seen: &Seen, pole: Option<Pole>, room: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+        let (change, fall) = self.minimiser(room);
+        let Some(pole) = pole else { return (change, fall) };
+        let bend = seen.newton[1] - seen.form[1];
+        let around = pole.around(seen.gradient, bend, seen.form, room);
+        around.unwrap_or((pole.unrolled(change, room), fall))
+    }
+
+    /// The model's gradient after a step.
+    fn slope(&self, [u, v]: [f32; 2]) -> [f32; 2] {
+        let [a, b, c] = self.hessian;
+        [self.gradient[0] + a * u + b * v, self.gradient[1] + b * u + c * v]
     }
 
     /// The least value of `g · δ` with `δ` in `room`: not positive.

@@ -7,6 +7,7 @@
 mod along;
 mod audit;
 mod curve;
+mod enter;
 mod feature;
 mod locator;
 mod meet;

@@ -3,7 +3,8 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::feature::{EdgeFace, EdgeKind, Face, Feature, Side};
+use super::enter::Border;
+use super::feature::{EdgeFace, EdgeKind, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
@@ -28,7 +29,7 @@ struct Crossing {
 impl Body {
     /// Hands over through the side that holds the witness point. While the witness point is free there is nothing to
     /// ask: the controller brings it to the side through which the probe has left, and there the measure numbers of the
-    /// projection errors change sign where the probe passes the separator. Whether it switched.
+    /// projection errors change sign where the probe passes the separator. Whether the tick is spent, or the edge's.
     #[inline(never)]
     pub(super) fn leave_face(&self, index: u16, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Some(face) = self.faces.get(usize::from(index)) else { return false };
@@ -43,20 +44,21 @@ impl Body {
             BoundaryMode::Interior => return false,
         };
         let Some(side) = face.sides.get(number) else { return false };
-        step.switched = match side {
-            Side::Pole { vertex } => self.rest_on_vertex(*vertex, state),
+        match side {
+            Side::Pole { vertex } => {
+                step.switched = self.rest_on_vertex(*vertex, state);
+                step.switched
+            }
             Side::Edge { edge, reversed, .. } => {
                 let along = if number < 2 { v } else { u };
                 let t = if *reversed { 1.0 - along } else { along };
                 let crossing = Crossing { from: index, edge: *edge, t, is_along_v: number < 2, is_reversed: *reversed };
                 self.cross_side(crossing, is_curved, state, step)
             }
-        };
-        step.switched
+        }
     }
 
-    /// From a face to the one beyond the edge, if that takes the probe: over a smooth edge it does, for between the two
-    /// lies no region. Otherwise to the edge.
+    /// From a face to the one beyond the edge, if that takes the probe. Otherwise to the edge.
     #[inline]
     fn cross_side(&self, crossing: Crossing, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Crossing { from, edge: index, t, is_along_v, is_reversed } = crossing;
@@ -64,8 +66,8 @@ impl Body {
         let from_second = edge.faces[0].face != from;
         let other = edge.faces[usize::from(!from_second)];
         let is_other = other.face != from && other != EdgeFace::NONE;
-        if is_other && (edge.kind == EdgeKind::Smooth || self.takes_across(other, t, is_along_v, state)) {
-            return self.enter_across(other, t, is_curved, state, step);
+        if is_other && self.crosses(other, edge.kind, crossing, is_curved, state, step) {
+            return true;
         }
         // The border of the face is the edge: no evaluation.
         let Witness { surface, second, .. } = &state.witness;
@@ -74,28 +76,31 @@ impl Body {
         let at =
             CurvePoint { point: surface.point, tangent: if is_reversed { -tangent } else { tangent }, half_second };
         state.rest_on_edge(index, t, &at);
-        state.declined = u8::from(is_other);
+        (state.declined, step.switched) = (u8::from(is_other), true);
         true
     }
 
-    /// Whether the face beyond a side takes the probe, at the witness point with the parameter `t` of the edge there.
-    /// Which way the tangent along the edge points does not matter. Not inlined: what it keeps on the stack is not
-    /// there when the other face is evaluated.
+    /// Whether the face beyond a side takes the probe; then it is entered. Not inlined: what it keeps on the stack is
+    /// not there when the edge is stepped along.
     #[inline(never)]
-    fn takes_across(&self, other: EdgeFace, t: f32, is_along_v: bool, state: &BodyWitness) -> bool {
+    fn crosses(
+        &self,
+        other: EdgeFace,
+        kind: EdgeKind,
+        crossing: Crossing,
+        is_curved: bool,
+        state: &mut BodyWitness,
+        step: &mut BodyStep,
+    ) -> bool {
+        let Crossing { t, is_along_v, is_reversed, .. } = crossing;
         let surface = &state.witness.surface;
         let tangent = if is_along_v { surface.tangent_v } else { surface.tangent_u };
-        let at = CurvePoint { point: surface.point, tangent, half_second: Vec3::ZERO };
-        self.takes(other, &Along::new(&at, state.probe), &at, t, state.probe)
-    }
-
-    /// Whether a face takes the probe over one of its sides.
-    #[inline(always)]
-    fn takes(&self, of: EdgeFace, along: &Along, at: &CurvePoint, t: f32, probe: Vec3) -> bool {
-        match self.faces.get(usize::from(of.face)).and_then(|face| face.sides.get(usize::from(of.side))) {
-            Some(Side::Edge { separator, .. }) => !along.is_beyond(separator, at, t, probe),
-            _ => false,
-        }
+        let tangent = if is_reversed { -tangent } else { tangent };
+        let border = Border { along: Along::new(surface.point, tangent, state.probe), tangent, t };
+        let is_smooth = kind == EdgeKind::Smooth;
+        let Some(entry) = self.entry(other, is_smooth, &border, is_curved, state, f32::INFINITY) else { return false };
+        self.enter(&entry, is_curved, state, step);
+        true
     }
 
     /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point;
@@ -104,21 +109,20 @@ impl Body {
     pub(super) fn tick_on_edge(&self, index: u16, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(edge) = self.edges.get(usize::from(index)) else { return };
         let (t, probe) = (state.witness.parameters[0], state.probe);
-        let Witness { surface, second, .. } = &state.witness;
-        let at = CurvePoint { point: surface.point, tangent: surface.tangent_u, half_second: second.half_uu };
-        let along = Along::new(&at, probe);
+        let tangent = state.witness.surface.tangent_u;
+        let border = Border { along: Along::new(state.witness.surface.point, tangent, probe), tangent, t };
         // An edge that has just been come to asks in the next tick.
         if !step.switched {
             for of in edge.faces {
-                if self.takes(of, &along, &at, t, probe) {
-                    step.switched = self.enter_across(of, t, is_curved, state, step);
+                if let Some(entry) = self.entry(of, false, &border, is_curved, state, f32::INFINITY) {
+                    self.enter(&entry, is_curved, state, step);
                     return;
                 }
             }
             state.declined = BOTH;
         }
-        if !along.is_held(t) {
-            step.outcome = self.slide(index, &along, is_curved, state);
+        if !border.along.is_held(t) {
+            step.outcome = self.slide(index, &border.along, is_curved, state);
         } else if state.declined == BOTH {
             step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
         }
@@ -148,52 +152,7 @@ impl Body {
         }
     }
 
-    /// Into a face over one of its sides, at the edge's parameter. The point stays the same. One evaluation.
     #[inline(never)]
-    fn enter_across(
-        &self,
-        of: EdgeFace,
-        t: f32,
-        is_curved: bool,
-        state: &mut BodyWitness,
-        step: &mut BodyStep,
-    ) -> bool {
-        let EdgeFace { face: index, side: number } = of;
-        let Some(face) = self.faces.get(usize::from(index)) else { return false };
-        let Some(side) = face.sides.get(usize::from(number)) else { return false };
-        let [u, v] = on_side(number, side, t);
-        state.feature = Feature::Face(index);
-        state.witness.set_down(&face.patch, [u, v], is_curved);
-        step.evaluations += 1;
-        true
-    }
-
-    /// The face beyond a smooth edge, and the parameters there of a point of a face's side.
-    #[inline(never)]
-    pub(super) fn across(&self, face: &Face, [u, v]: [f32; 2], held: BoundaryMode) -> Option<(u16, [f32; 2])> {
-        let (number, along) = match held {
-            BoundaryMode::LowerU => (0, v),
-            BoundaryMode::UpperU => (1, v),
-            BoundaryMode::LowerV => (2, u),
-            BoundaryMode::UpperV => (3, u),
-            BoundaryMode::Corner | BoundaryMode::Interior => return None,
-        };
-        let Side::Edge { edge: index, reversed, .. } = face.sides.get(number)? else { return None };
-        let edge = self.edges.get(usize::from(*index))?;
-        if edge.kind != EdgeKind::Smooth {
-            return None;
-        }
-        // Both may be sides of one face.
-        let [first, second] = edge.faces;
-        let is_first = usize::from(first.side) == number
-            && self.faces.get(usize::from(first.face)).is_some_and(|of| core::ptr::eq(of, face));
-        let other = if is_first { second } else { first };
-        let side = self.faces.get(usize::from(other.face))?.sides.get(usize::from(other.side))?;
-        let t = if *reversed { 1.0 - along } else { along };
-        Some((other.face, on_side(other.side, side, t)))
-    }
-
-    #[inline]
     fn rest_on_vertex(&self, index: u16, state: &mut BodyWitness) -> bool {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return false };
         state.feature = Feature::Vertex(index);
@@ -207,17 +166,5 @@ impl Body {
             halvings: 0,
         };
         true
-    }
-}
-
-/// The parameters of a face at the parameter of the edge along one of its sides.
-#[inline]
-fn on_side(number: u8, side: &Side, t: f32) -> [f32; 2] {
-    let along = if matches!(side, Side::Edge { reversed: true, .. }) { 1.0 - t } else { t };
-    match number {
-        0 => [0.0, along],
-        1 => [1.0, along],
-        2 => [along, 0.0],
-        _ => [along, 1.0],
     }
 }

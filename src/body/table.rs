@@ -314,7 +314,7 @@ impl Body {
 impl Separator {
     const fn is_valid(&self) -> bool {
         match self {
-            Self::Plane { normal, offset } => is_finite(*normal) && offset.is_finite(),
+            Self::Plane { across, offset } => is_finite(*across) && offset.is_finite(),
             Self::Ruled(curve) => curve.is_valid(),
         }
     }

@@ -2,11 +2,14 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
+use super::enter::LEAST_FALL;
 use super::feature::{Face, Feature};
+use super::minimise::StepBeside;
 use super::search::Search;
 use super::table::Body;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
-use crate::track::{Aim, BoundaryMode, Contact, Controller, Outcome, Probe, Witness};
+use crate::patch::CurvedPoint;
+use crate::track::{Aim, BoundaryMode, Contact, Controller, Outcome, Probe, Witness, mode_at};
 
 /// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew, once
 /// it rests or slows down.
@@ -138,7 +141,7 @@ impl Body {
         let is_curved = controller.is_second_order();
         let follows = self.follows(state, probe.position);
         let has_turn = follows && self.has_turn(state);
-        if !has_turn && !self.search(is_curved, state, probe.position, follows, &mut step) {
+        if !has_turn && !self.search(state, probe.position, follows, &mut step) {
             step.searched = true;
             return step;
         }
@@ -172,33 +175,48 @@ impl Body {
     /// face beyond.
     #[inline(always)]
     fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
-        let mut aim = Aim::of(&face.patch, &state.witness, probe);
-        let (mut patch, mut crossed) = (&face.patch, None);
-        if aim.beyond != BoundaryMode::Interior
-            && self.has_smooth_edges
-            && let Some((index, parameters)) = self.across(face, aim.landing.parameters, aim.beyond)
-            && let Some(other) = self.faces.get(usize::from(index))
-        {
-            (patch, crossed) = (&other.patch, Some(index));
-            (aim.landing.parameters, aim.beyond) = (parameters, BoundaryMode::Interior);
-        } else if !aim.has_slope() {
-            state.witness.mode = aim.beyond;
+        let aim = match Aim::in_full(&face.patch, &state.witness, probe) {
+            Ok(aim) => aim,
+            Err(_) if self.has_poles && self.step_beside_pole(face, state, step) => return,
+            Err(most) => Aim::in_part(most, &face.patch, &state.witness, probe),
+        };
+        if aim.beyond != BoundaryMode::Interior && self.has_smooth_edges && self.step_across(face, &aim, state, step) {
+            return;
+        }
+        state.witness.mode = aim.beyond;
+        if !aim.has_slope() {
             return;
         }
         let [u, v] = aim.landing.parameters;
-        let reached = patch.evaluate_curved(u, v);
+        let reached = face.patch.evaluate_curved(u, v);
         step.evaluations += 1;
         step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
-        // An undone step leaves the witness point on its own face: over a seam that gapes the distance may rise.
-        match (step.outcome, crossed) {
-            (Outcome::Undone, Some(_)) => state.witness.mode = aim.mode,
-            (_, Some(index)) => {
-                state.feature = Feature::Face(index);
-                step.switched = true;
-                state.witness.mode = aim.beyond;
-            }
-            (_, None) => state.witness.mode = aim.beyond,
+    }
+
+    /// One step of second order on a face that has a pole, where the certificate is of little use: bounds over the whole
+    /// face do not know that around the pole all is small. The evaluation says whether the step was good; if not it is
+    /// undone, and the next one is certified. Whether it was tried.
+    #[inline(never)]
+    fn step_beside_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+        let Witness { parameters, surface, second, halvings, .. } = state.witness;
+        if halvings != 0 {
+            return false;
         }
+        let at = CurvedPoint { surface, second };
+        let Some(plan) = StepBeside::new(face.poles(), parameters, &at, state.probe, self.size) else { return false };
+        let reached = face.patch.evaluate_apart(plan.parameters);
+        step.evaluations += 1;
+        let before = (surface.point - state.probe).length_squared();
+        let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - 2.0 * LEAST_FALL * plan.fall;
+        if is_nearer {
+            state.witness.rest_at(plan.parameters, &reached);
+            state.witness.mode = mode_at(plan.parameters, plan.is_held);
+            step.outcome = Outcome::Moved;
+        } else {
+            (state.witness.is_free, state.witness.halvings) = (false, 1);
+            step.outcome = Outcome::Undone;
+        }
+        true
     }
 
     /// Whether the probe is near that of the last tick. Not if it is not finite.
@@ -213,13 +231,13 @@ impl Body {
         jump * jump
     }
 
-    /// Whether the tick is the tracker's alone: there is nothing to audit, or, from behind, it is its turn. From
-    /// behind, the far side of a convex body holds a witness point as well; there tracker and audit take turns.
+    /// Whether the tick is the tracker's alone: there is nothing to audit, or, behind a convex body's surface, it is its
+    /// turn. From behind, the far side holds a witness point as well; there tracker and audit take turns.
     #[inline]
     fn has_turn(&self, state: &mut BodyWitness) -> bool {
         match state.contact {
             contact if contact >= self.sure_from => true,
-            Contact::Behind => {
+            Contact::Behind if self.is_convex() => {
                 state.rests = !state.rests;
                 state.rests && state.is_located
             }

@@ -26,6 +26,14 @@ impl SplinePatch {
     }
 }
 
+impl SplinePatch {
+    /// [`Self::evaluate_curved`] for where ten instructions more do not matter and flash does.
+    #[inline(never)]
+    pub(crate) fn evaluate_apart(&self, [u, v]: [f32; 2]) -> CurvedPoint {
+        self.evaluate_curved(u, v)
+    }
+}
+
 /// Evaluates one of these spans of `N` coefficients, `Q` a row. A single one needs no search: it goes from 0 to 1.
 #[inline(always)]
 fn whole<const D: usize, const Q: usize, const N: usize>(

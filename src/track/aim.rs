@@ -24,7 +24,7 @@ pub(crate) struct Aim {
     pub slope: f32,
     /// How much of the whole step.
     pub gain: f32,
-    /// `‖ΔR‖²`.
+    /// `‖ΔR‖²`, which the step must not raise.
     pub squared: f32,
 }
 
@@ -32,13 +32,30 @@ impl Aim {
     /// The step to where the model is least over the square: in full, or as much of it as is certain.
     #[inline(always)]
     pub(crate) fn of<P: Patch>(patch: &P, witness: &Witness, probe: Vec3) -> Self {
+        Self::in_full(patch, witness, probe).unwrap_or_else(|most| Self::in_part(most, patch, witness, probe))
+    }
+
+    /// The full step, where bounds alone say that it is certain; otherwise, where the model is convex, the full step
+    /// that is not.
+    #[inline(always)]
+    pub(crate) fn in_full<P: Patch>(patch: &P, witness: &Witness, probe: Vec3) -> Result<Self, Option<Self>> {
         let errors = ProjectionErrors::new(&witness.surface, probe);
         let squared = errors.difference.length_squared();
-        match Model::new(&errors, witness) {
-            // After a step that had to be undone it would be the same again.
-            Some(model) if witness.halvings == 0 => Self::towards(&model, patch, witness, probe, squared)
+        // After a step that had to be undone it would be the same again.
+        let model = Model::new(&errors, witness).filter(|_| witness.halvings == 0).ok_or(None)?;
+        let plan = model.plan(witness.parameters);
+        let full = Self::full(&plan, squared);
+        if plan.is_certain(patch, witness, squared) { Ok(full) } else { Err(Some(full)) }
+    }
+
+    /// As much as is certain of what [`Self::in_full`] did not find certain.
+    #[inline(always)]
+    pub(crate) fn in_part<P: Patch>(most: Option<Self>, patch: &P, witness: &Witness, probe: Vec3) -> Self {
+        match most {
+            Some(full) => full
+                .shortened(patch, witness, probe)
                 .unwrap_or_else(|| to_first_order(patch, witness, probe.x, probe.y, probe.z)),
-            _ => without_model(patch, witness, probe.x, probe.y, probe.z),
+            None => without_model(patch, witness, probe.x, probe.y, probe.z),
         }
     }
 
@@ -46,6 +63,13 @@ impl Aim {
     #[inline(always)]
     pub(crate) fn has_slope(&self) -> bool {
         is_above_zero(self.slope)
+    }
+
+    /// The same for a step that ends elsewhere, and is to lower `‖ΔR‖²` by no less than `fall`.
+    #[inline]
+    pub(crate) fn landing_at(&self, parameters: [f32; 2], fall: f32) -> Self {
+        let landing = Landing { parameters, is_inside: border::is_inside(parameters) };
+        Self { landing, squared: self.squared - fall, ..*self }
     }
 
     /// The step to an evaluated point: done, or undone where the distance rose by more than rounding.
@@ -68,28 +92,19 @@ impl Aim {
         Self { landing: Landing { parameters, is_inside }, mode, beyond, slope, gain: 1.0, squared }
     }
 
-    /// The full step to where a model is least, or as much of it as is certain; `None` if nothing is.
+    /// As much of a full step as is certain; `None` if nothing is.
     #[inline(always)]
-    fn towards<P: Patch>(model: &Model, patch: &P, witness: &Witness, probe: Vec3, squared: f32) -> Option<Self> {
-        let [u, v] = witness.parameters;
-        let free = model.free([u, v]);
-        if free.is_inside && free.is_certain(patch, witness, squared) {
-            return Some(Self::full(&free, squared));
-        }
-        let plan = if free.is_inside { free } else { model.on_border([u, v], free.change) };
-        let Plan { change, slope, .. } = plan;
-        let full = Self::full(&plan, squared);
-        if !free.is_inside && plan.is_certain(patch, witness, squared) {
-            return Some(full);
-        }
-        let share = exact_share(patch, witness, probe.x, probe.y, probe.z, change, slope);
+    fn shortened<P: Patch>(&self, patch: &P, witness: &Witness, probe: Vec3) -> Option<Self> {
+        let ([u, v], [to_u, to_v]) = (witness.parameters, self.landing.parameters);
+        let change = [to_u - u, to_v - v];
+        let share = exact_share(patch, witness, probe.x, probe.y, probe.z, change, self.slope);
         if share >= 1.0 {
-            return Some(full);
+            return Some(*self);
         }
         let part = |from: f32, change: f32| saturate(from + share * change, 0.0, 1.0);
         let parameters = [part(u, change[0]), part(v, change[1])];
         let landing = Landing { parameters, is_inside: border::is_inside(parameters) };
-        (share > 0.0).then_some(Self { landing, beyond: full.mode, gain: share, ..full })
+        (share > 0.0).then_some(Self { landing, beyond: self.mode, gain: share, ..*self })
     }
 }
 
@@ -101,7 +116,8 @@ fn without_model<P: Patch>(patch: &P, witness: &Witness, x: f32, y: f32, z: f32)
     let errors = ProjectionErrors::new(&witness.surface, probe);
     if witness.halvings == 0
         && let Some(model) = Model::shifted(&errors, witness)
-        && let Some(aim) = Aim::towards(&model, patch, witness, probe, errors.difference.length_squared())
+        && let full = Aim::full(&model.plan(witness.parameters), errors.difference.length_squared())
+        && let Some(aim) = full.shortened(patch, witness, probe)
     {
         return aim;
     }

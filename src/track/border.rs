@@ -65,7 +65,7 @@ impl Border {
 
 /// The mode at `(u, v)` with these parameters held.
 #[inline]
-pub(super) fn held([u, v]: [f32; 2], [is_u, is_v]: [bool; 2]) -> BoundaryMode {
+pub(crate) fn mode_at([u, v]: [f32; 2], [is_u, is_v]: [bool; 2]) -> BoundaryMode {
     match (is_u, is_v) {
         (false, false) => BoundaryMode::Interior,
         (true, true) => BoundaryMode::Corner,

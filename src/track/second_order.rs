@@ -79,9 +79,16 @@ impl Model {
         Some(Self { gradient: errors.gradient, hessian, determinant: a * c - b * b })
     }
 
+    /// The step to its minimiser over the square.
+    #[inline(always)]
+    pub(super) fn plan(&self, from: [f32; 2]) -> Plan {
+        let free = self.free(from);
+        if free.is_inside { free } else { self.on_border(from, free.change) }
+    }
+
     /// The step to its free minimiser, wherever that is.
     #[inline(always)]
-    pub(super) fn free(&self, [u, v]: [f32; 2]) -> Plan {
+    fn free(&self, [u, v]: [f32; 2]) -> Plan {
         let [along_u, along_v] = self.gradient;
         let [a, b, c] = self.hessian;
         let inverse = -1.0 / self.determinant;
@@ -98,7 +105,7 @@ impl Model {
 
     /// The minimiser where the free one is not inside: on a side that this violates.
     #[inline(always)]
-    pub(super) fn on_border(&self, from: [f32; 2], free: [f32; 2]) -> Plan {
+    fn on_border(&self, from: [f32; 2], free: [f32; 2]) -> Plan {
         let [a, b, c] = self.hessian;
         let [along_u, along_v] = self.gradient;
         let to = [from[0] + free[0], from[1] + free[1]];
@@ -133,8 +140,8 @@ impl Model {
         };
         let pushes_u = pushes(0, along_u + a * change[0] + b * change[1]);
         let pushes_v = pushes(1, along_v + b * change[0] + c * change[1]);
-        let beyond = border::held(parameters, [pushes_u, pushes_v]);
-        let mode = border::held(parameters, [pushes_u && change[0] == 0.0, pushes_v && change[1] == 0.0]);
+        let beyond = border::mode_at(parameters, [pushes_u, pushes_v]);
+        let mode = border::mode_at(parameters, [pushes_u && change[0] == 0.0, pushes_v && change[1] == 0.0]);
         let is_inside = border::is_inside(parameters);
         // What is not a number, or too large for one, goes nowhere.
         let slope = if (free[0] + free[1]).is_finite() { self.slope(change) } else { 0.0 };

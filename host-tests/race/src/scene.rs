@@ -89,7 +89,7 @@ fn body(patch: SplinePatch, size: f32, lines: &HashMap<&str, &str>) -> anyhow::R
     let entries = numbers::<u32>(lines, "entries")?.leak();
     let locator = Locator { corner: Vec3::new(x, y, z), side, nodes: nodes.leak(), entries };
     // Four open borders that no search looks at; as poles they would be searched around.
-    let separator = Separator::Plane { normal: Vec3::X, offset: 0.0 };
+    let separator = Separator::Plane { across: Vec3::X, offset: 0.0 };
     let sides = [0, 1, 2, 3].map(|edge| Side::Edge { edge, reversed: false, separator });
     let faces = vec![Face { patch, sides }];
     let curve = SplineCurve {

@@ -11,11 +11,11 @@ use palpate::math::Vec3;
 /// [`palpate::body::Separator`] with the numbers owned.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BakedSeparator {
-    /// Left iff `normal · Q > offset`.
+    /// Left iff `across · Q > offset`.
     Plane {
-        /// Unit vector.
-        normal: [f32; 3],
-        /// Metres.
+        /// Out of the face, per metre.
+        across: [f32; 3],
+        /// What the plane has.
         offset: f32,
     },
     /// The derivative across the border.
@@ -29,6 +29,9 @@ const STRAIGHT: f64 = 6e-8;
 const CONSTANT: f64 = 1e-7;
 /// Points at which both are looked at: more than a rational border of degree 5 with a normal of degree 20 has freedoms.
 const SAMPLES: usize = 32;
+
+/// Lengths that differ by less are one: the rounding of `f64` in the change of basis.
+const SAME_LENGTH: f64 = 1e-9;
 
 impl BakedSeparator {
     /// The separator of a face at a border, in the edge's parameter. `spans` are the border's, in that parameter;
@@ -47,13 +50,17 @@ impl BakedSeparator {
                 outward = outward.without_root(end == 1);
             }
         }
+        let (length, known) = (border.at(patch, 0.5).across.length(), outward.at(0.5).length());
+        if known > 0.0 && (length - known).abs() > SAME_LENGTH * length {
+            outward = outward.map(|power| power * (length / known));
+        }
         Ok(Self::Ruled(BakedCurve::polynomial(&outward.trimmed(0))?))
     }
 
     /// The separator as the firmware has it; its numbers stay allocated for good.
     pub fn to_separator(&self) -> Separator {
         match self {
-            Self::Plane { normal, offset } => Separator::Plane { normal: Vec3::from_array(*normal), offset: *offset },
+            Self::Plane { across, offset } => Separator::Plane { across: Vec3::from_array(*across), offset: *offset },
             Self::Ruled(curve) => Separator::Ruled(curve.to_curve()),
         }
     }
@@ -78,9 +85,9 @@ fn plane(patch: &NurbsPatch, border: Border) -> Option<BakedSeparator> {
         return None;
     }
     let conormal = middle.conormal();
-    let rounded = conormal.as_vec3();
-    // Of the stored normal, so that the plane holds the middle of the border; it is that of the whole within the
+    let rounded = (conormal / middle.across.dot(conormal)).as_vec3();
+    // Of the stored vector, so that the plane holds the middle of the border; it is that of the whole within the
     // tolerances.
     let offset = rounded.as_dvec3().dot(middle.point);
-    Some(BakedSeparator::Plane { normal: rounded.to_array(), offset: offset as f32 })
+    Some(BakedSeparator::Plane { across: rounded.to_array(), offset: offset as f32 })
 }

@@ -130,9 +130,9 @@ fn face(index: usize, face: &BakedFace, breaks: &Breaks) -> TokenStream {
         BakedSide::Edge { edge, reversed, separator } => {
             let edge = Literal::u16_unsuffixed(*edge);
             let separator = match separator {
-                BakedSeparator::Plane { normal, offset } => {
-                    let (normal, offset) = (vector(Vec3::from_array(*normal)), number(*offset));
-                    quote!(palpate::body::Separator::Plane { normal: #normal, offset: #offset })
+                BakedSeparator::Plane { across, offset } => {
+                    let (across, offset) = (vector(Vec3::from_array(*across)), number(*offset));
+                    quote!(palpate::body::Separator::Plane { across: #across, offset: #offset })
                 }
                 BakedSeparator::Ruled(of) => {
                     let curve = curve(of, &separator_name(index, side), breaks);

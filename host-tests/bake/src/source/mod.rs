@@ -19,7 +19,7 @@ use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
 
 /// Version of the form of the tables; raised when older firmware cannot take them.
-pub const FORMAT_VERSION: u32 = 4;
+pub const FORMAT_VERSION: u32 = 5;
 
 /// What the header says.
 #[derive(Clone, Copy, Debug)]

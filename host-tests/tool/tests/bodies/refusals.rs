@@ -79,7 +79,7 @@ fn an_edge_is_not_left_for_its_vertex_before_both_faces_have_declined() {
             let edge = &body.edges()[usize::from(spoke.edge)];
             let [first, second] =
                 edge.faces.map(|of| match body.faces()[usize::from(of.face)].sides[usize::from(of.side)] {
-                    Side::Edge { separator: Separator::Plane { normal, .. }, .. } => normal,
+                    Side::Edge { separator: Separator::Plane { across, .. }, .. } => across.normalize(),
                     ref other => panic!("not a plane: {other:?}"),
                 });
             let mut state = body.start();

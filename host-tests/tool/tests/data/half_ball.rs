@@ -1,6 +1,6 @@
 // Baked table, not for editing: palpate bake half_ball.toml --out half_ball.rs
-// Table format 4. SHA-256 of the model file: 8f0233ab18bff9eeb1e114f105852a17a7926877df3c21b33703ab64693ef0be
-// A body of 8 faces, 12 edges and 6 vertices. CRC-32 of its numbers: dc8ac532
+// Table format 5. SHA-256 of the model file: 8f0233ab18bff9eeb1e114f105852a17a7926877df3c21b33703ab64693ef0be
+// A body of 8 faces, 12 edges and 6 vertices. CRC-32 of its numbers: a1eeaf53
 
 // Span borders.
 #[rustfmt::skip]
@@ -21,25 +21,25 @@ static FACE_0: [[f32; 4]; 9] = [
 ];
 #[rustfmt::skip]
 static FACE_0_SIDE_0: [[f32; 3]; 4] = [
-    [2.6020852e-18, -0.043713205, -1.7347235e-18],
-    [-1.7347235e-18, -0.015, 3.469447e-18],
-    [-6.938894e-18, -0.03, 3.469447e-18],
-    [-3.469447e-18, -0.010294372, -3.469447e-18],
+    [1.785789e-18, -0.03, -1.190526e-18],
+    [-1.190526e-18, -0.010294372, 2.381052e-18],
+    [-4.762104e-18, -0.020588744, 2.381052e-18],
+    [-2.381052e-18, -0.0070649404, -2.381052e-18],
 ];
 #[rustfmt::skip]
 static FACE_0_SIDE_1: [[f32; 3]; 4] = [
-    [-0.043713205, 2.6020852e-18, -1.7347235e-18],
-    [-0.015, -1.7347235e-18, 3.469447e-18],
-    [-0.03, -6.938894e-18, 3.469447e-18],
-    [-0.010294372, -3.469447e-18, -3.469447e-18],
+    [-0.03, 1.785789e-18, -1.190526e-18],
+    [-0.010294372, -1.190526e-18, 2.381052e-18],
+    [-0.020588744, -4.762104e-18, 2.381052e-18],
+    [-0.0070649404, -2.381052e-18, -2.381052e-18],
 ];
 #[rustfmt::skip]
 static FACE_0_SIDE_2: [[f32; 3]; 5] = [
-    [-1.7347235e-18, -1.7347235e-18, -0.030909903],
+    [-2.381052e-18, -2.381052e-18, -0.042426407],
     [0.0, 0.0, 0.0],
-    [-1.7347235e-18, -1.7347235e-18, -0.042426407],
-    [6.938894e-18, -6.938894e-18, 0.0],
-    [4.3368087e-18, 4.3368087e-18, -0.014558441],
+    [-2.381052e-18, -2.381052e-18, -0.058233764],
+    [9.524208e-18, -9.524208e-18, 0.0],
+    [5.95263e-18, 5.95263e-18, -0.01998267],
 ];
 
 // Face 1: "disc0".
@@ -54,11 +54,11 @@ static FACE_1: [[f32; 4]; 6] = [
 ];
 #[rustfmt::skip]
 static FACE_1_SIDE_2: [[f32; 3]; 5] = [
-    [0.015454952, 0.015454952, 0.0],
-    [-0.025606602, 0.025606602, 0.0],
-    [-3.469447e-18, -3.469447e-18, 0.0],
-    [-0.017573593, 0.017573593, 0.0],
-    [-0.0072792205, -0.0072792205, 0.0],
+    [0.021213204, 0.021213204, 0.0],
+    [-0.035147186, 0.035147186, 0.0],
+    [-4.762104e-18, -4.762104e-18, 0.0],
+    [-0.024121216, 0.024121216, 0.0],
+    [-0.009991335, -0.009991335, 0.0],
 ];
 
 // Face 2: "ball1".
@@ -76,25 +76,25 @@ static FACE_2: [[f32; 4]; 9] = [
 ];
 #[rustfmt::skip]
 static FACE_2_SIDE_0: [[f32; 3]; 4] = [
-    [0.043713205, 2.6020852e-18, -1.7347235e-18],
-    [0.015, -1.7347235e-18, 3.469447e-18],
-    [0.03, -6.938894e-18, 3.469447e-18],
-    [0.010294372, -3.469447e-18, -3.469447e-18],
+    [0.03, 1.785789e-18, -1.190526e-18],
+    [0.010294372, -1.190526e-18, 2.381052e-18],
+    [0.020588744, -4.762104e-18, 2.381052e-18],
+    [0.0070649404, -2.381052e-18, -2.381052e-18],
 ];
 #[rustfmt::skip]
 static FACE_2_SIDE_1: [[f32; 3]; 4] = [
-    [-2.6020852e-18, -0.043713205, -1.7347235e-18],
-    [1.7347235e-18, -0.015, 3.469447e-18],
-    [6.938894e-18, -0.03, 3.469447e-18],
-    [3.469447e-18, -0.010294372, -3.469447e-18],
+    [-1.785789e-18, -0.03, -1.190526e-18],
+    [1.190526e-18, -0.010294372, 2.381052e-18],
+    [4.762104e-18, -0.020588744, 2.381052e-18],
+    [2.381052e-18, -0.0070649404, -2.381052e-18],
 ];
 #[rustfmt::skip]
 static FACE_2_SIDE_2: [[f32; 3]; 5] = [
-    [1.7347235e-18, -1.7347235e-18, -0.030909903],
+    [2.381052e-18, -2.381052e-18, -0.042426407],
     [0.0, 0.0, 0.0],
-    [1.7347235e-18, -1.7347235e-18, -0.042426407],
-    [6.938894e-18, 6.938894e-18, 0.0],
-    [-4.3368087e-18, 4.3368087e-18, -0.014558441],
+    [2.381052e-18, -2.381052e-18, -0.058233764],
+    [9.524208e-18, 9.524208e-18, 0.0],
+    [-5.95263e-18, 5.95263e-18, -0.01998267],
 ];
 
 // Face 3: "disc1".
@@ -109,11 +109,11 @@ static FACE_3: [[f32; 4]; 6] = [
 ];
 #[rustfmt::skip]
 static FACE_3_SIDE_2: [[f32; 3]; 5] = [
-    [-0.015454952, 0.015454952, 0.0],
-    [-0.025606602, -0.025606602, 0.0],
-    [3.469447e-18, -3.469447e-18, 0.0],
-    [-0.017573593, -0.017573593, 0.0],
-    [0.0072792205, -0.0072792205, 0.0],
+    [-0.021213204, 0.021213204, 0.0],
+    [-0.035147186, -0.035147186, 0.0],
+    [4.762104e-18, -4.762104e-18, 0.0],
+    [-0.024121216, -0.024121216, 0.0],
+    [0.009991335, -0.009991335, 0.0],
 ];
 
 // Face 4: "ball2".
@@ -131,25 +131,25 @@ static FACE_4: [[f32; 4]; 9] = [
 ];
 #[rustfmt::skip]
 static FACE_4_SIDE_0: [[f32; 3]; 4] = [
-    [-2.6020852e-18, 0.043713205, -1.7347235e-18],
-    [1.7347235e-18, 0.015, 3.469447e-18],
-    [6.938894e-18, 0.03, 3.469447e-18],
-    [3.469447e-18, 0.010294372, -3.469447e-18],
+    [-1.785789e-18, 0.03, -1.190526e-18],
+    [1.190526e-18, 0.010294372, 2.381052e-18],
+    [4.762104e-18, 0.020588744, 2.381052e-18],
+    [2.381052e-18, 0.0070649404, -2.381052e-18],
 ];
 #[rustfmt::skip]
 static FACE_4_SIDE_1: [[f32; 3]; 4] = [
-    [0.043713205, -2.6020852e-18, -1.7347235e-18],
-    [0.015, 1.7347235e-18, 3.469447e-18],
-    [0.03, 6.938894e-18, 3.469447e-18],
-    [0.010294372, 3.469447e-18, -3.469447e-18],
+    [0.03, -1.785789e-18, -1.190526e-18],
+    [0.010294372, 1.190526e-18, 2.381052e-18],
+    [0.020588744, 4.762104e-18, 2.381052e-18],
+    [0.0070649404, 2.381052e-18, -2.381052e-18],
 ];
 #[rustfmt::skip]
 static FACE_4_SIDE_2: [[f32; 3]; 5] = [
-    [1.7347235e-18, 1.7347235e-18, -0.030909903],
+    [2.381052e-18, 2.381052e-18, -0.042426407],
     [0.0, 0.0, 0.0],
-    [1.7347235e-18, 1.7347235e-18, -0.042426407],
-    [-6.938894e-18, 6.938894e-18, 0.0],
-    [-4.3368087e-18, -4.3368087e-18, -0.014558441],
+    [2.381052e-18, 2.381052e-18, -0.058233764],
+    [-9.524208e-18, 9.524208e-18, 0.0],
+    [-5.95263e-18, -5.95263e-18, -0.01998267],
 ];
 
 // Face 5: "disc2".
@@ -164,11 +164,11 @@ static FACE_5: [[f32; 4]; 6] = [
 ];
 #[rustfmt::skip]
 static FACE_5_SIDE_2: [[f32; 3]; 5] = [
-    [-0.015454952, -0.015454952, 0.0],
-    [0.025606602, -0.025606602, 0.0],
-    [3.469447e-18, 3.469447e-18, 0.0],
-    [0.017573593, -0.017573593, 0.0],
-    [0.0072792205, 0.0072792205, 0.0],
+    [-0.021213204, -0.021213204, 0.0],
+    [0.035147186, -0.035147186, 0.0],
+    [4.762104e-18, 4.762104e-18, 0.0],
+    [0.024121216, -0.024121216, 0.0],
+    [0.009991335, 0.009991335, 0.0],
 ];
 
 // Face 6: "ball3".
@@ -186,25 +186,25 @@ static FACE_6: [[f32; 4]; 9] = [
 ];
 #[rustfmt::skip]
 static FACE_6_SIDE_0: [[f32; 3]; 4] = [
-    [-0.043713205, -2.6020852e-18, -1.7347235e-18],
-    [-0.015, 1.7347235e-18, 3.469447e-18],
-    [-0.03, 6.938894e-18, 3.469447e-18],
-    [-0.010294372, 3.469447e-18, -3.469447e-18],
+    [-0.03, -1.785789e-18, -1.190526e-18],
+    [-0.010294372, 1.190526e-18, 2.381052e-18],
+    [-0.020588744, 4.762104e-18, 2.381052e-18],
+    [-0.0070649404, 2.381052e-18, -2.381052e-18],
 ];
 #[rustfmt::skip]
 static FACE_6_SIDE_1: [[f32; 3]; 4] = [
-    [2.6020852e-18, 0.043713205, -1.7347235e-18],
-    [-1.7347235e-18, 0.015, 3.469447e-18],
-    [-6.938894e-18, 0.03, 3.469447e-18],
-    [-3.469447e-18, 0.010294372, -3.469447e-18],
+    [1.785789e-18, 0.03, -1.190526e-18],
+    [-1.190526e-18, 0.010294372, 2.381052e-18],
+    [-4.762104e-18, 0.020588744, 2.381052e-18],
+    [-2.381052e-18, 0.0070649404, -2.381052e-18],
 ];
 #[rustfmt::skip]
 static FACE_6_SIDE_2: [[f32; 3]; 5] = [
-    [-1.7347235e-18, 1.7347235e-18, -0.030909903],
+    [-2.381052e-18, 2.381052e-18, -0.042426407],
     [0.0, 0.0, 0.0],
-    [-1.7347235e-18, 1.7347235e-18, -0.042426407],
-    [-6.938894e-18, -6.938894e-18, 0.0],
-    [4.3368087e-18, -4.3368087e-18, -0.014558441],
+    [-2.381052e-18, 2.381052e-18, -0.058233764],
+    [-9.524208e-18, -9.524208e-18, 0.0],
+    [5.95263e-18, -5.95263e-18, -0.01998267],
 ];
 
 // Face 7: "disc3".
@@ -219,11 +219,11 @@ static FACE_7: [[f32; 4]; 6] = [
 ];
 #[rustfmt::skip]
 static FACE_7_SIDE_2: [[f32; 3]; 5] = [
-    [0.015454952, -0.015454952, 0.0],
-    [0.025606602, 0.025606602, 0.0],
-    [-3.469447e-18, 3.469447e-18, 0.0],
-    [0.017573593, 0.017573593, 0.0],
-    [-0.0072792205, 0.0072792205, 0.0],
+    [0.021213204, -0.021213204, 0.0],
+    [0.035147186, 0.035147186, 0.0],
+    [-4.762104e-18, 4.762104e-18, 0.0],
+    [0.024121216, 0.024121216, 0.0],
+    [-0.009991335, 0.009991335, 0.0],
 ];
 
 // Edge 0.
@@ -349,7 +349,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_0_SIDE_0,
                     ),
-                    second_derivative: 0.09088312,
+                    second_derivative: 0.062372316,
                 }),
             },
             palpate::body::Side::Edge {
@@ -361,7 +361,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_0_SIDE_1,
                     ),
-                    second_derivative: 0.09088312,
+                    second_derivative: 0.062372316,
                 }),
             },
             palpate::body::Side::Edge {
@@ -373,7 +373,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_0_SIDE_2,
                     ),
-                    second_derivative: 0.12852816,
+                    second_derivative: 0.17641556,
                 }),
             },
             palpate::body::Side::Pole {
@@ -417,7 +417,7 @@ static FACES: [palpate::body::Face; 8] = [
                 edge: 3,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, -1.0, -0.0),
+                    across: palpate::math::vec3(0.0, -47.140453, -0.0),
                     offset: 0.0,
                 },
             },
@@ -425,7 +425,7 @@ static FACES: [palpate::body::Face; 8] = [
                 edge: 4,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(-1.0, 0.0, 0.0),
+                    across: palpate::math::vec3(-47.140453, 0.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -438,7 +438,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_1_SIDE_2,
                     ),
-                    second_derivative: 0.08070149,
+                    second_derivative: 0.110769495,
                 }),
             },
             palpate::body::Side::Pole {
@@ -487,7 +487,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_2_SIDE_0,
                     ),
-                    second_derivative: 0.09088312,
+                    second_derivative: 0.062372316,
                 }),
             },
             palpate::body::Side::Edge {
@@ -499,7 +499,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_2_SIDE_1,
                     ),
-                    second_derivative: 0.09088312,
+                    second_derivative: 0.062372316,
                 }),
             },
             palpate::body::Side::Edge {
@@ -511,7 +511,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_2_SIDE_2,
                     ),
-                    second_derivative: 0.12852816,
+                    second_derivative: 0.17641556,
                 }),
             },
             palpate::body::Side::Pole {
@@ -555,7 +555,7 @@ static FACES: [palpate::body::Face; 8] = [
                 edge: 4,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(1.0, 0.0, -0.0),
+                    across: palpate::math::vec3(47.140453, 0.0, -0.0),
                     offset: 0.0,
                 },
             },
@@ -563,7 +563,7 @@ static FACES: [palpate::body::Face; 8] = [
                 edge: 7,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, -1.0, 0.0),
+                    across: palpate::math::vec3(0.0, -47.140453, 0.0),
                     offset: 0.0,
                 },
             },
@@ -576,7 +576,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_3_SIDE_2,
                     ),
-                    second_derivative: 0.08070149,
+                    second_derivative: 0.110769495,
                 }),
             },
             palpate::body::Side::Pole {
@@ -625,7 +625,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_4_SIDE_0,
                     ),
-                    second_derivative: 0.09088312,
+                    second_derivative: 0.062372316,
                 }),
             },
             palpate::body::Side::Edge {
@@ -637,7 +637,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_4_SIDE_1,
                     ),
-                    second_derivative: 0.09088312,
+                    second_derivative: 0.062372316,
                 }),
             },
             palpate::body::Side::Edge {
@@ -649,7 +649,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_4_SIDE_2,
                     ),
-                    second_derivative: 0.12852816,
+                    second_derivative: 0.17641556,
                 }),
             },
             palpate::body::Side::Pole {
@@ -693,7 +693,7 @@ static FACES: [palpate::body::Face; 8] = [
                 edge: 7,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(-0.0, 1.0, -0.0),
+                    across: palpate::math::vec3(-0.0, 47.140453, -0.0),
                     offset: 0.0,
                 },
             },
@@ -701,7 +701,7 @@ static FACES: [palpate::body::Face; 8] = [
                 edge: 10,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(1.0, 0.0, 0.0),
+                    across: palpate::math::vec3(47.140453, 0.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -714,7 +714,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_5_SIDE_2,
                     ),
-                    second_derivative: 0.08070149,
+                    second_derivative: 0.110769495,
                 }),
             },
             palpate::body::Side::Pole {
@@ -763,7 +763,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_6_SIDE_0,
                     ),
-                    second_derivative: 0.09088312,
+                    second_derivative: 0.062372316,
                 }),
             },
             palpate::body::Side::Edge {
@@ -775,7 +775,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_6_SIDE_1,
                     ),
-                    second_derivative: 0.09088312,
+                    second_derivative: 0.062372316,
                 }),
             },
             palpate::body::Side::Edge {
@@ -787,7 +787,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_6_SIDE_2,
                     ),
-                    second_derivative: 0.12852816,
+                    second_derivative: 0.17641556,
                 }),
             },
             palpate::body::Side::Pole {
@@ -831,7 +831,7 @@ static FACES: [palpate::body::Face; 8] = [
                 edge: 10,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(-1.0, 0.0, 0.0),
+                    across: palpate::math::vec3(-47.140453, 0.0, 0.0),
                     offset: 0.0,
                 },
             },
@@ -839,7 +839,7 @@ static FACES: [palpate::body::Face; 8] = [
                 edge: 3,
                 reversed: false,
                 separator: palpate::body::Separator::Plane {
-                    normal: palpate::math::vec3(0.0, 1.0, 0.0),
+                    across: palpate::math::vec3(0.0, 47.140453, 0.0),
                     offset: 0.0,
                 },
             },
@@ -852,7 +852,7 @@ static FACES: [palpate::body::Face; 8] = [
                     coefficients: palpate::patch::Coefficients::Polynomial(
                         &FACE_7_SIDE_2,
                     ),
-                    second_derivative: 0.08070149,
+                    second_derivative: 0.110769495,
                 }),
             },
             palpate::body::Side::Pole {
@@ -1306,7 +1306,7 @@ static ENTRIES: [u32; 8] = [
 ];
 /// CRC-32 of the body's numbers, [`palpate::body::Body::table_crc`], computed when it was baked.
 #[allow(dead_code)]
-pub const TABLE_CRC: u32 = 3700081970;
+pub const TABLE_CRC: u32 = 2716774227;
 /// The body.
 #[allow(dead_code, long_running_const_eval)]
 #[rustfmt::skip]

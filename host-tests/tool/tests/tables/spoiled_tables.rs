@@ -69,13 +69,13 @@ const SPOILED: &[(&str, Spoil, BodyError)] = &[
     (
         "a plane's normal is NaN",
         |body| {
-            *separator(body, 5, 0) = BakedSeparator::Plane { normal: [0.0, f32::NAN, 0.0], offset: 0.0 };
+            *separator(body, 5, 0) = BakedSeparator::Plane { across: [0.0, f32::NAN, 0.0], offset: 0.0 };
         },
         BodyError::Side { face: 5, side: 0 },
     ),
     (
         "a plane's offset is infinite",
-        |body| *separator(body, 5, 1) = BakedSeparator::Plane { normal: [1.0, 0.0, 0.0], offset: f32::INFINITY },
+        |body| *separator(body, 5, 1) = BakedSeparator::Plane { across: [1.0, 0.0, 0.0], offset: f32::INFINITY },
         BodyError::Side { face: 5, side: 1 },
     ),
     ("a separator's degree is 11", |body| ruled(body, 0, 0).degree = 11, BodyError::Side { face: 0, side: 0 }),
@@ -310,8 +310,8 @@ impl Walk {
                         self.index(edge);
                         self.flag(reversed);
                         match separator {
-                            BakedSeparator::Plane { normal, offset } => {
-                                self.reals(normal);
+                            BakedSeparator::Plane { across, offset } => {
+                                self.reals(across);
                                 self.real(offset);
                             }
                             BakedSeparator::Ruled(curve) => self.curve(curve),

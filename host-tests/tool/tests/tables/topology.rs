@@ -139,11 +139,12 @@ fn curves_and_separators_are_those_of_the_faces() -> Result<(), Box<dyn Error>> 
                     let sense = if *reversed { -1.0 } else { 1.0 };
                     turned = turned.max((along - sense * exact.tangent.normalize()).length());
                     let outward = match separator {
-                        Separator::Plane { normal, offset } => {
+                        Separator::Plane { across, offset } => {
                             // Half an ulp of a coordinate off the plane, and of the offset.
-                            let off = normal.as_dvec3().dot(exact.point) - f64::from(*offset);
+                            let (across, offset) = (across.as_dvec3(), f64::from(*offset));
+                            let off = (across.dot(exact.point) - offset) / across.length();
                             assert!(off.abs() < 2e-7 * baked.topology.size, "{}: {off:e}", known.file);
-                            normal.as_dvec3()
+                            across
                         }
                         Separator::Ruled(across) => across.evaluate(t).point.as_dvec3(),
                     };

@@ -78,7 +78,7 @@ fn side_of(body: &Body, of: EdgeFace) -> Option<&Separator> {
 /// How far the probe is beyond a separator, metres.
 fn beyond(separator: &Separator, foot: &Foot, probe: Vec3) -> f32 {
     match separator {
-        Separator::Plane { normal, offset } => normal.dot(probe) - offset,
+        Separator::Plane { across, offset } => (across.dot(probe) - offset) / across.length(),
         Separator::Ruled(cross) => {
             let (cross, tangent) = (cross.evaluate(foot.t).point, foot.at.tangent);
             let conormal = cross - tangent * (cross.dot(tangent) / tangent.length_squared());

@@ -1,0 +1,189 @@
+//! How a face is entered over one of its sides: not at the border, but where the closest point lies as far as can be
+//! told from there, so that the tick in which a face takes the probe is no tick lost.
+//!
+//! The one evaluation of the tick is spent at that point, and says whether it is nearer by what theory §12 asks of
+//! every step. If it is not, the step is undone, and the next one enters at the border itself, where the distance is
+//! what it was.
+
+use super::along::{Along, Inward};
+use super::feature::{EdgeFace, EdgeKind, Face, Feature, Side};
+use super::table::Body;
+use super::tracker::{BodyStep, BodyWitness};
+use crate::math::Vec3;
+use crate::patch::Patch as _;
+use crate::track::{Aim, BoundaryMode, Outcome};
+
+/// Of the fall of `½ ‖ΔR‖²` that a step without a certificate promises, the part that is asked for.
+pub(super) const LEAST_FALL: f32 = 1.0 / 16.0;
+
+/// Nearer to a focus, `1 + κ gap`, nothing is told from the border.
+const LEAST_STRETCH: f32 = 0.25;
+
+/// A point of an edge, seen from a probe.
+#[derive(Clone, Copy)]
+pub(super) struct Border {
+    /// What a step along the edge starts from.
+    pub along: Along,
+    /// The edge's tangent, metres per unit of its parameter.
+    pub tangent: Vec3,
+    /// The edge's parameter.
+    pub t: f32,
+}
+
+/// A point of a face to be entered.
+#[derive(Clone, Copy)]
+pub(super) struct Entry {
+    /// Index of the face.
+    pub face: u16,
+    /// Where on it.
+    pub parameters: [f32; 2],
+    /// What `‖ΔR‖²` has to fall by, m².
+    pub fall: f32,
+}
+
+impl Body {
+    /// Where a face is entered over one of its sides, if it takes the probe. `is_smooth` says that it does wherever the
+    /// probe is; `known` is a curvature to go by where the face has no bound, 1/m.
+    #[inline(always)]
+    pub(super) fn entry(
+        &self,
+        of: EdgeFace,
+        is_smooth: bool,
+        border: &Border,
+        is_curved: bool,
+        state: &BodyWitness,
+        known: f32,
+    ) -> Option<Entry> {
+        let face = self.faces.get(usize::from(of.face))?;
+        let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
+        let Border { along, tangent, t } = border;
+        let inward = along.inward(separator, *tangent, *t, state.probe);
+        if inward.is_beyond() && !is_smooth {
+            return None;
+        }
+        let ([inside, t], fall) = if is_curved && state.witness.halvings == 0 {
+            beyond_border(face, &inward, along, *t, [state.gap, known])
+        } else {
+            ([0.0, *t], 0.0)
+        };
+        Some(Entry { face: of.face, parameters: on_side(of.side, *reversed, inside, t), fall })
+    }
+
+    /// The face of an edge, and the parameters there of a point of the edge.
+    #[inline(never)]
+    pub(super) fn place_on(&self, of: EdgeFace, t: f32) -> Option<(u16, [f32; 2])> {
+        match self.faces.get(usize::from(of.face))?.sides.get(usize::from(of.side))? {
+            Side::Edge { reversed, .. } => Some((of.face, on_side(of.side, *reversed, 0.0, t))),
+            Side::Pole { .. } => None,
+        }
+    }
+
+    /// Into a face: onto the point of an entry, if that is near enough. One evaluation.
+    #[inline(never)]
+    pub(super) fn enter(&self, entry: &Entry, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) {
+        let Some(face) = self.faces.get(usize::from(entry.face)) else { return };
+        step.evaluations += 1;
+        if is_curved {
+            let reached = face.patch.evaluate_apart(entry.parameters);
+            let before = (state.witness.surface.point - state.probe).length_squared();
+            let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - entry.fall;
+            // On the border the distance is what it was.
+            if entry.fall > 0.0 && !is_nearer {
+                state.witness.halvings = 1;
+                step.outcome = Outcome::Undone;
+                return;
+            }
+            state.witness.rest_at(entry.parameters, &reached);
+        } else {
+            state.witness.set_down(&face.patch, entry.parameters, false);
+        }
+        (state.feature, step.switched) = (Feature::Face(entry.face), true);
+    }
+
+    /// The step of second order that ends at a smooth edge, on the face beyond. Undone it leaves the witness point on
+    /// its own face: over a seam that gapes the distance may rise. Whether the side is such an edge.
+    #[inline(never)]
+    pub(super) fn step_across(&self, face: &Face, aim: &Aim, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+        let Some(entry) = self.across(face, aim, state) else { return false };
+        let Some(other) = self.faces.get(usize::from(entry.face)) else { return false };
+        let reached = other.patch.evaluate_apart(entry.parameters);
+        step.evaluations += 1;
+        let probe = state.probe;
+        step.outcome =
+            aim.landing_at(entry.parameters, entry.fall).settle(&reached, &mut state.witness, probe, self.size);
+        state.witness.mode = aim.mode;
+        if step.outcome != Outcome::Undone {
+            (state.feature, state.witness.mode, step.switched) =
+                (Feature::Face(entry.face), BoundaryMode::Interior, true);
+        }
+        true
+    }
+
+    /// Where a step of second order that ends at a smooth edge ends on the face beyond.
+    #[inline]
+    fn across(&self, face: &Face, aim: &Aim, state: &BodyWitness) -> Option<Entry> {
+        let ([u, v], witness) = (aim.landing.parameters, &state.witness);
+        let (number, along, is_along_v) = match aim.beyond {
+            BoundaryMode::LowerU => (0, v, true),
+            BoundaryMode::UpperU => (1, v, true),
+            BoundaryMode::LowerV => (2, u, false),
+            BoundaryMode::UpperV => (3, u, false),
+            BoundaryMode::Corner | BoundaryMode::Interior => return None,
+        };
+        let Side::Edge { edge: index, reversed, .. } = face.sides.get(number)? else { return None };
+        let edge = self.edges.get(usize::from(*index))?;
+        if edge.kind != EdgeKind::Smooth {
+            return None;
+        }
+        // Both may be sides of one face.
+        let [first, second] = edge.faces;
+        let is_first = usize::from(first.side) == number
+            && self.faces.get(usize::from(first.face)).is_some_and(|of| core::ptr::eq(of, face));
+        let other = if is_first { second } else { first };
+        let t = if *reversed { 1.0 - along } else { along };
+        // The border as it looks from the witness point.
+        let step = [u - witness.parameters[0], v - witness.parameters[1]];
+        let point = witness.surface.point + witness.surface.along(step) + witness.second.bend(step) * 0.5;
+        let tangent = if is_along_v { witness.surface.tangent_v } else { witness.surface.tangent_u };
+        let tangent = if *reversed { -tangent } else { tangent };
+        let border = Border { along: Along::new(point, tangent, state.probe), tangent, t };
+        self.entry(other, true, &border, true, state, face.bend(state.gap))
+    }
+}
+
+/// Where the closest point of a face lies, as far as can be told from its border, for a probe with a gap: the parameter
+/// across, that of the edge, and what `‖ΔR‖²` has to fall by, m².
+///
+/// Across the border that is the Gauss–Newton step, cut where the face may be curved: with the normal curvature `κ` the
+/// angle that the probe's offset `ρ` spans is `ρ / (1 + κ gap)`, by the greatest `κ` in front, by the least behind.
+/// Where none is known that of the face before, `known`, is as good a guess as any; where there is none either it is
+/// the border.
+#[inline(never)]
+fn beyond_border(face: &Face, inward: &Inward, along: &Along, t: f32, [gap, known]: [f32; 2]) -> ([f32; 2], f32) {
+    let bound = face.bend(gap);
+    let stretch = 1.0 + if bound.is_finite() { bound } else { known } * gap;
+    let stretch = if stretch > LEAST_STRETCH { stretch } else { f32::INFINITY };
+    let (landing, slope) = inward.landing(along, t, stretch);
+    (landing, 2.0 * LEAST_FALL * slope)
+}
+
+impl Face {
+    /// The bound of the normal curvature that shortens steps on this side of the surface, 1/m.
+    #[inline]
+    fn bend(&self, gap: f32) -> f32 {
+        let curvature = &self.patch.shape().curvature;
+        if gap > 0.0 { curvature.max } else { curvature.min }
+    }
+}
+
+/// The parameters of a face so far inside of one of its sides, at the edge's parameter there.
+#[inline]
+fn on_side(number: u8, is_reversed: bool, inside: f32, t: f32) -> [f32; 2] {
+    let along = if is_reversed { 1.0 - t } else { t };
+    match number {
+        0 => [inside, along],
+        1 => [1.0 - inside, along],
+        2 => [along, inside],
+        _ => [along, 1.0 - inside],
+    }
+}
