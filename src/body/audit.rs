@@ -1,11 +1,11 @@
 //! When the tracker does not follow: the search for a start, after a jump too, and the rolling audit.
 
 use super::feature::Feature;
-use super::search::{Located, Search};
+use super::search::{Located, Rival, Search};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
-use crate::track::Contact;
+use crate::track::{Contact, Witness};
 
 /// The distance of another candidate must be shorter by this part before the tracker changes over: far above what `f32`
 /// rounds, far below what a hand feels.
@@ -15,14 +15,7 @@ impl Body {
     /// One part of the search for a start, or of the rolling audit: its beginning, half an evaluation, or
     /// its end. `follows` is whether the probe is near that of the last tick. Whether the tracker may step.
     #[inline(never)]
-    pub(super) fn search(
-        &self,
-        is_curved: bool,
-        state: &mut BodyWitness,
-        probe: Vec3,
-        follows: bool,
-        step: &mut BodyStep,
-    ) -> bool {
+    pub(super) fn search(&self, state: &mut BodyWitness, probe: Vec3, follows: bool, step: &mut BodyStep) -> bool {
         if !follows {
             if !probe.is_finite() {
                 return false;
@@ -33,41 +26,63 @@ impl Body {
             }
         }
         state.probe = probe;
-        // Behind the surface there is no force, and no haste: tracker and audit take turns.
-        let steps_too = state.contact != Contact::Behind;
+        // Behind a convex body's surface there is no force, and no haste: tracker and audit take turns.
+        let steps_too = state.is_located && (state.contact != Contact::Behind || !self.is_convex());
         let Some(search) = &mut state.search else {
             state.search = Some(Search::new(self, probe));
             return steps_too;
         };
+        let known = 0.5 * (state.witness.surface.point - probe).length_squared();
+        let nearer = (1.0 - NEARER) * known;
         let Some(found) = search.found() else {
-            search.turn(self, probe);
+            let places = || self.places(&state.feature, &state.witness);
+            let rival = state.is_audited.then(|| Rival { half_squared: nearer, places: places() });
+            search.turn_against(self, probe, rival.as_ref());
             step.evaluations += u8::from(search.has_evaluated());
             return steps_too;
         };
-        state.search = None;
-        let known = 0.5 * (state.witness.surface.point - probe).length_squared();
-        if !state.is_located || found.half_squared < (1.0 - NEARER) * known {
-            self.set_down(is_curved, state, &found, probe, step);
+        let is_audit = state.is_audited;
+        // What has just been found is looked at first.
+        (state.is_audited, state.rests) = (true, false);
+        if !state.is_located || found.half_squared < nearer {
+            self.set_down(state, &found, probe, step);
+            // The probe has moved since: on with the others.
+            if is_audit
+                && !step.switched
+                && let Some(search) = &mut state.search
+            {
+                search.resume(self);
+                return steps_too;
+            }
         }
-        state.is_audited = true;
+        state.search = None;
         steps_too && !step.switched
     }
 
+    /// Where a witness point lies on faces.
+    #[inline(never)]
+    fn places(&self, feature: &Feature, witness: &Witness) -> [Option<(u16, [f32; 2])>; 2] {
+        match feature {
+            Feature::Face(index) => [Some((*index, witness.parameters)), None],
+            Feature::Edge(index) => match self.edges.get(usize::from(*index)) {
+                Some(edge) => edge.faces.map(|of| self.place_on(of, witness.parameters[0])),
+                None => [None; 2],
+            },
+            Feature::Vertex(_) => [None; 2],
+        }
+    }
+
     /// Sets the witness point down where the search has ended. One evaluation.
-    fn set_down(&self, is_curved: bool, state: &mut BodyWitness, found: &Located, probe: Vec3, step: &mut BodyStep) {
+    fn set_down(&self, state: &mut BodyWitness, found: &Located, probe: Vec3, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(found.face)) else { return };
-        let [u, v] = found.parameters;
-        let mut witness = state.witness;
-        witness.set_down(&face.patch, [u, v], is_curved);
+        let reached = face.patch.evaluate_apart(found.parameters);
         step.evaluations += 1;
         // The probe has moved since the search began.
-        let nearer =
-            (witness.surface.point - probe).length_squared() < (state.witness.surface.point - probe).length_squared();
-        if !state.is_located || nearer {
-            step.switched = true;
-            state.feature = Feature::Face(found.face);
-            state.witness = witness;
-            state.is_located = true;
+        let away = reached.surface.point - probe;
+        let is_nearer = away.length_squared() < (state.witness.surface.point - probe).length_squared();
+        if !state.is_located || is_nearer {
+            state.witness.rest_at(found.parameters, &reached);
+            (state.feature, state.is_located, step.switched) = (Feature::Face(found.face), true, true);
         }
     }
 }

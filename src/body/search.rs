@@ -22,6 +22,9 @@ pub struct Search {
     entry: u16,
     evaluations: u16,
     best: Best,
+    /// In the audit: where the probe was when the candidate's turn came, and what was to be beaten then. A minimum that
+    /// moved with the probe would never be found.
+    asked: Option<(Vec3, f32)>,
     /// Whether a candidate was given up short of its end.
     exhausted: bool,
     /// Once it is done: whether every candidate was searched to its end.
@@ -34,6 +37,29 @@ struct Best {
     face: u16,
     parameters: [f32; 2],
     half_squared: f32,
+}
+
+/// The tracker's point, which the audit tries to beat.
+#[derive(Clone, Copy)]
+pub(super) struct Rival {
+    /// Of a nearer point `½ ‖P − Q‖²` is below this, m².
+    pub half_squared: f32,
+    /// Where it lies: the face and `(u, v)`, on an edge those of both faces.
+    pub places: [Option<(u16, [f32; 2])>; 2],
+}
+
+impl Rival {
+    /// Whether the tracker's own point is the nearest of a candidate: `φ` has one minimum there, and the tracker goes
+    /// to it.
+    #[inline]
+    fn holds(&self, candidate: &Candidate) -> bool {
+        let [lower, upper] = candidate.rectangle();
+        let is_within = |[u, v]: [f32; 2]| lower[0] <= u && u <= upper[0] && lower[1] <= v && v <= upper[1];
+        let is_its = |place: &Option<(u16, [f32; 2])>| {
+            place.is_some_and(|(face, parameters)| face == candidate.face && is_within(parameters))
+        };
+        candidate.convex && self.places.iter().any(is_its)
+    }
 }
 
 /// The closest point of a body, as the locator found it.
@@ -60,6 +86,7 @@ impl Search {
             entry: entry as u16,
             evaluations: 0,
             best: Best { face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
+            asked: None,
             exhausted: false,
             ended: None,
         }
@@ -74,20 +101,40 @@ impl Search {
     /// once it is done.
     #[inline]
     pub fn turn(&mut self, body: &Body, probe: Vec3) {
+        self.turn_against(body, probe, None);
+    }
+
+    /// The same for the audit, which asks for no more than a point that is nearer than the `rival`: with the first one
+    /// that is, it is done. What is certain to hold none is passed over.
+    #[inline(never)]
+    pub(super) fn turn_against(&mut self, body: &Body, probe: Vec3, rival: Option<&Rival>) {
         if self.ended.is_some() {
             return;
         }
-        let Candidate { face, more, .. } = self.descending.candidate;
+        let Candidate { face, .. } = self.descending.candidate;
         let Some(Face { patch, .. }) = body.faces.get(usize::from(face)) else {
             self.ended = Some(false);
             return;
         };
         if !self.descending.has_evaluated() {
-            self.descending.evaluate(patch, probe);
+            if self.descending.is_fresh() {
+                if rival.is_some_and(|rival| rival.holds(&self.descending.candidate)) {
+                    self.go_on(body, Judgement::Beaten);
+                    return;
+                }
+                self.asked = rival.map(|rival| (probe, rival.half_squared));
+            }
+            self.descending.evaluate(patch, self.asked.map_or(probe, |(probe, _)| probe));
             self.evaluations += 1;
+            if let (Some((_, known)), Some((parameters, half_squared))) = (self.asked, self.descending.seen())
+                && half_squared < known
+            {
+                self.best = Best { face, parameters, half_squared };
+                self.ended = Some(true);
+            }
             return;
         }
-        let known = self.best.half_squared;
+        let known = self.asked.map_or(self.best.half_squared, |(_, known)| known);
         let progress = if body.has_poles {
             self.descending.judge_beside(patch, body.poles_of(face), known, body.size)
         } else {
@@ -100,9 +147,25 @@ impl Search {
         if half_squared < self.best.half_squared {
             self.best = Best { face, parameters, half_squared };
         }
+        if self.asked.is_some() && half_squared < known {
+            self.ended = Some(true);
+        } else {
+            self.go_on(body, progress);
+        }
+    }
+
+    /// On with the next candidate, after one whose point is no nearer after all.
+    pub(super) fn resume(&mut self, body: &Body) {
+        (self.ended, self.best.half_squared) = (None, f32::INFINITY);
+        self.go_on(body, Judgement::Beaten);
+    }
+
+    /// To the next evaluation, the next candidate, or the end.
+    #[inline(never)]
+    fn go_on(&mut self, body: &Body, progress: Judgement) {
         let most = if body.is_convex() { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
         let falls = progress == Judgement::Falling;
-        if !falls && !more {
+        if !falls && !self.descending.candidate.more {
             self.ended = Some(!self.exhausted);
         } else if self.evaluations >= most {
             self.ended = Some(false);
