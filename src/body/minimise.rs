@@ -226,7 +226,7 @@ impl StepBeside {
         let room = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
         let model = Model::new(seen.beside(pole));
         let (change, fall) = model.step(&seen, Some(pole), room);
-        let (distance, resolved) = (sqrt(2.0 * seen.half_squared), RESOLUTION * size);
+        let (distance, resolved) = (sqrt_from_above(2.0 * seen.half_squared), RESOLUTION * size);
         let is_worth_it = -fall > resolved * (distance + resolved);
         if !is_worth_it {
             return None;

@@ -18,6 +18,7 @@ pub mod queries;
 pub mod race;
 pub mod report;
 pub mod repository;
+pub mod rides;
 pub mod sides;
 pub mod simulation;
 pub mod zwidth;

@@ -1,7 +1,10 @@
 //! `palpate check`: validates a model and says what is known of each patch.
 
 use super::output::print;
+use super::progress;
+use crate::cache;
 use crate::models::ModelFile;
+use crate::rides::{self, Lateness, Rides};
 use clap::Args;
 use palpate::body::EdgeKind;
 use palpate::track::{Integrator, PerformanceLimits};
@@ -21,7 +24,9 @@ use std::process::ExitCode;
 /// A patch is certified if it is proved to be regular, convex (up to rounding), smooth, with normals less than 90°
 /// apart, and to lead every probe up to half the body's size over it to its closest point. What is not proved is
 /// sampled, and said to be. The second table has the limits of performance for explicit Euler at --rate, a probe up to
-/// --distance away and moving at --speed. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
+/// --distance away and moving at --speed. With --rides the body's tables are baked, and the tracker rides along it at
+/// that speed and rate: it prints how late it has the nearest point where that jumps, over a groove or a pocket. Exit
+/// status: 0 certified, 1 usable but not certified, 2 bad input.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The model: a file (TOML), or the name of one that ships.
@@ -35,6 +40,9 @@ pub struct Arguments {
     /// Speed of the probe, m/s.
     #[arg(long, default_value_t = 0.1, value_parser = positive)]
     speed: f32,
+    /// Rides along the body.
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    rides: u32,
 }
 
 /// A number above 0.
@@ -103,6 +111,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         writeln!(report, "{}", loaded.describe(flaw))?;
     }
     limits(&mut report, arguments, &labels, &surveys)?;
+    if arguments.rides > 0 {
+        ride(&mut report, arguments, &loaded)?;
+    }
     let verdict = worst(&surveys, &flaws);
     let certified = surveys.iter().filter(|survey| survey.verdict == Verdict::Certified).count();
     writeln!(
@@ -234,6 +245,38 @@ fn limits(report: &mut String, arguments: &Arguments, labels: &[String], surveys
             1e6 * limits.lag(gain, speed),
             1e6 * limits.lag_bound(gain, speed),
             1e3 * limits.depth_limit()
+        )?;
+    }
+    Ok(())
+}
+
+/// How late the tracker has the nearest point.
+fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::Result<()> {
+    let &Arguments { rate, distance, speed, rides, .. } = arguments;
+    let (options, bar) = (loaded.body.locator_options(), progress::work());
+    let progress = |depth, _| bar.tell("octree", depth, options.depth);
+    let body = cache::located(loaded.body.clone(), &loaded.file.text, &options, None, &progress)?.to_body()?;
+    drop(bar);
+    let Lateness { ticks, most, excess } = Rides { count: rides, rate, speed, distance: 1e-3 * distance }.along(&body);
+    writeln!(
+        report,
+        "\n{rides} rides, {ticks} ticks, from {distance} mm in front, at {speed} m/s and {rate} Hz: the nearest point was late by \
+         {most} ticks ({:.2} ms) at most, until then up to {:.4} {} too far",
+        1e3 * most as f32 / rate,
+        f64::from(excess) * loaded.model.unit.per_metre(),
+        loaded.model.unit.symbol()
+    )?;
+    if body.is_convex() {
+        writeln!(
+            report,
+            "the body is convex: in front of it the witness point follows the nearest point, and there is no audit"
+        )?;
+    } else {
+        let (candidates, pass) = rides::longest_pass(&body);
+        writeln!(
+            report,
+            "the audit looks at all candidates of the probe's cell, {candidates} at most, within {pass} ticks ({:.0} ms) by construction",
+            1e3 * pass as f32 / rate
         )?;
     }
     Ok(())

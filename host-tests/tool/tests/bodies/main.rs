@@ -12,6 +12,7 @@ mod placement;
 mod plate;
 mod refusals;
 mod regions;
+mod rides;
 mod ring;
 mod scene;
 mod signs;
