@@ -35,13 +35,15 @@ impl Body {
         let known = 0.5 * (state.witness.surface.point - probe).length_squared();
         let nearer = (1.0 - NEARER) * known;
         let Some(found) = search.found() else {
+            // A convex body has nothing nearer in front, and behind it no haste.
+            let asks = state.is_audited && !self.is_convex();
             let places = || self.places(&state.feature, &state.witness);
-            let rival = state.is_audited.then(|| Rival { half_squared: nearer, places: places() });
+            let rival = asks.then(|| Rival { half_squared: nearer, places: places() });
             search.turn_against(self, probe, rival.as_ref());
             step.evaluations += u8::from(search.has_evaluated());
             return steps_too;
         };
-        let is_audit = state.is_audited;
+        let is_audit = state.is_audited && !self.is_convex();
         // What has just been found is looked at first.
         (state.is_audited, state.rests) = (true, false);
         if !state.is_located || found.half_squared < nearer {
