@@ -18,8 +18,8 @@ pub(super) struct Along {
     pub gradient: f32,
 }
 
-/// Where a probe is, seen from the border of a face. `m` is the face's outward conormal there, as long as the derivative
-/// across the border is along it; `k` a positive number.
+/// Where a probe is, seen from the border of a face. `m` is the face's outward conormal there, as long as the
+/// derivative across the border is along it; `k` a positive number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inward {
     /// `k ΔR · m`, below 0 where the probe is beyond the face's region.
@@ -40,8 +40,8 @@ impl Inward {
     }
 
     /// Where the closest point lies on the face, as far as can be told from the border: the Gauss–Newton step across
-    /// it, shortened by `stretch`, and along it. The change of the parameter across, the parameter of the edge, and the fall of
-    /// `½ ‖ΔR‖²` to first order, m².
+    /// it, shortened by `stretch`, and along it. The change of the parameter across, the parameter of the edge, and the
+    /// fall of `½ ‖ΔR‖²` to first order, m².
     #[inline]
     pub(super) fn landing(&self, along: &Along, t: f32, stretch: f32) -> ([f32; 2], f32) {
         let inside = saturate(self.product / (self.square * stretch), 0.0, 1.0);

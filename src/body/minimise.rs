@@ -253,8 +253,8 @@ struct Model {
 
 impl Model {
     fn new(Seen { gradient, form, newton, .. }: Seen) -> Self {
-        // Along an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of the
-        // other parameter still counts.
+        // Along an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of
+        // the other parameter still counts.
         let mixed = [0, 2].map(|axis| saturate(newton[axis].abs(), FLAT * form[axis], f32::MAX));
         let mixed = [mixed[0], newton[1], mixed[1]];
         let is_newton = is_positive_definite(newton);

@@ -6,6 +6,7 @@
 
 mod along;
 mod audit;
+mod beside;
 mod curve;
 mod enter;
 mod feature;

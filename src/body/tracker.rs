@@ -2,14 +2,11 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::enter::LEAST_FALL;
 use super::feature::{Face, Feature};
-use super::minimise::StepBeside;
 use super::search::Search;
 use super::table::Body;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
-use crate::patch::CurvedPoint;
-use crate::track::{Aim, BoundaryMode, Contact, Controller, Outcome, Probe, Witness, mode_at};
+use crate::track::{Aim, BoundaryMode, Contact, Controller, Outcome, Probe, Witness};
 
 /// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew, once
 /// it rests or slows down.
@@ -193,32 +190,6 @@ impl Body {
         step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
     }
 
-    /// One step of second order on a face that has a pole, where the certificate is of little use: bounds over the whole
-    /// face do not know that around the pole all is small. The evaluation says whether the step was good; if not it is
-    /// undone, and the next one is certified. Whether it was tried.
-    #[inline(never)]
-    fn step_beside_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
-        let Witness { parameters, surface, second, halvings, .. } = state.witness;
-        if halvings != 0 {
-            return false;
-        }
-        let at = CurvedPoint { surface, second };
-        let Some(plan) = StepBeside::new(face.poles(), parameters, &at, state.probe, self.size) else { return false };
-        let reached = face.patch.evaluate_apart(plan.parameters);
-        step.evaluations += 1;
-        let before = (surface.point - state.probe).length_squared();
-        let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - 2.0 * LEAST_FALL * plan.fall;
-        if is_nearer {
-            state.witness.rest_at(plan.parameters, &reached);
-            state.witness.mode = mode_at(plan.parameters, plan.is_held);
-            step.outcome = Outcome::Moved;
-        } else {
-            (state.witness.is_free, state.witness.halvings) = (false, 1);
-            step.outcome = Outcome::Undone;
-        }
-        true
-    }
-
     /// Whether the probe is near that of the last tick. Not if it is not finite.
     #[inline]
     fn follows(&self, state: &BodyWitness, probe: Vec3) -> bool {
@@ -231,8 +202,8 @@ impl Body {
         jump * jump
     }
 
-    /// Whether the tick is the tracker's alone: there is nothing to audit, or, behind a convex body's surface, it is its
-    /// turn. From behind, the far side holds a witness point as well; there tracker and audit take turns.
+    /// Whether the tick is the tracker's alone: there is nothing to audit, or, behind a convex body's surface, it is
+    /// its turn. From behind, the far side holds a witness point as well; there tracker and audit take turns.
     #[inline]
     fn has_turn(&self, state: &mut BodyWitness) -> bool {
         match state.contact {

@@ -1,9 +1,9 @@
 //! Every number of a body's tables as 32-bit words, for the check that flash still holds what was baked.
 //!
 //! The tables are a list of *records* — one for the body, then the faces' sides and patches, edges, vertices, spokes,
-//! and the locator's nodes and entries — and a record is a list of words. A word is found by a [`TableCursor`] in a bounded number of
-//! steps, whatever the size of the body. Addresses are left out: they are the linker's. What a slice's address leads to
-//! is read, and its length is in the words.
+//! and the locator's nodes and entries — and a record is a list of words. A word is found by a [`TableCursor`] in a
+//! bounded number of steps, whatever the size of the body. Addresses are left out: they are the linker's. What a
+//! slice's address leads to is read, and its length is in the words.
 
 use super::curve::SplineCurve;
 use super::feature::{Edge, EdgeFace, Separator, Side, Spoke, Vertex};

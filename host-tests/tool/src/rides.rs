@@ -101,9 +101,9 @@ impl Rides {
     }
 }
 
-/// The longest list of candidates of a body's cells, and how many ticks one pass of the audit over it takes at most: its
-/// beginning and its end, and for each evaluation that a candidate may cost the two halves, and one more where it looked
-/// nearer and was not.
+/// The longest list of candidates of a body's cells, and how many ticks one pass of the audit over it takes at most:
+/// its beginning and its end, and for each evaluation that a candidate may cost the two halves, and one more where it
+/// looked nearer and was not.
 pub fn longest_pass(body: &Body) -> (u32, u32) {
     let mut longest = 0;
     let mut length = 0;

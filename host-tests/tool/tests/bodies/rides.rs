@@ -1,4 +1,5 @@
-//! Fast rides along bodies, over smooth edges, sharp ones, corners and poles: the witness point keeps up, tick for tick.
+//! Fast rides along bodies, over smooth edges, sharp ones, corners and poles: the witness point keeps up, tick for
+//! tick.
 
 use crate::scene::Scene;
 use palpate_tool::rides::{Lateness, Rides};
