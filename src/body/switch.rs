@@ -3,7 +3,7 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::enter::Border;
+use super::enter::{Border, Entry};
 use super::feature::{EdgeFace, EdgeKind, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
@@ -66,7 +66,8 @@ impl Body {
         let from_second = edge.faces[0].face != from;
         let other = edge.faces[usize::from(!from_second)];
         let is_other = other.face != from && other != EdgeFace::NONE;
-        if is_other && self.crosses(other, edge.kind, crossing, is_curved, state, step) {
+        if is_other && let Some(entry) = self.entry_across(other, edge.kind, crossing, is_curved, state) {
+            self.enter(&entry, is_curved, state, step);
             return true;
         }
         // The border of the face is the edge: no evaluation.
@@ -80,27 +81,23 @@ impl Body {
         true
     }
 
-    /// Whether the face beyond a side takes the probe; then it is entered. Not inlined: what it keeps on the stack is
-    /// not there when the edge is stepped along.
+    /// Where the face beyond a side is entered, if it takes the probe. Not inlined: what it keeps on the stack is not
+    /// there when the face is evaluated, nor when the edge is stepped along.
     #[inline(never)]
-    fn crosses(
+    fn entry_across(
         &self,
         other: EdgeFace,
         kind: EdgeKind,
         crossing: Crossing,
         is_curved: bool,
-        state: &mut BodyWitness,
-        step: &mut BodyStep,
-    ) -> bool {
+        state: &BodyWitness,
+    ) -> Option<Entry> {
         let Crossing { t, is_along_v, is_reversed, .. } = crossing;
         let surface = &state.witness.surface;
         let tangent = if is_along_v { surface.tangent_v } else { surface.tangent_u };
         let tangent = if is_reversed { -tangent } else { tangent };
         let border = Border { along: Along::new(surface.point, tangent, state.probe), tangent, t };
-        let is_smooth = kind == EdgeKind::Smooth;
-        let Some(entry) = self.entry(other, is_smooth, &border, is_curved, state, f32::INFINITY) else { return false };
-        self.enter(&entry, is_curved, state, step);
-        true
+        self.entry(other, kind == EdgeKind::Smooth, &border, is_curved, state, f32::INFINITY)
     }
 
     /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point;
