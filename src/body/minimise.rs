@@ -100,7 +100,7 @@ impl Descending {
     /// The first half of a step: one evaluation.
     #[inline(never)]
     pub fn evaluate(&mut self, patch: &SplinePatch, probe: Vec3) {
-        let curved = patch.evaluate_apart(self.trial);
+        let curved = patch.evaluate_curved(self.trial[0], self.trial[1]);
         self.left = self.left.wrapping_sub(1);
         self.seen = Some(Seen::new(&curved, curved.surface.point - probe));
     }
@@ -253,14 +253,19 @@ struct Model {
 
 impl Model {
     fn new(Seen { gradient, form, newton, .. }: Seen) -> Self {
+        let is_newton = is_positive_definite(newton);
+        let hessian = if is_newton { newton } else { Self::stand_in(form, newton) };
+        Self { gradient, hessian, is_newton }
+    }
+
+    /// What stands in for a Hessian that is not positive definite.
+    #[inline(never)]
+    fn stand_in(form: [f32; 3], newton: [f32; 3]) -> [f32; 3] {
         // Along an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of
         // the other parameter still counts.
         let mixed = [0, 2].map(|axis| saturate(newton[axis].abs(), FLAT * form[axis], f32::MAX));
         let mixed = [mixed[0], newton[1], mixed[1]];
-        let is_newton = is_positive_definite(newton);
-        let hessian = if is_newton {
-            newton
-        } else if is_positive_definite(mixed) {
+        if is_positive_definite(mixed) {
             mixed
         } else if is_positive_definite(form) {
             form
@@ -268,8 +273,7 @@ impl Model {
             // Near a pole: the trace is not below the greatest eigenvalue, a plain gradient step.
             let trace = form[0] + form[2];
             [trace, 0.0, trace]
-        };
-        Self { gradient, hessian, is_newton }
+        }
     }
 
     /// The step to the minimiser, beside a pole in the coordinates of [`super::pole`], and the model's value there.

@@ -106,7 +106,7 @@ impl Search {
 
     /// The same for the audit, which asks for no more than a point that is nearer than the `rival`: with the first one
     /// that is, it is done. What is certain to hold none is passed over.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn turn_against(&mut self, body: &Body, probe: Vec3, rival: Option<&Rival>) {
         if self.ended.is_some() {
             return;
@@ -117,16 +117,20 @@ impl Search {
             return;
         };
         if !self.descending.has_evaluated() {
-            if self.descending.is_fresh() {
-                if rival.is_some_and(|rival| rival.holds(&self.descending.candidate)) {
+            if let Some(rival) = rival
+                && self.descending.is_fresh()
+            {
+                if rival.holds(&self.descending.candidate) {
                     self.go_on(body, Judgement::Beaten);
                     return;
                 }
-                self.asked = rival.map(|rival| (probe, rival.half_squared));
+                self.asked = Some((probe, rival.half_squared));
             }
-            self.descending.evaluate(patch, self.asked.map_or(probe, |(probe, _)| probe));
+            let asked = rival.and(self.asked);
+            self.descending.evaluate(patch, asked.map_or(probe, |(probe, _)| probe));
             self.evaluations += 1;
-            if let (Some((_, known)), Some((parameters, half_squared))) = (self.asked, self.descending.seen())
+            if let Some((_, known)) = asked
+                && let Some((parameters, half_squared)) = self.descending.seen()
                 && half_squared < known
             {
                 self.best = Best { face, parameters, half_squared };
@@ -134,7 +138,8 @@ impl Search {
             }
             return;
         }
-        let known = self.asked.map_or(self.best.half_squared, |(_, known)| known);
+        let asked = rival.and(self.asked);
+        let known = asked.map_or(self.best.half_squared, |(_, known)| known);
         let progress = if body.has_poles {
             self.descending.judge_beside(patch, body.poles_of(face), known, body.size)
         } else {
@@ -147,7 +152,7 @@ impl Search {
         if half_squared < self.best.half_squared {
             self.best = Best { face, parameters, half_squared };
         }
-        if self.asked.is_some() && half_squared < known {
+        if asked.is_some() && half_squared < known {
             self.ended = Some(true);
         } else {
             self.go_on(body, progress);
@@ -161,7 +166,7 @@ impl Search {
     }
 
     /// To the next evaluation, the next candidate, or the end.
-    #[inline(never)]
+    #[inline]
     fn go_on(&mut self, body: &Body, progress: Judgement) {
         let most = if body.is_convex() { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
         let falls = progress == Judgement::Falling;
