@@ -25,15 +25,17 @@ impl Body {
                 state.forget();
             }
         }
-        state.probe = probe;
+        let before = core::mem::replace(&mut state.probe, probe);
         // Behind a convex body's surface there is no force, and no haste: tracker and audit take turns.
         let steps_too = state.is_located && (state.contact != Contact::Behind || !self.is_convex());
         let Some(search) = &mut state.search else {
             state.search = Some(Search::new(self, probe));
             return steps_too;
         };
-        let known = 0.5 * (state.witness.surface.point - probe).length_squared();
-        let nearer = (1.0 - NEARER) * known;
+        // The tracker has not stepped for this probe yet: what it had for the last one is its own as well.
+        let away = |probe: Vec3| (state.witness.surface.point - probe).length_squared();
+        let (now, last) = (away(probe), away(before));
+        let nearer = (0.5 - 0.5 * NEARER) * if last < now { last } else { now };
         let Some(found) = search.found() else {
             // A convex body has nothing nearer in front, and behind it no haste.
             let asks = state.is_audited && !self.is_convex();
@@ -47,7 +49,7 @@ impl Body {
         // What has just been found is looked at first.
         (state.is_audited, state.rests) = (true, false);
         if !state.is_located || found.half_squared < nearer {
-            self.set_down(state, &found, probe, step);
+            self.set_down(state, &found, probe, nearer, step);
             // The probe has moved since: on with the others.
             if is_audit
                 && !step.switched
@@ -74,14 +76,14 @@ impl Body {
         }
     }
 
-    /// Sets the witness point down where the search has ended. One evaluation.
-    fn set_down(&self, state: &mut BodyWitness, found: &Located, probe: Vec3, step: &mut BodyStep) {
+    /// Sets the witness point down where the search has ended, if `½ ‖P − Q‖²` is below `nearer` there, m², or it is
+    /// located for the first time. One evaluation.
+    fn set_down(&self, state: &mut BodyWitness, found: &Located, probe: Vec3, nearer: f32, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(found.face)) else { return };
         let reached = face.patch.evaluate_apart(found.parameters);
         step.evaluations += 1;
         // The probe has moved since the search began.
-        let away = reached.surface.point - probe;
-        let is_nearer = away.length_squared() < (state.witness.surface.point - probe).length_squared();
+        let is_nearer = 0.5 * (reached.surface.point - probe).length_squared() < nearer;
         if !state.is_located || is_nearer {
             state.witness.rest_at(found.parameters, &reached);
             (state.feature, state.is_located, step.switched) = (Feature::Face(found.face), true, true);
