@@ -152,16 +152,15 @@ fn a_brush_under_the_paper_s_law_is_not_felt_in_free_air() {
 #[test]
 fn a_brush_over_drawn_bodies_is_not_felt_in_free_air() {
     for body in [bodies::groove(), bodies::rounded()] {
-        brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVER);
+        brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, 0);
     }
 }
 
 /// Corners that are poles of every patch around them, sharp.
 #[test]
-#[ignore = "not so yet: out over a sharp edge it takes up to seven ticks at 0.3 m/s"]
-fn a_brush_over_a_tetrahedron_is_not_felt_in_free_air() {
+fn a_brush_over_a_tetrahedron_is_felt_in_free_air_for_a_handover_at_most() {
     let body = bodies::tetrahedron();
-    brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVER);
+    brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVERS);
 }
 
 /// Two poles of four patches each: its locator takes minutes.
