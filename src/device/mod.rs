@@ -84,6 +84,20 @@ pub struct Device<K, const JOINTS: usize> {
     pub max_damping: f32,
 }
 
+impl<K, const JOINTS: usize> Device<K, JOINTS> {
+    /// The joint angles at which its encoders count zero, radians: the pose that homing by [`Reference::Pose`] is told
+    /// where the counts are to be zero.
+    pub const fn angles_at_zero(&self) -> [f32; JOINTS] {
+        let mut angles = [0.0; JOINTS];
+        let mut joint = 0;
+        while joint < JOINTS {
+            angles[joint] = self.encoders[joint].angle_at_zero;
+            joint += 1;
+        }
+        angles
+    }
+}
+
 /// How wide the rim of a joint's range is, radians.
 const RIM: f32 = 0.05;
 /// The rim of a singularity, as a share of the least margin.

@@ -4,13 +4,19 @@
 //! bare bridge gives a voltage ([`HBridge`]), so the duty goes through a [`VoltageFeed`] before, which makes up for
 //! resistance and back-EMF.
 
+mod direction;
 mod feed;
 mod h_bridge;
+mod no_pin;
 mod set_point;
+mod set_point_range;
 
+use direction::Direction;
 pub use feed::{Feed, VoltageFeed};
 pub use h_bridge::HBridge;
-pub use set_point::{SetPointDrive, SetPointRange};
+pub use no_pin::NoPin;
+pub use set_point::SetPointDrive;
+pub use set_point_range::{SetPointRange, SetPointRangeError};
 
 use super::Duty;
 use thiserror::Error;
@@ -22,9 +28,12 @@ pub enum DriveError<W, P> {
     /// The pulse-width output.
     #[error("the pulse-width output failed")]
     PulseWidth(W),
-    /// The direction or enable pin.
+    /// The enable pin, or a bridge's direction pin.
     #[error("the pin failed")]
     Pin(P),
+    /// The direction pin of an amplifier.
+    #[error("the direction pin failed")]
+    Direction,
 }
 
 /// The stage between a duty and a motor.

@@ -41,6 +41,7 @@ pub struct Homing<const JOINTS: usize> {
     still_ticks: u32,
     still_counts: u32,
     timeout_ticks: u32,
+    when_asked: bool,
 }
 
 /// Which number of the homing is refused.
@@ -125,7 +126,38 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         if timeout_ticks <= still_ticks {
             return Err(HomingError::TimeoutTicks);
         }
-        Ok(Self { encoders, reference, still_ticks, still_counts, timeout_ticks })
+        Ok(Self { encoders, reference, still_ticks, still_counts, timeout_ticks, when_asked: false })
+    }
+
+    /// [`Self::try_new`] for a `static`: what is refused does not compile.
+    ///
+    /// # Panics
+    /// At compile time, naming the number.
+    pub const fn new(
+        encoders: [Encoder; JOINTS],
+        reference: Reference<JOINTS>,
+        still_ticks: u32,
+        still_counts: u32,
+        timeout_ticks: u32,
+    ) -> Self {
+        match Self::try_new(encoders, reference, still_ticks, still_counts, timeout_ticks) {
+            Ok(homing) => homing,
+            Err(HomingError::Angle) => panic!("a reference angle"),
+            Err(HomingError::StillTicks) => panic!("still_ticks"),
+            Err(HomingError::Stop) => panic!("a search for a stop"),
+            Err(HomingError::TimeoutTicks) => panic!("timeout_ticks"),
+        }
+    }
+
+    /// The same, which goes on only while force is asked for, as a search for stops does anyway: whoever holds the
+    /// device in its reference pose says so with the enable button.
+    pub const fn when_asked(self) -> Self {
+        Self { when_asked: true, ..self }
+    }
+
+    /// Whether it goes on only while force is asked for.
+    pub const fn waits_for_enable(&self) -> bool {
+        self.when_asked || self.drives()
     }
 
     /// Whether the motors move the joints.

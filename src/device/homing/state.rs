@@ -39,6 +39,14 @@ impl<const JOINTS: usize> HomingState<JOINTS> {
         matches!(self.end, Some(Ok(())))
     }
 
+    /// Homing waits, and who knows where the joints go meanwhile: the stage it was in begins anew. What it has found
+    /// stays.
+    pub(crate) fn pause(&mut self) {
+        self.search = self.search.again();
+        self.torque = 0.0;
+        (self.anchor, self.still) = (None, 0);
+    }
+
     /// The joint torques that homing asks for, N·m; all zero but in a search for stops.
     pub fn torques(&self) -> [f32; JOINTS] {
         let mut torques = [0.0; JOINTS];

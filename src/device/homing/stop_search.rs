@@ -44,6 +44,13 @@ pub(super) struct Search {
     grown: f32,
 }
 
+impl Search {
+    /// The same stage, from wherever the joint is now.
+    pub fn again(self) -> Self {
+        Self { cleared: self.cleared, ..Self::default() }
+    }
+}
+
 /// What a tick of the search came to.
 pub(super) enum Seek {
     /// Go on with this torque, N·m.
