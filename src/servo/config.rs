@@ -214,6 +214,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             energy: Energy::default(),
             fade: 0.0,
             force: Vec3::ZERO,
+            drives: false,
             duties: [Duty::ZERO; JOINTS],
         }
     }

@@ -109,19 +109,34 @@ pub enum ResetReason {
     BrownOut = 4,
     /// The board cannot tell.
     Unknown = 5,
+    /// The program had panicked, and the watchdog reset it: [`Fault::WatchdogReset`].
+    Panic = 6,
+    /// An exception or a stray interrupt had stopped the program, and the watchdog reset it: [`Fault::WatchdogReset`].
+    Exception = 7,
+    /// Something outside of the program reset it by way of the watchdog, as a flashing tool does.
+    Tool = 8,
 }
 
 impl ResetReason {
     /// Every reason, in the order of its number.
-    pub const ALL: [Self; 6] =
-        [Self::PowerOn, Self::Pin, Self::Software, Self::Watchdog, Self::BrownOut, Self::Unknown];
+    pub const ALL: [Self; 9] = [
+        Self::PowerOn,
+        Self::Pin,
+        Self::Software,
+        Self::Watchdog,
+        Self::BrownOut,
+        Self::Unknown,
+        Self::Panic,
+        Self::Exception,
+        Self::Tool,
+    ];
 
     /// The fault that this reset is.
     pub const fn fault(self) -> Option<Fault> {
         match self {
-            Self::Watchdog => Some(Fault::WatchdogReset),
+            Self::Watchdog | Self::Panic | Self::Exception => Some(Fault::WatchdogReset),
             Self::BrownOut => Some(Fault::BrownOut),
-            Self::PowerOn | Self::Pin | Self::Software | Self::Unknown => None,
+            Self::PowerOn | Self::Pin | Self::Software | Self::Unknown | Self::Tool => None,
         }
     }
 }
@@ -149,4 +164,7 @@ pub enum Event {
     HomingRefused,
     /// Stop.
     Stop,
+    /// Somebody has looked at the device after a reset that is a fault, and wants it to go on: takes back
+    /// [`Fault::WatchdogReset`] and [`Fault::BrownOut`], and nothing else. The loop begins anew.
+    Acknowledged,
 }

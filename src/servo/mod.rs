@@ -24,8 +24,10 @@
 //! | rim of the workspace, singularity | faded out and in again ([`crate::device::Device::room`]) | none |
 //!
 //! A fault is latched with its tick, and the first one stands. From the very tick in which it is seen the motors are
-//! safe ([`SafeOutput`]).
+//! safe ([`SafeOutput`]). The one exception is asked for by name: a [`FrameBridge`] before the tick bridges a few bad
+//! frames in a row, and the next one is the fault. What the motors get is [`ServoState::output`], in every phase.
 
+mod bridged;
 mod config;
 mod deadline;
 mod fault;
@@ -33,6 +35,7 @@ mod force;
 mod gate;
 mod lose;
 mod lost_contact;
+mod output;
 mod patch_witness;
 mod phase;
 mod reading;
@@ -46,10 +49,12 @@ mod surface;
 mod table_check;
 mod tick;
 
+pub use bridged::FrameBridge;
 pub use config::Servo;
 pub use deadline::{Deadline, Heartbeat};
 pub use fault::{Event, Fault, ResetReason};
 pub use lost_contact::ContactLimits;
+pub use output::Output;
 pub use patch_witness::PatchWitness;
 pub use phase::Phase;
 pub use rendering::{Rendering, RenderingError};

@@ -1,10 +1,24 @@
 //! Read access to the whole state, at no cost. Only the loop writes it.
 
-use super::{Fault, Phase, ResetReason, ServoState, TableCheck, Tracked};
-use crate::device::{Counts, Duty, HomingState};
+use super::{Fault, Phase, ResetReason, Servo, ServoState, Settings, TableCheck, Tracked};
+use crate::device::{Counts, Device, Duty, HomingState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Tool};
 use crate::track::Contact;
+
+impl<'a, S, K, const JOINTS: usize> Servo<'a, S, K, JOINTS> {
+    /// The settings it was made with.
+    #[inline]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Its device.
+    #[inline]
+    pub const fn device(&self) -> &'a Device<K, JOINTS> {
+        self.device
+    }
+}
 
 impl<const JOINTS: usize, W> ServoState<JOINTS, W> {
     /// What the loop is doing.

@@ -71,6 +71,8 @@ pub struct ServoState<const JOINTS: usize, W = PatchWitness> {
     pub(super) fade: f32,
     /// Force on the probe, N, in the device's frame, as the motors give it.
     pub(super) force: Vec3,
+    /// Whether the motors are driven though no force is rendered: by homing, or to damp after a fault.
+    pub(super) drives: bool,
     /// Duties now applied.
     pub(super) duties: [Duty; JOINTS],
 }
@@ -120,6 +122,7 @@ impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
         hash.vectors([self.anchor.point.unwrap_or(Vec3::ZERO), self.force]);
         hash.floats([self.fade, self.energy.stored, self.energy.damping]);
         hash.words([u32::from(self.energy.cut)]);
+        hash.words([u32::from(self.drives)]);
         for duty in self.duties {
             hash.words([duty.0 as u32]);
         }

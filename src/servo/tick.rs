@@ -41,7 +41,7 @@ impl<const JOINTS: usize> Torques<JOINTS> {
 
 impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOINTS> {
     /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the
-    /// duties in the state are zero when this returns: apply them.
+    /// motors are off when this returns: apply [`ServoState::output`].
     pub fn note(&self, state: &mut ServoState<JOINTS, S::Witness>, event: Event) {
         match event {
             Event::LinkAlive => state.link_silence = 0,
@@ -55,6 +55,13 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
             Event::HomingRefused => stop(state, Fault::Homing),
             Event::DriveFault => stop(state, Fault::Drive),
             Event::Stop => stop(state, Fault::Stopped),
+            Event::Acknowledged => {
+                if state.reset.fault().is_some_and(|fault| state.fault == Some((fault, 0))) {
+                    state.fault = None;
+                    state.phase = Phase::Reset;
+                    self.begin_anew(state);
+                }
+            }
             Event::Overrun => {
                 state.overran = true;
                 state.overruns = state.overruns.saturating_add(1);
@@ -66,7 +73,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         }
     }
 
-    /// One tick. The duties to apply are in the state when it returns.
+    /// One tick. What the motors get is in the state when it returns: [`ServoState::output`].
     ///
     /// Bounded work: one pose, one evaluation of the patch. No panic. Whatever the input, the duties are finite and in
     /// range; from the tick in which a fault is seen they are safe.
@@ -143,6 +150,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         state.room = self.device.room(&state.angles, &pose);
         if state.phase == Phase::Fault {
             let live = matches!(self.safety.output, SafeOutput::Damping(_));
+            state.drives = live;
             return Ok(Torques { felt: self.safe_torques(state, &pose, velocity), live, ..Torques::NONE });
         }
         state.phase = self.next_phase(state, enable);
@@ -189,29 +197,39 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         counts: [Counts; JOINTS],
         enable: bool,
     ) -> Result<Torques<JOINTS>, Fault> {
+        state.drives = false;
         if state.phase == Phase::Fault {
             return Ok(Torques::NONE);
         }
         state.phase = self.next_phase(state, enable);
         // No motor moves by itself: whoever wants force wants homing.
-        if homing.drives() && !enable {
+        if homing.waits_for_enable() && !enable {
+            state.homing.pause();
             return Ok(Torques::NONE);
         }
         let input =
             HomingInput { counts: Some(counts), index: [None; JOINTS], rates: state.rates, period: self.period };
         match homing.tick(&mut state.homing, input) {
-            HomingProgress::Waiting => Ok(Torques { felt: state.homing.torques(), live: true, ..Torques::NONE }),
+            HomingProgress::Waiting => {
+                state.drives = homing.drives();
+                Ok(Torques { felt: state.homing.torques(), live: state.drives, ..Torques::NONE })
+            }
             HomingProgress::Refused(_) => Err(Fault::Homing),
             HomingProgress::Done(encoders) => {
                 state.homed = true;
                 state.angles_at_zero = encoders.map(|encoder| encoder.angle_at_zero);
-                // The angles jump: begin anew.
-                state.counts = None;
-                state.rates = [0.0; JOINTS];
-                state.velocities = self.estimators.map(|estimator| estimator.start());
+                // The angles jump.
+                self.begin_anew(state);
                 Ok(Torques::NONE)
             }
         }
+    }
+
+    /// Forgets where the joints were, and how fast.
+    fn begin_anew(&self, state: &mut ServoState<JOINTS, S::Witness>) {
+        state.counts = None;
+        state.rates = [0.0; JOINTS];
+        state.velocities = self.estimators.map(|estimator| estimator.start());
     }
 
     /// At most one step a tick; [`Phase::Fault`] is never left.
@@ -258,6 +276,7 @@ fn stop<W, const JOINTS: usize>(state: &mut ServoState<JOINTS, W>, fault: Fault)
     state.fault = state.fault.or(Some((fault, state.ticks)));
     state.force = Vec3::ZERO;
     state.fade = 0.0;
+    state.drives = false;
     state.duties = [Duty::ZERO; JOINTS];
 }
 

@@ -217,6 +217,8 @@ mod tests {
             fault_tick: u32::MAX,
             reset: u8::MAX,
             overruns: u32::MAX,
+            bridged: u32::MAX,
+            hold: u8::MAX,
             feature: u16::MAX,
             mode: u8::MAX,
             contact: u8::MAX,

@@ -91,6 +91,10 @@ pub struct Record {
     pub reset: u8,
     /// Ticks that overran so far.
     pub overruns: u32,
+    /// Bad sensor frames bridged so far ([`crate::servo::FrameBridge`]).
+    pub bridged: u32,
+    /// What of the person's side keeps the motors off, as bits ([`hold`]).
+    pub hold: u8,
     /// [`crate::body::Feature`] as its code; 0 for a surface of one patch.
     pub feature: u16,
     /// [`crate::track::BoundaryMode`] as its number.
@@ -105,4 +109,28 @@ pub struct Record {
     pub force: [f32; 3],
     /// Motor duties now applied, full scale ±32 767.
     pub duties: [i16; 3],
+}
+
+/// The bits of [`Record::hold`]: what keeps the motors off although nothing is wrong with the loop.
+pub mod hold {
+    /// The stop input is pressed, or its wire is broken.
+    pub const STOP: u8 = 1 << 0;
+    /// An amplifier is not ready, has no supply, or its wire is broken.
+    pub const NOT_READY: u8 = 1 << 1;
+    /// The motors' supply is out of its range.
+    pub const SUPPLY: u8 = 1 << 2;
+    /// The enable input has to be seen released first.
+    pub const RELEASE_FIRST: u8 = 1 << 3;
+}
+
+/// To a device that runs by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Command {
+    /// The host is there: [`crate::servo::Event::LinkAlive`].
+    Alive,
+    /// Stop: [`crate::servo::Event::Stop`], latched.
+    Stop,
+    /// Go on after a reset by the watchdog or a brown-out: [`crate::servo::Event::Acknowledged`].
+    Acknowledge,
 }

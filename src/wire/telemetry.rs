@@ -8,15 +8,15 @@ use super::Record;
 use crate::device::Duty;
 use crate::servo::{Fault, Phase, ServoState, Tracked};
 use crate::track::{BoundaryMode, Contact};
-use heapless::spsc::Producer;
 
 /// The queue's type, for those who make one: `Queue<Record, N>` holds `N − 1` records.
-pub use heapless::spsc::{Consumer, Queue};
+pub use heapless::spsc::{Consumer, Producer, Queue};
 
 /// What is told at once when it changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Told {
     phase: Phase,
+    hold: u8,
     fault: Option<Fault>,
     feature: u16,
     mode: BoundaryMode,
@@ -38,6 +38,8 @@ pub struct Recorder<'a> {
     longest: u32,
     took: u32,
     dropped: u32,
+    bridged: u32,
+    hold: u8,
 }
 
 impl<'a> Recorder<'a> {
@@ -56,7 +58,16 @@ impl<'a> Recorder<'a> {
             longest: 0,
             took: 0,
             dropped: 0,
+            bridged: 0,
+            hold: 0,
         }
+    }
+
+    /// What the board knows beside the loop: bad frames bridged so far, and what keeps the motors off
+    /// ([`super::hold`]). It goes into the records from the next tick's on.
+    #[inline]
+    pub const fn set_board(&mut self, bridged: u32, hold: u8) {
+        (self.bridged, self.hold) = (bridged, hold);
     }
 
     /// Takes note of a tick that is done: the counter of 32 bits, which wraps, at its interrupt and at its end.
@@ -72,6 +83,7 @@ impl<'a> Recorder<'a> {
 
         let now = Told {
             phase: state.phase(),
+            hold: self.hold,
             fault: state.fault().map(|(fault, _)| fault),
             feature: state.witness().feature(),
             mode: state.witness().witness().mode,
@@ -107,6 +119,8 @@ impl<'a> Recorder<'a> {
             fault_tick,
             reset: state.reset() as u8,
             overruns: state.overruns(),
+            bridged: self.bridged,
+            hold: self.hold,
             feature: state.witness().feature(),
             mode: state.witness().witness().mode as u8,
             contact: state.contact() as u8,

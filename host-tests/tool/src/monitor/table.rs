@@ -10,7 +10,7 @@ pub struct Table(csv::Writer<File>);
 
 impl Table {
     /// Names of the columns.
-    const COLUMNS: [&str; 27] = [
+    const COLUMNS: [&str; 29] = [
         "tick",
         "number",
         "rate",
@@ -23,6 +23,8 @@ impl Table {
         "fault_tick",
         "reset",
         "overruns",
+        "bridged",
+        "hold",
         "feature",
         "mode",
         "contact",
@@ -62,6 +64,7 @@ impl Table {
         row.push(record.dropped.to_string());
         row.extend([record.phase, record.fault].map(|number| number.to_string()));
         row.extend([record.fault_tick, u32::from(record.reset), record.overruns].map(|number| number.to_string()));
+        row.extend([record.bridged, u32::from(record.hold)].map(|number| number.to_string()));
         row.push(record.feature.to_string());
         row.extend([record.mode, record.contact].map(|number| number.to_string()));
         row.push(record.gap.to_string());
