@@ -1,0 +1,181 @@
+//! The tick of a board.
+
+use crate::light::is_lit;
+use crate::sensors::BadFrame;
+use crate::{Board, Hold, Interlock, Mailbox, Panel, Settings, Verdict};
+use palpate::device::Kinematics;
+use palpate::servo::{Deadline, Event, FrameBridge, Input, Output, ResetReason, Servo, ServoState, Surface};
+use palpate::wire::telemetry::{Producer, Recorder};
+use palpate::wire::{Command, Record, hold};
+
+/// What is felt on which device: where the loop finds its servo.
+///
+/// Give a `static` in it: then the compiler knows every number of body, device and settings, and leaves out what they
+/// do not need.
+pub trait Felt<const JOINTS: usize> {
+    /// What is touched.
+    type Surface: Surface + 'static;
+    /// What it is touched with.
+    type Mechanism: Kinematics<JOINTS> + 'static;
+
+    /// The servo.
+    fn servo(&self) -> &Servo<'static, Self::Surface, Self::Mechanism, JOINTS>;
+}
+
+type State<F, const JOINTS: usize> = ServoState<JOINTS, <<F as Felt<JOINTS>>::Surface as Surface>::Witness>;
+
+/// The loop of a board, which its timer's interrupt owns.
+pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
+    felt: F,
+    board: B,
+    state: State<F, JOINTS>,
+    hold: Hold,
+    interlock: Interlock,
+    bridge: FrameBridge<JOINTS>,
+    deadline: Deadline,
+    recorder: Recorder<'a>,
+    mailbox: &'a Mailbox,
+    /// Of the loop, Hz.
+    rate: u32,
+    /// Ticks done, in whatever phase.
+    ticks: u32,
+    acknowledging: Acknowledging,
+}
+
+/// How far somebody has come with pressing stop and letting go of it, which acknowledges a reset that is a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Acknowledging {
+    /// Stop has not been seen released since the reset: whoever pressed it did so before.
+    NotYet,
+    /// Stop is released.
+    Released,
+    /// Stop was pressed since.
+    Pressed,
+}
+
+impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B, JOINTS> {
+    /// A loop before its first tick, on a board whose motors are off. It reads the tables whole: do this before the
+    /// watchdog runs.
+    pub fn new(
+        felt: F,
+        board: B,
+        settings: &Settings,
+        reset: ResetReason,
+        records: Producer<'a, Record>,
+        mailbox: &'a Mailbox,
+    ) -> Self {
+        let rate = felt.servo().settings().rate;
+        Self {
+            board,
+            state: felt.servo().start_after(reset),
+            hold: Hold::new(settings, rate),
+            interlock: Interlock::default(),
+            bridge: FrameBridge::new(settings.bad_frames),
+            deadline: Deadline::of_period(settings.clock as f32, rate),
+            recorder: Recorder::new(records, settings.clock, settings.ticks_per_record),
+            mailbox,
+            // At least 1 Hz, and below 2³² by far.
+            rate: rate as u32,
+            ticks: 0,
+            acknowledging: Acknowledging::NotYet,
+            felt,
+        }
+    }
+
+    /// One tick, from the timer's interrupt.
+    #[inline]
+    pub fn tick(&mut self) {
+        let began = self.board.now();
+        self.board.acknowledge();
+        let panel = self.board.panel();
+        self.listen(&panel);
+        let verdict = self.hold.next(&panel, matches!(self.state.output(), Output::Drive(_)));
+        if verdict.is_drive_fault {
+            self.felt.servo().note(&mut self.state, Event::DriveFault);
+        }
+        let enable = self.interlock.next(panel.enable, verdict.hold != 0);
+
+        let input = match self.board.read() {
+            Ok(counts) => Input::Sensors { counts, enable },
+            Err(BadFrame::Absent) => Input::Lost,
+            Err(BadFrame::Damaged | BadFrame::Jumped) => Input::Damaged,
+        };
+        let input = self.bridge.input(self.felt.servo(), &self.state, input, enable);
+        let was_homed = self.state.homed();
+        self.felt.servo().tick(&mut self.state, input);
+        if !was_homed && self.state.homed() {
+            // The press that asked for homing does not ask for force too.
+            self.interlock.lock();
+        }
+
+        self.output(verdict);
+        if self.deadline.overrun(began, self.board.now()) {
+            self.felt.servo().note(&mut self.state, Event::Overrun);
+            self.output(verdict);
+        }
+        self.tell(began, verdict);
+    }
+
+    /// The state after the last tick.
+    pub const fn state(&self) -> &State<F, JOINTS> {
+        &self.state
+    }
+
+    /// The board.
+    pub const fn board(&mut self) -> &mut B {
+        &mut self.board
+    }
+
+    /// Bad frames bridged so far.
+    pub const fn bridged(&self) -> u32 {
+        self.bridge.total()
+    }
+
+    /// What the host says, and what somebody says with the stop button.
+    #[inline]
+    fn listen(&mut self, panel: &Panel) {
+        let commands = self.mailbox.take();
+        if commands.has(Command::Alive) {
+            self.felt.servo().note(&mut self.state, Event::LinkAlive);
+        }
+        if commands.has(Command::Stop) {
+            self.felt.servo().note(&mut self.state, Event::Stop);
+        }
+        let by_hand = self.acknowledging == Acknowledging::Pressed && !panel.stop && !panel.enable;
+        if by_hand || commands.has(Command::Acknowledge) {
+            self.felt.servo().note(&mut self.state, Event::Acknowledged);
+        }
+        self.acknowledging = match (self.acknowledging, panel.stop) {
+            (_, false) => Acknowledging::Released,
+            (Acknowledging::NotYet, true) => Acknowledging::NotYet,
+            (Acknowledging::Released | Acknowledging::Pressed, true) => Acknowledging::Pressed,
+        };
+    }
+
+    /// Gives the motors what the state says, and nothing while something holds.
+    #[inline]
+    fn output(&mut self, verdict: Verdict) {
+        let obeyed = match self.state.output() {
+            Output::Drive(duties) if verdict.hold == 0 => self.board.drive(duties),
+            Output::Drive(_) | Output::Off => self.board.release(),
+        };
+        if obeyed.is_err() {
+            self.felt.servo().note(&mut self.state, Event::DriveFault);
+            // Whatever of it still obeys.
+            let _ = self.board.release();
+        }
+    }
+
+    /// Telemetry, light and heartbeat.
+    #[inline]
+    fn tell(&mut self, began: u32, verdict: Verdict) {
+        let release_first = if self.interlock.is_locked() { hold::RELEASE_FIRST } else { 0 };
+        let holds = verdict.hold | release_first;
+        let drives = matches!(self.state.output(), Output::Drive(_)) && verdict.hold == 0;
+        self.board.show(is_lit(self.ticks, self.rate, drives, self.state.fault().is_some(), holds != 0));
+        self.recorder.set_board(self.bridge.total(), holds);
+        self.recorder.note(&self.state, began, self.board.now());
+        self.ticks = self.ticks.wrapping_add(1);
+        self.mailbox.tell_ticks(self.ticks);
+    }
+}

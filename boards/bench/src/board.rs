@@ -1,0 +1,56 @@
+//! What the loop reaches of the world.
+
+use crate::sensors::BadFrame;
+use palpate::device::{Counts, Duty};
+use thiserror::Error;
+
+/// What the person's side of a board says in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Panel {
+    /// Force is asked for.
+    pub enable: bool,
+    /// Stop is pressed, or its wire is broken.
+    pub stop: bool,
+    /// Every amplifier says that it is ready.
+    pub ready: bool,
+    /// The motors' supply, V; `None` where it is not or cannot be measured.
+    pub supply: Option<f32>,
+}
+
+/// A drive, or a pin of it, that did not do what it was told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("a drive did not do what it was told")]
+pub struct NotObeyed;
+
+/// A board, as the loop sees it.
+pub trait Board<const JOINTS: usize> {
+    /// The free-running counter: it rises, and wraps at 32 bits.
+    fn now(&self) -> u32;
+
+    /// Takes the timer's interrupt back, so that the next period can raise it again.
+    fn acknowledge(&mut self);
+
+    /// What the person's side says.
+    fn panel(&mut self) -> Panel;
+
+    /// The joints' counts.
+    ///
+    /// # Errors
+    /// A frame that did not come, or that cannot be believed.
+    fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame>;
+
+    /// Enables the drives and gives them these duties.
+    ///
+    /// # Errors
+    /// One that did not obey. The others have been told.
+    fn drive(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed>;
+
+    /// Disables the drives. Tries every pin, whatever fails.
+    ///
+    /// # Errors
+    /// One that did not obey.
+    fn release(&mut self) -> Result<(), NotObeyed>;
+
+    /// The light, on or off.
+    fn show(&mut self, lit: bool);
+}

@@ -1,0 +1,39 @@
+//! Delays that are counted, not guessed.
+
+use embedded_hal::delay::DelayNs;
+
+/// A counter that runs freely, rises and wraps at 32 bits: the core's cycles.
+pub trait Counter {
+    /// The count.
+    fn now(&self) -> u32;
+}
+
+/// How many counts of a counter of `frequency` Hz last at least so many nanoseconds, whatever the counter's own step.
+pub const fn cycles(nanoseconds: u32, frequency: u32) -> u32 {
+    let whole = nanoseconds as u64 * frequency as u64;
+    // One more: the first may be over as soon as it is read.
+    let counts = whole.div_ceil(1_000_000_000) + 1;
+    if counts > u32::MAX as u64 { u32::MAX } else { counts as u32 }
+}
+
+/// Waits by the counter. At least as long as it is told, and longer by the few cycles of looking.
+#[derive(Clone, Copy, Debug)]
+pub struct CycleDelay<C> {
+    counter: C,
+    frequency: u32,
+}
+
+impl<C: Counter> CycleDelay<C> {
+    /// Delays by a counter of this frequency, Hz.
+    pub const fn new(counter: C, frequency: u32) -> Self {
+        Self { counter, frequency }
+    }
+}
+
+impl<C: Counter> DelayNs for CycleDelay<C> {
+    #[inline]
+    fn delay_ns(&mut self, nanoseconds: u32) {
+        let (began, counts) = (self.counter.now(), cycles(nanoseconds, self.frequency));
+        while self.counter.now().wrapping_sub(began) < counts {}
+    }
+}

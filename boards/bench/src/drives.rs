@@ -1,0 +1,87 @@
+//! The drives of all joints.
+
+use crate::NotObeyed;
+use embedded_hal::digital::OutputPin;
+use palpate::device::Duty;
+use palpate::device::drive::Drive;
+
+/// The drives of all joints, as one.
+pub trait Drives<const JOINTS: usize> {
+    /// Gives each its duty, and enables it.
+    ///
+    /// # Errors
+    /// One that did not obey. The others have been told.
+    fn apply(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed>;
+
+    /// Disables all. Tries each, whatever fails.
+    ///
+    /// # Errors
+    /// One that did not obey.
+    fn release(&mut self) -> Result<(), NotObeyed>;
+}
+
+fn obeyed(all: bool) -> Result<(), NotObeyed> {
+    if all { Ok(()) } else { Err(NotObeyed) }
+}
+
+impl<D: Drive, const JOINTS: usize> Drives<JOINTS> for [D; JOINTS] {
+    #[inline]
+    fn apply(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
+        let mut all = true;
+        for (drive, duty) in self.iter_mut().zip(duties) {
+            all &= drive.apply(duty).is_ok();
+        }
+        obeyed(all)
+    }
+
+    #[inline]
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        let mut all = true;
+        for drive in self {
+            all &= drive.release().is_ok();
+        }
+        obeyed(all)
+    }
+}
+
+/// Three whose channels are types of their own.
+impl<A: Drive, B: Drive, C: Drive> Drives<3> for (A, B, C) {
+    #[inline]
+    fn apply(&mut self, [a, b, c]: [Duty; 3]) -> Result<(), NotObeyed> {
+        obeyed(self.0.apply(a).is_ok() & self.1.apply(b).is_ok() & self.2.apply(c).is_ok())
+    }
+
+    #[inline]
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        obeyed(self.0.release().is_ok() & self.1.release().is_ok() & self.2.release().is_ok())
+    }
+}
+
+/// Drives that one pin enables, high.
+#[derive(Debug)]
+pub struct Switched<D, E> {
+    drives: D,
+    enable: E,
+}
+
+impl<D, E> Switched<D, E> {
+    /// These drives behind this pin, which is low.
+    pub const fn new(drives: D, enable: E) -> Self {
+        Self { drives, enable }
+    }
+}
+
+impl<D: Drives<JOINTS>, E: OutputPin, const JOINTS: usize> Drives<JOINTS> for Switched<D, E> {
+    #[inline]
+    fn apply(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
+        self.drives.apply(duties)?;
+        // Only now that the duties are there.
+        obeyed(self.enable.set_high().is_ok())
+    }
+
+    #[inline]
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        let off = self.enable.set_low().is_ok();
+        obeyed(self.drives.release().is_ok() & off)
+    }
+}

@@ -1,0 +1,64 @@
+//! One loop for every board on the bench.
+//!
+//! A board's own files are its clocks, pins and memory. What it does with them is here, once, and runs on the host too:
+//! with mocks of pins and buses, and with the simulated devices.
+//!
+//! # The way of the data
+//!
+//! ```text
+//!  interrupt, a tick                                              main, whenever it has time
+//!  Board::panel ── Hold ── Interlock ── enable ──┐
+//!  Board::read ─── FrameBridge ─────── counts ── Servo::tick ── state.output() ── Board::drive or Board::release
+//!                                                │                                Deadline, once more
+//!        Mailbox: commands ◄─────────────────────┼── ticks ──► Idle: watchdog, records out, commands in
+//! ```
+//!
+//! | type | is |
+//! |---|---|
+//! | [`Board`] | what the loop reaches of the world; [`Parts`] makes one of embedded-hal's pins and buses |
+//! | [`Felt`] | what is felt on which device: the servo |
+//! | [`Panel`] | what the person's side says: enable, stop, ready, supply |
+//! | [`Hold`] | what keeps the motors off although nothing is wrong: stop, an amplifier not ready, the supply |
+//! | [`Interlock`] | force only once enable has been seen released: after a reset, after a hold, after homing |
+//! | [`Bench`] | the tick |
+//! | [`Idle`] | what runs below it |
+//!
+//! # What keeps a thumb safe
+//!
+//! - No board looks at the phase: it does what [`palpate::servo::ServoState::output`] says.
+//! - An enable button that is held, stuck or shorted at reset moves nothing.
+//! - Broken wires stop: stop is a closed contact, ready is a level that the amplifier has to give.
+//! - While a hold lasts nothing is driven, not even to damp. After it, force comes by the soft start, and only once
+//!   enable has been seen released.
+//! - A reset by the watchdog or a brown-out stays a fault until somebody acknowledges it: stop pressed and let go, with
+//!   enable released, or the host's command.
+
+#![no_std]
+
+mod bench_loop;
+mod board;
+mod delay;
+mod drives;
+mod hold;
+mod idle;
+mod interlock;
+mod light;
+mod lines;
+mod mailbox;
+mod parts;
+mod reset;
+pub mod sensors;
+mod settings;
+
+pub use bench_loop::{Bench, Felt};
+pub use board::{Board, NotObeyed, Panel};
+pub use delay::{Counter, CycleDelay, cycles};
+pub use drives::{Drives, Switched};
+pub use hold::{Hold, Verdict};
+pub use idle::{Idle, Port, Watchdog};
+pub use interlock::Interlock;
+pub use lines::{Lines, NoSupply, Supply};
+pub use mailbox::Mailbox;
+pub use parts::{Clock, Parts};
+pub use reset::{Cause, Memo, ResetFlags};
+pub use settings::{Settings, SupplyRange};

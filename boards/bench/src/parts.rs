@@ -1,0 +1,76 @@
+//! A board that is made of embedded-hal's parts.
+
+use crate::sensors::{BadFrame, Sensors};
+use crate::{Board, Counter, Drives, Lines, NotObeyed, Panel, Supply};
+use embedded_hal::digital::{InputPin, OutputPin, PinState};
+use palpate::device::{Counts, Duty};
+
+/// The counter that times ticks, and the timer that raises them.
+pub trait Clock: Counter {
+    /// Takes the timer's interrupt back.
+    fn acknowledge(&mut self);
+}
+
+/// A board's parts: clock, sensors, drives, lines and light.
+#[derive(Debug)]
+pub struct Parts<C, S, D, E, T, R, V, L, const AMPLIFIERS: usize> {
+    /// Counter and timer.
+    pub clock: C,
+    /// The joints' sensors, started.
+    pub sensors: S,
+    /// The motors' drives, released.
+    pub drives: D,
+    /// The person's side.
+    pub lines: Lines<E, T, R, V, AMPLIFIERS>,
+    /// The light, on while high.
+    pub light: L,
+}
+
+impl<C, S, D, E, T, R, V, L, const JOINTS: usize, const AMPLIFIERS: usize> Board<JOINTS>
+    for Parts<C, S, D, E, T, R, V, L, AMPLIFIERS>
+where
+    C: Clock,
+    S: Sensors<JOINTS>,
+    D: Drives<JOINTS>,
+    E: InputPin,
+    T: InputPin,
+    R: InputPin,
+    V: Supply,
+    L: OutputPin,
+{
+    #[inline]
+    fn now(&self) -> u32 {
+        self.clock.now()
+    }
+
+    #[inline]
+    fn acknowledge(&mut self) {
+        self.clock.acknowledge();
+    }
+
+    #[inline]
+    fn panel(&mut self) -> Panel {
+        self.lines.read()
+    }
+
+    #[inline]
+    fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame> {
+        self.sensors.read()
+    }
+
+    #[inline]
+    fn drive(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
+        self.drives.apply(duties)
+    }
+
+    #[inline]
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        self.drives.release()
+    }
+
+    #[inline]
+    fn show(&mut self, lit: bool) {
+        // A light that fails keeps nobody from anything.
+        let _ = self.light.set_state(PinState::from(lit));
+    }
+}

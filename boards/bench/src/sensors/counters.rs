@@ -1,0 +1,45 @@
+//! Quadrature counters of the chip.
+
+use super::{BadFrame, Sensors};
+use palpate::device::sensor::TimerCount;
+use palpate::device::{Counts, Encoder};
+
+/// What reads the counters.
+pub trait Readings<const JOINTS: usize> {
+    /// The counters, of which the lower 16 bits are used.
+    fn readings(&mut self) -> [u32; JOINTS];
+}
+
+/// The counters, counted on over their wrap.
+#[derive(Debug)]
+pub struct Counters<R, const JOINTS: usize> {
+    readings: R,
+    counts: [TimerCount; JOINTS],
+}
+
+impl<R: Readings<JOINTS>, const JOINTS: usize> Counters<R, JOINTS> {
+    /// The counters, each with the greatest step between two readings ([`greatest_step`]).
+    pub fn new(readings: R, greatest_steps: [i32; JOINTS]) -> Self {
+        Self { readings, counts: greatest_steps.map(TimerCount::new) }
+    }
+}
+
+impl<R: Readings<JOINTS>, const JOINTS: usize> Sensors<JOINTS> for Counters<R, JOINTS> {
+    #[inline]
+    fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame> {
+        let readings = self.readings.readings();
+        let mut counts = [Counts(0); JOINTS];
+        for ((count, counter), reading) in counts.iter_mut().zip(&mut self.counts).zip(readings) {
+            *count = counter.count(reading).map_err(|_| BadFrame::Jumped)?;
+        }
+        Ok(counts)
+    }
+}
+
+/// The most counts between two good readings that a hand can make: at `max_joint_rate` (rad/s), with up to `bad_frames`
+/// between them at `rate` Hz, and two more for the encoder's own steps. What is more is a glitch.
+pub const fn greatest_step(encoder: &Encoder, max_joint_rate: f32, rate: f32, bad_frames: u32) -> i32 {
+    let counts = max_joint_rate / rate / encoder.radians_per_count * (bad_frames as f32 + 1.0);
+    // The cast saturates.
+    (if counts < 0.0 { -counts } else { counts }) as i32 + 2
+}

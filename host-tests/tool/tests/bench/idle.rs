@@ -1,0 +1,86 @@
+//! What runs below the tick: heartbeat, records, and a line that is never waited for.
+
+use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
+use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::servo::{Heartbeat, ResetReason, Servo};
+use palpate::track::Controller;
+use palpate::wire::Record;
+use palpate::wire::frame::{MAX_FRAME, Received, Receiver};
+use palpate_bench::{Idle, Port, Watchdog};
+
+#[derive(Default)]
+struct Counted(u32);
+
+impl Watchdog for Counted {
+    fn feed(&mut self) {
+        self.0 += 1;
+    }
+}
+
+/// A line that takes a byte now and then.
+struct Slow {
+    every: u32,
+    asked: u32,
+    sent: Vec<u8>,
+}
+
+impl Port for Slow {
+    fn send(&mut self, byte: u8) -> bool {
+        self.asked += 1;
+        let takes = self.every > 0 && self.asked.is_multiple_of(self.every);
+        if takes {
+            self.sent.push(byte);
+        }
+        takes
+    }
+
+    fn receive(&mut self) -> Option<u8> {
+        None
+    }
+}
+
+fn rig() -> Rig<palpate::device::SerialArm> {
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    Rig::new(servo, held_at([0.0; 3]), &settings(), ResetReason::PowerOn)
+}
+
+#[test]
+fn the_watchdog_is_fed_once_a_tick_and_starves_when_ticks_stop_whatever_the_line_does() {
+    for every in [0, 1] {
+        let mut rig = rig();
+        let (mailbox, records) = (rig.mailbox, rig.take_records());
+        let mut idle = Idle::new(mailbox, records, Heartbeat::default());
+        let (mut watchdog, mut line) = (Counted::default(), Slow { every, asked: 0, sent: Vec::new() });
+        for tick in 1..=100 {
+            rig.tick();
+            for _ in 0..50 {
+                idle.step(&mut line, &mut watchdog);
+            }
+            assert_eq!(watchdog.0, tick);
+        }
+        for _ in 0..1_000 {
+            idle.step(&mut line, &mut watchdog);
+        }
+        assert_eq!(watchdog.0, 100);
+        assert_eq!(line.sent.is_empty(), every == 0);
+    }
+}
+
+#[test]
+fn records_go_out_whole_over_a_line_that_takes_a_byte_now_and_then() {
+    let mut rig = rig();
+    rig.ticks(200);
+    let (mailbox, records) = (rig.mailbox, rig.take_records());
+    let mut idle = Idle::new(mailbox, records, Heartbeat::default());
+    let mut line = Slow { every: 7, asked: 0, sent: Vec::new() };
+    for _ in 0..200 * MAX_FRAME {
+        idle.step(&mut line, &mut Counted::default());
+    }
+    let mut receiver = Receiver::<Record>::new();
+    let received: Vec<_> = line.sent.iter().filter_map(|byte| receiver.feed(*byte)).collect();
+    assert!(received.len() >= 10);
+    for (number, record) in received.into_iter().enumerate() {
+        let Received::Message(record) = record else { panic!("{record:?}") };
+        assert_eq!(record.number, number as u32);
+    }
+}

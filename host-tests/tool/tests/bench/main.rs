@@ -1,0 +1,11 @@
+//! The loop of the boards, on the host: with the simulated device at its pins, and with mocks.
+
+mod angles;
+mod frames;
+mod homing;
+mod idle;
+mod panel;
+mod phases;
+mod pins;
+mod reset;
+mod rig;

@@ -1,0 +1,190 @@
+//! Stop, ready lines and supply: what keeps the motors off, and how force comes back.
+
+use crate::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
+use palpate::device::SerialArm;
+use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::servo::{Fault, Phase, ResetReason, SafeOutput, Safety, Servo};
+use palpate::track::Controller;
+use palpate::wire::hold;
+
+fn rig() -> Rig<SerialArm> {
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn)
+}
+
+/// What the last record says holds.
+fn told(rig: &mut Rig<SerialArm>) -> u8 {
+    rig.last_record().map_or(0, |record| record.hold)
+}
+
+/// Force is there; something holds for half a second; it is over. Force must go in the same tick, and come back only
+/// once enable was released, by the soft start.
+#[track_caller]
+fn holds_and_returns_softly(
+    rig: &mut Rig<SerialArm>,
+    within: u32,
+    begin: fn(&mut World),
+    end: fn(&mut World),
+    bit: u8,
+) {
+    rig.press_until_it_runs();
+    let full = rig.state().force().length();
+    assert!(full > 1.0, "{full} N");
+    rig.set(begin);
+    rig.ticks(within - 1);
+    rig.ticks_off(2_000);
+    assert!(told(rig) & bit != 0);
+    rig.set(end);
+    // The button is still held: whoever holds it does not ask for force now.
+    rig.ticks_off(2_000);
+    assert_eq!((rig.state().phase(), rig.fault(), told(rig)), (Phase::Armed, None, hold::RELEASE_FIRST));
+    rig.set(|world| world.button = false);
+    rig.ticks_off(1);
+    rig.set(|world| world.button = true);
+    for tick in 0..400 {
+        rig.tick();
+        let force = rig.state().force().length();
+        assert!(force <= 5.0 * (tick + 2) as f32 / 400.0, "tick {tick}: {force} N");
+    }
+    rig.ticks(400);
+    assert!((rig.state().force().length() - full).abs() < 0.05 * full);
+}
+
+#[test]
+fn after_a_stop_force_returns_by_the_soft_start_and_only_once_enable_was_released() {
+    holds_and_returns_softly(
+        &mut rig(),
+        1,
+        |world| world.stop_open = true,
+        |world| world.stop_open = false,
+        hold::STOP,
+    );
+}
+
+#[test]
+fn an_emergency_stop_in_the_motors_supply_alone_gives_no_kick_when_it_is_lifted() {
+    // The loop hears of it by the supply and by the amplifiers, whose ready lines fall with it.
+    holds_and_returns_softly(
+        &mut rig(),
+        1,
+        |world| world.supply = 0.0,
+        |world| world.supply = 24.0,
+        hold::NOT_READY | hold::SUPPLY,
+    );
+}
+
+#[test]
+fn amplifiers_that_fall_before_the_supply_does_have_no_fault_of_their_own() {
+    // Capacitors hold the supply for 20 ms after the contactor fell.
+    let mut rig = rig();
+    rig.press_until_it_runs();
+    rig.set(|world| world.ready_wires = [false; 3]);
+    rig.ticks_off(80);
+    rig.set(|world| world.supply = 0.0);
+    rig.ticks_off(2_000);
+    assert_eq!(rig.fault(), None);
+    rig.set(|world| (world.ready_wires, world.supply) = ([true; 3], 24.0));
+    rig.ticks_off(100);
+    rig.press_until_it_runs();
+}
+
+#[test]
+fn a_supply_that_dips_takes_force_away_and_a_single_reading_does_not() {
+    holds_and_returns_softly(&mut rig(), 4, |world| world.supply = 15.0, |world| world.supply = 24.0, hold::SUPPLY);
+    // Too high, from braking; and a converter that fails.
+    holds_and_returns_softly(&mut rig(), 4, |world| world.supply = 35.0, |world| world.supply = 24.0, hold::SUPPLY);
+    holds_and_returns_softly(
+        &mut rig(),
+        4,
+        |world| world.measured = |_| None,
+        |world| world.measured = Some,
+        hold::SUPPLY,
+    );
+    holds_and_returns_softly(
+        &mut rig(),
+        4,
+        |world| world.measured = |_| Some(f32::NAN),
+        |world| world.measured = Some,
+        hold::SUPPLY,
+    );
+    let mut rig = rig();
+    rig.press_until_it_runs();
+    for _ in 0..100 {
+        rig.set(|world| world.supply = 15.0);
+        rig.ticks(3);
+        rig.set(|world| world.supply = 24.0);
+        rig.ticks(1);
+        assert!(!rig.is_off());
+    }
+}
+
+#[test]
+fn a_broken_ready_wire_or_an_amplifier_without_supply_reads_as_not_ready() {
+    for wire in 0..3 {
+        let mut rig = rig();
+        rig.set(|world| world.ready_wires[wire] = false);
+        rig.ticks(10);
+        rig.set(|world| world.button = true);
+        rig.ticks_off(1_000);
+        // It was never driven: nothing has failed that the loop could know of.
+        assert_eq!(
+            (rig.state().phase(), rig.fault(), told(&mut rig)),
+            (Phase::Armed, None, hold::NOT_READY | hold::RELEASE_FIRST)
+        );
+    }
+    let mut rig = rig();
+    rig.set(|world| world.supply = 0.0);
+    rig.ticks(10);
+    rig.set(|world| world.button = true);
+    rig.ticks_off(1_000);
+    assert_eq!(rig.fault(), None);
+}
+
+#[test]
+fn a_ready_line_that_breaks_while_driving_lets_go_at_once_and_is_a_fault_if_nothing_explains_it() {
+    for wire in 0..3 {
+        let mut rig = rig();
+        rig.press_until_it_runs();
+        rig.set(|world| world.ready_wires[wire] = false);
+        // 50 ms of grace are 200 ticks: the first sets them, the rest count.
+        rig.ticks_off(200);
+        assert_eq!(rig.fault(), None);
+        rig.ticks_off(1);
+        assert_eq!(rig.fault(), Some(Fault::Drive));
+        rig.set(|world| world.ready_wires = [true; 3]);
+        rig.ticks_off(1_000);
+    }
+}
+
+#[test]
+fn an_amplifiers_own_fault_is_latched() {
+    let mut rig = rig();
+    rig.press_until_it_runs();
+    rig.set(|world| world.amplifiers_well = false);
+    rig.ticks_off(201);
+    assert_eq!(rig.fault(), Some(Fault::Drive));
+}
+
+#[test]
+fn a_broken_stop_wire_stops() {
+    // The contact is closed unless pressed: a wire that is off is a contact that is open.
+    let mut rig = rig();
+    rig.set(|world| world.stop_open = true);
+    rig.ticks(10);
+    rig.set(|world| world.button = true);
+    rig.ticks_off(1_000);
+    assert_eq!(told(&mut rig) & hold::STOP, hold::STOP);
+}
+
+#[test]
+fn stop_stops_damping_too() {
+    let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+    let mut rig = Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
+    rig.press_until_it_runs();
+    rig.set(|world| world.bad = 3);
+    rig.ticks(5);
+    assert_eq!((rig.fault(), rig.is_off()), (Some(Fault::FrameDamaged), false), "it damps");
+    rig.set(|world| world.stop_open = true);
+    rig.ticks_off(100);
+}

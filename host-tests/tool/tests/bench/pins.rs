@@ -1,0 +1,179 @@
+//! The parts of a board at their pins, transaction by transaction.
+
+use embedded_hal_mock::eh1::MockError;
+use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as PinStep};
+use embedded_hal_mock::eh1::pwm::{Mock as Width, Transaction as WidthStep};
+use palpate::device::drive::{HBridge, SetPointDrive, SetPointRange};
+use palpate::device::{Counts, Duty};
+use palpate_bench::sensors::{BadFrame, Counters, Readings};
+use palpate_bench::{Board, Clock, Counter, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Switched};
+use std::io::ErrorKind;
+
+struct Still;
+
+impl Counter for Still {
+    fn now(&self) -> u32 {
+        7
+    }
+}
+
+impl Clock for Still {
+    fn acknowledge(&mut self) {}
+}
+
+struct Three([u32; 3]);
+
+impl Readings<3> for Three {
+    fn readings(&mut self) -> [u32; 3] {
+        self.0
+    }
+}
+
+fn reads(level: State) -> Pin {
+    Pin::new(&[PinStep::get(level)])
+}
+
+fn fails() -> MockError {
+    MockError::Io(ErrorKind::NotConnected)
+}
+
+/// What lines at these levels say.
+fn panel(enable: Pin, enable_level: bool, stop: Pin, ready: [Pin; 2]) -> Panel {
+    let mut lines = Lines { enable, enable_level, stop, ready, supply: NoSupply };
+    let panel = lines.read();
+    lines.enable.done();
+    lines.stop.done();
+    lines.ready.iter_mut().for_each(Pin::done);
+    panel
+}
+
+#[test]
+fn each_line_says_what_its_level_means_and_every_pin_is_read() {
+    use State::{High, Low};
+    for (enable, level, stop, ready, expected) in [
+        (High, true, Low, [High, High], (true, false, true)),
+        (Low, true, High, [Low, High], (false, true, false)),
+        (Low, false, Low, [High, Low], (true, false, false)),
+        (High, false, Low, [Low, Low], (false, false, false)),
+    ] {
+        let said = panel(reads(enable), level, reads(stop), ready.map(reads));
+        assert_eq!((said.enable, said.stop, said.ready, said.supply), (expected.0, expected.1, expected.2, None));
+    }
+}
+
+#[test]
+fn a_pin_that_cannot_be_read_is_a_broken_wire() {
+    let broken = |level| Pin::new(&[PinStep::get(level).with_error(fails())]);
+    for level in [true, false] {
+        let pressed = if level { State::High } else { State::Low };
+        let said = panel(broken(pressed), level, broken(State::Low), [broken(State::High), reads(State::High)]);
+        assert_eq!((said.enable, said.stop, said.ready), (false, true, false));
+    }
+}
+
+/// An amplifier whose set-point and enable take these steps.
+fn amplifier(widths: &[u16], enables: &[PinStep]) -> SetPointDrive<Width, Pin> {
+    let steps: Vec<_> =
+        widths.iter().flat_map(|width| [WidthStep::max_duty_cycle(1_000), WidthStep::set_duty_cycle(*width)]).collect();
+    SetPointDrive::new(Width::new(&steps), Pin::new(enables), SetPointRange::TEN_TO_NINETY)
+}
+
+fn done(amplifier: SetPointDrive<Width, Pin>) {
+    let (mut width, mut pin, _) = amplifier.free();
+    width.done();
+    pin.done();
+}
+
+#[test]
+fn amplifiers_are_enabled_behind_their_set_points_and_disabled_before_them() {
+    let steps = [PinStep::set(State::High), PinStep::set(State::Low)];
+    let mut board = Parts {
+        clock: Still,
+        sensors: Counters::new(Three([10, 20, 30]), [5; 3]),
+        drives: [amplifier(&[500, 500], &steps), amplifier(&[900, 500], &steps), amplifier(&[100, 500], &steps)],
+        lines: Lines {
+            enable: reads(State::High),
+            enable_level: true,
+            stop: reads(State::Low),
+            ready: [reads(State::High)],
+            supply: NoSupply,
+        },
+        light: Pin::new(&[PinStep::set(State::High), PinStep::set(State::Low)]),
+    };
+    assert_eq!(board.now(), 7);
+    assert_eq!(board.read(), Ok([Counts(10), Counts(20), Counts(30)]));
+    assert!(Board::<3>::panel(&mut board).enable);
+    assert_eq!(board.drive([Duty::ZERO, Duty::FULL, Duty(-32_767)]), Ok(()));
+    assert_eq!(Board::<3>::release(&mut board), Ok(()));
+    Board::<3>::show(&mut board, true);
+    Board::<3>::show(&mut board, false);
+    board.sensors = Counters::new(Three([10, 20, 30]), [5; 3]);
+    board.drives.into_iter().for_each(done);
+    board.light.done();
+    board.lines.enable.done();
+    board.lines.stop.done();
+    board.lines.ready.iter_mut().for_each(Pin::done);
+}
+
+#[test]
+fn whichever_amplifier_fails_the_others_are_told_all_the_same() {
+    for broken in 0..3 {
+        let steps = |joint: usize| {
+            let low = PinStep::set(State::Low);
+            vec![if joint == broken { low.with_error(fails()) } else { low }]
+        };
+        let mut three = [0, 1, 2].map(|joint| amplifier(&[500], &steps(joint)));
+        assert_eq!(Drives::<3>::release(&mut three), Err(NotObeyed));
+        three.into_iter().for_each(done);
+        let mut three = (amplifier(&[500], &steps(0)), amplifier(&[500], &steps(1)), amplifier(&[500], &steps(2)));
+        assert_eq!(three.release(), Err(NotObeyed));
+        done(three.0);
+        done(three.1);
+        done(three.2);
+    }
+}
+
+#[test]
+fn bridges_behind_one_enable_line_are_off_before_their_widths_are() {
+    // The first command of a bridge is no width; the second turns the pin and gives the magnitude.
+    let width = || {
+        Width::new(&[
+            WidthStep::set_duty_cycle(0),
+            WidthStep::max_duty_cycle(1_000),
+            WidthStep::set_duty_cycle(1_000),
+            WidthStep::set_duty_cycle(0),
+        ])
+    };
+    let mut pins: Vec<(Width, Pin)> = (0..3).map(|_| (width(), Pin::new(&[PinStep::set(State::High)]))).collect();
+    let bridges = [0, 1, 2].map(|joint| HBridge::new(pins[joint].0.clone(), pins[joint].1.clone()));
+    let mut enable = Pin::new(&[PinStep::set(State::High), PinStep::set(State::High), PinStep::set(State::Low)]);
+    let mut all = Switched::new(bridges, enable.clone());
+    all.apply([Duty::FULL; 3]).unwrap();
+    all.apply([Duty::FULL; 3]).unwrap();
+    assert_eq!(Drives::<3>::release(&mut all), Ok(()));
+    enable.done();
+    pins.iter_mut().for_each(|(width, pin)| {
+        width.done();
+        pin.done();
+    });
+}
+
+#[test]
+fn a_count_that_jumps_is_no_count() {
+    let mut counters = Counters::new(Three([0, 0, 0xffff]), [5; 3]);
+    use palpate_bench::sensors::Sensors;
+    assert_eq!(counters.read(), Ok([Counts(0), Counts(0), Counts(0xffff)]));
+    let mut counters = Counters::new(Jumping(0), [5; 3]);
+    assert_eq!(counters.read(), Ok([Counts(0); 3]));
+    assert_eq!(counters.read(), Err(BadFrame::Jumped));
+}
+
+struct Jumping(u32);
+
+impl Readings<3> for Jumping {
+    fn readings(&mut self) -> [u32; 3] {
+        let now = [0, 0, self.0];
+        self.0 += 6;
+        now
+    }
+}

@@ -1,0 +1,383 @@
+//! A simulated bench: the device in a hand, amplifiers that read their pins, a panel with wires that may break.
+
+use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
+use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
+use palpate::device::drive::{SetPointDrive, SetPointRange};
+use palpate::device::{Counts, Kinematics};
+use palpate::math::vec3;
+use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+use palpate::servo::{Fault, Phase, ResetReason, Servo, ServoState};
+use palpate::wire::Record;
+use palpate::wire::telemetry::{Consumer, Queue};
+use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, greatest_step};
+use palpate_bench::{Bench, Clock, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, SupplyRange};
+use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
+use std::cell::RefCell;
+use std::convert::Infallible;
+use std::rc::Rc;
+
+pub const RATE: f64 = 4_000.0;
+/// Of the simulated board's counter, Hz.
+pub const CLOCK: u32 = 170_000_000;
+/// What the counter advances each time it is looked at.
+const LOOK: u32 = 40;
+
+pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
+    rate: RATE as f32,
+    stiffness: 600.0,
+    damping: 2.0,
+    max_force: 5.0,
+    velocity_corner: 200.0,
+    soft_start: 0.1,
+    body_origin: vec3(0.0, 0.0, 0.0),
+};
+
+static LEVEL: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [0.0, 0.16, 0.0], [0.16, 0.0, 0.0], [0.0, 0.0, 0.0]];
+/// A level wall through the origin, felt from above.
+pub static WALL: SplinePatch = SplinePatch::from_table(
+    [1, 1],
+    &[0.0, 1.0],
+    &[0.0, 1.0],
+    Coefficients::Polynomial(&LEVEL),
+    ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
+    Orientation::Outward,
+    0.16,
+);
+
+/// What the pins are wired to.
+pub struct World {
+    pub plant: Plant,
+    /// The button is pressed.
+    pub button: bool,
+    /// The stop button is pressed, or its wire is off: its contact is open.
+    pub stop_open: bool,
+    /// The wires of the ready lines are whole.
+    pub ready_wires: [bool; 3],
+    /// The amplifiers are well.
+    pub amplifiers_well: bool,
+    /// Volts.
+    pub supply: f32,
+    /// What the converter makes of them in this tick; `None` if it fails.
+    pub measured: fn(f32) -> Option<f32>,
+    /// Frames to come that are bad.
+    pub bad: u32,
+    pub kind: BadFrame,
+    /// Cycles that reading the sensors takes.
+    pub reading: u32,
+    /// Width of the set-points, as a share of their period.
+    pub widths: [f64; 3],
+    pub enables: [bool; 3],
+    pub light: bool,
+    cycles: u32,
+}
+
+impl World {
+    /// Whether an amplifier has supply enough to be ready.
+    fn is_powered(&self) -> bool {
+        self.supply > 8.0
+    }
+
+    /// What the motors get, by the amplifiers' own configuration: 10 % is full current back, 90 % ahead.
+    pub fn currents(&self) -> [f64; 3] {
+        core::array::from_fn(|joint| {
+            let is_driven = self.enables[joint] && self.is_powered() && self.amplifiers_well;
+            if is_driven { ((self.widths[joint] - 0.5) / 0.4).clamp(-1.0, 1.0) } else { 0.0 }
+        })
+    }
+}
+
+pub type Shared = Rc<RefCell<World>>;
+
+/// A level that is read.
+pub struct In(Shared, fn(&World) -> bool);
+
+impl PinErrorType for In {
+    type Error = Infallible;
+}
+
+impl InputPin for In {
+    fn is_high(&mut self) -> Result<bool, Infallible> {
+        Ok((self.1)(&self.0.borrow()))
+    }
+
+    fn is_low(&mut self) -> Result<bool, Infallible> {
+        self.is_high().map(|high| !high)
+    }
+}
+
+/// A level that is set.
+pub struct Out(Shared, fn(&mut World, bool));
+
+impl PinErrorType for Out {
+    type Error = Infallible;
+}
+
+impl OutputPin for Out {
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        (self.1)(&mut self.0.borrow_mut(), false);
+        Ok(())
+    }
+
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        (self.1)(&mut self.0.borrow_mut(), true);
+        Ok(())
+    }
+}
+
+/// A pulse width of 8,500 steps.
+pub struct Width(Shared, usize);
+
+impl WidthErrorType for Width {
+    type Error = Infallible;
+}
+
+impl SetDutyCycle for Width {
+    fn max_duty_cycle(&self) -> u16 {
+        8_500
+    }
+
+    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+        self.0.borrow_mut().widths[self.1] = f64::from(duty) / 8_500.0;
+        Ok(())
+    }
+}
+
+pub struct SimulatedClock(Shared);
+
+impl Counter for SimulatedClock {
+    fn now(&self) -> u32 {
+        let mut world = self.0.borrow_mut();
+        world.cycles = world.cycles.wrapping_add(LOOK);
+        world.cycles
+    }
+}
+
+impl Clock for SimulatedClock {
+    fn acknowledge(&mut self) {}
+}
+
+impl Supply for Volts {
+    fn volts(&mut self) -> Option<f32> {
+        let world = self.0.borrow();
+        (world.measured)(world.supply)
+    }
+}
+
+/// What measures the supply.
+pub struct Volts(Shared);
+
+/// Three 16-bit timers.
+pub struct Timers(Shared);
+
+impl Readings<3> for Timers {
+    fn readings(&mut self) -> [u32; 3] {
+        self.0.borrow().plant.counts().map(|count| count as u32 & 0xffff)
+    }
+}
+
+/// Sensors some of whose frames are bad, and which take their time.
+pub struct Spoilt {
+    world: Shared,
+    counters: Counters<Timers, 3>,
+    /// What the counters were ahead of the joints at the first reading: the loop of most tests is homed from the start.
+    ahead: Option<[i32; 3]>,
+}
+
+impl Sensors<3> for Spoilt {
+    fn read(&mut self) -> Result<[Counts; 3], BadFrame> {
+        {
+            let mut world = self.world.borrow_mut();
+            world.cycles = world.cycles.wrapping_add(world.reading);
+            if world.bad > 0 {
+                world.bad -= 1;
+                return Err(world.kind);
+            }
+        }
+        let counts = self.counters.read()?;
+        let joints = self.world.borrow().plant.counts();
+        let ahead = *self.ahead.get_or_insert_with(|| core::array::from_fn(|joint| counts[joint].0 - joints[joint]));
+        Ok(core::array::from_fn(|joint| Counts(counts[joint].0 - ahead[joint])))
+    }
+}
+
+type Amplifier = SetPointDrive<Width, Out>;
+pub type SimulatedBoard = Parts<SimulatedClock, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
+
+/// A servo that a test made.
+pub struct Made<K: 'static>(Servo<'static, SplinePatch, K, 3>);
+
+impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
+    type Surface = SplinePatch;
+    type Mechanism = K;
+
+    fn servo(&self) -> &Servo<'static, SplinePatch, K, 3> {
+        &self.0
+    }
+}
+
+/// The loop on the simulated bench.
+pub struct Rig<K: Kinematics<3> + 'static> {
+    pub world: Shared,
+    pub bench: Bench<'static, Made<K>, SimulatedBoard, 3>,
+    pub mailbox: &'static Mailbox,
+    records: Option<Consumer<'static, Record>>,
+}
+
+/// The supply that the rig's loop takes.
+pub const SUPPLY: SupplyRange = SupplyRange { least: 20.0, most: 30.0 };
+
+/// The loop's settings on the rig.
+pub fn settings() -> Settings {
+    Settings { supply: Some(SUPPLY), ..Settings::new(CLOCK) }
+}
+
+/// A hand that comes down on its place from 10 mm above it within 20 ms, for what begins inside a wall is not touched.
+struct Down(Vector);
+
+impl HandPath for Down {
+    fn target(&self, time: f64) -> Vector {
+        let [x, y, z] = self.0;
+        [x, y, z + 0.01 * (1.0 - time / 0.02).clamp(0.0, 1.0)]
+    }
+
+    fn velocity(&self, time: f64) -> Vector {
+        [0.0, 0.0, if time < 0.02 { -0.5 } else { 0.0 }]
+    }
+}
+
+/// A hand that holds the probe here, once it is there.
+pub fn held_at(place: Vector) -> Plant {
+    let hand = HandSettings { stiffness: 2_000.0, damping: 20.0, mass: 0.0 };
+    Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Down(place)), RATE).unwrap()
+}
+
+impl<K: Kinematics<3> + 'static> Rig<K> {
+    pub fn new(
+        servo: Servo<'static, SplinePatch, K, 3>,
+        plant: Plant,
+        settings: &Settings,
+        reset: ResetReason,
+    ) -> Self {
+        let world = World {
+            plant,
+            button: false,
+            stop_open: false,
+            ready_wires: [true; 3],
+            amplifiers_well: true,
+            supply: 24.0,
+            measured: Some,
+            bad: 0,
+            kind: BadFrame::Damaged,
+            reading: 200,
+            widths: [0.5; 3],
+            enables: [false; 3],
+            light: false,
+            // Near its end, so that it wraps.
+            cycles: u32::MAX - 1_000,
+        };
+        let world = Rc::new(RefCell::new(world));
+        let of = || Rc::clone(&world);
+        let device = servo.device();
+        let steps = device
+            .encoders
+            .map(|encoder| greatest_step(&encoder, device.max_joint_rate, RATE as f32, settings.bad_frames));
+        let enables: [fn(&mut World, bool); 3] = [
+            |world, level| world.enables[0] = level,
+            |world, level| world.enables[1] = level,
+            |world, level| {
+                world.enables[2] = level;
+            },
+        ];
+        // A broken wire is pulled down at the pin; an amplifier without supply pulls nothing up.
+        let ready: [fn(&World) -> bool; 3] = [
+            |world| world.ready_wires[0] && world.is_powered() && world.amplifiers_well,
+            |world| world.ready_wires[1] && world.is_powered(),
+            |world| world.ready_wires[2] && world.is_powered(),
+        ];
+        let amplifier = |joint: usize| {
+            SetPointDrive::new(Width(of(), joint), Out(of(), enables[joint]), SetPointRange::TEN_TO_NINETY)
+        };
+        let board = Parts {
+            clock: SimulatedClock(of()),
+            sensors: Spoilt { world: of(), counters: Counters::new(Timers(of()), steps), ahead: None },
+            drives: [amplifier(0), amplifier(1), amplifier(2)],
+            lines: Lines {
+                enable: In(of(), |world| world.button),
+                enable_level: true,
+                stop: In(of(), |world| world.stop_open),
+                ready: ready.map(|level| In(of(), level)),
+                supply: Volts(of()),
+            },
+            light: Out(of(), |world, level| world.light = level),
+        };
+        // They live as long as the test, as a board's statics do.
+        let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
+        let queue: &'static mut Queue<Record, 4_096> = Box::leak(Box::new(Queue::new()));
+        let (producer, records) = queue.split();
+        let bench = Bench::new(Made(servo), board, settings, reset, producer, mailbox);
+        Self { world, bench, mailbox, records: Some(records) }
+    }
+
+    /// The end of the queue, for somebody else.
+    pub fn take_records(&mut self) -> Consumer<'static, Record> {
+        self.records.take().unwrap()
+    }
+
+    /// The last record told.
+    pub fn last_record(&mut self) -> Option<Record> {
+        let records = self.records.as_mut().unwrap();
+        core::iter::from_fn(|| records.dequeue()).last()
+    }
+
+    /// A tick of the loop and a period of the device.
+    pub fn tick(&mut self) {
+        self.bench.tick();
+        let mut world = self.world.borrow_mut();
+        let duties = world.currents().map(|current| (current * 32_767.0).round() as i16);
+        world.plant.advance(duties);
+        // The rest of the period.
+        let period = CLOCK / RATE as u32;
+        world.cycles = world.cycles.wrapping_add(period / 2);
+    }
+
+    pub fn ticks(&mut self, ticks: u32) {
+        (0..ticks).for_each(|_| self.tick());
+    }
+
+    /// Ticks, each of which gives the motors nothing.
+    #[track_caller]
+    pub fn ticks_off(&mut self, ticks: u32) {
+        for tick in 0..ticks {
+            self.tick();
+            assert!(self.is_off(), "tick {tick}: {:?} {:?}", self.state().phase(), self.world.borrow().enables);
+        }
+    }
+
+    pub fn set(&self, change: impl FnOnce(&mut World)) {
+        change(&mut self.world.borrow_mut());
+    }
+
+    /// Whether every amplifier is disabled.
+    pub fn is_off(&self) -> bool {
+        self.world.borrow().enables == [false; 3]
+    }
+
+    pub fn state(&self) -> &ServoState<3> {
+        self.bench.state()
+    }
+
+    pub fn fault(&self) -> Option<Fault> {
+        self.state().fault().map(|(fault, _)| fault)
+    }
+
+    /// Presses the button that was released, and waits until force is there.
+    #[track_caller]
+    pub fn press_until_it_runs(&mut self) {
+        self.set(|world| world.button = false);
+        self.ticks(10);
+        self.set(|world| world.button = true);
+        self.ticks(800);
+        assert_eq!((self.state().phase(), self.fault()), (Phase::Running, None));
+        assert!(!self.is_off());
+    }
+}
