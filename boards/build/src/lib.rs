@@ -1,0 +1,64 @@
+//! What the build scripts of the boards do alike: the memory map for the linker, the body for the image.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// Names the baked body: a file that `cargo palpate bake MODEL --out FILE.rs` wrote. `cargo palpate firmware --board B
+/// --body MODEL …` sets it.
+const BODY: &str = "PALPATE_BODY";
+
+/// Lays a memory map where the linker finds it as `memory.x`.
+///
+/// # Panics
+/// If it cannot be read or laid there: a build script has no better way to say so.
+pub fn memory_map(file: &str) {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::copy(file, out.join("memory.x")).unwrap_or_else(|error| panic!("{file}: {error}"));
+    println!("cargo::rustc-link-search={}", out.display());
+    println!("cargo::rerun-if-changed={file}");
+    println!("cargo::rerun-if-changed=build.rs");
+}
+
+/// Says where the body's tables lie: `fast`, in the fastest memory, or `flash`.
+const TABLES: &str = "PALPATE_TABLES";
+
+/// Whether the body's tables lie in the fastest memory: unless `PALPATE_TABLES` says `flash`.
+///
+/// # Panics
+/// If it says anything else.
+pub fn tables_are_fast() -> bool {
+    println!("cargo::rerun-if-env-changed={TABLES}");
+    match env::var(TABLES).as_deref() {
+        Ok("fast") | Err(env::VarError::NotPresent) => true,
+        Ok("flash") => false,
+        other => panic!("{TABLES}={other:?}: neither fast nor flash"),
+    }
+}
+
+/// Writes `tables.x`, which a memory map includes where it says what lies beside the hot code: all constants, or all
+/// but a body's tables.
+///
+/// # Panics
+/// If it cannot be written.
+pub fn tables() {
+    let patterns = if tables_are_fast() {
+        "*(.rodata .rodata.*);\n"
+    } else {
+        // Constants of the code itself: small, and read in every tick.
+        "*(.rodata.cst* .rodata.str* .rodata..L* .rodata.*7palpate*);\n"
+    };
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::write(out.join("tables.x"), patterns).expect("OUT_DIR can be written");
+}
+
+/// Passes on the body that `PALPATE_BODY` names, or the board's own, as `PALPATE_BODY_FILE` for `include!`.
+///
+/// # Panics
+/// If there is no such file.
+pub fn body(default: &str) {
+    println!("cargo::rerun-if-env-changed={BODY}");
+    let chosen = env::var_os(BODY).map_or_else(|| Path::new(default).to_path_buf(), PathBuf::from);
+    let absolute = chosen.canonicalize().unwrap_or_else(|error| panic!("{BODY}: {}: {error}", chosen.display()));
+    println!("cargo::rerun-if-changed={}", absolute.display());
+    println!("cargo::rustc-env=PALPATE_BODY_FILE={}", absolute.display());
+}

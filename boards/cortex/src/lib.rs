@@ -1,0 +1,15 @@
+//! What every board on the bench does alike because its core is a Cortex-M: it stops, hands the loop to its interrupt,
+//! counts cycles, and copies what is hot into its fastest memory.
+
+#![no_std]
+
+#[cfg(feature = "copy")]
+mod copy;
+mod cycles;
+mod hand_over;
+mod memo;
+mod stop;
+
+pub use cycles::Cycles;
+pub use hand_over::HandOver;
+pub use memo::MemoCell;

@@ -1,0 +1,63 @@
+//! Image, reset and stop of the RP2350.
+
+use palpate_bench::{Cause, Memo, ResetFlags};
+use rp235x_hal::block::ImageDef;
+use rp235x_hal::pac::{POWMAN, SIO, WATCHDOG};
+
+/// Told to the boot ROM: a program for the secure state of an Arm core.
+#[unsafe(link_section = ".start_block")]
+#[used]
+// SAFETY: nothing else lies in this section; the boot ROM reads it.
+static IMAGE: ImageDef = ImageDef::secure_exe();
+
+/// The crystal, Hz.
+pub const CRYSTAL: u32 = 12_000_000;
+/// What the HAL sets the core to, Hz.
+pub const CLOCK: u32 = 150_000_000;
+/// The pin that switches the bridges on.
+const ENABLE_PIN: u32 = 16;
+/// The pin of the light.
+const LIGHT_PIN: u32 = 25;
+
+/// The memo lies in two scratch registers of the watchdog, which a reset by it leaves alone and any other clears. The
+/// boot ROM uses those from the fourth on.
+pub fn remember(cause: Cause) {
+    let Memo([word, complement]) = Memo::new(cause);
+    // SAFETY: two registers that nobody else uses, a word each.
+    unsafe {
+        let watchdog = &*WATCHDOG::ptr();
+        watchdog.scratch0().write(|w| w.bits(word));
+        watchdog.scratch1().write(|w| w.bits(complement));
+    }
+}
+
+/// Why the chip was reset, and the memo.
+pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> (ResetFlags, Memo) {
+    let memo = Memo([watchdog.scratch0().read().bits(), watchdog.scratch1().read().bits()]);
+    let reason = watchdog.reason().read();
+    let chip = power.chip_reset().read();
+    let timer = reason.timer().bit_is_set();
+    let flags = ResetFlags {
+        watchdog: timer,
+        // The boot ROM reboots by the watchdog too, as `picotool` asks it to; it comes from a reset that left no memo.
+        tool: timer && memo.cause().is_none(),
+        // A flag of its own, which power-on does not raise.
+        brown_out: chip.had_bor().bit_is_set(),
+        power: chip.had_por().bit_is_set(),
+        software: reason.force().bit_is_set(),
+        pin: chip.had_run_low().bit_is_set(),
+    };
+    // Power-on clears the memo: what is left of it says nothing about a brown-out here.
+    let of_this_reset = if timer { memo } else { Memo::EMPTY };
+    (flags, of_this_reset)
+}
+
+#[unsafe(no_mangle)]
+fn palpate_motors_off(cause: Cause) {
+    // SAFETY: nothing else runs on this core any more; the writes take power away and light the light.
+    unsafe {
+        (*SIO::ptr()).gpio_out_clr().write(|w| w.bits(1 << ENABLE_PIN));
+        (*SIO::ptr()).gpio_out_set().write(|w| w.bits(1 << LIGHT_PIN));
+    }
+    remember(cause);
+}

@@ -1,0 +1,46 @@
+//! What hangs on which pin.
+
+use palpate::device::drive::HBridge;
+use palpate_bench::sensors::Angles;
+use palpate_bench::{CycleDelay, Parts, Switched};
+use palpate_cortex::Cycles;
+use rp235x_hal::gpio::{
+    DynPinId, FunctionSio, FunctionSpi, Pin, PullDown, PullNone, PullUp, SioInput, SioOutput, bank0,
+};
+use rp235x_hal::pac::SPI0;
+use rp235x_hal::pwm::{A, Channel, FreeRunning, Pwm5, Pwm6, Pwm7, Slice};
+use rp235x_hal::spi::{Enabled, Spi};
+
+use crate::chip::CLOCK;
+use crate::supply::Volts;
+use crate::time::Time;
+
+/// 20 kHz for the motors: a fifth of a tick, so that a reversal's one tick at no width is long enough.
+const MOTOR_PERIOD: u16 = (CLOCK / 20_000 - 1) as u16;
+
+type Line<P> = Pin<P, FunctionSpi, PullDown>;
+type Bus = Spi<Enabled, SPI0, (Line<bank0::Gpio3>, Line<bank0::Gpio4>, Line<bank0::Gpio2>), 8>;
+/// An output.
+pub type Output = Pin<DynPinId, FunctionSio<SioOutput>, PullDown>;
+type Switch = Pin<DynPinId, FunctionSio<SioInput>, PullUp>;
+/// Not pulled: a resistor of 4.7 kΩ does that, which the chip's own pull-down cannot (erratum RP2350-E9).
+type Ready = Pin<DynPinId, FunctionSio<SioInput>, PullNone>;
+/// Output A of a slice and a direction pin.
+type Bridge<S> = HBridge<Channel<Slice<S, FreeRunning>, A>, Output>;
+type Drives = Switched<(Bridge<Pwm5>, Bridge<Pwm6>, Bridge<Pwm7>), Output>;
+type Sensors = Angles<Bus, Output, CycleDelay<Cycles>, 3>;
+/// All of them.
+pub type Board = Parts<Time, Sensors, Drives, Switch, Switch, Ready, Volts, Output, 3>;
+
+/// A slice that runs.
+type Running<S> = Slice<S, FreeRunning>;
+
+/// Starts the motors' pulse widths, at no width.
+pub fn start(a: &mut Running<Pwm5>, b: &mut Running<Pwm6>, c: &mut Running<Pwm7>) {
+    a.set_top(MOTOR_PERIOD);
+    b.set_top(MOTOR_PERIOD);
+    c.set_top(MOTOR_PERIOD);
+    a.enable();
+    b.enable();
+    c.enable();
+}

@@ -1,0 +1,45 @@
+//! The counter that times ticks, and the PWM slice that, used as a timer, raises them.
+
+use palpate_bench::{Clock, Counter};
+use palpate_cortex::Cycles;
+use rp235x_hal::pwm::{FreeRunning, Pwm0, Slice};
+
+use crate::body::SETTINGS;
+use crate::chip::CLOCK;
+
+/// Counts of the slice a tick; 16 bits hold it down to 2,289 Hz.
+const PERIOD: u16 = {
+    let counts = CLOCK as f32 / SETTINGS.rate;
+    assert!(counts <= 65_536.0, "the rate is too low for a slice without divider");
+    (counts - 1.0) as u16
+};
+
+/// Both.
+pub struct Time {
+    cycles: Cycles,
+    timer: Slice<Pwm0, FreeRunning>,
+}
+
+impl Time {
+    /// Starts the timer; its interrupt is still masked.
+    pub fn start(cycles: Cycles, mut timer: Slice<Pwm0, FreeRunning>) -> Self {
+        timer.set_top(PERIOD);
+        timer.enable_interrupt0();
+        timer.enable();
+        Self { cycles, timer }
+    }
+}
+
+impl Counter for Time {
+    #[inline]
+    fn now(&self) -> u32 {
+        self.cycles.now()
+    }
+}
+
+impl Clock for Time {
+    #[inline]
+    fn acknowledge(&mut self) {
+        self.timer.clear_interrupt();
+    }
+}
