@@ -22,7 +22,7 @@ pub struct Arguments {
     #[arg(long, required_unless_present = "emulator", conflicts_with = "emulator")]
     port: Option<String>,
     /// The port's speed
-    #[arg(long, default_value_t = 921_600)]
+    #[arg(long, default_value_t = 500_000)]
     baud: u32,
     /// An emulated board with a simulated hand, instead of a device
     #[arg(long, value_enum)]
