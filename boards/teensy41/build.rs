@@ -6,16 +6,18 @@
 //! | vector table, tables, constants, variables, stack | DTCM, 320 KB | read beside the code, likewise |
 //! | images of them | flash | copied by the run time before main |
 //!
-//! The other 512 KB of RAM (OCRAM) answer at a quarter of the core's clock and stay unused.
+//! The other 512 KB of RAM (OCRAM) answer at a quarter of the core's clock and stay unused. Tables that do not fit stay
+//! in flash, behind the core's cache (PALPATE_TABLES): `palpate firmware --board teensy41 --body MODEL …` sees to it.
 
 use imxrt_rt::{Family, FlexRamBanks, Memory, RuntimeBuilder};
 
 fn main() {
+    let constants = if palpate_board_build::tables_are_fast() { Memory::Dtcm } else { Memory::Flash };
     RuntimeBuilder::from_flexspi(Family::Imxrt1060, 7_936 * 1024)
         .flexram_banks(FlexRamBanks { ocram: 0, itcm: 6, dtcm: 10 })
         .vectors(Memory::Dtcm)
         .text(Memory::Itcm)
-        .rodata(Memory::Dtcm)
+        .rodata(constants)
         .data(Memory::Dtcm)
         .bss(Memory::Dtcm)
         .uninit(Memory::Dtcm)
@@ -25,5 +27,6 @@ fn main() {
         .linker_script_name("teensy.x")
         .build()
         .expect("the linker script can be written");
+    palpate_board_build::body("../bodies/table1c.rs");
     println!("cargo::rerun-if-changed=build.rs");
 }

@@ -1,17 +1,11 @@
-//! What is felt, on which device, and how: the file to change first.
+//! With which device, and how, something is felt: the file to change first. What is felt is chosen by the build
+//! (`--body`).
 
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Device, Encoder, Homing, Reference, SerialArm};
+use palpate::device::{Device, Encoder, SerialArm};
 use palpate::math::vec3;
-use palpate::servo::{Servo, Settings};
-use palpate::track::Controller;
-use palpate_bench::Felt;
-
-/// The body: `cargo palpate firmware --board pico2 --body MODEL build --release` puts another one here.
-mod tables {
-    include!(env!("PALPATE_BODY_FILE"));
-}
+use palpate::servo::Settings;
 
 /// A motor's bridge: Maxon RE30 for 24 V, 0.611 Ω by its data sheet and 0.1 Ω for the bridge, which is ours to guess.
 const fn feed(ratio: f32) -> Feed {
@@ -46,26 +40,3 @@ pub const SETTINGS: Settings = Settings {
     soft_start: 0.2,
     body_origin: vec3(-0.05, -0.05, -0.06),
 };
-
-/// Where the counts are zero is where the arm is held still for a tenth of a second while the button is down, in its
-/// calibration pose (first link upright, second level); ten seconds of a shaking hand are refused.
-const HOMING: Homing<3> =
-    Homing::new(DEVICE.encoders, Reference::Pose(WOODEN_HAPTICS_2016.angles_at_zero()), 400, 4, 40_000).when_asked();
-
-/// Everything the servo knows. No host watches: the device runs by itself. The table is checked at boot and over and
-/// over.
-static SERVO: Servo<'static, tables::Surface, SerialArm, 3> =
-    Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS).homing(HOMING);
-
-/// What the loop feels.
-pub struct This;
-
-impl Felt<3> for This {
-    type Surface = tables::Surface;
-    type Mechanism = SerialArm;
-
-    #[inline(always)]
-    fn servo(&self) -> &Servo<'static, tables::Surface, SerialArm, 3> {
-        &SERVO
-    }
-}

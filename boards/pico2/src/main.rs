@@ -9,6 +9,8 @@
 
 mod body;
 mod chip;
+#[path = "../../felt.rs"]
+mod felt;
 mod pins;
 mod port;
 mod supply;
@@ -32,8 +34,9 @@ use rp235x_hal::spi::Spi;
 use rp235x_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
 use rp235x_hal::{Sio, Watchdog, entry};
 
-use crate::body::{DEVICE, SETTINGS, This};
+use crate::body::{DEVICE, SETTINGS};
 use crate::chip::{CLOCK, CRYSTAL};
+use crate::felt::This;
 use crate::pins::Board;
 use crate::supply::Volts;
 use crate::time::Time;

@@ -11,6 +11,8 @@ mod amplifiers;
 mod body;
 mod chip;
 mod encoders;
+#[path = "../../felt.rs"]
+mod felt;
 mod port;
 #[cfg(feature = "analog")]
 #[path = "voltage.rs"]
@@ -35,9 +37,10 @@ use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, interrupt};
 use stm32g4xx_hal::time::ExtU32;
 
-use crate::body::{DEVICE, SETTINGS, This};
+use crate::body::{DEVICE, SETTINGS};
 use crate::chip::{CLOCK, MEMO};
 use crate::encoders::Encoders;
+use crate::felt::This;
 use crate::set_points::{Drives, Light};
 use crate::supply::Volts;
 use crate::time::Time;

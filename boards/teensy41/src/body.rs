@@ -1,17 +1,13 @@
-//! What is felt, on which device, and how: the file to change first.
+//! With which device, and how, something is felt: the file to change first. What is felt is chosen by the build
+//! (`--body`).
 
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Device, Encoder, SerialArm};
 use palpate::math::vec3;
-use palpate::servo::{Servo, Settings};
-use palpate::track::Controller;
-
-/// The body: `cargo palpate bake MODEL.toml --out body.rs`.
-#[path = "../../bodies/table1c.rs"]
-mod table;
+use palpate::servo::Settings;
 
 /// The device: the preset, with 14-bit angle sensors on the motors' shafts.
-static DEVICE: Device<SerialArm, 3> = Device {
+pub static DEVICE: Device<SerialArm, 3> = Device {
     encoders: [
         Encoder::geared(16_384.0, -16.0, 0.0),
         Encoder::geared(16_384.0, -12.0, 0.0),
@@ -30,8 +26,3 @@ pub const SETTINGS: Settings = Settings {
     soft_start: 0.2,
     body_origin: vec3(-0.05, -0.05, -0.06),
 };
-
-/// Everything the servo knows. No host watches: the device runs by itself. The table is checked at boot and over and
-/// over.
-pub static SERVO: Servo<'static, table::Surface, SerialArm, 3> =
-    Servo::new(&DEVICE, table::SURFACE, Controller::SECOND_ORDER, SETTINGS);

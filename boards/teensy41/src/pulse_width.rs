@@ -8,8 +8,12 @@ use teensy4_bsp::hal::flexpwm::{
     Channel, ClockSelect, FULL_RELOAD_VALUE_REGISTER, LoadMode, PairOperation, Prescaler, Pwm, SM,
 };
 
-/// 20 kHz from 150 MHz.
-const PERIOD: u16 = 7_500;
+use crate::body::SETTINGS;
+
+/// 2 kHz from 150 MHz / 4: the ESCON takes 10 Hz to 5 kHz, and measures worse the faster it is.
+const PERIOD: u16 = 18_750;
+/// Two periods of a width, in ticks: how long a reversal stays at no current.
+pub const DWELL: u8 = (2.0 * SETTINGS.rate / 2_000.0) as u8 + 1;
 
 /// Output A of a submodule.
 pub struct PulseWidth {
@@ -26,7 +30,7 @@ impl PulseWidth {
         // SAFETY: as asked for above, nobody changes the shared register at the same time.
         let mut pwm = Pwm::new::<2>(unsafe { PWM2::instance() });
         pwm.set_clock_select(submodule, ClockSelect::Ipg);
-        pwm.set_prescaler(submodule, Prescaler::Prescaler1);
+        pwm.set_prescaler(submodule, Prescaler::Prescaler4);
         pwm.set_pair_operation(submodule, PairOperation::Independent);
         pwm.set_load_mode(submodule, LoadMode::reload_full());
         pwm.set_load_frequency(submodule, 1);
@@ -52,7 +56,7 @@ impl SetDutyCycle for PulseWidth {
 
     #[inline]
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        // At most 7,500: a positive i16. The new width holds from the next period on.
+        // At most 18,750: a positive i16. The new width holds from the next period on.
         self.pwm.set_turn_off(self.submodule, Channel::A, duty.min(PERIOD) as i16);
         self.pwm.set_load_ok(self.submodule.mask());
         Ok(())

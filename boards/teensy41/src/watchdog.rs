@@ -1,7 +1,7 @@
-//! The watchdog with a clock of its own (RTWDOG), and why the chip was reset.
+//! The watchdog with a clock of its own (RTWDOG).
 
-use imxrt_ral::{modify_reg, read_reg, rtwdog::RTWDOG, src::SRC, write_reg};
-use palpate::servo::ResetReason;
+use imxrt_ral::{read_reg, rtwdog::RTWDOG, write_reg};
+use palpate_bench::Watchdog;
 
 /// Opens the registers for a moment (i.MX RT1060 reference manual, "RTWDOG unlock").
 const UNLOCK: u32 = 0xd928_c520;
@@ -9,42 +9,36 @@ const UNLOCK: u32 = 0xd928_c520;
 const REFRESH: u32 = 0xb480_a602;
 /// 20 ms of its 32 kHz.
 const PATIENCE: u32 = 655;
+/// Looks until it must have taken its configuration: some cycles of its own clock, a fiftieth of a millisecond each.
+const LOOKS: u32 = 1_000_000;
 
 /// The running watchdog.
-pub struct Watchdog(RTWDOG);
+pub struct Bowl(RTWDOG);
 
-impl Watchdog {
-    /// Starts it, for good.
+impl Bowl {
+    /// Starts it, for good, and reads back what it took.
+    ///
+    /// # Panics
+    /// If it did not take its configuration: then nobody would notice that the program hangs.
     pub fn start(registers: RTWDOG) -> Self {
         cortex_m::interrupt::free(|_| {
             write_reg!(imxrt_ral::rtwdog, registers, CNT, UNLOCK);
             write_reg!(imxrt_ral::rtwdog, registers, TOVAL, PATIENCE);
             write_reg!(imxrt_ral::rtwdog, registers, CS, EN: 1, CLK: 1, CMD32EN: 1, UPDATE: 0);
         });
+        let took = (0..LOOKS).any(|_| read_reg!(imxrt_ral::rtwdog, registers, CS, RCS == 1));
+        let runs = read_reg!(imxrt_ral::rtwdog, registers, CS, EN == 1);
+        let clock = read_reg!(imxrt_ral::rtwdog, registers, CS, CLK == 1);
+        let patience = read_reg!(imxrt_ral::rtwdog, registers, TOVAL);
+        assert!(took && runs && clock && patience == PATIENCE, "the watchdog did not take its configuration");
         Self(registers)
-    }
-
-    /// Feeds it.
-    pub fn feed(&mut self) {
-        // Two feeds may not overlap; one word is one feed.
-        write_reg!(imxrt_ral::rtwdog, self.0, CNT, REFRESH);
     }
 }
 
-/// The reason, read once: the flags are cleared, lest the next reset finds them still up.
-pub fn reset_reason(registers: &SRC) -> ResetReason {
-    let flags = read_reg!(imxrt_ral::src, registers, SRSR);
-    modify_reg!(imxrt_ral::src, registers, SRSR, |flags| flags);
-    let is_set = |bit: u32| flags & (1 << bit) != 0;
-    // Bits as the reference manual numbers them ("SRC Reset Status Register").
-    if is_set(4) || is_set(7) {
-        ResetReason::Watchdog
-    } else if is_set(1) {
-        // Asked for, or the core locked up: a program that hung is the safer reading.
-        ResetReason::Watchdog
-    } else if is_set(5) || is_set(6) || is_set(3) {
-        ResetReason::Pin
-    } else {
-        ResetReason::PowerOn
+impl Watchdog for Bowl {
+    #[inline]
+    fn feed(&mut self) {
+        // One word is one feed.
+        write_reg!(imxrt_ral::rtwdog, self.0, CNT, REFRESH);
     }
 }

@@ -1,0 +1,50 @@
+//! Reset, watchdog and stop of the i.MX RT1062.
+
+use imxrt_ral::gpio::GPIO1;
+use imxrt_ral::snvs::SNVS;
+use imxrt_ral::src::SRC;
+use imxrt_ral::{modify_reg, read_reg, write_reg};
+use palpate_bench::{Cause, Memo, ResetFlags};
+
+/// Pins 16, 17 and 18, which enable the amplifiers, are these bits of GPIO1.
+const ENABLE_BITS: u32 = 1 << 23 | 1 << 22 | 1 << 17;
+/// Pin 22, the light.
+const LIGHT_BIT: u32 = 1 << 24;
+
+/// The memo lies in two registers of the always-on domain. They fade with the supply, but not with a coin cell on VBAT:
+/// with one every power-on reads as a brown-out, and has to be acknowledged.
+pub fn remember(cause: Cause) {
+    let Memo([word, complement]) = Memo::new(cause);
+    // SAFETY: two registers that nobody else uses.
+    let registers = unsafe { SNVS::instance() };
+    write_reg!(imxrt_ral::snvs, registers, LPGPR[0], word);
+    write_reg!(imxrt_ral::snvs, registers, LPGPR[1], complement);
+}
+
+/// Why the chip was reset, and the memo. The flags are cleared, lest the next reset finds them still up.
+pub fn reset() -> (ResetFlags, Memo) {
+    // SAFETY: read once, before anything else runs.
+    let (reset, registers) = unsafe { (SRC::instance(), SNVS::instance()) };
+    let memo = Memo([read_reg!(imxrt_ral::snvs, registers, LPGPR[0]), read_reg!(imxrt_ral::snvs, registers, LPGPR[1])]);
+    let flags = read_reg!(imxrt_ral::src, reset, SRSR);
+    modify_reg!(imxrt_ral::src, reset, SRSR, |flags| flags);
+    let is_set = |bit: u32| flags & (1 << bit) != 0;
+    // Bits as the reference manual numbers them ("SRC Reset Status Register").
+    let flags = ResetFlags {
+        power: is_set(0),
+        // Asked for, or the core locked up: a program that hung is the safer reading.
+        watchdog: is_set(1) || is_set(4) || is_set(7),
+        pin: is_set(3) || is_set(5) || is_set(6),
+        ..ResetFlags::default()
+    };
+    (flags, memo)
+}
+
+#[unsafe(no_mangle)]
+fn palpate_motors_off(cause: Cause) {
+    // SAFETY: nothing else runs any more; the writes take power away and light the light.
+    let port = unsafe { GPIO1::instance() };
+    write_reg!(imxrt_ral::gpio, port, DR_CLEAR, ENABLE_BITS);
+    write_reg!(imxrt_ral::gpio, port, DR_SET, LIGHT_BIT);
+    remember(cause);
+}

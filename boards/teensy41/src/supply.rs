@@ -1,0 +1,33 @@
+//! The motors' supply, by the converter.
+
+use palpate_bench::{Supply, SupplyRange};
+use teensy4_bsp::hal::adc::{Adc, AnalogInput, AveragingCount, ResolutionBits};
+
+/// Volts at full scale: 3.3 V, behind 100 kΩ and 10 kΩ.
+const FULL: f32 = 3.3 * 11.0;
+/// A supply of 24 V that is on, and does not break down.
+pub const RANGE: SupplyRange = SupplyRange { least: 20.0, most: 30.0 };
+
+/// The converter and its pin.
+pub struct Volts {
+    converter: Adc,
+    input: AnalogInput,
+}
+
+impl Volts {
+    /// A converter of 12 bits that takes single samples.
+    pub fn new(mut converter: Adc, input: AnalogInput) -> Self {
+        converter.set_resolution(ResolutionBits::Res12);
+        converter.set_averaging(AveragingCount::Avg1);
+        Self { converter, input }
+    }
+}
+
+impl Supply for Volts {
+    /// Some 20 µs, by the converter's clock of 2.5 MHz.
+    #[inline]
+    fn volts(&mut self) -> Option<f32> {
+        let reading = self.converter.read_blocking(&mut self.input);
+        Some(f32::from(reading) * (FULL / 4_095.0))
+    }
+}

@@ -1,0 +1,43 @@
+//! The counter that times ticks, and the periodic timer (PIT) that raises them.
+
+use palpate_bench::{Clock, Counter};
+use palpate_cortex::Cycles;
+use teensy4_bsp::board::PERCLK_FREQUENCY;
+use teensy4_bsp::hal::pit::{Channel::Chan0, Pit};
+
+use crate::body::SETTINGS;
+
+/// Counts of the periodic timer a tick.
+const PERIOD: u32 = (PERCLK_FREQUENCY as f32 / SETTINGS.rate) as u32;
+
+/// Both.
+pub struct Time {
+    cycles: Cycles,
+    timer: Pit,
+}
+
+impl Time {
+    /// Starts the timer; its interrupt is still masked.
+    pub fn start(cycles: Cycles, mut timer: Pit) -> Self {
+        timer.set_load_timer_value(Chan0, PERIOD - 1);
+        timer.set_interrupt_enable(Chan0, true);
+        timer.enable(Chan0);
+        Self { cycles, timer }
+    }
+}
+
+impl Counter for Time {
+    #[inline]
+    fn now(&self) -> u32 {
+        self.cycles.now()
+    }
+}
+
+impl Clock for Time {
+    #[inline]
+    fn acknowledge(&mut self) {
+        self.timer.clear_elapsed(Chan0);
+        // Else the core may leave before the flag is down, and come back at once.
+        cortex_m::asm::dsb();
+    }
+}
