@@ -8,8 +8,8 @@ use glam::DVec3;
 pub struct Part {
     /// Its name.
     pub name: String,
-    /// The names of its solids or shells.
-    pub solids: Vec<String>,
+    /// Its solids or shells.
+    pub solids: Vec<Solid>,
     /// Faces, in the order of the file.
     pub faces: Vec<Face>,
     /// Edges.
@@ -22,6 +22,15 @@ pub struct Part {
     pub remarks: Vec<String>,
 }
 
+/// A solid, or a shell by itself.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// Its name.
+    pub name: String,
+    /// Whether the file says that its faces enclose it.
+    pub is_closed: bool,
+}
+
 /// A face: the part of a surface that lies on the left of its loops, seen from where the surface's normal points.
 #[derive(Clone, Debug)]
 pub struct Face {
@@ -29,6 +38,8 @@ pub struct Face {
     pub name: String,
     /// Its number in the file, if that is known.
     pub number: Option<u64>,
+    /// The solid that it belongs to.
+    pub solid: usize,
     /// What its surface is, in the file's words.
     pub kind: &'static str,
     /// The whole surface.
@@ -40,7 +51,7 @@ pub struct Face {
 }
 
 /// An edge as a loop runs along it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Use {
     /// Its index.
     pub edge: usize,
@@ -51,19 +62,66 @@ pub struct Use {
 /// An edge between two vertices, or a closed one from a vertex to itself.
 #[derive(Clone, Debug)]
 pub struct Edge {
-    /// The curve, from one end to the other.
+    /// The curve that it is a stretch of.
     pub curve: Curve,
+    /// The stretch; of a curve that goes round it may run on beyond the curve's range.
+    pub range: [f64; 2],
     /// The vertices where it begins and ends.
     pub ends: [usize; 2],
+    /// Whether the curve goes round.
+    pub is_round: bool,
+    /// Its number in the file, if that is known.
+    pub number: Option<u64>,
 }
 
 impl Edge {
+    /// All of a curve between two vertices; round, if they are one.
+    pub fn whole(curve: Curve, ends: [usize; 2], number: Option<u64>) -> Self {
+        Self { range: curve.range(), curve, ends, is_round: ends[0] == ends[1], number }
+    }
+
+    /// The stretch between two shares of it.
+    pub fn stretch(&self, [from, to]: [f64; 2], ends: [usize; 2]) -> Self {
+        let [low, high] = self.range;
+        let range = [from, to].map(|share| low + (high - low) * share);
+        Self { range, ends, ..self.clone() }
+    }
+
     /// Position and derivative at a share of the way, 0 to 1; of a closed edge any number, round and round.
     pub fn at(&self, share: f64) -> [DVec3; 2] {
-        let [low, high] = self.curve.range();
-        let share = if self.is_closed() && !(0.0..=1.0).contains(&share) { share.rem_euclid(1.0) } else { share };
-        let [point, first, _] = self.curve.at(low + (high - low) * share);
-        [point, first * (high - low)]
+        let [low, high] = self.range;
+        let [first, last] = self.curve.range();
+        let t = low + (high - low) * share;
+        let is_beyond = self.is_round && !(first..=last).contains(&t);
+        let t = if is_beyond { first + (t - first).rem_euclid(last - first) } else { t };
+        let [point, slope, _] = self.curve.at(t);
+        [point, slope * (high - low)]
+    }
+
+    /// The share at which it is nearest to a point, and the distance there.
+    pub fn nearest(&self, point: DVec3) -> (f64, f64) {
+        const SAMPLES: usize = 64;
+        let far = (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64);
+        let far = far.map(|share| (self.at(share)[0].distance_squared(point), share));
+        let (_, mut share) = far.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 0.0));
+        for _ in 0..16 {
+            let [here, slope] = self.at(share);
+            let step = (point - here).dot(slope) / slope.length_squared().max(f64::MIN_POSITIVE);
+            let next = share + step.clamp(-1.0 / SAMPLES as f64, 1.0 / SAMPLES as f64);
+            share = if self.is_closed() { next } else { next.clamp(0.0, 1.0) };
+        }
+        (share, self.at(share)[0].distance(point))
+    }
+
+    /// How long it is, by 32 chords.
+    pub fn length(&self) -> f64 {
+        let at = |k: i32| self.at(f64::from(k) / 32.0)[0];
+        (0..32).map(|k| at(k).distance(at(k + 1))).sum()
+    }
+
+    /// What messages call it; `index` is its place in the part.
+    pub fn label(&self, index: usize) -> String {
+        label_of_edge(index, self.number)
     }
 
     /// Whether it ends where it began.
@@ -85,6 +143,11 @@ impl Face {
     pub fn label(&self) -> String {
         label(&self.name, self.number)
     }
+}
+
+/// An edge by its number in the file, or by its place in the part.
+pub fn label_of_edge(index: usize, number: Option<u64>) -> String {
+    number.map_or_else(|| format!("edge {}", index + 1), |number| format!("edge #{number}"))
 }
 
 /// A face's name with its number in the file.

@@ -13,7 +13,7 @@ pub fn lines(mesh: &Mesh<'_>, made: &[Made], measured: &Measured, tolerance: f64
     let faces: BTreeMap<&str, &str> = part.faces.iter().map(|face| (face.name.as_str(), face.kind)).collect();
     faces.values().for_each(|kind| *kinds.entry(kind).or_insert(0) += 1);
     let kinds: Vec<String> = kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-    let mut solids = part.solids.clone();
+    let mut solids: Vec<&str> = part.solids.iter().map(|solid| solid.name.as_str()).collect();
     solids.dedup();
     let name = |face: usize| &part.faces[face].name;
     let mut lines = vec![

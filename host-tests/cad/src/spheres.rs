@@ -156,7 +156,7 @@ impl Sphere {
                 let key = [from.min(to), from.max(to)];
                 let edge = *edges.entry(key).or_insert_with(|| {
                     let curve = self.arc(key.map(corner));
-                    part.edges.push(Edge { curve, ends: key.map(|bits| first + bits) });
+                    part.edges.push(Edge::whole(curve, key.map(|bits| first + bits), None));
                     part.edges.len() - 1
                 });
                 uses.push(Use { edge, reversed: from > to });

@@ -164,8 +164,8 @@ fn trace_edge(mesh: &Mesh<'_>, face: &Face, used: Use, limit: f64) -> Result<Pat
         }
     }
     if farthest > limit {
-        let number = used.edge + 1;
-        return Err(ImportError::face(face.label(), format!("its edge {number} lies {farthest:.6} mm off it")));
+        let label = edge.label(used.edge);
+        return Err(ImportError::face(face.label(), format!("its {label} lies {farthest:.6} mm off it")));
     }
     // Of a straight one two samples say all.
     let straight = |k: usize| feet[0].lerp(feet[STEPS], k as f64 / STEPS as f64);

@@ -203,7 +203,7 @@ fn nonsense() -> Vec<Spoiled> {
         many("empty", String::new(), "not a whole STEP file"),
         many("a-page", "<html><body>404</body></html>".to_owned(), "not a whole STEP file"),
         // Shapes that are none.
-        edit("corner-off", &box_, corner, "(-25.,-15.,-10.)", "face 1 (#17): its edge 1 lies 5.000000 mm off it"),
+        edit("corner-off", &box_, corner, "(-25.,-15.,-10.)", "face 1 (#17): its edge #21 lies 5.000000 mm off it"),
         edit("corner-of-four", &box_, corner, "(-20.,-15.,-10.,1.)", "#23 (CARTESIAN_POINT)"),
         edit("corner-of-words", &box_, corner, "(-20.,'x',-10.)", "#"),
         edit("corner-not-a-number", &box_, corner, "(NaN,-15.,-10.)", "line 32"),

@@ -128,7 +128,7 @@ fn gather(model: &StepModel, file: &str, only: Option<&str>, numbers: &Numbers) 
     part.precision = units.precision.unwrap_or(0.0) * scale;
     let mut gather = Gather::new(&mut part, scale, numbers);
     for shape in &placed {
-        gather.begin(&shape.name, shape.placement);
+        gather.begin(&shape.name, shape.solid.is_some(), shape.placement);
         for (shell, turned) in &shape.shells {
             gather.shell(shell, *turned)?;
         }

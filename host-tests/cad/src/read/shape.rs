@@ -27,8 +27,8 @@ impl<'p> Gather<'p> {
     }
 
     /// Another solid: nothing of it is shared with those before.
-    pub(super) fn begin(&mut self, name: &str, placement: DAffine3) {
-        self.part.solids.push(name.to_owned());
+    pub(super) fn begin(&mut self, name: &str, is_closed: bool, placement: DAffine3) {
+        self.part.solids.push(part::Solid { name: name.to_owned(), is_closed });
         self.placement = placement;
         self.edges.clear();
         self.vertices.clear();
@@ -69,14 +69,17 @@ impl<'p> Gather<'p> {
                 uses.reverse();
                 uses.iter_mut().for_each(|used| used.reversed = !used.reversed);
             }
-            for (first, second) in uses.iter().zip(uses.iter().cycle().skip(1)) {
-                if self.part.ends(*first)[1] != self.part.ends(*second)[0] {
-                    return Err(cannot("the edges of a loop of it do not follow each other".to_owned()));
-                }
-            }
             loops.push(uses);
         }
-        self.part.faces.push(Face { name, number, kind, surface, flip: against != turned, loops });
+        self.part.faces.push(Face {
+            name,
+            number,
+            solid: self.part.solids.len() - 1,
+            kind,
+            surface,
+            flip: against != turned,
+            loops,
+        });
         Ok(())
     }
 
@@ -111,31 +114,38 @@ impl<'p> Gather<'p> {
         if let Some(index) = self.edges.get(&edge.key()) {
             return Ok(*index);
         }
-        let mut ends = [self.vertex(edge.start())?, self.vertex(edge.end())?];
-        let number = self.part.edges.len() + 1;
-        let curve =
-            edge.to_nurbs().ok_or_else(|| format!("its edge {number} has a curve of a kind that is not read"))?;
-        let mut curve = self.curve(&curve).map_err(|reason| format!("its edge {number}: {reason}"))?;
+        let ends = [self.vertex(edge.start())?, self.vertex(edge.end())?];
+        let number = self.numbers.of(edge.key()).map(|(number, _)| number);
+        let label = part::label_of_edge(self.part.edges.len(), number);
+        let curve = edge.to_nurbs().ok_or_else(|| format!("its {label} has a curve of a kind that is not read"))?;
+        let mut curve = self.curve(&curve).map_err(|reason| format!("its {label}: {reason}"))?;
         let [low, high] = curve.range();
         let [start, end] = [low, high].map(|t| curve.at(t)[0]);
         let points = ends.map(|index| self.part.vertices[index]);
         let near = self.part.precision.max(1e-4);
-        if ends[0] != ends[1] && points[0].distance(points[1]) <= 1e-7 && start.distance(end) <= near {
-            // Two vertices in one place: a closed edge.
-            ends[1] = ends[0];
-        }
-        if ends[0] == ends[1] {
+        // Two vertices in one place: a closed edge.
+        let is_round = ends[0] == ends[1] || points[0].distance(points[1]) <= 1e-7 && start.distance(end) <= near;
+        if is_round {
             if !edge.same_sense() {
                 curve = reversed(curve);
             }
         } else {
             let gap = start.distance(points[0]).max(end.distance(points[1]));
             if gap > near {
-                return Err(format!("its edge {number} ends {gap:.6} mm from its vertex"));
+                return Err(format!("its {label} ends {gap:.6} mm from its vertex"));
             }
         }
         let index = self.part.edges.len();
-        self.part.edges.push(Edge { curve, ends });
+        let mut edge_of = Edge { is_round, ..Edge::whole(curve, ends, number) };
+        if is_round && start.distance(points[0]) > near {
+            // It begins where its vertex is, and goes round once.
+            let (share, gap) = edge_of.nearest(points[0]);
+            if gap > near {
+                return Err(format!("its {label} passes {gap:.6} mm from its vertex"));
+            }
+            edge_of.range = [0.0, 1.0].map(|turn| low + (high - low) * (share.rem_euclid(1.0) + turn));
+        }
+        self.part.edges.push(edge_of);
         self.edges.insert(edge.key(), index);
         Ok(index)
     }

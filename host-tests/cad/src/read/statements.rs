@@ -39,6 +39,7 @@ pub(super) fn statements(text: &str) -> Vec<Statement<'_>> {
 /// Numbers of the entities that messages name.
 pub(super) struct Numbers {
     faces: Vec<u64>,
+    edges: Vec<u64>,
     breps: Vec<u64>,
     hollow_breps: Vec<u64>,
     occurrences: Vec<u64>,
@@ -49,6 +50,7 @@ impl Numbers {
         let of = |kind: &str| statements.iter().filter(|of| of.kind == kind).map(|of| of.id).collect();
         Self {
             faces: of("ADVANCED_FACE"),
+            edges: of("EDGE_CURVE"),
             breps: of("MANIFOLD_SOLID_BREP"),
             hollow_breps: of("BREP_WITH_VOIDS"),
             occurrences: of("NEXT_ASSEMBLY_USAGE_OCCURRENCE"),
@@ -60,6 +62,7 @@ impl Numbers {
     pub(super) fn of(&self, key: EntityKey) -> Option<(u64, &'static str)> {
         let (numbers, index, kind) = match key {
             EntityKey::AdvancedFace(id) => (&self.faces, id.0, "ADVANCED_FACE"),
+            EntityKey::EdgeCurve(id) => (&self.edges, id.0, "EDGE_CURVE"),
             EntityKey::ManifoldSolidBrep(id) => (&self.breps, id.0, "MANIFOLD_SOLID_BREP"),
             EntityKey::BrepWithVoids(id) => (&self.hollow_breps, id.0, "BREP_WITH_VOIDS"),
             EntityKey::NextAssemblyUsageOccurrence(id) => (&self.occurrences, id.0, "NEXT_ASSEMBLY_USAGE_OCCURRENCE"),

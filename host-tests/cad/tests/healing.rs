@@ -1,0 +1,108 @@
+//! What a file says twice, askew or the wrong way round: made whole up to its own precision, or refused by name.
+
+use palpate_cad::{Imported, Options, import};
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A box of 40 × 30 × 20 mm with a hole of 12 mm through it.
+fn whole() -> String {
+    fs::read_to_string(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/parts/s02.step")).unwrap()
+}
+
+fn imported(name: &str, text: &str) -> Result<Imported, String> {
+    static FILES: AtomicUsize = AtomicUsize::new(0);
+    let number = FILES.fetch_add(1, Ordering::Relaxed);
+    let path = std::env::temp_dir().join(format!("palpate-cad-{}-{number}-{name}.step", std::process::id()));
+    fs::write(&path, text).unwrap();
+    let result = import(&path, &Options::default());
+    fs::remove_file(&path).unwrap();
+    result.map_err(|error| error.to_string())
+}
+
+fn edited(from: &str, to: &str) -> String {
+    let whole = whole();
+    assert!(whole.contains(from), "{from}");
+    whole.replacen(from, to, 1)
+}
+
+/// As many patches as the sound part, and its volume.
+fn same_as_the_sound_part(name: &str, text: &str) -> Imported {
+    let (sound, healed) = (imported("sound", &whole()).unwrap(), imported(name, text).unwrap());
+    assert_eq!(healed.patches.len(), sound.patches.len(), "{name}");
+    let volume = |of: &Imported| {
+        let line = of.report.iter().find(|line| line.starts_with("volume")).unwrap_or_else(|| panic!("{name} is open"));
+        line.split_whitespace().nth(2).unwrap().parse::<f64>().unwrap()
+    };
+    assert!((volume(&sound) - volume(&healed)).abs() < 0.1, "{name}: {}", volume(&healed));
+    healed
+}
+
+/// The file's own precision, wider than what is moved.
+fn precise_to(text: &str, millimetres: &str) -> String {
+    let place = text.find("LENGTH_MEASURE(").unwrap() + "LENGTH_MEASURE(".len();
+    let end = place + text[place..].find(')').unwrap();
+    format!("{}{millimetres}{}", &text[..place], &text[end..])
+}
+
+/// One face's own edge where another has one too, moved along x, and the other way round if `is_turned`.
+fn with_an_edge_of_its_own(off: f64, is_turned: bool) -> String {
+    let whole = whole();
+    let point = |id: usize| -> Vec<f64> {
+        let start = whole.find(&format!("#{id} = CARTESIAN_POINT('',(")).unwrap();
+        let text = &whole[start + format!("#{id} = CARTESIAN_POINT('',(").len()..];
+        text[..text.find(')').unwrap()].split(',').map(|number| number.trim().parse().unwrap()).collect()
+    };
+    let written = |id: usize, of: usize| {
+        let [x, y, z] = point(of)[..] else { panic!("three coordinates") };
+        format!("#{id} = CARTESIAN_POINT('',({:?},{y:?},{z:?}));\n", x + off)
+    };
+    let (ends, sense) = if is_turned { ("#9003,#9001", ".F.") } else { ("#9001,#9003", ".T.") };
+    let own = format!(
+        "#163 = ORIENTED_EDGE('',*,*,#9000,{sense});\n#9000 = EDGE_CURVE('',{ends},#26,{sense});\n\
+         #9001 = VERTEX_POINT('',#9002);\n{}#9003 = VERTEX_POINT('',#9004);\n{}",
+        written(9002, 23),
+        written(9004, 25)
+    );
+    whole.replacen("#163 = ORIENTED_EDGE('',*,*,#21,.T.);\n", &own, 1)
+}
+
+#[test]
+fn an_edge_that_each_face_has_for_itself_is_one() {
+    for is_turned in [false, true] {
+        let healed = same_as_the_sound_part("own-edge", &with_an_edge_of_its_own(0.0, is_turned));
+        assert!(healed.report.iter().any(|line| line.starts_with("healed: 1 pair")), "{:?}", healed.report);
+    }
+}
+
+#[test]
+fn a_gap_is_closed_up_to_the_files_precision_and_named_beyond() {
+    let open = with_an_edge_of_its_own(5e-5, false);
+    same_as_the_sound_part("gap", &precise_to(&open, "2.E-04"));
+    let message = imported("wide-gap", &open).unwrap_err();
+    assert!(message.contains("(#137)") && message.contains("0.000050 mm"), "{message}");
+}
+
+#[test]
+fn a_circle_may_begin_elsewhere_in_each_face() {
+    let whole = whole();
+    let start = whole.find("#265 = EDGE_CURVE('',#266,#266,").unwrap() + "#265 = EDGE_CURVE('',#266,#266,".len();
+    let curve = &whole[start..start + whole[start..].find(',').unwrap()];
+    let own = format!(
+        "#264 = ORIENTED_EDGE('',*,*,#9000,.T.);\n#9000 = EDGE_CURVE('',#9001,#9001,{curve},.T.);\n\
+         #9001 = VERTEX_POINT('',#9002);\n#9002 = CARTESIAN_POINT('',(0.,6.,10.));\n"
+    );
+    let text = edited("#264 = ORIENTED_EDGE('',*,*,#265,.T.);\n", &own);
+    assert_eq!(
+        imported("circle", &text).unwrap().report.iter().filter(|line| line.starts_with("healed: 2")).count(),
+        1
+    );
+}
+
+#[test]
+fn a_sliver_of_an_edge_is_left_out() {
+    let sliver = "#9000 = ORIENTED_EDGE('',*,*,#9002,.T.);\n#9001 = ORIENTED_EDGE('',*,*,#9002,.F.);\n\
+        #9002 = EDGE_CURVE('',#22,#9003,#26,.T.);\n#9003 = VERTEX_POINT('',#9004);\n\
+        #9004 = CARTESIAN_POINT('',(-20.,-15.,-9.9999999));\n#19 = EDGE_LOOP('',(#20,#9000,#9001,#55,";
+    same_as_the_sound_part("sliver", &edited("#19 = EDGE_LOOP('',(#20,#55,", sliver));
+}
