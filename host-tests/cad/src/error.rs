@@ -1,5 +1,6 @@
 //! What can be wrong with a part, as the person who made it reads it.
 
+use crate::part::Part;
 use thiserror::Error;
 
 /// Why a part was not imported. Faces and edges go by their names or numbers in the part, entities by their numbers in
@@ -91,12 +92,19 @@ pub enum ImportError {
         face: String,
         /// What.
         reason: String,
+        /// Its place in the part, where dividing it might help.
+        index: Option<usize>,
     },
 }
 
 impl ImportError {
     /// About a face.
     pub fn face(face: impl Into<String>, reason: impl Into<String>) -> Self {
-        Self::Face { face: face.into(), reason: reason.into() }
+        Self::Face { face: face.into(), reason: reason.into(), index: None }
+    }
+
+    /// About a face that was too much at once.
+    pub(crate) fn too_much(part: &Part, index: usize, reason: impl Into<String>) -> Self {
+        Self::Face { face: part.faces[index].label(), reason: reason.into(), index: Some(index) }
     }
 }

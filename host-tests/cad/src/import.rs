@@ -4,13 +4,23 @@ use crate::bezier::Bezier;
 use crate::circles::{self, Turns};
 use crate::error::ImportError;
 use crate::measure::{self, Measured};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Source};
 use crate::part::Part;
 use crate::patches::{self, Made, SHARE_OF_EDGES};
-use crate::{divide, emit, heal, outline, picture, read, report, spheres, trace};
-use std::collections::BTreeSet;
+use crate::{divide, emit, heal, outline, picture, read, report, sew, spheres, split, trace};
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
+
+/// How often faces that are too much at once are made easier.
+const ROUNDS: usize = 16;
+/// A face with more loops than this, or more edges, is split before it is tried.
+const MOST_LOOPS: usize = 12;
+const MOST_EDGES: usize = 64;
+
+/// How finely edges are cut, because a face of theirs was too much: 1 and 2 halve the pieces once and twice.
+type Fine = BTreeMap<usize, i32>;
+const FINEST: i32 = 2;
 
 /// What is asked for.
 #[derive(Clone, Debug)]
@@ -60,20 +70,84 @@ pub struct Imported {
 /// tolerance.
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut part = read::read(path, options.solid.as_deref())?;
+    sew::sew(&mut part, options.tolerance)?;
     heal::take_out_seams(&mut part);
     spheres::without_poles(&mut part);
-    let mut mesh = outlined(&part, options.tolerance)?;
+    split_the_large(&mut part, options.tolerance)?;
+    let mut fine = Fine::new();
+    for _ in 0..ROUNDS {
+        let errors = match divided(&part, &fine, options) {
+            Err(errors) => errors,
+            Ok(done) => return Ok(done),
+        };
+        // From the last, so that the places of those before hold.
+        for error in errors.into_iter().rev() {
+            let ImportError::Face { index: Some(face), .. } = error else { return Err(error) };
+            if !lightened(&mut part, face, &mut fine, options.tolerance)? {
+                return Err(error);
+            }
+        }
+        spheres::without_poles(&mut part);
+    }
+    divided(&part, &fine, options).map_err(first)
+}
+
+/// The first of the errors.
+fn first(errors: Vec<ImportError>) -> ImportError {
+    errors.into_iter().next().unwrap_or_else(|| ImportError::face("the part", "it is not divided"))
+}
+
+/// Makes a face easier: its edges are cut finely, or it is split. Says whether anything could be done.
+fn lightened(part: &mut Part, face: usize, fine: &mut Fine, tolerance: f64) -> Result<bool, ImportError> {
+    let of = &part.faces[face];
+    let edges: Vec<usize> = of.loops.iter().flatten().map(|used| used.edge).collect();
+    let level = edges.iter().map(|edge| fine.get(edge).copied().unwrap_or(0)).min().unwrap_or(FINEST);
+    let mut refine = || fine.extend(edges.iter().map(|edge| (*edge, level + 1)));
+    let is_simple = if of.kind == "plane" { of.loops.len() == 2 } else { of.loops.len() <= 2 };
+    if is_simple && level == 0 {
+        refine();
+        return Ok(true);
+    }
+    if split::split(part, face, tolerance)? {
+        return Ok(true);
+    }
+    if level < FINEST {
+        refine();
+    }
+    Ok(level < FINEST)
+}
+
+/// Splits faces that are too much for a search, without trying.
+fn split_the_large(part: &mut Part, tolerance: f64) -> Result<(), ImportError> {
+    let mut face = 0;
+    while face < part.faces.len() {
+        let loops = &part.faces[face].loops;
+        let is_large = loops.len() > MOST_LOOPS || loops.iter().map(Vec::len).sum::<usize>() > MOST_EDGES;
+        if !is_large || !split::split(part, face, tolerance)? {
+            face += 1;
+        }
+    }
+    Ok(())
+}
+
+fn single(error: ImportError) -> Vec<ImportError> {
+    vec![error]
+}
+
+/// All that comes after the part is as it should be.
+fn divided(part: &Part, fine: &Fine, options: &Options) -> Result<Imported, Vec<ImportError>> {
+    let mut mesh = outlined(part, fine, options.tolerance).map_err(single)?;
     divide::balance::balance(&mut mesh);
-    divide::parity::even(&mut mesh)?;
+    divide::parity::even(&mut mesh).map_err(single)?;
     divide::divide(&mut mesh)?;
     let made = patches::make(&mut mesh, options.tolerance)?;
     let measured = measure::measure(&mesh, &made, options.tolerance);
-    refuse_far(&part, &measured, options.tolerance)?;
+    refuse_far(part, &measured, options.tolerance).map_err(single)?;
     let report = report::lines(&mesh, &made, &measured, options.tolerance);
-    let model = emit::toml(&part, &made, &report);
-    let picture = options.picture.then(|| picture::svg(&part, &made, &measured, options.tolerance));
+    let model = emit::toml(part, &made, &report);
+    let picture = options.picture.then(|| picture::svg(part, &made, &measured, options.tolerance));
     let patch = |(name, made): (String, Made)| Patch { name, surface: made.bezier, flip: part.faces[made.face].flip };
-    let patches = emit::names(&part, &made).into_iter().zip(made).map(patch).collect();
+    let patches = emit::names(part, &made).into_iter().zip(made).map(patch).collect();
     Ok(Imported { model, patches, report, picture })
 }
 
@@ -81,7 +155,7 @@ fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), Im
     for ((off, face), which) in [(measured.out, "its patches are"), (measured.back, "it is")] {
         if off > tolerance {
             let reason = format!("{which} up to {off:.6} mm off, the tolerance is {tolerance} mm");
-            return Err(ImportError::face(part.faces[face].label(), reason));
+            return Err(ImportError::too_much(part, face, reason));
         }
     }
     Ok(())
@@ -89,7 +163,7 @@ fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), Im
 
 /// The part with every face's outline closed in its parameters, and every wire cut into pieces that one curve can
 /// follow.
-fn outlined(part: &Part, tolerance: f64) -> Result<Mesh<'_>, ImportError> {
+fn outlined<'p>(part: &'p Part, fine: &Fine, tolerance: f64) -> Result<Mesh<'p>, ImportError> {
     let mut mesh = Mesh::new(part);
     let mut all_turns: Vec<Vec<Turns>> = Vec::new();
     for (face, of) in part.faces.iter().enumerate() {
@@ -103,7 +177,13 @@ fn outlined(part: &Part, tolerance: f64) -> Result<Mesh<'_>, ImportError> {
         mesh.regions[face].loops = loops;
         all_turns.push(turns);
     }
-    let count = |mesh: &Mesh<'_>, wire: usize| pieces(mesh, wire, tolerance);
+    let count = |mesh: &Mesh<'_>, wire: usize| {
+        let level = match mesh.wires[wire].source {
+            Source::Edge { edge, .. } => fine.get(&edge).copied().unwrap_or(0),
+            Source::Inside { .. } => 0,
+        };
+        pieces(mesh, wire, level, tolerance)
+    };
     cut_bent(&mut mesh, &count, false);
     circles::cut(&mut mesh, &all_turns, &count);
     for (face, turns) in all_turns.iter().enumerate() {
@@ -113,10 +193,12 @@ fn outlined(part: &Part, tolerance: f64) -> Result<Mesh<'_>, ImportError> {
     Ok(mesh)
 }
 
-/// Into how many pieces a wire is cut: none turns by more than a quarter, and each is one curve within the tolerance.
-fn pieces(mesh: &Mesh<'_>, wire: usize, tolerance: f64) -> usize {
+/// Into how many pieces a wire is cut: none turns by more than a quarter, or less on a finer level, and each is one curve within the tolerance.
+fn pieces(mesh: &Mesh<'_>, wire: usize, level: i32, tolerance: f64) -> usize {
     let (_, turn) = mesh.extent(wire);
-    let mut count = ((turn - 0.05) / FRAC_PI_2).ceil().max(1.0) as usize;
+    let mut count = ((turn - 0.05) / (FRAC_PI_2 * 0.5_f64.powi(level))).ceil().max(1.0) as usize;
+    // On the finest even what is straight is cut.
+    count = count.max(if level == FINEST { 2 } else { 1 });
     while count < 64 {
         let borders: Vec<f64> = [0.0].into_iter().chain(mesh.even(wire, count)).chain([1.0]).collect();
         let near = borders.windows(2).all(|pair| {

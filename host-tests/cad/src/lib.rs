@@ -1,7 +1,7 @@
 //! A CAD part as patches: STEP in, palpate's model file out.
 //!
 //! The way of the data: [`read`] gives faces, loops, edges and vertices as exact NURBS, placed, in millimetres;
-//! [`heal`] takes out seams; [`trace`] finds where each edge runs in the parameters of its faces, [`circles`] and
+//! [`sew`] joins what the file counts as one and [`heal`] takes out seams; [`trace`] finds where each edge runs in the parameters of its faces, [`circles`] and
 //! [`outline`] make every outline close there; [`divide`] cuts regions into quads without a side that ends on another's
 //! middle; [`patches`] gives each wire one curve, shared by both its faces, and each quad one polynomial patch
 //! ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with the part, both ways; [`emit`] writes the
@@ -27,7 +27,9 @@ mod project;
 mod proof;
 mod read;
 mod report;
+mod sew;
 mod spheres;
+mod split;
 mod strips;
 mod trace;
 

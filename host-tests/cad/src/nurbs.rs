@@ -181,6 +181,20 @@ impl Surface {
         Jet { point, first, second }
     }
 
+    /// The curve on which parameter `axis` has a value, by the other parameter.
+    pub fn line(&self, axis: usize, value: f64) -> Curve {
+        let at = if axis == 0 { DVec2::new(value, 0.0) } else { DVec2::new(0.0, value) };
+        let value = self.wrapped(at)[axis];
+        let basis = Basis::new(&self.knots[axis], self.degree[axis], self.counts[axis], value);
+        let other = 1 - axis;
+        let point = |k: usize| -> DVec4 {
+            let index = |i: usize| if axis == 0 { i * self.counts[1] + k } else { k * self.counts[1] + i };
+            (0..=self.degree[axis]).map(|i| self.points[index(basis.first + i)] * basis.values[0][i]).sum()
+        };
+        let points = (0..self.counts[other]).map(point).collect();
+        Curve { degree: self.degree[other], knots: self.knots[other].clone(), points }
+    }
+
     /// The unit normal `f_u × f_v`; at a pole, that of a point a millionth of the range away from it.
     pub fn normal(&self, uv: DVec2) -> DVec3 {
         let jet = self.at(uv);

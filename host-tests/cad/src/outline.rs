@@ -12,7 +12,6 @@ use glam::DVec2;
 pub fn close(mesh: &mut Mesh<'_>, face: usize, turns: &[Turns]) -> Result<(), ImportError> {
     let part = mesh.part;
     let surface = &part.faces[face].surface;
-    let name = part.faces[face].label();
     let loops = std::mem::take(&mut mesh.regions[face].loops);
     let (mut winding, mut outer, mut holes) = (Vec::new(), Vec::new(), Vec::new());
     for (sides, turns) in loops.into_iter().zip(turns) {
@@ -24,7 +23,7 @@ pub fn close(mesh: &mut Mesh<'_>, face: usize, turns: &[Turns]) -> Result<(), Im
             holes.push(sides);
         }
     }
-    let refuse = |reason: &str| Err(ImportError::face(&name, reason));
+    let refuse = |reason: &str| Err(ImportError::too_much(part, face, reason));
     let outline = match (outer.len(), &winding[..]) {
         (1, []) => outer.remove(0),
         (0, []) if surface.closed == [true; 2] => torus(mesh, face, &holes),

@@ -32,8 +32,8 @@ pub struct Made {
 /// Patches for all quads.
 ///
 /// # Errors
-/// The first face that does not come within the tolerance.
-pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, ImportError> {
+/// The faces that do not come within the tolerance, or have a patch that is not proved regular.
+pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, Vec<ImportError>> {
     let mut curves: HashMap<usize, FittedCurve> = HashMap::new();
     let mut least: HashMap<usize, usize> = HashMap::new();
     for round in 0..ROUNDS {
@@ -41,7 +41,7 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, ImportErro
         if count > MOST {
             let worst = (0..mesh.regions.len()).max_by_key(|face| mesh.regions[*face].quads.len()).unwrap_or(0);
             let reason = format!("the part takes more than {MOST} patches, most of them here; try a greater tolerance");
-            return Err(ImportError::face(mesh.part.faces[worst].label(), reason));
+            return Err(vec![ImportError::too_much(mesh.part, worst, reason)]);
         }
         let mut cuts: BTreeSet<usize> = BTreeSet::new();
         let mut raised = false;
@@ -84,21 +84,25 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, ImportErro
         strips::cut(mesh, &cuts.into_iter().collect::<Vec<_>>());
     }
     let worst = (0..mesh.regions.len()).max_by_key(|face| mesh.regions[*face].quads.len()).unwrap_or(0);
-    Err(ImportError::face(mesh.part.faces[worst].label(), format!("it does not come within {tolerance} mm by cutting")))
+    let reason = format!("it does not come within {tolerance} mm by cutting");
+    Err(vec![ImportError::too_much(mesh.part, worst, reason)])
 }
 
-fn check(mesh: &Mesh<'_>, made: Vec<Made>) -> Result<Vec<Made>, ImportError> {
-    match made.iter().find(|made| !proof::is_regular(&made.bezier)) {
-        None => Ok(made),
-        Some(bad) => {
-            let centre = bad.bezier.at(0.5, 0.5)[0];
-            let reason = format!(
-                "a patch of it, about ({:.3}, {:.3}, {:.3}) mm, is not proved to have a tangent plane everywhere",
-                centre.x, centre.y, centre.z
-            );
-            Err(ImportError::face(mesh.part.faces[bad.face].label(), reason))
-        }
+fn check(mesh: &Mesh<'_>, made: Vec<Made>) -> Result<Vec<Made>, Vec<ImportError>> {
+    let mut bad: Vec<&Made> = made.iter().filter(|made| !proof::is_regular(&made.bezier)).collect();
+    bad.dedup_by_key(|made| made.face);
+    if bad.is_empty() {
+        return Ok(made);
     }
+    let error = |bad: &Made| {
+        let centre = bad.bezier.at(0.5, 0.5)[0];
+        let reason = format!(
+            "a patch of it, about ({:.3}, {:.3}, {:.3}) mm, is not proved to have a tangent plane everywhere",
+            centre.x, centre.y, centre.z
+        );
+        ImportError::too_much(mesh.part, bad.face, reason)
+    };
+    Err(bad.into_iter().map(error).collect())
 }
 
 /// The curve of a wire: of the least degree of 1, 3 and 5 that is near enough.

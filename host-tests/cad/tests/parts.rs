@@ -6,6 +6,8 @@ use std::fs;
 use std::path::PathBuf;
 
 const PARTS: [&str; 6] = ["s02", "s05", "s06", "s09", "s11", "s12"];
+/// Parts with faces that are too much at once: these are split, or their edges cut finely.
+const HARD: [&str; 4] = ["sphere_three_holes", "torus_cut", "d_shaft", "half_ring"];
 /// The tolerance asked for, millimetres.
 const TOLERANCE: f64 = 0.01;
 
@@ -41,7 +43,7 @@ fn distance(patches: &[Bezier], point: glam::DVec3) -> f64 {
 
 #[test]
 fn distances_are_the_kernels() {
-    for part in PARTS {
+    for part in PARTS.into_iter().chain(HARD) {
         let patches: Vec<Bezier> = imported(part).patches.into_iter().map(|patch| patch.surface).collect();
         let probes = fs::read_to_string(folder().join(format!("{part}.csv"))).unwrap();
         for (row, line) in probes.lines().skip(1).enumerate() {
@@ -56,7 +58,7 @@ fn distances_are_the_kernels() {
 /// Each border that is not one point is another's, to the last bit, or lies on the rim of the one open shell.
 #[test]
 fn bodies_are_watertight_to_the_bit() {
-    for part in PARTS {
+    for part in PARTS.into_iter().chain(HARD) {
         let mut uses: HashMap<Vec<[u64; 3]>, usize> = HashMap::new();
         for patch in imported(part).patches {
             let [p, q] = patch.surface.degree;

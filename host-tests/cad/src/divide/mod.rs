@@ -23,8 +23,9 @@ use corners::Shape;
 /// Divides every region.
 ///
 /// # Errors
-/// The first face that no quads were found for.
-pub fn divide(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
+/// All faces that no quads were found for.
+pub fn divide(mesh: &mut Mesh<'_>) -> Result<(), Vec<ImportError>> {
+    let mut errors = Vec::new();
     for face in 0..mesh.regions.len() {
         close_triangle(mesh, face);
         let quads = match Shape::of(mesh, face) {
@@ -35,11 +36,14 @@ pub fn divide(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
         };
         let quads = match quads {
             Some(quads) => quads,
-            None => tiling::quads(mesh, face)?,
+            None => tiling::quads(mesh, face).unwrap_or_else(|error| {
+                errors.push(error);
+                Vec::new()
+            }),
         };
         mesh.regions[face].quads = quads;
     }
-    Ok(())
+    if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
 /// A region of three sides, or two, gets a side of no length at its sharpest corners.

@@ -22,7 +22,7 @@ pub fn even(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
         let Some(face) = (0..mesh.regions.len()).find(|face| is_odd(mesh, *face)) else { return Ok(()) };
         let Some(way) = way(mesh, face, false).or_else(|| way(mesh, face, true)) else {
             let reason = "its outline has an odd number of sides, and no neighbour can take the one more";
-            return Err(ImportError::face(mesh.part.faces[face].label(), reason));
+            return Err(ImportError::too_much(mesh.part, face, reason));
         };
         for wire in way {
             let at = mesh.even(wire, 2);
@@ -31,9 +31,7 @@ pub fn even(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
         balance::balance(mesh);
     }
     let face = (0..mesh.regions.len()).find(|face| is_odd(mesh, *face));
-    face.map_or(Ok(()), |face| {
-        Err(ImportError::face(mesh.part.faces[face].label(), "its outline keeps an odd number of sides"))
-    })
+    face.map_or(Ok(()), |face| Err(ImportError::too_much(mesh.part, face, "its outline keeps an odd number of sides")))
 }
 
 /// A triangle among odd regions is cut on all sides: three quads, and its neighbours are even.

@@ -19,6 +19,8 @@ use std::collections::{HashMap, HashSet};
 const TRIES: usize = 40_000;
 /// Quads tried in a search with them, where there are far more to choose from.
 const TRIES_INSIDE: usize = 2_500;
+/// With more vertices than this, points inside leave too much to choose from.
+const LARGE: usize = 22;
 /// A tiling that costs less than this a quad is taken without looking whether points inside help.
 const GOOD: f64 = 1.6;
 
@@ -30,7 +32,8 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError>
     let scale = scale(mesh, face);
     let plane = Plane::new(mesh, face, scale);
     let mut best: Option<(f64, Plane, Vec<Candidate>)> = None;
-    for round in 0..7 {
+    let is_large = plane.vertices.len() > LARGE;
+    for round in 0..if is_large { 4 } else { 7 } {
         let mut trial = plane.clone();
         let points = match round {
             0 => Vec::new(),
@@ -62,7 +65,7 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError>
             "no division into quads was found for its outline of {count} sides ({})",
             mesh.part.faces[face].kind
         );
-        return Err(ImportError::face(mesh.part.faces[face].label(), reason));
+        return Err(ImportError::too_much(mesh.part, face, reason));
     };
     smooth(&mut plane, &found);
     Ok(build(mesh, face, scale, &plane, &found))
