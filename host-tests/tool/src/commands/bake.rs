@@ -7,6 +7,7 @@ use super::table_report;
 use crate::cache;
 use anyhow::Context as _;
 use clap::Args;
+use palpate_bake::body::BodyBytes;
 use palpate_bake::graph;
 use palpate_bake::source::{self, Origin};
 use std::path::{Path, PathBuf};
@@ -79,6 +80,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             Some(report) => table_report::of_body(&loaded.body, report)?,
             None => table_report::of_patches(&surveys)?,
         };
+        let text = text + &table_report::on_boards(bytes(&loaded))?;
         print(text.as_bytes())?;
     }
     let flaws = loaded.flaws();
@@ -88,6 +90,47 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let verdict = check::worst(&surveys, &flaws);
     eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
     Ok(check::exit_code(verdict))
+}
+
+/// A model's tables, baked for a board.
+pub(super) struct Baked {
+    /// The Rust source.
+    pub source: String,
+    /// Bytes of the tables on a 32-bit target.
+    pub bytes: u64,
+}
+
+/// Bakes a model as [`run`] does with its defaults.
+///
+/// # Errors
+/// What is wrong with it.
+pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
+    let mut loaded = Loaded::read(path)?;
+    let is_body = loaded.body.faces.len() > 1;
+    if is_body {
+        let options = loaded.body.locator_options();
+        let bar = progress::work();
+        let progress = |done, all| bar.tell("cells of space", done, all);
+        loaded.body = cache::located(loaded.body, &loaded.file.text, &options, None, &progress)?;
+    }
+    let origin = Origin {
+        model_file: &loaded.file.name,
+        out_file,
+        model: loaded.file.text.as_bytes(),
+        centre: loaded.model.centre,
+    };
+    let source = source::source(&origin, &loaded.model, &loaded.body)?;
+    Ok(Baked { source, bytes: bytes(&loaded) })
+}
+
+/// Bytes of a loaded model's tables on a 32-bit target.
+fn bytes(loaded: &Loaded) -> u64 {
+    let bytes = if loaded.body.faces.len() > 1 {
+        BodyBytes::of(&loaded.body).total()
+    } else {
+        loaded.surveys().iter().map(|survey| survey.bytes.total()).sum()
+    };
+    bytes as u64
 }
 
 fn sizes(text: &str) -> Result<f64, String> {

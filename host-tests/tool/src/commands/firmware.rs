@@ -1,8 +1,13 @@
 //! `palpate firmware`: cargo for the boards.
 
-use crate::firmware::{AnyBoard, Progress, SetUpError, Toolchain};
+use super::bake;
+use super::output::write_whole;
+use crate::firmware::{self, AnyBoard, Place, Progress, SetUpError, Toolchain, choose_body};
+use crate::repository;
 use anyhow::Context;
 use clap::Args;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 /// Runs cargo in a board's folder, with a compiler for its target: set up if it is missing.
@@ -15,6 +20,10 @@ pub struct Arguments {
     /// The board
     #[arg(long, value_enum, default_value_t)]
     board: AnyBoard,
+    /// The body to feel: a model (TOML), or the name of one that ships. It is baked, and its tables are laid where the
+    /// board has room for them
+    #[arg(long, value_name = "MODEL")]
+    body: Option<PathBuf>,
     /// What cargo is to do, such as `build --release` or `clippy`.
     #[arg(required = true, allow_hyphen_values = true)]
     cargo: Vec<String>,
@@ -26,10 +35,62 @@ pub struct Arguments {
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
+    let chosen = match &arguments.body {
+        None => None,
+        Some(model) => Some(chosen(arguments.board, model)?),
+    };
+    if let Some(Chosen { place: None, says, .. }) = &chosen {
+        eprintln!("{says}");
+        return Ok(ExitCode::from(2));
+    }
     let toolchain = Toolchain::set_up(arguments.board.target(), &progress)?;
     let mut command = command(&toolchain, arguments, &progress)?;
+    if let Some(Chosen { file, place: Some(place), .. }) = &chosen {
+        choose_body(&mut command, Some((file, *place)))?;
+    }
     let status = command.current_dir(arguments.board.folder()?).status().with_context(|| format!("{command:?}"))?;
-    Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    if !status.success() {
+        return Ok(ExitCode::FAILURE);
+    }
+    if let Some(chosen) = &chosen {
+        println!("{}", chosen.says);
+    }
+    let is_built = arguments.cargo.iter().any(|argument| argument == "build" || argument == "run");
+    if let (AnyBoard::Bench(board), true) = (arguments.board, is_built && chosen.is_some()) {
+        let image = toolchain.target_folder()?.join(board.target()).join("release").join(board.name());
+        print!("{}", firmware::report(board, &image)?);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A body that was chosen for a board.
+struct Chosen {
+    /// Its baked source.
+    file: PathBuf,
+    /// Where its tables lie; `None` if they do not fit.
+    place: Option<Place>,
+    /// That in words.
+    says: String,
+}
+
+/// Bakes a model for a board.
+fn chosen(board: AnyBoard, model: &Path) -> anyhow::Result<Chosen> {
+    let name = model.file_stem().map_or_else(|| "body".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let out_file = format!("{name}.rs");
+    let baked = bake::baked(model, &out_file)?;
+    let folder = repository::root()?.join("target/firmware/bodies");
+    fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let file = folder.join(out_file);
+    // As it was, cargo has nothing to do.
+    if fs::read_to_string(&file).ok().as_ref() != Some(&baked.source) {
+        write_whole(&file, baked.source.as_bytes())?;
+    }
+    let (place, lies) = match board {
+        // Emulated boards have 4 MB of flash, and no memory that is faster.
+        AnyBoard::Emulated(_) => (Some(Place::Fast), "in flash".to_owned()),
+        AnyBoard::Bench(board) => (board.place(baked.bytes), board.says(baked.bytes)),
+    };
+    Ok(Chosen { file, place, says: format!("{name} on {}: {} bytes of tables {lies}", board.name(), baked.bytes) })
 }
 
 fn command(toolchain: &Toolchain, arguments: &Arguments, progress: &Progress) -> Result<Command, SetUpError> {

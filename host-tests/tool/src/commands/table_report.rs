@@ -1,5 +1,6 @@
 //! What baked tables take in flash, and what is known of their locator.
 
+use crate::firmware::BenchBoard;
 use palpate::body::{
     MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
 };
@@ -41,6 +42,15 @@ pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
     row(&mut report, "borders", sum(|survey| survey.bytes.breaks), "")?;
     row(&mut report, "records", sum(|survey| survey.bytes.record), "")?;
     row(&mut report, "all", sum(|survey| survey.bytes.total()), "bytes of flash on a 32-bit target")?;
+    Ok(report)
+}
+
+/// Where so many bytes of tables would lie on each board for the bench.
+pub(super) fn on_boards(bytes: u64) -> Result<String, Error> {
+    let mut report = String::new();
+    for board in BenchBoard::ALL {
+        writeln!(report, "{:<16} {}", format!("on {}", board.name()), board.says(bytes))?;
+    }
     Ok(report)
 }
 

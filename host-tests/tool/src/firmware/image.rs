@@ -1,7 +1,7 @@
 //! Building the firmware image and measuring it.
 
 use super::process::output;
-use super::{BenchBoard, Board, Progress, SetUpError, Toolchain, Transport};
+use super::{BenchBoard, Board, Place, Progress, SetUpError, Toolchain, Transport};
 use object::{Object, ObjectSection, SectionFlags, SectionKind, elf};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -133,17 +133,32 @@ fn cargo_build(toolchain: &Toolchain, choice: &Choice) -> Result<Command, SetUpE
     Ok(cargo)
 }
 
-/// Builds the program of a board for the bench and gives the ELF file.
+/// A body for a board for the bench: its baked source, and where its tables lie.
+pub type BenchBody<'a> = (&'a Path, Place);
+
+/// Builds the program of a board for the bench, with its own body or another, and gives the ELF file.
 ///
 /// # Errors
 /// What the compiler says.
-pub fn build_bench(board: BenchBoard, progress: &Progress) -> Result<PathBuf, SetUpError> {
+pub fn build_bench(board: BenchBoard, body: Option<BenchBody<'_>>, progress: &Progress) -> Result<PathBuf, SetUpError> {
     let toolchain = Toolchain::set_up(board.target(), progress)?;
     let target_folder = toolchain.target_folder()?;
     let mut cargo = toolchain.cargo();
     cargo.current_dir(board.folder()?).args(["build", "--release", "--target-dir"]).arg(&target_folder);
+    choose_body(&mut cargo, body)?;
     progress.during(&format!("building the firmware for the board {}", board.name()), || output(&mut cargo))?;
     Ok(target_folder.join(board.target()).join("release").join(board.name()))
+}
+
+/// Tells a board's build which body to take.
+pub(crate) fn choose_body(cargo: &mut Command, body: Option<BenchBody<'_>>) -> Result<(), SetUpError> {
+    let Some((file, place)) = body else {
+        cargo.env_remove("PALPATE_BODY").env_remove("PALPATE_TABLES");
+        return Ok(());
+    };
+    cargo.env("PALPATE_BODY", file.canonicalize().map_err(SetUpError::io(file.display()))?);
+    cargo.env("PALPATE_TABLES", if place == Place::Fast { "fast" } else { "flash" });
+    Ok(())
 }
 
 /// Adds up the sections that the linker gave an address.

@@ -23,8 +23,6 @@ impl Table {
         "fault_tick",
         "reset",
         "overruns",
-        "bridged",
-        "hold",
         "feature",
         "mode",
         "contact",
@@ -40,6 +38,8 @@ impl Table {
         "duty_b",
         "duty_c",
         "clock",
+        "bridged",
+        "hold",
     ];
 
     /// A new file, in place of any that was there.
@@ -64,7 +64,6 @@ impl Table {
         row.push(record.dropped.to_string());
         row.extend([record.phase, record.fault].map(|number| number.to_string()));
         row.extend([record.fault_tick, u32::from(record.reset), record.overruns].map(|number| number.to_string()));
-        row.extend([record.bridged, u32::from(record.hold)].map(|number| number.to_string()));
         row.push(record.feature.to_string());
         row.extend([record.mode, record.contact].map(|number| number.to_string()));
         row.push(record.gap.to_string());
@@ -72,6 +71,7 @@ impl Table {
         row.push(figures.force().to_string());
         row.extend(record.duties.map(|duty| duty.to_string()));
         row.push(record.clock.to_string());
+        row.extend([record.bridged, u32::from(record.hold)].map(|number| number.to_string()));
         self.0.write_record(row)
     }
 

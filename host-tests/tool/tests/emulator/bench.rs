@@ -2,8 +2,14 @@
 
 use crate::running::is_wanted;
 use object::{Object, ObjectSymbol};
-use palpate_tool::firmware::{BenchBoard, Progress, build_bench};
+use palpate_tool::cache;
+use palpate_tool::firmware::{BenchBoard, Place, Progress, build_bench, report};
 use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// A board's image lies in one place, whatever its body: who builds one reads it before the next is built.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// The interrupt that the servo runs in.
 const fn interrupt(board: BenchBoard) -> &'static str {
@@ -28,8 +34,9 @@ fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest(
     if !is_wanted("the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest") {
         return;
     }
+    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     for board in BenchBoard::ALL {
-        let elf = build_bench(board, &Progress::new()).unwrap();
+        let elf = build_bench(board, None, &Progress::new()).unwrap();
         let content = fs::read(&elf).unwrap();
         let file = object::File::parse(content.as_slice()).unwrap();
         let functions: Vec<(String, u64, u64)> = file
@@ -59,4 +66,84 @@ fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest(
         let main: u64 = main.sum();
         assert!(main > 4_000, "{board:?}: a main of {main} bytes never comes to its loop");
     }
+}
+
+/// The numbers of a line of a memory map: name, first address, bytes.
+fn region(line: &str) -> Option<(&str, u64, u64)> {
+    let (name, rest) = line.trim().split_once(':')?;
+    let (origin, length) = rest.trim().strip_prefix("ORIGIN = 0x")?.split_once(", LENGTH = ")?;
+    let (number, unit) = length.split_at(length.len() - 1);
+    let unit = match unit {
+        "K" => 1 << 10,
+        "M" => 1 << 20,
+        _ => return None,
+    };
+    Some((name.trim(), u64::from_str_radix(origin, 16).ok()?, number.parse::<u64>().ok()? * unit))
+}
+
+#[test]
+fn the_memories_of_a_board_are_those_of_its_memory_map() {
+    for board in [BenchBoard::Stm32g4, BenchBoard::Pico2] {
+        let map = fs::read_to_string(board.folder().unwrap().join("memory.x")).unwrap();
+        let regions: Vec<_> = map.lines().filter_map(region).collect();
+        for memory in board.memories() {
+            assert!(regions.contains(&(memory.name, memory.start, memory.bytes)), "{board:?}: {memory:?} {regions:?}");
+        }
+        // What is copied from flash needs its image there.
+        assert!(regions.iter().any(|(name, ..)| *name == "IMAGES"));
+    }
+}
+
+#[test]
+fn a_body_lies_in_the_fastest_memory_while_it_fits_then_in_flash_and_is_refused_beyond() {
+    let places = |bytes: u64| BenchBoard::ALL.map(|board| board.place(bytes));
+    assert_eq!(places(7_160), [Some(Place::Fast); 3]);
+    // A part of 250 KB.
+    assert_eq!(places(250 << 10), [Some(Place::Flash), Some(Place::Fast), Some(Place::Fast)]);
+    assert_eq!(places(400 << 10), [None, Some(Place::Flash), Some(Place::Flash)]);
+    let says = BenchBoard::Stm32g4.says(400 << 10);
+    assert_eq!(says, "do not fit: 400.0 KB of tables, and room for 352.0 KB in flash");
+}
+
+#[test]
+fn every_board_takes_a_small_body_and_a_large_one_and_the_tables_lie_where_it_says() {
+    if !is_wanted("every_board_takes_a_small_body_and_a_large_one_and_the_tables_lie_where_it_says") {
+        return;
+    }
+    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["capped_box", "teapot"] {
+        let (file, tables) = baked(name, folder.path());
+        for board in BenchBoard::ALL {
+            let place = board.place(tables).unwrap();
+            let elf = build_bench(board, Some((&file, place)), &Progress::new()).unwrap();
+            let said = report(board, &elf).unwrap();
+            println!("{} {name}\n{said}", board.name());
+            let lines: Vec<&str> = said.lines().filter(|line| line.contains("  tables")).collect();
+            let in_flash = lines.iter().any(|line| line.contains("FLASH"));
+            assert_eq!(in_flash, place == Place::Flash, "{board:?}: {said}");
+            // All of them but the record of the body, which is a constant of the code.
+            let bytes: u64 =
+                lines.iter().map(|line| line.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap()).sum();
+            assert!((tables - 100..=tables).contains(&bytes), "{board:?}: {bytes} of {tables} bytes");
+        }
+    }
+}
+
+/// A shipped model's baked source, and the bytes of its tables.
+fn baked(name: &str, folder: &Path) -> (PathBuf, u64) {
+    let file = palpate_tool::models::ModelFile::read(Path::new(name)).unwrap();
+    let model = file.model().unwrap();
+    let body = palpate_bake::BakedBody::new(&model, &file.label).unwrap();
+    let body = cache::located(body.clone(), &file.text, &body.locator_options(), None, &|_, _| ()).unwrap();
+    let out_file = format!("{name}.rs");
+    let origin = palpate_bake::source::Origin {
+        model_file: &file.name,
+        out_file: &out_file,
+        model: file.text.as_bytes(),
+        centre: model.centre,
+    };
+    let path = folder.join(&out_file);
+    fs::write(&path, palpate_bake::source::source(&origin, &model, &body).unwrap()).unwrap();
+    (path, palpate_bake::body::BodyBytes::of(&body).total() as u64)
 }

@@ -1,0 +1,161 @@
+//! The memories of the boards for the bench: where a body's tables would lie, and where the linker put everything.
+
+use super::{BenchBoard, SetUpError};
+use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind, elf};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+/// A memory of a chip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Memory {
+    /// Its name, as the board's memory map has it.
+    pub name: &'static str,
+    /// Its first address.
+    pub start: u64,
+    /// Its bytes.
+    pub bytes: u64,
+    /// What it is.
+    pub kind: &'static str,
+}
+
+/// Where a body's tables lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// All in the fastest memory.
+    Fast,
+    /// In flash, behind its cache, as far as the board does not find room for some of them in faster memory.
+    Flash,
+}
+
+const KB: u64 = 1_024;
+
+const fn memory(name: &'static str, start: u64, bytes: u64, kind: &'static str) -> Memory {
+    Memory { name, start, bytes, kind }
+}
+
+impl BenchBoard {
+    /// Its memories. A test compares them with the board's memory map.
+    pub const fn memories(self) -> &'static [Memory] {
+        const STM32G4: &[Memory] = &[
+            memory("CCM", 0x1000_0000, 32 * KB, "core-coupled RAM"),
+            memory("RAM", 0x2000_0000, 24 * KB, "RAM"),
+            memory("TABLES", 0x2000_6000, 72 * KB, "RAM"),
+            memory("FLASH", 0x0800_0000, 384 * KB, "flash"),
+        ];
+        const PICO2: &[Memory] = &[
+            memory("RAM", 0x2000_0000, 64 * KB, "RAM"),
+            memory("FAST", 0x2001_0000, 448 * KB, "RAM"),
+            memory("FLASH", 0x1000_0000, 3 * KB * KB, "flash"),
+        ];
+        const TEENSY41: &[Memory] = &[
+            memory("ITCM", 0x0000_0000, 192 * KB, "core-coupled RAM for code"),
+            memory("DTCM", 0x2000_0000, 320 * KB, "core-coupled RAM for data"),
+            memory("FLASH", 0x6000_0000, 7_936 * KB, "flash"),
+        ];
+        match self {
+            Self::Stm32g4 => STM32G4,
+            Self::Pico2 => PICO2,
+            Self::Teensy41 => TEENSY41,
+        }
+    }
+
+    /// Bytes of tables that its fastest memory has room for, and its flash: what the loop and its largest body's code
+    /// need is left out.
+    const fn room(self) -> [u64; 2] {
+        match self {
+            // 16 KB of TABLES for code that CCM does not take and for constants; 32 KB of flash for the program.
+            Self::Stm32g4 => [56 * KB, 352 * KB],
+            // 64 KB for code.
+            Self::Pico2 => [384 * KB, (3 * KB - 64) * KB],
+            // 32 KB of stack, 16 KB of variables and constants.
+            Self::Teensy41 => [272 * KB, (7_936 - 256) * KB],
+        }
+    }
+
+    /// Where so many bytes of tables lie on this board; `None` if they do not fit.
+    pub const fn place(self, tables: u64) -> Option<Place> {
+        let [fast, flash] = self.room();
+        if tables <= fast {
+            Some(Place::Fast)
+        } else if tables <= flash {
+            Some(Place::Flash)
+        } else {
+            None
+        }
+    }
+
+    /// [`Self::place`], in a sentence.
+    pub fn says(self, tables: u64) -> String {
+        let [fast, flash] = self.room();
+        let kb = |bytes: u64| format!("{:.1} KB", bytes as f64 / KB as f64);
+        match self.place(tables) {
+            Some(Place::Fast) => format!("in the fastest memory, which has room for {}", kb(fast)),
+            Some(Place::Flash) => {
+                format!("in flash, behind its cache: the fastest memory has room for {} of {}", kb(fast), kb(tables))
+            }
+            None => format!("do not fit: {} of tables, and room for {} in flash", kb(tables), kb(flash)),
+        }
+    }
+}
+
+/// What an image of a board takes of each of its memories, and where the body's tables lie.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn report(board: BenchBoard, image: &Path) -> Result<String, SetUpError> {
+    let content = fs::read(image).map_err(SetUpError::io(image.display()))?;
+    let refused = |reason: &str| SetUpError::Image { path: image.to_path_buf(), reason: reason.to_owned() };
+    let file = object::File::parse(content.as_slice()).map_err(|error| refused(&error.to_string()))?;
+    let taken = |memory: &Memory| -> u64 {
+        let is_in = |address: u64| (memory.start..memory.start + memory.bytes).contains(&address);
+        let sections = file.sections().filter(|section| is_in(section.address()));
+        sections.filter(|section| is_loaded(&section.flags())).map(|section| section.size()).sum()
+    };
+    // What is copied before main lies in flash once more.
+    let images: u64 = file
+        .sections()
+        .filter(|section| is_loaded(&section.flags()) && section.kind() != SectionKind::UninitializedData)
+        .filter(|section| {
+            board.memories().iter().all(|memory| memory.kind != "flash" || !memory.holds(section.address()))
+        })
+        .filter(|section| section.name().is_ok_and(|name| name != ".stack"))
+        .map(|section| section.size())
+        .sum();
+    let mut text = String::new();
+    for memory in board.memories() {
+        let copies = if memory.kind == "flash" { format!(", and {images} of images for RAM") } else { String::new() };
+        let _ = writeln!(
+            text,
+            "  {:<7} {:>8} of {:>8} bytes  {}{copies}",
+            memory.name,
+            taken(memory),
+            memory.bytes,
+            memory.kind
+        );
+    }
+    let tables: Vec<(u64, u64)> = file
+        .symbols()
+        .filter(|symbol| {
+            symbol.name().is_ok_and(|name| rustc_demangle::demangle(name).to_string().contains("felt::tables::"))
+        })
+        .map(|symbol| (symbol.address(), symbol.size()))
+        .collect();
+    for memory in board.memories() {
+        let bytes: u64 = tables.iter().filter(|(address, _)| memory.holds(*address)).map(|(_, bytes)| bytes).sum();
+        if bytes > 0 {
+            let _ = writeln!(text, "  tables  {bytes:>8} bytes in {} ({})", memory.name, memory.kind);
+        }
+    }
+    Ok(text)
+}
+
+impl Memory {
+    const fn holds(&self, address: u64) -> bool {
+        self.start <= address && address < self.start + self.bytes
+    }
+}
+
+fn is_loaded(flags: &SectionFlags) -> bool {
+    matches!(flags, SectionFlags::Elf { sh_flags, .. } if *sh_flags & elf::SHF_ALLOC == elf::SHF_ALLOC)
+}
