@@ -10,8 +10,9 @@ use stm32g4xx_hal::stm32::{FLASH, GPIOA, GPIOC, PWR, RCC, TIM1};
 /// 16 MHz / 4 · 85 / 2: the most that the chip takes.
 pub const CLOCK: u32 = 170_000_000;
 
-/// What was left to be known after the next reset.
+/// What was left to be known after the next reset. Used, whatever the compiler thinks that it knows of its first value.
 #[unsafe(link_section = ".uninit.MEMO")]
+#[used]
 pub static MEMO: MemoCell = MemoCell::new();
 
 /// Sets the clocks, and gives why the chip was reset.

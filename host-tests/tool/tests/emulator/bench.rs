@@ -1,7 +1,7 @@
 //! The boards for the bench cannot be run here. They build, and what their memory maps promise holds.
 
 use crate::running::is_wanted;
-use object::{Object, ObjectSymbol};
+use object::{Object, ObjectSection, ObjectSymbol};
 use palpate_tool::cache;
 use palpate_tool::firmware::{BenchBoard, Place, Progress, build_bench, report};
 use std::fs;
@@ -146,4 +146,33 @@ fn baked(name: &str, folder: &Path) -> (PathBuf, u64) {
     let path = folder.join(&out_file);
     fs::write(&path, palpate_bake::source::source(&origin, &model, &body).unwrap()).unwrap();
     (path, palpate_bake::body::BodyBytes::of(&body).total() as u64)
+}
+
+#[test]
+fn every_vector_of_a_board_is_its_tick_its_start_or_a_stop() {
+    if !is_wanted("every_vector_of_a_board_is_its_tick_its_start_or_a_stop") {
+        return;
+    }
+    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    for board in BenchBoard::ALL {
+        let elf = build_bench(board, None, &Progress::new()).unwrap();
+        let content = fs::read(&elf).unwrap();
+        let file = object::File::parse(content.as_slice()).unwrap();
+        let address = |name: &str| {
+            let symbol = file.symbols().find(|symbol| symbol.name() == Ok(name));
+            symbol.map(|symbol| symbol.address() | 1)
+        };
+        // The last one is the default of cortex-m-rt, which loops with the motors as they are.
+        assert_eq!(address("DefaultHandler_"), None, "{board:?}");
+        let stops = ["HardFault", "NonMaskableInt", "DefaultHandler"].map(|name| address(name).expect(name));
+        let [tick, reset] = [interrupt(board), "Reset"].map(|name| address(name).expect(name));
+        let table = file.section_by_name(".vector_table").unwrap();
+        let words = table.data().unwrap().chunks_exact(4);
+        let vectors: Vec<u64> = words.map(|word| u32::from_le_bytes(word.try_into().unwrap()).into()).skip(1).collect();
+        assert_eq!(vectors.iter().filter(|vector| **vector | 1 == tick).count(), 1, "{board:?}");
+        for (number, vector) in (1..).zip(vectors) {
+            let known = vector == 0 || stops.contains(&(vector | 1)) || [tick, reset].contains(&(vector | 1));
+            assert!(known, "{board:?}: vector {number} leads to {vector:#x}");
+        }
+    }
 }
