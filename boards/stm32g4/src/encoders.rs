@@ -10,7 +10,7 @@ pub type Pins = ((PA0<AF1>, PA1<AF1>), (PC6<AF2>, PC7<AF2>), (PB6<AF2>, PB7<AF2>
 
 /// Eight samples at an eighth of the timer's clock have to agree: 0.38 µs, against spikes of the motors. An edge of the
 /// fastest hand, 25 rad/s at 16 : 1 and 2,000 counts, lasts 7.8 µs. (RM0440, "TIMx_CCMR1, input capture", IC1F.)
-const FILTER: u8 = 0b0111;
+const FILTER: u8 = 0b1001;
 
 /// The three encoders.
 pub struct Encoders {

@@ -6,7 +6,9 @@ use crate::firmware::{Board, Emulator, Program, Progress};
 use crate::monitor::{Figures, Monitor, Table};
 use crate::simulation;
 use anyhow::{Context, bail};
-use clap::Args;
+use clap::{Args, ValueEnum};
+use palpate::wire::Command;
+use palpate::wire::frame::{self, MAX_FRAME};
 use std::io::{self, ErrorKind, IsTerminal, Read, Write, stdout};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -24,6 +26,9 @@ pub struct Arguments {
     /// The port's speed
     #[arg(long, default_value_t = 500_000)]
     baud: u32,
+    /// Sends the device a command first
+    #[arg(long, value_enum, value_name = "COMMAND", conflicts_with = "emulator")]
+    send: Option<Sent>,
     /// An emulated board with a simulated hand, instead of a device
     #[arg(long, value_enum)]
     emulator: Option<Board>,
@@ -35,6 +40,24 @@ pub struct Arguments {
     ends_after: Option<f64>,
     #[command(flatten)]
     scene: SceneOptions,
+}
+
+/// What can be sent to a device that runs by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Sent {
+    /// Stop; latched
+    Stop,
+    /// Go on after a reset by the watchdog or a brown-out
+    Acknowledge,
+}
+
+impl Sent {
+    const fn command(self) -> Command {
+        match self {
+            Self::Stop => Command::Stop,
+            Self::Acknowledge => Command::Acknowledge,
+        }
+    }
 }
 
 /// How long to wait for bytes before looking at the clock.
@@ -54,6 +77,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     } else if let Some(path) = &arguments.port {
         let port = serialport::new(path, arguments.baud).timeout(PATIENCE).open();
         let mut port = port.with_context(|| format!("cannot open the serial port {path}"))?;
+        if let Some(sent) = arguments.send {
+            let mut buffer = [0; MAX_FRAME];
+            let frame = frame::pack(&sent.command(), &mut buffer)?;
+            port.write_all(frame).with_context(|| format!("cannot write to the serial port {path}"))?;
+        }
         view.watch(&mut port)?;
     } else {
         bail!("either --port or --emulator");

@@ -67,7 +67,7 @@ fn a_reset_by_the_watchdog_or_a_brown_out_stays_safe_until_it_is_acknowledged() 
         rig.set(|world| world.stop_open = true);
         rig.ticks_off(10);
         rig.set(|world| world.stop_open = false);
-        for pressed in [true, false, true] {
+        for pressed in [false, true, false, true] {
             rig.set(|world| world.button = pressed);
             rig.ticks_off(1_000);
             assert_eq!((rig.fault(), rig.state().reset()), (Some(fault), reset));

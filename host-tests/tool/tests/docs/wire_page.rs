@@ -5,7 +5,7 @@
 //! tables anew.
 
 use palpate::wire::frame::{MAX_FRAME, pack};
-use palpate::wire::{Record, Report, Sensors};
+use palpate::wire::{Command, Record, Report, Sensors};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -226,7 +226,8 @@ fn every_byte_of_a_frame_is_documented() {
 
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/wire.md");
     let page = fs::read_to_string(&path).expect("the page is there");
-    let sections = [("Sensors", sensors), ("Report", report), ("Record", record)];
+    let command = documented(&Command::Acknowledge, &[vars("command", 2)]);
+    let sections = [("Sensors", sensors), ("Report", report), ("Record", record), ("Command", command)];
     let wanted = sections.iter().fold(page.clone(), |page, (title, section)| with_section(&page, title, section));
     if env::var_os("PALPATE_WRITE").is_some() {
         fs::write(&path, &wanted).expect("the page can be written");
