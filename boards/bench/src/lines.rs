@@ -9,6 +9,25 @@ pub trait Supply {
     fn volts(&mut self) -> Option<f32>;
 }
 
+/// What brings the supply down to what a converter takes: two resistors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Divider {
+    volts_per_count: f32,
+}
+
+impl Divider {
+    /// A converter that reads `counts` at `full` volts, behind a resistor to the supply and one to ground, Ω.
+    pub const fn new(counts: u16, full: f32, to_supply: f32, to_ground: f32) -> Self {
+        Self { volts_per_count: full * (to_supply + to_ground) / to_ground / counts as f32 }
+    }
+
+    /// The supply, V, of a reading.
+    #[inline]
+    pub fn volts(self, reading: u16) -> f32 {
+        f32::from(reading) * self.volts_per_count
+    }
+}
+
 /// A board that does not measure the supply.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoSupply;

@@ -5,17 +5,19 @@ use crate::{Board, Counter, Drives, Lines, NotObeyed, Panel, Supply};
 use embedded_hal::digital::{InputPin, OutputPin, PinState};
 use palpate::device::{Counts, Duty};
 
-/// The counter that times ticks, and the timer that raises them.
-pub trait Clock: Counter {
+/// The timer that raises ticks.
+pub trait Timer {
     /// Takes the timer's interrupt back.
     fn acknowledge(&mut self);
 }
 
-/// A board's parts: clock, sensors, drives, lines and light.
+/// A board's parts.
 #[derive(Debug)]
-pub struct Parts<C, S, D, E, T, R, V, L, const AMPLIFIERS: usize> {
-    /// Counter and timer.
-    pub clock: C,
+pub struct Parts<C, I, S, D, E, T, R, V, L, const AMPLIFIERS: usize> {
+    /// What ticks are timed with.
+    pub counter: C,
+    /// What raises them.
+    pub timer: I,
     /// The joints' sensors, started.
     pub sensors: S,
     /// The motors' drives, released.
@@ -26,10 +28,11 @@ pub struct Parts<C, S, D, E, T, R, V, L, const AMPLIFIERS: usize> {
     pub light: L,
 }
 
-impl<C, S, D, E, T, R, V, L, const JOINTS: usize, const AMPLIFIERS: usize> Board<JOINTS>
-    for Parts<C, S, D, E, T, R, V, L, AMPLIFIERS>
+impl<C, I, S, D, E, T, R, V, L, const JOINTS: usize, const AMPLIFIERS: usize> Board<JOINTS>
+    for Parts<C, I, S, D, E, T, R, V, L, AMPLIFIERS>
 where
-    C: Clock,
+    C: Counter,
+    I: Timer,
     S: Sensors<JOINTS>,
     D: Drives<JOINTS>,
     E: InputPin,
@@ -40,12 +43,12 @@ where
 {
     #[inline]
     fn now(&self) -> u32 {
-        self.clock.now()
+        self.counter.now()
     }
 
     #[inline]
     fn acknowledge(&mut self) {
-        self.clock.acknowledge();
+        self.timer.acknowledge();
     }
 
     #[inline]

@@ -11,6 +11,11 @@ pub struct SupplyRange {
     pub most: f32,
 }
 
+impl SupplyRange {
+    /// A supply of 24 V that is on, and does not break down.
+    pub const TWENTY_FOUR: Self = Self { least: 20.0, most: 30.0 };
+}
+
 /// The settings of the loop. Begin with [`Settings::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {

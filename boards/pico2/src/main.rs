@@ -14,7 +14,7 @@ mod felt;
 mod pins;
 mod port;
 mod supply;
-mod time;
+mod ticks;
 
 use cortex_m::peripheral::NVIC;
 use palpate::device::drive::HBridge;
@@ -22,7 +22,7 @@ use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Angles, greatest_step};
-use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Parts, Settings, Switched};
+use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Parts, Settings, SupplyRange, Switched};
 use palpate_cortex::{Cycles, HandOver};
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock, init_clocks_and_plls};
@@ -39,9 +39,9 @@ use crate::chip::{CLOCK, CRYSTAL};
 use crate::felt::This;
 use crate::pins::Board;
 use crate::supply::Volts;
-use crate::time::Time;
+use crate::ticks::Ticks;
 
-const BENCH: Settings = Settings { supply: Some(supply::RANGE), ..Settings::new(CLOCK) };
+const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
 /// The loop on its way from main to the interrupt, and what passes between them afterwards.
 static HANDED_OVER: HandOver<Bench<'static, This, Board, 3>> = HandOver::new();
 static MAILBOX: Mailbox = Mailbox::new();
@@ -116,7 +116,8 @@ fn main() -> ! {
     let Ok(uart) = uart.enable(settings, speed) else { panic!("150 MHz make 500,000 baud") };
     let Ok(supply_pin) = AdcPin::new(pins.gpio26.reconfigure()) else { panic!("GP26 is a pin of the converter") };
     let board = Parts {
-        clock: Time::start(cycles, slices.pwm0),
+        counter: cycles,
+        timer: Ticks::start(slices.pwm0),
         sensors,
         drives: Switched::new(bridges, enable),
         lines: Lines {

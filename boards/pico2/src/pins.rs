@@ -13,7 +13,7 @@ use rp235x_hal::spi::{Enabled, Spi};
 
 use crate::chip::CLOCK;
 use crate::supply::Volts;
-use crate::time::Time;
+use crate::ticks::Ticks;
 
 /// 20 kHz for the motors: a fifth of a tick, so that a reversal's one tick at no width is long enough.
 const MOTOR_PERIOD: u16 = (CLOCK / 20_000 - 1) as u16;
@@ -30,7 +30,7 @@ type Bridge<S> = HBridge<Channel<Slice<S, FreeRunning>, A>, Output>;
 type Drives = Switched<(Bridge<Pwm5>, Bridge<Pwm6>, Bridge<Pwm7>), Output>;
 type Sensors = Angles<Bus, Output, CycleDelay<Cycles>, 3>;
 /// All of them.
-pub type Board = Parts<Time, Sensors, Drives, Switch, Switch, Ready, Volts, Output, 3>;
+pub type Board = Parts<Cycles, Ticks, Sensors, Drives, Switch, Switch, Ready, Volts, Output, 3>;
 
 /// A slice that runs.
 type Running<S> = Slice<S, FreeRunning>;

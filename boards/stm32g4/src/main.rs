@@ -21,7 +21,7 @@ mod set_points;
 #[path = "pulse_width.rs"]
 mod set_points;
 mod supply;
-mod time;
+mod ticks;
 
 use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
@@ -29,7 +29,7 @@ use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Counters, greatest_step};
-use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Memo, Parts, Settings};
+use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Memo, Parts, Settings, SupplyRange};
 use palpate_cortex::{Cycles, HandOver};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
@@ -43,12 +43,12 @@ use crate::encoders::Encoders;
 use crate::felt::This;
 use crate::set_points::{Drives, Light};
 use crate::supply::Volts;
-use crate::time::Time;
+use crate::ticks::Ticks;
 
-const BENCH: Settings = Settings { supply: Some(supply::RANGE), ..Settings::new(CLOCK) };
+const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
 
 type Pin = AnyPin<Input>;
-type Board = Parts<Time, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
+type Board = Parts<Cycles, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
 
 /// The loop on its way from main to the interrupt, and what passes between them afterwards.
 static HANDED_OVER: HandOver<Bench<'static, This, Board, 3>> = HandOver::new();
@@ -115,7 +115,8 @@ fn main() -> ! {
     let mut port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
 
     let board = Parts {
-        clock: Time::start(cycles, chip.TIM7, &rcc),
+        counter: cycles,
+        timer: Ticks::start(chip.TIM7, &rcc),
         sensors: Counters::new(encoders, steps),
         drives,
         lines: Lines {

@@ -1,17 +1,15 @@
 //! The motors' supply, by the converter.
 
 use embedded_hal::delay::DelayNs;
-use palpate_bench::{Supply, SupplyRange};
+use palpate_bench::{Divider, Supply};
 use stm32g4xx_hal::adc::config::{AdcConfig, SampleTime};
 use stm32g4xx_hal::adc::{Adc, AdcClaim, AdcCommonExt, Configured};
 use stm32g4xx_hal::gpio::{Analog, PB1};
 use stm32g4xx_hal::rcc::Rcc;
 use stm32g4xx_hal::stm32::{ADC1, ADC12_COMMON};
 
-/// Volts at full scale: 3.3 V, behind 100 kΩ and 10 kΩ.
-const FULL: f32 = 3.3 * 11.0;
-/// A supply of 24 V that is on, and does not break down.
-pub const RANGE: SupplyRange = SupplyRange { least: 20.0, most: 30.0 };
+/// 12 bits of 3.3 V, behind 100 kΩ and 10 kΩ.
+const DIVIDER: Divider = Divider::new(4_095, 3.3, 100e3, 10e3);
 
 /// The converter and its pin.
 pub struct Volts {
@@ -38,6 +36,6 @@ impl Supply for Volts {
     #[inline]
     fn volts(&mut self) -> Option<f32> {
         let reading = self.converter.convert(&self.pin, SampleTime::Cycles_24_5);
-        Some(f32::from(reading) * (FULL / 4_095.0))
+        Some(DIVIDER.volts(reading))
     }
 }

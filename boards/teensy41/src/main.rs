@@ -14,7 +14,7 @@ mod felt;
 mod port;
 mod pulse_width;
 mod supply;
-mod time;
+mod ticks;
 mod watchdog;
 
 use cortex_m::peripheral::NVIC;
@@ -24,7 +24,7 @@ use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Angles, greatest_step};
-use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Parts, Settings};
+use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Parts, Settings, SupplyRange};
 use palpate_cortex::{Cycles, HandOver};
 use teensy4_bsp::board::{self, ARM_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
@@ -37,14 +37,14 @@ use crate::body::{DEVICE, SETTINGS};
 use crate::felt::This;
 use crate::pulse_width::{DWELL, PulseWidth};
 use crate::supply::Volts;
-use crate::time::Time;
+use crate::ticks::Ticks;
 use crate::watchdog::Bowl;
 
-const BENCH: Settings = Settings { supply: Some(supply::RANGE), ..Settings::new(ARM_FREQUENCY) };
+const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(ARM_FREQUENCY) };
 
 type Sensors = Angles<Lpspi, Output, CycleDelay<Cycles>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
-type Board = Parts<Time, Sensors, [Amplifier; 3], Input, Input, Input, Volts, Output, 3>;
+type Board = Parts<Cycles, Ticks, Sensors, [Amplifier; 3], Input, Input, Input, Volts, Output, 3>;
 
 /// The loop on its way from main to the interrupt, and what passes between them afterwards.
 static HANDED_OVER: HandOver<Bench<'static, This, Board, 3>> = HandOver::new();
@@ -132,7 +132,7 @@ fn main() -> ! {
         ready: [ready_a, ready_b, ready_c],
         supply: Volts::new(adc1, supply),
     };
-    let board = Parts { clock: Time::start(cycles, pit), sensors, drives, lines, light };
+    let board = Parts { counter: cycles, timer: Ticks::start(pit), sensors, drives, lines, light };
     let (producer, records) = QUEUE.split();
     HANDED_OVER.give(Bench::new(This, board, &BENCH, flags.reason(memo), producer, &MAILBOX));
     chip::remember(Cause::Running);

@@ -1,12 +1,10 @@
 //! The motors' supply, by the converter.
 
-use palpate_bench::{Supply, SupplyRange};
+use palpate_bench::{Divider, Supply};
 use teensy4_bsp::hal::adc::{Adc, AnalogInput, AveragingCount, ResolutionBits};
 
-/// Volts at full scale: 3.3 V, behind 100 kΩ and 10 kΩ.
-const FULL: f32 = 3.3 * 11.0;
-/// A supply of 24 V that is on, and does not break down.
-pub const RANGE: SupplyRange = SupplyRange { least: 20.0, most: 30.0 };
+/// 12 bits of 3.3 V, behind 100 kΩ and 10 kΩ.
+const DIVIDER: Divider = Divider::new(4_095, 3.3, 100e3, 10e3);
 
 /// The converter and its pin.
 pub struct Volts {
@@ -28,6 +26,6 @@ impl Supply for Volts {
     #[inline]
     fn volts(&mut self) -> Option<f32> {
         let reading = self.converter.read_blocking(&mut self.input);
-        Some(f32::from(reading) * (FULL / 4_095.0))
+        Some(DIVIDER.volts(reading))
     }
 }

@@ -6,7 +6,7 @@ use embedded_hal_mock::eh1::pwm::{Mock as Width, Transaction as WidthStep};
 use palpate::device::drive::{HBridge, SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Duty};
 use palpate_bench::sensors::{BadFrame, Counters, Readings};
-use palpate_bench::{Board, Clock, Counter, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Switched};
+use palpate_bench::{Board, Counter, Divider, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Switched, Timer};
 use std::io::ErrorKind;
 
 struct Still;
@@ -17,7 +17,7 @@ impl Counter for Still {
     }
 }
 
-impl Clock for Still {
+impl Timer for Still {
     fn acknowledge(&mut self) {}
 }
 
@@ -88,7 +88,8 @@ fn done(amplifier: SetPointDrive<Width, Pin>) {
 fn amplifiers_are_enabled_behind_their_set_points_and_disabled_before_them() {
     let steps = [PinStep::set(State::High), PinStep::set(State::Low)];
     let mut board = Parts {
-        clock: Still,
+        counter: Still,
+        timer: Still,
         sensors: Counters::new(Three([10, 20, 30]), [5; 3]),
         drives: [amplifier(&[500, 500], &steps), amplifier(&[900, 500], &steps), amplifier(&[100, 500], &steps)],
         lines: Lines {
@@ -176,4 +177,12 @@ impl Readings<3> for Jumping {
         self.0 += 6;
         now
     }
+}
+
+#[test]
+fn a_divider_gives_the_supply_of_a_reading() {
+    // 24 V through 100 kΩ and 10 kΩ are 2.1818 V: 2,707.4 of 4,095 at 3.3 V.
+    let divider = Divider::new(4_095, 3.3, 100e3, 10e3);
+    assert!((divider.volts(2_707) - 24.0).abs() < 0.01 && divider.volts(0) == 0.0);
+    assert!((divider.volts(4_095) - 36.3).abs() < 1e-3);
 }

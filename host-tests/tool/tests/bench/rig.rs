@@ -10,7 +10,7 @@ use palpate::servo::{Fault, Phase, ResetReason, Servo, ServoState};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, greatest_step};
-use palpate_bench::{Bench, Clock, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, SupplyRange};
+use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, SupplyRange, Timer};
 use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -152,7 +152,10 @@ impl Counter for SimulatedClock {
     }
 }
 
-impl Clock for SimulatedClock {
+/// A timer whose interrupts the test is.
+pub struct Interrupts;
+
+impl Timer for Interrupts {
     fn acknowledge(&mut self) {}
 }
 
@@ -201,7 +204,7 @@ impl Sensors<3> for Spoilt {
 }
 
 type Amplifier = SetPointDrive<Width, Out>;
-pub type SimulatedBoard = Parts<SimulatedClock, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
+pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
 
 /// A servo that a test made.
 pub struct Made<K: 'static>(Servo<'static, SplinePatch, K, 3>);
@@ -223,12 +226,9 @@ pub struct Rig<K: Kinematics<3> + 'static> {
     records: Option<Consumer<'static, Record>>,
 }
 
-/// The supply that the rig's loop takes.
-pub const SUPPLY: SupplyRange = SupplyRange { least: 20.0, most: 30.0 };
-
 /// The loop's settings on the rig.
 pub fn settings() -> Settings {
-    Settings { supply: Some(SUPPLY), ..Settings::new(CLOCK) }
+    Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) }
 }
 
 /// A hand that comes down on its place from 10 mm above it within 20 ms, for what begins inside a wall is not touched.
@@ -298,7 +298,8 @@ impl<K: Kinematics<3> + 'static> Rig<K> {
             SetPointDrive::new(Width(of(), joint), Out(of(), enables[joint]), SetPointRange::TEN_TO_NINETY)
         };
         let board = Parts {
-            clock: SimulatedClock(of()),
+            counter: SimulatedClock(of()),
+            timer: Interrupts,
             sensors: Spoilt { world: of(), counters: Counters::new(Timers(of()), steps), ahead: None },
             drives: [amplifier(0), amplifier(1), amplifier(2)],
             lines: Lines {

@@ -169,9 +169,10 @@ fn every_vector_of_a_board_is_its_tick_its_start_or_a_stop() {
         let table = file.section_by_name(".vector_table").unwrap();
         let words = table.data().unwrap().chunks_exact(4);
         let vectors: Vec<u64> = words.map(|word| u32::from_le_bytes(word.try_into().unwrap()).into()).skip(1).collect();
-        assert_eq!(vectors.iter().filter(|vector| **vector | 1 == tick).count(), 1, "{board:?}");
+        // A vector of the Teensy may lead to the first function of all, at 0: its lowest bit is set all the same.
+        assert_eq!(vectors.iter().filter(|vector| **vector == tick).count(), 1, "{board:?}");
         for (number, vector) in (1..).zip(vectors) {
-            let known = vector == 0 || stops.contains(&(vector | 1)) || [tick, reset].contains(&(vector | 1));
+            let known = vector == 0 || stops.contains(&vector) || [tick, reset].contains(&vector);
             assert!(known, "{board:?}: vector {number} leads to {vector:#x}");
         }
     }

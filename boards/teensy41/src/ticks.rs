@@ -1,7 +1,6 @@
-//! The counter that times ticks, and the periodic timer (PIT) that raises them.
+//! The periodic timer (PIT) that raises ticks.
 
-use palpate_bench::{Clock, Counter};
-use palpate_cortex::Cycles;
+use palpate_bench::Timer;
 use teensy4_bsp::board::PERCLK_FREQUENCY;
 use teensy4_bsp::hal::pit::{Channel::Chan0, Pit};
 
@@ -10,30 +9,22 @@ use crate::body::SETTINGS;
 /// Counts of the periodic timer a tick.
 const PERIOD: u32 = (PERCLK_FREQUENCY as f32 / SETTINGS.rate) as u32;
 
-/// Both.
-pub struct Time {
-    cycles: Cycles,
+/// It, running.
+pub struct Ticks {
     timer: Pit,
 }
 
-impl Time {
+impl Ticks {
     /// Starts the timer; its interrupt is still masked.
-    pub fn start(cycles: Cycles, mut timer: Pit) -> Self {
+    pub fn start(mut timer: Pit) -> Self {
         timer.set_load_timer_value(Chan0, PERIOD - 1);
         timer.set_interrupt_enable(Chan0, true);
         timer.enable(Chan0);
-        Self { cycles, timer }
+        Self { timer }
     }
 }
 
-impl Counter for Time {
-    #[inline]
-    fn now(&self) -> u32 {
-        self.cycles.now()
-    }
-}
-
-impl Clock for Time {
+impl Timer for Ticks {
     #[inline]
     fn acknowledge(&mut self) {
         self.timer.clear_elapsed(Chan0);

@@ -1,7 +1,5 @@
-//! The counter that times ticks, and the timer that raises them.
+//! The timer that raises ticks.
 
-use palpate_bench::{Clock, Counter};
-use palpate_cortex::Cycles;
 use stm32g4xx_hal::rcc::Rcc;
 use stm32g4xx_hal::stm32::TIM7;
 use stm32g4xx_hal::time::ExtU32;
@@ -11,29 +9,21 @@ use crate::body::SETTINGS;
 
 const PERIOD_MICROSECONDS: u32 = (1e6 / SETTINGS.rate) as u32;
 
-/// Both.
-pub struct Time {
-    cycles: Cycles,
+/// It, running.
+pub struct Ticks {
     timer: CountDownTimer<TIM7>,
 }
 
-impl Time {
+impl Ticks {
     /// Starts the timer; its interrupt is still masked.
-    pub fn start(cycles: Cycles, timer: TIM7, rcc: &Rcc) -> Self {
+    pub fn start(timer: TIM7, rcc: &Rcc) -> Self {
         let mut timer = Timer::new(timer, &rcc.clocks).start_count_down(PERIOD_MICROSECONDS.micros());
         timer.listen(Event::TimeOut);
-        Self { cycles, timer }
+        Self { timer }
     }
 }
 
-impl Counter for Time {
-    #[inline]
-    fn now(&self) -> u32 {
-        self.cycles.now()
-    }
-}
-
-impl Clock for Time {
+impl palpate_bench::Timer for Ticks {
     #[inline]
     fn acknowledge(&mut self) {
         self.timer.clear_interrupt(Event::TimeOut);

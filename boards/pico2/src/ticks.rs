@@ -1,7 +1,6 @@
-//! The counter that times ticks, and the PWM slice that, used as a timer, raises them.
+//! The PWM slice that, used as a timer, raises ticks.
 
-use palpate_bench::{Clock, Counter};
-use palpate_cortex::Cycles;
+use palpate_bench::Timer;
 use rp235x_hal::pwm::{FreeRunning, Pwm0, Slice};
 
 use crate::body::SETTINGS;
@@ -14,30 +13,22 @@ const PERIOD: u16 = {
     (counts - 1.0) as u16
 };
 
-/// Both.
-pub struct Time {
-    cycles: Cycles,
+/// It, running.
+pub struct Ticks {
     timer: Slice<Pwm0, FreeRunning>,
 }
 
-impl Time {
+impl Ticks {
     /// Starts the timer; its interrupt is still masked.
-    pub fn start(cycles: Cycles, mut timer: Slice<Pwm0, FreeRunning>) -> Self {
+    pub fn start(mut timer: Slice<Pwm0, FreeRunning>) -> Self {
         timer.set_top(PERIOD);
         timer.enable_interrupt0();
         timer.enable();
-        Self { cycles, timer }
+        Self { timer }
     }
 }
 
-impl Counter for Time {
-    #[inline]
-    fn now(&self) -> u32 {
-        self.cycles.now()
-    }
-}
-
-impl Clock for Time {
+impl Timer for Ticks {
     #[inline]
     fn acknowledge(&mut self) {
         self.timer.clear_interrupt();
