@@ -188,3 +188,33 @@ fn stop_stops_damping_too() {
     rig.set(|world| world.stop_open = true);
     rig.ticks_off(100);
 }
+
+/// Ticks of a second in which the light is on, and how often it comes on.
+fn light(rig: &mut Rig<SerialArm>) -> (u32, u32) {
+    let (mut lit, mut flashes, mut last) = (0, 0, rig.world.borrow().light);
+    for _ in 0..4_000 {
+        rig.tick();
+        let now = rig.world.borrow().light;
+        lit += u32::from(now);
+        flashes += u32::from(now && !last);
+        last = now;
+    }
+    (lit, flashes)
+}
+
+#[test]
+fn the_light_tells_driving_from_holding_and_both_from_a_fault() {
+    let mut rig = rig();
+    rig.ticks(10);
+    assert_eq!(light(&mut rig), (0, 0), "armed, and nobody asks for force");
+    rig.press_until_it_runs();
+    assert_eq!(light(&mut rig), (4_000, 0));
+    rig.set(|world| world.stop_open = true);
+    rig.tick();
+    // A sixteenth of a second, once.
+    assert_eq!(light(&mut rig), (250, 1));
+    rig.set(|world| (world.stop_open, world.bad) = (false, 3));
+    rig.ticks(10);
+    assert_eq!(rig.fault(), Some(Fault::FrameDamaged));
+    assert_eq!(light(&mut rig), (2_000, 4));
+}
