@@ -152,11 +152,20 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         };
     }
 
-    /// Gives the motors what the state says, and nothing while something holds.
+    /// Whether the motors are driven: not while something holds, and not even to damp before the enable input has been
+    /// seen released and a reset that is a fault has been acknowledged.
+    #[inline]
+    fn drives(&self, verdict: Verdict) -> bool {
+        let by_reset = self.state.reset().fault().is_some_and(|fault| self.state.fault() == Some((fault, 0)));
+        let may = verdict.hold == 0 && self.interlock.was_open() && !by_reset;
+        may && matches!(self.state.output(), Output::Drive(_))
+    }
+
+    /// Gives the motors what the state says, as far as they may be driven.
     #[inline]
     fn output(&mut self, verdict: Verdict) {
         let obeyed = match self.state.output() {
-            Output::Drive(duties) if verdict.hold == 0 => self.board.drive(duties),
+            Output::Drive(duties) if self.drives(verdict) => self.board.drive(duties),
             Output::Drive(_) | Output::Off => self.board.release(),
         };
         if obeyed.is_err() {
@@ -171,7 +180,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     fn tell(&mut self, began: u32, verdict: Verdict) {
         let release_first = if self.interlock.is_locked() { hold::RELEASE_FIRST } else { 0 };
         let holds = verdict.hold | release_first;
-        let drives = matches!(self.state.output(), Output::Drive(_)) && verdict.hold == 0;
+        let drives = self.drives(verdict);
         self.board.show(is_lit(self.ticks, self.rate, drives, self.state.fault().is_some(), holds != 0));
         self.recorder.set_board(self.bridge.total(), holds);
         self.recorder.note(&self.state, began, self.board.now());

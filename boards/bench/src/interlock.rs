@@ -7,6 +7,7 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Interlock {
     is_open: bool,
+    was_open: bool,
 }
 
 impl Interlock {
@@ -16,7 +17,7 @@ impl Interlock {
         if held {
             self.is_open = false;
         } else if !pressed {
-            self.is_open = true;
+            (self.is_open, self.was_open) = (true, true);
         }
         pressed && self.is_open
     }
@@ -24,6 +25,11 @@ impl Interlock {
     /// From now on the input has to be released first.
     pub const fn lock(&mut self) {
         self.is_open = false;
+    }
+
+    /// Whether the input has been seen released since the reset.
+    pub const fn was_open(&self) -> bool {
+        self.was_open
     }
 
     /// Whether the input has to be released first.

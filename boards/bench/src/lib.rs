@@ -26,7 +26,8 @@
 //! # What keeps a thumb safe
 //!
 //! - No board looks at the phase: it does what [`palpate::servo::ServoState::output`] says.
-//! - An enable button that is held, stuck or shorted at reset moves nothing.
+//! - An enable button that is held, stuck or shorted at reset moves nothing, and until it was seen released nothing is
+//!   driven, not even to damp.
 //! - Broken wires stop: stop is a closed contact, ready is a level that the amplifier has to give.
 //! - While a hold lasts nothing is driven, not even to damp. After it, force comes by the soft start, and only once
 //!   enable has been seen released.

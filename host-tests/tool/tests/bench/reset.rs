@@ -3,7 +3,7 @@
 use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::servo::{Event, Fault, Heartbeat, Phase, ResetReason, Servo};
+use palpate::servo::{Event, Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
 use palpate::wire::{Command, frame};
 use palpate_bench::{Cause, Idle, Memo, Port, ResetFlags, Watchdog};
@@ -197,4 +197,29 @@ fn memory_that_holds_anything_holds_no_memo() {
     }
     // Whole, but of no cause that is ours.
     assert_eq!(Memo([words[0] ^ 0x80, !(words[0] ^ 0x80)]).cause(), None);
+}
+
+#[test]
+fn after_a_reset_nothing_damps_by_itself() {
+    let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
+    let rig = |reset| {
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+        Rig::new(servo, held_at([0.0, 0.0, 0.01]), &settings(), reset)
+    };
+    // A fault of the reset: not before it is acknowledged, whatever the button does.
+    for reset in [ResetReason::Watchdog, ResetReason::Panic, ResetReason::BrownOut] {
+        let mut rig = rig(reset);
+        for pressed in [true, false, true] {
+            rig.set(|world| world.button = pressed);
+            rig.ticks_off(500);
+        }
+    }
+    // Any other: not before the button was seen released.
+    let mut rig = rig(ResetReason::PowerOn);
+    rig.set(|world| (world.button, world.bad) = (true, 1));
+    rig.ticks_off(500);
+    assert_eq!(rig.fault(), Some(Fault::FrameDamaged));
+    rig.set(|world| world.button = false);
+    rig.ticks(10);
+    assert!(!rig.is_off(), "now it damps");
 }
