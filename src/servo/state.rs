@@ -121,8 +121,7 @@ impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
         hash.words([u32::from(self.anchor.point.is_some()), u32::from(self.anchor.slips)]);
         hash.vectors([self.anchor.point.unwrap_or(Vec3::ZERO), self.force]);
         hash.floats([self.fade, self.energy.stored, self.energy.damping]);
-        hash.words([u32::from(self.energy.cut)]);
-        hash.words([u32::from(self.drives)]);
+        hash.words([u32::from(self.energy.cut) | u32::from(self.drives) << 1]);
         for duty in self.duties {
             hash.words([duty.0 as u32]);
         }
