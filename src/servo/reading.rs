@@ -13,6 +13,15 @@ impl<'a, S, K, const JOINTS: usize> Servo<'a, S, K, JOINTS> {
         &self.settings
     }
 
+    /// Whether its homing moves the joints by their motors.
+    #[inline]
+    pub const fn homing_drives(&self) -> bool {
+        match &self.homing {
+            Some(homing) => homing.drives(),
+            None => false,
+        }
+    }
+
     /// Its device.
     #[inline]
     pub const fn device(&self) -> &'a Device<K, JOINTS> {

@@ -31,6 +31,8 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     state: State<F, JOINTS>,
     hold: Hold,
     interlock: Interlock,
+    /// The same for homing by hand, which no hold locks.
+    by_hand: Interlock,
     bridge: FrameBridge<JOINTS>,
     deadline: Deadline,
     recorder: Recorder<'a>,
@@ -70,6 +72,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             state: felt.servo().start_after(reset),
             hold: Hold::new(settings, rate),
             interlock: Interlock::default(),
+            by_hand: Interlock::default(),
             bridge: FrameBridge::new(settings.bad_frames),
             deadline: Deadline::of_period(settings.clock as f32, rate),
             recorder: Recorder::new(records, settings.clock, settings.ticks_per_record),
@@ -93,7 +96,11 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         if verdict.is_drive_fault {
             self.felt.servo().note(&mut self.state, Event::DriveFault);
         }
-        let enable = self.interlock.next(panel.enable, verdict.hold != 0);
+        let asks = self.interlock.next(panel.enable, verdict.hold != 0);
+        // Homing by hand needs no motors: a device is homed and its encoders are looked at before their supply is on.
+        let needs_no_motors = !self.state.homed() && !self.felt.servo().homing_drives();
+        let homes = self.by_hand.next(panel.enable, false) && needs_no_motors;
+        let enable = asks || homes;
 
         let input = match self.board.read() {
             Ok(counts) => Input::Sensors { counts, enable },

@@ -141,3 +141,36 @@ fn a_stop_in_the_midst_of_homing_stops_the_motors_and_homing_goes_on_only_when_a
     rig.ticks(100);
     assert!(!rig.is_off(), "{:?} {:?}", rig.fault(), rig.state().homing().refusal());
 }
+
+#[test]
+fn without_a_supply_a_device_is_homed_by_hand_all_the_same_and_nothing_is_driven() {
+    let grip = HandSettings { stiffness: 5_000.0, damping: 50.0, mass: 0.0 };
+    let mut held = put_down_anywhere();
+    held.gravity = 0.0;
+    let plant = Plant::new(&held, grip, Box::new(StillHand([0.0, 0.0, 0.01])), RATE).unwrap();
+    let pose = plant.angles().map(|angle| angle as f32);
+    let mut rig = rig(Reference::Pose(pose), 40_000, plant);
+    // Before the first step of the bench: no supply, and so no amplifier is ready.
+    rig.set(|world| (world.supply, world.button) = (0.0, true));
+    rig.ticks_off(2_000);
+    assert!(!rig.state().homed(), "a button that is held from before says nothing");
+    rig.set(|world| world.button = false);
+    rig.ticks_off(10);
+    rig.set(|world| world.button = true);
+    rig.ticks_off(2_000);
+    assert!(rig.state().homed());
+    // The supply comes on with the button still down.
+    rig.set(|world| world.supply = 24.0);
+    rig.ticks_off(2_000);
+    assert_eq!((rig.state().phase(), rig.fault()), (Phase::Armed, None));
+    rig.press_until_it_runs();
+
+    // Homing by the motors waits for them.
+    let plant = Plant::new(&put_down_anywhere(), HandSettings::NONE, Box::new(StillHand([0.0; 3])), RATE).unwrap();
+    let mut rig = self::rig(Reference::Stops(STOPS), 60_000, plant);
+    rig.set(|world| world.supply = 0.0);
+    rig.ticks_off(10);
+    rig.set(|world| world.button = true);
+    rig.ticks_off(2_000);
+    assert_eq!((rig.state().homing().torques(), rig.fault()), ([0.0; 3], None));
+}
