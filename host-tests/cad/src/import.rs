@@ -7,7 +7,7 @@ use crate::measure::{self, Measured};
 use crate::mesh::{Mesh, Source};
 use crate::part::Part;
 use crate::patches::{self, Made, SHARE_OF_EDGES};
-use crate::{divide, emit, heal, outline, picture, read, report, sew, spheres, split, trace};
+use crate::{divide, emit, heal, outline, picture, read, report, sew, spheres, split, trace, turn};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -72,6 +72,7 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut part = read::read(path, options.solid.as_deref())?;
     sew::sew(&mut part, options.tolerance)?;
     heal::take_out_seams(&mut part);
+    turn::turn(&mut part, options.tolerance)?;
     spheres::without_poles(&mut part);
     split_the_large(&mut part, options.tolerance)?;
     let mut fine = Fine::new();

@@ -1,11 +1,12 @@
 //! A CAD part as patches: STEP in, palpate's model file out.
 //!
 //! The way of the data: [`read`] gives faces, loops, edges and vertices as exact NURBS, placed, in millimetres;
-//! [`sew`] joins what the file counts as one and [`heal`] takes out seams; [`trace`] finds where each edge runs in the parameters of its faces, [`circles`] and
-//! [`outline`] make every outline close there; [`divide`] cuts regions into quads without a side that ends on another's
-//! middle; [`patches`] gives each wire one curve, shared by both its faces, and each quad one polynomial patch
-//! ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with the part, both ways; [`emit`] writes the
-//! model.
+//! [`sew`] joins what the file counts as one, [`heal`] takes out seams and [`turn`] turns faces that lie the wrong way
+//! round; [`trace`] finds where each edge runs in the parameters of its faces, [`circles`] and [`outline`] make every
+//! outline close there; [`divide`] cuts regions into quads without a side that ends on another's middle, or [`split`]
+//! makes less of a face first; [`patches`] gives each wire one curve, shared by both its faces, and each quad one
+//! polynomial patch ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with the part, both ways;
+//! [`emit`] writes the model.
 
 mod bezier;
 mod circles;
@@ -32,6 +33,7 @@ mod spheres;
 mod split;
 mod strips;
 mod trace;
+mod turn;
 
 pub use bezier::Bezier;
 pub use error::ImportError;

@@ -106,3 +106,16 @@ fn a_sliver_of_an_edge_is_left_out() {
         #9004 = CARTESIAN_POINT('',(-20.,-15.,-9.9999999));\n#19 = EDGE_LOOP('',(#20,#9000,#9001,#55,";
     same_as_the_sound_part("sliver", &edited("#19 = EDGE_LOOP('',(#20,#55,", sliver));
 }
+
+#[test]
+fn a_face_that_lies_the_wrong_way_round_is_turned() {
+    // The face's own sense, then that of its loop alone: there nothing but the loop is to be turned.
+    for (name, from, to) in [
+        ("sense", "#137 = ADVANCED_FACE('',(#138),#44,.F.)", "#137 = ADVANCED_FACE('',(#138),#44,.T.)"),
+        ("loop", "#138 = FACE_BOUND('',#139,.F.)", "#138 = FACE_BOUND('',#139,.T.)"),
+    ] {
+        let healed = same_as_the_sound_part(name, &edited(from, to));
+        let is_said = healed.report.iter().any(|line| line.contains("(#137) lies the wrong way round"));
+        assert!(is_said == (name == "sense"), "{name}: {:?}", healed.report);
+    }
+}
