@@ -37,6 +37,9 @@ const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e3;
 /// Differences and products of two such knots stay inside the range of `f64`.
 const LARGEST_KNOT: f64 = 1e150;
 
+/// Spans of a patch in all: as many of degree 3 take some 200 KB of flash, and some seconds to prove.
+const MOST_CELLS: usize = 1024;
+
 /// A patch thinner than the spacing of `f32` is a curve in the table.
 const LEAST_AREA: f64 = f32::EPSILON as f64;
 
@@ -67,6 +70,10 @@ impl NurbsPatch {
             }
         });
         let knots = [knots_u?, knots_v?];
+        let [u, v] = [0, 1].map(|axis| knots::borders(&knots[axis], degree[axis]).len() - 1);
+        if u * v > MOST_CELLS {
+            return Err(PatchFault::TooManyCells { u, v, limit: MOST_CELLS });
+        }
         let mut points = Vec::with_capacity(counts[0] * counts[1]);
         let mut weights = Vec::with_capacity(points.capacity());
         for (row, entries) in raw.points.iter().enumerate() {

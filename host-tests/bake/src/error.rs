@@ -262,6 +262,16 @@ pub enum PatchFault {
         /// How many.
         count: usize,
     },
+    /// More spans in all than are proved in seconds, or have a place in a controller's flash.
+    #[error("{u} × {v} spans: a patch has {limit} in all at most; cut it, or take fewer knots")]
+    TooManyCells {
+        /// Along `u`.
+        u: usize,
+        /// Along `v`.
+        v: usize,
+        /// How many there can be.
+        limit: usize,
+    },
     /// The patch is a point, a curve, or thinner than single precision can tell.
     #[error("it has no area: all its points lie on one curve or in one point")]
     NoArea,

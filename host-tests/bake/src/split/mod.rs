@@ -37,6 +37,14 @@ pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
         };
         spline::extract(&piece.patch).map_err(uneven)?;
     }
+    // Looked at before the work begins, and again after each cut.
+    let too_many = |count: usize| ModelError::Seam {
+        file: file.to_owned(),
+        fault: SeamFault::TooMany { count, limit: MAX_FACES },
+    };
+    if pieces.len() > MAX_FACES {
+        return Err(too_many(pieces.len()));
+    }
     for _ in 0..ROUNDS {
         let topology = topology(&pieces, model, file)?;
         let wanted = needed::cuts(&pieces, &topology);
@@ -45,8 +53,7 @@ pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
         }
         pieces = cut(&pieces, &topology, &wanted);
         if pieces.len() > MAX_FACES {
-            let fault = SeamFault::TooMany { count: pieces.len(), limit: MAX_FACES };
-            return Err(ModelError::Seam { file: file.to_owned(), fault });
+            return Err(too_many(pieces.len()));
         }
     }
     Ok(pieces)

@@ -188,6 +188,22 @@ fn more_spans_than_the_target_takes_are_refused() {
     assert_eq!(message.as_deref(), Some("long.toml: patch 0: 257 spans along u: at most 256; cut the patch in two"));
 }
 
+/// An exact net of an imported surface: refused at once, not checked for minutes.
+#[test]
+fn a_net_of_many_spans_both_ways_is_refused_with_the_limit() {
+    let knots: Vec<String> = (0..=256).map(|k| format!("{k}")).collect();
+    let knots = format!("[0, {}, 256]", knots.join(", "));
+    let row = |i: usize| (0..257).map(|j| format!("[{i}, {j}, {}]", i * j % 7)).collect::<Vec<_>>().join(", ");
+    let points: Vec<String> = (0..257).map(|i| format!("[{}]", row(i))).collect();
+    let text = format!(
+        "unit = \"mm\"\n[[patch]]\ndegree = [1, 1]\nknots_u = {knots}\nknots_v = {knots}\npoints = [{}]\n",
+        points.join(", ")
+    );
+    let message = Model::parse(&text, "net.toml").err().map(|error| error.to_string());
+    let wanted = "net.toml: patch 0: 256 × 256 spans: a patch has 1024 in all at most; cut it, or take fewer knots";
+    assert_eq!(message.as_deref(), Some(wanted));
+}
+
 #[test]
 fn a_file_that_is_not_there_is_named_once() -> Result<(), Box<dyn Error>> {
     let run = Command::new(env!("CARGO_BIN_EXE_palpate")).args(["check", "nowhere.toml"]).output()?;
