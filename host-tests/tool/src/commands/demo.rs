@@ -2,6 +2,7 @@
 
 use super::options::{Scene, SceneOptions};
 use super::{progress, sim};
+use crate::budgets::Budget;
 use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
 use crate::report::{Page, Summary, plots, write_page};
 use crate::simulation::{self, Trace};
@@ -44,7 +45,7 @@ struct Run {
     trace: Trace,
     /// On what.
     on: String,
-    /// Sizes of the image, where there is one.
+    /// The instructions to compare with, and the sizes of the image, where there is one.
     sizes: Vec<(&'static str, String)>,
 }
 
@@ -132,7 +133,12 @@ fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> an
     drop(bar);
     // As a device would carry it: files of the host are the emulator's.
     let image = firmware.images.of(Transport::Uart);
-    let sizes = vec![("flash", format!("{} bytes", image.flash)), ("RAM, static", format!("{} bytes", image.ram))];
+    let mut sizes = vec![("flash", format!("{} bytes", image.flash)), ("RAM, static", format!("{} bytes", image.ram))];
+    if let Some(budget) = Budget::load(arguments.board).ok()
+        && let (Some(median), Some(worst)) = (budget.of("servo tick, median"), budget.of("servo tick, worst"))
+    {
+        sizes.insert(0, ("of the capped box", format!("{median} median, {worst} at most, by the board's budget")));
+    }
     let (core, machine) = (arguments.board.core(), arguments.board.machine());
     let on = format!("firmware on an emulated {core} ({machine}) over {}", transport.binary());
     Ok(Run { trace, on, sizes })
