@@ -194,7 +194,8 @@ fn outlined<'p>(part: &'p Part, fine: &Fine, tolerance: f64) -> Result<Mesh<'p>,
     Ok(mesh)
 }
 
-/// Into how many pieces a wire is cut: none turns by more than a quarter, or less on a finer level, and each is one curve within the tolerance.
+/// Into how many pieces a wire is cut: none turns by more than a quarter, or less on a finer level, and each is one
+/// curve within the tolerance.
 fn pieces(mesh: &Mesh<'_>, wire: usize, level: i32, tolerance: f64) -> usize {
     let (_, turn) = mesh.extent(wire);
     let mut count = ((turn - 0.05) / (FRAC_PI_2 * 0.5_f64.powi(level))).ceil().max(1.0) as usize;

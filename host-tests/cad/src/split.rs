@@ -1,9 +1,9 @@
 //! A face in pieces, along lines of its parameters: what is too much to be divided into quads at once.
 //!
-//! A line runs from where it comes into the face to where it leaves it; those stretches become edges of both pieces, and
-//! the edges they meet are cut there in all faces. Round a closed parameter that the face goes all about there are two
-//! lines. Of many, the line is taken that has few and short stretches, meets the outline squarely and far from its
-//! vertices, and leaves as much on one side as on the other.
+//! A line runs from where it comes into the face to where it leaves it; those stretches become edges of both pieces,
+//! and the edges they meet are cut there in all faces. Round a closed parameter that the face goes all about there are
+//! two lines. Of many, the line is taken that has few and short stretches, meets the outline squarely and far from its
+//! vertices, passes by nothing closely, and leaves as much on one side as on the other.
 
 use crate::error::ImportError;
 use crate::mesh::{Mesh, Side};

@@ -23,20 +23,22 @@ fn main() {
     );
     let top: Vec<Vec<[[Point; 4]; 4]>> = (0..ACROSS).map(|i| (0..ACROSS).map(|j| dune(i, j)).collect()).collect();
     let last = ACROSS - 1;
-    for i in 0..ACROSS {
-        for j in 0..ACROSS {
-            patch(&format!("top {i} {j}"), false, &top[i][j].map(|row| row.to_vec()));
+    for (i, row) in top.iter().enumerate() {
+        for (j, net) in row.iter().enumerate() {
+            patch(&format!("top {i} {j}"), false, &net.map(|row| row.to_vec()));
             let corner = |a: usize, b: usize| down([(i + a) as f64 * STEP, (j + b) as f64 * STEP, 0.0]);
             let rows = [0, 1].map(|a| vec![corner(a, 0), corner(a, 1)]);
             patch(&format!("bottom {i} {j}"), true, &rows);
         }
     }
     let wall = |upper: [Point; 4]| upper.map(|point| vec![point, down(point)]);
-    for k in 0..ACROSS {
-        patch(&format!("front {k}"), true, &wall(top[k][0].map(|row| row[0])));
-        patch(&format!("back {k}"), false, &wall(top[k][last].map(|row| row[3])));
-        patch(&format!("left {k}"), false, &wall(top[0][k][0]));
-        patch(&format!("right {k}"), true, &wall(top[last][k][3]));
+    for (i, row) in top.iter().enumerate() {
+        patch(&format!("front {i}"), true, &wall(row[0].map(|row| row[0])));
+        patch(&format!("back {i}"), false, &wall(row[last].map(|row| row[3])));
+    }
+    for (j, (first, other)) in top[0].iter().zip(&top[last]).enumerate() {
+        patch(&format!("left {j}"), false, &wall(first[0]));
+        patch(&format!("right {j}"), true, &wall(other[3]));
     }
 }
 

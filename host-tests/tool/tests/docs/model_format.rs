@@ -92,6 +92,7 @@ fn faults() -> Vec<PatchFault> {
         PatchFault::EmptyRange { axis: u, value: 1.0 },
         PatchFault::KnotsTooNear { axis: u, first: 0.5, second: 0.500_000_01 },
         PatchFault::TooManySpans { axis: v, count: 300 },
+        PatchFault::TooManyCells { u: 256, v: 256, limit: 1024 },
         PatchFault::NoArea,
         PatchFault::Sliver { axis: u, width: 4e-8, tolerance: 6e-8 },
         PatchFault::Size { size: 4e4 },
@@ -118,6 +119,7 @@ fn faults() -> Vec<PatchFault> {
         | PatchFault::EmptyRange { .. }
         | PatchFault::KnotsTooNear { .. }
         | PatchFault::TooManySpans { .. }
+        | PatchFault::TooManyCells { .. }
         | PatchFault::NoArea
         | PatchFault::Sliver { .. }
         | PatchFault::Size { .. }
