@@ -6,7 +6,7 @@
 //! what it was.
 
 use super::along::{Along, Inward};
-use super::feature::{EdgeFace, EdgeKind, Face, Feature, Side};
+use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
@@ -41,32 +41,54 @@ pub(super) struct Entry {
     pub fall: f32,
 }
 
-impl Body {
-    /// Where a face is entered over one of its sides, if it takes the probe. `is_smooth` says that it does wherever the
-    /// probe is; `known` is a curvature to go by where the face has no bound, 1/m.
+/// A face beyond a border, seen from a point of it.
+#[derive(Clone, Copy)]
+pub(super) struct Beyond<'a> {
+    face: &'a Face,
+    of: EdgeFace,
+    /// Whether the side runs against the edge.
+    is_reversed: bool,
+    inward: Inward,
+}
+
+impl Beyond<'_> {
+    /// Whether the face's region holds the probe.
     #[inline(always)]
-    pub(super) fn entry(
-        &self,
-        of: EdgeFace,
-        is_smooth: bool,
-        border: &Border,
-        is_curved: bool,
-        state: &BodyWitness,
-        known: f32,
-    ) -> Option<Entry> {
-        let face = self.faces.get(usize::from(of.face))?;
-        let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
-        let Border { along, tangent, t } = border;
-        let inward = along.inward(separator, *tangent, *t, state.probe);
-        if inward.is_beyond() && !is_smooth {
-            return None;
-        }
+    pub(super) fn takes_probe(&self) -> bool {
+        !self.inward.is_beyond()
+    }
+
+    /// Where the face is entered. `known` is a curvature to go by where the face has no bound, 1/m.
+    #[inline(always)]
+    pub(super) fn entry(&self, border: &Border, is_curved: bool, state: &BodyWitness, known: f32) -> Entry {
+        let Self { face, of, is_reversed, inward } = self;
+        let Border { along, t, .. } = border;
         let ([inside, t], fall) = if is_curved && state.witness.halvings == 0 {
-            beyond_border(face, &inward, along, *t, [state.gap, known])
+            beyond_border(face, inward, along, *t, [state.gap, known])
         } else {
             ([0.0, *t], 0.0)
         };
-        Some(Entry { face: of.face, parameters: on_side(of.side, *reversed, inside, t), fall })
+        Entry { face: of.face, parameters: on_side(of.side, *is_reversed, inside, t), fall }
+    }
+}
+
+impl Body {
+    /// A face of an edge, seen from a point of it.
+    #[inline(always)]
+    pub(super) fn beyond(&self, of: EdgeFace, border: &Border, probe: Vec3) -> Option<Beyond<'_>> {
+        let face = self.faces.get(usize::from(of.face))?;
+        let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
+        let inward = border.along.inward(separator, border.tangent, border.t, probe);
+        Some(Beyond { face, of, is_reversed: *reversed, inward })
+    }
+
+    /// What is beyond a side of a face, by its edge. Both may be sides of one face.
+    #[inline(always)]
+    pub(super) fn beyond_side(&self, edge: &Edge, face: &Face, number: usize) -> EdgeFace {
+        let [first, second] = edge.faces;
+        let is_first = usize::from(first.side) == number
+            && self.faces.get(usize::from(first.face)).is_some_and(|of| core::ptr::eq(of, face));
+        if is_first { second } else { first }
     }
 
     /// The face of an edge, and the parameters there of a point of the edge.
@@ -135,11 +157,7 @@ impl Body {
         if edge.kind != EdgeKind::Smooth {
             return None;
         }
-        // Both may be sides of one face.
-        let [first, second] = edge.faces;
-        let is_first = usize::from(first.side) == number
-            && self.faces.get(usize::from(first.face)).is_some_and(|of| core::ptr::eq(of, face));
-        let other = if is_first { second } else { first };
+        let other = self.beyond_side(edge, face, number);
         let t = if *reversed { 1.0 - along } else { along };
         // The border as it looks from the witness point.
         let step = [u - witness.parameters[0], v - witness.parameters[1]];
@@ -147,7 +165,7 @@ impl Body {
         let tangent = if is_along_v { witness.surface.tangent_v } else { witness.surface.tangent_u };
         let tangent = if *reversed { -tangent } else { tangent };
         let border = Border { along: Along::new(point, tangent, state.probe), tangent, t };
-        self.entry(other, true, &border, true, state, face.bend(state.gap))
+        Some(self.beyond(other, &border, state.probe)?.entry(&border, true, state, face.bend(state.gap)))
     }
 }
 

@@ -1,12 +1,15 @@
 //! What the loop asks of the closest point once it is known: normal, signed gap, and whether the body is touched.
 
-use super::feature::{EdgeKind, Feature, Vertex};
-use super::switch::BOTH;
+use super::feature::{EdgeKind, Face, Feature, Side, Spoke, Vertex};
 use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::math::{Vec3, inverse_sqrt, sqrt_from_above};
 use crate::patch::Patch as _;
 use crate::track::{BoundaryMode, Contact};
+
+/// So near a pole, in sizes of the body, the tangent around it may be rounding: coordinates of that size are rounded by
+/// `6e-8`, a hundredth of this and less with the tangents made of them.
+const AT_POLE: f32 = 1.0e-5;
 
 impl Body {
     /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been
@@ -19,31 +22,42 @@ impl Body {
         match state.feature {
             Feature::Face(index) => {
                 let Some(face) = self.faces.get(usize::from(index)) else { return };
-                // At a pole there is none: the last one stands.
-                let normal = state.witness.normal(&face.patch).unwrap_or(state.normal);
+                let at_pole = if self.has_poles { self.normal_at_pole(face, state.witness.parameters) } else { None };
+                let normal = at_pole.or_else(|| state.witness.normal(&face.patch)).unwrap_or(state.normal);
                 let away = probe - state.witness.surface.point;
                 let gap = away.dot(normal);
                 // Held at a border the witness point is not where the probe goes in: what is beyond it will say.
                 let is_held = state.witness.mode != BoundaryMode::Interior;
-                let begins_there = gap < 0.0 && is_held && state.contact == Contact::InFront;
-                if gap.is_finite() && !begins_there {
+                if gap < 0.0 && !state.witness.is_free {
+                    let contact = state.contact;
+                    match contact {
+                        Contact::InFront if is_held => return,
+                        Contact::Touching if self.asks_at(gap) && self.leaves_over_border(face, state) => {
+                            return;
+                        }
+                        _ => {}
+                    }
+                }
+                if gap.is_finite() {
                     (state.normal, state.gap) = (normal, gap);
                     self.touch(state, away, state.contact.next(gap, BoundaryMode::Interior));
                 }
             }
             Feature::Edge(index) => {
                 let kind = self.edges.get(usize::from(index)).map_or(EdgeKind::Mixed, |edge| edge.kind);
-                self.meet_border(state, probe, kind, None);
+                let is_outward = match kind {
+                    EdgeKind::Open => None,
+                    EdgeKind::Convex => Some(state.is_declined || state.gap >= 0.0),
+                    EdgeKind::Reflex => Some(false),
+                    EdgeKind::Smooth | EdgeKind::Mixed => Some(state.gap >= 0.0),
+                };
+                self.meet_border(state, probe, is_outward);
             }
             Feature::Vertex(index) => {
                 let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
-                let is_outside = self.is_outside_at(vertex, probe - vertex.point);
-                self.meet_border(
-                    state,
-                    probe,
-                    if vertex.is_open { EdgeKind::Open } else { EdgeKind::Mixed },
-                    is_outside,
-                );
+                let is_outward = || self.is_outside_at(vertex, probe - vertex.point).unwrap_or(state.gap >= 0.0);
+                let is_outward = (!vertex.is_open).then(is_outward);
+                self.meet_border(state, probe, is_outward);
             }
         }
     }
@@ -58,20 +72,14 @@ impl Body {
 
     /// On an edge or a vertex: normal and gap from the witness point towards the probe outside, the other way inside.
     /// Where the edge does not say which side the probe is on it is where it was: nothing goes through the surface
-    /// without a face. A convex edge says "outside" once neither of its faces has taken the probe: inside, where they
+    /// without a face. A convex edge says "outside" once neither of its faces takes the probe: inside, where they
     /// meet at less than 180°, each direction from the edge is within 90° of one of them, and that one takes it. So
-    /// contact holds where the witness point crosses the edge, and does not begin there. `is_outside` is what a vertex
-    /// says.
+    /// contact holds where the witness point crosses the edge, and does not begin there. `is_outward` is `None` over
+    /// the rim of an open body, where there is neither front nor back.
     #[inline(never)]
-    fn meet_border(&self, state: &mut BodyWitness, probe: Vec3, kind: EdgeKind, is_outside: Option<bool>) {
+    pub(super) fn meet_border(&self, state: &mut BodyWitness, probe: Vec3, is_outward: Option<bool>) {
         let away = probe - state.witness.surface.point;
-        let outward = match kind {
-            EdgeKind::Open => true,
-            EdgeKind::Convex => state.declined == BOTH || state.gap >= 0.0,
-            EdgeKind::Reflex => false,
-            EdgeKind::Smooth | EdgeKind::Mixed => is_outside.unwrap_or(state.gap >= 0.0),
-        };
-        let sign = if outward { 1.0 } else { -1.0 };
+        let sign = if is_outward == Some(false) { -1.0 } else { 1.0 };
         let squared = away.length_squared();
         if !squared.is_finite() {
             return;
@@ -82,22 +90,50 @@ impl Body {
             state.normal = away * (sign * inverse);
             state.gap = sign * squared * inverse;
         }
-        // Over the rim of an open body there is neither front nor back.
-        let contact = match kind {
-            EdgeKind::Open => Contact::Behind,
-            _ => state.contact.next(state.gap, BoundaryMode::Interior),
+        let contact = match is_outward {
+            None => Contact::Behind,
+            Some(_) => state.contact.next(state.gap, BoundaryMode::Interior),
         };
         self.touch(state, away, contact);
     }
 
-    /// On which side of a closed body a probe is that a vertex holds, if it does: no edge leads nearer from there.
-    /// `None` if not, or if the vertex does not say.
-    fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
+    /// The normal at a pole, where tangents are rounding: that of its vertex. The last normal may be from across the
+    /// face, for a step may end at a pole from anywhere.
+    #[inline(never)]
+    fn normal_at_pole(&self, face: &Face, [u, v]: [f32; 2]) -> Option<Vec3> {
+        let near = AT_POLE * self.size / face.patch.size();
+        for (side, away) in face.sides.iter().zip([u, 1.0 - u, v, 1.0 - v]) {
+            if let Side::Pole { vertex } = side
+                && away <= near
+            {
+                let outward = self.vertices.get(usize::from(*vertex))?.outward;
+                return (outward != Vec3::ZERO).then_some(outward);
+            }
+        }
+        None
+    }
+
+    /// On which side of a closed body a probe is that is nearest to a vertex, as far as is known. Where that holds it,
+    /// for no edge leads nearer, `outward` says so. Where three convex edges meet it is outside in front of any of the
+    /// three planes, too; behind all of them it is for a face to say.
+    pub(super) fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
         let height = towards.dot(vertex.outward);
         let first = usize::from(vertex.first_spoke);
         let spokes = self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[]);
-        let holds = spokes.iter().all(|spoke| towards.dot(spoke.direction) <= 0.0);
-        if holds && height != 0.0 { Some(height > 0.0) } else { None }
+        if height != 0.0 && spokes.iter().all(|spoke| towards.dot(spoke.direction) <= 0.0) {
+            return Some(height > 0.0);
+        }
+        let is_convex =
+            |spoke: &Spoke| self.edges.get(usize::from(spoke.edge)).is_some_and(|edge| edge.kind == EdgeKind::Convex);
+        let [a, b, c] = spokes else { return None };
+        if !spokes.iter().all(is_convex) {
+            return None;
+        }
+        // `t = αa + βb + γc` has `α (a × b)·c = t·(b × c)`, and so on: behind all three none is below 0.
+        let [a, b, c] = [a.direction, b.direction, c.direction];
+        let normals = [a.cross(b), b.cross(c), c.cross(a)];
+        let volume = normals[0].dot(c);
+        normals.iter().any(|normal| normal.dot(towards) * volume < 0.0).then_some(true)
     }
 
     /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe

@@ -13,6 +13,7 @@ mod feature;
 mod locator;
 mod meet;
 mod minimise;
+mod over_border;
 mod pole;
 mod search;
 mod switch;

@@ -2,7 +2,7 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::feature::{Face, Feature};
+use super::feature::{EdgeFace, Face, Feature};
 use super::search::Search;
 use super::table::Body;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
@@ -39,8 +39,8 @@ pub struct BodyWitness {
     pub(super) is_audited: bool,
     /// Behind the surface: whether the tracker has its turn, or the audit.
     pub(super) rests: bool,
-    /// On an edge: how many of its faces have been asked since it was entered and did not take the probe.
-    pub(super) declined: u8,
+    /// On an edge: whether the last tick has asked all of its faces, and none took the probe.
+    pub(super) is_declined: bool,
     /// The search for a global start, or the rolling audit, once begun.
     pub(super) search: Option<Search>,
     /// The probe of the last tick; infinite before the first.
@@ -86,7 +86,7 @@ impl Body {
             is_located: false,
             is_audited: false,
             rests: false,
-            declined: 0,
+            is_declined: false,
             search: None,
             probe: Vec3::INFINITY,
             reach: 0.0,
@@ -131,7 +131,7 @@ impl Body {
     /// point is the god-object (theory §11), which hands over across common edges only.
     ///
     /// Contact decides, so [`Self::meet`] belongs after each tick that was not `searched`. Without it the probe counts
-    /// as behind the surface: the audit has every second tick.
+    /// as behind the surface: on a convex body the audit has every second tick.
     #[inline(always)]
     pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
         let mut step = BodyStep::NOTHING;
@@ -143,10 +143,12 @@ impl Body {
             return step;
         }
         state.probe = probe.position;
+        let mut from = EdgeFace::NONE.face;
         match state.feature {
             Feature::Face(index) => {
+                from = index;
                 let stays = state.witness.is_free || state.witness.mode == BoundaryMode::Interior;
-                if (stays || !self.leave_face(index, is_curved, state, &mut step))
+                if (stays || !self.leave_face(index, state, &mut step))
                     && let Some(face) = self.faces.get(usize::from(index))
                 {
                     if is_curved {
@@ -163,7 +165,7 @@ impl Body {
         }
         // Also one that has just been come to.
         if let Feature::Edge(index) = state.feature {
-            self.tick_on_edge(index, is_curved, state, &mut step);
+            self.tick_on_edge(index, from, is_curved, state, &mut step);
         }
         step
     }

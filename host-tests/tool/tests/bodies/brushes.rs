@@ -1,4 +1,5 @@
-//! Fast strokes over a body's corners, edges and poles: once the probe is in free air again, nothing is felt.
+//! Fast strokes over a body's corners, edges and poles: once the probe is in free air again, nothing is felt; and as
+//! long as it is inside, the body is.
 
 use crate::scene::{Scene, from_environment, repeat};
 use glam::DVec3;
@@ -23,6 +24,8 @@ struct Felt {
     touching: u32,
     /// Of them in free air, farther from the surface than a stroke goes in a tick.
     in_free_air: u32,
+    /// Ticks in which contact ended with the probe still deeper inside than that.
+    lost: u32,
     ends: [Vec3; 2],
     speed: f32,
 }
@@ -46,29 +49,37 @@ fn stroke(scene: &Scene, random: &mut Random) -> (Vec3, Vec3, f32) {
     ((middle - reach).as_vec3(), (middle + reach).as_vec3(), random.scale(0.1, 2.0) as f32)
 }
 
-/// Where a straight way is in free air: a distance says so of the way ahead, too, as far as it reaches.
-struct Air<'a> {
+/// Where a probe is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    Inside,
+    AtSurface,
+    FreeAir,
+}
+
+/// Where the probes of a straight way are: a distance says so of the way ahead, too, as far as it reaches.
+struct Way<'a> {
     oracle: &'a BodyOracle<'a>,
-    /// Metres up to which nearness to the surface is no free air.
+    /// Metres that are nearness to the surface.
     margin: f64,
-    is_free: bool,
+    place: Place,
     /// Metres along the way.
     until: f64,
 }
 
-impl Air<'_> {
+impl Way<'_> {
     /// At a probe so far along the way, metres; in order.
-    fn holds(&mut self, probe: DVec3, along: f64) -> bool {
+    fn place(&mut self, probe: DVec3, along: f64) -> Place {
         if along >= self.until {
             let distance = self.oracle.nearest(probe, 0.0)[0].1.distance;
-            let (is_free, reach) = match self.oracle.is_inside(probe) {
-                Some(true) => (false, distance + self.margin),
-                Some(false) if distance > self.margin => (true, distance - self.margin),
-                _ => (false, self.margin - distance),
+            self.place = match self.oracle.is_inside(probe) {
+                Some(true) if distance > self.margin => Place::Inside,
+                Some(false) if distance > self.margin => Place::FreeAir,
+                _ => Place::AtSurface,
             };
-            (self.is_free, self.until) = (is_free, along + reach);
+            self.until = along + (distance - self.margin).abs();
         }
-        self.is_free
+        self.place
     }
 }
 
@@ -80,21 +91,26 @@ fn brush(scene: &Scene, oracle: &BodyOracle<'_>, controller: &Controller, random
     let mut state = body.start();
     let mut felt = Felt { ends: [from, to], speed, ..Felt::default() };
     let margin = f64::from(stride) + ON_SURFACE * scene.size();
-    let mut air = Air { oracle, margin, is_free: false, until: 0.0 };
+    let mut way = Way { oracle, margin, place: Place::AtSurface, until: 0.0 };
+    let mut is_felt = false;
     for tick in 0..ticks {
         let probe = from + (to - from) * (tick as f32 / ticks as f32);
         let step = body.step(controller, &mut state, Probe::at(probe), PERIOD);
         // As the loop does: a stroke that runs through the body lengthwise is no contact that a wall could explain.
-        if step.unexplained || -state.gap > ContactLimits::DEFAULT.min_depth {
+        let is_given_up = step.unexplained || -state.gap > ContactLimits::DEFAULT.min_depth;
+        if is_given_up {
             body.lose(&mut state);
         }
-        if state.contact != Contact::Touching || state.gap >= 0.0 {
-            continue;
-        }
-        felt.touching += 1;
+        let (was_felt, along) = (is_felt, f64::from(probe.distance(from)));
+        is_felt = state.contact == Contact::Touching && state.gap < 0.0;
         let (at, witness) = (probe.as_dvec3(), state.witness.surface.point.as_dvec3());
-        let is_free = air.holds(at, f64::from(probe.distance(from))) && !is_behind(oracle, at, witness);
-        felt.in_free_air += u32::from(is_free);
+        if is_felt {
+            felt.touching += 1;
+            let is_free = way.place(at, along) == Place::FreeAir && !is_behind(oracle, at, witness);
+            felt.in_free_air += u32::from(is_free);
+        } else if was_felt && !is_given_up {
+            felt.lost += u32::from(way.place(at, along) == Place::Inside);
+        }
     }
     felt
 }
@@ -103,7 +119,7 @@ fn brush(scene: &Scene, oracle: &BodyOracle<'_>, controller: &Controller, random
 /// which is contact as long as the wall gives no more way than [`ContactLimits`] has it.
 fn is_behind(oracle: &BodyOracle<'_>, probe: DVec3, witness: DVec3) -> bool {
     // From the witness point: beside an edge there is hardly anything behind it.
-    const SHARES: [f64; 6] = [0.002, 0.01, 0.05, 0.2, 0.5, 0.8];
+    const SHARES: [f64; 8] = [2e-5, 2e-4, 0.002, 0.01, 0.05, 0.2, 0.5, 0.8];
     SHARES.iter().any(|share| oracle.is_inside(witness.lerp(probe, *share)) == Some(true))
 }
 
@@ -114,31 +130,33 @@ fn brushes(scene: &Scene, controller: &Controller, most: u32) {
     let felt = repeat(count, 5, |random| brush(scene, &oracle, controller, random));
     let late: Vec<&Felt> = felt.iter().filter(|felt| felt.in_free_air > 0).collect();
     let touching = felt.iter().filter(|felt| felt.touching > 0).count();
+    let lost = felt.iter().filter(|felt| felt.lost > 0);
     let worst = late.iter().max_by_key(|felt| felt.in_free_air);
     let ticks = worst.map_or(0, |felt| felt.in_free_air);
     let stroke = worst.map_or(String::new(), |Felt { ends: [from, to], speed, .. }| {
         format!(", from {from} to {to} m at {speed} m/s")
     });
     println!(
-        "{name}: {count} brushes, {touching} felt, {} of them in free air, for {ticks} ticks at most{stroke}",
-        late.len()
+        "{name}: {count} brushes, {touching} felt, {} of them in free air, for {ticks} ticks at most{stroke}; {} lost inside",
+        late.len(),
+        lost.clone().count()
     );
+    let lost: Vec<_> = lost.map(|felt| (felt.ends, felt.speed)).collect();
+    assert!(lost.is_empty(), "{name}: lost inside: {lost:?}");
     assert!(ticks <= most, "{name}: felt in free air for {ticks} ticks{stroke}");
     assert!(touching as u32 > count / 2, "{name}: hardly any is felt");
 }
 
-/// The tick in which the witness point of an edge's face is held there, and the probe is beyond.
+/// At a sharp corner that is a pole of all its faces, the tick in which the witness point comes to one of them that is
+/// not the nearest.
 const HANDOVER: u32 = 1;
-/// Features in a row on the way out over a corner: an edge, the next one and the face beyond it.
+/// The paper's law goes to the next feature a tick: an edge, the next one and the face beyond it.
 const HANDOVERS: u32 = 3;
 
 #[test]
 fn a_brush_is_not_felt_in_free_air() {
-    for name in ["ellipsoid_body", "rounded_cylinder", "sphere_body"] {
+    for name in ["capped_box", "ellipsoid_body", "rounded_cylinder", "sphere_body", "thin_plate"] {
         brushes(Scene::load(name), &Controller::SECOND_ORDER, 0);
-    }
-    for name in ["capped_box", "thin_plate"] {
-        brushes(Scene::load(name), &Controller::SECOND_ORDER, HANDOVER);
     }
 }
 
@@ -148,10 +166,10 @@ fn a_brush_under_the_paper_s_law_is_not_felt_in_free_air() {
     brushes(Scene::load("rounded_cylinder"), &Controller::CERTIFIED, 0);
 }
 
-/// A groove, and edges rounded to poles.
+/// A groove, and edges rounded to poles, those of a slab with a radius near half its thickness.
 #[test]
 fn a_brush_over_drawn_bodies_is_not_felt_in_free_air() {
-    for body in [bodies::groove(), bodies::rounded()] {
+    for body in [bodies::groove(), bodies::rounded(), bodies::slab()] {
         brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, 0);
     }
 }
@@ -160,7 +178,7 @@ fn a_brush_over_drawn_bodies_is_not_felt_in_free_air() {
 #[test]
 fn a_brush_over_a_tetrahedron_is_felt_in_free_air_for_a_handover_at_most() {
     let body = bodies::tetrahedron();
-    brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVERS);
+    brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, HANDOVER);
 }
 
 /// Two poles of four patches each: its locator takes minutes.
@@ -168,4 +186,12 @@ fn a_brush_over_a_tetrahedron_is_felt_in_free_air_for_a_handover_at_most() {
 #[ignore = "takes minutes"]
 fn a_brush_over_the_ellipsoid_with_poles_is_not_felt_in_free_air() {
     brushes(Scene::load("ellipsoid_poles"), &Controller::SECOND_ORDER, 0);
+}
+
+#[test]
+#[ignore = "for the file that PALPATE_MODEL names"]
+fn a_brush_over_a_model_file_is_not_felt_in_free_air() {
+    let file = std::env::var_os("PALPATE_MODEL").expect("PALPATE_MODEL names a file");
+    let text = std::fs::read_to_string(&file).expect("it can be read");
+    brushes(&Scene::parsed("model", &text), &Controller::SECOND_ORDER, HANDOVER);
 }

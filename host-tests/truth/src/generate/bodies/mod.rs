@@ -36,7 +36,7 @@ pub fn rounded() -> DrawnBody {
 }
 
 /// The same, thin.
-fn slab() -> DrawnBody {
+pub fn slab() -> DrawnBody {
     DrawnBody { name: "slab", text: rounded_box([70.0, 44.0, 3.0], 1.2) }
 }
 

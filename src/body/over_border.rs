@@ -1,0 +1,95 @@
+//! Out over a border: what a face has behind may be in front of the face beyond a sharp edge, and the tick that comes to
+//! the edge is not to be felt.
+
+use super::feature::{EdgeFace, EdgeKind, Face, Separator, Side};
+use super::table::Body;
+use super::tracker::BodyWitness;
+use crate::math::Vec3;
+use crate::track::{BoundaryMode, Witness};
+
+/// Deeper than this, in sizes of the body, a hand has pushed through what walls hold it at. To evaluate a curve there
+/// costs a tick that is long already another hundred instructions: what is beyond is left to the next tick, which goes
+/// there.
+const DEEP: f32 = 1.0 / 16.0;
+
+/// A probe seen from a witness point.
+struct Seen<'a> {
+    witness: &'a Witness,
+    /// From there to the probe.
+    away: Vec3,
+}
+
+impl Body {
+    /// Whether there is time to look beyond the border, behind the surface by a gap below 0.
+    #[inline(always)]
+    pub(super) fn asks_at(&self, gap: f32) -> bool {
+        self.asks_deep || -gap < DEEP * self.size
+    }
+
+    /// Ends contact where the probe is in front of what is beyond the border that the witness point lies on: then it has
+    /// left the body over an edge or a vertex, though this face has it behind. Whether it has.
+    #[inline(never)]
+    pub(super) fn leaves_over_border(&self, face: &Face, state: &mut BodyWitness) -> bool {
+        let (witness, away) = (&state.witness, state.probe - state.witness.surface.point);
+        let seen = Seen { witness, away };
+        let is_over = match witness.mode {
+            BoundaryMode::LowerU => self.is_over_side(face, 0, &seen),
+            BoundaryMode::UpperU => self.is_over_side(face, 1, &seen),
+            BoundaryMode::LowerV => self.is_over_side(face, 2, &seen),
+            BoundaryMode::UpperV => self.is_over_side(face, 3, &seen),
+            BoundaryMode::Corner | BoundaryMode::Interior => self.has_poles && self.is_over_any(face, &seen),
+        };
+        if is_over {
+            let probe = state.probe;
+            self.meet_border(state, probe, Some(true));
+        }
+        is_over
+    }
+
+    /// Whether it is so over any of the borders that the witness point lies on: beside a pole a step may end at one that
+    /// does not hold it.
+    #[inline(never)]
+    fn is_over_any(&self, face: &Face, seen: &Seen) -> bool {
+        let [u, v] = seen.witness.parameters;
+        (0..4).any(|number| [u, 1.0 - u, v, 1.0 - v][number] <= 0.0 && self.is_over_side(face, number, seen))
+    }
+
+    /// The same over one side. Over a convex edge by the normal `t × m` of the face beyond: this face lies behind that
+    /// one.
+    fn is_over_side(&self, face: &Face, number: usize, seen: &Seen) -> bool {
+        let Seen { witness, away } = *seen;
+        let (index, is_reversed) = match face.sides.get(number) {
+            Some(Side::Edge { edge, reversed, .. }) => (*edge, *reversed),
+            Some(Side::Pole { vertex }) => {
+                let vertex = self.vertices.get(usize::from(*vertex));
+                return vertex.is_some_and(|vertex| self.is_outside_at(vertex, away) == Some(true));
+            }
+            None => return false,
+        };
+        let Some(edge) = self.edges.get(usize::from(index)) else { return false };
+        if edge.kind != EdgeKind::Convex {
+            return false;
+        }
+        let (surface, [u, v]) = (&witness.surface, witness.parameters);
+        let (along, tangent, across) = if number < 2 {
+            (v, surface.tangent_v, surface.tangent_u)
+        } else {
+            (u, surface.tangent_u, surface.tangent_v)
+        };
+        let inward = if number & 1 == 0 { across } else { -across };
+        let t = if is_reversed { 1.0 - along } else { along };
+        // A derivative of the face beyond across the side, of any sign and length.
+        let cross = match self.side(self.beyond_side(edge, face, number)) {
+            Some(Side::Edge { separator: Separator::Plane { across, .. }, .. }) => *across,
+            Some(Side::Edge { separator: Separator::Ruled(cross), .. }) => cross.point(t),
+            _ => return false,
+        };
+        let normal = tangent.cross(cross);
+        normal.dot(away) * normal.dot(inward) < 0.0
+    }
+
+    #[inline]
+    fn side(&self, of: EdgeFace) -> Option<&Side> {
+        self.faces.get(usize::from(of.face))?.sides.get(usize::from(of.side))
+    }
+}
