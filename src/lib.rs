@@ -2,6 +2,7 @@
 #![doc = include_str!("../docs/crate.md")]
 
 pub mod body;
+pub mod commission;
 pub mod device;
 pub mod math;
 pub mod patch;

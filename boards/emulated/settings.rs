@@ -1,7 +1,8 @@
 // The settings of the demo. Copy this file, change it, and name yours in PALPATE_SETTINGS.
 
-// The device: its mechanism's type and its constant.
+// The device: its mechanism's type, its constant, and what protects it where the image is built with `protected`.
 pub use palpate::device::{SerialArm as Mechanism, presets::WOODEN_HAPTICS_2016 as DEVICE};
+pub use palpate::device::presets::WOODEN_HAPTICS_2016_PROTECTION as PROTECTION;
 
 /// 4 kHz, 600 N/m: well inside what the device takes; see `palpate::servo::Settings` for what each entry is.
 pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {

@@ -5,6 +5,7 @@
 //! a preset in [`presets`]; one, two and three joints are alike to the servo.
 
 mod delta;
+mod device_error;
 pub mod drive;
 mod encoder;
 mod five_bar;
@@ -14,11 +15,13 @@ mod motor;
 mod paddle;
 mod pose;
 pub mod presets;
+mod protection;
 pub mod sensor;
 mod serial_arm;
 mod velocity;
 
 pub use delta::Delta;
+pub use device_error::DeviceError;
 pub use encoder::{Counts, Encoder};
 pub use five_bar::FiveBar;
 pub use homing::{Homing, HomingError, HomingInput, HomingProgress, HomingState, Reference, Refusal, StopSearch};
@@ -26,6 +29,7 @@ pub use linkage_arm::{LinkMass, LinkageArm};
 pub use motor::{Duty, Motor};
 pub use paddle::Paddle;
 pub use pose::ProbePose;
+pub use protection::{Endurance, Protection, SignWatch, SupplyRange};
 pub use serial_arm::SerialArm;
 pub use velocity::{
     AdaptiveWindow, TrackingObserver, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState, WINDOW, Window,

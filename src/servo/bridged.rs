@@ -1,6 +1,6 @@
 //! Sensor frames that could not be read, bridged by the velocity estimate.
 
-use super::{Input, Phase, Servo, ServoState, Surface};
+use super::{Guard, Input, Phase, Servo, ServoState, Surface};
 use crate::device::{Counts, Kinematics};
 
 /// Puts a prediction in the place of a few bad frames in a row: the last good counts, carried on at the rates estimated
@@ -38,10 +38,10 @@ impl<const JOINTS: usize> FrameBridge<JOINTS> {
 
     /// What the tick starts from: `input` as it came, or a prediction in its place, with `enable` as it is now.
     #[inline]
-    pub fn input<S: Surface, K: Kinematics<JOINTS>>(
+    pub fn input<S: Surface, K: Kinematics<JOINTS>, G: Guard<JOINTS>>(
         &mut self,
-        servo: &Servo<'_, S, K, JOINTS>,
-        state: &ServoState<JOINTS, S::Witness>,
+        servo: &Servo<'_, S, K, JOINTS, G>,
+        state: &ServoState<JOINTS, S::Witness, G::State>,
         input: Input<JOINTS>,
         enable: bool,
     ) -> Input<JOINTS> {

@@ -2,17 +2,18 @@
 
 use super::lost_contact::{ContactWatch, LostContact};
 use super::{
-    Fault, Phase, Rendering, RenderingError, ResetReason, Safety, SafetyError, ServoState, Settings, SettingsError,
-    Stillness, Surface, TableCheck,
+    Fault, Guard, Guarded, Phase, ProtectionError, Rendering, RenderingError, ResetReason, Safety, SafetyError,
+    ServoState, Settings, SettingsError, Stillness, Surface, TableCheck, Unguarded,
 };
-use crate::device::{Device, Duty, Homing, HomingState, Kinematics, VelocityEstimator};
+use crate::device::{Device, Duty, Homing, HomingState, Kinematics, Protection, VelocityEstimator};
 use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Penalty, Tool};
 use crate::track::Controller;
 
-/// The loop's configuration: device, surface, controller and settings. Constant, in flash.
+/// The loop's configuration: device, surface, controller and settings. Constant, in flash. `G` is what guards it beyond
+/// its own checks: nothing, unless [`Self::protect`] says so.
 #[derive(Clone, Copy, Debug)]
-pub struct Servo<'a, S, K, const JOINTS: usize> {
+pub struct Servo<'a, S, K, const JOINTS: usize, G = Unguarded> {
     pub(super) device: &'a Device<K, JOINTS>,
     pub(super) surface: &'a S,
     pub(super) controller: Controller,
@@ -29,10 +30,26 @@ pub struct Servo<'a, S, K, const JOINTS: usize> {
     pub(super) fade_step: f32,
     pub(super) link_ticks: u32,
     pub(super) contact_watch: ContactWatch,
+    pub(super) guard: G,
 }
 
 impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K, JOINTS> {
     /// The loop of a device that touches a patch or a body, with [`Rendering::PLAIN`] and [`Safety::DEFAULT`].
+    ///
+    /// A device has one to three joints: with more it does not compile, for a force in space does not say how they
+    /// share it.
+    ///
+    /// ```compile_fail
+    /// # use palpate::{device::{Device, Kinematics}, patch::SplinePatch, servo::{Servo, Settings}, track::Controller};
+    /// fn four_joints<K: Kinematics<4>>(device: &Device<K, 4>, patch: &SplinePatch) {
+    ///     let _ = Servo::try_new(device, patch, Controller::SECOND_ORDER, Settings::DEFAULT);
+    /// }
+    /// # struct Snake;
+    /// # impl Kinematics<4> for Snake {
+    /// #     fn pose(&self, _: [f32; 4]) -> palpate::device::ProbePose<4> { palpate::device::ProbePose::UNREACHABLE }
+    /// # }
+    /// # fn main() { let make: fn(&Device<Snake, 4>, &SplinePatch) = four_joints; let _ = make; }
+    /// ```
     ///
     /// # Errors
     /// The setting that is refused.
@@ -42,6 +59,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         controller: Controller,
         settings: Settings,
     ) -> Result<Self, SettingsError> {
+        const { assert!(JOINTS >= 1 && JOINTS <= 3, "a device has one to three joints") };
         if let Err(error) = settings.check(device.max_stiffness, device.max_damping) {
             return Err(error);
         }
@@ -66,6 +84,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             fade_step: if settings.soft_start > period { period / settings.soft_start } else { 1.0 },
             link_ticks: u32::MAX,
             contact_watch: ContactWatch::new(Safety::DEFAULT.contact, max_force / settings.stiffness, settings.rate),
+            guard: Unguarded,
         };
         Ok(servo.set_rendering(Rendering::PLAIN))
     }
@@ -90,6 +109,61 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             Err(SettingsError::SoftStart) => panic!("soft_start"),
             Err(SettingsError::BodyOrigin) => panic!("body_origin"),
         }
+    }
+
+    /// The same loop with its device's motors protected. `protect` goes before what else is chosen.
+    ///
+    /// # Errors
+    /// The number that is refused.
+    pub const fn try_protect(
+        self,
+        protection: Protection<JOINTS>,
+    ) -> Result<Servo<'a, S, K, JOINTS, Guarded<JOINTS>>, ProtectionError> {
+        let guard = match Guarded::try_new(protection, self.rate, &self.penalty) {
+            Ok(guard) => guard,
+            Err(error) => return Err(error),
+        };
+        Ok(Servo {
+            device: self.device,
+            surface: self.surface,
+            controller: self.controller,
+            penalty: self.penalty,
+            estimators: self.estimators,
+            rendering: self.rendering,
+            safety: self.safety,
+            homing: self.homing,
+            settings: self.settings,
+            rate: self.rate,
+            period: self.period,
+            max_move: self.max_move,
+            max_growth: self.max_growth,
+            fade_step: self.fade_step,
+            link_ticks: self.link_ticks,
+            contact_watch: self.contact_watch,
+            guard,
+        })
+    }
+
+    /// [`Self::try_protect`] for a `static`.
+    ///
+    /// # Panics
+    /// At compile time, naming the number.
+    pub const fn protect(self, protection: Protection<JOINTS>) -> Servo<'a, S, K, JOINTS, Guarded<JOINTS>> {
+        match self.try_protect(protection) {
+            Ok(servo) => servo,
+            Err(ProtectionError::Continuous) => panic!("continuous"),
+            Err(ProtectionError::TimeConstant) => panic!("time_constant"),
+            Err(ProtectionError::Speed) => panic!("a greatest speed"),
+            Err(ProtectionError::Supply) => panic!("supply"),
+            Err(ProtectionError::Inertia) => panic!("inertia"),
+        }
+    }
+}
+
+impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
+    /// What guards the loop beyond its own checks.
+    pub const fn guard(&self) -> &G {
+        &self.guard
     }
 
     /// The same loop with this rendering.
@@ -173,13 +247,13 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
     }
 
     /// The state before the first tick after power-on: motors at zero, the witness point at rest.
-    pub fn start(&self) -> ServoState<JOINTS, S::Witness> {
+    pub fn start(&self) -> ServoState<JOINTS, S::Witness, G::State> {
         self.start_after(ResetReason::PowerOn)
     }
 
     /// The state before the first tick after a reset. One by the watchdog or a brown-out is a fault from the start, and
     /// so are tables that are not what was baked ([`Safety::checks_tables`]): they are read whole here.
-    pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS, S::Witness> {
+    pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS, S::Witness, G::State> {
         let mut table_check = TableCheck::default();
         let is_good = self.expected_crc().is_none_or(|expected| table_check.run(self.surface, expected));
         let fault = reset.fault().or((!is_good).then_some(Fault::TableCorrupt));
@@ -216,6 +290,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             force: Vec3::ZERO,
             drives: false,
             duties: [Duty::ZERO; JOINTS],
+            guard: self.guard.start(),
         }
     }
 }

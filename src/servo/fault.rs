@@ -54,11 +54,20 @@ pub enum Fault {
     /// Contact that no motion explains, again and again: see [`super::ContactLimits`].
     #[error("contact lost again and again")]
     ContactLost = 16,
+    /// A joint or the probe moves faster than it may while force is given.
+    #[error("moving too fast under force")]
+    Overspeed = 17,
+    /// The motors' supply is out of its range, or nobody has measured it.
+    #[error("motor supply out of range or not measured")]
+    Supply = 18,
+    /// A joint goes faster and faster against its motor: its encoder counts the other way, or its motor is wired so.
+    #[error("an encoder counts against its motor")]
+    WrongSign = 19,
 }
 
 impl Fault {
     /// Every fault, in the order of its code.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 19] = [
         Self::FrameLost,
         Self::FrameDamaged,
         Self::JointOutOfRange,
@@ -75,6 +84,9 @@ impl Fault {
         Self::Stopped,
         Self::Unreachable,
         Self::ContactLost,
+        Self::Overspeed,
+        Self::Supply,
+        Self::WrongSign,
     ];
 
     /// The code in a report, from 1.
@@ -167,4 +179,9 @@ pub enum Event {
     /// Somebody has looked at the device after a reset that is a fault, and wants it to go on: takes back
     /// [`Fault::WatchdogReset`] and [`Fault::BrownOut`], and nothing else. The loop begins anew.
     Acknowledged,
+    /// The motors' supply was measured. A loop that is not protected takes no notice.
+    Supply {
+        /// What was measured.
+        millivolts: u32,
+    },
 }

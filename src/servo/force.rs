@@ -1,17 +1,17 @@
 //! From the witness point to the force on the probe.
 
-use super::{Phase, Servo, ServoState, Surface, Tracked as _};
+use super::{Guard, Phase, Servo, ServoState, Surface, Tracked as _};
 use crate::device::Kinematics;
 use crate::math::{Vec3, sqrt};
 use crate::render::{Motion, Tool, Touch, limit};
 use crate::track::Contact;
 
-impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOINTS> {
+impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
     /// The force on the probe, N. `tool` is what touches the surface, `motion` is the probe's.
     #[inline]
     pub(super) fn force(
         &self,
-        state: &mut ServoState<JOINTS, S::Witness>,
+        state: &mut ServoState<JOINTS, S::Witness, G::State>,
         tool: Tool,
         normal: Vec3,
         motion: &Motion,
@@ -33,7 +33,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
 
     /// The surface's force on what touches it, N.
     #[inline]
-    fn surface_force(&self, state: &mut ServoState<JOINTS, S::Witness>, tool: Tool, normal: Vec3) -> Vec3 {
+    fn surface_force(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, tool: Tool, normal: Vec3) -> Vec3 {
         let push = match state.contact() {
             Contact::Touching => self.penalty.push(state.gap(), tool.velocity.dot(normal)),
             Contact::Behind | Contact::InFront => 0.0,
@@ -63,7 +63,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
 
     /// The force comes up slowly after each start, so that nothing kicks.
     #[inline]
-    pub(super) fn next_fade(&self, state: &ServoState<JOINTS, S::Witness>) -> f32 {
+    pub(super) fn next_fade(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> f32 {
         if state.phase != Phase::Running {
             return 0.0;
         }

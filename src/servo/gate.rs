@@ -38,29 +38,48 @@ pub fn gate<const JOINTS: usize>(
     if within {
         return Ok((fractions.map(Duty::from_fraction), 1.0));
     }
-    Ok(saturate(motors, felt, weight))
+    Ok(saturate(motors, felt, weight, |_| 1.0))
 }
 
-/// The most of the felt torques that the motors have left above the weight.
+/// As [`gate`], where each motor may be given only this share of its full scale.
+///
+/// # Errors
+/// As [`gate`]'s.
+#[cold]
+pub fn gate_within<const JOINTS: usize>(
+    drives: bool,
+    motors: &[Motor; JOINTS],
+    felt: [f32; JOINTS],
+    weight: [f32; JOINTS],
+    scales: &[f32; JOINTS],
+) -> Result<([Duty; JOINTS], f32), Fault> {
+    let (duties, scale) = gate(drives, motors, felt, weight)?;
+    let within = duties.iter().zip(scales).all(|(duty, scale)| duty.fraction().abs() <= *scale);
+    Ok(if within { (duties, scale) } else { saturate(motors, felt, weight, |joint| scales[joint]) })
+}
+
+/// The most of the felt torques that the motors have left above the weight, each within its own scale.
 #[cold]
 fn saturate<const JOINTS: usize>(
     motors: &[Motor; JOINTS],
     felt: [f32; JOINTS],
     weight: [f32; JOINTS],
+    full: impl Fn(usize) -> f32,
 ) -> ([Duty; JOINTS], f32) {
     let (mut asked, mut carried) = ([0.0; JOINTS], [0.0; JOINTS]);
     let mut heaviest = 1.0_f32;
     for joint in 0..JOINTS {
         asked[joint] = motors[joint].fraction(felt[joint]);
         carried[joint] = motors[joint].fraction(weight[joint]);
-        if carried[joint].abs() > heaviest {
-            heaviest = carried[joint].abs();
+        let size = carried[joint].abs() / full(joint);
+        if size > heaviest {
+            heaviest = size;
         }
     }
     let mut scale = 1.0_f32;
-    for (asked, carried) in asked.iter().zip(&mut carried) {
+    for (joint, (asked, carried)) in asked.iter().zip(&mut carried).enumerate() {
         *carried /= heaviest;
-        let left = if *asked > 0.0 { 1.0 - *carried } else { 1.0 + *carried };
+        let left = if *asked > 0.0 { full(joint) - *carried } else { full(joint) + *carried };
         if asked.abs() * scale > left {
             scale = left / asked.abs();
         }

@@ -1,14 +1,14 @@
 //! What the loop does about contact that no motion explains: see `lost_contact.rs`.
 
-use super::{Fault, Phase, Servo, ServoState, Surface};
+use super::{Fault, Guard, Phase, Servo, ServoState, Surface};
 use crate::device::Kinematics;
 use crate::math::Vec3;
 
-impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOINTS> {
+impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
     /// Ends contact that no motion explains.
     #[cold]
     #[inline(never)]
-    pub(super) fn lose_contact(&self, state: &mut ServoState<JOINTS, S::Witness>) -> Result<(), Fault> {
+    pub(super) fn lose_contact(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) -> Result<(), Fault> {
         if self.safety.contact.is_none() {
             return Ok(());
         }
@@ -25,7 +25,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
 
     /// What is still given of the force of contact that was lost, N.
     #[inline]
-    pub(super) fn fading(&self, state: &mut ServoState<JOINTS, S::Witness>) -> Vec3 {
+    pub(super) fn fading(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) -> Vec3 {
         let lost = &mut state.lost_contact;
         if lost.share <= 0.0 {
             return Vec3::ZERO;

@@ -19,6 +19,10 @@
 //! | table corrupted or stale | [`Safety::checks_tables`], at boot and in every tick | `TableCorrupt` |
 //! | reset by watchdog or brown-out | [`ResetReason`], [`Servo::start_after`] | `WatchdogReset`, `BrownOut` |
 //! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
+//! | supply out of range, or nobody measures it | [`crate::device::SupplyRange`], [`Event::Supply`] | `Supply` |
+//! | joint or probe too fast under force | [`crate::device::Protection`] | `Overspeed` |
+//! | encoder against its motor | [`crate::device::SignWatch`] | `WrongSign` |
+//! | motor too warm | [`Heat`]: its force folds back to what it bears for ever | none: a limit |
 //! | too much force | scaled as a whole, its direction kept | none: a limit |
 //! | force asked for inside the wall | faded in | none |
 //! | rim of the workspace, singularity | faded out and in again ([`crate::device::Device::room`]) | none |
@@ -33,6 +37,7 @@ mod deadline;
 mod fault;
 mod force;
 mod gate;
+mod guard;
 mod lose;
 mod lost_contact;
 mod output;
@@ -53,6 +58,7 @@ pub use bridged::FrameBridge;
 pub use config::Servo;
 pub use deadline::{Deadline, Heartbeat};
 pub use fault::{Event, Fault, ResetReason};
+pub use guard::{Guard, GuardState, Guarded, Heat, Moving, ProtectionError, Remembered, Unguarded};
 pub use lost_contact::ContactLimits;
 pub use output::Output;
 pub use patch_witness::PatchWitness;

@@ -14,7 +14,7 @@ pub enum Output<const JOINTS: usize> {
     Drive([Duty; JOINTS]),
 }
 
-impl<const JOINTS: usize, W> ServoState<JOINTS, W> {
+impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
     /// What the motors now get.
     #[inline]
     pub const fn output(&self) -> Output<JOINTS> {

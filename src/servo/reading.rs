@@ -6,7 +6,7 @@ use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Tool};
 use crate::track::Contact;
 
-impl<'a, S, K, const JOINTS: usize> Servo<'a, S, K, JOINTS> {
+impl<'a, S, K, const JOINTS: usize, G> Servo<'a, S, K, JOINTS, G> {
     /// The settings it was made with.
     #[inline]
     pub const fn settings(&self) -> &Settings {
@@ -29,7 +29,7 @@ impl<'a, S, K, const JOINTS: usize> Servo<'a, S, K, JOINTS> {
     }
 }
 
-impl<const JOINTS: usize, W> ServoState<JOINTS, W> {
+impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
     /// What the loop is doing.
     #[inline]
     pub const fn phase(&self) -> Phase {
@@ -188,9 +188,15 @@ impl<const JOINTS: usize, W> ServoState<JOINTS, W> {
     pub const fn duties(&self) -> [Duty; JOINTS] {
         self.duties
     }
+
+    /// What the guard remembers.
+    #[inline]
+    pub const fn guard(&self) -> &G {
+        &self.guard
+    }
 }
 
-impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
+impl<const JOINTS: usize, W: Tracked, G> ServoState<JOINTS, W, G> {
     /// Signed gap along the outward normal, metres; negative behind the surface.
     #[inline]
     pub fn gap(&self) -> f32 {

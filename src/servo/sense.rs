@@ -10,12 +10,12 @@ use crate::device::{Counts, Device, Encoder, VelocityEstimator};
 /// The fault, if an angle lies outside the joint's range or jumped faster than the device can move (the state keeps its
 /// last good counts then).
 #[inline]
-pub fn sense<W, K, const JOINTS: usize>(
+pub fn sense<W, G, K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     estimators: &[VelocityEstimator; JOINTS],
     max_move: f32,
     placed: bool,
-    state: &mut ServoState<JOINTS, W>,
+    state: &mut ServoState<JOINTS, W, G>,
     counts: [Counts; JOINTS],
 ) -> Result<(), Fault> {
     let mut angles = [0.0; JOINTS];

@@ -1,15 +1,15 @@
 //! Everything that changes from tick to tick.
 
 use super::lost_contact::LostContact;
-use super::{Fault, PatchWitness, Phase, ResetReason, Stillness, TableCheck, Tracked};
+use super::{Fault, PatchWitness, Phase, Remembered, ResetReason, Stillness, TableCheck, Tracked};
 use crate::device::{Counts, Duty, HomingState, VelocityState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Tool};
 
 /// The state of the loop after a tick. A plain value: copy it, compare it, keep it in RAM. Only the loop
-/// writes it.
+/// writes it. `G` is what its guard remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ServoState<const JOINTS: usize, W = PatchWitness> {
+pub struct ServoState<const JOINTS: usize, W = PatchWitness, G = ()> {
     /// What the loop is doing.
     pub(super) phase: Phase,
     /// What stopped it, and at which tick. Latched.
@@ -75,9 +75,11 @@ pub struct ServoState<const JOINTS: usize, W = PatchWitness> {
     pub(super) drives: bool,
     /// Duties now applied.
     pub(super) duties: [Duty; JOINTS],
+    /// What the guard remembers.
+    pub(super) guard: G,
 }
 
-impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
+impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
     /// A hash of every bit of the state (FNV-1a over 32-bit words): two runs agree bit for bit if it agrees at each
     /// tick.
     pub fn digest(&self) -> u32 {
@@ -125,6 +127,7 @@ impl<const JOINTS: usize, W: Tracked> ServoState<JOINTS, W> {
         for duty in self.duties {
             hash.words([duty.0 as u32]);
         }
+        self.guard.for_each_word(|word| hash.words([word]));
         hash.0
     }
 }

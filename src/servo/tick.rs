@@ -1,8 +1,8 @@
 //! One tick, from top to bottom.
 
-use super::gate::gate;
+use super::guard::Moving;
 use super::sense::sense;
-use super::{Event, Fault, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
+use super::{Event, Fault, Guard, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
 use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose};
 use crate::math::Vec3;
 use crate::render::{Motion, Tool, limit};
@@ -39,10 +39,10 @@ impl<const JOINTS: usize> Torques<JOINTS> {
     const NONE: Self = Self { felt: [0.0; JOINTS], weight: [0.0; JOINTS], live: false };
 }
 
-impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOINTS> {
+impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
     /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the
     /// motors are off when this returns: apply [`ServoState::output`].
-    pub fn note(&self, state: &mut ServoState<JOINTS, S::Witness>, event: Event) {
+    pub fn note(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, event: Event) {
         match event {
             Event::LinkAlive => state.link_silence = 0,
             // With homing of its own the loop is homed when that is done.
@@ -62,6 +62,11 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
                     self.begin_anew(state);
                 }
             }
+            Event::Supply { millivolts } => {
+                if let Err(fault) = self.guard.measured(&mut state.guard, millivolts) {
+                    stop(state, fault);
+                }
+            }
             Event::Overrun => {
                 state.overran = true;
                 state.overruns = state.overruns.saturating_add(1);
@@ -78,18 +83,23 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
     /// Bounded work: one pose, one evaluation of the patch. No panic. Whatever the input, the duties are finite and in
     /// range; from the tick in which a fault is seen they are safe.
     #[inline]
-    pub fn tick(&self, state: &mut ServoState<JOINTS, S::Witness>, input: Input<JOINTS>) {
+    pub fn tick(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, input: Input<JOINTS>) {
         self.watch(state);
         let torques = self.feel(state, input);
         let gated = torques.and_then(|Torques { felt, weight, live }| {
-            gate(live, &self.device.motors, felt, weight).map(|(duties, scale)| (duties, scale, live))
+            let gated = self.guard.gate(&state.guard, live, &self.device.motors, felt, weight);
+            gated.map(|(duties, scale)| (duties, scale, live))
         });
         match gated {
             Ok((duties, scale, live)) => {
                 state.duties = self.device.feed(live, duties, state.rates);
                 state.force *= scale;
+                self.guard.given(&mut state.guard, &duties);
             }
-            Err(fault) => stop(state, fault),
+            Err(fault) => {
+                stop(state, fault);
+                self.guard.given(&mut state.guard, &[Duty::ZERO; JOINTS]);
+            }
         }
         state.ticks = state.ticks.wrapping_add(1);
     }
@@ -102,7 +112,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
 
     /// What can be wrong whatever the sensors say.
     #[inline]
-    fn watch(&self, state: &mut ServoState<JOINTS, S::Witness>) {
+    fn watch(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) {
         if !state.overran {
             state.overruns_in_a_row = 0;
         }
@@ -111,7 +121,11 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
         if state.link_silence > self.link_ticks {
             stop(state, Fault::LinkLost);
         }
+        if let Err(fault) = self.guard.watch(&mut state.guard) {
+            stop(state, fault);
+        }
         if let Some(expected) = self.expected_crc()
+            && !self.guard.is_busy(&state.guard)
             && !state.table_check.step(self.surface, expected)
         {
             stop(state, Fault::TableCorrupt);
@@ -120,7 +134,11 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
 
     /// From the input to joint torques.
     #[inline(always)]
-    fn feel(&self, state: &mut ServoState<JOINTS, S::Witness>, input: Input<JOINTS>) -> Result<Torques<JOINTS>, Fault> {
+    fn feel(
+        &self,
+        state: &mut ServoState<JOINTS, S::Witness, G::State>,
+        input: Input<JOINTS>,
+    ) -> Result<Torques<JOINTS>, Fault> {
         let (counts, enable) = match input {
             Input::Sensors { counts, enable } => (counts, enable),
             Input::Lost => return Err(count_lost(state, Fault::FrameLost)),
@@ -179,11 +197,20 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
             passivity.observe(&mut state.energy, state.force, &motion);
         }
         state.force = self.force(state, tool, touched.normal, &motion);
-        let felt = pose.torques(state.force);
+        let mut felt = pose.torques(state.force);
         if let Some(limits) = self.safety.stuck
+            && !self.guard.is_busy(&state.guard)
             && state.stillness.is_broken(limits, &self.device.dry_friction, &counts, &state.angles, &felt)
         {
             return Err(Fault::JointStuck);
+        }
+        if state.phase == Phase::Running {
+            let moving = Moving { rates: &state.rates, velocity, pose: &pose, force: state.force, felt: &felt };
+            let share = self.guard.motion(&mut state.guard, &moving)?;
+            if share < 1.0 {
+                felt = felt.map(|torque| torque * share);
+                state.force *= share;
+            }
         }
         let fade = state.fade;
         Ok(Torques { felt, weight: weight.map(|torque| torque * fade), live: state.phase == Phase::Running })
@@ -193,7 +220,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
     fn home(
         &self,
         homing: &Homing<JOINTS>,
-        state: &mut ServoState<JOINTS, S::Witness>,
+        state: &mut ServoState<JOINTS, S::Witness, G::State>,
         counts: [Counts; JOINTS],
         enable: bool,
     ) -> Result<Torques<JOINTS>, Fault> {
@@ -226,7 +253,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
     }
 
     /// Forgets where the joints were, and how fast.
-    fn begin_anew(&self, state: &mut ServoState<JOINTS, S::Witness>) {
+    fn begin_anew(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) {
         state.counts = None;
         state.rates = [0.0; JOINTS];
         state.velocities = self.estimators.map(|estimator| estimator.start());
@@ -234,7 +261,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
 
     /// At most one step a tick; [`Phase::Fault`] is never left.
     #[inline]
-    fn next_phase(&self, state: &mut ServoState<JOINTS, S::Witness>, enable: bool) -> Phase {
+    fn next_phase(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, enable: bool) -> Phase {
         match state.phase {
             Phase::Reset => Phase::Calibrate,
             Phase::Calibrate => {
@@ -258,7 +285,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
     #[inline]
     fn safe_torques(
         &self,
-        state: &mut ServoState<JOINTS, S::Witness>,
+        state: &mut ServoState<JOINTS, S::Witness, G::State>,
         pose: &ProbePose<JOINTS>,
         velocity: Vec3,
     ) -> [f32; JOINTS] {
@@ -271,7 +298,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'_, S, K, JOI
 }
 
 /// Latches a fault; the first one stands. Motors at zero.
-fn stop<W, const JOINTS: usize>(state: &mut ServoState<JOINTS, W>, fault: Fault) {
+fn stop<W, G, const JOINTS: usize>(state: &mut ServoState<JOINTS, W, G>, fault: Fault) {
     state.phase = Phase::Fault;
     state.fault = state.fault.or(Some((fault, state.ticks)));
     state.force = Vec3::ZERO;
@@ -280,7 +307,7 @@ fn stop<W, const JOINTS: usize>(state: &mut ServoState<JOINTS, W>, fault: Fault)
     state.duties = [Duty::ZERO; JOINTS];
 }
 
-fn count_lost<W, const JOINTS: usize>(state: &mut ServoState<JOINTS, W>, fault: Fault) -> Fault {
+fn count_lost<W, G, const JOINTS: usize>(state: &mut ServoState<JOINTS, W, G>, fault: Fault) -> Fault {
     state.frames_lost = state.frames_lost.wrapping_add(1);
     fault
 }

@@ -134,3 +134,32 @@ pub enum Command {
     /// Go on after a reset by the watchdog or a brown-out: [`crate::servo::Event::Acknowledged`].
     Acknowledge,
 }
+
+/// From a device that is being set up: what it reads and what it gives its motors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Reading {
+    /// Ticks so far.
+    pub tick: u32,
+    /// The number of the last [`crate::commission::Jog`] that was taken.
+    pub number: u32,
+    /// Encoder counts.
+    pub counts: [i32; 3],
+    /// Motor duties now applied, full scale ±32 767.
+    pub duties: [i16; 3],
+    /// Whether a motor is being driven.
+    pub live: bool,
+    /// [`crate::commission::JogRefusal`] as its code, 0 for none.
+    pub refusal: u8,
+}
+
+/// To a device that is being set up, in lockstep with a simulated one: what its sensors would say at this tick, and what
+/// came over the link.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Bench {
+    /// The sensors.
+    pub sensors: Sensors,
+    /// A command, if one came.
+    pub jog: Option<crate::commission::Jog>,
+}

@@ -15,4 +15,4 @@ pub mod log;
 mod message;
 mod report;
 pub mod telemetry;
-pub use message::{Command, Record, Report, Sensors, hold};
+pub use message::{Bench, Command, Reading, Record, Report, Sensors, hold};

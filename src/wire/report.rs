@@ -3,11 +3,14 @@
 use super::Report;
 use super::telemetry::first_three;
 use crate::device::Refusal;
-use crate::servo::{ServoState, Tracked};
+use crate::servo::{Remembered, ServoState, Tracked};
 
 impl Report {
     /// What to say of a tick once it is done. `instructions` is what the board counted, 0 where it cannot.
-    pub fn new<const JOINTS: usize, W: Tracked>(state: &ServoState<JOINTS, W>, instructions: u32) -> Self {
+    pub fn new<const JOINTS: usize, W: Tracked, G: Remembered>(
+        state: &ServoState<JOINTS, W, G>,
+        instructions: u32,
+    ) -> Self {
         let (fault, fault_tick) = state.fault().map_or((0, 0), |(fault, tick)| (fault.code(), tick));
         Self {
             tick: state.ticks().wrapping_sub(1),

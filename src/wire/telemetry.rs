@@ -6,7 +6,7 @@
 
 use super::Record;
 use crate::device::Duty;
-use crate::servo::{Fault, Phase, ServoState, Tracked};
+use crate::servo::{Fault, Phase, Remembered, ServoState, Tracked};
 use crate::track::{BoundaryMode, Contact};
 
 /// The queue's type, for those who make one: `Queue<Record, N>` holds `N − 1` records.
@@ -72,7 +72,12 @@ impl<'a> Recorder<'a> {
 
     /// Takes note of a tick that is done: the counter of 32 bits, which wraps, at its interrupt and at its end.
     #[inline]
-    pub fn note<const JOINTS: usize, W: Tracked>(&mut self, state: &ServoState<JOINTS, W>, began: u32, ended: u32) {
+    pub fn note<const JOINTS: usize, W: Tracked, G: Remembered>(
+        &mut self,
+        state: &ServoState<JOINTS, W, G>,
+        began: u32,
+        ended: u32,
+    ) {
         if let Some(last) = self.began.replace(began) {
             let period = began.wrapping_sub(last);
             self.shortest = self.shortest.min(period);
@@ -102,7 +107,11 @@ impl<'a> Recorder<'a> {
         (self.shortest, self.longest, self.took) = (u32::MAX, 0, 0);
     }
 
-    fn record<const JOINTS: usize, W: Tracked>(&self, state: &ServoState<JOINTS, W>, began: u32) -> Record {
+    fn record<const JOINTS: usize, W: Tracked, G: Remembered>(
+        &self,
+        state: &ServoState<JOINTS, W, G>,
+        began: u32,
+    ) -> Record {
         let (fault, fault_tick) = state.fault().map_or((0, 0), |(fault, tick)| (fault.code(), tick));
         Record {
             tick: state.ticks().wrapping_sub(1),

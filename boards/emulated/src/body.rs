@@ -1,7 +1,9 @@
 //! What is felt and how: tables and settings in flash, chosen when the image is built (see `build.rs`).
 
 use palpate::body::{Body, Edge, Face, Spoke, Vertex};
-use palpate::servo::{self, Input, Servo, ServoState};
+#[cfg(feature = "protected")]
+use palpate::device::{Protection, SignWatch, SupplyRange};
+use palpate::servo::{self, Guard, Input, Servo, ServoState};
 use palpate::track::Controller;
 
 use crate::planted;
@@ -12,22 +14,55 @@ mod tables {
 }
 
 /// The settings of the loop, and its device.
+#[allow(unused_imports)]
 mod settings {
     include!(env!("PALPATE_SETTINGS_FILE"));
 }
 
 pub use settings::{DEVICE, SETTINGS};
 
-/// What the loop keeps between two ticks.
-pub type State = ServoState<3, <tables::Surface as servo::Surface>::Witness>;
+/// The loop of this image, guarded by `G`.
+pub type Loop<G> = Servo<'static, tables::Surface, settings::Mechanism, 3, G>;
+/// What it keeps between two ticks.
+pub type StateOf<G> = ServoState<3, <tables::Surface as servo::Surface>::Witness, <G as Guard<3>>::State>;
+
+/// What guards the loop of the programs.
+#[cfg(not(feature = "protected"))]
+pub type Chosen = palpate::servo::Unguarded;
+/// What guards the loop of the programs.
+#[cfg(feature = "protected")]
+pub type Chosen = palpate::servo::Guarded<3>;
+
+/// What the loop of the programs keeps between two ticks.
+pub type State = StateOf<Chosen>;
 
 // What the host counts of each record when it reports a table's bytes.
 const _: () = assert!(size_of::<Face>() == 228 && size_of::<Edge>() == 52 && size_of::<Vertex>() == 32);
 const _: () = assert!(size_of::<Spoke>() == 16 && size_of::<Body>() == 76);
 
 /// Everything the servo knows, in flash.
-pub static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> =
+#[cfg(not(feature = "protected"))]
+pub static SERVO: Loop<Chosen> =
     Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS).safety(settings::SAFETY);
+/// Everything the servo knows, in flash.
+#[cfg(feature = "protected")]
+pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS)
+    .safety(settings::SAFETY)
+    .protect(protection());
+
+/// What protects it. Where it is counted, joints stay on trial: a path that goes where it is told says nothing of signs.
+#[cfg(feature = "protected")]
+const fn protection() -> Protection<3> {
+    if cfg!(feature = "counted") {
+        Protection {
+            supply: Some(SupplyRange { least: 20_000, most: 28_000 }),
+            signs: Some(SignWatch { inertia: [1e3; 3] }),
+            ..settings::PROTECTION
+        }
+    } else {
+        settings::PROTECTION
+    }
+}
 
 /// One tick of the servo: a function of its own, so that what is proved of the image and what is counted is all of it
 /// and nothing else.

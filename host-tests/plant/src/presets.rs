@@ -10,6 +10,7 @@ use super::five_bar::{FiveBarSettings, LinkLump, LinkageArmSettings};
 use super::motor::{Amplifier, Winding};
 use super::paddle::PaddleSettings;
 use super::settings::{ArmSettings, Direction, JointSettings, MechanismSettings, PlantSettings};
+use super::thermal::ThermalSettings;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const DEGREE: f64 = PI / 180.0;
@@ -323,3 +324,50 @@ const fn pantograph(second_pivot: f64, crank: f64, rod: f64, workspace_centre: [
         tool_mass: 0.025,
     }
 }
+
+/// How warm each joint's motor gets. Data sheets of motors with these torque constants, from memory and not checked
+/// against the sheets themselves; what is behind a device whose motor nobody states is assumed and said to be.
+impl PlantSettings {
+    /// WoodenHaptics: a Maxon RE 30 of 24 V, 25.9 mN·m/A.
+    pub const WOODEN_HAPTICS_HEAT: [ThermalSettings; 3] = [RE_30_24_V; 3];
+    /// Polhem: 60.3 mN·m/A is a Maxon RE 40 of 48 V, 53.8 mN·m/A an RE 30 of 48 V.
+    pub const POLHEM_HEAT: [ThermalSettings; 3] = [
+        ThermalSettings {
+            resistance: 1.16,
+            winding_to_housing: 1.9,
+            housing_to_air: 4.65,
+            winding_time_constant: 41.5,
+            housing_time_constant: 1_120.0,
+            greatest: 155.0,
+        },
+        ThermalSettings { resistance: 2.52, ..RE_30_24_V },
+        ThermalSettings { resistance: 2.52, ..RE_30_24_V },
+    ];
+    /// Phantom: 23.4 mN·m/A is a Maxon RE 25 of 24 V.
+    pub const PHANTOM_HEAT: [ThermalSettings; 3] = [ThermalSettings {
+        resistance: 2.32,
+        winding_to_housing: 3.1,
+        housing_to_air: 14.0,
+        winding_time_constant: 12.4,
+        housing_time_constant: 910.0,
+        greatest: 125.0,
+    }; 3];
+    /// Falcon: assumed, a brushed motor of 37 mm.
+    pub const FALCON_HEAT: [ThermalSettings; 3] = [ThermalSettings {
+        resistance: 2.5,
+        winding_to_housing: 4.0,
+        housing_to_air: 10.0,
+        winding_time_constant: 20.0,
+        housing_time_constant: 800.0,
+        greatest: 120.0,
+    }; 3];
+}
+
+const RE_30_24_V: ThermalSettings = ThermalSettings {
+    resistance: 0.611,
+    winding_to_housing: 1.7,
+    housing_to_air: 6.0,
+    winding_time_constant: 16.2,
+    housing_time_constant: 714.0,
+    greatest: 125.0,
+};

@@ -1,8 +1,11 @@
 //! The devices that ship, one row each: what the servo knows of it, and what stands in for it in simulation.
 
+use crate::own::{self, OwnDevice};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use palpate::device::{Delta, Device, FiveBar, Kinematics, LinkageArm, Paddle, SerialArm, presets};
 use palpate_plant::PlantSettings;
+use std::ffi::OsStr;
+use std::path::Path;
 
 /// A device that ships.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +24,8 @@ pub struct ShippedDevice {
     /// Where the palpate library has the preset: its mechanism's type and its constant, in a source file for an image.
     /// None with less than three joints.
     pub source: Option<[&'static str; 2]>,
+    /// The source of the constants of one's own device; none of one that ships.
+    pub constants: Option<&'static str>,
 }
 
 /// Every device that ships. A new one is a row here, a preset of the library and settings of the plant.
@@ -32,6 +37,7 @@ pub static DEVICES: [ShippedDevice; 7] = [
         plant: PlantSettings::wooden_haptics_2016(),
         assumed: "turntable, rotors and friction are assumed; the links' masses are published",
         source: Some(["SerialArm", "WOODEN_HAPTICS_2016"]),
+        constants: None,
     },
     ShippedDevice {
         name: "polhem-v2",
@@ -40,6 +46,7 @@ pub static DEVICES: [ShippedDevice; 7] = [
         plant: PlantSettings::polhem_v2(),
         assumed: "turntable, rotors and friction are assumed; the links' masses are published",
         source: Some(["LinkageArm", "POLHEM_V2"]),
+        constants: None,
     },
     ShippedDevice {
         name: "phantom-premium",
@@ -48,6 +55,7 @@ pub static DEVICES: [ShippedDevice; 7] = [
         plant: PlantSettings::phantom_premium(),
         assumed: "encoder counts are assumed; inertia and friction are published",
         source: Some(["SerialArm", "PHANTOM_PREMIUM"]),
+        constants: None,
     },
     ShippedDevice {
         name: "falcon",
@@ -56,6 +64,7 @@ pub static DEVICES: [ShippedDevice; 7] = [
         plant: PlantSettings::novint_falcon(),
         assumed: "all masses are assumed; friction is of the published size",
         source: Some(["Delta", "NOVINT_FALCON"]),
+        constants: None,
     },
     ShippedDevice {
         name: "haply-2diy-v3",
@@ -64,6 +73,7 @@ pub static DEVICES: [ShippedDevice; 7] = [
         plant: PlantSettings::haply_2diy_v3(),
         assumed: "all masses, friction and windings are assumed",
         source: None,
+        constants: None,
     },
     ShippedDevice {
         name: "haply-kit-v1",
@@ -72,6 +82,7 @@ pub static DEVICES: [ShippedDevice; 7] = [
         plant: PlantSettings::haply_kit_v1(),
         assumed: "all masses, friction and windings are assumed",
         source: None,
+        constants: None,
     },
     ShippedDevice {
         name: "hapkit",
@@ -80,6 +91,7 @@ pub static DEVICES: [ShippedDevice; 7] = [
         plant: PlantSettings::hapkit(),
         assumed: "all masses, friction and windings are assumed",
         source: None,
+        constants: None,
     },
 ];
 
@@ -88,11 +100,59 @@ pub fn named(name: &str) -> Option<&'static ShippedDevice> {
     DEVICES.iter().find(|device| device.name == name)
 }
 
-/// Takes the name of a device from the command line.
+/// Takes a device from the command line: by its name, or one's own from its file.
 pub fn parser() -> impl TypedValueParser<Value = &'static ShippedDevice> {
-    let names = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
-    // The names are the table's: each is found.
-    PossibleValuesParser::new(names).try_map(|name| named(&name).ok_or("no such device"))
+    NameOrFile
+}
+
+/// A name of [`DEVICES`], or the path of a device file, which ends in `.toml`.
+#[derive(Clone, Copy, Debug)]
+struct NameOrFile;
+
+impl TypedValueParser for NameOrFile {
+    type Value = &'static ShippedDevice;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, clap::Error> {
+        let path = Path::new(value);
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            let own = OwnDevice::read(path).map_err(|error| {
+                clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
+            })?;
+            return Ok(own_device(&own, &path.display().to_string()));
+        }
+        let names = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
+        // The names are the table's: each is found.
+        let known = PossibleValuesParser::new(names).try_map(|name| named(&name).ok_or("no such device"));
+        known.parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let names = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
+        Some(Box::new(names))
+    }
+}
+
+/// One's own device as a row of the table; it lives as long as the program.
+pub fn own_device(own: &OwnDevice, from: &str) -> &'static ShippedDevice {
+    let mechanism = match own.preset {
+        Preset::LinkageArm(_) => "LinkageArm",
+        Preset::Delta(_) => "Delta",
+        _ => "SerialArm",
+    };
+    Box::leak(Box::new(ShippedDevice {
+        name: Box::leak(own.file.name.clone().into_boxed_str()),
+        about: "one's own",
+        preset: own.preset,
+        plant: own.plant,
+        assumed: "what of its inertia the file does not state is assumed",
+        source: Some([mechanism, "DEVICE"]),
+        constants: Some(Box::leak(own::source(own, from).into_boxed_str())),
+    }))
 }
 
 /// What the servo knows of a device, by its mechanism. Only who matches on it need know that there are several; from

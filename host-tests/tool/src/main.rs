@@ -2,8 +2,8 @@
 
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
-    bake, budgets, check, closest, cycles, demo, figures, firmware, image, import, monitor, parts, race, sim, test,
-    zwidth,
+    bake, budgets, check, closest, cycles, demo, device, figures, firmware, image, import, monitor, parts, race, sim,
+    test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -17,6 +17,7 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Demo(demo::Arguments),
+    Device(device::Arguments),
     Test(test::Arguments),
     Check(check::Arguments),
     Bake(bake::Arguments),
@@ -37,6 +38,7 @@ enum Command {
 fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::Demo(arguments) => demo::run(&arguments),
+        Command::Device(arguments) => device::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Bake(arguments) => bake::run(&arguments),

@@ -8,6 +8,7 @@ mod hapkit;
 mod haply;
 mod phantom;
 mod polhem;
+mod protection;
 mod wooden_haptics;
 
 pub use falcon::NOVINT_FALCON;
@@ -15,6 +16,9 @@ pub use hapkit::HAPKIT;
 pub use haply::{HAPLY_2DIY_V3, HAPLY_KIT_V1};
 pub use phantom::PHANTOM_PREMIUM;
 pub use polhem::{POLHEM_V2, POLHEM_V2_REFERENCE};
+pub use protection::{
+    NOVINT_FALCON_PROTECTION, PHANTOM_PREMIUM_PROTECTION, POLHEM_V2_PROTECTION, WOODEN_HAPTICS_2016_PROTECTION,
+};
 pub use wooden_haptics::WOODEN_HAPTICS_2016;
 
 #[cfg(test)]

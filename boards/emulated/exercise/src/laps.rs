@@ -1,12 +1,14 @@
 //! Servos that together have everything a servo can have.
 
 use palpate::body::Body;
-use palpate::device::presets::{NOVINT_FALCON, POLHEM_V2, WOODEN_HAPTICS_2016};
-use palpate::device::{Delta, Device, LinkageArm, Motor, SerialArm, VelocityMethod};
+use palpate::device::presets::{NOVINT_FALCON, POLHEM_V2, WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
+use palpate::device::{
+    Delta, Device, Endurance, LinkageArm, Motor, Protection, SerialArm, SupplyRange, VelocityMethod,
+};
 use palpate::math::{Vec3, vec3};
 use palpate::patch::SplinePatch;
 use palpate::render::{Coupling, Friction, Passivity, Texture, grating};
-use palpate::servo::{ContactLimits, Rendering, SafeOutput, Safety, Servo, Settings, StuckLimits};
+use palpate::servo::{ContactLimits, Guarded, Rendering, SafeOutput, Safety, Servo, Settings, StuckLimits, Unguarded};
 use palpate::track::Controller;
 
 /// A polynomial patch of several spans.
@@ -24,7 +26,7 @@ mod capped_box {
 }
 
 /// A servo of a mechanism with three joints.
-pub type ServoOf<K, S = SplinePatch> = Servo<'static, S, K, 3>;
+pub type ServoOf<K, S = SplinePatch, G = Unguarded> = Servo<'static, S, K, 3, G>;
 
 const fn settings(body_origin: Vec3) -> Settings {
     Settings {
@@ -122,6 +124,15 @@ pub static BODY: ServoOf<SerialArm, Body> =
     Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, Controller::SECOND_ORDER, CAPPED_BOX_AT)
         .rendering(Rendering { friction: Some(FRICTION), ..Rendering::PLAIN })
         .safety(Safety { contact: None, ..Safety::DEFAULT });
+
+/// All protection on, with motors that are soon warm, and a supply that nobody measures for long.
+pub static GUARDED: ServoOf<SerialArm, SplinePatch, Guarded<3>> =
+    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT).protect(Protection {
+        motors: [Endurance { continuous: 0.1, time_constant: 0.1 }; 3],
+        max_joint_rates: [6.0; 3],
+        supply: Some(SupplyRange { least: 20_000, most: 28_000 }),
+        ..WOODEN_HAPTICS_2016_PROTECTION
+    });
 
 /// Joint angles, radians, that bring each device's probe to, around and into the bodies.
 pub const WOODEN_HAPTICS_REACH: [[f32; 2]; 3] = [[-0.32, 0.32], [0.0, 0.65], [0.65, 1.2]];

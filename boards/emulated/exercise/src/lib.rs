@@ -12,7 +12,7 @@ pub mod tally;
 use palpate::device::Encoder;
 use palpate::device::Kinematics;
 use palpate::device::presets::{NOVINT_FALCON, POLHEM_V2, WOODEN_HAPTICS_2016};
-use palpate::servo::Surface;
+use palpate::servo::{Guard, Surface};
 
 use laps::{FALCON_REACH, POLHEM_REACH, ServoOf, WOODEN_HAPTICS_REACH};
 use script::Script;
@@ -31,14 +31,15 @@ pub fn run(say: &mut impl FnMut(&str, &Tally)) {
     lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 100_000, say);
     lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 100_000, say);
     lap("short", &laps::SHORT, &NOVINT_FALCON.encoders, FALCON_REACH, 50_000, say);
-    lap("watchful", &laps::WATCHFUL, &POLHEM_V2.encoders, POLHEM_REACH, 200_000, say);
+    lap("watchful", &laps::WATCHFUL, &POLHEM_V2.encoders, POLHEM_REACH, 150_000, say);
+    lap("guarded", &laps::GUARDED, serial, WOODEN_HAPTICS_REACH, 50_000, say);
     lap("broken", &laps::BROKEN, serial, WOODEN_HAPTICS_REACH, 50_000, say);
     lap("corrupt", &laps::CORRUPT, serial, WOODEN_HAPTICS_REACH, 50_000, say);
 }
 
-fn lap<K: Kinematics<3>, S: Surface>(
+fn lap<K: Kinematics<3>, S: Surface, G: Guard<3>>(
     name: &str,
-    servo: &ServoOf<K, S>,
+    servo: &ServoOf<K, S, G>,
     encoders: &[Encoder; 3],
     reach: [[f32; 2]; 3],
     ticks: u32,

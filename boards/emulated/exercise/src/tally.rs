@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use palpate::servo::{ServoState, Tracked};
+use palpate::servo::{Remembered, ServoState, Tracked};
 use palpate::track::Contact;
 
 /// What the ticks so far came to.
@@ -30,7 +30,7 @@ pub struct Tally {
 
 impl Tally {
     /// Takes in the state after a tick.
-    pub fn add<W: Tracked>(&mut self, before: Contact, state: &ServoState<3, W>) {
+    pub fn add<W: Tracked, G: Remembered>(&mut self, before: Contact, state: &ServoState<3, W, G>) {
         self.ticks += 1;
         self.digest = (self.digest.rotate_left(5) ^ state.digest()).wrapping_mul(0x0100_0193);
         self.modes |= 1 << state.witness().witness().mode as u32;

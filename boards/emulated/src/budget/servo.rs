@@ -61,13 +61,15 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         let input = black_box(Input::Sensors { counts: walk.counts(position), enable: true });
         // As the loop does with each frame: a host that is silent is a fault.
         SERVO.note(&mut state, Event::LinkAlive);
+        #[cfg(feature = "protected")]
+        SERVO.note(&mut state, Event::Supply { millivolts: 24_000 });
         let ((), instructions) = counter.count(|| tick(&mut state, input));
         ticks.add(instructions);
         touched += u32::from(state.contact() == Contact::Touching);
         let feature = state.witness().feature();
         met[usize::from(feature >> 14)] |= 1 << (feature & 31);
     }
-    ticks.print("servo tick");
+    ticks.print(if cfg!(feature = "protected") { "servo tick, protected" } else { "servo tick" });
     if state.fault().is_some() {
         return Err("the servo found a fault on its path");
     }

@@ -21,6 +21,9 @@ pub struct Arguments {
     /// The program: `uart` or `fifo`
     #[arg(long, default_value = "uart")]
     program: String,
+    /// With all protection of the device
+    #[arg(long)]
+    protected: bool,
 }
 
 /// Runs the command: 0 if nothing was found, 1 otherwise.
@@ -28,7 +31,8 @@ pub struct Arguments {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let program = Program::prepare(arguments.board, &arguments.program, &[], &Progress::new())?;
+    let features: &[&str] = if arguments.protected { &["protected"] } else { &[] };
+    let program = Program::prepare(arguments.board, &arguments.program, features, &Progress::new())?;
     let image = &program.image;
     let code = Code::read(&image.elf)?;
     let lines = Lines::read(&image.elf).map_err(|error| anyhow::anyhow!("{error}"))?;

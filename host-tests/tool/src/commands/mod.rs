@@ -6,6 +6,7 @@ pub mod check;
 pub mod closest;
 pub mod cycles;
 pub mod demo;
+pub mod device;
 pub mod felt;
 pub mod figures;
 pub mod firmware;

@@ -35,7 +35,7 @@ pub struct SceneOptions {
     /// One patch of the model, by name or index; without it, all patches joined to a body
     #[arg(long)]
     pub patch: Option<String>,
-    /// The device; feeling a surface takes three joints
+    /// The device, or the file of one's own (my.toml); feeling a surface takes three joints
     #[arg(long, value_parser = devices::parser(), default_value = "woodenhaptics-2016")]
     pub device: &'static ShippedDevice,
     /// Servo rate, Hz
@@ -231,8 +231,12 @@ impl Scene {
         let link_timeout = SAFETY.link_timeout;
         // A scene has three joints.
         let [mechanism, device] = self.device.source.unwrap_or_default();
+        let shipped = format!(
+            "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE, presets::{device}_PROTECTION as PROTECTION}};"
+        );
+        let constants = self.device.constants.unwrap_or(&shipped);
         format!(
-            "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE}};\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
+            "{constants}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
              rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    \
              max_force: {max_force:?},\n    velocity_corner: {velocity_corner:?},\n    \
              soft_start: {soft_start:?},\n    body_origin: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n/// Its limits.\n\

@@ -1,5 +1,7 @@
 //! Devices: their mathematics against simulated ones, their sensors and drives at the pins.
 
+mod commissioning;
 mod mechanisms;
+mod own;
 mod pins;
 mod wooden_haptics;

@@ -12,6 +12,7 @@ use palpate_tool::firmware::{Board, Link};
 mod tables {
     include!("../../../../boards/bodies/capped_box.rs");
 }
+#[allow(unused_imports)]
 mod settings {
     include!("../../../../boards/emulated/settings.rs");
 }

@@ -3,8 +3,10 @@
 mod faults;
 mod frames;
 mod fuzz;
+mod guard;
 mod harmed;
 mod homing;
+mod jogging;
 mod limits;
 mod passivity;
 mod surfaces;

@@ -1,0 +1,56 @@
+//! `palpate device`: the file of one's own device as the library's constant; the file of one that ships, to begin with.
+
+use crate::devices;
+use crate::own::{OwnDevice, file_of, source};
+use anyhow::{Context, bail};
+use clap::Args;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Turns a device file into the library's constants, or writes the file of a device that ships, to begin with.
+///
+/// The constants are checked here and again when they are compiled.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The device file (my.toml), or the name of a device that ships
+    device: PathBuf,
+    /// Where the constants go (device.rs), or the file to begin with (my.toml)
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What is wrong with the file, by its entry; nothing is written then.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let name = arguments.device.to_string_lossy();
+    let own = match devices::named(&name) {
+        Some(shipped) => {
+            let file = file_of(shipped).with_context(|| format!("{name} has less than three joints"))?;
+            OwnDevice::new(file, &name)?
+        }
+        None => OwnDevice::read(&arguments.device)?,
+    };
+    let text = match arguments.out.extension().and_then(|extension| extension.to_str()) {
+        Some("rs") => source(&own, &name),
+        Some("toml") => toml_of(&own, &format!("Begun from {name} by `palpate device`."))?,
+        _ => bail!("{}: --out must end in .rs or .toml", arguments.out.display()),
+    };
+    write(&arguments.out, &text)?;
+    println!("{}: {} joints, written to {}", own.file.name, own.file.joint.len(), arguments.out.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A device file's text, with a line on top.
+///
+/// # Errors
+/// None of a file that was read.
+pub fn toml_of(own: &OwnDevice, head: &str) -> anyhow::Result<String> {
+    Ok(format!("# {head} SI units; see docs/device-format.md.\n\n{}", toml::to_string(&own.file)?))
+}
+
+fn write(path: &Path, text: &str) -> anyhow::Result<()> {
+    fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+}

@@ -1,0 +1,77 @@
+//! A device file as the library's constants, checked when they are compiled.
+
+use super::read::OwnDevice;
+use crate::devices::Preset;
+use palpate::device::drive::Feed;
+use palpate::device::{Device, Protection};
+use std::fmt::{Debug, Write as _};
+
+/// The file's text as Rust source: `Mechanism`, `DEVICE`, `PROTECTION` and the inputs and outputs of each joint. Every
+/// number reads back as the same `f32`.
+pub fn source(own: &OwnDevice, from: &str) -> String {
+    let mut text = format!("// Written by `palpate device` from {from}. Change that, not this.\n\n");
+    match own.preset {
+        Preset::SerialArm(device) => constants(&mut text, "SerialArm", device, &own.protection),
+        Preset::LinkageArm(device) => constants(&mut text, "LinkageArm", device, &own.protection),
+        Preset::Delta(device) => constants(&mut text, "Delta", device, &own.protection),
+        Preset::FiveBar(_) | Preset::Paddle(_) => {}
+    }
+    let inputs: Vec<usize> = own.file.joint.iter().map(|joint| joint.encoder.channel).collect();
+    let outputs: Vec<usize> = own.file.joint.iter().map(|joint| joint.motor.channel).collect();
+    let _ = write!(
+        text,
+        "\n/// Which of the board's encoder inputs each joint is on.\n#[allow(dead_code)]\npub const ENCODER_CHANNELS: [usize; 3] = {inputs:?};\n\
+         /// Which of the board's motor outputs each joint is on.\n#[allow(dead_code)]\npub const MOTOR_CHANNELS: [usize; 3] = {outputs:?};\n"
+    );
+    text
+}
+
+/// `Debug` of the library's plain structs is the Rust that makes them, but for the paths.
+fn literal(value: &impl Debug) -> String {
+    let text = format!("{value:?}");
+    let text = text.replace("Vec3(", "palpate::math::vec3(").replace("Vec2(", "palpate::math::vec2(");
+    let names = [
+        "SerialArm {",
+        "LinkageArm {",
+        "FiveBar {",
+        "Delta {",
+        "LinkMass {",
+        "Encoder {",
+        "Motor {",
+        "Protection {",
+        "Endurance {",
+        "SupplyRange {",
+        "SignWatch {",
+    ];
+    names.iter().fold(text, |text, name| text.replace(name, &format!("palpate::device::{name}")))
+}
+
+fn feeds(feeds: &[Feed; 3]) -> String {
+    let each = feeds.iter().map(|feed| match feed {
+        Feed::Current => "palpate::device::drive::Feed::Current".to_owned(),
+        Feed::Voltage(voltage) => {
+            format!("palpate::device::drive::Feed::Voltage(palpate::device::drive::{voltage:?})")
+        }
+    });
+    format!("[{}]", each.collect::<Vec<_>>().join(", "))
+}
+
+fn constants<K: Debug>(text: &mut String, mechanism: &str, device: &Device<K, 3>, protection: &Protection<3>) {
+    let Device { kinematics, encoders, motors, dry_friction, joint_range, .. } = device;
+    let Device { min_margin, max_joint_rate, max_force, max_stiffness, max_damping, .. } = device;
+    let _ = write!(
+        text,
+        "pub use palpate::device::{mechanism} as Mechanism;\n\n\
+         /// The device.\npub const DEVICE: palpate::device::Device<Mechanism, 3> = palpate::device::Device {{\n    \
+         kinematics: {},\n    encoders: {},\n    motors: {},\n    feeds: {},\n    dry_friction: {dry_friction:?},\n    \
+         joint_range: {joint_range:?},\n    min_margin: {min_margin:?},\n    max_joint_rate: {max_joint_rate:?},\n    \
+         max_force: {max_force:?},\n    max_stiffness: {max_stiffness:?},\n    max_damping: {max_damping:?},\n}};\n\
+         const _: () = assert!(DEVICE.check().is_ok(), \"no device has these numbers\");\n\n\
+         /// What protects it.\n#[allow(dead_code)]\npub const PROTECTION: palpate::device::Protection<3> = {};\n",
+        literal(kinematics),
+        literal(encoders),
+        literal(motors),
+        feeds(&device.feeds),
+        literal(protection),
+    );
+}

@@ -1,0 +1,128 @@
+//! The device file of a device that ships: where one's own begins.
+
+use super::schema::{
+    BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, MassEntry, MechanismEntry, MotorEntry,
+};
+use crate::devices::{Preset, ShippedDevice};
+use palpate::device::drive::Feed;
+use palpate::device::{Device, Protection, presets};
+use palpate_plant::Direction;
+
+/// The shortest decimal that reads back as the same `f32`.
+fn decimal(number: f32) -> f64 {
+    number.to_string().parse().unwrap_or_else(|_| f64::from(number))
+}
+
+/// The file of a shipped device of three joints; `None` with fewer.
+pub fn file_of(shipped: &ShippedDevice) -> Option<DeviceFile> {
+    let (mechanism, rest) = match shipped.preset {
+        Preset::SerialArm(device) => {
+            let arm = device.kinematics;
+            let mechanism = MechanismEntry::SerialArm {
+                base_height: decimal(arm.base_height),
+                first_link: decimal(arm.first_link),
+                second_link: decimal(arm.second_link),
+                workspace_centre: arm.workspace_centre.to_array().map(decimal),
+                end_masses: arm.end_masses.map(decimal),
+            };
+            (mechanism, rest(shipped, device))
+        }
+        Preset::LinkageArm(device) => {
+            let arm = device.kinematics;
+            let mechanism = MechanismEntry::LinkageArm {
+                second_pivot: decimal(arm.linkage.second_pivot),
+                cranks: arm.linkage.cranks.map(decimal),
+                rods: arm.linkage.rods.map(decimal),
+                side: decimal(arm.linkage.side),
+                tool: decimal(arm.linkage.tool),
+                pivot_reach: decimal(arm.pivot_reach),
+                workspace_centre: arm.workspace_centre.to_array().map(decimal),
+                masses: Some(arm.masses.map(|link| MassEntry {
+                    mass: decimal(link.mass),
+                    along: decimal(link.along),
+                    across: decimal(link.across),
+                })),
+            };
+            (mechanism, rest(shipped, device))
+        }
+        Preset::Delta(device) => {
+            let delta = device.kinematics;
+            let mechanism = MechanismEntry::Delta {
+                thigh: decimal(delta.thigh),
+                shin: decimal(delta.shin),
+                stub: decimal(delta.stub),
+                reach: decimal(delta.reach),
+                side: decimal(delta.side),
+                legs: delta.directions.map(|[cosine, sine]| f64::from(sine).atan2(f64::from(cosine))),
+                workspace_depth: decimal(delta.workspace_centre.z),
+                carried_mass: decimal(delta.carried_mass),
+                thigh_moment: decimal(delta.thigh_moment),
+            };
+            (mechanism, rest(shipped, device))
+        }
+        Preset::FiveBar(_) | Preset::Paddle(_) => return None,
+    };
+    let (limits, joint) = rest;
+    Some(DeviceFile { name: shipped.name.to_owned(), mechanism, limits, joint })
+}
+
+/// What protects a shipped device.
+fn protection(name: &str) -> Protection<3> {
+    match name {
+        "polhem-v2" => presets::POLHEM_V2_PROTECTION,
+        "phantom-premium" => presets::PHANTOM_PREMIUM_PROTECTION,
+        "falcon" => presets::NOVINT_FALCON_PROTECTION,
+        _ => presets::WOODEN_HAPTICS_2016_PROTECTION,
+    }
+}
+
+/// Limits and joints. Counts a turn and ratio are the plant's, for the library keeps their product alone.
+fn rest<K>(shipped: &ShippedDevice, device: &Device<K, 3>) -> (LimitsEntry, Vec<JointEntry>) {
+    let protection = protection(shipped.name);
+    let names = ["a", "b", "c"];
+    let joints = (0..3).map(|index| {
+        let plant = &shipped.plant.joints[index];
+        let sign = |direction: Direction| if direction == Direction::With { 1.0 } else { -1.0 };
+        let encoder = EncoderEntry {
+            channel: index,
+            counts: plant.counts_per_turn,
+            ratio: sign(plant.encoder_direction) * plant.ratio,
+            zero: plant.angle_at_zero,
+        };
+        let endurance = protection.motors[index];
+        let motor = MotorEntry {
+            channel: index,
+            torque_constant: plant.torque_constant,
+            current_at_full: plant.current_at_full,
+            ratio: sign(plant.motor_direction) * plant.ratio,
+            continuous_current: decimal(endurance.continuous) * plant.current_at_full,
+            time_constant: decimal(endurance.time_constant),
+            max_rate: decimal(protection.max_joint_rates[index]),
+            bridge: match device.feeds[index] {
+                Feed::Current => None,
+                Feed::Voltage(feed) => Some(BridgeEntry {
+                    supply: decimal(feed.supply),
+                    resistance: decimal(feed.resistance),
+                    back_emf_share: decimal(feed.back_emf_share),
+                }),
+            },
+        };
+        JointEntry {
+            name: names[index].to_owned(),
+            range: device.joint_range[index].map(decimal),
+            friction: decimal(device.dry_friction[index]),
+            inertia: protection.signs.map(|signs| decimal(signs.inertia[index])),
+            encoder,
+            motor,
+        }
+    });
+    let limits = LimitsEntry {
+        min_margin: decimal(device.min_margin),
+        max_joint_rate: decimal(device.max_joint_rate),
+        max_force: decimal(device.max_force),
+        max_stiffness: decimal(device.max_stiffness),
+        max_damping: decimal(device.max_damping),
+        max_probe_speed: decimal(protection.max_probe_speed),
+    };
+    (limits, joints.collect())
+}

@@ -1,0 +1,313 @@
+//! From the text of a device file to a device that has been checked, entry by entry.
+
+use super::plant;
+use super::schema::{DeviceFile, JointEntry, MechanismEntry};
+use crate::devices::Preset;
+use palpate::device::drive::{Feed, VoltageFeed};
+use palpate::device::{
+    Delta, Device, DeviceError, Encoder, Endurance, FiveBar, LinkMass, LinkageArm, Motor, Protection, SerialArm,
+    SignWatch,
+};
+use palpate::math::{Vec2, vec3};
+use palpate_plant::PlantSettings;
+use std::fs;
+use std::path::Path;
+use thiserror::Error;
+
+/// Why a device file is refused.
+#[derive(Debug, Error)]
+pub enum DeviceFileError {
+    /// It cannot be read.
+    #[error("{file}: cannot be read: {cause}")]
+    Read {
+        /// Which.
+        file: String,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// It is not a device file: an entry is missing, unknown or of another kind.
+    #[error("{file}: {reason}")]
+    Schema {
+        /// Which.
+        file: String,
+        /// Line, entry and reason.
+        reason: String,
+    },
+    /// An entry has a value that no device has.
+    #[error("{file}: {entry}: {reason}")]
+    Entry {
+        /// Which.
+        file: String,
+        /// As the file names it.
+        entry: String,
+        /// What is wrong.
+        reason: String,
+    },
+}
+
+/// A device file that has been read, with all that it describes.
+#[derive(Clone, Debug)]
+pub struct OwnDevice {
+    /// What stands in it.
+    pub file: DeviceFile,
+    /// What the servo knows of it; lives as long as the program.
+    pub preset: Preset,
+    /// What protects it.
+    pub protection: Protection<3>,
+    /// What stands in for it in simulation.
+    pub plant: PlantSettings,
+}
+
+impl OwnDevice {
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// The first thing wrong with it.
+    pub fn read(path: &Path) -> Result<Self, DeviceFileError> {
+        let file = path.display().to_string();
+        let text = fs::read_to_string(path).map_err(|cause| DeviceFileError::Read { file: file.clone(), cause })?;
+        Self::parse(&text, &file)
+    }
+
+    /// The same from its text; messages call it `label`.
+    ///
+    /// # Errors
+    /// The first thing wrong with it.
+    pub fn parse(text: &str, label: &str) -> Result<Self, DeviceFileError> {
+        let file: DeviceFile = toml::from_str(text).map_err(|error| {
+            let line = error.span().map_or(0, |span| text[..span.start.min(text.len())].lines().count().max(1));
+            let reason = error.message().lines().next().unwrap_or_default();
+            DeviceFileError::Schema { file: label.to_owned(), reason: format!("line {line}: {reason}") }
+        })?;
+        Self::new(file, label)
+    }
+
+    /// A device from the entries of a file.
+    ///
+    /// # Errors
+    /// The first entry that no device has.
+    pub fn new(file: DeviceFile, label: &str) -> Result<Self, DeviceFileError> {
+        let refuse = |entry: &str, reason: &str| DeviceFileError::Entry {
+            file: label.to_owned(),
+            entry: entry.to_owned(),
+            reason: reason.to_owned(),
+        };
+        check(&file, refuse)?;
+        let (preset, problem) = preset(&file);
+        if let Err(error) = problem {
+            let entry = match error {
+                DeviceError::Encoder(joint) => format!("joint {joint}: encoder"),
+                DeviceError::Motor(joint) => format!("joint {joint}: motor"),
+                DeviceError::Friction(joint) => format!("joint {joint}: friction"),
+                DeviceError::Range(joint) => format!("joint {joint}: range"),
+                DeviceError::Limit => "limits".to_owned(),
+            };
+            return Err(refuse(&entry, &error.to_string()));
+        }
+        let protection = protection(&file);
+        let plant = plant::settings(&file).map_err(|(entry, reason)| refuse(entry, reason))?;
+        Ok(Self { preset, protection, plant, file })
+    }
+}
+
+/// What the library's own check does not see.
+fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> Result<(), DeviceFileError> {
+    if file.name.is_empty() || !file.name.chars().all(|letter| letter.is_ascii_alphanumeric() || "-_.".contains(letter))
+    {
+        return Err(refuse("name", "must be letters, digits, '-', '_' and '.'"));
+    }
+    if file.joint.len() != 3 {
+        return Err(refuse("joint", &format!("{} joints; these mechanisms have three", file.joint.len())));
+    }
+    for inputs in [
+        file.joint.iter().map(|joint| joint.encoder.channel).collect::<Vec<_>>(),
+        file.joint.iter().map(|joint| joint.motor.channel).collect(),
+    ] {
+        for (joint, channel) in inputs.iter().enumerate() {
+            if *channel > 2 || inputs[..joint].contains(channel) {
+                return Err(refuse(
+                    &format!("joint {joint}: channel"),
+                    "must be 0, 1 or 2, each once for the encoders and once for the motors",
+                ));
+            }
+        }
+    }
+    let positive = |number: f64| number > 0.0 && number.is_finite();
+    for (index, joint) in file.joint.iter().enumerate() {
+        let entry = |name: &str| format!("joint {index}: {name}");
+        for (name, number) in [
+            ("encoder.counts", joint.encoder.counts),
+            ("motor.torque_constant", joint.motor.torque_constant),
+            ("motor.current_at_full", joint.motor.current_at_full),
+            ("motor.continuous_current", joint.motor.continuous_current),
+            ("motor.max_rate", joint.motor.max_rate),
+            ("inertia", joint.inertia.unwrap_or(1.0)),
+        ] {
+            if !positive(number) {
+                return Err(refuse(&entry(name), &format!("{number} must be positive and finite")));
+            }
+        }
+        if !(joint.motor.time_constant >= 0.1 && joint.motor.time_constant <= 600.0) {
+            return Err(refuse(&entry("motor.time_constant"), "must be between 0.1 and 600 s"));
+        }
+        if let Some(bridge) = joint.motor.bridge
+            && !(positive(bridge.supply) && positive(bridge.resistance) && (0.0..=1.0).contains(&bridge.back_emf_share))
+        {
+            return Err(refuse(&entry("motor.bridge"), "needs a supply, a resistance, and a share from 0 to 1"));
+        }
+    }
+    if !positive(file.limits.max_probe_speed) {
+        return Err(refuse("limits.max_probe_speed", "must be positive and finite"));
+    }
+    let lengths: Vec<(&str, f64)> = match &file.mechanism {
+        MechanismEntry::SerialArm { first_link, second_link, .. } => {
+            vec![("first_link", *first_link), ("second_link", *second_link)]
+        }
+        MechanismEntry::LinkageArm { cranks, rods, .. } => {
+            vec![("cranks", cranks[0]), ("cranks", cranks[1]), ("rods", rods[0]), ("rods", rods[1])]
+        }
+        MechanismEntry::Delta { thigh, shin, .. } => vec![("thigh", *thigh), ("shin", *shin)],
+    };
+    for (name, length) in lengths {
+        if !(positive(length) && length < 10.0) {
+            return Err(refuse(&format!("mechanism.{name}"), &format!("{length} must be a length in metres")));
+        }
+    }
+    if let MechanismEntry::LinkageArm { side, .. } = file.mechanism
+        && side.abs() != 1.0
+    {
+        return Err(refuse("mechanism.side", "must be 1 or -1"));
+    }
+    Ok(())
+}
+
+fn three(numbers: [f64; 3]) -> [f32; 3] {
+    numbers.map(|number| number as f32)
+}
+
+/// The library's constant, and what its check says.
+fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
+    match &file.mechanism {
+        MechanismEntry::SerialArm { base_height, first_link, second_link, workspace_centre, end_masses } => {
+            let [x, y, z] = three(*workspace_centre);
+            let device = device(
+                file,
+                SerialArm {
+                    base_height: *base_height as f32,
+                    first_link: *first_link as f32,
+                    second_link: *second_link as f32,
+                    workspace_centre: vec3(x, y, z),
+                    end_masses: end_masses.map(|mass| mass as f32),
+                },
+            );
+            (Preset::SerialArm(Box::leak(Box::new(device))), device.check())
+        }
+        MechanismEntry::LinkageArm {
+            second_pivot,
+            cranks,
+            rods,
+            side,
+            tool,
+            pivot_reach,
+            workspace_centre,
+            masses,
+        } => {
+            let [x, y, z] = three(*workspace_centre);
+            let device = device(
+                file,
+                LinkageArm {
+                    linkage: FiveBar {
+                        second_pivot: *second_pivot as f32,
+                        cranks: cranks.map(|length| length as f32),
+                        rods: rods.map(|length| length as f32),
+                        side: *side as f32,
+                        tool: *tool as f32,
+                        workspace_centre: Vec2::ZERO,
+                    },
+                    pivot_reach: *pivot_reach as f32,
+                    workspace_centre: vec3(x, y, z),
+                    masses: masses.unwrap_or_default().map(|link| LinkMass {
+                        mass: link.mass as f32,
+                        along: link.along as f32,
+                        across: link.across as f32,
+                    }),
+                },
+            );
+            (Preset::LinkageArm(Box::leak(Box::new(device))), device.check())
+        }
+        MechanismEntry::Delta { thigh, shin, stub, reach, side, legs, workspace_depth, carried_mass, thigh_moment } => {
+            let device = device(
+                file,
+                Delta {
+                    thigh: *thigh as f32,
+                    shin: *shin as f32,
+                    stub: *stub as f32,
+                    reach: *reach as f32,
+                    side: *side as f32,
+                    directions: legs.map(|leg| [leg.cos() as f32, leg.sin() as f32]),
+                    workspace_centre: vec3(0.0, 0.0, *workspace_depth as f32),
+                    up: vec3(0.0, 1.0, 0.0),
+                    carried_mass: *carried_mass as f32,
+                    thigh_moment: *thigh_moment as f32,
+                },
+            );
+            (Preset::Delta(Box::leak(Box::new(device))), device.check())
+        }
+    }
+}
+
+/// The joint's entries, by index; there are three.
+fn each<T>(file: &DeviceFile, of: impl Fn(&JointEntry) -> T) -> [T; 3] {
+    core::array::from_fn(|joint| of(&file.joint[joint]))
+}
+
+fn device<K>(file: &DeviceFile, kinematics: K) -> Device<K, 3> {
+    let limits = &file.limits;
+    Device {
+        kinematics,
+        encoders: each(file, |joint| {
+            Encoder::geared(joint.encoder.counts as f32, joint.encoder.ratio as f32, joint.encoder.zero as f32)
+        }),
+        motors: each(file, |joint| {
+            let motor = &joint.motor;
+            Motor::current_driven(motor.torque_constant as f32, motor.current_at_full as f32, motor.ratio as f32)
+        }),
+        feeds: each(file, |joint| {
+            let motor = &joint.motor;
+            motor.bridge.map_or(Feed::Current, |bridge| {
+                Feed::Voltage(VoltageFeed {
+                    supply: bridge.supply as f32,
+                    resistance: bridge.resistance as f32,
+                    torque_constant: motor.torque_constant as f32,
+                    current_at_full: motor.current_at_full as f32,
+                    ratio: motor.ratio as f32,
+                    back_emf_share: bridge.back_emf_share as f32,
+                })
+            })
+        }),
+        dry_friction: each(file, |joint| joint.friction as f32),
+        joint_range: each(file, |joint| joint.range.map(|angle| angle as f32)),
+        min_margin: limits.min_margin as f32,
+        max_joint_rate: limits.max_joint_rate as f32,
+        max_force: limits.max_force as f32,
+        max_stiffness: limits.max_stiffness as f32,
+        max_damping: limits.max_damping as f32,
+    }
+}
+
+fn protection(file: &DeviceFile) -> Protection<3> {
+    let inertias = each(file, |joint| joint.inertia);
+    Protection {
+        motors: each(file, |joint| Endurance {
+            continuous: (joint.motor.continuous_current / joint.motor.current_at_full) as f32,
+            time_constant: joint.motor.time_constant as f32,
+        }),
+        max_joint_rates: each(file, |joint| joint.motor.max_rate as f32),
+        max_probe_speed: file.limits.max_probe_speed as f32,
+        supply: None,
+        signs: inertias
+            .iter()
+            .all(Option::is_some)
+            .then(|| SignWatch { inertia: inertias.map(|inertia| inertia.unwrap_or_default() as f32) }),
+    }
+}

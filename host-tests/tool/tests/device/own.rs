@@ -1,0 +1,66 @@
+//! Device files: what ships as a file is the preset, and what no device has is refused by its entry.
+
+use palpate_tool::devices::{DEVICES, Preset};
+use palpate_tool::own::{OwnDevice, file_of, source};
+
+/// The file of WoodenHaptics, as text.
+fn text() -> String {
+    toml::to_string(&file_of(&DEVICES[0]).expect("three joints")).expect("a file")
+}
+
+#[test]
+fn the_file_of_a_device_that_ships_reads_back_as_its_constant() {
+    let mut seen = 0;
+    for shipped in &DEVICES {
+        let Some(file) = file_of(shipped) else { continue };
+        seen += 1;
+        let own = OwnDevice::parse(&toml::to_string(&file).unwrap(), shipped.name).unwrap();
+        assert_eq!(own.file, file);
+        let [mine, theirs] = [own.preset, shipped.preset].map(Preset::limits);
+        assert_eq!(mine, theirs);
+        // The encoders' angles per count and the motors' torques to the rounding of a product of three f32.
+        let close = |a: f32, b: f32| (a - b).abs() <= 4.0 * f32::EPSILON * b.abs();
+        let parts = |preset: Preset| match preset {
+            Preset::SerialArm(device) => (device.encoders, device.motors),
+            Preset::LinkageArm(device) => (device.encoders, device.motors),
+            Preset::Delta(device) => (device.encoders, device.motors),
+            Preset::FiveBar(_) | Preset::Paddle(_) => unreachable!("three joints"),
+        };
+        let ((encoders, motors), (expected_encoders, expected_motors)) = (parts(own.preset), parts(shipped.preset));
+        for joint in 0..3 {
+            assert!(close(encoders[joint].radians_per_count, expected_encoders[joint].radians_per_count));
+            assert!((encoders[joint].angle_at_zero - expected_encoders[joint].angle_at_zero).abs() < 1e-6);
+            assert!(close(motors[joint].torque_at_full, expected_motors[joint].torque_at_full), "{}", shipped.name);
+        }
+        let rust = source(&own, "my.toml");
+        syn::parse_file(&rust).expect("it is Rust");
+        assert!(rust.contains("DEVICE.check()"));
+    }
+    assert_eq!(seen, 4);
+}
+
+#[test]
+fn a_bad_file_is_refused_by_its_entry() {
+    for (good, bad, entry) in [
+        ("counts = 2000.0", "counts = 0.0", "joint 0: encoder.counts"),
+        ("counts = 2000.0", "counts = nan", "joint 0: encoder.counts"),
+        ("counts = 2000.0", "count = 2000.0", "unknown field `count`"),
+        ("ratio = -16.0", "ratio = 0.0", "joint 0: encoder"),
+        ("first_link = 0.205", "first_link = -0.205", "mechanism.first_link"),
+        ("first_link = 0.205", "first_link = 205.0", "mechanism.first_link"),
+        ("workspace_centre = [0.22, 0.0, 0.08]", "workspace_centre = [0.9, 0.0, 0.08]", "mechanism.workspace_centre"),
+        ("range = [-1.6, 1.6]", "range = [1.6, -1.6]", "joint 0: range"),
+        ("channel = 1", "channel = 0", "joint 1: channel"),
+        ("max_force = 5.0", "max_force = -5.0", "limits"),
+        ("kind = \"serial-arm\"", "kind = \"octopus\"", "unknown variant `octopus`"),
+        ("time_constant = 16.0", "time_constant = 0.0", "joint 0: motor.time_constant"),
+        ("max_force = 5.0\n", "", "missing field `max_force`"),
+        ("name = \"woodenhaptics-2016\"", "name = \"a b\"", "name: must be"),
+    ] {
+        let spoilt = text().replacen(good, bad, 1);
+        assert_ne!(spoilt, text(), "{good} is not in the file");
+        let error = OwnDevice::parse(&spoilt, "my.toml").expect_err(bad).to_string();
+        assert!(error.starts_with("my.toml: ") && error.contains(entry), "{bad}: {error}");
+        assert!(!error.contains('\n'), "one sentence: {error}");
+    }
+}

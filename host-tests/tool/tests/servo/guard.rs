@@ -1,0 +1,358 @@
+//! A loop that is protected: motors that stay cool enough, joints and probes that are not let run, signs that are wrong.
+
+use crate::surfaces::{WALL, table1c};
+use palpate::device::presets::{
+    NOVINT_FALCON, NOVINT_FALCON_PROTECTION, PHANTOM_PREMIUM, PHANTOM_PREMIUM_PROTECTION, POLHEM_V2,
+    POLHEM_V2_PROTECTION, WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION,
+};
+use palpate::device::{Counts, Device, Duty, Kinematics, Protection, SupplyRange};
+use palpate::math::{Vec3, vec3};
+use palpate::servo::{Event, Fault, Input, Phase, Servo, Settings};
+use palpate::track::{Controller, Witness};
+use palpate_plant::{
+    Direction, HandPath, HandSettings, Plant, PlantSettings, Thermal, ThermalSettings, TouchingPath, TouchingSettings,
+    Vector,
+};
+
+const RATE: f64 = 4_000.0;
+
+/// A device of three joints, what protects it, and what stands in for it.
+struct Bench<K: 'static> {
+    name: &'static str,
+    device: &'static Device<K, 3>,
+    protection: Protection<3>,
+    plant: PlantSettings,
+    heat: [ThermalSettings; 3],
+    /// The signs of which motors make it run away from a wall under it.
+    runaways: &'static [&'static [usize]],
+}
+
+/// Calls something with each device.
+macro_rules! each {
+    ($call:ident) => {
+        $call(&Bench {
+            name: "WoodenHaptics 2016",
+            device: &WOODEN_HAPTICS_2016,
+            protection: WOODEN_HAPTICS_2016_PROTECTION,
+            plant: PlantSettings::wooden_haptics_2016(),
+            heat: PlantSettings::WOODEN_HAPTICS_HEAT,
+            runaways: &[&[2], &[0, 1, 2]],
+        });
+        $call(&Bench {
+            name: "Polhem v2",
+            device: &POLHEM_V2,
+            protection: POLHEM_V2_PROTECTION,
+            plant: PlantSettings::polhem_v2(),
+            heat: PlantSettings::POLHEM_HEAT,
+            runaways: &[&[2], &[0, 1, 2]],
+        });
+        $call(&Bench {
+            name: "Phantom Premium",
+            device: &PHANTOM_PREMIUM,
+            protection: PHANTOM_PREMIUM_PROTECTION,
+            plant: PlantSettings::phantom_premium(),
+            heat: PlantSettings::PHANTOM_HEAT,
+            runaways: &[&[1], &[0, 1, 2]],
+        });
+        $call(&Bench {
+            name: "Novint Falcon",
+            device: &NOVINT_FALCON,
+            protection: NOVINT_FALCON_PROTECTION,
+            plant: PlantSettings::novint_falcon(),
+            heat: PlantSettings::FALCON_HEAT,
+            runaways: &[&[0, 1, 2]],
+        });
+    };
+}
+
+/// The gains that the preset recommends at most.
+fn settings<K>(device: &Device<K, 3>, body_origin: Vec3) -> Settings {
+    Settings {
+        rate: RATE as f32,
+        stiffness: device.max_stiffness,
+        damping: device.max_damping,
+        max_force: device.max_force,
+        velocity_corner: 200.0,
+        soft_start: 0.1,
+        body_origin,
+    }
+}
+
+/// Comes straight down at a constant speed.
+struct Down {
+    speed: f64,
+    from: f64,
+}
+
+impl HandPath for Down {
+    fn target(&self, time: f64) -> Vector {
+        [0.0, 0.0, self.from - self.speed * time]
+    }
+    fn velocity(&self, _time: f64) -> Vector {
+        [0.0, 0.0, -self.speed]
+    }
+}
+
+fn distance(from: Vector, to: Vector) -> f64 {
+    from.iter().zip(to).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+fn runs_away<K: Kinematics<3>>(bench: &Bench<K>) {
+    let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings(bench.device, Vec3::ZERO))
+        .protect(bench.protection);
+    for wrong in bench.runaways {
+        for speed in [0.05, 0.1, 0.2] {
+            let mut plant = bench.plant;
+            for joint in *wrong {
+                let way = &mut plant.joints[*joint].motor_direction;
+                *way = if *way == Direction::With { Direction::Against } else { Direction::With };
+            }
+            let hand = Box::new(Down { speed, from: 0.004 + 0.15 * speed });
+            let mut plant = Plant::new(&plant, HandSettings::default(), hand, RATE).unwrap();
+            let mut state = servo.start();
+            let (mut began, mut most) = (None, 0.0_f32);
+            for tick in 0..4_000 {
+                let place = plant.position();
+                servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+                if state.force() != Vec3::ZERO {
+                    began = began.or(Some((tick, place)));
+                }
+                most = most.max(state.force().length());
+                if state.fault().is_some() {
+                    break;
+                }
+                plant.advance(state.duties().map(|duty| duty.0));
+            }
+            let (first, place) = began.expect("it touches");
+            let time = f64::from(state.ticks() - 1 - first as u32) / RATE * 1e3;
+            let way = distance(place, plant.position()) * 1e3;
+            println!(
+                "{:<20} motors {wrong:?} wrong, met at {speed} m/s: stopped after {time:.1} ms and {way:.2} mm, at {most:.2} of {} N",
+                bench.name, bench.device.max_force
+            );
+            assert_eq!(state.fault().map(|(fault, _)| fault), Some(Fault::WrongSign));
+            assert!(time <= 10.0 && way <= 1.0, "{time} ms, {way} mm");
+            // To the roundings of a scaled force.
+            assert!(most <= 0.2501 * bench.device.max_force, "{most} N");
+        }
+    }
+}
+
+fn does_not_run_away<K: Kinematics<3>>(bench: &Bench<K>) {
+    let table = table1c();
+    let at = vec3(-0.05, -0.05, -0.065);
+    let servo = Servo::new(bench.device, &table, Controller::SECOND_ORDER, settings(bench.device, at))
+        .protect(bench.protection);
+    for seed in 0..5 {
+        let place = |u: f64, v: f64| {
+            let witness = Witness::at(&table, (0.25 + 0.5 * u) as f32, (0.25 + 0.5 * v) as f32);
+            let normal = witness.normal(&table).unwrap();
+            ((witness.surface.point + at).to_array().map(f64::from), normal.to_array().map(f64::from))
+        };
+        let touching =
+            TouchingSettings { duration: 4.0, touches: 4, press_depth: [0.006, 0.014], ..TouchingSettings::default() };
+        let path = TouchingPath::new(place, touching, seed).unwrap();
+        let mut plant = Plant::new(&bench.plant, HandSettings::default(), Box::new(path), RATE).unwrap();
+        let mut state = servo.start();
+        let mut most = 0.0_f32;
+        for _ in 0..16_000 {
+            servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+            plant.advance(state.duties().map(|duty| duty.0));
+            most = most.max(state.force().length());
+        }
+        let passed = state.guard().contacts_passed();
+        println!("{:<20} seed {seed}: contacts passed by each joint {passed:?}, up to {most:.1} N", bench.name);
+        assert_eq!(state.fault(), None);
+        // Of two contacts of three joints.
+        assert!(passed.iter().sum::<u8>() >= 4, "the watch must have had something to judge: {passed:?}");
+    }
+}
+
+/// A hand that holds the probe in a wall, as deep as its greatest force reaches, for 25 s.
+fn stays_cool<K: Kinematics<3>>(bench: &Bench<K>) {
+    let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings(bench.device, Vec3::ZERO))
+        .protect(Protection { signs: None, ..bench.protection });
+    let hand = HandSettings { stiffness: 20_000.0, damping: 100.0, mass: 0.0 };
+    // Deeper than its greatest force is, and not so deep that contact is lost.
+    let deep = 1.3 * f64::from(bench.device.max_force / bench.device.max_stiffness);
+    let path = Down { speed: 0.01, from: 0.002 };
+    let mut plant = Plant::new(&bench.plant, hand, Box::new(Hold(path, deep)), RATE).unwrap();
+    let mut motors = bench.heat.map(Thermal::cold);
+    let mut state = servo.start();
+    // Cold, as after a rest of 100 s: the harder case, for the motors are then given all they have.
+    for _ in 0..400_000 {
+        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: false });
+    }
+    assert!(!state.guard().folds());
+    let (mut step, mut last, mut hottest, mut greatest) = (0.0_f32, 0.0_f32, [0.0_f64; 3], 0.0_f32);
+    for tick in 0..100_000 {
+        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        assert_eq!(state.fault(), None);
+        plant.advance(state.duties().map(|duty| duty.0));
+        for ((motor, current), hottest) in motors.iter_mut().zip(plant.currents()).zip(&mut hottest) {
+            motor.step(current, 1.0 / RATE);
+            *hottest = hottest.max(motor.winding);
+        }
+        let force = state.force().length();
+        greatest = greatest.max(force);
+        // Where the hand holds still, all that moves the force is what folds back.
+        if tick > 12_000 {
+            step = step.max((force - last).abs());
+        }
+        last = force;
+    }
+    println!(
+        "{:<20} pressed with {greatest:.1} N, {last:.1} N after 25 s, largest step {:.5} N; windings up to {hottest:.0?} °C",
+        bench.name, step
+    );
+    for (hottest, heat) in hottest.iter().zip(bench.heat) {
+        assert!(*hottest < heat.greatest, "{hottest} °C");
+    }
+    assert!(step < 0.05, "{step} N in a tick");
+}
+
+/// A path that stops so deep.
+struct Hold(Down, f64);
+
+impl HandPath for Hold {
+    fn target(&self, time: f64) -> Vector {
+        self.0.target(time.min((self.1 + self.0.from) / self.0.speed))
+    }
+    fn velocity(&self, time: f64) -> Vector {
+        if time < (self.1 + self.0.from) / self.0.speed { self.0.velocity(time) } else { [0.0; 3] }
+    }
+}
+
+/// Of the law alone, Hz.
+const LAW_RATE: f64 = 500.0;
+
+/// A motor that is asked for all it has, again and again, with rests between that let it be given more; and resets,
+/// after which nothing is known of it.
+fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
+    for (joint, heat) in bench.heat.iter().enumerate() {
+        let current_at_full = bench.plant.joints[joint].current_at_full;
+        for (on, off, reset) in
+            [(1e9, 0.0, false), (3.0, 3.0, false), (10.0, 20.0, false), (20.0, 0.1, true), (2.0, 2.0, true)]
+        {
+            let servo = Servo::new(
+                bench.device,
+                &WALL,
+                Controller::SECOND_ORDER,
+                Settings { rate: LAW_RATE as f32, ..settings(bench.device, Vec3::ZERO) },
+            )
+            .protect(bench.protection);
+            // The law alone, for hours: the loop's own state, told what the motors were given.
+            let mut worn = palpate::servo::Guard::<3>::start(servo.guard());
+            let mut motor = Thermal::cold(*heat);
+            let (mut hottest, mut last_on) = (0.0_f64, true);
+            for tick in 0..(3_600.0 * LAW_RATE) as u32 {
+                let time = f64::from(tick) / LAW_RATE;
+                let is_on = time % (on + off) < on;
+                if reset && is_on && !last_on {
+                    worn = palpate::servo::Guard::<3>::start(servo.guard());
+                }
+                last_on = is_on;
+                let bound =
+                    palpate::servo::Guard::<3>::bounds(servo.guard(), &worn).map_or(1.0, |bounds| bounds[joint]);
+                let mut duties = [Duty::ZERO; 3];
+                duties[joint] = Duty::from_fraction(if is_on { bound } else { 0.0 });
+                palpate::servo::Guard::<3>::given(servo.guard(), &mut worn, &duties);
+                motor.step(f64::from(duties[joint].fraction()) * current_at_full, 1.0 / LAW_RATE);
+                hottest = hottest.max(motor.winding);
+            }
+            println!(
+                "{:<20} motor {joint}, {on} s on, {off} s off, reset {reset}: {hottest:.0} of {} °C",
+                bench.name, heat.greatest
+            );
+            assert!(hottest < heat.greatest, "{hottest} °C");
+        }
+    }
+}
+
+#[test]
+fn a_stalled_motor_stays_cool_whatever_is_asked_for() {
+    each!(never_burns);
+}
+
+#[test]
+fn a_motor_that_warms_up_is_felt_as_less_force_and_not_as_a_step() {
+    each!(stays_cool);
+}
+
+#[test]
+fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
+    let servo =
+        Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO));
+    let slow = Protection { max_probe_speed: 0.3, signs: None, ..WOODEN_HAPTICS_2016_PROTECTION };
+    let slow_joints = Protection { max_joint_rates: [2.0; 3], max_probe_speed: 1e3, ..slow };
+    for (servo, is_fast) in [(servo.protect(slow), 0), (servo.protect(slow_joints), 1)] {
+        let path = Hold(Down { speed: 0.05, from: 0.002 }, 0.008);
+        let mut plant = Plant::new(
+            &PlantSettings::wooden_haptics_2016(),
+            HandSettings { stiffness: 3_000.0, damping: 20.0, mass: 0.0 },
+            Box::new(path),
+            RATE,
+        )
+        .unwrap();
+        let mut state = servo.start();
+        for tick in 0..4_000 {
+            if tick == 2_000 {
+                plant.hold(HandSettings::NONE);
+            }
+            servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+            assert!(tick > 2_000 || state.fault().is_none(), "{tick} {:?}", state.fault());
+            plant.advance(state.duties().map(|duty| duty.0));
+        }
+        assert_eq!(state.fault().map(|(fault, _)| fault), Some(Fault::Overspeed), "{is_fast}");
+    }
+    // Without force a hand may move it as fast as it likes.
+    let servo = servo.protect(Protection { max_probe_speed: 1e-3, max_joint_rates: [1e-3; 3], ..slow });
+    let mut plant = Plant::new(
+        &PlantSettings::wooden_haptics_2016(),
+        HandSettings::default(),
+        Box::new(Down { speed: 0.2, from: 0.04 }),
+        RATE,
+    )
+    .unwrap();
+    let mut state = servo.start();
+    for _ in 0..1_000 {
+        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: false });
+        plant.advance(state.duties().map(|duty| duty.0));
+    }
+    assert_eq!((state.phase(), state.fault()), (Phase::Armed, None));
+}
+
+#[test]
+fn a_supply_out_of_range_or_that_nobody_measures_is_a_fault() {
+    let servo =
+        Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO));
+    let range = Some(SupplyRange { least: 20_000, most: 28_000 });
+    let servo = servo.protect(Protection { supply: range, ..WOODEN_HAPTICS_2016_PROTECTION });
+    let ends = |measured: &dyn Fn(u32) -> Option<u32>| {
+        let mut state = servo.start();
+        for tick in 0..2_000 {
+            if let Some(millivolts) = measured(tick) {
+                servo.note(&mut state, Event::Supply { millivolts });
+            }
+            servo.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
+        }
+        state.fault()
+    };
+    assert_eq!(ends(&|tick| tick.is_multiple_of(100).then_some(24_000)), None);
+    for bad in [19_999, 28_001, 0, u32::MAX] {
+        assert_eq!(ends(&|tick| Some(if tick == 700 { bad } else { 24_000 })), Some((Fault::Supply, 700)), "{bad}");
+    }
+    // A tenth of a second after the last measurement, at 4 kHz.
+    assert_eq!(ends(&|tick| (tick <= 500).then_some(24_000)), Some((Fault::Supply, 900)));
+    assert_eq!(ends(&|_| None), Some((Fault::Supply, 400)));
+}
+
+#[test]
+fn a_wrong_sign_is_seen_within_ten_milliseconds_and_a_millimetre() {
+    each!(runs_away);
+}
+
+#[test]
+fn good_signs_are_never_called_wrong_where_surfaces_are_touched() {
+    each!(does_not_run_away);
+}

@@ -1,0 +1,268 @@
+//! One motor, driven by hand.
+
+use crate::device::{Counts, Duty};
+use thiserror::Error;
+
+/// What a frame must carry while the key is held: no number that a broken host would send by itself.
+pub const KEY: u32 = 0x6865_6c64;
+/// Seconds in which a duty grows to its limit.
+const RAMP: f32 = 0.1;
+/// Seconds of motion at the greatest speed that come at once without being called too fast: counts are whole.
+const SLACK: f32 = 0.02;
+
+/// A command, as it comes over the link.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Jog {
+    /// Higher than that of the frame before, wrapping: a frame that comes twice holds no key.
+    pub number: u32,
+    /// [`KEY`] while the key is held.
+    pub key: u32,
+    /// The motor, from 0.
+    pub motor: u8,
+    /// The duty asked for; the device's limit applies.
+    pub duty: i16,
+}
+
+/// What the device allows. Constant, in its flash.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JogLimits<const JOINTS: usize> {
+    /// The greatest duty of each motor: above dry friction and weight, below what would hurt.
+    pub max_duty: [Duty; JOINTS],
+    /// The greatest speed of any encoder, counts/s.
+    pub max_speed: f32,
+    /// How far any encoder may go while the key is held, counts.
+    pub max_travel: u32,
+    /// Seconds without a frame after which the key counts as let go.
+    pub patience: f32,
+}
+
+/// Which limit is refused. In a `static` it is a compile error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum JogLimitsError {
+    /// A duty is negative or above half of full scale.
+    #[error("a motor may be jogged with half of its full duty at most")]
+    Duty,
+    /// The speed is not positive and finite.
+    #[error("the greatest speed must be positive and finite")]
+    Speed,
+    /// The patience is not between a tick and half a second.
+    #[error("a silent key must count as let go after a tick at least and half a second at most")]
+    Patience,
+}
+
+/// What ended a jog.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(u8)]
+pub enum JogRefusal {
+    /// A sensor did not answer.
+    #[error("a sensor failed")]
+    Sensor = 1,
+    /// An encoder moved faster than it may.
+    #[error("moved too fast")]
+    TooFast = 2,
+    /// An encoder moved further than it may.
+    #[error("moved too far")]
+    TooFar = 3,
+    /// There is no such motor.
+    #[error("there is no such motor")]
+    NoMotor = 4,
+    /// Another motor was asked for while the key was held.
+    #[error("let the key go before another motor")]
+    OtherMotor = 5,
+}
+
+impl JogRefusal {
+    /// The code in a reading, from 1.
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
+}
+
+/// The limits, ready to run.
+#[derive(Clone, Copy, Debug)]
+pub struct Jogging<const JOINTS: usize> {
+    limits: JogLimits<JOINTS>,
+    patience_ticks: u32,
+    counts_a_tick: f32,
+    slack: f32,
+    /// By how much a duty grows in a tick, as a share of its limit, in 2⁻¹⁵.
+    ramp: i32,
+}
+
+/// What changes from tick to tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JogState<const JOINTS: usize> {
+    /// The last frame's number; `None` before the first.
+    number: Option<u32>,
+    /// Motor and duty asked for, while the key is held.
+    held: Option<(usize, i16)>,
+    /// Ticks since a frame held the key.
+    silent: u32,
+    /// The last counts, and those at which the key was pressed.
+    counts: Option<[Counts; JOINTS]>,
+    from: [Counts; JOINTS],
+    /// How much faster than allowed each encoder has been, counts.
+    haste: [f32; JOINTS],
+    refusal: Option<JogRefusal>,
+    duties: [Duty; JOINTS],
+}
+
+impl<const JOINTS: usize> Default for JogState<JOINTS> {
+    fn default() -> Self {
+        Self {
+            number: None,
+            held: None,
+            silent: 0,
+            counts: None,
+            from: [Counts(0); JOINTS],
+            haste: [0.0; JOINTS],
+            refusal: None,
+            duties: [Duty::ZERO; JOINTS],
+        }
+    }
+}
+
+impl<const JOINTS: usize> JogState<JOINTS> {
+    /// What the motors are given now.
+    pub const fn duties(&self) -> [Duty; JOINTS] {
+        self.duties
+    }
+
+    /// What ended the last jog; it stands until the key is let go.
+    pub const fn refusal(&self) -> Option<JogRefusal> {
+        self.refusal
+    }
+
+    /// Whether a motor is being driven.
+    pub const fn is_live(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// The last frame's number.
+    pub const fn number(&self) -> u32 {
+        match self.number {
+            Some(number) => number,
+            None => 0,
+        }
+    }
+}
+
+impl<const JOINTS: usize> Jogging<JOINTS> {
+    /// Jogging in a loop of `rate`, Hz.
+    ///
+    /// # Errors
+    /// The limit that is refused.
+    pub const fn try_new(limits: JogLimits<JOINTS>, rate: f32) -> Result<Self, JogLimitsError> {
+        let mut joint = 0;
+        while joint < JOINTS {
+            if limits.max_duty[joint].0 < 0 || limits.max_duty[joint].0 > Duty::FULL.0 / 2 {
+                return Err(JogLimitsError::Duty);
+            }
+            joint += 1;
+        }
+        let moves = limits.max_speed > 0.0 && limits.max_speed < f32::INFINITY;
+        if !moves {
+            return Err(JogLimitsError::Speed);
+        }
+        let waits = limits.patience * rate >= 1.0 && limits.patience <= 0.5;
+        if !waits {
+            return Err(JogLimitsError::Patience);
+        }
+        let ramp = (32_768.0 / (RAMP * rate)) as i32;
+        Ok(Self {
+            limits,
+            patience_ticks: (limits.patience * rate) as u32,
+            counts_a_tick: limits.max_speed / rate,
+            slack: limits.max_speed * SLACK + 2.0,
+            ramp: if ramp > 1 { ramp } else { 1 },
+        })
+    }
+
+    /// Takes a command, between two ticks.
+    pub fn command(&self, state: &mut JogState<JOINTS>, jog: Jog) {
+        let is_new = state.number.is_none_or(|last| (jog.number.wrapping_sub(last) as i32) > 0);
+        if !is_new {
+            return;
+        }
+        state.number = Some(jog.number);
+        if jog.key != KEY {
+            (state.held, state.refusal) = (None, None);
+            state.duties = [Duty::ZERO; JOINTS];
+            return;
+        }
+        if state.refusal.is_some() {
+            return;
+        }
+        let motor = usize::from(jog.motor);
+        match state.held {
+            _ if motor >= JOINTS => self.refuse(state, JogRefusal::NoMotor),
+            Some((held, _)) if held != motor => self.refuse(state, JogRefusal::OtherMotor),
+            // Without counts there is nothing to measure a motion from yet.
+            None if state.counts.is_none() => {}
+            None => {
+                state.from = state.counts.unwrap_or([Counts(0); JOINTS]);
+                state.haste = [0.0; JOINTS];
+                (state.held, state.silent) = (Some((motor, jog.duty)), 0);
+            }
+            Some(_) => (state.held, state.silent) = (Some((motor, jog.duty)), 0),
+        }
+    }
+
+    /// One tick; the duties to apply are in the state when it returns. `counts` is `None` where a sensor failed.
+    pub fn tick(&self, state: &mut JogState<JOINTS>, counts: Option<[Counts; JOINTS]>, enable: bool) {
+        self.sense(state, counts);
+        state.silent = state.silent.saturating_add(1);
+        if !enable || state.silent > self.patience_ticks {
+            state.held = None;
+        }
+        let Some((motor, asked)) = state.held else {
+            state.duties = [Duty::ZERO; JOINTS];
+            return;
+        };
+        for (joint, (duty, most)) in state.duties.iter_mut().zip(self.limits.max_duty).enumerate() {
+            let most = i32::from(most.0);
+            let wanted = if joint == motor { i32::from(asked).clamp(-most, most) } else { 0 };
+            let step = (most * self.ramp / 32_768).max(1);
+            let now = i32::from(duty.0);
+            // Off at once, on by and by. The clamp keeps it in an `i16`.
+            let next = if joint == motor { wanted.clamp(now - step, now + step) } else { 0 };
+            *duty = Duty(next.clamp(-most, most) as i16);
+        }
+    }
+
+    /// Looks at where everything is.
+    fn sense(&self, state: &mut JogState<JOINTS>, counts: Option<[Counts; JOINTS]>) {
+        let Some(counts) = counts else {
+            state.counts = None;
+            self.refuse(state, JogRefusal::Sensor);
+            return;
+        };
+        let before = state.counts.replace(counts).unwrap_or(counts);
+        if state.held.is_none() {
+            return;
+        }
+        let (mut fast, mut far) = (false, false);
+        for joint in 0..JOINTS {
+            let moved = counts[joint].0.abs_diff(before[joint].0) as f32 - self.counts_a_tick;
+            let haste = state.haste[joint] + moved;
+            state.haste[joint] = if haste > 0.0 { haste } else { 0.0 };
+            fast |= haste > self.slack;
+            far |= counts[joint].0.abs_diff(state.from[joint].0) > self.limits.max_travel;
+        }
+        if fast {
+            self.refuse(state, JogRefusal::TooFast);
+        } else if far {
+            self.refuse(state, JogRefusal::TooFar);
+        }
+    }
+
+    fn refuse(&self, state: &mut JogState<JOINTS>, refusal: JogRefusal) {
+        state.held = None;
+        state.refusal = state.refusal.or(Some(refusal));
+        state.duties = [Duty::ZERO; JOINTS];
+    }
+}

@@ -1,0 +1,18 @@
+//! Setting up a device on the bench: one motor at a time, gently, while somebody holds a key.
+//!
+//! [`Jogging`] runs in the place of the servo, before anything is known of the device: it thinks in counts and duties.
+//! Its limits lie in the device's own flash; what comes over the link can only ask for less. A motor is driven only
+//! while all of this holds, and otherwise has no current in the same tick:
+//!
+//! - [`Jog`] frames with [`KEY`] in them keep coming, each with a higher number than the one before, and the last one
+//!   not longer ago than [`JogLimits::patience`];
+//! - the enable input of the device is held;
+//! - every sensor answers, and nothing moves faster or further than its limit.
+//!
+//! What ends a jog is a [`JogRefusal`], which stands until the key is let go. Another motor needs the key let go too.
+
+mod calibration;
+mod jogging;
+
+pub use calibration::{Calibration, CalibrationError};
+pub use jogging::{Jog, JogLimits, JogLimitsError, JogRefusal, JogState, Jogging, KEY};

@@ -1,0 +1,93 @@
+//! Whether a device's numbers can be those of a device.
+
+use super::Device;
+use thiserror::Error;
+
+/// What is wrong with a device's constant, and of which joint, counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum DeviceError {
+    /// An encoder's angle per count is zero or not finite, or its angle at zero is not finite.
+    #[error("joint {0}: the encoder's counts a turn and ratio must be finite and not zero, and its zero finite")]
+    Encoder(usize),
+    /// A motor's torque at full duty is zero or not finite.
+    #[error("joint {0}: the motor's torque constant, current and ratio must be finite and not zero")]
+    Motor(usize),
+    /// The dry friction is negative or not finite.
+    #[error("joint {0}: the dry friction must be finite and not negative")]
+    Friction(usize),
+    /// The range's least angle is not below its greatest.
+    #[error("joint {0}: the range's least angle must be below its greatest, and both finite")]
+    Range(usize),
+    /// A limit of the whole device is not positive and finite.
+    #[error("the least margin and the greatest rate, force, stiffness and damping must be positive and finite")]
+    Limit,
+}
+
+const fn is_positive(number: f32) -> bool {
+    number > 0.0 && number < f32::INFINITY
+}
+
+const fn is_factor(number: f32) -> bool {
+    number.is_finite() && number != 0.0
+}
+
+impl<K, const JOINTS: usize> Device<K, JOINTS> {
+    /// Checks every number but the mechanism's.
+    ///
+    /// # Errors
+    /// The first that no device has.
+    pub const fn check(&self) -> Result<(), DeviceError> {
+        let mut joint = 0;
+        while joint < JOINTS {
+            let encoder = &self.encoders[joint];
+            if !(is_factor(encoder.radians_per_count) && encoder.angle_at_zero.is_finite()) {
+                return Err(DeviceError::Encoder(joint));
+            }
+            if !is_factor(self.motors[joint].torque_at_full) {
+                return Err(DeviceError::Motor(joint));
+            }
+            let friction = self.dry_friction[joint];
+            if !(friction >= 0.0 && friction < f32::INFINITY) {
+                return Err(DeviceError::Friction(joint));
+            }
+            let [least, greatest] = self.joint_range[joint];
+            if !(least < greatest && least.is_finite() && greatest.is_finite()) {
+                return Err(DeviceError::Range(joint));
+            }
+            joint += 1;
+        }
+        let positive = is_positive(self.min_margin)
+            && is_positive(self.max_joint_rate)
+            && is_positive(self.max_force)
+            && is_positive(self.max_stiffness)
+            && is_positive(self.max_damping);
+        if positive { Ok(()) } else { Err(DeviceError::Limit) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::{Encoder, Motor, presets::WOODEN_HAPTICS_2016 as DEVICE};
+
+    #[test]
+    fn every_number_that_no_device_has_is_refused_by_its_joint() {
+        assert_eq!(DEVICE.check(), Ok(()));
+        for bad in [f32::NAN, f32::INFINITY, 0.0] {
+            let mut device = DEVICE;
+            device.encoders[1] = Encoder { radians_per_count: bad, angle_at_zero: 0.0 };
+            assert_eq!(device.check(), Err(DeviceError::Encoder(1)));
+            let mut device = DEVICE;
+            device.motors[2] = Motor { torque_at_full: bad };
+            assert_eq!(device.check(), Err(DeviceError::Motor(2)));
+            assert_eq!(Device { max_force: bad, ..DEVICE }.check(), Err(DeviceError::Limit));
+        }
+        let mut device = DEVICE;
+        device.joint_range[0] = [1.0, 1.0];
+        assert_eq!(device.check(), Err(DeviceError::Range(0)));
+        device = DEVICE;
+        device.dry_friction[0] = -0.1;
+        assert_eq!(device.check(), Err(DeviceError::Friction(0)));
+    }
+}

@@ -1,0 +1,44 @@
+//! What a device's motors and joints bear, beyond what its [`super::Device`] says: for a loop that protects them.
+
+/// What a motor's winding bears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Endurance {
+    /// The torque that it bears for ever, as a share of full duty: continuous current over current at full duty. Above
+    /// 1 the amplifier cannot overheat it.
+    pub continuous: f32,
+    /// Thermal time constant of the winding, s. The housing's is left out: it is minutes, and counting on it would burn
+    /// a motor that was warm before the loop began.
+    pub time_constant: f32,
+}
+
+/// The supply voltages within which force is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SupplyRange {
+    /// Millivolts.
+    pub least: u32,
+    /// Millivolts: above it a braking hand has pumped the supply up.
+    pub most: u32,
+}
+
+/// When an encoder counts as mounted against its motor; see `servo/guard/sign.rs` for what is watched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SignWatch<const JOINTS: usize> {
+    /// What turns with each joint, kg·m², about as much as at the middle of the workspace: drum, links and rotor seen
+    /// through its transmission.
+    pub inertia: [f32; JOINTS],
+}
+
+/// What protects a device's motors, and the hand from them. Constant, in flash.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Protection<const JOINTS: usize> {
+    /// What each motor bears.
+    pub motors: [Endurance; JOINTS],
+    /// The greatest speed of each joint while force is given, rad/s.
+    pub max_joint_rates: [f32; JOINTS],
+    /// The greatest speed of the probe while force is given, m/s.
+    pub max_probe_speed: f32,
+    /// The supply's range; `None` where no voltage is measured.
+    pub supply: Option<SupplyRange>,
+    /// The watch over encoders that count against their motors; `None` where the inertias are not known.
+    pub signs: Option<SignWatch<JOINTS>>,
+}

@@ -1,0 +1,142 @@
+//! I²t: how warm a winding is, from what it was given, and how much more it bears.
+//!
+//! A winding's temperature over its housing follows the square of its current with the winding's time constant `θ`:
+//! `θ ẋ = i² − x`, with `x` in squares of the current at full duty. While `x` stays below the square of the continuous
+//! current `c`, the winding stays below the temperature that `c` gives it for ever, for the warming of the housing is
+//! driven by the same power (theory of linear systems that keep order: more heat never makes anything colder).
+//!
+//! So the current is bounded by `b(x)`, which falls from full scale at `x = c²/2` to `c` at `x = c²`:
+//! `b² = 1 − (1 − c²)(2x/c² − 1)`. There `i² ≤ c²`, so `x` cannot pass it: what is asked for does not matter. `b` is
+//! continuous in `x`, and `x` moves by at most `1/(θ rate)` a tick: the force fades to what can be borne, and there is
+//! no step.
+
+use crate::device::{Duty, Endurance};
+use crate::math::sqrt;
+
+/// One motor's endurance, as the tick needs it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HeatModel {
+    /// Share of the way to equilibrium in a tick, in 2⁻³².
+    share: i32,
+    /// `c²/2`, from where on the bound falls. Above full scale nothing ever folds.
+    fold: Heat,
+    /// `c²`.
+    continuous: f32,
+}
+
+/// Warmth of a winding: the mean square of its duty, of which full duty for ever is 2³⁰ − 2¹⁶ + 1 (32,767²).
+///
+/// An integer, for what a tick adds is far below the rounding of an `f32`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Heat(pub i32);
+
+/// Full duty for ever.
+const FULL: f32 = 32_767.0 * 32_767.0;
+
+impl Heat {
+    /// As a share of what full duty comes to in the end.
+    pub fn fraction(self) -> f32 {
+        self.0 as f32 / FULL
+    }
+}
+
+impl HeatModel {
+    /// # Panics
+    /// Never; numbers that make no sense were refused before ([`super::ProtectionError`]).
+    pub(super) const fn new(endurance: Endurance, rate: f32) -> Self {
+        let continuous = endurance.continuous * endurance.continuous;
+        let fold = if endurance.continuous < 1.0 { Heat((0.5 * continuous * FULL) as i32) } else { Heat(i32::MAX) };
+        // A tick is far shorter than the time constant: the share is 1/(θ rate).
+        Self { share: (4_294_967_296.0 / (endurance.time_constant * rate)) as i32, fold, continuous }
+    }
+
+    /// After a reset nothing is known of the motor: it may have been driven for hours before. It starts at its
+    /// continuous torque and is found cold by and by.
+    pub(super) fn start(&self) -> Heat {
+        let hottest = if self.continuous < 1.0 { self.continuous } else { 1.0 };
+        Heat((hottest * FULL) as i32)
+    }
+
+    /// A tick at this duty.
+    #[inline]
+    pub(super) fn next(&self, Heat(heat): Heat, Duty(duty): Duty) -> Heat {
+        let duty = i32::from(duty);
+        let missing = duty * duty - heat;
+        // The high word of a product of two words: one instruction.
+        Heat(heat + ((i64::from(missing) * i64::from(self.share)) >> 32) as i32)
+    }
+
+    /// Whether the bound is below full scale.
+    #[inline]
+    pub(super) fn folds(&self, heat: Heat) -> bool {
+        heat > self.fold
+    }
+
+    /// How much of full scale the motor may be given.
+    #[inline]
+    pub(super) fn bound(&self, heat: Heat) -> f32 {
+        if !self.folds(heat) {
+            return 1.0;
+        }
+        let squared = 1.0 - (1.0 - self.continuous) * (2.0 * heat.fraction() / self.continuous - 1.0);
+        let least = self.continuous;
+        sqrt(if squared > least { squared } else { least })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODEL: HeatModel = HeatModel::new(Endurance { continuous: 0.3, time_constant: 5.0 }, 4_000.0);
+
+    #[test]
+    fn warmth_follows_the_square_of_the_duty_with_the_time_constant() {
+        let (mut heat, duty) = (Heat(0), Duty(20_000));
+        for tick in 1..=80_000 {
+            heat = MODEL.next(heat, duty);
+            let expected = (20_000.0_f64 / 32_767.0).powi(2) * (1.0 - (-f64::from(tick) / 20_000.0).exp());
+            // Half the share of a tick, 1/40,000, and rounding down by 2⁻³⁰ a tick over 20,000 ticks of memory.
+            assert!((f64::from(heat.fraction()) - expected).abs() < 5e-5, "{tick}: {heat:?} {expected}");
+        }
+    }
+
+    #[test]
+    fn whatever_is_asked_for_the_warmth_stays_below_that_of_the_continuous_torque() {
+        for ask in [Duty::FULL, Duty(12_000), Duty(-32_767)] {
+            for start in [Heat(0), MODEL.start()] {
+                let (mut heat, mut last, mut step) = (start, MODEL.bound(start), 0.0_f32);
+                for _ in 0..400_000 {
+                    let bound = MODEL.bound(heat);
+                    step = step.max((bound - last).abs());
+                    last = bound;
+                    let share = ask.fraction().abs().min(bound) * ask.fraction().signum();
+                    heat = MODEL.next(heat, Duty::from_fraction(share));
+                    // The duty is rounded to half a step of 32,767, and so is its square at most.
+                    assert!(heat.fraction() <= 0.09 + 2e-5, "{ask:?}: {heat:?}");
+                }
+                assert!(last >= 0.3 - 1e-4, "{last}");
+                assert!(step < 1e-3, "{step} of full scale in a tick");
+            }
+        }
+    }
+
+    #[test]
+    fn a_motor_that_rests_has_its_full_torque_again() {
+        let mut heat = MODEL.start();
+        assert!(MODEL.folds(heat));
+        let rested = (0..40_000).find(|_| {
+            heat = MODEL.next(heat, Duty::ZERO);
+            !MODEL.folds(heat)
+        });
+        // ln 2 of 5 s at 4 kHz.
+        assert!(matches!(rested, Some(13_800..=13_900)), "{rested:?}");
+    }
+
+    #[test]
+    fn an_amplifier_that_cannot_overheat_the_motor_is_never_bounded() {
+        let strong = HeatModel::new(Endurance { continuous: 1.1, time_constant: 5.0 }, 4_000.0);
+        assert_eq!(strong.bound(strong.start()), 1.0);
+        assert_eq!(strong.bound(Heat(FULL as i32)), 1.0);
+    }
+}

@@ -1,0 +1,139 @@
+//! What guards motors and hand beyond the loop's own checks, and costs nothing where it is not chosen.
+//!
+//! A loop carries a [`Guard`] as a type: [`Unguarded`], which has no state and whose every answer is a constant, or
+//! [`Guarded`], made of a device's [`Protection`] by [`super::Servo::protect`]. So the instructions and the bytes of
+//! what is not chosen are not there to be skipped.
+
+mod guarded;
+mod heat;
+mod protection_error;
+mod sign;
+mod supply;
+
+pub use guarded::{GuardState, Guarded};
+pub use heat::Heat;
+pub use protection_error::ProtectionError;
+
+use super::Fault;
+use super::gate::gate;
+use crate::device::{Duty, Motor, ProbePose};
+use crate::math::Vec3;
+use core::fmt::Debug;
+
+/// What a tick's motion is, as a guard looks at it.
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<'a, const JOINTS: usize> {
+    /// Joint rates, rad/s.
+    pub rates: &'a [f32; JOINTS],
+    /// The probe's velocity, m/s.
+    pub velocity: Vec3,
+    /// Where the probe is, and the Jacobian.
+    pub pose: &'a ProbePose<JOINTS>,
+    /// The force that is to be felt, N.
+    pub force: Vec3,
+    /// Its joint torques, N·m.
+    pub felt: &'a [f32; JOINTS],
+}
+
+/// What guards a loop. Every call is bounded, and none panics.
+pub trait Guard<const JOINTS: usize>: Copy + Debug {
+    /// What it remembers from tick to tick.
+    type State: Remembered;
+
+    /// Before the first tick after any reset.
+    fn start(&self) -> Self::State;
+
+    /// The supply was measured, between two ticks.
+    fn measured(&self, state: &mut Self::State, millivolts: u32) -> Result<(), Fault>;
+
+    /// What can be wrong whatever the sensors say; once a tick.
+    fn watch(&self, state: &mut Self::State) -> Result<(), Fault>;
+
+    /// Whether it watches a contact on trial. The check of the tables and the watch over stuck sensors, which look at a
+    /// word and a joint a tick and need no hurry, wait meanwhile, for at most two contacts of each joint after a start:
+    /// they pay for the watch.
+    fn is_busy(&self, state: &Self::State) -> bool;
+
+    /// Looks at a tick in which force is given; the share of the force that may be felt.
+    fn motion(&self, state: &mut Self::State, moving: &Moving<'_, JOINTS>) -> Result<f32, Fault>;
+
+    /// How much of full scale each motor may be given in this tick; `None` is all of it.
+    fn bounds(&self, state: &Self::State) -> Option<[f32; JOINTS]>;
+
+    /// The last thing before the motors (`gate.rs`): the duties for these torques, N·m, and what the felt ones were
+    /// scaled by.
+    ///
+    /// # Errors
+    /// [`Fault::NotFinite`].
+    fn gate(
+        &self,
+        state: &Self::State,
+        drives: bool,
+        motors: &[Motor; JOINTS],
+        felt: [f32; JOINTS],
+        weight: [f32; JOINTS],
+    ) -> Result<([Duty; JOINTS], f32), Fault>;
+
+    /// What the motors are given until the next tick, as duties of torque.
+    fn given(&self, state: &mut Self::State, duties: &[Duty; JOINTS]);
+}
+
+/// What a guard remembers.
+pub trait Remembered: Copy + Debug + PartialEq {
+    /// Gives every word of it to a hash.
+    fn for_each_word(&self, take: impl FnMut(u32));
+}
+
+impl Remembered for () {
+    fn for_each_word(&self, _: impl FnMut(u32)) {}
+}
+
+/// No guard: the loop's own checks alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unguarded;
+
+impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
+    type State = ();
+
+    fn start(&self) {}
+
+    #[inline]
+    fn measured(&self, (): &mut (), _: u32) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    #[inline]
+    fn watch(&self, (): &mut ()) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    #[inline]
+    fn is_busy(&self, (): &()) -> bool {
+        false
+    }
+
+    #[inline]
+    fn motion(&self, (): &mut (), _: &Moving<'_, JOINTS>) -> Result<f32, Fault> {
+        Ok(1.0)
+    }
+
+    #[inline]
+    fn bounds(&self, (): &()) -> Option<[f32; JOINTS]> {
+        None
+    }
+
+    #[inline]
+    fn gate(
+        &self,
+        (): &(),
+        drives: bool,
+        motors: &[Motor; JOINTS],
+        felt: [f32; JOINTS],
+        weight: [f32; JOINTS],
+    ) -> Result<([Duty; JOINTS], f32), Fault> {
+        gate(drives, motors, felt, weight)
+    }
+
+    #[inline]
+    fn given(&self, (): &mut (), _: &[Duty; JOINTS]) {}
+}
