@@ -19,7 +19,12 @@ fn turn(direction: &mut Direction) {
 }
 
 /// Commissions a device with something planted, and gives what was found and the file.
-fn commission(shipped: &ShippedDevice, own: &OwnDevice, harm: impl Fn(&mut Planted)) -> (Vec<String>, OwnDevice) {
+fn commission(
+    shipped: &ShippedDevice,
+    own: &OwnDevice,
+    weighs: bool,
+    harm: impl Fn(&mut Planted),
+) -> (Vec<String>, OwnDevice) {
     let mut planted = Planted { plant: shipped.plant, encoder_on: [0, 1, 2], motor_on: [0, 1, 2] };
     harm(&mut planted);
     let mut lab = SimulatedLab::new(planted).expect("a bench");
