@@ -153,8 +153,8 @@ pub struct Reading {
     pub refusal: u8,
 }
 
-/// To a device that is being set up, in lockstep with a simulated one: what its sensors would say at this tick, and what
-/// came over the link.
+/// To a device that is being set up, in lockstep with a simulated one: what its sensors would say at this tick, and
+/// what came over the link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bench {

@@ -50,7 +50,8 @@ pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller
     .safety(settings::SAFETY)
     .protect(protection());
 
-/// What protects it. Where it is counted, joints stay on trial: a path that goes where it is told says nothing of signs.
+/// What protects it. Where it is counted, joints stay on trial: a path that goes where it is told says nothing of
+/// signs.
 #[cfg(feature = "protected")]
 const fn protection() -> Protection<3> {
     if cfg!(feature = "counted") {

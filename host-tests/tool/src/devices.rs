@@ -1,8 +1,9 @@
 //! The devices that ship, one row each: what the servo knows of it, and what stands in for it in simulation.
 
-use crate::own::{self, OwnDevice};
+use crate::own::{self, DeviceFile, OwnDevice};
+pub use crate::preset::{Limits, Preset};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use palpate::device::{Delta, Device, FiveBar, Kinematics, LinkageArm, Paddle, SerialArm, presets};
+use palpate::device::presets;
 use palpate_plant::PlantSettings;
 use std::ffi::OsStr;
 use std::path::Path;
@@ -26,6 +27,13 @@ pub struct ShippedDevice {
     pub source: Option<[&'static str; 2]>,
     /// The source of the constants of one's own device; none of one that ships.
     pub constants: Option<&'static str>,
+}
+
+impl ShippedDevice {
+    /// Its device file, where one's own begins; `None` with less than three joints.
+    pub fn file(&self) -> Option<DeviceFile> {
+        own::file_of(self.name, self.preset, &self.plant)
+    }
 }
 
 /// Every device that ships. A new one is a row here, a preset of the library and settings of the plant.
@@ -153,78 +161,6 @@ pub fn own_device(own: &OwnDevice, from: &str) -> &'static ShippedDevice {
         source: Some([mechanism, "DEVICE"]),
         constants: Some(Box::leak(own::source(own, from).into_boxed_str())),
     }))
-}
-
-/// What the servo knows of a device, by its mechanism. Only who matches on it need know that there are several; from
-/// there on the loop is generic, on the host as on the target.
-#[derive(Clone, Copy, Debug)]
-pub enum Preset {
-    /// Three joints, serial.
-    SerialArm(&'static Device<SerialArm, 3>),
-    /// Three joints, a linkage on a turntable.
-    LinkageArm(&'static Device<LinkageArm, 3>),
-    /// Three joints, a delta.
-    Delta(&'static Device<Delta, 3>),
-    /// Two joints.
-    FiveBar(&'static Device<FiveBar, 2>),
-    /// One joint.
-    Paddle(&'static Device<Paddle, 1>),
-}
-
-/// What a device is to be asked for at most.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// N.
-    pub force: f32,
-    /// N/m.
-    pub stiffness: f32,
-    /// N·s/m.
-    pub damping: f32,
-}
-
-impl Limits {
-    fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>) -> Self {
-        Self { force: device.max_force, stiffness: device.max_stiffness, damping: device.max_damping }
-    }
-}
-
-impl Preset {
-    /// The device's limits.
-    pub fn limits(self) -> Limits {
-        match self {
-            Self::SerialArm(device) => Limits::of(device),
-            Self::LinkageArm(device) => Limits::of(device),
-            Self::Delta(device) => Limits::of(device),
-            Self::FiveBar(device) => Limits::of(device),
-            Self::Paddle(device) => Limits::of(device),
-        }
-    }
-
-    /// How much room there is to the rim of the workspace at these joint angles, rad: 1 well inside, 0 on it.
-    pub fn room(self, angles: [f64; 3]) -> f32 {
-        fn of<K: Kinematics<JOINTS>, const JOINTS: usize>(device: &Device<K, JOINTS>, angles: [f64; 3]) -> f32 {
-            let angles = core::array::from_fn(|joint| angles[joint] as f32);
-            device.room(&angles, &device.kinematics.pose(angles))
-        }
-        match self {
-            Self::SerialArm(device) => of(device, angles),
-            Self::LinkageArm(device) => of(device, angles),
-            Self::Delta(device) => of(device, angles),
-            Self::FiveBar(device) => of(device, angles),
-            Self::Paddle(device) => of(device, angles),
-        }
-    }
-
-    /// How each motor is fed.
-    pub fn feeds(self) -> &'static [palpate::device::drive::Feed] {
-        match self {
-            Self::SerialArm(device) => &device.feeds,
-            Self::LinkageArm(device) => &device.feeds,
-            Self::Delta(device) => &device.feeds,
-            Self::FiveBar(device) => &device.feeds,
-            Self::Paddle(device) => &device.feeds,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ pub mod firmware;
 pub mod models;
 pub mod monitor;
 pub mod own;
+pub mod preset;
 pub mod proof;
 pub mod queries;
 pub mod race;

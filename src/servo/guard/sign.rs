@@ -1,16 +1,17 @@
 //! Whether a joint moves the way its motor pushes.
 //!
 //! An encoder that counts against its motor makes of every wall a slope: the force grows with the depth and pulls
-//! further in. What a hand does cannot tell the two apart, for it pushes either way; what the force *changes* can. While
-//! a torque `u` acts on a joint of inertia `I`, its rate changes by `u/I` and by what the hand does. Summed over the first
-//! moments of a contact, `n = Σ u·Δq̇` is the power by which the motors speed the device up, and `d = Σ u²/I·Δt` what it
-//! would be if they were alone: `n/d` is 1 less the hand's share for a good sign, and −1 less it for a wrong one.
+//! further in. What a hand does cannot tell the two apart, for it pushes either way; what the force *changes* can.
+//! While a torque `u` acts on a joint of inertia `I`, its rate changes by `u/I` and by what the hand does. Summed over
+//! the first moments of a contact, `n = Σ u·Δq̇` is the power by which the motors speed the device up, and `d = Σ
+//! u²/I·Δt` what it would be if they were alone: `n/d` is 1 less the hand's share for a good sign, and −1 less it for a
+//! wrong one.
 //!
 //! Each contact that begins in free air is judged as soon as `d` reaches [`ENOUGH`] and the verdict is clear, and by
-//! [`MORE`] in any case: a hand that presses evenly leaves `n` at zero. Until a joint has come through [`TRIALS`] of them
-//! it is on trial, and the force no more than a quarter of the greatest one, as far as it loads this joint; a joint that
-//! the force hardly loads stays on trial. What a contact has shown counts from its end on, so that no limit is lifted
-//! while something is felt.
+//! [`MORE`] in any case: a hand that presses evenly leaves `n` at zero. Until a joint has come through [`TRIALS`] of
+//! them it is on trial, and the force no more than a quarter of the greatest one, as far as it loads this joint; a
+//! joint that the force hardly loads stays on trial. What a contact has shown counts from its end on, so that no limit
+//! is lifted while something is felt.
 
 use super::Moving;
 use crate::device::SignWatch;
@@ -155,8 +156,8 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         Ok(share)
     }
 
-    /// The share of the force that joints on trial bear: a quarter of the greatest force, or more where it loads them by
-    /// less than a third of what it could.
+    /// The share of the force that joints on trial bear: a quarter of the greatest force, or more where it loads them
+    /// by less than a third of what it could.
     #[cold]
     fn bound(&self, passed: &[u8; JOINTS], moving: &Moving<'_, JOINTS>) -> f32 {
         let mut squared_share = 1.0;

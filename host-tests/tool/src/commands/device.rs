@@ -1,7 +1,7 @@
 //! `palpate device`: the file of one's own device as the library's constant; the file of one that ships, to begin with.
 
 use crate::devices;
-use crate::own::{OwnDevice, file_of, source};
+use crate::own::{OwnDevice, source};
 use anyhow::{Context, bail};
 use clap::Args;
 use std::fs;
@@ -28,7 +28,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let name = arguments.device.to_string_lossy();
     let own = match devices::named(&name) {
         Some(shipped) => {
-            let file = file_of(shipped).with_context(|| format!("{name} has less than three joints"))?;
+            let file = shipped.file().with_context(|| format!("{name} has less than three joints"))?;
             OwnDevice::new(file, &name)?
         }
         None => OwnDevice::read(&arguments.device)?,

@@ -158,8 +158,8 @@ fn motors(
     Ok(())
 }
 
-/// Torque constant and friction, rather too much of it, for a joint that moves by less than two counts in a fiftieth of a
-/// second counts as at rest: the duties that just move the joint up and down, with and without a known weight.
+/// Torque constant and friction, rather too much of it, for a joint that moves by less than two counts in a fiftieth of
+/// a second counts as at rest: the duties that just move the joint up and down, with and without a known weight.
 fn torques(
     lab: &mut dyn Lab,
     file: &mut DeviceFile,
@@ -210,7 +210,8 @@ fn torques(
     Ok(())
 }
 
-/// The share of full duty towards rising angles that just moves a joint up, or just no longer keeps it from moving down.
+/// The share of full duty towards rising angles that just moves a joint up, or just no longer keeps it from moving
+/// down.
 fn just_moves(lab: &mut dyn Lab, file: &DeviceFile, centre: [f64; 3], joint: usize, up: bool) -> anyhow::Result<f64> {
     let motor = &file.joint[joint].motor;
     let (output, sign) = (motor.channel as u8, motor.ratio.signum());

@@ -1,7 +1,7 @@
 //! Commissioning: from a device file that is only nearly right to one that was measured.
 //!
-//! [`Lab`] is the bench with whoever stands at it: a simulated one ([`SimulatedLab`]), or a device at a port and a person
-//! who reads prompts. [`find`] asks it for what it needs and writes what it finds into the file.
+//! [`Lab`] is the bench with whoever stands at it: a simulated one ([`SimulatedLab`]), or a device at a port and a
+//! person who reads prompts. [`find`] asks it for what it needs and writes what it finds into the file.
 
 mod find;
 mod simulated;

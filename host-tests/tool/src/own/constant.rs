@@ -1,7 +1,7 @@
 //! A device file as the library's constants, checked when they are compiled.
 
 use super::read::OwnDevice;
-use crate::devices::Preset;
+use crate::preset::Preset;
 use palpate::device::drive::Feed;
 use palpate::device::{Device, Protection};
 use std::fmt::{Debug, Write as _};
@@ -21,7 +21,8 @@ pub fn source(own: &OwnDevice, from: &str) -> String {
     let _ = write!(
         text,
         "\n/// Which of the board's encoder inputs each joint is on.\n#[allow(dead_code)]\npub const ENCODER_CHANNELS: [usize; 3] = {inputs:?};\n\
-         /// Which of the board's motor outputs each joint is on.\n#[allow(dead_code)]\npub const MOTOR_CHANNELS: [usize; 3] = {outputs:?};\n"
+         /// Which of the board's motor outputs each joint is on.\n#[allow(dead_code)]\npub const MOTOR_CHANNELS:
+         /// [usize; 3] = {outputs:?};\n"
     );
     text
 }

@@ -1,5 +1,5 @@
-//! A lab's own device, as a `device.toml` describes it: read and checked, turned into the library's constant, simulated,
-//! and written.
+//! A lab's own device, as a `device.toml` describes it: read and checked, turned into the library's constant,
+//! simulated, and written.
 
 mod constant;
 mod plant;

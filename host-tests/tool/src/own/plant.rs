@@ -1,7 +1,7 @@
 //! What stands in for one's own device in simulation.
 //!
-//! Its geometry, transmission and friction are the file's. Inertia that the file does not state is assumed: thin rods of
-//! 100 g, a turntable of 2e-3 kg·m², rotors of 10 g·cm²; whatever the links weigh, the joints are loaded as the file
+//! Its geometry, transmission and friction are the file's. Inertia that the file does not state is assumed: thin rods
+//! of 100 g, a turntable of 2e-3 kg·m², rotors of 10 g·cm²; whatever the links weigh, the joints are loaded as the file
 //! says.
 
 use super::schema::{DeviceFile, JointEntry, MassEntry, MechanismEntry};

@@ -3,10 +3,10 @@
 use super::schema::{
     BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, MassEntry, MechanismEntry, MotorEntry,
 };
-use crate::devices::{Preset, ShippedDevice};
+use crate::preset::Preset;
 use palpate::device::drive::Feed;
 use palpate::device::{Device, Protection, presets};
-use palpate_plant::Direction;
+use palpate_plant::{Direction, PlantSettings};
 
 /// The shortest decimal that reads back as the same `f32`.
 fn decimal(number: f32) -> f64 {
@@ -14,8 +14,8 @@ fn decimal(number: f32) -> f64 {
 }
 
 /// The file of a shipped device of three joints; `None` with fewer.
-pub fn file_of(shipped: &ShippedDevice) -> Option<DeviceFile> {
-    let (mechanism, rest) = match shipped.preset {
+pub fn file_of(name: &str, preset: Preset, plant: &PlantSettings) -> Option<DeviceFile> {
+    let (mechanism, rest) = match preset {
         Preset::SerialArm(device) => {
             let arm = device.kinematics;
             let mechanism = MechanismEntry::SerialArm {
@@ -25,7 +25,7 @@ pub fn file_of(shipped: &ShippedDevice) -> Option<DeviceFile> {
                 workspace_centre: arm.workspace_centre.to_array().map(decimal),
                 end_masses: arm.end_masses.map(decimal),
             };
-            (mechanism, rest(shipped, device))
+            (mechanism, rest(name, plant, device))
         }
         Preset::LinkageArm(device) => {
             let arm = device.kinematics;
@@ -43,7 +43,7 @@ pub fn file_of(shipped: &ShippedDevice) -> Option<DeviceFile> {
                     across: decimal(link.across),
                 })),
             };
-            (mechanism, rest(shipped, device))
+            (mechanism, rest(name, plant, device))
         }
         Preset::Delta(device) => {
             let delta = device.kinematics;
@@ -58,12 +58,12 @@ pub fn file_of(shipped: &ShippedDevice) -> Option<DeviceFile> {
                 carried_mass: decimal(delta.carried_mass),
                 thigh_moment: decimal(delta.thigh_moment),
             };
-            (mechanism, rest(shipped, device))
+            (mechanism, rest(name, plant, device))
         }
         Preset::FiveBar(_) | Preset::Paddle(_) => return None,
     };
     let (limits, joint) = rest;
-    Some(DeviceFile { name: shipped.name.to_owned(), mechanism, limits, joint })
+    Some(DeviceFile { name: name.to_owned(), mechanism, limits, joint })
 }
 
 /// What protects a shipped device.
@@ -77,11 +77,11 @@ fn protection(name: &str) -> Protection<3> {
 }
 
 /// Limits and joints. Counts a turn and ratio are the plant's, for the library keeps their product alone.
-fn rest<K>(shipped: &ShippedDevice, device: &Device<K, 3>) -> (LimitsEntry, Vec<JointEntry>) {
-    let protection = protection(shipped.name);
+fn rest<K>(name: &str, settings: &PlantSettings, device: &Device<K, 3>) -> (LimitsEntry, Vec<JointEntry>) {
+    let protection = protection(name);
     let names = ["a", "b", "c"];
     let joints = (0..3).map(|index| {
-        let plant = &shipped.plant.joints[index];
+        let plant = &settings.joints[index];
         let sign = |direction: Direction| if direction == Direction::With { 1.0 } else { -1.0 };
         let encoder = EncoderEntry {
             channel: index,

@@ -2,7 +2,7 @@
 
 use super::plant;
 use super::schema::{DeviceFile, JointEntry, MechanismEntry};
-use crate::devices::Preset;
+use crate::preset::Preset;
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::{
     Delta, Device, DeviceError, Encoder, Endurance, FiveBar, LinkMass, LinkageArm, Motor, Protection, SerialArm,

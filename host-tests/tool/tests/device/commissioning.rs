@@ -4,12 +4,12 @@
 use palpate_plant::{Direction, JointSettings};
 use palpate_tool::commission::{Planted, SimulatedLab, find, find_mounting};
 use palpate_tool::devices::{DEVICES, ShippedDevice};
-use palpate_tool::own::{OwnDevice, file_of};
+use palpate_tool::own::OwnDevice;
 
 /// The devices of three joints, with what their files are.
 fn devices() -> impl Iterator<Item = (&'static ShippedDevice, OwnDevice)> {
     DEVICES.iter().filter_map(|shipped| {
-        let file = file_of(shipped)?;
+        let file = shipped.file()?;
         Some((shipped, OwnDevice::new(file, shipped.name).expect("it ships")))
     })
 }

@@ -1,18 +1,18 @@
 //! Device files: what ships as a file is the preset, and what no device has is refused by its entry.
 
 use palpate_tool::devices::{DEVICES, Preset};
-use palpate_tool::own::{OwnDevice, file_of, source};
+use palpate_tool::own::{OwnDevice, source};
 
 /// The file of WoodenHaptics, as text.
 fn text() -> String {
-    toml::to_string(&file_of(&DEVICES[0]).expect("three joints")).expect("a file")
+    toml::to_string(&DEVICES[0].file().expect("three joints")).expect("a file")
 }
 
 #[test]
 fn the_file_of_a_device_that_ships_reads_back_as_its_constant() {
     let mut seen = 0;
     for shipped in &DEVICES {
-        let Some(file) = file_of(shipped) else { continue };
+        let Some(file) = shipped.file() else { continue };
         seen += 1;
         let own = OwnDevice::parse(&toml::to_string(&file).unwrap(), shipped.name).unwrap();
         assert_eq!(own.file, file);

@@ -1,4 +1,5 @@
-//! A loop that is protected: motors that stay cool enough, joints and probes that are not let run, signs that are wrong.
+//! A loop that is protected: motors that stay cool enough, joints and probes that are not let run, signs that are
+//! wrong.
 
 use crate::surfaces::{WALL, table1c};
 use palpate::device::presets::{
