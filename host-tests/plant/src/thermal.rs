@@ -1,8 +1,8 @@
 //! How warm a motor gets: two bodies, winding and housing, after a motor's data sheet.
 //!
-//! `C_w Ṫ_w = R(T_w) i² − (T_w − T_h)/R_wh` and `C_h Ṫ_h = (T_w − T_h)/R_wh − (T_h − T_a)/R_ha`, with the heat capacities
-//! from the sheet's time constants (`C_w = θ_w/R_wh`, `C_h = θ_h/R_ha`) and copper's resistance, which grows by 0.39 %
-//! a kelvin. A stalled motor: nothing but the current warms it, and nothing but still air cools it.
+//! `C_w Ṫ_w = R(T_w) i² − (T_w − T_h)/R_wh` and `C_h Ṫ_h = (T_w − T_h)/R_wh − (T_h − T_a)/R_ha`, with the heat
+//! capacities from the sheet's time constants (`C_w = θ_w/R_wh`, `C_h = θ_h/R_ha`) and copper's resistance, which
+//! grows by 0.39 % a kelvin. A stalled motor: nothing but the current warms it, and nothing but still air cools it.
 
 /// What the data sheet says of the motor's heat.
 #[derive(Clone, Copy, Debug, PartialEq)]
