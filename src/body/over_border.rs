@@ -1,16 +1,20 @@
-//! Out over a border: what a face has behind may be in front of the face beyond a sharp edge, and the tick that comes to
-//! the edge is not to be felt.
+//! Out over a border: what a face has behind may be in front of the face beyond a sharp edge, and the tick that comes
+//! to the edge is not to be felt.
 
-use super::feature::{EdgeFace, EdgeKind, Face, Separator, Side};
+use super::feature::{EdgeKind, Face, Separator, Side};
 use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::math::Vec3;
+use crate::patch::Patch as _;
 use crate::track::{BoundaryMode, Witness};
 
 /// Deeper than this, in sizes of the body, a hand has pushed through what walls hold it at. To evaluate a curve there
 /// costs a tick that is long already another hundred instructions: what is beyond is left to the next tick, which goes
 /// there.
 const DEEP: f32 = 1.0 / 16.0;
+
+/// A face whose bound says that it is hollower than this, 1/m, is; below it is the rounding of a plane's bound.
+const HOLLOW: f32 = 1.0e-6;
 
 /// A probe seen from a witness point.
 struct Seen<'a> {
@@ -26,18 +30,22 @@ impl Body {
         self.asks_deep || -gap < DEEP * self.size
     }
 
-    /// Ends contact where the probe is in front of what is beyond the border that the witness point lies on: then it has
-    /// left the body over an edge or a vertex, though this face has it behind. Whether it has.
+    /// Ends contact where the probe is in front of what is beyond the border that the witness point lies on: then it
+    /// has left the body over an edge or a vertex, though this face has it behind. Whether it has.
     #[inline(never)]
     pub(super) fn leaves_over_border(&self, face: &Face, state: &mut BodyWitness) -> bool {
         let (witness, away) = (&state.witness, state.probe - state.witness.surface.point);
         let seen = Seen { witness, away };
-        let is_over = match witness.mode {
-            BoundaryMode::LowerU => self.is_over_side(face, 0, &seen),
-            BoundaryMode::UpperU => self.is_over_side(face, 1, &seen),
-            BoundaryMode::LowerV => self.is_over_side(face, 2, &seen),
-            BoundaryMode::UpperV => self.is_over_side(face, 3, &seen),
-            BoundaryMode::Corner | BoundaryMode::Interior => self.has_poles && self.is_over_any(face, &seen),
+        let held = match witness.mode {
+            BoundaryMode::LowerU => Some(0),
+            BoundaryMode::UpperU => Some(1),
+            BoundaryMode::LowerV => Some(2),
+            BoundaryMode::UpperV => Some(3),
+            BoundaryMode::Corner | BoundaryMode::Interior => None,
+        };
+        let is_over = match held {
+            Some(number) => self.is_over_side(face, number, &seen),
+            None => self.has_poles && self.is_over_any(face, &seen),
         };
         if is_over {
             let probe = state.probe;
@@ -46,8 +54,8 @@ impl Body {
         is_over
     }
 
-    /// Whether it is so over any of the borders that the witness point lies on: beside a pole a step may end at one that
-    /// does not hold it.
+    /// Whether it is so over any of the borders that the witness point lies on: beside a pole a step may end at one
+    /// that does not hold it.
     #[inline(never)]
     fn is_over_any(&self, face: &Face, seen: &Seen) -> bool {
         let [u, v] = seen.witness.parameters;
@@ -55,7 +63,7 @@ impl Body {
     }
 
     /// The same over one side. Over a convex edge by the normal `t × m` of the face beyond: this face lies behind that
-    /// one.
+    /// one. Not asked of a face that is known to be hollow.
     fn is_over_side(&self, face: &Face, number: usize, seen: &Seen) -> bool {
         let Seen { witness, away } = *seen;
         let (index, is_reversed) = match face.sides.get(number) {
@@ -78,18 +86,21 @@ impl Body {
         };
         let inward = if number & 1 == 0 { across } else { -across };
         let t = if is_reversed { 1.0 - along } else { along };
+        let of = self.beyond_side(edge, face, number);
+        let Some(beyond) = self.faces.get(usize::from(of.face)) else { return false };
+        // A face that is known to be hollow comes in front of its tangent plane: a probe there may be inside. At a pole
+        // nothing is known.
+        let least = beyond.patch.shape().curvature.min;
+        if least < -HOLLOW && least > f32::NEG_INFINITY {
+            return false;
+        }
         // A derivative of the face beyond across the side, of any sign and length.
-        let cross = match self.side(self.beyond_side(edge, face, number)) {
+        let cross = match beyond.sides.get(usize::from(of.side)) {
             Some(Side::Edge { separator: Separator::Plane { across, .. }, .. }) => *across,
             Some(Side::Edge { separator: Separator::Ruled(cross), .. }) => cross.point(t),
             _ => return false,
         };
         let normal = tangent.cross(cross);
         normal.dot(away) * normal.dot(inward) < 0.0
-    }
-
-    #[inline]
-    fn side(&self, of: EdgeFace) -> Option<&Side> {
-        self.faces.get(usize::from(of.face))?.sides.get(usize::from(of.side))
     }
 }

@@ -4,7 +4,7 @@
 use super::along::Along;
 use super::curve::CurvePoint;
 use super::enter::Border;
-use super::feature::{EdgeFace, EdgeKind, Feature, Side};
+use super::feature::{EdgeFace, EdgeKind, Face, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
@@ -19,13 +19,16 @@ impl Body {
     pub(super) fn leave_face(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Some(face) = self.faces.get(usize::from(index)) else { return false };
         let [u, v] = state.witness.parameters;
-        // At a corner the side that the step along the other one would meet.
         let number = match state.witness.mode {
             BoundaryMode::LowerU => 0,
             BoundaryMode::UpperU => 1,
             BoundaryMode::LowerV => 2,
             BoundaryMode::UpperV => 3,
-            BoundaryMode::Corner => usize::from(u > 0.5),
+            // A smooth edge hands over whatever lies beyond the corner, and would be handed back to.
+            BoundaryMode::Corner => {
+                let [first, second] = [usize::from(u > 0.5), 2 + usize::from(v > 0.5)];
+                if self.is_smooth(face, first) && !self.is_smooth(face, second) { second } else { first }
+            }
             BoundaryMode::Interior => return false,
         };
         let Some(side) = face.sides.get(number) else { return false };
@@ -51,6 +54,11 @@ impl Body {
                 true
             }
         }
+    }
+
+    fn is_smooth(&self, face: &Face, number: usize) -> bool {
+        let Some(Side::Edge { edge, .. }) = face.sides.get(number) else { return false };
+        self.edges.get(usize::from(*edge)).is_some_and(|edge| edge.kind == EdgeKind::Smooth)
     }
 
     /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point;
