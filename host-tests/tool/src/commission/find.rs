@@ -11,6 +11,8 @@ const TURN: f64 = 0.15;
 const LOAD: f64 = 0.1;
 /// Halvings of the duty in the search for the one that just moves a joint.
 const HALVINGS: usize = 9;
+/// The greatest share of full duty that is tried: what a jog may have.
+const MOST: f64 = 0.29;
 
 /// What was found to be other than the file had it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -217,12 +219,20 @@ fn just_moves(lab: &mut dyn Lab, file: &DeviceFile, centre: [f64; 3], joint: usi
     let (output, sign) = (motor.channel as u8, motor.ratio.signum());
     let encoder = &file.joint[joint].encoder;
     let two_counts = 2.0 * (TAU / (encoder.counts * encoder.ratio)).abs();
-    let [mut low, mut high] = [-0.29, 0.29];
+    let [mut low, mut high] = [-MOST, MOST];
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
         let moved = nudge(lab, file, centre, joint, (output, (middle * sign * 32_767.0) as i16))?;
         let goes = if up { moved > two_counts } else { moved > -two_counts };
         if goes { high = middle } else { low = middle }
+    }
+    // At an end of what may be tried it is not known.
+    if low == -MOST || high == MOST {
+        bail!(
+            "joint {}: {:.0} % of full duty either way does not tell its friction and the weight apart: take less weight",
+            file.joint[joint].name,
+            100.0 * MOST
+        );
     }
     Ok(0.5 * (low + high))
 }

@@ -20,9 +20,10 @@ pub fn source(own: &OwnDevice, from: &str) -> String {
     let outputs: Vec<usize> = own.file.joint.iter().map(|joint| joint.motor.channel).collect();
     let _ = write!(
         text,
-        "\n/// Which of the board's encoder inputs each joint is on.\n#[allow(dead_code)]\npub const ENCODER_CHANNELS: [usize; 3] = {inputs:?};\n\
-         /// Which of the board's motor outputs each joint is on.\n#[allow(dead_code)]\npub const MOTOR_CHANNELS:
-         /// [usize; 3] = {outputs:?};\n"
+        "\n/// Which of the board's encoder inputs each joint is on.\n#[allow(dead_code)]\n\
+         pub const ENCODER_CHANNELS: [usize; 3] = {inputs:?};\n\
+         /// Which of the board's motor outputs each joint is on.\n#[allow(dead_code)]\n\
+         pub const MOTOR_CHANNELS: [usize; 3] = {outputs:?};\n"
     );
     text
 }

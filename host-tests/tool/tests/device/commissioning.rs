@@ -56,11 +56,21 @@ fn commission(
 #[test]
 fn a_device_that_is_as_its_file_says_is_left_as_it_is() {
     for (shipped, own) in devices() {
-        let (findings, _) = commission(shipped, &own, true, |_| {});
+        // Its friction takes all the duty that a jog may have.
+        let weighs = shipped.name != "falcon";
+        let (findings, _) = commission(shipped, &own, weighs, |_| {});
         println!("{}: {findings:?}", shipped.name);
         let unexpected: Vec<_> = findings.iter().filter(|finding| !finding.contains("friction")).collect();
         assert!(unexpected.is_empty(), "{}: {unexpected:?}", shipped.name);
     }
+}
+
+#[test]
+fn a_weight_that_friction_hides_is_refused() {
+    let (shipped, own) = devices().find(|(shipped, _)| shipped.name == "falcon").expect("it ships");
+    let planted = Planted { plant: shipped.plant, encoder_on: [0, 1, 2], motor_on: [0, 1, 2] };
+    let refusal = find(&mut SimulatedLab::new(planted).expect("a bench"), &own).expect_err("too much friction");
+    assert!(refusal.to_string().contains("take less weight"), "{refusal:#}");
 }
 
 /// What is planted, and what the findings must say of it.
