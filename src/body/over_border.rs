@@ -5,7 +5,7 @@ use super::feature::{EdgeKind, Face, Separator, Side};
 use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::math::Vec3;
-use crate::patch::Patch as _;
+use crate::patch::{Patch as _, SplinePatch};
 use crate::track::{BoundaryMode, Witness};
 
 /// Deeper than this, in sizes of the body, a hand has pushed through what walls hold it at. To evaluate a curve there
@@ -63,7 +63,7 @@ impl Body {
     }
 
     /// The same over one side. Over a convex edge by the normal `t × m` of the face beyond: this face lies behind that
-    /// one. Not asked of a face that is known to be hollow.
+    /// one.
     fn is_over_side(&self, face: &Face, number: usize, seen: &Seen) -> bool {
         let Seen { witness, away } = *seen;
         let (index, is_reversed) = match face.sides.get(number) {
@@ -88,12 +88,6 @@ impl Body {
         let t = if is_reversed { 1.0 - along } else { along };
         let of = self.beyond_side(edge, face, number);
         let Some(beyond) = self.faces.get(usize::from(of.face)) else { return false };
-        // A face that is known to be hollow comes in front of its tangent plane: a probe there may be inside. At a pole
-        // nothing is known.
-        let least = beyond.patch.shape().curvature.min;
-        if least < -HOLLOW && least > f32::NEG_INFINITY {
-            return false;
-        }
         // A derivative of the face beyond across the side, of any sign and length.
         let cross = match beyond.sides.get(usize::from(of.side)) {
             Some(Side::Edge { separator: Separator::Plane { across, .. }, .. }) => *across,
@@ -101,6 +95,19 @@ impl Body {
             _ => return false,
         };
         let normal = tangent.cross(cross);
-        normal.dot(away) * normal.dot(inward) < 0.0
+        let height = normal.dot(away);
+        height * normal.dot(inward) < 0.0 && !may_be_below(&beyond.patch, height, normal, away)
+    }
+}
+
+/// Whether a face that is hollow may come as far in front of its tangent plane as the probe is: within a radius of
+/// curvature `1/κ` it comes no farther than `κ` times the square of the way. At a pole nothing is known of `κ`, and the
+/// plane is asked.
+#[inline(always)]
+fn may_be_below(patch: &SplinePatch, height: f32, normal: Vec3, away: Vec3) -> bool {
+    let least = patch.shape().curvature.min;
+    least < -HOLLOW && least > f32::NEG_INFINITY && {
+        let bulge = least * away.length_squared();
+        height * height <= bulge * bulge * normal.length_squared()
     }
 }

@@ -27,7 +27,9 @@ impl Body {
             // A smooth edge hands over whatever lies beyond the corner, and would be handed back to.
             BoundaryMode::Corner => {
                 let [first, second] = [usize::from(u > 0.5), 2 + usize::from(v > 0.5)];
-                if self.is_smooth(face, first) && !self.is_smooth(face, second) { second } else { first }
+                let [kind, other] = [first, second].map(|number| self.kind_of_side(face, number));
+                let is_other_sharp = other.is_some_and(|other| other != EdgeKind::Smooth);
+                if kind == Some(EdgeKind::Smooth) && is_other_sharp { second } else { first }
             }
             BoundaryMode::Interior => return false,
         };
@@ -56,9 +58,10 @@ impl Body {
         }
     }
 
-    fn is_smooth(&self, face: &Face, number: usize) -> bool {
-        let Some(Side::Edge { edge, .. }) = face.sides.get(number) else { return false };
-        self.edges.get(usize::from(*edge)).is_some_and(|edge| edge.kind == EdgeKind::Smooth)
+    /// The kind of the edge that a side of a face is; `None` of a pole.
+    fn kind_of_side(&self, face: &Face, number: usize) -> Option<EdgeKind> {
+        let Some(Side::Edge { edge, .. }) = face.sides.get(number) else { return None };
+        self.edges.get(usize::from(*edge)).map(|edge| edge.kind)
     }
 
     /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point;
