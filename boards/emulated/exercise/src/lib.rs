@@ -29,9 +29,9 @@ pub fn run(say: &mut impl FnMut(&str, &Tally)) {
     lap("plain", &laps::PLAIN, serial, WOODEN_HAPTICS_REACH, 150_000, say);
     lap("body", &laps::BODY, serial, WOODEN_HAPTICS_REACH, 300_000, say);
     lap("rich", &laps::RICH, serial, WOODEN_HAPTICS_REACH, 100_000, say);
-    lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 100_000, say);
+    lap("coupled", &laps::COUPLED, &NOVINT_FALCON.encoders, FALCON_REACH, 50_000, say);
     lap("short", &laps::SHORT, &NOVINT_FALCON.encoders, FALCON_REACH, 50_000, say);
-    lap("watchful", &laps::WATCHFUL, &POLHEM_V2.encoders, POLHEM_REACH, 150_000, say);
+    lap("watchful", &laps::WATCHFUL, &POLHEM_V2.encoders, POLHEM_REACH, 200_000, say);
     lap("guarded", &laps::GUARDED, serial, WOODEN_HAPTICS_REACH, 50_000, say);
     lap("broken", &laps::BROKEN, serial, WOODEN_HAPTICS_REACH, 50_000, say);
     lap("corrupt", &laps::CORRUPT, serial, WOODEN_HAPTICS_REACH, 50_000, say);
