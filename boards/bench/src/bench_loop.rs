@@ -150,7 +150,13 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         }
         let by_hand = self.acknowledging == Acknowledging::Pressed && !panel.stop && !panel.enable;
         if by_hand || commands.has(Command::Acknowledge) {
+            let was_fault = self.state.fault().is_some();
             self.felt.servo().note(&mut self.state, Event::Acknowledged);
+            // Whoever holds enable meanwhile asked for force before there could be any.
+            if was_fault && self.state.fault().is_none() {
+                self.interlock.lock();
+                self.by_hand.lock();
+            }
         }
         self.acknowledging = match (self.acknowledging, panel.stop) {
             (_, false) => Acknowledging::Released,

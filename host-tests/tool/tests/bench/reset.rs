@@ -140,6 +140,19 @@ fn the_host_acknowledges_a_reset_and_nothing_else() {
 }
 
 #[test]
+fn an_enable_that_is_held_while_the_host_acknowledges_gives_no_force() {
+    let mut rig = rig(ResetReason::Watchdog);
+    // It was released, and pressed again by somebody who wonders why nothing is felt.
+    rig.ticks_off(100);
+    rig.set(|world| world.button = true);
+    rig.ticks_off(100);
+    send(&mut rig, Command::Acknowledge);
+    rig.ticks_off(4_000);
+    assert_eq!((rig.state().phase(), rig.fault()), (Phase::Armed, None));
+    rig.press_until_it_runs();
+}
+
+#[test]
 fn an_acknowledged_loop_checks_its_tables_and_angles_anew() {
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
     let mut state = servo.start_after(ResetReason::BrownOut);
