@@ -234,6 +234,28 @@ mod tests {
     }
 
     #[test]
+    fn the_longest_frame_of_an_acceptance_fits() {
+        use crate::wire::acceptance::{Finding, Ticks};
+        let longest = Finding::Ticks(Ticks {
+            number: u32::MAX,
+            ticks: u32::MAX,
+            began: u32::MAX,
+            shortest: u32::MAX,
+            longest: u32::MAX,
+            took: u32::MAX,
+            overruns: u32::MAX,
+            bad: [u32::MAX; 3],
+            in_a_row: u32::MAX,
+            panel: u8::MAX,
+            supply: u32::MAX,
+        });
+        let mut buffer = [0; MAX_FRAME];
+        let frame = pack(&longest, &mut buffer).unwrap();
+        assert!(frame.len() <= MAX_FRAME - 32, "{} bytes", frame.len());
+        assert_eq!(feed(&mut Receiver::new(), frame), (1, Some(Received::Message(longest))));
+    }
+
+    #[test]
     fn a_small_buffer_is_refused() {
         let mut buffer = [0; MAX_FRAME];
         let whole = pack(&SENSORS, &mut buffer).unwrap().len();

@@ -2,13 +2,14 @@
 //!
 //! A frame is `COBS(postcard(message) · CRC-32) · 0x00`. [`frame`] packs and unpacks. In lockstep with a simulated
 //! device [`Sensors`] goes to the device and [`Report`] comes back, one of each a tick; a device that runs by itself
-//! sends a [`Record`] now and then ([`telemetry`]).
+//! sends a [`Record`] now and then ([`telemetry`]); one that is being accepted answers requests ([`acceptance`]).
 //!
 //! In lockstep the host sends the sensors of tick `n`, the device answers with the report of tick `n`, and only then
 //! comes `n + 1`. A host that has nothing to say in a tick sends an empty frame, so that the device need not wait.
 
 #![doc = include_str!("../../docs/wire.md")]
 
+pub mod acceptance;
 pub mod frame;
 #[cfg(feature = "defmt")]
 pub mod log;

@@ -4,6 +4,7 @@
 //! line and COBS by its definition. `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs wire_page` writes the
 //! tables anew.
 
+use palpate::wire::acceptance::{Counted, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{MAX_FRAME, pack};
 use palpate::wire::{Command, Record, Report, Sensors};
 use serde::Serialize;
@@ -112,6 +113,88 @@ fn documented<M: Serialize>(message: &M, fields: &[Field]) -> String {
     let mut buffer = [0; MAX_FRAME];
     assert_eq!(hexadecimal(pack(message, &mut buffer).expect("it fits")), hexadecimal(&frame(&bytes)));
     section(fields)
+}
+
+/// Frames of a device that is being accepted.
+fn acceptance() -> [(&'static str, String); 4] {
+    let request = documented(&Request::Script { most: 5_000 }, &[vars("request", 1), vars("most", 5_000)]);
+    let identity = Identity {
+        core: 0x410f_c241,
+        clock: 170_000_000,
+        counted: Counted::Cycles,
+        rate: 4_000.0,
+        reset: 1,
+        table: 0x89ab_cdef,
+        baked: 0x89ab_cdef,
+    };
+    let identity = documented(
+        &Finding::Identity(identity),
+        &[
+            vars("finding", 0),
+            vars("core", identity.core),
+            vars("clock", identity.clock),
+            vars("counted", identity.counted as u32),
+            floats("rate", &[identity.rate]),
+            byte("reset", identity.reset),
+            vars("table", identity.table),
+            vars("baked", identity.baked),
+        ],
+    );
+    let line = Line {
+        number: 3,
+        ticks: 50_000,
+        digest: 0x4213_209a,
+        modes: 0x7e,
+        phases: 0x1e,
+        faults: 0x3fe,
+        touching: 4_100,
+        longest: 2_412,
+    };
+    let line = documented(
+        &Finding::Line(line),
+        &[
+            vars("finding", 1),
+            vars("number", line.number),
+            vars("ticks", line.ticks),
+            vars("digest", line.digest),
+            vars("modes", line.modes),
+            vars("phases", line.phases),
+            vars("faults", line.faults),
+            vars("touching", line.touching),
+            vars("longest", line.longest),
+        ],
+    );
+    let ticks = Ticks {
+        number: 12,
+        ticks: 4_800,
+        began: 0x89ab_cdef,
+        shortest: 42_496,
+        longest: 42_511,
+        took: 9_800,
+        overruns: 0,
+        bad: [0, 2, 1],
+        in_a_row: 1,
+        panel: 4,
+        supply: 24_050,
+    };
+    let ticks = documented(
+        &Finding::Ticks(ticks),
+        &[
+            vars("finding", 3),
+            vars("number", ticks.number),
+            vars("ticks", ticks.ticks),
+            vars("began", ticks.began),
+            vars("shortest", ticks.shortest),
+            vars("longest", ticks.longest),
+            vars("took", ticks.took),
+            vars("overruns", ticks.overruns),
+            field("bad", "three var", "0, 2, 1", vec![0, 2, 1]),
+            vars("in_a_row", ticks.in_a_row),
+            byte("panel", ticks.panel),
+            vars("supply", ticks.supply),
+        ],
+    );
+    [("Request", request), ("Finding: Identity", identity), ("Finding: Line", line), ("Finding: Ticks", ticks)]
 }
 
 #[test]
@@ -227,7 +310,8 @@ fn every_byte_of_a_frame_is_documented() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/wire.md");
     let page = fs::read_to_string(&path).expect("the page is there");
     let command = documented(&Command::Acknowledge, &[vars("command", 2)]);
-    let sections = [("Sensors", sensors), ("Report", report), ("Record", record), ("Command", command)];
+    let mut sections = vec![("Sensors", sensors), ("Report", report), ("Record", record), ("Command", command)];
+    sections.extend(acceptance());
     let wanted = sections.iter().fold(page.clone(), |page, (title, section)| with_section(&page, title, section));
     if env::var_os("PALPATE_WRITE").is_some() {
         fs::write(&path, &wanted).expect("the page can be written");

@@ -1,0 +1,139 @@
+//! What passes between a host and a device that is being accepted, motors disabled: the protocol and what each figure
+//! must be are in `docs/acceptance.md` of the repository.
+
+use serde::{Deserialize, Serialize};
+
+/// To the device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Request {
+    /// Who it is: a [`Finding::Identity`] comes back.
+    Identity,
+    /// Runs the script, of each lap at most so many ticks: a [`Finding::Line`] for each line of it, then
+    /// [`Finding::Done`].
+    Script {
+        /// Ticks.
+        most: u32,
+    },
+    /// Whether it tells of its own ticks, ten times a second: a [`Finding::Ticks`] each time.
+    Watch(bool),
+    /// Fails on purpose: what comes after is the identity of a device that was reset, with the reason.
+    Fail(Failure),
+}
+
+/// How a device fails on purpose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Failure {
+    /// Main hangs, and the watchdog is no longer fed.
+    Hang,
+    /// It panics.
+    Panic,
+    /// It executes what is no instruction.
+    Exception,
+}
+
+/// From the device.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Finding {
+    /// Who it is.
+    Identity(Identity),
+    /// What the script came to so far.
+    Line(Line),
+    /// The script is over.
+    Done,
+    /// Of its own ticks.
+    Ticks(Ticks),
+}
+
+/// What a tick of the script is counted in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Counted {
+    /// Cycles of the core.
+    #[default]
+    Cycles,
+    /// Instructions: an emulator has no cycles.
+    Instructions,
+}
+
+/// Who a device is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Identity {
+    /// The core, as its CPUID register names it.
+    pub core: u32,
+    /// Counts of the board's counter in a second, Hz.
+    pub clock: u32,
+    /// What a tick of the script is counted in.
+    pub counted: Counted,
+    /// Servo rate, Hz.
+    pub rate: f32,
+    /// [`crate::servo::ResetReason`] as its number.
+    pub reset: u8,
+    /// CRC-32 of the body's tables as they lie in the device's memory.
+    pub table: u32,
+    /// The same as they were baked; 0 where they carry none.
+    pub baked: u32,
+}
+
+/// What the script came to so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Line {
+    /// Which line this is, from 0.
+    pub number: u32,
+    /// Ticks of its lap so far.
+    pub ticks: u32,
+    /// A hash of every bit of the state after each of them.
+    pub digest: u32,
+    /// Boundary modes visited, a bit each.
+    pub modes: u32,
+    /// Phases visited, a bit each.
+    pub phases: u32,
+    /// Faults seen, a bit each.
+    pub faults: u32,
+    /// Ticks in contact.
+    pub touching: u32,
+    /// What the longest tick of the lap took so far, counts.
+    pub longest: u32,
+}
+
+/// The device's own ticks since the frame before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Ticks {
+    /// Which frame this is, counted from 0: a gap is frames that were lost on the line.
+    pub number: u32,
+    /// Ticks since the reset.
+    pub ticks: u32,
+    /// The counter at the last tick's interrupt, which wraps at 32 bits.
+    pub began: u32,
+    /// The shortest period between two interrupts, counts.
+    pub shortest: u32,
+    /// The longest.
+    pub longest: u32,
+    /// The longest that a tick took, from its interrupt to its end, counts.
+    pub took: u32,
+    /// Ticks since the reset that took longer than their period.
+    pub overruns: u32,
+    /// Bad sensor frames since the reset: that did not come, that came damaged, that said what no hand does.
+    pub bad: [u32; 3],
+    /// The most bad frames in a row since the reset.
+    pub in_a_row: u32,
+    /// What the person's side says ([`panel`]).
+    pub panel: u8,
+    /// The motors' supply, mV; 0 where it is not measured.
+    pub supply: u32,
+}
+
+/// The bits of [`Ticks::panel`].
+pub mod panel {
+    /// Force is asked for.
+    pub const ENABLE: u8 = 1 << 0;
+    /// The stop input is pressed, or its wire is broken.
+    pub const STOP: u8 = 1 << 1;
+    /// Every amplifier says that it is ready.
+    pub const READY: u8 = 1 << 2;
+}
