@@ -64,20 +64,6 @@ pub enum Separator {
     Ruled(SplineCurve),
 }
 
-impl Face {
-    /// Whether any of its sides has a curve for a separator.
-    pub(super) const fn has_ruled_side(&self) -> bool {
-        let [lower_u, upper_u, lower_v, upper_v] = &self.sides;
-        lower_u.is_ruled() || upper_u.is_ruled() || lower_v.is_ruled() || upper_v.is_ruled()
-    }
-}
-
-impl Side {
-    const fn is_ruled(&self) -> bool {
-        matches!(self, Self::Edge { separator: Separator::Ruled(_), .. })
-    }
-}
-
 /// How the faces of an edge stand to each other, seen from outside the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]

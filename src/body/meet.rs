@@ -32,9 +32,7 @@ impl Body {
                     let contact = state.contact;
                     match contact {
                         Contact::InFront if is_held => return,
-                        Contact::Touching if self.asks_at(gap) && self.leaves_over_border(face, state) => {
-                            return;
-                        }
+                        Contact::Touching if self.leaves_over_border(face, state) => return,
                         _ => {}
                     }
                 }

@@ -8,45 +8,35 @@ use crate::math::Vec3;
 use crate::patch::{Patch as _, SplinePatch};
 use crate::track::{BoundaryMode, Witness};
 
-/// Deeper than this, in sizes of the body, a hand has pushed through what walls hold it at. To evaluate a curve there
-/// costs a tick that is long already another hundred instructions: what is beyond is left to the next tick, which goes
-/// there.
-const DEEP: f32 = 1.0 / 16.0;
-
 /// A face whose bound says that it is hollower than this, 1/m, is; below it is the rounding of a plane's bound.
 const HOLLOW: f32 = 1.0e-6;
 
-/// A probe seen from a witness point.
-struct Seen<'a> {
-    witness: &'a Witness,
-    /// From there to the probe.
-    away: Vec3,
-}
-
 impl Body {
-    /// Whether there is time to look beyond the border, behind the surface by a gap below 0.
-    #[inline(always)]
-    pub(super) fn asks_at(&self, gap: f32) -> bool {
-        self.asks_deep || -gap < DEEP * self.size
-    }
-
     /// Ends contact where the probe is in front of what is beyond the border that the witness point lies on: then it
     /// has left the body over an edge or a vertex, though this face has it behind. Whether it has.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn leaves_over_border(&self, face: &Face, state: &mut BodyWitness) -> bool {
-        let (witness, away) = (&state.witness, state.probe - state.witness.surface.point);
-        let seen = Seen { witness, away };
-        let held = match witness.mode {
-            BoundaryMode::LowerU => Some(0),
-            BoundaryMode::UpperU => Some(1),
-            BoundaryMode::LowerV => Some(2),
-            BoundaryMode::UpperV => Some(3),
-            BoundaryMode::Corner | BoundaryMode::Interior => None,
-        };
-        let is_over = match held {
-            Some(number) => self.is_over_side(face, number, &seen),
-            None => self.has_poles && self.is_over_any(face, &seen),
-        };
+        match state.witness.mode {
+            BoundaryMode::LowerU => self.leaves_over_side(face, 0, state),
+            BoundaryMode::UpperU => self.leaves_over_side(face, 1, state),
+            BoundaryMode::LowerV => self.leaves_over_side(face, 2, state),
+            BoundaryMode::UpperV => self.leaves_over_side(face, 3, state),
+            BoundaryMode::Corner | BoundaryMode::Interior => self.has_poles && self.leaves_over_any(face, state),
+        }
+    }
+
+    /// The same over any of the borders that the witness point lies on: beside a pole a step may end at one that does
+    /// not hold it.
+    #[inline(never)]
+    fn leaves_over_any(&self, face: &Face, state: &mut BodyWitness) -> bool {
+        let [u, v] = state.witness.parameters;
+        let ways = [u, 1.0 - u, v, 1.0 - v];
+        (0..4).any(|number| ways[number] <= 0.0 && self.leaves_over_side(face, number, state))
+    }
+
+    #[inline(never)]
+    fn leaves_over_side(&self, face: &Face, number: usize, state: &mut BodyWitness) -> bool {
+        let is_over = self.is_over_side(face, number, &state.witness, state.probe);
         if is_over {
             let probe = state.probe;
             self.meet_border(state, probe, Some(true));
@@ -54,18 +44,11 @@ impl Body {
         is_over
     }
 
-    /// Whether it is so over any of the borders that the witness point lies on: beside a pole a step may end at one
-    /// that does not hold it.
-    #[inline(never)]
-    fn is_over_any(&self, face: &Face, seen: &Seen) -> bool {
-        let [u, v] = seen.witness.parameters;
-        (0..4).any(|number| [u, 1.0 - u, v, 1.0 - v][number] <= 0.0 && self.is_over_side(face, number, seen))
-    }
-
-    /// The same over one side. Over a convex edge by the normal `t × m` of the face beyond: this face lies behind that
-    /// one.
-    fn is_over_side(&self, face: &Face, number: usize, seen: &Seen) -> bool {
-        let Seen { witness, away } = *seen;
+    /// Whether the probe is in front of what is beyond one side. Over a convex edge by the normal `t × m` of the face
+    /// beyond: this face lies behind that one.
+    #[inline(always)]
+    fn is_over_side(&self, face: &Face, number: usize, witness: &Witness, probe: Vec3) -> bool {
+        let away = probe - witness.surface.point;
         let (index, is_reversed) = match face.sides.get(number) {
             Some(Side::Edge { edge, reversed, .. }) => (*edge, *reversed),
             Some(Side::Pole { vertex }) => {
@@ -78,22 +61,23 @@ impl Body {
         if edge.kind != EdgeKind::Convex {
             return false;
         }
+        let of = self.beyond_side(edge, face, number);
+        let Some(beyond) = self.faces.get(usize::from(of.face)) else { return false };
         let (surface, [u, v]) = (&witness.surface, witness.parameters);
         let (along, tangent, across) = if number < 2 {
             (v, surface.tangent_v, surface.tangent_u)
         } else {
             (u, surface.tangent_u, surface.tangent_v)
         };
-        let inward = if number & 1 == 0 { across } else { -across };
-        let t = if is_reversed { 1.0 - along } else { along };
-        let of = self.beyond_side(edge, face, number);
-        let Some(beyond) = self.faces.get(usize::from(of.face)) else { return false };
         // A derivative of the face beyond across the side, of any sign and length.
         let cross = match beyond.sides.get(usize::from(of.side)) {
             Some(Side::Edge { separator: Separator::Plane { across, .. }, .. }) => *across,
-            Some(Side::Edge { separator: Separator::Ruled(cross), .. }) => cross.point(t),
+            Some(Side::Edge { separator: Separator::Ruled(cross), .. }) => {
+                cross.point(if is_reversed { 1.0 - along } else { along })
+            }
             _ => return false,
         };
+        let inward = if number & 1 == 0 { across } else { -across };
         let normal = tangent.cross(cross);
         let height = normal.dot(away);
         height * normal.dot(inward) < 0.0 && !may_be_below(&beyond.patch, height, normal, away)

@@ -23,8 +23,6 @@ pub struct Body {
     pub(super) has_poles: bool,
     /// Whether any edge is smooth: where none is, a step that ends at the border of a face does not ask.
     pub(super) has_smooth_edges: bool,
-    /// Whether a touched face asks at its border what is beyond however deep the probe is.
-    pub(super) asks_deep: bool,
     pub(super) baked_crc: Option<NonZeroU32>,
 }
 
@@ -103,11 +101,10 @@ impl Body {
             return Err(BodyError::Size);
         }
         let sure_from = if is_convex { Contact::InFront } else { Contact::Touching };
-        let (mut has_poles, mut has_ruled_sides) = (false, false);
+        let mut has_poles = false;
         let mut index = 0;
         while index < faces.len() {
             has_poles |= faces[index].poles() != 0;
-            has_ruled_sides |= faces[index].has_ruled_side();
             index += 1;
         }
         let mut has_smooth_edges = false;
@@ -126,8 +123,6 @@ impl Body {
             sure_from,
             has_poles,
             has_smooth_edges,
-            // With poles ticks are longer anyway.
-            asks_deep: has_poles || !has_ruled_sides,
             baked_crc: None,
         };
         if let Err(error) = body.check_features() {

@@ -116,21 +116,28 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
             && self.kinematics.pose(angles).singularity_margin() >= self.min_margin
     }
 
-    /// How much room there is to the rim of the workspace, for these joint angles (radians) and their pose: 1 well
-    /// inside, 0 on the rim and outside, and in between the share of the last 0.05 rad of a joint's range or of the
-    /// last quarter of the least margin over a singularity, whichever is less. A force times this lets go smoothly at
-    /// the rim, and keeps its direction.
+    /// How far the nearest joint is from the end of its range, radians, below 0 beyond it; no more than the width of
+    /// the rim.
     #[inline]
-    pub fn room(&self, angles: &[f32; JOINTS], pose: &ProbePose<JOINTS>) -> f32 {
+    pub fn to_stop(&self, angles: &[f32; JOINTS]) -> f32 {
         let mut to_stop = RIM;
         for (angle, [least, most]) in angles.iter().zip(&self.joint_range) {
-            let (below, above) = (angle - least, most - angle);
-            let nearer = if below < above { below } else { above };
-            if nearer < to_stop {
-                to_stop = nearer;
+            for way in [angle - least, most - angle] {
+                if way < to_stop {
+                    to_stop = way;
+                }
             }
         }
-        let over = pose.singularity_margin() - self.min_margin;
+        to_stop
+    }
+
+    /// How much room there is to the rim of the workspace, for joints so far from their stops (radians,
+    /// [`Self::to_stop`]) and a pose that is finite: 1 well inside, 0 on the rim and outside, and in between the share
+    /// of the last 0.05 rad of a joint's range or of the last quarter of the least margin over a singularity, whichever
+    /// is less. A force times this lets go smoothly at the rim, and keeps its direction.
+    #[inline]
+    pub fn room(&self, to_stop: f32, pose: &ProbePose<JOINTS>) -> f32 {
+        let over = pose.margin() - self.min_margin;
         let width = MARGIN_RIM * self.min_margin;
         if to_stop >= RIM && over >= width {
             return 1.0;

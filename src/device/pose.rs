@@ -37,14 +37,20 @@ impl<const JOINTS: usize> ProbePose<JOINTS> {
     /// / ‖J‖²`; for two joints `σ₂ ≥ |j₁ × j₂| / ‖J‖` (Frobenius norms). Zero at a singularity and where the pose is
     /// not finite, and for more than three joints.
     pub fn singularity_margin(&self) -> f32 {
+        let margin = self.margin();
+        if margin.is_finite() && self.position.is_finite() { margin } else { 0.0 }
+    }
+
+    /// The same for a pose that is known to be finite.
+    #[inline]
+    pub(super) fn margin(&self) -> f32 {
         let squares = self.jacobian.iter().fold(0.0, |sum, column| sum + column.length_squared());
-        let margin = match self.jacobian.as_slice() {
+        match self.jacobian.as_slice() {
             [only] => sqrt(only.length_squared()),
             [a, b] => sqrt(a.cross(*b).length_squared()) / sqrt(squares),
             [a, b, c] => 2.0 * a.dot(b.cross(*c)).abs() / squares,
             _ => 0.0,
-        };
-        if margin.is_finite() && self.position.is_finite() { margin } else { 0.0 }
+        }
     }
 }
 

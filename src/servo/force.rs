@@ -16,7 +16,10 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         normal: Vec3,
         motion: &Motion,
     ) -> Vec3 {
-        let surface = self.surface_force(state, tool, normal) + self.fading(state);
+        let mut surface = self.surface_force(state, tool, normal);
+        if let Some(fading) = self.fading(state) {
+            surface += fading;
+        }
         let felt = match &self.rendering.coupling {
             None => surface,
             Some(coupling) => {

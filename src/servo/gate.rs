@@ -38,7 +38,7 @@ pub fn gate<const JOINTS: usize>(
     if within {
         return Ok((fractions.map(Duty::from_fraction), 1.0));
     }
-    Ok(saturate(motors, felt, weight, |_| 1.0))
+    Ok(saturate(motors, felt, weight, false, |_| 1.0))
 }
 
 /// As [`gate`], where each motor may be given only this share of its full scale.
@@ -55,40 +55,58 @@ pub fn gate_within<const JOINTS: usize>(
 ) -> Result<([Duty; JOINTS], f32), Fault> {
     let (duties, scale) = gate(drives, motors, felt, weight)?;
     let within = duties.iter().zip(scales).all(|(duty, scale)| duty.fraction().abs() <= *scale);
-    Ok(if within { (duties, scale) } else { saturate(motors, felt, weight, |joint| scales[joint]) })
+    if within {
+        return Ok((duties, scale));
+    }
+    let mut carried = motors.iter().zip(weight).zip(scales);
+    let is_heavy = carried.any(|((motor, weight), scale)| motor.fraction(weight).abs() > *scale);
+    Ok(saturate(motors, felt, weight, is_heavy, |joint| scales[joint]))
 }
 
-/// The most of the felt torques that the motors have left above the weight, each within its own scale.
+/// The most of the felt torques that the motors have left above the weight, each within its own scale. `is_heavy` is
+/// whether the weight is known to be beyond any; where it leaves nothing for what is felt, that shows by itself.
 #[cold]
 fn saturate<const JOINTS: usize>(
     motors: &[Motor; JOINTS],
     felt: [f32; JOINTS],
     weight: [f32; JOINTS],
+    is_heavy: bool,
     full: impl Fn(usize) -> f32,
 ) -> ([Duty; JOINTS], f32) {
-    let (mut asked, mut carried) = ([0.0; JOINTS], [0.0; JOINTS]);
-    let mut heaviest = 1.0_f32;
-    for joint in 0..JOINTS {
-        asked[joint] = motors[joint].fraction(felt[joint]);
-        carried[joint] = motors[joint].fraction(weight[joint]);
-        let size = carried[joint].abs() / full(joint);
-        if size > heaviest {
-            heaviest = size;
-        }
+    let mut fractions = [[0.0; 2]; JOINTS];
+    let mut scale = 1.0;
+    for (joint, ((fractions, motor), (felt, weight))) in
+        fractions.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)).enumerate()
+    {
+        *fractions = [motor.fraction(felt), motor.fraction(weight)];
+        scale = least_scale(scale, *fractions, full(joint));
     }
-    let mut scale = 1.0_f32;
-    for (joint, (asked, carried)) in asked.iter().zip(&mut carried).enumerate() {
-        *carried /= heaviest;
-        let left = if *asked > 0.0 { full(joint) - *carried } else { full(joint) + *carried };
-        if asked.abs() * scale > left {
-            scale = left / asked.abs();
-        }
+    if is_heavy || scale < 0.0 {
+        scale = relieve(&mut fractions, full);
     }
-    let mut duties = [Duty::ZERO; JOINTS];
-    for ((duty, asked), carried) in duties.iter_mut().zip(asked).zip(carried) {
-        *duty = Duty::from_fraction(asked * scale + carried);
+    (fractions.map(|[asked, carried]| Duty::from_fraction(asked * scale + carried)), scale)
+}
+
+/// Scales a weight that no motor carries to what they can.
+fn relieve<const JOINTS: usize>(fractions: &mut [[f32; 2]; JOINTS], full: impl Fn(usize) -> f32) -> f32 {
+    let shares = fractions.iter().enumerate().map(|(joint, [_, carried])| carried.abs() / full(joint));
+    let heaviest = shares.fold(1.0, |most: f32, share| if share > most { share } else { most });
+    let mut scale = 1.0;
+    for (joint, fractions) in fractions.iter_mut().enumerate() {
+        fractions[1] /= heaviest;
+        scale = least_scale(scale, *fractions, full(joint));
     }
-    (duties, scale)
+    // Below 0 by rounding.
+    if scale > 0.0 { scale } else { 0.0 }
+}
+
+/// By what the felt force must be scaled, `scale` at most, for a joint's share `asked` to fit in what the weight
+/// `carried` has left; below 0 where that is nothing.
+#[inline(always)]
+fn least_scale(scale: f32, [asked, carried]: [f32; 2], full: f32) -> f32 {
+    let left = if asked > 0.0 { full - carried } else { full + carried };
+    let size = asked.abs();
+    if size * scale > left { left / size } else { scale }
 }
 
 #[cfg(test)]
@@ -138,6 +156,26 @@ mod tests {
                 let left = duties[joint].fraction() - weight[joint];
                 // Half a step of duty, 1.5e-5, and roundings.
                 assert!((left - felt[joint] * scale).abs() < 1.7e-5, "{felt:?} {weight:?} {duties:?} {scale}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_motor_that_may_not_give_all_of_its_scale_does_not() {
+        let mut seed = 1_u32;
+        let mut draw = |size: f32| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / (1 << 23) as f32 * size - size
+        };
+        for _ in 0..100_000 {
+            let (felt, weight) = ([(); 3].map(|()| draw(2.0)), [(); 3].map(|()| draw(1.5)));
+            // A third of them nothing at all.
+            let scales = [(); 3].map(|()| draw(1.0)).map(|scale| if scale.abs() > 0.67 { 0.0 } else { scale.abs() });
+            let (duties, scale) = gate_within(true, &MOTORS, felt, weight, &scales).unwrap();
+            assert!((0.0..=1.0).contains(&scale), "{felt:?} {weight:?} {scales:?}");
+            for (duty, most) in duties.iter().zip(scales) {
+                // Half a step of duty.
+                assert!(duty.fraction().abs() <= most + 1.6e-5, "{felt:?} {weight:?} {scales:?} {duties:?}");
             }
         }
     }

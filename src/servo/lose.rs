@@ -23,14 +23,14 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         if lost.in_a_row > self.contact_watch.max_in_a_row { Err(Fault::ContactLost) } else { Ok(()) }
     }
 
-    /// What is still given of the force of contact that was lost, N.
+    /// What is still given of the force of contact that was lost, N; `None` of none.
     #[inline]
-    pub(super) fn fading(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) -> Vec3 {
+    pub(super) fn fading(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) -> Option<Vec3> {
         let lost = &mut state.lost_contact;
         if lost.share <= 0.0 {
-            return Vec3::ZERO;
+            return None;
         }
         lost.share -= self.contact_watch.fade_step;
-        if lost.share > 0.0 { lost.force * lost.share } else { Vec3::ZERO }
+        (lost.share > 0.0).then(|| lost.force * lost.share)
     }
 }

@@ -58,7 +58,7 @@ pub struct Safety {
     /// When contact counts as lost; `None` does not watch.
     pub contact: Option<ContactLimits>,
     /// Whether tables that carry the CRC they were baked with are checked: whole before the first tick, and again and
-    /// again after, a word a tick.
+    /// again after, a word every second tick.
     pub checks_tables: bool,
 }
 

@@ -1,10 +1,10 @@
 //! From encoder counts to joint angles that can be believed.
 
 use super::{Fault, ServoState};
-use crate::device::{Counts, Device, Encoder, VelocityEstimator};
+use crate::device::{Counts, Device, Encoder, Kinematics, VelocityEstimator};
 
-/// Takes this tick's counts into the state: joint angles and rates. Unless the angles are `placed`, for homing is under
-/// way, only their changes mean something.
+/// Takes this tick's counts into the state: joint angles and rates. Returns how far they are from the joints' stops,
+/// [`Device::to_stop`]. Unless the angles are `placed`, for homing is under way, only their changes mean something.
 ///
 /// # Errors
 /// The fault, if an angle lies outside the joint's range or jumped faster than the device can move (the state keeps its
@@ -17,14 +17,18 @@ pub fn sense<W, G, K, const JOINTS: usize>(
     placed: bool,
     state: &mut ServoState<JOINTS, W, G>,
     counts: [Counts; JOINTS],
-) -> Result<(), Fault> {
+) -> Result<f32, Fault>
+where
+    K: Kinematics<JOINTS>,
+{
     let mut angles = [0.0; JOINTS];
     let encoders = device.encoders.iter().zip(state.angles_at_zero);
     for ((angle, (encoder, angle_at_zero)), count) in angles.iter_mut().zip(encoders).zip(counts) {
         *angle = Encoder { angle_at_zero, ..*encoder }.angle(count);
     }
-    let in_range = |(angle, [least, greatest]): (&f32, &[f32; 2])| least <= angle && angle <= greatest;
-    if placed && !angles.iter().zip(&device.joint_range).all(in_range) {
+    let to_stop = device.to_stop(&angles);
+    let in_range = to_stop >= 0.0;
+    if placed && !in_range {
         return Err(Fault::JointOutOfRange);
     }
     let before = state.angles;
@@ -42,5 +46,5 @@ pub fn sense<W, G, K, const JOINTS: usize>(
     }
     state.counts = Some(counts);
     state.angles = angles;
-    Ok(())
+    Ok(to_stop)
 }

@@ -90,8 +90,8 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         hash.words([self.link_silence, self.settled, u32::from(self.homed)]);
         self.homing.words(|word| hash.words([word]));
         hash.floats(self.angles_at_zero);
-        let TableCheck { place, crc, passes } = self.table_check;
-        hash.words([place.record, place.word, crc, passes]);
+        let TableCheck { place, crc, passes, read } = self.table_check;
+        hash.words([place.record, place.word, crc, passes, u32::from(read.is_some()), read.unwrap_or(0)]);
         hash.words([self.frames_lost, self.steps_undone, u32::from(self.counts.is_some())]);
         let LostContact { count, in_a_row, tick, force, share } = self.lost_contact;
         hash.words([count, in_a_row, tick, share.to_bits(), u32::from(self.is_too_deep)]);

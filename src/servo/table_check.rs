@@ -1,5 +1,5 @@
-//! The tables in flash are read over and over, whole before the first tick and then a word a tick, and their CRC
-//! compared.
+//! The tables in flash are read over and over, whole before the first tick and then a word every second
+//! tick, and their CRC compared.
 
 use super::Surface;
 use crate::body::TableCursor;
@@ -14,17 +14,21 @@ pub struct TableCheck {
     pub crc: u32,
     /// How often the whole table was found good.
     pub passes: u32,
+    /// A word that is read, and not yet in the CRC.
+    pub read: Option<u32>,
 }
 
 impl TableCheck {
-    /// Reads one word more, some 60 instructions. False if the tables were read to their end and their CRC is not the
-    /// expected one.
+    /// Reads one word more, or takes the last one into the CRC: some 40 instructions either way. False if the tables
+    /// were read to their end and their CRC is not the expected one.
     #[inline]
     pub fn step<S: Surface>(&mut self, surface: &S, expected: u32) -> bool {
-        let found = surface.table_word(self.place);
-        if let Some(word) = found {
+        if let Some(word) = self.read.take() {
             self.crc = crc32(self.crc, word);
+            return true;
         }
+        let found = surface.table_word(self.place);
+        self.read = found;
         let Some(next) = self.place.after(found) else {
             let good = self.crc == expected;
             *self = Self { passes: self.passes.wrapping_add(u32::from(good)), ..Self::default() };

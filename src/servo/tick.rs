@@ -148,7 +148,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         // Counts → joint angles → probe.
         let first = state.counts.is_none();
         let homing = self.homing.as_ref().filter(|_| !state.homed);
-        sense(self.device, &self.estimators, self.max_move, homing.is_none(), state, counts)?;
+        let to_stop = sense(self.device, &self.estimators, self.max_move, homing.is_none(), state, counts)?;
         if let Some(homing) = homing {
             return self.home(homing, state, counts, enable);
         }
@@ -165,7 +165,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             return Err(if pose.is_reachable() { Fault::NotFinite } else { Fault::Unreachable });
         }
         state.probe = probe;
-        state.room = self.device.room(&state.angles, &pose);
+        state.room = self.device.room(to_stop, &pose);
         if state.phase == Phase::Fault {
             let live = matches!(self.safety.output, SafeOutput::Damping(_));
             state.drives = live;

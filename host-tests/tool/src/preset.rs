@@ -51,7 +51,7 @@ impl Preset {
     pub fn room(self, angles: [f64; 3]) -> f32 {
         fn of<K: Kinematics<JOINTS>, const JOINTS: usize>(device: &Device<K, JOINTS>, angles: [f64; 3]) -> f32 {
             let angles = core::array::from_fn(|joint| angles[joint] as f32);
-            device.room(&angles, &device.kinematics.pose(angles))
+            device.room(device.to_stop(&angles), &device.kinematics.pose(angles))
         }
         match self {
             Self::SerialArm(device) => of(device, angles),
