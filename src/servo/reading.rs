@@ -27,6 +27,12 @@ impl<'a, S, K, const JOINTS: usize, G> Servo<'a, S, K, JOINTS, G> {
     pub const fn device(&self) -> &'a Device<K, JOINTS> {
         self.device
     }
+
+    /// What it feels.
+    #[inline]
+    pub const fn surface(&self) -> &'a S {
+        self.surface
+    }
 }
 
 impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {

@@ -22,7 +22,8 @@ pub trait Felt<const JOINTS: usize> {
     fn servo(&self) -> &Servo<'static, Self::Surface, Self::Mechanism, JOINTS>;
 }
 
-type State<F, const JOINTS: usize> = ServoState<JOINTS, <<F as Felt<JOINTS>>::Surface as Surface>::Witness>;
+/// What the servo keeps between two ticks.
+pub(crate) type State<F, const JOINTS: usize> = ServoState<JOINTS, <<F as Felt<JOINTS>>::Surface as Surface>::Witness>;
 
 /// The loop of a board, which its timer's interrupt owns.
 pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {

@@ -22,8 +22,8 @@ pub struct Panel {
 #[error("a drive did not do what it was told")]
 pub struct NotObeyed;
 
-/// A board, as the loop sees it.
-pub trait Board<const JOINTS: usize> {
+/// A board whose motors cannot be driven: through this alone nothing reaches a motor but the word to let go.
+pub trait Passive<const JOINTS: usize> {
     /// The free-running counter: it rises, and wraps at 32 bits.
     fn now(&self) -> u32;
 
@@ -39,12 +39,6 @@ pub trait Board<const JOINTS: usize> {
     /// A frame that did not come, or that cannot be believed.
     fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame>;
 
-    /// Enables the drives and gives them these duties.
-    ///
-    /// # Errors
-    /// One that did not obey. The others have been told.
-    fn drive(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed>;
-
     /// Disables the drives. Tries every pin, whatever fails.
     ///
     /// # Errors
@@ -53,4 +47,13 @@ pub trait Board<const JOINTS: usize> {
 
     /// The light, on or off.
     fn show(&mut self, lit: bool);
+}
+
+/// A board, as the loop sees it.
+pub trait Board<const JOINTS: usize>: Passive<JOINTS> {
+    /// Enables the drives and gives them these duties.
+    ///
+    /// # Errors
+    /// One that did not obey. The others have been told.
+    fn drive(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed>;
 }

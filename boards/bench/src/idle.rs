@@ -1,8 +1,9 @@
 //! What runs below the tick: main's loop.
 
 use crate::Mailbox;
+use crate::outbox::Outbox;
 use palpate::servo::Heartbeat;
-use palpate::wire::frame::{self, MAX_FRAME, Received, Receiver};
+use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::telemetry::Consumer;
 use palpate::wire::{Command, Record};
 
@@ -27,16 +28,13 @@ pub struct Idle<'a> {
     records: Consumer<'a, Record>,
     heartbeat: Heartbeat,
     receiver: Receiver<Command>,
-    buffer: [u8; MAX_FRAME],
-    /// What of the buffer is still to be sent.
-    left: core::ops::Range<usize>,
+    outbox: Outbox,
 }
 
 impl<'a> Idle<'a> {
     /// The other end of the loop's queue and mailbox.
     pub const fn new(mailbox: &'a Mailbox, records: Consumer<'a, Record>, heartbeat: Heartbeat) -> Self {
-        let receiver = Receiver::new();
-        Self { mailbox, records, heartbeat, receiver, buffer: [0; MAX_FRAME], left: 0..0 }
+        Self { mailbox, records, heartbeat, receiver: Receiver::new(), outbox: Outbox::new() }
     }
 
     /// A moment of it: at most a byte each way. Call it for ever.
@@ -49,15 +47,10 @@ impl<'a> Idle<'a> {
         {
             self.mailbox.put(command);
         }
-        if self.left.is_empty() {
+        if self.outbox.is_empty() {
             let Some(record) = self.records.dequeue() else { return };
-            let length = frame::pack(&record, &mut self.buffer).map_or(0, |frame| frame.len());
-            self.left = 0..length;
+            self.outbox.put(&record);
         }
-        if let Some(byte) = self.buffer.get(self.left.start)
-            && port.send(*byte)
-        {
-            self.left.start += 1;
-        }
+        self.outbox.step(port);
     }
 }

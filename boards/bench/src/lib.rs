@@ -16,12 +16,14 @@
 //! | type | is |
 //! |---|---|
 //! | [`Board`] | what the loop reaches of the world; [`Parts`] makes one of embedded-hal's pins and buses |
+//! | [`Passive`] | the same without a way to drive a motor |
 //! | [`Felt`] | what is felt on which device: the servo |
 //! | [`Panel`] | what the person's side says: enable, stop, ready, supply |
 //! | [`Hold`] | what keeps the motors off although nothing is wrong: stop, an amplifier not ready, the supply |
 //! | [`Interlock`] | force only once enable has been seen released: after a reset, after a hold, after homing |
 //! | [`Bench`] | the tick |
 //! | [`Idle`] | what runs below it |
+//! | [`accept`] | another image: a board shows what it can, and drives no motor |
 //!
 //! # What keeps a thumb safe
 //!
@@ -36,6 +38,7 @@
 
 #![no_std]
 
+pub mod accept;
 mod bench_loop;
 mod board;
 mod delay;
@@ -46,13 +49,15 @@ mod interlock;
 mod light;
 mod lines;
 mod mailbox;
+mod outbox;
 mod parts;
 mod reset;
 pub mod sensors;
 mod settings;
 
+pub(crate) use bench_loop::State;
 pub use bench_loop::{Bench, Felt};
-pub use board::{Board, NotObeyed, Panel};
+pub use board::{Board, NotObeyed, Panel, Passive};
 pub use delay::{Counter, CycleDelay, cycles};
 pub use drives::{Drives, Switched};
 pub use hold::{Hold, Verdict};

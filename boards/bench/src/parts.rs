@@ -1,7 +1,7 @@
 //! A board that is made of embedded-hal's parts.
 
 use crate::sensors::{BadFrame, Sensors};
-use crate::{Board, Counter, Drives, Lines, NotObeyed, Panel, Supply};
+use crate::{Board, Counter, Drives, Lines, NotObeyed, Panel, Passive, Supply};
 use embedded_hal::digital::{InputPin, OutputPin, PinState};
 use palpate::device::{Counts, Duty};
 
@@ -28,7 +28,7 @@ pub struct Parts<C, I, S, D, E, T, R, V, L, const AMPLIFIERS: usize> {
     pub light: L,
 }
 
-impl<C, I, S, D, E, T, R, V, L, const JOINTS: usize, const AMPLIFIERS: usize> Board<JOINTS>
+impl<C, I, S, D, E, T, R, V, L, const JOINTS: usize, const AMPLIFIERS: usize> Passive<JOINTS>
     for Parts<C, I, S, D, E, T, R, V, L, AMPLIFIERS>
 where
     C: Counter,
@@ -62,11 +62,6 @@ where
     }
 
     #[inline]
-    fn drive(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
-        self.drives.apply(duties)
-    }
-
-    #[inline]
     fn release(&mut self) -> Result<(), NotObeyed> {
         self.drives.release()
     }
@@ -75,5 +70,17 @@ where
     fn show(&mut self, lit: bool) {
         // A light that fails keeps nobody from anything.
         let _ = self.light.set_state(PinState::from(lit));
+    }
+}
+
+impl<C, I, S, D, E, T, R, V, L, const JOINTS: usize, const AMPLIFIERS: usize> Board<JOINTS>
+    for Parts<C, I, S, D, E, T, R, V, L, AMPLIFIERS>
+where
+    Self: Passive<JOINTS>,
+    D: Drives<JOINTS>,
+{
+    #[inline]
+    fn drive(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
+        self.drives.apply(duties)
     }
 }

@@ -3,6 +3,7 @@
 
 #![no_std]
 
+mod accept;
 #[cfg(feature = "copy")]
 mod copy;
 mod cycles;
@@ -10,6 +11,7 @@ mod hand_over;
 mod memo;
 mod stop;
 
+pub use accept::{core_id, fail};
 pub use cycles::Cycles;
 pub use hand_over::HandOver;
 pub use memo::MemoCell;

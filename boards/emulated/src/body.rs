@@ -19,7 +19,8 @@ mod settings {
     include!(env!("PALPATE_SETTINGS_FILE"));
 }
 
-pub use settings::{DEVICE, SETTINGS};
+pub use settings::{DEVICE, Mechanism, SETTINGS};
+pub use tables::Surface as Felt;
 
 /// The loop of this image, guarded by `G`.
 pub type Loop<G> = Servo<'static, tables::Surface, settings::Mechanism, 3, G>;

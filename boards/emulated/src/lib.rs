@@ -11,6 +11,8 @@
 
 #![no_std]
 
+#[cfg(not(feature = "protected"))]
+pub mod accepted;
 pub mod board;
 pub mod body;
 pub mod budget;

@@ -4,6 +4,7 @@ use palpate::wire::{
     Sensors,
     frame::{Received, Receiver},
 };
+use palpate_bench::Port;
 use vcell::VolatileCell;
 
 use crate::board::Board;
@@ -31,31 +32,55 @@ const ENABLE_BOTH: u32 = 3;
 /// The emulator takes any; the board's clock comes near enough, and 16 is the least divider that the hardware takes.
 const BAUD: u32 = 921_600;
 
-/// Frames over the UART.
-pub struct UartLink {
-    registers: &'static Registers,
-    receiver: Receiver<Sensors>,
-}
+/// The UART, byte by byte.
+pub struct Uart(&'static Registers);
 
-impl UartLink {
-    /// Switches the UART on. Make one only: two would steal each other's bytes.
+impl Uart {
+    /// Switches it on. Make one only: two would steal each other's bytes.
     pub fn new(board: &Board) -> Self {
         // SAFETY: the address is the chip's, the block is there for good, and a
         // `VolatileCell` may be shared.
         let registers = unsafe { &*(board.uart as *const Registers) };
         registers.divider.set(board.clock / BAUD);
         registers.control.set(ENABLE_BOTH);
-        Self { registers, receiver: Receiver::new() }
+        Self(registers)
+    }
+}
+
+impl Port for Uart {
+    #[inline]
+    fn send(&mut self, byte: u8) -> bool {
+        let is_free = self.0.state.get() & TRANSMIT_FULL == 0;
+        if is_free {
+            self.0.data.set(u32::from(byte));
+        }
+        is_free
+    }
+
+    #[inline]
+    fn receive(&mut self) -> Option<u8> {
+        (self.0.state.get() & RECEIVE_FULL != 0).then(|| self.0.data.get() as u8)
+    }
+}
+
+/// Frames over the UART.
+pub struct UartLink {
+    uart: Uart,
+    receiver: Receiver<Sensors>,
+}
+
+impl UartLink {
+    /// Switches the UART on.
+    pub fn new(board: &Board) -> Self {
+        Self { uart: Uart::new(board), receiver: Receiver::new() }
     }
 }
 
 impl Link for UartLink {
     fn receive(&mut self) -> Option<Received<Sensors>> {
         for _ in 0..POLLS {
-            if self.registers.state.get() & RECEIVE_FULL == 0 {
-                continue;
-            }
-            let received = self.receiver.feed(self.registers.data.get() as u8);
+            let Some(byte) = self.uart.receive() else { continue };
+            let received = self.receiver.feed(byte);
             if received.is_some() {
                 return received;
             }
@@ -67,8 +92,7 @@ impl Link for UartLink {
         for byte in frame {
             // A line that takes nothing loses this byte, and the host finds the frame damaged.
             for _ in 0..POLLS {
-                if self.registers.state.get() & TRANSMIT_FULL == 0 {
-                    self.registers.data.set(u32::from(*byte));
+                if self.uart.send(*byte) {
                     break;
                 }
             }

@@ -13,17 +13,17 @@ mod chip;
 mod felt;
 mod pins;
 mod port;
+#[path = "../../program.rs"]
+mod program;
 mod supply;
 mod ticks;
 
 use cortex_m::peripheral::NVIC;
 use palpate::device::drive::HBridge;
-use palpate::servo::Heartbeat;
-use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Angles, greatest_step};
-use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Parts, Settings, SupplyRange, Switched};
-use palpate_cortex::{Cycles, HandOver};
+use palpate_bench::{Cause, CycleDelay, Lines, Parts, Settings, SupplyRange, Switched};
+use palpate_cortex::Cycles;
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock, init_clocks_and_plls};
 use rp235x_hal::fugit::{ExtU32, RateExtU32};
@@ -38,35 +38,27 @@ use crate::body::{DEVICE, SETTINGS};
 use crate::chip::{CLOCK, CRYSTAL};
 use crate::felt::This;
 use crate::pins::Board;
+use crate::program::{Loop, Message};
 use crate::supply::Volts;
 use crate::ticks::Ticks;
 
 const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
-/// The loop on its way from main to the interrupt, and what passes between them afterwards.
-static HANDED_OVER: HandOver<Bench<'static, This, Board, 3>> = HandOver::new();
-static MAILBOX: Mailbox = Mailbox::new();
-
 #[interrupt]
 fn PWM_IRQ_WRAP_0() {
-    // Taken at the first tick: from then on no lock is needed.
-    static mut LOOP: Option<Bench<'static, This, Board, 3>> = None;
+    static mut PLACE: Option<Loop> = None;
 
-    if LOOP.is_none() {
-        *LOOP = HANDED_OVER.take();
-    }
-    if let Some(servo_loop) = LOOP {
-        servo_loop.tick();
-    }
+    program::tick(PLACE);
 }
 
 #[entry]
 fn main() -> ! {
-    static mut QUEUE: Queue<Record, 16> = Queue::new();
+    static mut QUEUE: Queue<Message, 16> = Queue::new();
 
     let (Some(mut core), Some(mut chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
     let (flags, memo) = chip::reset(&chip.WATCHDOG, &chip.POWMAN);
+    let reset = flags.reason(memo);
     let sio = Sio::new(chip.SIO);
     let pins = Pins::new(chip.IO_BANK0, chip.PADS_BANK0, sio.gpio_bank0, &mut chip.RESETS);
     // Motors first: off.
@@ -133,18 +125,16 @@ fn main() -> ! {
         },
         light: pins.gpio25.into_push_pull_output().into_dyn_pin(),
     };
-    let (producer, records) = QUEUE.split();
-    HANDED_OVER.give(Bench::new(This, board, &BENCH, flags.reason(memo), producer, &MAILBOX));
+    let (producer, messages) = QUEUE.split();
+    program::HANDED_OVER.give(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX));
     chip::remember(Cause::Running);
-    watchdog.start(20.millis());
-    // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
-    unsafe {
-        core.NVIC.set_priority(Interrupt::PWM_IRQ_WRAP_0, 0);
-        NVIC::unmask(Interrupt::PWM_IRQ_WRAP_0);
-    }
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default());
-    let (mut port, mut watchdog) = (port::Uart(uart), port::Bowl(watchdog));
-    loop {
-        idle.step(&mut port, &mut watchdog);
-    }
+    program::below(messages, cycles, reset, port::Uart(uart), || {
+        watchdog.start(20.millis());
+        // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
+        unsafe {
+            core.NVIC.set_priority(Interrupt::PWM_IRQ_WRAP_0, 0);
+            NVIC::unmask(Interrupt::PWM_IRQ_WRAP_0);
+        }
+        port::Bowl(watchdog)
+    })
 }

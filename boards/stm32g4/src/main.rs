@@ -14,6 +14,8 @@ mod encoders;
 #[path = "../../felt.rs"]
 mod felt;
 mod port;
+#[path = "../../program.rs"]
+mod program;
 #[cfg(feature = "analog")]
 #[path = "voltage.rs"]
 mod set_points;
@@ -25,12 +27,10 @@ mod ticks;
 
 use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
-use palpate::servo::Heartbeat;
-use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Counters, greatest_step};
-use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Memo, Parts, Settings, SupplyRange};
-use palpate_cortex::{Cycles, HandOver};
+use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Settings, SupplyRange};
+use palpate_cortex::Cycles;
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
@@ -41,6 +41,7 @@ use crate::body::{DEVICE, SETTINGS};
 use crate::chip::{CLOCK, MEMO};
 use crate::encoders::Encoders;
 use crate::felt::This;
+use crate::program::{Loop, Message};
 use crate::set_points::{Drives, Light};
 use crate::supply::Volts;
 use crate::ticks::Ticks;
@@ -50,26 +51,16 @@ const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Set
 type Pin = AnyPin<Input>;
 type Board = Parts<Cycles, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
 
-/// The loop on its way from main to the interrupt, and what passes between them afterwards.
-static HANDED_OVER: HandOver<Bench<'static, This, Board, 3>> = HandOver::new();
-static MAILBOX: Mailbox = Mailbox::new();
-
 #[interrupt]
 fn TIM7() {
-    // Taken at the first tick: from then on no lock is needed.
-    static mut LOOP: Option<Bench<'static, This, Board, 3>> = None;
+    static mut PLACE: Option<Loop> = None;
 
-    if LOOP.is_none() {
-        *LOOP = HANDED_OVER.take();
-    }
-    if let Some(servo_loop) = LOOP {
-        servo_loop.tick();
-    }
+    program::tick(PLACE);
 }
 
 #[entry]
 fn main() -> ! {
-    static mut QUEUE: Queue<Record, 16> = Queue::new();
+    static mut QUEUE: Queue<Message, 16> = Queue::new();
 
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
@@ -112,7 +103,7 @@ fn main() -> ! {
     let encoders = Encoders::new((chip.TIM2, chip.TIM3, chip.TIM4), pins, &mut rcc);
     let steps =
         DEVICE.encoders.map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate, SETTINGS.rate, BENCH.bad_frames));
-    let mut port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
+    let port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
 
     let board = Parts {
         counter: cycles,
@@ -133,18 +124,17 @@ fn main() -> ! {
         },
         light,
     };
-    let (producer, records) = QUEUE.split();
-    HANDED_OVER.give(Bench::new(This, board, &BENCH, reset, producer, &MAILBOX));
+    let (producer, messages) = QUEUE.split();
+    program::HANDED_OVER.give(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX));
     MEMO.write(Memo::new(Cause::Running));
-    let mut watchdog = port::Bowl(IndependentWatchdog::new(chip.IWDG));
-    watchdog.0.start(20.millis());
-    // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
-    unsafe {
-        core.NVIC.set_priority(Interrupt::TIM7, 0);
-        NVIC::unmask(Interrupt::TIM7);
-    }
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default());
-    loop {
-        idle.step(&mut port, &mut watchdog);
-    }
+    program::below(messages, cycles, reset, port, || {
+        let mut watchdog = IndependentWatchdog::new(chip.IWDG);
+        watchdog.start(20.millis());
+        // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
+        unsafe {
+            core.NVIC.set_priority(Interrupt::TIM7, 0);
+            NVIC::unmask(Interrupt::TIM7);
+        }
+        port::Bowl(watchdog)
+    })
 }

@@ -12,6 +12,8 @@ mod chip;
 #[path = "../../felt.rs"]
 mod felt;
 mod port;
+#[path = "../../program.rs"]
+mod program;
 mod pulse_width;
 mod supply;
 mod ticks;
@@ -20,12 +22,10 @@ mod watchdog;
 use cortex_m::peripheral::NVIC;
 use imxrt_rt::{entry, interrupt};
 use palpate::device::drive::{SetPointDrive, SetPointRange};
-use palpate::servo::Heartbeat;
-use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Angles, greatest_step};
-use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Parts, Settings, SupplyRange};
-use palpate_cortex::{Cycles, HandOver};
+use palpate_bench::{Cause, CycleDelay, Lines, Parts, Settings, SupplyRange};
+use palpate_cortex::Cycles;
 use teensy4_bsp::board::{self, ARM_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
 use teensy4_bsp::hal::gpio::{Input, Output};
@@ -35,6 +35,7 @@ use teensy4_bsp::{Interrupt, interrupt};
 
 use crate::body::{DEVICE, SETTINGS};
 use crate::felt::This;
+use crate::program::{Loop, Message};
 use crate::pulse_width::{DWELL, PulseWidth};
 use crate::supply::Volts;
 use crate::ticks::Ticks;
@@ -46,31 +47,22 @@ type Sensors = Angles<Lpspi, Output, CycleDelay<Cycles>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
 type Board = Parts<Cycles, Ticks, Sensors, [Amplifier; 3], Input, Input, Input, Volts, Output, 3>;
 
-/// The loop on its way from main to the interrupt, and what passes between them afterwards.
-static HANDED_OVER: HandOver<Bench<'static, This, Board, 3>> = HandOver::new();
-static MAILBOX: Mailbox = Mailbox::new();
-
 #[interrupt]
 fn PIT() {
-    // Taken at the first tick: from then on no lock is needed.
-    static mut LOOP: Option<Bench<'static, This, Board, 3>> = None;
+    static mut PLACE: Option<Loop> = None;
 
-    if LOOP.is_none() {
-        *LOOP = HANDED_OVER.take();
-    }
-    if let Some(servo_loop) = LOOP {
-        servo_loop.tick();
-    }
+    program::tick(PLACE);
 }
 
 #[entry]
 fn main() -> ! {
-    static mut QUEUE: Queue<Record, 16> = Queue::new();
+    static mut QUEUE: Queue<Message, 16> = Queue::new();
 
     let Some(mut core) = cortex_m::Peripherals::take() else {
         panic!("the peripherals are taken here and nowhere else")
     };
     let (flags, memo) = chip::reset();
+    let reset = flags.reason(memo);
     let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, .. } =
         board::t41(board::instances());
     // Motors first: not enabled.
@@ -123,7 +115,7 @@ fn main() -> ! {
     let (Ok(light), Ok(supply)) = (gpio1.output(pins.p22), adc1.input::<_, 1>(pins.p23)) else {
         panic!("they are as wired")
     };
-    let mut port = port::Uart(lpuart(lpuart6, pins.p1, pins.p0, port::BAUD));
+    let port = port::Uart(lpuart(lpuart6, pins.p1, pins.p0, port::BAUD));
 
     let lines = Lines {
         enable,
@@ -133,18 +125,17 @@ fn main() -> ! {
         supply: Volts::new(adc1, supply),
     };
     let board = Parts { counter: cycles, timer: Ticks::start(pit), sensors, drives, lines, light };
-    let (producer, records) = QUEUE.split();
-    HANDED_OVER.give(Bench::new(This, board, &BENCH, flags.reason(memo), producer, &MAILBOX));
+    let (producer, messages) = QUEUE.split();
+    program::HANDED_OVER.give(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX));
     chip::remember(Cause::Running);
-    // SAFETY: nothing else uses it.
-    let mut watchdog = Bowl::start(unsafe { imxrt_ral::rtwdog::RTWDOG::instance() });
-    // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
-    unsafe {
-        core.NVIC.set_priority(Interrupt::PIT, 0);
-        NVIC::unmask(Interrupt::PIT);
-    }
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default());
-    loop {
-        idle.step(&mut port, &mut watchdog);
-    }
+    program::below(messages, cycles, reset, port, || {
+        // SAFETY: nothing else uses it.
+        let watchdog = Bowl::start(unsafe { imxrt_ral::rtwdog::RTWDOG::instance() });
+        // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
+        unsafe {
+            core.NVIC.set_priority(Interrupt::PIT, 0);
+            NVIC::unmask(Interrupt::PIT);
+        }
+        watchdog
+    })
 }

@@ -1,6 +1,7 @@
 //! The host side of palpate: bakes model files into tables, simulates the device, runs the firmware in an emulator and
 //! prints the figures. The binary `palpate` is a thin front on this library; the tests use it directly.
 
+pub mod accept;
 pub mod budgets;
 pub mod cache;
 pub mod cad;

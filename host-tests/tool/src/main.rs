@@ -2,8 +2,8 @@
 
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
-    bake, budgets, check, closest, cycles, demo, device, figures, firmware, image, import, monitor, parts, race, sim,
-    test, zwidth,
+    accept, bake, budgets, check, closest, cycles, demo, device, figures, firmware, image, import, monitor, parts,
+    race, sim, test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -17,6 +17,7 @@ struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Demo(demo::Arguments),
+    Accept(accept::Arguments),
     Device(device::Arguments),
     Test(test::Arguments),
     Check(check::Arguments),
@@ -38,6 +39,7 @@ enum Command {
 fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::Demo(arguments) => demo::run(&arguments),
+        Command::Accept(arguments) => accept::run(&arguments),
         Command::Device(arguments) => device::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -13,7 +13,8 @@ use std::process::{Command, ExitCode};
 /// Runs cargo in a board's folder, with a compiler for its target: set up if it is missing.
 ///
 /// `palpate firmware build --release` builds the images as `demo` and `test` do. What a board's own settings say holds
-/// too, such as the runner that flashes it: `palpate firmware --board stm32g4 run --release`.
+/// too, such as the runner that flashes it: `palpate firmware --board stm32g4 run --release`. In the place of a command
+/// of cargo, `accept` builds the image for `palpate accept`, which has no way to drive a motor, and says where it is.
 #[derive(Args, Debug)]
 #[command(trailing_var_arg = true)]
 pub struct Arguments {
@@ -24,7 +25,7 @@ pub struct Arguments {
     /// board has room for them
     #[arg(long, value_name = "MODEL")]
     body: Option<PathBuf>,
-    /// What cargo is to do, such as `build --release` or `clippy`.
+    /// What cargo is to do, such as `build --release` or `clippy`; or `accept`, for the image of `palpate accept`
     #[arg(required = true, allow_hyphen_values = true)]
     cargo: Vec<String>,
 }
@@ -55,12 +56,34 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(chosen) = &chosen {
         println!("{}", chosen.says);
     }
+    if arguments.accepts() {
+        println!("{}", accepted(&toolchain, arguments.board)?.display());
+        return Ok(ExitCode::SUCCESS);
+    }
     let is_built = arguments.cargo.iter().any(|argument| argument == "build" || argument == "run");
     if let (AnyBoard::Bench(board), true) = (arguments.board, is_built && chosen.is_some()) {
         let image = toolchain.target_folder()?.join(board.target()).join("release").join(board.name());
         print!("{}", firmware::report(board, &image)?);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+impl Arguments {
+    /// Whether the image for `palpate accept` is asked for.
+    fn accepts(&self) -> bool {
+        self.cargo == ["accept"]
+    }
+}
+
+/// Where the image for `palpate accept` lies, once it is built. That of a board for the bench is taken out of the place
+/// of its other image: nobody is to flash the one for the other.
+fn accepted(toolchain: &Toolchain, board: AnyBoard) -> anyhow::Result<PathBuf> {
+    let folder = toolchain.target_folder()?.join(board.target()).join("release");
+    let AnyBoard::Bench(board) = board else { return Ok(folder.join("accept")) };
+    let (built, image) = (folder.join(board.name()), folder.join(format!("{}-accept", board.name())));
+    fs::rename(&built, &image).with_context(|| built.display().to_string())?;
+    print!("{}", firmware::report(board, &image)?);
+    Ok(image)
 }
 
 /// A body that was chosen for a board.
@@ -97,6 +120,11 @@ fn command(toolchain: &Toolchain, arguments: &Arguments, progress: &Progress) ->
     let (mut command, rest) = match &arguments.cargo[..] {
         [first, rest @ ..] if first == "clippy" => (toolchain.clippy(progress)?, rest),
         all => (toolchain.cargo(), all),
+    };
+    let rest: Vec<&str> = match arguments.board {
+        _ if !arguments.accepts() => rest.iter().map(String::as_str).collect(),
+        AnyBoard::Emulated(_) => vec!["build", "--release", "--bin", "accept"],
+        AnyBoard::Bench(_) => vec!["build", "--release", "--features", "accept"],
     };
     if let Some(config) = arguments.board.cargo_config()? {
         command.arg("--config").arg(config);

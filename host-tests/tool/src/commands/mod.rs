@@ -1,5 +1,6 @@
 //! The commands of `palpate`, one file each: its arguments and what it does.
 
+pub mod accept;
 pub mod bake;
 pub mod budgets;
 pub mod check;

@@ -173,6 +173,34 @@ impl Drop for Emulator {
     }
 }
 
+/// An emulator that is left to itself. It ends when this is dropped.
+#[derive(Debug)]
+pub struct Running {
+    child: Child,
+    /// Holds what the emulator said.
+    _folder: TempDir,
+}
+
+impl Running {
+    /// Starts an image that speaks over its UART alone: that line comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start(qemu: &Qemu, image: &Image) -> Result<(Self, TcpStream), LinkError> {
+        let (mut command, folder) = command(qemu, image, Pace::Counting)?;
+        let (child, line) = accept_uart(&mut command, &folder)?;
+        Ok((Self { child, _folder: folder }, line))
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // It may have ended by itself: both calls then find nothing to do.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
 /// The emulator's command line for an image, to be run in a folder of its own.
 fn command(qemu: &Qemu, image: &Image, pace: Pace) -> Result<(Command, TempDir), LinkError> {
     let folder = tempfile::Builder::new().prefix("palpate-link-").tempdir()?;

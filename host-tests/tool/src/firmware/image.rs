@@ -162,7 +162,7 @@ pub(crate) fn choose_body(cargo: &mut Command, body: Option<BenchBody<'_>>) -> R
 }
 
 /// Adds up the sections that the linker gave an address.
-fn measure(board: Board, elf: PathBuf) -> Result<Image, SetUpError> {
+pub(super) fn measure(board: Board, elf: PathBuf) -> Result<Image, SetUpError> {
     let content = fs::read(&elf).map_err(SetUpError::io(elf.display()))?;
     let file = object::File::parse(content.as_slice()).map_err(|error| refused(&elf, &error.to_string()))?;
     let (mut flash, mut ram) = (0, 0);

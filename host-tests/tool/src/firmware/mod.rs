@@ -31,7 +31,7 @@ mod transport;
 mod way;
 
 pub use board::{AnyBoard, BenchBoard, Board};
-pub use emulator::Emulator;
+pub use emulator::{Emulator, Running};
 pub(crate) use image::choose_body;
 pub use image::{BenchBody, Choice, Image, Images, build_all, build_bench};
 pub use link::{Link, LinkError};

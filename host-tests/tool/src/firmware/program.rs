@@ -1,8 +1,9 @@
 //! A board's program other than the plain ones: it prints, logs or tells of itself.
 
 use super::process::output;
-use super::{Board, Choice, Emulator, Image, LinkError, Pace, Progress, Qemu, SetUpError, Toolchain, image};
+use super::{Board, Choice, Emulator, Image, LinkError, Pace, Progress, Qemu, Running, SetUpError, Toolchain, image};
 use std::net::TcpStream;
+use std::path::Path;
 use std::process::{Child, ChildStdout, Stdio};
 use tempfile::TempDir;
 
@@ -42,6 +43,17 @@ impl Program {
         Ok(Self { qemu, image, _folder: folder })
     }
 
+    /// A program that was built before.
+    ///
+    /// # Errors
+    /// If it is none, or there is no emulator.
+    pub fn of_image(board: Board, elf: &Path, progress: &Progress) -> Result<Self, SetUpError> {
+        let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
+        // The emulator runs in a folder of its own.
+        let elf = elf.canonicalize().map_err(SetUpError::io(elf.display()))?;
+        Ok(Self { qemu: Qemu::set_up(progress)?, image: image::measure(board, elf)?, _folder: folder })
+    }
+
     /// Runs it to its end, by itself, and gives what it printed.
     ///
     /// # Errors
@@ -61,6 +73,14 @@ impl Program {
         command.args(["-d", "exec,nochain", "-D", "/dev/stderr", "-dfilter", &filter.join(",")]);
         command.stdout(Stdio::null()).stderr(Stdio::piped());
         command.spawn().map_err(SetUpError::io("the emulator"))
+    }
+
+    /// Starts it where it speaks over its UART alone: that line comes with it.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_line(&self) -> Result<(Running, TcpStream), LinkError> {
+        Running::start(&self.qemu, &self.image)
     }
 
     /// Starts it where it speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.

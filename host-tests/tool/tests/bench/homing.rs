@@ -8,7 +8,7 @@ use palpate::track::Controller;
 use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, StillHand};
 
 /// The stops of the simulated arm, from where it hangs once nothing holds it.
-const STOPS: [StopSearch; 3] = [
+pub const STOPS: [StopSearch; 3] = [
     StopSearch { angle: 1.55, speed: 1.0, torque: 0.2, clearance: 0.2, travel: 3.3 },
     StopSearch { angle: 2.15, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
     StopSearch { angle: 1.75, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },

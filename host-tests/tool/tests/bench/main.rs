@@ -1,5 +1,6 @@
 //! The loop of the boards, on the host: with the simulated device at its pins, and with mocks.
 
+mod acceptance;
 mod angles;
 mod frames;
 mod homing;

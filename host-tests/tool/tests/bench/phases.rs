@@ -5,7 +5,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Duty, SerialArm};
 use palpate::servo::{Event, Fault, Output, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
-use palpate_bench::Board;
+use palpate_bench::Passive;
 
 fn servo(output: SafeOutput) -> Servo<'static, palpate::patch::SplinePatch, SerialArm, 3> {
     let safety = Safety { output, settle_ticks: 50, ..Safety::DEFAULT };

@@ -72,6 +72,14 @@ pub struct World {
 }
 
 impl World {
+    /// A period of the device, and the rest of the board's.
+    pub fn advance(&mut self) {
+        let duties = self.currents().map(|current| (current * 32_767.0).round() as i16);
+        self.plant.advance(duties);
+        let period = CLOCK / RATE as u32;
+        self.cycles = self.cycles.wrapping_add(period / 2);
+    }
+
     /// Whether an amplifier has supply enough to be ready.
     fn is_powered(&self) -> bool {
         self.supply > 8.0
@@ -207,7 +215,7 @@ type Amplifier = SetPointDrive<Width, Out>;
 pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
 
 /// A servo that a test made.
-pub struct Made<K: 'static>(Servo<'static, SplinePatch, K, 3>);
+pub struct Made<K: 'static>(pub Servo<'static, SplinePatch, K, 3>);
 
 impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
     type Surface = SplinePatch;
@@ -251,6 +259,66 @@ pub fn held_at(place: Vector) -> Plant {
     Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Down(place)), RATE).unwrap()
 }
 
+/// A device at the pins of a board.
+pub fn wired<K: Kinematics<3> + 'static>(
+    servo: &Servo<'static, SplinePatch, K, 3>,
+    plant: Plant,
+    settings: &Settings,
+) -> (Shared, SimulatedBoard) {
+    let world = World {
+        plant,
+        button: false,
+        stop_open: false,
+        ready_wires: [true; 3],
+        amplifiers_well: true,
+        supply: 24.0,
+        measured: Some,
+        bad: 0,
+        kind: BadFrame::Damaged,
+        reading: 200,
+        widths: [0.5; 3],
+        enables: [false; 3],
+        light: false,
+        // Near its end, so that it wraps.
+        cycles: u32::MAX - 1_000,
+    };
+    let world = Rc::new(RefCell::new(world));
+    let of = || Rc::clone(&world);
+    let device = servo.device();
+    let steps =
+        device.encoders.map(|encoder| greatest_step(&encoder, device.max_joint_rate, RATE as f32, settings.bad_frames));
+    let enables: [fn(&mut World, bool); 3] = [
+        |world, level| world.enables[0] = level,
+        |world, level| world.enables[1] = level,
+        |world, level| {
+            world.enables[2] = level;
+        },
+    ];
+    // A broken wire is pulled down at the pin; an amplifier without supply pulls nothing up.
+    let ready: [fn(&World) -> bool; 3] = [
+        |world| world.ready_wires[0] && world.is_powered() && world.amplifiers_well,
+        |world| world.ready_wires[1] && world.is_powered(),
+        |world| world.ready_wires[2] && world.is_powered(),
+    ];
+    let amplifier =
+        |joint: usize| SetPointDrive::new(Width(of(), joint), Out(of(), enables[joint]), SetPointRange::TEN_TO_NINETY);
+    let board = Parts {
+        counter: SimulatedClock(of()),
+        timer: Interrupts,
+        sensors: Spoilt { world: of(), counters: Counters::new(Timers(of()), steps), ahead: None },
+        drives: [amplifier(0), amplifier(1), amplifier(2)],
+        lines: Lines {
+            enable: In(of(), |world| world.button),
+            enable_level: true,
+            stop: In(of(), |world| world.stop_open),
+            ready: ready.map(|level| In(of(), level)),
+            supply: Volts(of()),
+        },
+        light: Out(of(), |world, level| world.light = level),
+    };
+    (Rc::clone(&world), board)
+}
+
 impl<K: Kinematics<3> + 'static> Rig<K> {
     pub fn new(
         servo: Servo<'static, SplinePatch, K, 3>,
@@ -258,59 +326,7 @@ impl<K: Kinematics<3> + 'static> Rig<K> {
         settings: &Settings,
         reset: ResetReason,
     ) -> Self {
-        let world = World {
-            plant,
-            button: false,
-            stop_open: false,
-            ready_wires: [true; 3],
-            amplifiers_well: true,
-            supply: 24.0,
-            measured: Some,
-            bad: 0,
-            kind: BadFrame::Damaged,
-            reading: 200,
-            widths: [0.5; 3],
-            enables: [false; 3],
-            light: false,
-            // Near its end, so that it wraps.
-            cycles: u32::MAX - 1_000,
-        };
-        let world = Rc::new(RefCell::new(world));
-        let of = || Rc::clone(&world);
-        let device = servo.device();
-        let steps = device
-            .encoders
-            .map(|encoder| greatest_step(&encoder, device.max_joint_rate, RATE as f32, settings.bad_frames));
-        let enables: [fn(&mut World, bool); 3] = [
-            |world, level| world.enables[0] = level,
-            |world, level| world.enables[1] = level,
-            |world, level| {
-                world.enables[2] = level;
-            },
-        ];
-        // A broken wire is pulled down at the pin; an amplifier without supply pulls nothing up.
-        let ready: [fn(&World) -> bool; 3] = [
-            |world| world.ready_wires[0] && world.is_powered() && world.amplifiers_well,
-            |world| world.ready_wires[1] && world.is_powered(),
-            |world| world.ready_wires[2] && world.is_powered(),
-        ];
-        let amplifier = |joint: usize| {
-            SetPointDrive::new(Width(of(), joint), Out(of(), enables[joint]), SetPointRange::TEN_TO_NINETY)
-        };
-        let board = Parts {
-            counter: SimulatedClock(of()),
-            timer: Interrupts,
-            sensors: Spoilt { world: of(), counters: Counters::new(Timers(of()), steps), ahead: None },
-            drives: [amplifier(0), amplifier(1), amplifier(2)],
-            lines: Lines {
-                enable: In(of(), |world| world.button),
-                enable_level: true,
-                stop: In(of(), |world| world.stop_open),
-                ready: ready.map(|level| In(of(), level)),
-                supply: Volts(of()),
-            },
-            light: Out(of(), |world, level| world.light = level),
-        };
+        let (world, board) = wired(&servo, plant, settings);
         // They live as long as the test, as a board's statics do.
         let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
         let queue: &'static mut Queue<Record, 4_096> = Box::leak(Box::new(Queue::new()));
@@ -333,12 +349,7 @@ impl<K: Kinematics<3> + 'static> Rig<K> {
     /// A tick of the loop and a period of the device.
     pub fn tick(&mut self) {
         self.bench.tick();
-        let mut world = self.world.borrow_mut();
-        let duties = world.currents().map(|current| (current * 32_767.0).round() as i16);
-        world.plant.advance(duties);
-        // The rest of the period.
-        let period = CLOCK / RATE as u32;
-        world.cycles = world.cycles.wrapping_add(period / 2);
+        self.world.borrow_mut().advance();
     }
 
     pub fn ticks(&mut self, ticks: u32) {

@@ -1,6 +1,7 @@
 //! The firmware image on the emulated board. Runs with `cargo palpate test`; plain `cargo test` says what it leaves
 //! out.
 
+mod acceptance;
 mod agreement;
 mod bench;
 mod budgets;

@@ -1,0 +1,117 @@
+//! `palpate accept`: whether a board does what the library promises of it, without its motors.
+
+use super::output::{print, write_whole};
+use crate::accept::{self, Found, PATIENCE, Plan, Report, Surroundings, examine, expected, judge};
+use crate::firmware::{Board, Program, Progress, SetUpError};
+use anyhow::{Context, bail, ensure};
+use clap::Args;
+use palpate::wire::acceptance::Failure;
+use std::fs;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Accepts a board, motors disabled: the very bits of the host, cycles, rate and jitter, table, sensors, resets.
+///
+/// The board runs the image of `palpate firmware --board B accept`, which has no way to drive a motor. The report says
+/// what each figure is and must be; docs/acceptance.md has the wiring and how to read a failure.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The serial port the device is on, such as /dev/ttyACM0
+    #[arg(long, required_unless_present = "emulator", conflicts_with = "emulator")]
+    port: Option<String>,
+    /// The port's speed
+    #[arg(long, default_value_t = 500_000)]
+    baud: u32,
+    /// An emulated board instead of a device
+    #[arg(long, value_enum)]
+    emulator: Option<Board>,
+    /// The image for the emulator, built before, in the place of the one that is built now
+    #[arg(long, value_name = "ELF", requires = "emulator")]
+    image: Option<PathBuf>,
+    /// Seconds of the device's own ticks
+    #[arg(long, default_value_t = 60.0)]
+    seconds: f64,
+    /// Ticks of each lap of the script, at most; the longest has 300,000
+    #[arg(long, default_value_t = 300_000)]
+    ticks: u32,
+    /// Has the device hang, panic and run into an exception, and asks it for the reset reason each time
+    #[arg(long, conflicts_with = "emulator")]
+    resets: bool,
+    /// The board has no sensors yet: what they say is told and not judged
+    #[arg(long)]
+    bare: bool,
+    /// Leaves out the emulator, which counts the instructions beside the device's cycles
+    #[arg(long, conflicts_with = "emulator")]
+    without_emulator: bool,
+    /// Where the report goes
+    #[arg(long, default_value = "palpate-report/accept.md")]
+    report: PathBuf,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    ensure!(arguments.seconds.is_finite() && arguments.seconds > 0.0, "--seconds is not a time");
+    ensure!(arguments.ticks > 0, "--ticks: a script of no ticks shows nothing");
+    let resets = arguments.resets.then_some([Failure::Hang, Failure::Panic, Failure::Exception]);
+    let failures = resets.into_iter().flatten().collect();
+    let plan = Plan { most: arguments.ticks, seconds: arguments.seconds, failures };
+    let (device, found, counted) = if let Some(board) = arguments.emulator {
+        let program = match &arguments.image {
+            Some(elf) => Program::of_image(board, elf, &Progress::new())?,
+            None => accept::prepared(board, &[])?,
+        };
+        let found = accept::on_emulator(&program, &plan)?;
+        let counted = Some(found.lines.clone());
+        (format!("{} ({}), emulated", board.name(), board.machine()), found, counted)
+    } else if let Some(path) = &arguments.port {
+        let port = serialport::new(path, arguments.baud).timeout(PATIENCE).open();
+        let mut port = port.with_context(|| format!("cannot open the serial port {path}"))?;
+        let found = examine(&mut port, &plan).with_context(|| format!("serial port {path}"))?;
+        let counted = counted(arguments, &plan, &found)?;
+        (format!("serial port {path}"), found, counted)
+    } else {
+        bail!("either --port or --emulator");
+    };
+    let around =
+        Surroundings { emulated: arguments.emulator.is_some(), bare: arguments.bare, counted: counted.as_deref() };
+    let expected = expected(arguments.ticks);
+    let checks = judge(&found, &expected, &around);
+    let report = Report::new(&device, &found, &expected, &around, checks);
+    let text = report.to_string();
+    print(text.as_bytes())?;
+    if let Some(folder) = arguments.report.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    }
+    write_whole(&arguments.report, text.as_bytes())?;
+    eprintln!("the report to post: {}", arguments.report.display());
+    Ok(if report.failed().is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// What an emulated core of the device's kind counts in the same script; `None` where there is no emulator.
+fn counted(
+    arguments: &Arguments,
+    plan: &Plan,
+    found: &Found,
+) -> anyhow::Result<Option<Vec<palpate::wire::acceptance::Line>>> {
+    let board = match (found.identity.core >> 4) & 0xfff {
+        0xc24 => Board::M4,
+        0xc27 => Board::M7,
+        0xd21 => Board::M33,
+        _ => return Ok(None),
+    };
+    if arguments.without_emulator {
+        return Ok(None);
+    }
+    let short = Plan { seconds: 0.1, failures: Vec::new(), ..plan.clone() };
+    match accept::prepared(board, &[]) {
+        Ok(program) => Ok(Some(accept::on_emulator(&program, &short)?.lines)),
+        Err(SetUpError::NoEmulator(reason)) => {
+            eprintln!("no instructions are counted beside the cycles: {reason}");
+            Ok(None)
+        }
+        Err(error) => Err(error.into()),
+    }
+}
