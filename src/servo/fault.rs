@@ -89,6 +89,12 @@ impl Fault {
         Self::WrongSign,
     ];
 
+    /// Whether [`super::SafeOutput::Damping`] may follow it. Not where that would drive a motor that has failed or is
+    /// wired the wrong way, which it would speed up, nor pump up a supply that is out of its range.
+    pub const fn leaves_damping(self) -> bool {
+        !matches!(self, Self::Drive | Self::WrongSign | Self::Supply)
+    }
+
     /// The code in a report, from 1.
     pub const fn code(self) -> u8 {
         self as u8

@@ -10,7 +10,8 @@ pub enum SafeOutput {
     /// Nothing.
     Zero,
     /// They brake the probe with this damping, N·s/m, in every tick whose sensors can be believed; nothing in the
-    /// others. It helps where the device would fall.
+    /// others, nor after a fault of a drive, of the supply or of a sign ([`super::Fault::leaves_damping`]). It helps
+    /// where the device would fall.
     Damping(f32),
 }
 

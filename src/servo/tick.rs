@@ -167,7 +167,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         state.probe = probe;
         state.room = self.device.room(to_stop, &pose);
         if state.phase == Phase::Fault {
-            let live = matches!(self.safety.output, SafeOutput::Damping(_));
+            let may = state.fault.is_some_and(|(fault, _)| fault.leaves_damping());
+            let live = may && matches!(self.safety.output, SafeOutput::Damping(_));
             state.drives = live;
             return Ok(Torques { felt: self.safe_torques(state, &pose, velocity), live, ..Torques::NONE });
         }

@@ -166,6 +166,19 @@ fn an_amplifiers_own_fault_is_latched() {
 }
 
 #[test]
+fn an_amplifier_that_has_failed_damps_nothing_once_it_says_that_it_is_ready_again() {
+    let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+    let mut rig = Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
+    rig.press_until_it_runs();
+    rig.set(|world| world.amplifiers_well = false);
+    rig.ticks_off(201);
+    assert_eq!(rig.fault(), Some(Fault::Drive));
+    rig.set(|world| world.amplifiers_well = true);
+    rig.ticks_off(1_000);
+}
+
+#[test]
 fn a_broken_stop_wire_stops() {
     // The contact is closed unless pressed: a wire that is off is a contact that is open.
     let mut rig = rig();

@@ -6,7 +6,9 @@ use embedded_hal_mock::eh1::pwm::{Mock as Width, Transaction as WidthStep};
 use palpate::device::drive::{HBridge, SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Duty};
 use palpate_bench::sensors::{BadFrame, Counters, Readings};
-use palpate_bench::{Board, Counter, Divider, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Switched, Timer};
+use palpate_bench::{
+    Board, Counter, Divider, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Passive, Switched, Timer,
+};
 use std::io::ErrorKind;
 
 struct Still;
@@ -103,11 +105,11 @@ fn amplifiers_are_enabled_behind_their_set_points_and_disabled_before_them() {
     };
     assert_eq!(board.now(), 7);
     assert_eq!(board.read(), Ok([Counts(10), Counts(20), Counts(30)]));
-    assert!(Board::<3>::panel(&mut board).enable);
+    assert!(Passive::<3>::panel(&mut board).enable);
     assert_eq!(board.drive([Duty::ZERO, Duty::FULL, Duty(-32_767)]), Ok(()));
-    assert_eq!(Board::<3>::release(&mut board), Ok(()));
-    Board::<3>::show(&mut board, true);
-    Board::<3>::show(&mut board, false);
+    assert_eq!(Passive::<3>::release(&mut board), Ok(()));
+    Passive::<3>::show(&mut board, true);
+    Passive::<3>::show(&mut board, false);
     board.sensors = Counters::new(Three([10, 20, 30]), [5; 3]);
     board.drives.into_iter().for_each(done);
     board.light.done();

@@ -1,5 +1,6 @@
 //! The servo loop against the simulated device, against faults, against arbitrary sensors and arbitrary frames.
 
+mod damping;
 mod faults;
 mod frames;
 mod fuzz;

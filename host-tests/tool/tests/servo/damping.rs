@@ -1,0 +1,66 @@
+//! After which faults nothing is damped, though damping was chosen: those that say that motors cannot be trusted.
+
+use crate::surfaces::WALL;
+use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
+use palpate::device::{Counts, Duty, Protection, SupplyRange};
+use palpate::math::Vec3;
+use palpate::servo::{Event, Fault, Input, Output, SafeOutput, Safety, Servo, Settings};
+use palpate::track::Controller;
+use palpate_plant::{Direction, HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
+
+const RATE: f64 = 4_000.0;
+const PROTECTION: Protection<3> =
+    Protection { supply: Some(SupplyRange { least: 20_000, most: 28_000 }), ..WOODEN_HAPTICS_2016_PROTECTION };
+
+/// Presses into the wall until the event, or a fault, and gives how many of the ticks after it are driven.
+fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
+    let device = &WOODEN_HAPTICS_2016;
+    let settings = Settings {
+        rate: RATE as f32,
+        stiffness: device.max_stiffness,
+        damping: device.max_damping,
+        max_force: device.max_force,
+        velocity_corner: 200.0,
+        soft_start: 0.1,
+        body_origin: Vec3::ZERO,
+    };
+    let servo = Servo::new(device, &WALL, Controller::SECOND_ORDER, settings)
+        .safety(Safety { output: SafeOutput::Damping(4.0), ..Safety::DEFAULT })
+        .protect(PROTECTION);
+    let mut plant = PlantSettings::wooden_haptics_2016();
+    if wrong {
+        for joint in &mut plant.joints {
+            let way = &mut joint.motor_direction;
+            *way = if *way == Direction::With { Direction::Against } else { Direction::With };
+        }
+    }
+    let path = Box::new(TouchingPath::new(TouchingSettings::default(), 3));
+    let mut plant = Plant::new(&plant, HandSettings::default(), path, RATE).unwrap();
+    let mut state = servo.start();
+    let mut after = None;
+    for tick in 0..8_000 {
+        servo.note(&mut state, Event::Supply { millivolts: 24_000 });
+        if tick == 4_000
+            && let Some(event) = event
+        {
+            servo.note(&mut state, event);
+        }
+        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        if state.fault().is_some() {
+            let drives = matches!(state.output(), Output::Drive(duties) if duties != [Duty::ZERO; 3]);
+            *after.get_or_insert(0) += u32::from(drives);
+        }
+        plant.advance(state.duties().map(|duty| duty.0));
+    }
+    (state.fault().map(|(fault, _)| fault), after.unwrap_or(0))
+}
+
+#[test]
+fn nothing_damps_after_a_fault_of_a_drive_of_the_supply_or_of_a_sign() {
+    let (fault, driven) = driven_after(Some(Event::Stop), false);
+    assert!(fault == Some(Fault::Stopped) && driven > 1_000, "what follows must damp otherwise: {driven} ticks");
+    assert_eq!(driven_after(Some(Event::DriveFault), false), (Some(Fault::Drive), 0));
+    assert_eq!(driven_after(Some(Event::Supply { millivolts: 12_000 }), false), (Some(Fault::Supply), 0));
+    // It would push, not brake.
+    assert_eq!(driven_after(None, true), (Some(Fault::WrongSign), 0));
+}
