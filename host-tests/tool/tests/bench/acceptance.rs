@@ -1,7 +1,7 @@
 //! A board that is being accepted: it drives nothing, and says what it is asked.
 
 use crate::homing::STOPS;
-use crate::rig::{CLOCK, Made, SETTINGS, Shared, SimulatedBoard, WALL, World, held_at, settings, wired};
+use crate::rig::{CLOCK, Made, RATE, SETTINGS, Shared, SimulatedBoard, WALL, World, held_at, settings, wired};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Homing, Reference, SerialArm};
 use palpate::patch::SplinePatch;
@@ -98,6 +98,8 @@ impl Device {
     /// A period of it: a tick, and what main does below.
     fn period(&mut self) {
         (self.events)(&mut self.world.borrow_mut(), self.ticks);
+        // To the cycle.
+        self.world.borrow_mut().cycles = self.ticks.wrapping_mul(CLOCK / RATE as u32);
         self.ticks += 1;
         self.tick.tick();
         assert_eq!(self.world.borrow().enables, [false; 3]);
@@ -228,8 +230,8 @@ fn a_reset_whose_reason_the_board_does_not_know_is_not_accepted() {
 
 #[test]
 fn bad_frames_of_the_sensors_are_counted_by_their_kind() {
-    // One in 7,000 ticks, damaged: too many. Then none, but once three in a row.
-    let often = |world: &mut World, tick: u32| world.bad += u32::from(tick % 7_000 == 6_999);
+    // One in 3,000 ticks, damaged: too many. Then none, but once three in a row.
+    let often = |world: &mut World, tick: u32| world.bad += u32::from(tick % 3_000 == 2_999);
     let found_often = found(&mut Device::new(often, known), &[]);
     assert_eq!(failed(&found_often, 1_000), ["sensors"]);
     let last = found_often.ticks.last().unwrap();

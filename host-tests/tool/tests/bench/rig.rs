@@ -68,7 +68,8 @@ pub struct World {
     pub widths: [f64; 3],
     pub enables: [bool; 3],
     pub light: bool,
-    cycles: u32,
+    /// What its counter says.
+    pub cycles: u32,
 }
 
 impl World {

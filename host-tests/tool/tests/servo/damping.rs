@@ -6,11 +6,25 @@ use palpate::device::{Counts, Duty, Protection, SupplyRange};
 use palpate::math::Vec3;
 use palpate::servo::{Event, Fault, Input, Output, SafeOutput, Safety, Servo, Settings};
 use palpate::track::Controller;
-use palpate_plant::{Direction, HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
+use palpate_plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, Vector};
+use std::f64::consts::TAU;
 
 const RATE: f64 = 4_000.0;
 const PROTECTION: Protection<3> =
     Protection { supply: Some(SupplyRange { least: 20_000, most: 28_000 }), ..WOODEN_HAPTICS_2016_PROTECTION };
+
+/// From 4 mm above the wall to 8 mm below it, again and again.
+struct UpAndDown;
+
+impl HandPath for UpAndDown {
+    fn target(&self, time: f64) -> Vector {
+        [0.0, 0.0, -0.002 + 0.006 * (TAU * 1.5 * time).cos()]
+    }
+
+    fn velocity(&self, time: f64) -> Vector {
+        [0.0, 0.0, -0.006 * TAU * 1.5 * (TAU * 1.5 * time).sin()]
+    }
+}
 
 /// Presses into the wall until the event, or a fault, and gives how many of the ticks after it are driven.
 fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
@@ -34,8 +48,7 @@ fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
             *way = if *way == Direction::With { Direction::Against } else { Direction::With };
         }
     }
-    let path = Box::new(TouchingPath::new(TouchingSettings::default(), 3));
-    let mut plant = Plant::new(&plant, HandSettings::default(), path, RATE).unwrap();
+    let mut plant = Plant::new(&plant, HandSettings::default(), Box::new(UpAndDown), RATE).unwrap();
     let mut state = servo.start();
     let mut after = None;
     for tick in 0..8_000 {
