@@ -1,11 +1,11 @@
-//! A body of 510 patches as a model file, to see what becomes of a large part:
+//! A body of many patches as a model file, to see what becomes of a large part:
 //!
 //! ```sh
 //! cargo run --release -p palpate-truth --example large_part > large.toml && cargo palpate parts large.toml
 //! ```
 //!
-//! A plate of 120 × 120 mm with dunes on it: on top a smooth bicubic spline surface as 15 × 15 Bézier patches, as many
-//! flat ones beneath, and walls.
+//! A plate with dunes on it: on top a smooth bicubic spline surface as 15 × 15 Bézier patches of 8 mm, as many flat
+//! ones beneath, and walls: 510 patches. A number on the command line is in the place of 15.
 
 /// Patches along each side.
 const ACROSS: usize = 15;
@@ -18,11 +18,13 @@ const HEIGHT: f64 = 3.0;
 type Point = [f64; 3];
 
 fn main() {
-    println!(
-        "# 510 patches: cargo run --release -p palpate-truth --example large_part\nname = \"dunes\"\nunit = \"mm\""
-    );
-    let top: Vec<Vec<[[Point; 4]; 4]>> = (0..ACROSS).map(|i| (0..ACROSS).map(|j| dune(i, j)).collect()).collect();
-    let last = ACROSS - 1;
+    let across = std::env::args().nth(1).map_or(ACROSS, |number| number.parse().expect("a number of patches"));
+    assert!(across > 0, "a plate of no patches");
+    let patches = 2 * across * across + 4 * across;
+    println!("# {patches} patches: cargo run -p palpate-truth --example large_part {across}");
+    println!("name = \"dunes\"\nunit = \"mm\"");
+    let top: Vec<Vec<[[Point; 4]; 4]>> = (0..across).map(|i| (0..across).map(|j| dune(i, j)).collect()).collect();
+    let last = across - 1;
     for (i, row) in top.iter().enumerate() {
         for (j, net) in row.iter().enumerate() {
             patch(&format!("top {i} {j}"), false, &net.map(|row| row.to_vec()));
