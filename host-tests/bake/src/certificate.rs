@@ -131,10 +131,14 @@ impl Certificate {
             Finding::Failed(format!("normals may lie {:.0}° apart", (2.0 * cone_angle).min(180.0)))
         };
         let sampled = sample(&surface, territory.turn(), range);
-        let is_tried = |range: &f64| !matches!(sample(&surface, territory.turn(), *range), Finding::Failed(_));
+        let is_disproved = |nearer: f64| {
+            let found = if nearer == range { sampled.clone() } else { sample(&surface, territory.turn(), nearer) };
+            matches!(found, Finding::Failed(_))
+        };
         // Nearer probes are easier: halved until it is proved, or not worth having. What samples disprove is not tried.
-        let ranges = (0..HALVINGS).map(|halvings| range / f64::from(1 << halvings)).filter(is_tried);
-        let proved_range = ranges.into_iter().find(|range| territory.has_one_minimum(*range, BOXES)).unwrap_or(0.0);
+        let mut ranges = (0..HALVINGS).map(|halvings| range / f64::from(1 << halvings));
+        let proved = ranges.find(|range| !is_disproved(*range) && territory.has_one_minimum(*range, BOXES));
+        let proved_range = proved.unwrap_or(0.0);
         let equilibrium = if proved_range == range { Finding::Proved } else { sampled };
         Self {
             regular,

@@ -255,11 +255,12 @@ impl Query<'_> {
         references.iter().any(|reference| {
             let point = reference.point;
             let half_square = 0.5 * point.length_squared() + self.seam * self.farthest;
-            piece.place.on(part).all(|[square, x, y, z, weight]| {
+            let is_beyond = |[square, x, y, z, weight]: &[f64; 5]| {
                 let slope = DVec3::new(*x, *y, *z) - point * *weight;
                 let middle = square - half_square * weight - self.probes.centre.dot(slope);
                 middle - self.probes.half.dot(slope.abs()) > piece.place.slack
-            })
+            };
+            piece.place.on(part).all(|row| row.iter().all(is_beyond))
         })
     }
 
@@ -280,9 +281,7 @@ impl Query<'_> {
     }
 
     fn sign_beyond(&self, piece: &Piece, axis: usize, part: Part, margin: f64) -> i8 {
-        let ([low, high], steepest) = piece.gradient[axis].range(part, &self.probes);
-        let margin = margin * self.farthest * steepest;
-        i8::from(low > margin) - i8::from(high < -margin)
+        piece.gradient[axis].sign(part, &self.probes, margin * self.farthest)
     }
 
     fn is_sloping_along(&self, piece: &Piece, side: u8) -> bool {

@@ -4,7 +4,7 @@
 use crate::bernstein::Bernstein;
 use crate::tracked::Tracked;
 use glam::DVec3;
-use std::ops::RangeInclusive;
+use std::ops::Range;
 
 /// A box of probes, metres.
 #[derive(Clone, Copy, Debug)]
@@ -75,26 +75,36 @@ impl<const D: usize> Field<D> {
         [a, b, c, d].map(|polynomial| Self { polynomial, reach: self.reach, slack })
     }
 
-    /// The coefficients of a part of the cell.
-    pub(crate) fn on(&self, part: Part) -> impl Iterator<Item = &[f64; D]> {
+    /// The coefficients of a part of the cell, row by row: what runs through them is the bake's innermost loop, and
+    /// one over a slice is the fastest.
+    pub(crate) fn on(&self, part: Part) -> impl Iterator<Item = &[[f64; D]]> {
         let [rows, columns] = part.indices(self.polynomial.degree);
-        rows.flat_map(move |i| columns.clone().map(move |j| self.polynomial.at(i, j)))
+        let width = self.polynomial.degree[1] + 1;
+        let rows = &self.polynomial.coefficients[rows.start * width..rows.end * width];
+        rows.chunks_exact(width).map(move |row| &row[columns.clone()])
     }
 }
 
 /// A component that is affine in the probe, `a − Q · b`, of entries `[a, b]`.
 impl Field<4> {
-    /// Bounds over a part of the cell and all probes; and the greatest length of `b`.
-    pub(crate) fn range(&self, part: Part, probes: &Probes) -> ([f64; 2], f64) {
-        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    /// Its sign on a part of the cell for all probes: 0 unless it stays farther from zero than `margin` times the
+    /// greatest length of `b`.
+    pub(crate) fn sign(&self, part: Part, probes: &Probes, margin: f64) -> i8 {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut steepest: f64 = 0.0;
-        for [a, x, y, z] in self.on(part) {
-            let b = DVec3::new(*x, *y, *z);
-            let (middle, reach) = (a - probes.centre.dot(b), probes.half.dot(b.abs()));
-            range = [range[0].min(middle - reach), range[1].max(middle + reach)];
-            steepest = steepest.max(b.length_squared());
+        for row in self.on(part) {
+            for [a, x, y, z] in row {
+                let b = DVec3::new(*x, *y, *z);
+                let (middle, reach) = (a - probes.centre.dot(b), probes.half.dot(b.abs()));
+                (low, high) = (low.min(middle - reach), high.max(middle + reach));
+                if low <= self.slack && high >= -self.slack {
+                    return 0;
+                }
+                steepest = steepest.max(b.length_squared());
+            }
         }
-        ([range[0] - self.slack, range[1] + self.slack], steepest.sqrt())
+        let margin = margin * steepest.sqrt();
+        i8::from(low - self.slack > margin) - i8::from(high + self.slack < -margin)
     }
 }
 
@@ -114,18 +124,19 @@ pub(crate) enum Part {
 }
 
 impl Part {
-    fn indices(self, [p, q]: [usize; 2]) -> [RangeInclusive<usize>; 2] {
-        let end = |high: bool, degree: usize| if high { degree..=degree } else { 0..=0 };
+    /// Rows and columns of the coefficients, of degrees `p` and `q`.
+    fn indices(self, [p, q]: [usize; 2]) -> [Range<usize>; 2] {
+        let end = |high: bool, degree: usize| if high { degree..degree + 1 } else { 0..1 };
         match self {
-            Self::Inside => [0..=p, 0..=q],
-            Self::Without(0) => [1..=p, 0..=q],
-            Self::Without(1) => [0..=p.saturating_sub(1), 0..=q],
-            Self::Without(2) => [0..=p, 1..=q],
-            Self::Without(_) => [0..=p, 0..=q.saturating_sub(1)],
-            Self::Side(side @ (0 | 1)) => [end(side == 1, p), 0..=q],
-            Self::Side(side) => [0..=p, end(side == 3, q)],
+            Self::Inside => [0..p + 1, 0..q + 1],
+            Self::Without(0) => [1..p + 1, 0..q + 1],
+            Self::Without(1) => [0..p.max(1), 0..q + 1],
+            Self::Without(2) => [0..p + 1, 1..q + 1],
+            Self::Without(_) => [0..p + 1, 0..q.max(1)],
+            Self::Side(side @ (0 | 1)) => [end(side == 1, p), 0..q + 1],
+            Self::Side(side) => [0..p + 1, end(side == 3, q)],
             Self::SideWithout(side, [low, high]) => {
-                let along = |degree: usize| usize::from(low)..=degree - usize::from(high);
+                let along = |degree: usize| usize::from(low)..(degree + 1 - usize::from(high)).max(usize::from(low));
                 if side < 2 { [end(side == 1, p), along(q)] } else { [along(p), end(side == 3, q)] }
             }
             Self::Corner(corner) => [end(corner & 1 != 0, p), end(corner & 2 != 0, q)],

@@ -107,13 +107,16 @@ impl<'a> Sampler<'a> {
     /// Why the point that the firmware's search of a list ends with is not the nearest to a probe, as
     /// [`palpate::body::Search`] goes about it.
     fn fault_at(&self, list: &[Candidate], probe: Vec3) -> Option<Fault> {
-        let least = self.starts.nearest(probe)?;
         let mut best = f32::INFINITY;
         let mut left = self.evaluations;
+        let mut least = None;
         for candidate in list {
-            // The nearest first: where it ends near enough, the others can only end nearer.
+            // The nearest first: where it ends near enough, the others can only end nearer, and it mostly does. So the
+            // starts are asked behind it, for what is nearer still.
             self.descended(candidate, probe, &mut best, &mut left);
-            if distance(best) <= least + self.tolerance {
+            let enough = distance(best) - self.tolerance;
+            least = least.or_else(|| self.starts.nearest(enough, probe));
+            if least.is_none_or(|least| least >= enough) {
                 return None;
             }
         }

@@ -38,22 +38,9 @@ impl Starts {
         Self { starts, groups }
     }
 
-    /// The distance of the one that is nearest to a probe, metres; `None` if there are none.
-    pub(super) fn nearest(&self, probe: Vec3) -> Option<f32> {
-        // A good one first: that with the nearest middle.
-        let mut middle: Option<(f32, &Start)> = None;
-        for group in &self.groups {
-            if middle.is_none_or(|(least, _)| group.is_within(least.sqrt(), probe)) {
-                for start in &self.starts[group.starts.clone()] {
-                    let square = start.near.middle.distance_squared(probe);
-                    if middle.is_none_or(|(least, _)| square < least) {
-                        middle = Some((square, start));
-                    }
-                }
-            }
-        }
-        let (_, start) = middle?;
-        let mut nearest = start.near.distance(probe);
+    /// The distance of the one that is nearest to a probe, metres; `None` if none is nearer than `distance`.
+    pub(super) fn nearest(&self, distance: f32, probe: Vec3) -> Option<f32> {
+        let mut nearest = distance;
         for group in &self.groups {
             if group.is_within(nearest, probe) {
                 for start in &self.starts[group.starts.clone()] {
@@ -63,7 +50,7 @@ impl Starts {
                 }
             }
         }
-        Some(nearest)
+        (nearest < distance).then_some(nearest)
     }
 
     /// Those nearer than a distance, with theirs, the nearest first.

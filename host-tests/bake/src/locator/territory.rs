@@ -159,6 +159,6 @@ impl Column<'_> {
 fn products(piece: &Piece) -> impl Iterator<Item = DVec3> {
     let vector = |[_, x, y, z]: &[f64; 4]| DVec3::new(*x, *y, *z);
     let [along_u, along_v] =
-        piece.gradient.each_ref().map(|field| field.on(Part::Inside).map(vector).collect::<Vec<_>>());
+        piece.gradient.each_ref().map(|field| field.on(Part::Inside).flatten().map(vector).collect::<Vec<_>>());
     along_u.into_iter().flat_map(move |u| along_v.clone().into_iter().map(move |v| u.cross(v)))
 }

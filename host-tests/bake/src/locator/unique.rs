@@ -293,7 +293,7 @@ pub(crate) fn is_positive(hessian: &Field<12>, part: Part, probes: &Probes) -> b
         let (uu, vv, uv) = (uu - slack, vv - slack, uv.abs() + slack);
         uu > 0.0 && vv > 0.0 && uu * vv > uv * uv * (1.0 + 4.0 * f64::EPSILON)
     };
-    hessian.on(part).all(|entry| {
+    hessian.on(part).flatten().all(|entry| {
         let [(uu, along_uu), (uv, along_uv), (vv, along_vv)] = [0, 4, 8].map(|first| {
             let along = DVec3::new(entry[first + 1], entry[first + 2], entry[first + 3]);
             (entry[first] - probes.centre.dot(along), probes.half * along)
@@ -329,7 +329,7 @@ impl Query<'_> {
     fn bends(&self, piece: &Piece, part: Part) -> Bends {
         let Field { slack, .. } = piece.hessian;
         let mut bends = Bends { least: [f64::INFINITY; 3], greatest: [f64::NEG_INFINITY; 3] };
-        for coefficients in piece.hessian.on(part) {
+        for coefficients in piece.hessian.on(part).flatten() {
             for entry in 0..3 {
                 let [value, x, y, z] = std::array::from_fn(|c| coefficients[4 * entry + c]);
                 let slope = DVec3::new(x, y, z);
