@@ -3,7 +3,7 @@
 
 use crate::error::ImportError;
 use crate::mesh::{Mesh, Side};
-use crate::part::{Face, Use};
+use crate::part::{Face, Part, Use};
 use crate::path::Path;
 use glam::DVec2;
 
@@ -14,6 +14,12 @@ pub struct Traced {
     pub sides: Vec<Side>,
     /// How often it goes round each parameter.
     pub winding: [i32; 2],
+}
+
+/// Traces loops of a face, uncut; `limit` is how far an edge may lie off its face, millimetres.
+pub fn all(part: &Part, face: usize, loops: &[Vec<Use>], limit: f64) -> Result<Vec<Traced>, ImportError> {
+    let mesh = Mesh::new(part);
+    loops.iter().map(|uses| trace(&mesh, face, uses, limit)).collect()
 }
 
 /// Traces a loop of a face; `limit` is how far an edge may lie off its face, millimetres.

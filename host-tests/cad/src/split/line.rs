@@ -1,0 +1,149 @@
+//! A line of a face's parameters, and where it meets the outline.
+
+use crate::mesh::Side;
+use crate::nurbs::Surface;
+use crate::part::{Part, Use};
+use crate::trace::{self, Traced};
+
+/// What is asked where a line meets the outline.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked {
+    /// The sine of the angle there, at least.
+    pub sine: f64,
+    /// The share of the edge that is left on either side.
+    pub share: f64,
+}
+
+/// Where a line meets the outline.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    /// The edge, as the loop runs along it.
+    pub used: Use,
+    /// The share of the edge.
+    pub share: f64,
+    /// The other parameter there.
+    pub along: f64,
+    /// Whether the loop goes to greater values of the parameter that the line holds: then the face lies beyond, for
+    /// lines along `v`.
+    pub is_rising: bool,
+    /// The sine of the angle between them.
+    pub sine: f64,
+}
+
+/// One line: the value it holds, and its stretches inside the face; none if all of a closed line is inside.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Of the parameter that it holds.
+    pub value: f64,
+    /// Where each begins and ends.
+    pub stretches: Vec<[Crossing; 2]>,
+}
+
+/// Lines that hold one parameter.
+#[derive(Clone, Debug)]
+pub struct Cut {
+    /// The parameter, 0 or 1.
+    pub axis: usize,
+    /// One, or two round a closed parameter.
+    pub lines: Vec<Line>,
+    /// What they cost together.
+    pub cost: f64,
+}
+
+/// A line, if its ends are sound.
+pub fn line(part: &Part, face: usize, loops: &[Traced], axis: usize, value: f64, asked: &Asked) -> Option<Line> {
+    let surface = &part.faces[face].surface;
+    let other = 1 - axis;
+    let mut met = Vec::new();
+    for side in loops.iter().flat_map(|of| &of.sides) {
+        let all = crossings(surface, side, axis, value);
+        let is_sound = |at: &Crossing| {
+            let is_inner =
+                (asked.share..=1.0 - asked.share).contains(&at.share) || part.edges[at.used.edge].is_closed();
+            at.sine >= asked.sine && is_inner
+        };
+        if !all.iter().all(is_sound) || side.wire.is_none() && !all.is_empty() {
+            return None;
+        }
+        met.extend(all);
+    }
+    if met.is_empty() {
+        return whole_line(surface, loops, axis, value).then(|| Line { value, stretches: Vec::new() });
+    }
+    if surface.closed[other] {
+        let [low, high] = surface.range(other);
+        met.iter_mut().for_each(|at| at.along = low + (at.along - low).rem_euclid(high - low));
+    }
+    met.sort_by(|a, b| a.along.total_cmp(&b.along));
+    // Along v the face lies beyond a loop that goes to greater u; along u beyond one that goes to lesser v.
+    let begins = |at: &Crossing| at.is_rising == (axis == 0);
+    if !begins(&met[0]) {
+        if !surface.closed[other] {
+            return None;
+        }
+        let mut last = met.remove(0);
+        last.along += surface.period(other);
+        met.push(last);
+    }
+    if met.len() % 2 == 1 || !met.iter().enumerate().all(|(k, at)| begins(at) == (k % 2 == 0)) {
+        return None;
+    }
+    Some(Line { value, stretches: met.chunks(2).map(|pair| [pair[0], pair[1]]).collect() })
+}
+
+/// Whether a closed line that meets no loop lies in the face.
+fn whole_line(surface: &Surface, loops: &[Traced], axis: usize, value: f64) -> bool {
+    let other = 1 - axis;
+    if !surface.closed[other] {
+        return false;
+    }
+    let winding: Vec<&Traced> = loops.iter().filter(|of| of.winding[other] != 0).collect();
+    if winding.is_empty() {
+        return surface.closed == [true; 2]
+            && loops.iter().all(|of| of.winding == [0, 0] && trace::area(&of.sides) < 0.0);
+    }
+    // Between the loops that go round: beyond one at least, and not beyond all.
+    let beyond = winding.iter().filter(|of| of.sides[0].path.start()[axis] < value).count();
+    // On both sides there is a hole or a pole: from a smooth tube nothing is gained.
+    let holes = || loops.iter().filter(|of| of.winding == [0, 0]);
+    let has_hole = |is_beyond: bool| holes().any(|of| (of.sides[0].path.start()[axis] > value) == is_beyond);
+    let is_pole = |is_beyond: bool| winding.len() == 1 && (beyond == 1) == is_beyond;
+    !surface.closed[axis]
+        && (beyond == 1 || winding.len() == 1)
+        && holes().all(|of| trace::area(&of.sides) < 0.0)
+        && [false, true].into_iter().all(|side| has_hole(side) || is_pole(side))
+}
+
+/// Where a side meets a line, wherever round the surface.
+fn crossings(surface: &Surface, side: &Side, axis: usize, value: f64) -> Vec<Crossing> {
+    const STEPS: usize = 64;
+    let period = surface.period(axis);
+    let at = |k: usize| side.path.at(k as f64 / STEPS as f64)[axis];
+    let turns: Vec<f64> =
+        if surface.closed[axis] { (-3..=3).map(|k| f64::from(k) * period).collect() } else { vec![0.0] };
+    let mut met = Vec::new();
+    for value in turns.into_iter().map(|by| value + by) {
+        for k in 0..STEPS {
+            let (a, b) = (at(k) - value, at(k + 1) - value);
+            if (a < 0.0) == (b < 0.0) {
+                continue;
+            }
+            let (mut low, mut high) = (k as f64 / STEPS as f64, (k + 1) as f64 / STEPS as f64);
+            for _ in 0..50 {
+                let middle = 0.5 * (low + high);
+                if (side.path.at(middle)[axis] < value) == (a < 0.0) { low = middle } else { high = middle }
+            }
+            let t = 0.5 * (low + high);
+            let uv = side.path.at(t);
+            let jet = surface.at(uv);
+            let slope = side.path.slope(t);
+            let [on_side, on_line] = [jet.first[0] * slope.x + jet.first[1] * slope.y, jet.first[1 - axis]];
+            let sine = on_side.cross(on_line).length() / (on_side.length() * on_line.length()).max(f64::MIN_POSITIVE);
+            // A pole is left to the caller to refuse.
+            let (edge, reversed) = side.wire.unwrap_or_default();
+            let share = if reversed { 1.0 - t } else { t };
+            met.push(Crossing { used: Use { edge, reversed }, share, along: uv[1 - axis], is_rising: b > a, sine });
+        }
+    }
+    met
+}
