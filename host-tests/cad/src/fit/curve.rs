@@ -9,6 +9,13 @@ use glam::DVec3;
 
 const SAMPLES: usize = 96;
 const ROUNDS: usize = 12;
+/// The handles at the ends, beside what they are of a curve that runs evenly: of an arc of a quarter 1.05. With longer
+/// ones it runs back.
+const SHORTEST: f64 = 0.02;
+const LONGEST: f64 = 3.0;
+/// Weight of running evenly, beside a distance: where a curve is nearly straight, only this says how long its handles
+/// are, and elsewhere it changes nothing that shows.
+const EVEN: f64 = 1e-3;
 
 /// A curve and how far it is off.
 #[derive(Clone, Debug)]
@@ -76,10 +83,12 @@ pub fn fit_curve(exact: impl Fn(f64) -> [DVec3; 2], ends: [DVec3; 2], degree: us
                 normal.add(&row, off.dot(axis));
             }
         }
+        (0..2).for_each(|end| normal.add(&[(end, EVEN)], EVEN * (handle - x[end])));
         normal.damp(1e-9);
         let Some(step) = normal.solve() else { break };
         let trial: Vec<f64> = x.iter().zip(&step).map(|(value, step)| value + step).collect();
-        if !(trial[0] > 0.02 * handle && trial[1] > 0.02 * handle && trial.iter().all(|value| value.is_finite())) {
+        let is_sound = |trial: &f64| (SHORTEST * handle..=LONGEST * handle).contains(trial);
+        if !(trial[..2].iter().all(is_sound) && trial.iter().all(|value| value.is_finite())) {
             break;
         }
         x = trial;

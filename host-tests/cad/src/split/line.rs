@@ -4,6 +4,7 @@ use crate::mesh::Side;
 use crate::nurbs::Surface;
 use crate::part::{Part, Use};
 use crate::trace::{self, Traced};
+use glam::DVec2;
 
 /// What is asked where a line meets the outline.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +57,7 @@ pub fn line(part: &Part, face: usize, loops: &[Traced], axis: usize, value: f64,
     let other = 1 - axis;
     let mut met = Vec::new();
     for side in loops.iter().flat_map(|of| &of.sides) {
-        let all = crossings(surface, side, axis, value);
+        let all = crossings(part, surface, side, axis, value);
         let is_sound = |at: &Crossing| {
             let is_inner =
                 (asked.share..=1.0 - asked.share).contains(&at.share) || part.edges[at.used.edge].is_closed();
@@ -115,7 +116,7 @@ fn whole_line(surface: &Surface, loops: &[Traced], axis: usize, value: f64) -> b
 }
 
 /// Where a side meets a line, wherever round the surface.
-fn crossings(surface: &Surface, side: &Side, axis: usize, value: f64) -> Vec<Crossing> {
+fn crossings(part: &Part, surface: &Surface, side: &Side, axis: usize, value: f64) -> Vec<Crossing> {
     const STEPS: usize = 64;
     let period = surface.period(axis);
     let at = |k: usize| side.path.at(k as f64 / STEPS as f64)[axis];
@@ -133,8 +134,7 @@ fn crossings(surface: &Surface, side: &Side, axis: usize, value: f64) -> Vec<Cro
                 let middle = 0.5 * (low + high);
                 if (side.path.at(middle)[axis] < value) == (a < 0.0) { low = middle } else { high = middle }
             }
-            let t = 0.5 * (low + high);
-            let uv = side.path.at(t);
+            let (t, uv) = on_edge(part, surface, side, axis, value, 0.5 * (low + high));
             let jet = surface.at(uv);
             let slope = side.path.slope(t);
             let [on_side, on_line] = [jet.first[0] * slope.x + jet.first[1] * slope.y, jet.first[1 - axis]];
@@ -146,4 +146,23 @@ fn crossings(surface: &Surface, side: &Side, axis: usize, value: f64) -> Vec<Cro
         }
     }
     met
+}
+
+/// Where a side's edge itself meets a line, near where its path does, which follows it only about; and the parameters
+/// there. A pole has no edge.
+fn on_edge(part: &Part, surface: &Surface, side: &Side, axis: usize, value: f64, near: f64) -> (f64, DVec2) {
+    let (mut t, mut uv) = (near, side.path.at(near));
+    let Some((edge, reversed)) = side.wire else { return (t, uv) };
+    for _ in 0..8 {
+        let share = if reversed { 1.0 - t } else { t };
+        uv = surface.project(part.edges[edge].at(share)[0], side.path.at(t)).uv;
+        let slope = side.path.slope(t)[axis];
+        let step = (value - uv[axis]) / if slope == 0.0 { f64::INFINITY } else { slope };
+        // Never as far as the next place where they meet.
+        t = (t + step.clamp(-0.01, 0.01)).clamp(0.0, 1.0);
+        if step.abs() < 1e-13 {
+            break;
+        }
+    }
+    (t, uv)
 }
