@@ -2,12 +2,13 @@
 
 use crate::bezier::Bezier;
 use crate::circles::{self, Turns};
+use crate::divide::{self, Turning};
 use crate::error::ImportError;
 use crate::measure::{self, Measured};
 use crate::mesh::{Mesh, Source};
 use crate::part::Part;
 use crate::patches::{self, Made, SHARE_OF_EDGES};
-use crate::{divide, emit, heal, outline, picture, read, report, sew, spheres, split, trace, turn};
+use crate::{emit, heal, outline, picture, read, report, sew, spheres, split, trace, turn};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -137,11 +138,7 @@ fn single(error: ImportError) -> Vec<ImportError> {
 
 /// All that comes after the part is as it should be.
 fn divided(part: &Part, fine: &Fine, options: &Options) -> Result<Imported, Vec<ImportError>> {
-    let mut mesh = outlined(part, fine, options.tolerance).map_err(single)?;
-    divide::balance::balance(&mut mesh);
-    divide::parity::even(&mut mesh).map_err(single)?;
-    divide::divide(&mut mesh)?;
-    let made = patches::make(&mut mesh, options.tolerance)?;
+    let (mesh, made) = fewest(part, fine, options.tolerance)?;
     let measured = measure::measure(&mesh, &made, options.tolerance);
     refuse_far(part, &measured, options.tolerance).map_err(single)?;
     let report = report::lines(&mesh, &made, &measured, options.tolerance);
@@ -150,6 +147,35 @@ fn divided(part: &Part, fine: &Fine, options: &Options) -> Result<Imported, Vec<
     let patch = |(name, made): (String, Made)| Patch { name, surface: made.bezier, flip: part.faces[made.face].flip };
     let patches = emit::names(part, &made).into_iter().zip(made).map(patch).collect();
     Ok(Imported { model, patches, report, picture })
+}
+
+/// The patches of a part. Where quads had to be halved for them, which goes on through all quads on the way, lines that
+/// turn far round a face are avoided in another try; the fewer patches win.
+fn fewest<'p>(part: &'p Part, fine: &Fine, tolerance: f64) -> Result<(Mesh<'p>, Vec<Made>), Vec<ImportError>> {
+    let (quads, mesh, made) = patched(part, fine, tolerance, Turning::Free)?;
+    if made.len() > quads
+        && let Ok((_, other, fewer)) = patched(part, fine, tolerance, Turning::Dear)
+        && fewer.len() < made.len()
+    {
+        return Ok((other, fewer));
+    }
+    Ok((mesh, made))
+}
+
+/// Patches, and how many quads there were before any was halved.
+fn patched<'p>(
+    part: &'p Part,
+    fine: &Fine,
+    tolerance: f64,
+    turning: Turning,
+) -> Result<(usize, Mesh<'p>, Vec<Made>), Vec<ImportError>> {
+    let mut mesh = outlined(part, fine, tolerance).map_err(single)?;
+    divide::balance::balance(&mut mesh);
+    divide::parity::even(&mut mesh).map_err(single)?;
+    divide::divide(&mut mesh, turning)?;
+    let quads = mesh.regions.iter().map(|region| region.quads.len()).sum();
+    let made = patches::make(&mut mesh, tolerance)?;
+    Ok((quads, mesh, made))
 }
 
 fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), ImportError> {

@@ -16,6 +16,15 @@ pub struct Candidate {
     pub cost: f64,
 }
 
+/// Whether it matters how far the surface turns along a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turning {
+    /// It does not.
+    Free,
+    /// A line along which it turns far costs more.
+    Dear,
+}
+
 /// Finds quads, and remembers them.
 pub struct Candidates<'p> {
     /// The region.
@@ -23,14 +32,21 @@ pub struct Candidates<'p> {
     seen: Vec<Vec<usize>>,
     starting: Vec<Vec<usize>>,
     found: HashMap<Edge, Vec<Candidate>>,
+    /// How far the surface turns along a straight line of the plane, radians.
+    turn: &'p dyn Fn(DVec2, DVec2) -> f64,
+    turns: HashMap<[usize; 2], f64>,
 }
 
 /// Lines from one vertex that are tried.
 const LINES: usize = 24;
+/// A line along which the surface turns by more than this, radians, is likely to be cut again; then it costs what so
+/// many patches do for each radian more.
+const EASY_TURN: f64 = 1.7;
+const TURNED: f64 = 2.0;
 
 impl<'p> Candidates<'p> {
     /// Looks which vertices see each other.
-    pub fn new(plane: &'p Plane) -> Self {
+    pub fn new(plane: &'p Plane, turn: &'p dyn Fn(DVec2, DVec2) -> f64) -> Self {
         let count = plane.vertices.len();
         let mut seen = vec![Vec::new(); count];
         for a in 0..count {
@@ -51,7 +67,7 @@ impl<'p> Candidates<'p> {
         for (index, border) in plane.borders.iter().enumerate() {
             starting[border.ends[0]].push(index);
         }
-        Self { plane, seen, starting, found: HashMap::new() }
+        Self { plane, seen, starting, found: HashMap::new(), turn, turns: HashMap::new() }
     }
 
     /// Where an edge begins and ends.
@@ -66,10 +82,22 @@ impl<'p> Candidates<'p> {
     pub fn on(&mut self, edge: Edge) -> &[Candidate] {
         if !self.found.contains_key(&edge) {
             let mut found = self.find(edge);
+            for quad in &mut found {
+                quad.cost += quad.edges.map(|edge| self.turned(edge)).iter().sum::<f64>();
+            }
             found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
             self.found.insert(edge, found);
         }
         &self.found[&edge]
+    }
+
+    /// What a line costs for the turn of the surface along it; a side of the outline has its cuts already.
+    fn turned(&mut self, edge: Edge) -> f64 {
+        let Edge::Line(a, b) = edge else { return 0.0 };
+        let (plane, turn) = (self.plane, self.turn);
+        let along = || turn(plane.vertices[a].point, plane.vertices[b].point);
+        let turn = *self.turns.entry([a.min(b), a.max(b)]).or_insert_with(along);
+        TURNED * (turn - EASY_TURN).max(0.0)
     }
 
     fn find(&self, edge: Edge) -> Vec<Candidate> {

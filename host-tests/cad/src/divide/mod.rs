@@ -16,6 +16,8 @@ mod ring;
 mod steiner;
 pub mod tiling;
 
+pub use candidates::Turning;
+
 use crate::error::ImportError;
 use crate::mesh::{Mesh, Side};
 use corners::Shape;
@@ -24,7 +26,7 @@ use corners::Shape;
 ///
 /// # Errors
 /// All faces that no quads were found for.
-pub fn divide(mesh: &mut Mesh<'_>) -> Result<(), Vec<ImportError>> {
+pub fn divide(mesh: &mut Mesh<'_>, turning: Turning) -> Result<(), Vec<ImportError>> {
     let mut errors = Vec::new();
     for face in 0..mesh.regions.len() {
         close_triangle(mesh, face);
@@ -36,7 +38,7 @@ pub fn divide(mesh: &mut Mesh<'_>) -> Result<(), Vec<ImportError>> {
         };
         let quads = match quads {
             Some(quads) => quads,
-            None => tiling::quads(mesh, face).unwrap_or_else(|error| {
+            None => tiling::quads(mesh, face, turning).unwrap_or_else(|error| {
                 errors.push(error);
                 Vec::new()
             }),

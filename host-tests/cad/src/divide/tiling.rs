@@ -5,12 +5,13 @@
 //! the fewest quads to choose from goes first, and what costs more than the best tiling so far is left. Without points
 //! inside there are `V/2 + h − 1` quads for `V` vertices and `h` holes; each point inside is one more.
 
-use super::candidates::{Candidate, Candidates};
+use super::candidates::{Candidate, Candidates, Turning};
 use super::plane::{Edge, Plane, scale};
 use super::ring::Ring;
 use super::steiner;
 use crate::error::ImportError;
 use crate::mesh::{Mesh, Quad, Side};
+use crate::nurbs::Surface;
 use crate::path::Path;
 use glam::DVec2;
 use std::collections::{HashMap, HashSet};
@@ -28,9 +29,14 @@ const GOOD: f64 = 1.6;
 ///
 /// # Errors
 /// If no tiling was found.
-pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError> {
+pub fn quads(mesh: &mut Mesh<'_>, face: usize, turning: Turning) -> Result<Vec<Quad>, ImportError> {
     let scale = scale(mesh, face);
     let plane = Plane::new(mesh, face, scale);
+    let surface = &mesh.part.faces[face].surface;
+    let turn = |from: DVec2, to: DVec2| match turning {
+        Turning::Free => 0.0,
+        Turning::Dear => turn(surface, from / scale, to / scale),
+    };
     let mut best: Option<(f64, Plane, Vec<Candidate>)> = None;
     let is_large = plane.vertices.len() > LARGE;
     for round in 0..if is_large { 4 } else { 7 } {
@@ -46,7 +52,7 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError>
         };
         trial.vertices.extend(steiner::vertices(points));
         let most = if round == 0 || round > 3 { TRIES } else { TRIES_INSIDE };
-        let found = Search::new(&trial, most).run(best.as_ref().map_or(f64::INFINITY, |(cost, ..)| *cost));
+        let found = Search::new(&trial, most, &turn).run(best.as_ref().map_or(f64::INFINITY, |(cost, ..)| *cost));
         if let Some((cost, quads)) = found {
             let good = cost <= GOOD * quads.len() as f64;
             best = Some((cost, trial, quads));
@@ -58,7 +64,7 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError>
             break;
         }
     }
-    let found = best.map(|(_, plane, found)| (plane, found)).or_else(|| behind_a_ring(&plane));
+    let found = best.map(|(_, plane, found)| (plane, found)).or_else(|| behind_a_ring(&plane, &turn));
     let Some((mut plane, found)) = found else {
         let count = mesh.regions[face].loops.iter().map(Vec::len).sum::<usize>();
         let reason = format!(
@@ -71,8 +77,16 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize) -> Result<Vec<Quad>, ImportError>
     Ok(build(mesh, face, scale, &plane, &found))
 }
 
+/// How far a surface's normal turns along a straight line of its parameters, radians.
+fn turn(surface: &Surface, from: DVec2, to: DVec2) -> f64 {
+    const STEPS: usize = 8;
+    let normal = |k: usize| surface.normal(from.lerp(to, k as f64 / STEPS as f64));
+    let turns = (0..STEPS).map(|k| normal(k).angle_between(normal(k + 1)));
+    turns.filter(|turn| turn.is_finite()).sum()
+}
+
 /// A ring along the outline, and what is left tiled by itself.
-fn behind_a_ring(outline: &Plane) -> Option<(Plane, Vec<Candidate>)> {
+fn behind_a_ring(outline: &Plane, turn: &dyn Fn(DVec2, DVec2) -> f64) -> Option<(Plane, Vec<Candidate>)> {
     for depth in [0.3, 0.2, 0.4, 0.12] {
         let Some(mut ring) = Ring::new(outline, depth) else { continue };
         let bare = ring.within.clone();
@@ -80,7 +94,7 @@ fn behind_a_ring(outline: &Plane) -> Option<(Plane, Vec<Candidate>)> {
             let points = steiner::middles(&bare, inside);
             ring.within = bare.clone();
             ring.within.vertices.extend(steiner::vertices(points));
-            if let Some((_, found)) = Search::new(&ring.within, TRIES).run(f64::INFINITY) {
+            if let Some((_, found)) = Search::new(&ring.within, TRIES, turn).run(f64::INFINITY) {
                 return Some(ring.joined(&found));
             }
         }
@@ -105,8 +119,8 @@ struct State {
 }
 
 impl<'p> Search<'p> {
-    fn new(plane: &'p Plane, most: usize) -> Self {
-        Self { candidates: Candidates::new(plane), tries: 0, most, best: f64::INFINITY, quads: None }
+    fn new(plane: &'p Plane, most: usize, turn: &'p dyn Fn(DVec2, DVec2) -> f64) -> Self {
+        Self { candidates: Candidates::new(plane, turn), tries: 0, most, best: f64::INFINITY, quads: None }
     }
 
     fn run(mut self, bound: f64) -> Option<(f64, Vec<Candidate>)> {
