@@ -87,21 +87,26 @@ fn cost(part: &Part, face: usize, loops: &[Traced], axis: usize, line: &Line) ->
     let all: Vec<Vec<_>> = sides.iter().map(points).collect();
     let far = |first: DVec3| all.iter().flatten().map(move |point| point.distance(first));
     let size = all.first().and_then(|of| of.first()).map_or(1.0, |first| far(*first).fold(f64::MIN_POSITIVE, f64::max));
-    if line.stretches.is_empty() {
-        return 1.5;
-    }
-    let of_stretch = |[from, to]: &[Crossing; 2]| {
-        let on = |k: f64| surface.at(place(from.along + (to.along - from.along) * k / 16.0)).point;
+    // How long a stretch is, and what it costs that it passes by other edges closely: that leaves a strip that no quad
+    // fits into.
+    let passed = |from: f64, to: f64, met: &[usize]| {
+        let on = |k: f64| surface.at(place(from + (to - from) * k / 16.0)).point;
         let stretch: Vec<_> = (0..=16).map(|k| on(f64::from(k))).collect();
         let length = stretch.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() / size;
-        // What it passes by closely leaves a strip that no quad fits into.
-        let met = [from.used.edge, to.used.edge];
         let others = sides.iter().zip(&all).filter(|(side, _)| side.wire.is_none_or(|(edge, _)| !met.contains(&edge)));
         let clear =
             others.flat_map(|(_, points)| points).flat_map(|point| stretch.iter().map(|on| on.distance(*point)));
         let clear = clear.fold(f64::INFINITY, f64::min) / size;
+        (length, 0.2 * length / clear.max(1e-4))
+    };
+    if line.stretches.is_empty() {
+        let [low, high] = surface.range(1 - axis);
+        return 1.5 + passed(low, high, &[]).1;
+    }
+    let of_stretch = |[from, to]: &[Crossing; 2]| {
+        let (length, passed) = passed(from.along, to.along, &[from.used.edge, to.used.edge]);
         let slant = 1.0 - from.sine.min(to.sine);
-        1.0 + length + 3.0 * slant + 0.02 / length.max(1e-3) + 0.2 * length / clear.max(1e-4)
+        1.0 + length + 3.0 * slant + 0.02 / length.max(1e-3) + passed
     };
     line.stretches.iter().map(of_stretch).sum()
 }

@@ -1,10 +1,10 @@
 //! A face in pieces, along lines of its parameters: what is too much to be divided into quads at once.
 //!
 //! A line runs from where it comes into the face to where it leaves it ([`line`]); those stretches become edges of both
-//! pieces, and the edges they meet are cut there in all faces ([`cut`]). Round a closed parameter that the face goes all
-//! about there are two lines. Of many, the line is taken that has few and short stretches, meets the outline squarely
-//! and far from its vertices, passes by nothing closely, and leaves as much on one side as on the other ([`choice`]).
-//! What was one face's loops are the pieces' then ([`pieces`]).
+//! pieces, and the edges they meet are cut there in all faces ([`cut`]). Round a closed parameter that the face goes
+//! all about there are two lines. Of many, the line is taken that has few and short stretches, meets the outline
+//! squarely and far from its vertices, passes by nothing closely, and leaves as much on one side as on the other
+//! ([`choice`]). What was one face's loops are the pieces' then ([`pieces`]).
 
 mod choice;
 mod cut;
