@@ -1,6 +1,6 @@
 //! `palpate demo`: the firmware image on the emulated board, in closed loop with the simulated device.
 
-use super::options::{Scene, SceneOptions};
+use super::options::{RATES, Scene, SceneOptions};
 use super::{progress, sim};
 use crate::budgets::Budget;
 use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
@@ -8,6 +8,7 @@ use crate::report::{Page, Summary, plots, write_page};
 use crate::simulation::{self, Trace};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
+use palpate::servo::Fault;
 use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -54,8 +55,8 @@ struct Run {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let scene = arguments.scene.scene()?;
-    let run = if arguments.host { on_host(arguments, &scene)? } else { on_board(arguments, &scene)? };
+    let mut scene = arguments.scene.scene()?;
+    let run = if arguments.host { on_host(arguments, &scene)? } else { in_time(arguments, &mut scene)? };
     let mut figures = Summary::new(&run.trace).rows();
     figures.extend(run.sizes);
     let subtitle = format!("{} of {}, {}", scene.felt.name(), scene.model_name(), run.on);
@@ -72,6 +73,22 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     println!("  {:<20} {}", "report", arguments.report.display());
     Ok(ExitCode::SUCCESS)
+}
+
+/// On the emulated board at the highest rate at which no tick is too long for it, unless a rate is asked for.
+fn in_time(arguments: &Arguments, scene: &mut Scene) -> anyhow::Result<Run> {
+    let mut run = on_board(arguments, scene)?;
+    let slower = if arguments.scene.rate.is_none() { &RATES[1..] } else { &[] };
+    for rate in slower {
+        let Some((Fault::Overrun, tick)) = Summary::new(&run.trace).fault else { break };
+        eprintln!(
+            "at {} Hz tick {tick} takes longer than the board has: again at {rate} Hz (--rate)",
+            scene.settings.rate
+        );
+        arguments.scene.change_rate(scene, *rate)?;
+        run = on_board(arguments, scene)?;
+    }
+    Ok(run)
 }
 
 /// On the emulated board, or on the host where no emulator can be had.

@@ -20,6 +20,10 @@ use std::path::PathBuf;
 const STIFFNESS: f32 = 1_000.0;
 const DAMPING: f32 = 2.0;
 
+/// Servo rates, Hz: the one that a run has unless asked for another, and those it goes down to where a tick takes
+/// longer.
+pub const RATES: [f32; 4] = [4_000.0, 3_000.0, 2_000.0, 1_000.0];
+
 /// The limits of a loop with a host at its link, which is gone when it is silent for 100 ms.
 const SAFETY: Safety = Safety { link_timeout: 0.1, ..Safety::DEFAULT };
 
@@ -38,9 +42,9 @@ pub struct SceneOptions {
     /// The device, or the file of one's own (my.toml); feeling a surface takes three joints
     #[arg(long, value_parser = devices::parser(), default_value = "woodenhaptics-2016")]
     pub device: &'static ShippedDevice,
-    /// Servo rate, Hz
-    #[arg(long, default_value_t = 4_000.0)]
-    pub rate: f32,
+    /// Servo rate, Hz; 4,000, or what the emulated board has time for if that is less
+    #[arg(long)]
+    pub rate: Option<f32>,
     /// Seconds to simulate
     #[arg(long, default_value_t = 5.0)]
     pub seconds: f64,
@@ -104,7 +108,7 @@ impl SceneOptions {
         }
         let limits = device.preset.limits();
         let settings = Settings {
-            rate: self.rate,
+            rate: self.rate.unwrap_or(RATES[0]),
             stiffness: self.stiffness.unwrap_or(STIFFNESS.min(limits.stiffness)),
             damping: self.damping.unwrap_or(DAMPING.min(limits.damping)),
             max_force: self.max_force,
@@ -115,13 +119,28 @@ impl SceneOptions {
         settings
             .check(limits.stiffness, limits.damping)
             .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
-        let ticks = self.seconds * f64::from(self.rate);
+        let [ticks, enable_at] = self.ticks(settings.rate)?;
+        Ok(Scene { file, centre: model.centre, felt, device, settings, ticks, enable_at })
+    }
+
+    /// How many ticks to run at a rate, Hz, and at which of them force is asked for.
+    fn ticks(&self, rate: f32) -> anyhow::Result<[u32; 2]> {
+        let ticks = self.seconds * f64::from(rate);
         if !(ticks >= 1.0 && ticks <= f64::from(u32::MAX)) {
-            bail!("--seconds {} at --rate {} is not a number of ticks that can be run", self.seconds, self.rate);
+            bail!("--seconds {} at --rate {rate} is not a number of ticks that can be run", self.seconds);
         }
         // A tenth of a second in standby, in which the witness point converges from the middle of the patch.
-        let enable_at = (0.1 * self.rate) as u32;
-        Ok(Scene { file, centre: model.centre, felt, device, settings, ticks: ticks as u32, enable_at })
+        Ok([ticks as u32, (0.1 * rate) as u32])
+    }
+
+    /// Takes a scene to another rate, Hz.
+    ///
+    /// # Errors
+    /// If that is no number of ticks that can be run.
+    pub fn change_rate(&self, scene: &mut Scene, rate: f32) -> anyhow::Result<()> {
+        [scene.ticks, scene.enable_at] = self.ticks(rate)?;
+        scene.settings.rate = rate;
+        Ok(())
     }
 
     /// The simulated device with a hand that touches the scene's surface.
@@ -173,7 +192,7 @@ impl SceneOptions {
                 )
             })?
             .context("the hand finds no path")?;
-        Plant::new(&self.device.plant, HandSettings::default(), Box::new(path), f64::from(self.rate))
+        Plant::new(&self.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate))
             .context("the simulated device cannot start here (move the model with --at)")
     }
 }
