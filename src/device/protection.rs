@@ -12,12 +12,30 @@ pub struct Endurance {
 }
 
 /// The supply voltages within which force is given.
+///
+/// Two may look at it, each in its way. A servo that is guarded makes a fault of a supply that is out of its range, or
+/// that nobody measures: a fault is latched. The loop of the boards for the bench *holds*: without a supply the motors
+/// are off, and force comes back softly once the supply is there and enable was released, for an emergency stop takes
+/// the supply away without anything being wrong. It takes a servo without a guard, so that only one of the two looks;
+/// its range is told in its own settings, and nowhere else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SupplyRange {
     /// Millivolts.
     pub least: u32,
     /// Millivolts: above it a braking hand has pumped the supply up.
     pub most: u32,
+}
+
+impl SupplyRange {
+    /// Of a supply of 24 V that is on, does not break down, and is not pumped up.
+    pub const TWENTY_FOUR: Self = Self { least: 20_000, most: 30_000 };
+
+    /// Whether a voltage is within, V. One that is not a number is not.
+    #[inline]
+    pub fn holds(self, volts: f32) -> bool {
+        let millivolts = volts * 1e3;
+        self.least as f32 <= millivolts && millivolts <= self.most as f32
+    }
 }
 
 /// When an encoder counts as mounted against its motor; see `servo/guard/sign.rs` for what is watched.

@@ -1,12 +1,16 @@
 //! What keeps the motors off although nothing is wrong with the loop.
 
-use crate::{Panel, Settings, SupplyRange};
+use crate::{Panel, Settings};
+use palpate::device::SupplyRange;
 use palpate::wire::hold;
 
 /// Ticks in a row for which the supply must be out of its range: a single reading may be noise of the motors.
 const SUPPLY_TICKS: u32 = 4;
 
 /// Looks at the panel, tick by tick.
+///
+/// A supply that is out of its range is no fault either: an emergency stop takes it away. (Where a servo guards itself,
+/// without this loop, it is: see [`SupplyRange`].)
 ///
 /// An amplifier that is not ready is no fault by itself: it may have no supply yet, or stop has been pressed. Where it
 /// was driving, stop or the supply must say so within a moment, for contactors are slow and capacitors hold; otherwise
@@ -71,7 +75,7 @@ impl Hold {
 
     fn is_out_of_range(&mut self, volts: Option<f32>) -> bool {
         let Some(range) = self.supply else { return false };
-        let within = volts.is_some_and(|volts| range.least <= volts && volts <= range.most);
+        let within = volts.is_some_and(|volts| range.holds(volts));
         self.out_of_range = if within { 0 } else { self.out_of_range.saturating_add(1) };
         self.out_of_range >= SUPPLY_TICKS
     }

@@ -67,4 +67,4 @@ pub use lines::{Divider, Lines, NoSupply, Supply};
 pub use mailbox::Mailbox;
 pub use parts::{Parts, Timer};
 pub use reset::{Cause, Memo, ResetFlags};
-pub use settings::{Settings, SupplyRange};
+pub use settings::Settings;

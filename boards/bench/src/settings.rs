@@ -1,20 +1,7 @@
 //! What is chosen about the loop of a board, beside the servo's own settings.
 
+use palpate::device::SupplyRange;
 use palpate::servo::FrameBridge;
-
-/// Between which voltages the motors' supply is believed to be on, V.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SupplyRange {
-    /// Below it the supply is off, or breaks down under load.
-    pub least: f32,
-    /// Above it braking motors have charged it up.
-    pub most: f32,
-}
-
-impl SupplyRange {
-    /// A supply of 24 V that is on, and does not break down.
-    pub const TWENTY_FOUR: Self = Self { least: 20.0, most: 30.0 };
-}
 
 /// The settings of the loop. Begin with [`Settings::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +12,8 @@ pub struct Settings {
     pub ticks_per_record: u32,
     /// How many bad sensor frames in a row are bridged by the velocity estimate; one more is a fault. 0 bridges none.
     pub bad_frames: u32,
-    /// The motors' supply; `None` does not watch it.
+    /// The motors' supply, told here and nowhere else; `None` does not watch it. While it is out of its range the
+    /// motors are held off, which is no fault.
     pub supply: Option<SupplyRange>,
     /// Seconds within which the stop input or the supply must say why an amplifier that was driving is no longer ready.
     /// The motors are off meanwhile; after it, it is the amplifier's own fault.

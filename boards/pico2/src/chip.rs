@@ -52,12 +52,17 @@ pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> (ResetFlags, Memo) {
     (flags, of_this_reset)
 }
 
+/// Takes the motors' power away, by the register. Before anything else too: a reset of the core alone leaves the level
+/// as it was, and a pin that becomes an output shows it.
+pub fn motors_off() {
+    // SAFETY: a write that clears one bit, whoever uses the others.
+    unsafe { (*SIO::ptr()).gpio_out_clr().write(|w| w.bits(1 << ENABLE_PIN)) };
+}
+
 #[unsafe(no_mangle)]
 fn palpate_motors_off(cause: Cause) {
-    // SAFETY: nothing else runs on this core any more; the writes take power away and light the light.
-    unsafe {
-        (*SIO::ptr()).gpio_out_clr().write(|w| w.bits(1 << ENABLE_PIN));
-        (*SIO::ptr()).gpio_out_set().write(|w| w.bits(1 << LIGHT_PIN));
-    }
+    motors_off();
+    // SAFETY: nothing else runs on this core any more; it lights the light.
+    unsafe { (*SIO::ptr()).gpio_out_set().write(|w| w.bits(1 << LIGHT_PIN)) };
     remember(cause);
 }

@@ -19,10 +19,11 @@ mod supply;
 mod ticks;
 
 use cortex_m::peripheral::NVIC;
+use palpate::device::SupplyRange;
 use palpate::device::drive::HBridge;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Angles, greatest_step};
-use palpate_bench::{Cause, CycleDelay, Lines, Parts, Settings, SupplyRange, Switched};
+use palpate_bench::{Cause, CycleDelay, Lines, Parts, Settings, Switched};
 use palpate_cortex::Cycles;
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock, init_clocks_and_plls};
@@ -57,6 +58,7 @@ fn main() -> ! {
     let (Some(mut core), Some(mut chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
+    chip::motors_off();
     let (flags, memo) = chip::reset(&chip.WATCHDOG, &chip.POWMAN);
     let reset = flags.reason(memo);
     let sio = Sio::new(chip.SIO);

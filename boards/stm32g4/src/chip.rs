@@ -50,14 +50,21 @@ pub fn start(rcc: RCC, power: PWR, flash: &FLASH) -> (Rcc, ResetFlags) {
     (rcc, flags)
 }
 
-#[unsafe(no_mangle)]
-fn palpate_motors_off(cause: Cause) {
-    // SAFETY: nothing else runs any more; each write takes power away or lights the light.
+/// Takes the motors' power away, by the registers. Before anything else too: a debugger may have reset the core alone,
+/// and the pins are as they were.
+pub fn motors_off() {
+    // SAFETY: nobody else uses them meanwhile; each write takes power away.
     unsafe {
         // The three enable pins low, and every output of the timer off.
         (*GPIOC::ptr()).bsrr().write(|w| w.br0().set_bit().br1().set_bit().br2().set_bit());
         (*TIM1::ptr()).bdtr().modify(|_, w| w.moe().clear_bit());
-        (*GPIOA::ptr()).bsrr().write(|w| w.bs5().set_bit());
     }
+}
+
+#[unsafe(no_mangle)]
+fn palpate_motors_off(cause: Cause) {
+    motors_off();
+    // SAFETY: nothing else runs any more; it lights the light.
+    unsafe { (*GPIOA::ptr()).bsrr().write(|w| w.bs5().set_bit()) };
     MEMO.write(Memo::new(cause));
 }

@@ -27,9 +27,10 @@ mod ticks;
 
 use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
+use palpate::device::SupplyRange;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Counters, greatest_step};
-use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Settings, SupplyRange};
+use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Settings};
 use palpate_cortex::Cycles;
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
@@ -65,6 +66,7 @@ fn main() -> ! {
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
+    chip::motors_off();
     let (mut rcc, flags) = chip::start(chip.RCC, chip.PWR, &chip.FLASH);
     let reset = flags.reason(MEMO.read());
     let cycles = Cycles::start(&mut core.DCB, core.DWT);

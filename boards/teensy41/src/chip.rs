@@ -32,19 +32,28 @@ pub fn reset() -> (ResetFlags, Memo) {
     // Bits as the reference manual numbers them ("SRC Reset Status Register").
     let flags = ResetFlags {
         power: is_set(0),
-        // Asked for, or the core locked up: a program that hung is the safer reading.
-        watchdog: is_set(1) || is_set(4) || is_set(7),
+        // Asked for, or the core locked up: a program that hung is the safer reading. So it is where the chip stopped
+        // itself, by its security unit or because it was too hot.
+        watchdog: [1, 2, 4, 7, 8].into_iter().any(is_set),
         pin: is_set(3) || is_set(5) || is_set(6),
         ..ResetFlags::default()
     };
     (flags, memo)
 }
 
-#[unsafe(no_mangle)]
-fn palpate_motors_off(cause: Cause) {
-    // SAFETY: nothing else runs any more; the writes take power away and light the light.
+/// Takes the motors' power away, by the register. Before anything else too: a reset of the core alone leaves the levels
+/// as they were, and a pin that becomes an output shows it.
+pub fn motors_off() {
+    // SAFETY: a write that clears three bits, whoever uses the others.
     let port = unsafe { GPIO1::instance() };
     write_reg!(imxrt_ral::gpio, port, DR_CLEAR, ENABLE_BITS);
+}
+
+#[unsafe(no_mangle)]
+fn palpate_motors_off(cause: Cause) {
+    motors_off();
+    // SAFETY: nothing else runs any more; it lights the light.
+    let port = unsafe { GPIO1::instance() };
     write_reg!(imxrt_ral::gpio, port, DR_SET, LIGHT_BIT);
     remember(cause);
 }

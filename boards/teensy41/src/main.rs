@@ -21,10 +21,11 @@ mod watchdog;
 
 use cortex_m::peripheral::NVIC;
 use imxrt_rt::{entry, interrupt};
+use palpate::device::SupplyRange;
 use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Angles, greatest_step};
-use palpate_bench::{Cause, CycleDelay, Lines, Parts, Settings, SupplyRange};
+use palpate_bench::{Cause, CycleDelay, Lines, Parts, Settings};
 use palpate_cortex::Cycles;
 use teensy4_bsp::board::{self, ARM_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
@@ -61,6 +62,7 @@ fn main() -> ! {
     let Some(mut core) = cortex_m::Peripherals::take() else {
         panic!("the peripherals are taken here and nowhere else")
     };
+    chip::motors_off();
     let (flags, memo) = chip::reset();
     let reset = flags.reason(memo);
     let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, .. } =

@@ -3,6 +3,7 @@
 
 pub mod baselines;
 pub mod body_oracle;
+pub mod dunes;
 pub mod generate;
 pub mod locating;
 pub mod measured;

@@ -1,8 +1,8 @@
 //! Stop, ready lines and supply: what keeps the motors off, and how force comes back.
 
 use crate::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
-use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::device::{SerialArm, SupplyRange};
 use palpate::servo::{Fault, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
 use palpate::wire::hold;
@@ -116,6 +116,18 @@ fn a_supply_that_dips_takes_force_away_and_a_single_reading_does_not() {
         rig.ticks(1);
         assert!(!rig.is_off());
     }
+}
+
+#[test]
+fn the_supply_is_believed_from_its_least_to_its_most_volt_and_nothing_else_is() {
+    let range = SupplyRange::TWENTY_FOUR;
+    for volts in [20.0, 24.0, 30.0] {
+        assert!(range.holds(volts), "{volts} V");
+    }
+    for volts in [19.99, 30.01, 0.0, -24.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        assert!(!range.holds(volts), "{volts} V");
+    }
+    assert_eq!(settings().supply, Some(range));
 }
 
 #[test]

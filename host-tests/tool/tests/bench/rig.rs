@@ -3,14 +3,14 @@
 use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
 use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
 use palpate::device::drive::{SetPointDrive, SetPointRange};
-use palpate::device::{Counts, Kinematics};
+use palpate::device::{Counts, Kinematics, SupplyRange};
 use palpate::math::vec3;
 use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
 use palpate::servo::{Fault, Phase, ResetReason, Servo, ServoState};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, greatest_step};
-use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, SupplyRange, Timer};
+use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
 use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::cell::RefCell;
 use std::convert::Infallible;

@@ -6,7 +6,7 @@ use palpate_tool::cache;
 use palpate_tool::firmware::{BenchBoard, Place, Progress, build_bench, report};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A board's image lies in one place, whatever its body: who builds one reads it before the next is built.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
@@ -29,16 +29,24 @@ const fn fast(board: BenchBoard) -> [u64; 2] {
     }
 }
 
-#[test]
-fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest() {
-    if !is_wanted("the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest") {
-        return;
-    }
-    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+/// Builds each board with its own body, and looks at its image.
+fn on_every_board(test: &str, look: impl Fn(BenchBoard, &object::File<'_>)) {
+    let Some(_guard) = alone(test) else { return };
     for board in BenchBoard::ALL {
         let elf = build_bench(board, None, &Progress::new()).unwrap();
         let content = fs::read(&elf).unwrap();
-        let file = object::File::parse(content.as_slice()).unwrap();
+        look(board, &object::File::parse(content.as_slice()).unwrap());
+    }
+}
+
+/// The right to build boards, if they are to be built.
+fn alone(test: &str) -> Option<MutexGuard<'static, ()>> {
+    is_wanted(test).then(|| ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner))
+}
+
+#[test]
+fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest() {
+    on_every_board("the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest", |board, file| {
         let functions: Vec<(String, u64, u64)> = file
             .symbols()
             .filter(|symbol| symbol.kind() == object::SymbolKind::Text && symbol.size() > 0)
@@ -65,7 +73,7 @@ fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest(
         let main = functions.iter().filter(|(name, ..)| name.contains("cortex_m_rt_main")).map(|(.., size)| size);
         let main: u64 = main.sum();
         assert!(main > 4_000, "{board:?}: a main of {main} bytes never comes to its loop");
-    }
+    });
 }
 
 /// The numbers of a line of a memory map: name, first address, bytes.
@@ -107,18 +115,19 @@ fn a_body_lies_in_the_fastest_memory_while_it_fits_then_in_flash_and_is_refused_
 
 #[test]
 fn every_board_takes_a_small_body_and_a_large_one_and_the_tables_lie_where_it_says() {
-    if !is_wanted("every_board_takes_a_small_body_and_a_large_one_and_the_tables_lie_where_it_says") {
-        return;
-    }
-    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let test = "every_board_takes_a_small_body_and_a_large_one_and_the_tables_lie_where_it_says";
+    let Some(_guard) = alone(test) else { return };
     let folder = tempfile::tempdir().unwrap();
-    for name in ["capped_box", "teapot"] {
+    let dunes = folder.path().join("dunes.toml");
+    fs::write(&dunes, palpate_truth::dunes::dunes(10)).unwrap();
+    for (name, least) in [(Path::new("capped_box"), 0), (dunes.as_path(), 230 << 10)] {
         let (file, tables) = baked(name, folder.path());
+        assert!(tables >= least, "{tables} bytes of tables");
         for board in BenchBoard::ALL {
             let place = board.place(tables).unwrap();
             let elf = build_bench(board, Some((&file, place)), &Progress::new()).unwrap();
             let said = report(board, &elf).unwrap();
-            println!("{} {name}\n{said}", board.name());
+            println!("{} {}\n{said}", board.name(), name.display());
             let lines: Vec<&str> = said.lines().filter(|line| line.contains("  tables")).collect();
             let in_flash = lines.iter().any(|line| line.contains("FLASH"));
             assert_eq!(in_flash, place == Place::Flash, "{board:?}: {said}");
@@ -130,13 +139,13 @@ fn every_board_takes_a_small_body_and_a_large_one_and_the_tables_lie_where_it_sa
     }
 }
 
-/// A shipped model's baked source, and the bytes of its tables.
-fn baked(name: &str, folder: &Path) -> (PathBuf, u64) {
-    let file = palpate_tool::models::ModelFile::read(Path::new(name)).unwrap();
+/// A model's baked source, and the bytes of its tables.
+fn baked(name: &Path, folder: &Path) -> (PathBuf, u64) {
+    let file = palpate_tool::models::ModelFile::read(name).unwrap();
     let model = file.model().unwrap();
     let body = palpate_bake::BakedBody::new(&model, &file.label).unwrap();
     let body = cache::located(body.clone(), &file.text, &body.locator_options(), None, &|_, _| ()).unwrap();
-    let out_file = format!("{name}.rs");
+    let out_file = format!("{}.rs", name.file_stem().unwrap().to_string_lossy());
     let origin = palpate_bake::source::Origin {
         model_file: &file.name,
         out_file: &out_file,
@@ -150,14 +159,7 @@ fn baked(name: &str, folder: &Path) -> (PathBuf, u64) {
 
 #[test]
 fn every_vector_of_a_board_is_its_tick_its_start_or_a_stop() {
-    if !is_wanted("every_vector_of_a_board_is_its_tick_its_start_or_a_stop") {
-        return;
-    }
-    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-    for board in BenchBoard::ALL {
-        let elf = build_bench(board, None, &Progress::new()).unwrap();
-        let content = fs::read(&elf).unwrap();
-        let file = object::File::parse(content.as_slice()).unwrap();
+    on_every_board("every_vector_of_a_board_is_its_tick_its_start_or_a_stop", |board, file| {
         let address = |name: &str| {
             let symbol = file.symbols().find(|symbol| symbol.name() == Ok(name));
             symbol.map(|symbol| symbol.address() | 1)
@@ -175,5 +177,5 @@ fn every_vector_of_a_board_is_its_tick_its_start_or_a_stop() {
             let known = vector == 0 || stops.contains(&vector) || [tick, reset].contains(&vector);
             assert!(known, "{board:?}: vector {number} leads to {vector:#x}");
         }
-    }
+    });
 }
