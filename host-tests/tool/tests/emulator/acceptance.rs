@@ -119,7 +119,7 @@ fn a_late_tick_is_found() {
         let program = accept::prepared(board, &["planted-late"]).unwrap();
         let (status, report) = accepted(board, &program.image.elf);
         // One tick of a thousand, by 12 or 15 of 250 microseconds.
-        let expected = vec!["rate".to_owned(), "jitter".to_owned()];
+        let expected = ["rate".to_owned(), "jitter".to_owned()];
         let failed = failed(&report);
         assert!(status == Some(1) && failed.contains(&"jitter".to_owned()), "{report}");
         assert!(failed.iter().all(|name| expected.contains(name)), "{report}");
