@@ -10,3 +10,4 @@ mod phases;
 mod pins;
 mod reset;
 mod rig;
+mod set_up;
