@@ -4,8 +4,11 @@
 //! [`Motor`] → [`drive`]. [`Homing`] finds out where the joints are to begin with. A new device is a [`Kinematics`] and
 //! a preset in [`presets`]; one, two and three joints are alike to the servo.
 
+mod cogging;
+mod commutation;
 mod delta;
 mod device_error;
+mod dial;
 pub mod drive;
 mod encoder;
 mod five_bar;
@@ -20,11 +23,16 @@ pub mod sensor;
 mod serial_arm;
 mod velocity;
 
+pub use cogging::CoggingMap;
+pub use commutation::{Aligned, Commutation, ElectricalAngle};
 pub use delta::Delta;
 pub use device_error::DeviceError;
+pub use dial::Dial;
 pub use encoder::{Counts, Encoder};
 pub use five_bar::FiveBar;
-pub use homing::{Homing, HomingError, HomingInput, HomingProgress, HomingState, Reference, Refusal, StopSearch};
+pub use homing::{
+    FieldSearch, Homing, HomingError, HomingInput, HomingProgress, HomingState, Reference, Refusal, StopSearch,
+};
 pub use linkage_arm::{LinkMass, LinkageArm};
 pub use motor::{Duty, Motor};
 pub use paddle::Paddle;

@@ -3,10 +3,11 @@
 //! [`crate::track::Contact`] says whether the surface is touched. [`Penalty`] says how it pushes back, [`Friction`] how
 //! it holds along the surface, [`Texture`] what is added; [`Coupling`] puts a virtual tool between probe and surface.
 //! Then the force passes the limits of [`limit`] and, if asked for, [`Passivity`]. [`bounds`] says beforehand what a
-//! device can bear; [`Detents`] is for devices with one joint.
+//! device can bear; [`Feel`] is what a dial feels like, with [`Detents`] that click.
 
 pub mod bounds;
 mod coupling;
+mod feel;
 mod friction;
 mod knob;
 pub mod limit;
@@ -15,6 +16,7 @@ mod penalty;
 mod texture;
 
 pub use coupling::{Coupling, Tool};
+pub use feel::{Ends, Feel, FeelError, Spring, Wave};
 pub use friction::{Anchor, Friction};
 pub use knob::{Detents, DetentsError};
 pub use passivity::{Energy, Motion, Passivity};

@@ -185,6 +185,11 @@ pub enum Event {
     /// Somebody has looked at the device after a reset that is a fault, and wants it to go on: takes back
     /// [`Fault::WatchdogReset`] and [`Fault::BrownOut`], and nothing else. The loop begins anew.
     Acknowledged,
+    /// Somebody has chosen what is felt, where there is a choice ([`super::Knob`]).
+    Chosen {
+        /// Which, counted from 0.
+        index: u8,
+    },
     /// The motors' supply was measured. A loop that is not protected takes no notice.
     Supply {
         /// What was measured.

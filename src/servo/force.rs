@@ -20,6 +20,9 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         if let Some(fading) = self.fading(state) {
             surface += fading;
         }
+        if let Some(own) = self.surface.own_force(&state.witness) {
+            surface += own;
+        }
         let felt = match &self.rendering.coupling {
             None => surface,
             Some(coupling) => {

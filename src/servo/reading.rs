@@ -1,7 +1,7 @@
 //! Read access to the whole state, at no cost. Only the loop writes it.
 
 use super::{Fault, Phase, ResetReason, Servo, ServoState, Settings, TableCheck, Tracked};
-use crate::device::{Counts, Device, Duty, HomingState};
+use crate::device::{Counts, Device, Duty, ElectricalAngle, HomingState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Tool};
 use crate::track::Contact;
@@ -20,6 +20,13 @@ impl<'a, S, K, const JOINTS: usize, G> Servo<'a, S, K, JOINTS, G> {
             Some(homing) => homing.drives(),
             None => false,
         }
+    }
+
+    /// Where the field of each motor is to be for the duties that the state now has; `None` for motors that do not have
+    /// three phases ([`crate::device::Reference::Fields`]), and before the first good counts.
+    #[inline]
+    pub fn fields<W, H>(&self, state: &ServoState<JOINTS, W, H>) -> Option<[ElectricalAngle; JOINTS]> {
+        self.homing.as_ref()?.fields(&state.homing, state.counts?)
     }
 
     /// Its device.

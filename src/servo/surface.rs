@@ -25,6 +25,16 @@ pub trait Surface {
         false
     }
 
+    /// A force of its own on the probe, N, which needs no contact: that of a dial's detents. The loop treats it as it
+    /// treats a surface's.
+    #[inline]
+    fn own_force(&self, _: &Self::Witness) -> Option<Vec3> {
+        None
+    }
+
+    /// Somebody has chosen another of what it can feel like ([`super::Event::Chosen`]).
+    fn choose(&self, _: &mut Self::Witness, _: u8) {}
+
     /// A word of the tables, for the check that flash still holds what was baked; `None` past the end of the cursor's
     /// record, and of the tables. Bounded work.
     fn table_word(&self, cursor: TableCursor) -> Option<u32>;

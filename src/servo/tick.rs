@@ -62,6 +62,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
                     self.begin_anew(state);
                 }
             }
+            Event::Chosen { index } => self.surface.choose(&mut state.witness, index),
             Event::Supply { millivolts } => {
                 if let Err(fault) = self.guard.measured(&mut state.guard, millivolts) {
                     stop(state, fault);

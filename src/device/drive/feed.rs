@@ -22,7 +22,8 @@ impl Feed {
     }
 }
 
-/// A brushed motor on a voltage: `V = R i + k N q̇`, with the back-EMF constant equal to the torque constant `k` (SI).
+/// A brushed motor on a voltage, or one with three phases as its rotor sees it: `V = R i + k N q̇`, with the back-EMF
+/// constant equal to the torque constant `k` (SI).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VoltageFeed {
     /// Voltage at full duty of the bridge, V.
@@ -41,6 +42,25 @@ pub struct VoltageFeed {
 }
 
 impl VoltageFeed {
+    /// The feed of a motor with three phases on a [`super::ThreePhase`] stage.
+    ///
+    /// Seen from its rotor such a motor is a brushed one: `v = R i + k ω` and `τ = k i` across the magnets, with the
+    /// scale of Park's transformation that keeps the power (R. H. Park, *Two-reaction theory of synchronous machines*,
+    /// 1929). In that scale the stage's full voltage is `supply/√2`, `phase_resistance` is that of one phase, half of
+    /// what is measured between two wires, and `k` follows from the speed at which the motor, turned, gives a volt
+    /// between two wires, `rpm_per_volt` (KV): `k = 30/(π KV √2)`. Along the magnets there is no voltage, and at a
+    /// dial's speeds next to no current either.
+    pub const fn three_phase(supply: f32, phase_resistance: f32, rpm_per_volt: f32, current_at_full: f32) -> Self {
+        Self {
+            supply: supply * core::f32::consts::FRAC_1_SQRT_2,
+            resistance: phase_resistance,
+            torque_constant: 30.0 / (core::f32::consts::PI * rpm_per_volt) * core::f32::consts::FRAC_1_SQRT_2,
+            current_at_full,
+            ratio: 1.0,
+            back_emf_share: 0.8,
+        }
+    }
+
     /// The bridge's duty for a duty of torque at a joint rate, rad/s. Beyond the supply it is full scale; at a rate
     /// that is not finite it is zero. The inductance is left out: it delays the torque by L/R, about one tick.
     #[inline]

@@ -2,23 +2,30 @@
 //!
 //! A [`Duty`] is a fraction of full torque. A current-controlled amplifier takes it as it is ([`SetPointDrive`]); a
 //! bare bridge gives a voltage ([`HBridge`]), so the duty goes through a [`VoltageFeed`] before, which makes up for
-//! resistance and back-EMF.
+//! resistance and back-EMF. Three bridges that make the field of a motor with three phases ([`ThreePhase`]) are fed the
+//! same way, and told besides where the field is to be.
 
 mod direction;
 mod feed;
+mod field;
 mod h_bridge;
+mod modulation;
 mod no_pin;
 mod set_point;
 mod set_point_range;
+mod three_phase;
 
 use direction::Direction;
 pub use feed::{Feed, VoltageFeed};
+pub use field::Field;
 pub use h_bridge::HBridge;
+pub use modulation::Modulation;
 pub use no_pin::NoPin;
 pub use set_point::SetPointDrive;
 pub use set_point_range::{SetPointRange, SetPointRangeError};
+pub use three_phase::ThreePhase;
 
-use super::Duty;
+use super::{Duty, ElectricalAngle};
 use thiserror::Error;
 
 /// Why a drive did not take a command. `W` is the error of the pulse-width output, `P` of the pin.
@@ -31,8 +38,8 @@ pub enum DriveError<W, P> {
     /// The enable pin, or a bridge's direction pin.
     #[error("the pin failed")]
     Pin(P),
-    /// The direction pin of an amplifier.
-    #[error("the direction pin failed")]
+    /// The direction pin of an amplifier, or nobody has said where the field is to be.
+    #[error("the direction failed")]
     Direction,
 }
 
@@ -40,6 +47,9 @@ pub enum DriveError<W, P> {
 pub trait Drive {
     /// What can go wrong at the pins.
     type Error;
+
+    /// Where the field is that the duties from now on make. A motor that has no phases takes no notice.
+    fn aim(&mut self, _: ElectricalAngle) {}
 
     /// Drives the motor at a duty.
     ///

@@ -1,14 +1,18 @@
 //! Where the joints are to begin with: from raw counts to calibrated encoders.
 
+mod field_search;
 mod refusal;
 mod state;
 mod stop_search;
 
+pub use field_search::FieldSearch;
 pub use refusal::Refusal;
 pub use state::HomingState;
 pub use stop_search::StopSearch;
 
-use super::{Counts, Encoder};
+use super::{Aligned, Counts, ElectricalAngle, Encoder};
+use field_search::{Led, Sweep};
+use state::Stage;
 use stop_search::{Joint, Search, Seek};
 use thiserror::Error;
 
@@ -31,6 +35,10 @@ pub enum Reference<const JOINTS: usize> {
     Index([f32; JOINTS]),
     /// The motors drive one joint after the other to its end stop, while the others hang free.
     Stops([StopSearch; JOINTS]),
+    /// The motors have three phases, and lead one joint after the other round with their fields: how each rotor stands
+    /// to its field is found out, and [`Homing::fields`] says from then on where each field is to be. The joints'
+    /// angles stay what the encoders say.
+    Fields([FieldSearch; JOINTS]),
 }
 
 /// How a device finds its joint angles. Constant, in flash.
@@ -60,6 +68,9 @@ pub enum HomingError {
     /// The time allowed is too short to hold still in.
     #[error("the timeout is not longer than the time to hold still")]
     TimeoutTicks,
+    /// A search for a field has a number that makes no sense, or takes longer than is allowed.
+    #[error("a search for a field needs a positive torque, times, pole pairs, and more time than it takes")]
+    Field,
 }
 
 /// What a tick of homing starts from.
@@ -117,6 +128,11 @@ impl<const JOINTS: usize> Homing<JOINTS> {
                         return Err(HomingError::Stop);
                     }
                 }
+                Reference::Fields(searches) => {
+                    if !searches[joint].is_valid() || searches[joint].ticks() >= timeout_ticks {
+                        return Err(HomingError::Field);
+                    }
+                }
             }
             joint += 1;
         }
@@ -146,11 +162,12 @@ impl<const JOINTS: usize> Homing<JOINTS> {
             Err(HomingError::StillTicks) => panic!("still_ticks"),
             Err(HomingError::Stop) => panic!("a search for a stop"),
             Err(HomingError::TimeoutTicks) => panic!("timeout_ticks"),
+            Err(HomingError::Field) => panic!("a search for a field"),
         }
     }
 
-    /// The same, which goes on only while force is asked for, as a search for stops does anyway: whoever holds the
-    /// device in its reference pose says so with the enable button.
+    /// The same, which goes on only while force is asked for, as a search for stops or fields does anyway: whoever
+    /// holds the device in its reference pose says so with the enable button.
     pub const fn when_asked(self) -> Self {
         Self { when_asked: true, ..self }
     }
@@ -162,7 +179,7 @@ impl<const JOINTS: usize> Homing<JOINTS> {
 
     /// Whether the motors move the joints.
     pub const fn drives(&self) -> bool {
-        matches!(self.reference, Reference::Stops(_))
+        matches!(self.reference, Reference::Stops(_) | Reference::Fields(_))
     }
 
     /// One tick. Once done or refused, nothing changes any more.
@@ -187,6 +204,8 @@ impl<const JOINTS: usize> Homing<JOINTS> {
                     angles[joint]
                 }
                 Reference::Stops(searches) => searches[joint].angle,
+                // Nothing is found out about angles.
+                Reference::Fields(_) => continue,
             };
             if let Some(mark) = mark {
                 *encoder = calibrated(*encoder, angle, *mark);
@@ -223,12 +242,57 @@ impl<const JOINTS: usize> Homing<JOINTS> {
             rate: input.rates[joint],
             period: input.period,
         };
-        match searches[joint].step(&mut state.search, &known, self.still_ticks, self.still_counts) {
+        let mut search = state.search();
+        let sought = searches[joint].step(&mut search, &known, self.still_ticks, self.still_counts);
+        state.stage = Stage::Stop(search);
+        match sought {
             Seek::Drive(torque) => state.torque = torque,
-            Seek::Found(mark) => (state.marks[joint], state.search) = (Some(mark), Search::default()),
+            Seek::Found(mark) => (state.marks[joint], state.stage) = (Some(mark), Stage::Stop(Search::default())),
             Seek::Refused(refusal) => return Some(Err(refusal)),
         }
         None
+    }
+
+    /// Leads the field of the first joint that is not aligned yet.
+    fn lead(
+        &self,
+        searches: &[FieldSearch; JOINTS],
+        state: &mut HomingState<JOINTS>,
+        counts: [Counts; JOINTS],
+        too_late: bool,
+    ) -> Option<Result<(), Refusal>> {
+        state.torque = 0.0;
+        let Some(joint) = state.marks.iter().position(Option::is_none) else { return Some(Ok(())) };
+        if too_late {
+            return Some(Err(Refusal::TooLate));
+        }
+        let mut sweep = state.sweep();
+        let led = searches[joint].step(&mut sweep, counts[joint]);
+        state.stage = Stage::Field(sweep);
+        match led {
+            Led::Drive(torque) => state.torque = torque,
+            Led::Found(aligned) => {
+                (state.marks[joint], state.stage) = (Some(aligned.mark()), Stage::Field(Sweep::default()));
+            }
+            Led::Refused(refusal) => return Some(Err(refusal)),
+        }
+        None
+    }
+
+    /// Where the field of each motor is to be, for the duties of this tick and the joints at these counts: where it is
+    /// led while that is found out, and a quarter turn ahead of the rotor from then on. `None` for motors that do not
+    /// have three phases.
+    #[inline]
+    pub fn fields(&self, state: &HomingState<JOINTS>, counts: [Counts; JOINTS]) -> Option<[ElectricalAngle; JOINTS]> {
+        let Reference::Fields(searches) = &self.reference else { return None };
+        let mut fields = [ElectricalAngle(0); JOINTS];
+        for (joint, field) in fields.iter_mut().enumerate() {
+            *field = match state.marks[joint] {
+                Some(mark) => searches[joint].commutation.field(Aligned::of_mark(mark), counts[joint]),
+                None => searches[joint].field(&state.sweep()),
+            };
+        }
+        Some(fields)
     }
 
     /// How it ended in this tick, if it did.
@@ -239,6 +303,9 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         let too_late = state.ticks.saturating_add(1) >= self.timeout_ticks;
         if let Reference::Stops(searches) = &self.reference {
             return self.search(searches, state, counts, &input, too_late);
+        }
+        if let Reference::Fields(searches) = &self.reference {
+            return self.lead(searches, state, counts, too_late);
         }
         if let Reference::Index(_) = &self.reference {
             for (mark, index) in state.marks.iter_mut().zip(input.index) {

@@ -34,11 +34,15 @@ pub enum Refusal {
     /// The time is over.
     #[error("homing took too long")]
     TooLate = 9,
+    /// A rotor did not follow its field: another number of pole pairs, a phase without current, a sensor that is stuck
+    /// or slips, or a hand that holds on.
+    #[error("a rotor did not follow its field")]
+    NotFollowed = 10,
 }
 
 impl Refusal {
     /// Every refusal, in the order of its code.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Moving,
         Self::NoIndex,
         Self::Sensor,
@@ -48,6 +52,7 @@ impl Refusal {
         Self::TooFast,
         Self::WrongDirection,
         Self::TooLate,
+        Self::NotFollowed,
     ];
 
     /// The code in a report, from 1.

@@ -1,8 +1,18 @@
 //! How far homing has come, from tick to tick.
 
 use super::Refusal;
+use super::field_search::{FieldSearch, Sweep};
 use super::stop_search::{Search, StopSearch};
-use crate::device::Counts;
+use crate::device::{Aligned, Counts};
+
+/// The search that is under way, for the first joint without a mark.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Stage {
+    /// For its stop.
+    Stop(Search),
+    /// For its field.
+    Field(Sweep),
+}
 
 /// What changes from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,9 +21,10 @@ pub struct HomingState<const JOINTS: usize> {
     pub(super) still: u32,
     /// What the device moved away from last.
     pub(super) anchor: Option<[Counts; JOINTS]>,
+    /// What has been found out: counts, or how a rotor stands to its field ([`Aligned::mark`]).
     pub(super) marks: [Option<Counts>; JOINTS],
-    /// The search for the stop of the first joint without a mark.
-    pub(super) search: Search,
+    /// The search under way.
+    pub(super) stage: Stage,
     /// What that joint is driven with, N·m.
     pub(super) torque: f32,
     pub(super) end: Option<Result<(), Refusal>>,
@@ -26,7 +37,7 @@ impl<const JOINTS: usize> Default for HomingState<JOINTS> {
             still: 0,
             anchor: None,
             marks: [None; JOINTS],
-            search: Search::default(),
+            stage: Stage::Stop(Search::default()),
             torque: 0.0,
             end: None,
         }
@@ -42,12 +53,30 @@ impl<const JOINTS: usize> HomingState<JOINTS> {
     /// Homing waits, and who knows where the joints go meanwhile: the stage it was in begins anew. What it has found
     /// stays.
     pub(crate) fn pause(&mut self) {
-        self.search = self.search.again();
+        self.stage = match self.stage {
+            Stage::Stop(search) => Stage::Stop(search.again()),
+            Stage::Field(_) => Stage::Field(Sweep::default()),
+        };
         self.torque = 0.0;
         (self.anchor, self.still) = (None, 0);
     }
 
-    /// The joint torques that homing asks for, N·m; all zero but in a search for stops.
+    /// How each rotor stands to its field, as far as a search for fields has found that out.
+    pub fn aligned(&self) -> [Aligned; JOINTS] {
+        self.marks.map(|mark| Aligned::of_mark(mark.unwrap_or_default()))
+    }
+
+    /// The search for a stop that is under way, or one that begins.
+    pub(super) fn search(&self) -> Search {
+        if let Stage::Stop(search) = self.stage { search } else { Search::default() }
+    }
+
+    /// The search for a field that is under way, or one that begins.
+    pub(super) fn sweep(&self) -> Sweep {
+        if let Stage::Field(sweep) = self.stage { sweep } else { Sweep::default() }
+    }
+
+    /// The joint torques that homing asks for, N·m; all zero but in a search for stops or fields.
     pub fn torques(&self) -> [f32; JOINTS] {
         let mut torques = [0.0; JOINTS];
         let sought = torques.iter_mut().zip(&self.marks).find(|(_, mark)| mark.is_none());
@@ -67,7 +96,11 @@ impl<const JOINTS: usize> HomingState<JOINTS> {
 
     /// Gives every word of the state to `hash`.
     pub(crate) fn words(&self, mut hash: impl FnMut(u32)) {
-        [self.ticks, self.still].into_iter().chain(StopSearch::bits(&self.search)).for_each(&mut hash);
+        [self.ticks, self.still].into_iter().for_each(&mut hash);
+        match &self.stage {
+            Stage::Stop(search) => StopSearch::bits(search).into_iter().for_each(&mut hash),
+            Stage::Field(sweep) => FieldSearch::bits(sweep).into_iter().for_each(&mut hash),
+        }
         self.anchor.iter().flatten().for_each(|Counts(count)| hash(*count as u32));
         for mark in self.marks {
             hash(mark.map_or(u32::MAX, |Counts(count)| count as u32));

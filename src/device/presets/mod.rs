@@ -4,6 +4,7 @@
 //! are ours throughout: wide enough for the workspace and for a hand at 2 to 3 m/s.
 
 mod falcon;
+mod gimbal_knob;
 mod hapkit;
 mod haply;
 mod phantom;
@@ -12,6 +13,7 @@ mod protection;
 mod wooden_haptics;
 
 pub use falcon::NOVINT_FALCON;
+pub use gimbal_knob::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION, GIMBAL_KNOB_PROTECTION};
 pub use hapkit::HAPKIT;
 pub use haply::{HAPLY_2DIY_V3, HAPLY_KIT_V1};
 pub use phantom::PHANTOM_PREMIUM;

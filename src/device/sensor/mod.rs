@@ -1,11 +1,13 @@
 //! Position sensors, by embedded-hal: what comes over the wire becomes [`Counts`](super::Counts) that can be believed.
 
 mod ams;
+mod frozen;
 mod mt6701;
 mod quadrature;
 mod unwrap;
 
 pub use ams::{AmsAngle, AmsChip};
+pub use frozen::Frozen;
 pub use mt6701::{Mt6701, Mt6701Reading};
 pub use quadrature::Quadrature;
 pub use unwrap::{TimerCount, TurnCount, Unwrap};

@@ -1,0 +1,32 @@
+//! A dial: one joint that turns on and on.
+
+use super::{CoggingMap, Kinematics, ProbePose};
+use crate::math::vec3;
+
+/// A dial on a motor's shaft, felt at its rim.
+///
+/// Joint angle, radians: as the sensor has it. As with [`super::Paddle`] the probe's place is the arc that the rim has
+/// gone, `x = r θ`, so that one dimension stays one, and turns are told apart; y and z stay zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dial {
+    /// Radius of the rim, where the fingers are, `r`, metres.
+    pub radius: f32,
+    /// What cancels the motor's cogging.
+    pub cogging: Option<CoggingMap>,
+}
+
+impl Kinematics<1> for Dial {
+    #[inline]
+    fn pose(&self, [angle]: [f32; 1]) -> ProbePose<1> {
+        ProbePose { position: vec3(self.radius * angle, 0.0, 0.0), jacobian: [vec3(self.radius, 0.0, 0.0)] }
+    }
+
+    #[inline]
+    fn held_pose(&self, [angle]: [f32; 1]) -> (ProbePose<1>, [f32; 1]) {
+        let torque = match &self.cogging {
+            Some(map) => map.torque(angle),
+            None => 0.0,
+        };
+        (self.pose([angle]), [torque])
+    }
+}

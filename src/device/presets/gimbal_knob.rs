@@ -1,0 +1,62 @@
+//! A knob on a gimbal motor.
+
+use crate::device::drive::{Feed, VoltageFeed};
+use crate::device::{Commutation, Device, Dial, Encoder, Endurance, Motor, Protection};
+
+/// Counts of an AS5047P in a turn.
+const COUNTS: f32 = 16_384.0;
+/// Current at full duty, A, in the scale that keeps the power: 0.61 A of amplitude in a phase.
+const CURRENT_AT_FULL: f32 = 0.75;
+const FEED: VoltageFeed = VoltageFeed::three_phase(12.0, 7.5, 80.0, CURRENT_AT_FULL);
+
+/// A dial of 40 mm on the shaft of a gimbal motor GBM5208-75T, with a magnetic sensor AS5047P behind it, on 12 V.
+///
+/// Eleven pole pairs, 7.5 Ω a phase and 80 rpm/V as published by users of the motor (eliferin14/
+/// GBM5208-75T_system_identification, which cites its sellers). So 84 mN·m/A, and 63 mN·m at full duty, for which the
+/// motor needs 5.6 of the 8.5 V that the stage gives at most. Assumed: friction, and the greatest stiffness and
+/// damping, which the simulated knob takes. The cogging is each motor's own: record it ([`crate::device::CoggingMap`]).
+pub const GIMBAL_KNOB: Device<Dial, 1> = Device {
+    kinematics: Dial { radius: 0.02, cogging: None },
+    encoders: [Encoder::geared(COUNTS, 1.0, 0.0)],
+    motors: [Motor::current_driven(FEED.torque_constant, CURRENT_AT_FULL, 1.0)],
+    feeds: [Feed::Voltage(FEED)],
+    dry_friction: [2e-3],
+    joint_range: [[-200.0, 200.0]],
+    min_margin: 0.01,
+    max_joint_rate: 120.0,
+    max_force: 2.8,
+    max_stiffness: 4_000.0,
+    max_damping: 8.0,
+};
+
+/// How the sensor of [`GIMBAL_KNOB`] goes with the motor's poles.
+pub const GIMBAL_KNOB_COMMUTATION: Commutation = Commutation { counts_per_turn: 16_384, pole_pairs: 11 };
+
+/// What protects [`GIMBAL_KNOB`]: 0.47 A for ever, as its seller has it, in 20 s, which is assumed as of a winding of
+/// its weight; faster than six turns a second under force is a knob that was let go. No watch over signs: the alignment
+/// sees at every start which way the counts go when the motor turns.
+pub const GIMBAL_KNOB_PROTECTION: Protection<1> = Protection {
+    motors: [Endurance { continuous: 0.63, time_constant: 20.0 }],
+    max_joint_rates: [40.0],
+    max_probe_speed: 0.8,
+    supply: None,
+    signs: None,
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::Kinematics;
+    use crate::math::vec3;
+
+    #[test]
+    fn the_greatest_force_is_within_the_motor_and_the_motor_within_its_supply() {
+        let [torque] = GIMBAL_KNOB.kinematics.pose([0.0]).torques(vec3(GIMBAL_KNOB.max_force, 0.0, 0.0));
+        let [motor] = GIMBAL_KNOB.motors;
+        assert!(motor.fraction(torque) <= 1.0, "{}", motor.fraction(torque));
+        // 60/(2π · 80) V·s/rad between two wires, over √2.
+        assert!((FEED.torque_constant - 0.084_4).abs() < 1e-4, "{}", FEED.torque_constant);
+        assert!(FEED.resistance * CURRENT_AT_FULL < FEED.supply);
+        assert!(GIMBAL_KNOB_COMMUTATION.is_valid());
+    }
+}

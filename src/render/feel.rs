@@ -1,0 +1,309 @@
+//! What a dial feels like: detents, clicks, a texture, a spring, end stops, put together.
+
+use super::Detents;
+use crate::math::{saturate, sin_cos};
+use core::f32::consts::TAU;
+use thiserror::Error;
+
+/// A torque that comes again with every pitch: `−T sin(2π (θ − centre)/pitch)`. A coarse one is detents, a fine one a
+/// texture. It comes from a potential: turned there and back it gives back what it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// From one detent to the next, radians.
+    pub pitch: f32,
+    /// The greatest torque, `T`, a quarter of a pitch from a detent, N·m.
+    pub torque: f32,
+    /// Where one of the detents is, radians.
+    pub centre: f32,
+}
+
+/// A spring that turns the dial back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// N·m/rad.
+    pub stiffness: f32,
+    /// Where it is at rest, radians.
+    pub rest: f32,
+    /// Its greatest torque, N·m: beyond, it is constant.
+    pub most: f32,
+}
+
+/// End stops: a spring and a damper beyond either.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ends {
+    /// Where they are, radians.
+    pub between: [f32; 2],
+    /// N·m/rad.
+    pub stiffness: f32,
+    /// N·m·s/rad; it only pushes, never holds.
+    pub damping: f32,
+}
+
+/// What a dial feels like. Its parts add up; begin with [`Feel::FREE`]. Constant, in flash.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feel {
+    /// Detents that one turns through smoothly.
+    pub detents: Option<Wave>,
+    /// Detents that snap, with hysteresis.
+    pub clicks: Option<Detents>,
+    /// What is felt under the fingers between detents.
+    pub texture: Option<Wave>,
+    /// A spring.
+    pub spring: Option<Spring>,
+    /// End stops.
+    pub ends: Option<Ends>,
+    /// Damping everywhere, N·m·s/rad.
+    pub damping: f32,
+}
+
+/// Which part of a feel is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum FeelError {
+    /// A pitch that is not positive, or a number that is not finite.
+    #[error("detents need a positive pitch, and a torque that is finite and not negative")]
+    Detents,
+    /// See [`super::DetentsError`].
+    #[error("clicks need a positive pitch, finite forces, and detents in order")]
+    Clicks,
+    /// As detents.
+    #[error("a texture needs a positive pitch, and a torque that is finite and not negative")]
+    Texture,
+    /// A number that is negative or not finite.
+    #[error("a spring needs a finite rest, a stiffness and a greatest torque that are finite and not negative")]
+    Spring,
+    /// Ends that are not in order, or a number that is negative or not finite.
+    #[error("end stops must be in order, with a stiffness and a damping that are finite and not negative")]
+    Ends,
+    /// A damping that is negative or not finite.
+    #[error("the damping must be finite and not negative")]
+    Damping,
+}
+
+/// Whether `0 ≤ x < ∞`; false for NaN.
+const fn is_size(x: f32) -> bool {
+    x >= 0.0 && x < f32::INFINITY
+}
+
+impl Wave {
+    const fn is_valid(&self) -> bool {
+        self.pitch > 0.0 && self.pitch < f32::INFINITY && is_size(self.torque) && self.centre.is_finite()
+    }
+
+    /// The torque at an angle, radians, N·m.
+    #[inline]
+    pub fn at(&self, angle: f32) -> f32 {
+        let pitches = (angle - self.centre) / self.pitch;
+        // What is left after the whole ones: the cast saturates.
+        let (sine, _) = sin_cos((pitches - pitches as i32 as f32) * TAU);
+        -self.torque * sine
+    }
+
+    /// The steepest rise of the torque, N·m/rad.
+    const fn stiffness(&self) -> f32 {
+        self.torque * TAU / self.pitch
+    }
+}
+
+impl Feel {
+    /// Nothing.
+    pub const FREE: Self = Self { detents: None, clicks: None, texture: None, spring: None, ends: None, damping: 0.0 };
+
+    /// Checks the parts.
+    ///
+    /// # Errors
+    /// The first that is refused.
+    pub const fn check(&self) -> Result<(), FeelError> {
+        if let Some(wave) = &self.detents
+            && !wave.is_valid()
+        {
+            return Err(FeelError::Detents);
+        }
+        if let Some(clicks) = self.clicks
+            && clicks.try_new().is_err()
+        {
+            return Err(FeelError::Clicks);
+        }
+        if let Some(wave) = &self.texture
+            && !wave.is_valid()
+        {
+            return Err(FeelError::Texture);
+        }
+        if let Some(Spring { stiffness, rest, most }) = self.spring
+            && !(is_size(stiffness) && is_size(most) && rest.is_finite())
+        {
+            return Err(FeelError::Spring);
+        }
+        if let Some(Ends { between: [least, most], stiffness, damping }) = self.ends
+            && !(least < most && least.is_finite() && most.is_finite() && is_size(stiffness) && is_size(damping))
+        {
+            return Err(FeelError::Ends);
+        }
+        if is_size(self.damping) { Ok(()) } else { Err(FeelError::Damping) }
+    }
+
+    /// The greatest stiffness that may be felt at once, N·m/rad.
+    pub const fn stiffness(&self) -> f32 {
+        let mut sum = 0.0;
+        if let Some(wave) = &self.detents {
+            sum += wave.stiffness();
+        }
+        if let Some(wave) = &self.texture {
+            sum += wave.stiffness();
+        }
+        if let Some(clicks) = &self.clicks {
+            sum += if clicks.wall_stiffness > clicks.stiffness { clicks.wall_stiffness } else { clicks.stiffness };
+        }
+        if let Some(spring) = &self.spring {
+            sum += spring.stiffness;
+        }
+        if let Some(ends) = &self.ends {
+            sum += ends.stiffness;
+        }
+        sum
+    }
+
+    /// The greatest damping that may be felt at once, N·m·s/rad.
+    pub const fn greatest_damping(&self) -> f32 {
+        let mut sum = self.damping;
+        if let Some(clicks) = &self.clicks {
+            sum += clicks.damping;
+        }
+        if let Some(ends) = &self.ends {
+            sum += ends.damping;
+        }
+        sum
+    }
+
+    /// The greatest torque between the end stops, N·m, damping left out.
+    pub const fn torque_between_ends(&self) -> f32 {
+        let mut sum = 0.0;
+        if let Some(wave) = &self.detents {
+            sum += wave.torque;
+        }
+        if let Some(wave) = &self.texture {
+            sum += wave.torque;
+        }
+        if let Some(clicks) = &self.clicks {
+            sum += clicks.max_force;
+        }
+        if let Some(spring) = &self.spring {
+            sum += spring.most;
+        }
+        sum
+    }
+
+    /// The torque at an angle (radians) and a rate (rad/s), N·m. `click` is the detent that was clicked into last. Not
+    /// limited as a whole.
+    #[inline]
+    pub fn torque(&self, click: &mut i32, angle: f32, rate: f32) -> f32 {
+        let mut torque = -self.damping * rate;
+        if let Some(wave) = &self.detents {
+            torque += wave.at(angle);
+        }
+        if let Some(clicks) = &self.clicks {
+            torque += clicks.force(click, angle, rate);
+        }
+        if let Some(wave) = &self.texture {
+            torque += wave.at(angle);
+        }
+        if let Some(spring) = &self.spring {
+            torque += saturate(spring.stiffness * (spring.rest - angle), -spring.most, spring.most);
+        }
+        if let Some(ends) = &self.ends {
+            torque += ends.torque(angle, rate);
+        }
+        torque
+    }
+}
+
+impl Ends {
+    /// The torque of the end stops, N·m: zero between them, and never outwards.
+    #[inline]
+    fn torque(&self, angle: f32, rate: f32) -> f32 {
+        let [least, most] = self.between;
+        if angle > most {
+            let torque = self.stiffness * (most - angle) - self.damping * rate;
+            if torque < 0.0 { torque } else { 0.0 }
+        } else if angle < least {
+            let torque = self.stiffness * (least - angle) - self.damping * rate;
+            if torque > 0.0 { torque } else { 0.0 }
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DETENTS: Wave = Wave { pitch: 0.25, torque: 0.03, centre: 0.1 };
+    const ENDS: Ends = Ends { between: [-1.0, 1.0], stiffness: 0.8, damping: 1e-3 };
+    const SPRING: Spring = Spring { stiffness: 0.05, rest: 0.2, most: 0.02 };
+
+    fn still(feel: &Feel, angle: f32) -> f32 {
+        feel.torque(&mut 0, angle, 0.0)
+    }
+
+    #[test]
+    fn a_wave_has_its_torque_a_quarter_of_a_pitch_from_each_detent() {
+        let feel = Feel { detents: Some(DETENTS), ..Feel::FREE };
+        for detent in -40..40 {
+            let centre = 0.1 + 0.25 * detent as f32;
+            // Roundings of 10 rad by a slope of 0.75 N·m/rad.
+            assert!(still(&feel, centre).abs() < 1e-6, "{detent}");
+            assert!((still(&feel, centre + 0.0625) + 0.03).abs() < 1e-6, "{detent}");
+            assert!((still(&feel, centre - 0.0625) - 0.03).abs() < 1e-6, "{detent}");
+        }
+    }
+
+    #[test]
+    fn a_spring_has_a_most_and_ends_only_push() {
+        let feel = Feel { spring: Some(SPRING), ..Feel::FREE };
+        for (angle, torque) in [(0.2, 0.0), (0.0, 0.01), (0.4, -0.01), (-3.0, 0.02), (3.0, -0.02)] {
+            assert!((still(&feel, angle) - torque).abs() < 1e-7, "{angle}");
+        }
+        let feel = Feel { ends: Some(ENDS), ..Feel::FREE };
+        for (angle, rate, torque) in [
+            (0.9, 9.0, 0.0),
+            (1.1, 0.0, -0.08),
+            (-1.1, 0.0, 0.08),
+            (1.1, 10.0, -0.09),
+            (1.1, -200.0, 0.0),
+            (-1.1, 200.0, 0.0),
+        ] {
+            assert!((feel.torque(&mut 0, angle, rate) - torque).abs() < 1e-6, "{angle} {rate}");
+        }
+    }
+
+    #[test]
+    fn parts_add_up_and_what_makes_no_sense_is_refused_by_name() {
+        let all = Feel {
+            detents: Some(DETENTS),
+            texture: Some(DETENTS),
+            spring: Some(SPRING),
+            ends: Some(ENDS),
+            clicks: None,
+            damping: 1e-3,
+        };
+        assert_eq!(all.check(), Ok(()));
+        let sum = 2.0 * DETENTS.at(0.3) + 0.05 * -0.1 - 1e-3 * 2.0;
+        assert!((all.torque(&mut 0, 0.3, 2.0) - sum).abs() < 1e-7);
+        // 2 · 0.03 · 2π/0.25 + 0.05 + 0.8.
+        assert!((all.stiffness() - 2.357_964).abs() < 1e-4 && (all.torque_between_ends() - 0.08).abs() < 1e-6);
+        for bad in [-1.0, f32::NAN, f32::INFINITY] {
+            let wave = Some(Wave { torque: bad, ..DETENTS });
+            assert_eq!(Feel { detents: wave, ..all }.check(), Err(FeelError::Detents));
+            assert_eq!(Feel { detents: Some(Wave { pitch: bad, ..DETENTS }), ..all }.check(), Err(FeelError::Detents));
+            assert_eq!(Feel { texture: wave, ..all }.check(), Err(FeelError::Texture));
+            assert_eq!(
+                Feel { spring: Some(Spring { stiffness: bad, ..SPRING }), ..all }.check(),
+                Err(FeelError::Spring)
+            );
+            assert_eq!(Feel { ends: Some(Ends { damping: bad, ..ENDS }), ..all }.check(), Err(FeelError::Ends));
+            assert_eq!(Feel { damping: bad, ..all }.check(), Err(FeelError::Damping));
+        }
+        assert_eq!(Feel { ends: Some(Ends { between: [1.0, -1.0], ..ENDS }), ..all }.check(), Err(FeelError::Ends));
+    }
+}

@@ -1,0 +1,310 @@
+//! A dial as what the loop feels: a table of feels, one of them chosen at a time.
+
+use super::surface::{Surface, Touched, Tracked, witness_words};
+use crate::body::TableCursor;
+use crate::device::{Device, Dial};
+use crate::math::{Vec3, saturate};
+use crate::patch::{SecondDerivatives, SurfacePoint};
+use crate::render::{Feel, FeelError};
+use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
+use thiserror::Error;
+
+/// What is felt of a dial: a table of feels in flash, switched while it runs ([`super::Event::Chosen`]).
+///
+/// The loop is the one that touches surfaces: phases, faults, soft start, limits and the gate are the same. There is
+/// just nothing to touch; the force is a function of where the dial is ([`Surface::own_force`]).
+///
+/// A switch never gives a step: what the old feel gave beyond the new one goes on, and is let go of by so much torque a
+/// second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knob {
+    feels: &'static [Feel],
+    radius: f32,
+    /// N·m.
+    most: f32,
+    /// N·m/s.
+    let_go: f32,
+}
+
+/// Which number of a knob is refused. In a `static` it is a compile error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum KnobError {
+    /// The table is empty, or has more than 256 entries.
+    #[error("a knob has 1 to 256 feels")]
+    Feels,
+    /// A feel makes no sense by itself.
+    #[error(transparent)]
+    Feel(#[from] FeelError),
+    /// A feel is stiffer than the device bears.
+    #[error("a feel is stiffer than the device's greatest stiffness times its radius squared")]
+    Stiffness,
+    /// A feel damps more than the device bears.
+    #[error("a feel damps more than the device's greatest damping times its radius squared")]
+    Damping,
+    /// A feel asks for more torque than the device has.
+    #[error("a feel asks for more torque than the device's greatest force times its radius")]
+    Torque,
+    /// The torque that is let go of in a second is not positive and finite.
+    #[error("the torque let go of in a second must be positive and finite")]
+    LetGo,
+}
+
+/// What is kept of a knob between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnobWitness {
+    witness: Witness,
+    /// Which feel.
+    feel: u8,
+    /// Whether it was chosen since the last tick.
+    switched: bool,
+    /// The detent that was clicked into last.
+    click: i32,
+    /// The torque now, N·m.
+    torque: f32,
+    /// What of it is left over from another feel, N·m.
+    left_over: f32,
+    /// The force at the rim, N.
+    force: f32,
+    /// Room to the nearer end stop at the rim, metres; negative beyond. Zero where there is none.
+    gap: f32,
+}
+
+impl KnobWitness {
+    /// Which feel is felt, counted from 0.
+    pub const fn feel(&self) -> u8 {
+        self.feel
+    }
+
+    /// The torque on the dial that the feel asks for, N·m, before soft start and limits.
+    pub const fn torque(&self) -> f32 {
+        self.torque
+    }
+}
+
+impl Knob {
+    /// The feels of a dial, checked against its device. `let_go` is how much torque is let go of in a second after a
+    /// switch, N·m/s.
+    ///
+    /// # Errors
+    /// The first number that is refused.
+    pub const fn try_new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Result<Self, KnobError> {
+        let radius = device.kinematics.radius;
+        let most = device.max_force * radius;
+        if feels.is_empty() || feels.len() > 256 {
+            return Err(KnobError::Feels);
+        }
+        let mut index = 0;
+        while index < feels.len() {
+            let feel = &feels[index];
+            if let Err(error) = feel.check() {
+                return Err(KnobError::Feel(error));
+            }
+            if !(feel.stiffness() <= device.max_stiffness * radius * radius) {
+                return Err(KnobError::Stiffness);
+            }
+            if !(feel.greatest_damping() <= device.max_damping * radius * radius) {
+                return Err(KnobError::Damping);
+            }
+            if !(feel.torque_between_ends() <= most) {
+                return Err(KnobError::Torque);
+            }
+            index += 1;
+        }
+        if let_go > 0.0 && let_go < f32::INFINITY {
+            Ok(Self { feels, radius, most, let_go })
+        } else {
+            Err(KnobError::LetGo)
+        }
+    }
+
+    /// [`Self::try_new`] for a `static`: what is refused does not compile.
+    ///
+    /// # Panics
+    /// At compile time, naming the number.
+    pub const fn new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Self {
+        match Self::try_new(device, feels, let_go) {
+            Ok(knob) => knob,
+            Err(KnobError::Feels) => panic!("the number of feels"),
+            Err(KnobError::Feel(FeelError::Detents)) => panic!("a feel's detents"),
+            Err(KnobError::Feel(FeelError::Clicks)) => panic!("a feel's clicks"),
+            Err(KnobError::Feel(FeelError::Texture)) => panic!("a feel's texture"),
+            Err(KnobError::Feel(FeelError::Spring)) => panic!("a feel's spring"),
+            Err(KnobError::Feel(FeelError::Ends)) => panic!("a feel's end stops"),
+            Err(KnobError::Feel(FeelError::Damping)) => panic!("a feel's damping"),
+            Err(KnobError::Stiffness) => panic!("a feel's stiffness"),
+            Err(KnobError::Damping) => panic!("a feel's greatest damping"),
+            Err(KnobError::Torque) => panic!("a feel's torque"),
+            Err(KnobError::LetGo) => panic!("let_go"),
+        }
+    }
+
+    /// The feels.
+    pub const fn feels(&self) -> &'static [Feel] {
+        self.feels
+    }
+}
+
+impl Surface for Knob {
+    type Witness = KnobWitness;
+
+    fn rest(&self) -> KnobWitness {
+        let nowhere = SurfacePoint { point: Vec3::ZERO, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
+        KnobWitness {
+            witness: Witness {
+                parameters: [0.0; 2],
+                surface: nowhere,
+                second: SecondDerivatives::NONE,
+                mode: BoundaryMode::Interior,
+                is_free: true,
+                halvings: 0,
+            },
+            feel: 0,
+            switched: false,
+            click: 0,
+            torque: 0.0,
+            left_over: 0.0,
+            force: 0.0,
+            gap: 0.0,
+        }
+    }
+
+    #[inline]
+    fn follow(&self, _: &Controller, state: &mut KnobWitness, probe: Probe, period: f32) -> Touched {
+        let inverse = 1.0 / self.radius;
+        let (angle, rate) = (probe.position.x * inverse, probe.velocity.x * inverse);
+        if let Some(feel) = self.feels.get(usize::from(state.feel)) {
+            let wanted = saturate(feel.torque(&mut state.click, angle, rate), -self.most, self.most);
+            if state.switched {
+                state.left_over = state.torque - wanted;
+                state.switched = false;
+            }
+            let step = self.let_go * period;
+            state.left_over -= saturate(state.left_over, -step, step);
+            state.torque = saturate(wanted + state.left_over, -self.most, self.most);
+            state.gap = match &feel.ends {
+                Some(ends) => {
+                    let [below, above] = [angle - ends.between[0], ends.between[1] - angle];
+                    self.radius * if below < above { below } else { above }
+                }
+                None => 0.0,
+            };
+        }
+        state.force = state.torque * inverse;
+        state.witness.surface.point = probe.position;
+        Touched { normal: Vec3::ZERO, undone: false, unexplained: false }
+    }
+
+    fn lose(&self, _: &mut KnobWitness) {}
+
+    #[inline]
+    fn own_force(&self, state: &KnobWitness) -> Option<Vec3> {
+        Some(Vec3::X * state.force)
+    }
+
+    /// An entry that is not there changes nothing.
+    fn choose(&self, state: &mut KnobWitness, index: u8) {
+        if usize::from(index) < self.feels.len() && index != state.feel {
+            (state.feel, state.switched) = (index, true);
+        }
+    }
+
+    fn table_word(&self, _: TableCursor) -> Option<u32> {
+        None
+    }
+
+    /// None: the feels are part of the program.
+    fn baked_crc(&self) -> Option<u32> {
+        None
+    }
+}
+
+impl Tracked for KnobWitness {
+    fn witness(&self) -> &Witness {
+        &self.witness
+    }
+
+    fn gap(&self) -> f32 {
+        self.gap
+    }
+
+    fn contact(&self) -> Contact {
+        Contact::InFront
+    }
+
+    /// Which feel is felt.
+    fn feature(&self) -> u16 {
+        u16::from(self.feel)
+    }
+
+    fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        witness_words(&self.witness, &mut take);
+        take(u32::from(self.feel) | u32::from(self.switched) << 8);
+        take(self.click as u32);
+        for number in [self.torque, self.left_over, self.force, self.gap] {
+            take(number.to_bits());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::presets::GIMBAL_KNOB;
+    use crate::render::{Ends, Spring, Wave};
+
+    static FEELS: [Feel; 4] = [
+        Feel::FREE,
+        Feel { detents: Some(Wave { pitch: 0.25, torque: 0.03, centre: 0.0 }), damping: 5e-4, ..Feel::FREE },
+        Feel { spring: Some(Spring { stiffness: 0.1, rest: 0.0, most: 0.05 }), ..Feel::FREE },
+        Feel { ends: Some(Ends { between: [-0.5, 0.5], stiffness: 1.0, damping: 1e-3 }), ..Feel::FREE },
+    ];
+    const LET_GO: f32 = 1.0;
+    const PERIOD: f32 = 1e-3;
+    const KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, LET_GO);
+
+    fn follow(state: &mut KnobWitness, angle: f32) -> f32 {
+        KNOB.follow(&Controller::SECOND_ORDER, state, Probe::at(Vec3::X * (angle * 0.02)), PERIOD);
+        state.torque()
+    }
+
+    #[test]
+    fn no_switch_changes_the_torque_by_more_than_is_let_go_of_in_a_tick_and_all_come_to_their_table() {
+        for angle in [-0.6, -0.31, 0.0, 0.06, 0.55] {
+            for from in 0..4 {
+                for to in 0..4 {
+                    let mut state = KNOB.rest();
+                    KNOB.choose(&mut state, from);
+                    (0..100).for_each(|_| {
+                        follow(&mut state, angle);
+                    });
+                    let mut before = state.torque();
+                    KNOB.choose(&mut state, to);
+                    for _ in 0..200 {
+                        let torque = follow(&mut state, angle);
+                        // A rounding of 60 mN·m.
+                        assert!((torque - before).abs() <= LET_GO * PERIOD + 1e-8, "{angle} {from} {to}");
+                        before = torque;
+                    }
+                    let table = FEELS[usize::from(to)].torque(&mut 0, angle, 0.0).clamp(-KNOB.most, KNOB.most);
+                    assert!((before - table).abs() < 1e-6, "{angle} {from} {to}: {before} {table}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_feel_that_the_device_does_not_bear_is_refused_by_name() {
+        fn refused(feel: Feel) -> KnobError {
+            extern crate std;
+            Knob::try_new(&GIMBAL_KNOB, std::boxed::Box::leak(std::boxed::Box::new([feel])), LET_GO).unwrap_err()
+        }
+        let wave = |pitch, torque| Some(Wave { pitch, torque, centre: 0.0 });
+        assert_eq!(refused(Feel { detents: wave(0.25, 0.07), ..Feel::FREE }), KnobError::Stiffness);
+        assert_eq!(refused(Feel { detents: wave(2.5, 0.07), ..Feel::FREE }), KnobError::Torque);
+        assert_eq!(refused(Feel { damping: 4e-3, ..Feel::FREE }), KnobError::Damping);
+        assert_eq!(refused(Feel { detents: wave(0.0, 0.01), ..Feel::FREE }), KnobError::Feel(FeelError::Detents));
+        assert_eq!(Knob::try_new(&GIMBAL_KNOB, &[], LET_GO), Err(KnobError::Feels));
+        assert_eq!(Knob::try_new(&GIMBAL_KNOB, &FEELS, 0.0), Err(KnobError::LetGo));
+    }
+}
