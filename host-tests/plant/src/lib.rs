@@ -7,6 +7,7 @@
 
 mod arm;
 mod delta;
+mod dial;
 mod encoder;
 mod five_bar;
 mod friction;
@@ -27,6 +28,7 @@ mod vector;
 
 pub use arm::{Arm, Link};
 pub use delta::DeltaSettings;
+pub use dial::{Cogging, Dial, DialSettings, Fingers, Inverter, MagneticFault, MagneticSensor, ThreePhaseMotor};
 pub use encoder::{Encoder, EncoderFault};
 pub use five_bar::{FiveBarSettings, LinkLump, LinkageArmSettings};
 pub use hand::{HandPath, HandSettings, StillHand};
