@@ -1,7 +1,7 @@
 //! What the loop reaches of the world.
 
 use crate::sensors::BadFrame;
-use palpate::device::{Counts, Duty};
+use palpate::device::{Counts, Duty, ElectricalAngle};
 use thiserror::Error;
 
 /// What the person's side of a board says in a tick.
@@ -51,6 +51,10 @@ pub trait Passive<const JOINTS: usize> {
 
 /// A board, as the loop sees it.
 pub trait Board<const JOINTS: usize>: Passive<JOINTS> {
+    /// Where the fields of the motors are for the duties that follow. A board whose motors have no phases takes no
+    /// notice.
+    fn aim(&mut self, _: [ElectricalAngle; JOINTS]) {}
+
     /// Enables the drives and gives them these duties.
     ///
     /// # Errors

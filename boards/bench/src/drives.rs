@@ -2,11 +2,14 @@
 
 use crate::NotObeyed;
 use embedded_hal::digital::OutputPin;
-use palpate::device::Duty;
 use palpate::device::drive::Drive;
+use palpate::device::{Duty, ElectricalAngle};
 
 /// The drives of all joints, as one.
 pub trait Drives<const JOINTS: usize> {
+    /// Where the field of each motor is for the duties that follow; those without phases take no notice.
+    fn aim(&mut self, _: [ElectricalAngle; JOINTS]) {}
+
     /// Gives each its duty, and enables it.
     ///
     /// # Errors
@@ -25,6 +28,13 @@ fn obeyed(all: bool) -> Result<(), NotObeyed> {
 }
 
 impl<D: Drive, const JOINTS: usize> Drives<JOINTS> for [D; JOINTS] {
+    #[inline]
+    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+        for (drive, field) in self.iter_mut().zip(fields) {
+            drive.aim(field);
+        }
+    }
+
     #[inline]
     fn apply(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
         let mut all = true;

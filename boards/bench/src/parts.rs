@@ -3,7 +3,7 @@
 use crate::sensors::{BadFrame, Sensors};
 use crate::{Board, Counter, Drives, Lines, NotObeyed, Panel, Passive, Supply};
 use embedded_hal::digital::{InputPin, OutputPin, PinState};
-use palpate::device::{Counts, Duty};
+use palpate::device::{Counts, Duty, ElectricalAngle};
 
 /// The timer that raises ticks.
 pub trait Timer {
@@ -79,6 +79,11 @@ where
     Self: Passive<JOINTS>,
     D: Drives<JOINTS>,
 {
+    #[inline]
+    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+        self.drives.aim(fields);
+    }
+
     #[inline]
     fn drive(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
         self.drives.apply(duties)

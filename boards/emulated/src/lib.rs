@@ -16,12 +16,12 @@ pub mod accepted;
 pub mod board;
 pub mod body;
 pub mod budget;
+#[cfg(feature = "knob")]
+pub mod knob;
 pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;
 pub mod panic;
-#[cfg(not(feature = "protected"))]
-pub mod pins;
 mod planted;
 pub mod recorded;
 pub mod reset;

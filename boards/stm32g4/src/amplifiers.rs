@@ -6,7 +6,11 @@
 
 use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::{SetPointDrive, SetPointRange};
+use palpate_bench::{Cause, Memo};
 use stm32g4xx_hal::gpio::{Output, PB13, PB14, PB15, PC0, PC1, PC2};
+use stm32g4xx_hal::stm32::{GPIOA, GPIOC, TIM1};
+
+use crate::chip::MEMO;
 
 /// The enable pins, low.
 pub type Enables = (PC0<Output>, PC1<Output>, PC2<Output>);
@@ -32,4 +36,23 @@ pub fn amplifiers<A: SetDutyCycle, B: SetDutyCycle, C: SetDutyCycle>(
         SetPointDrive::with_direction(b, enables.1, directions.1, range, dwell),
         SetPointDrive::with_direction(c, enables.2, directions.2, range, dwell),
     )
+}
+
+/// Takes the motors' power away, by the registers. Before anything else too: a debugger may have reset the core alone,
+/// and the pins are as they were.
+pub fn motors_off() {
+    // SAFETY: nobody else uses them meanwhile; each write takes power away.
+    unsafe {
+        // The three enable pins low, and every output of the timer off.
+        (*GPIOC::ptr()).bsrr().write(|w| w.br0().set_bit().br1().set_bit().br2().set_bit());
+        (*TIM1::ptr()).bdtr().modify(|_, w| w.moe().clear_bit());
+    }
+}
+
+#[unsafe(no_mangle)]
+fn palpate_motors_off(cause: Cause) {
+    motors_off();
+    // SAFETY: nothing else runs any more; it lights the light.
+    unsafe { (*GPIOA::ptr()).bsrr().write(|w| w.bs5().set_bit()) };
+    MEMO.write(Memo::new(cause));
 }

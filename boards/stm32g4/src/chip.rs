@@ -1,11 +1,11 @@
 //! Clocks, power and reset, as the reference manual (RM0440) wants them.
 
-use palpate_bench::{Cause, Memo, ResetFlags};
+use palpate_bench::ResetFlags;
 use palpate_cortex::MemoCell;
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::pwr::VoltageScale;
 use stm32g4xx_hal::rcc::{Config, PllConfig, PllMDiv, PllNMul, PllRDiv, PllSrc, Rcc};
-use stm32g4xx_hal::stm32::{FLASH, GPIOA, GPIOC, PWR, RCC, TIM1};
+use stm32g4xx_hal::stm32::{FLASH, PWR, RCC};
 
 /// 16 MHz / 4 · 85 / 2: the most that the chip takes.
 pub const CLOCK: u32 = 170_000_000;
@@ -48,23 +48,4 @@ pub fn start(rcc: RCC, power: PWR, flash: &FLASH) -> (Rcc, ResetFlags) {
         ..ResetFlags::default()
     };
     (rcc, flags)
-}
-
-/// Takes the motors' power away, by the registers. Before anything else too: a debugger may have reset the core alone,
-/// and the pins are as they were.
-pub fn motors_off() {
-    // SAFETY: nobody else uses them meanwhile; each write takes power away.
-    unsafe {
-        // The three enable pins low, and every output of the timer off.
-        (*GPIOC::ptr()).bsrr().write(|w| w.br0().set_bit().br1().set_bit().br2().set_bit());
-        (*TIM1::ptr()).bdtr().modify(|_, w| w.moe().clear_bit());
-    }
-}
-
-#[unsafe(no_mangle)]
-fn palpate_motors_off(cause: Cause) {
-    motors_off();
-    // SAFETY: nothing else runs any more; it lights the light.
-    unsafe { (*GPIOA::ptr()).bsrr().write(|w| w.bs5().set_bit()) };
-    MEMO.write(Memo::new(cause));
 }

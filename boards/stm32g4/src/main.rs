@@ -66,7 +66,7 @@ fn main() -> ! {
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
-    chip::motors_off();
+    amplifiers::motors_off();
     let (mut rcc, flags) = chip::start(chip.RCC, chip.PWR, &chip.FLASH);
     let reset = flags.reason(MEMO.read());
     let cycles = Cycles::start(&mut core.DCB, core.DWT);

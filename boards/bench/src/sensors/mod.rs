@@ -3,10 +3,12 @@
 mod angles;
 mod counters;
 mod selected;
+mod watched;
 
 pub use angles::{Angles, SELECT};
 pub use counters::{Counters, Readings, greatest_step};
 pub use selected::{SelectError, SelectTiming, Selected};
+pub use watched::Watched;
 
 use palpate::device::Counts;
 use thiserror::Error;

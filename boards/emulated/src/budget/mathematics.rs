@@ -34,7 +34,9 @@ pub fn run(counter: &mut InstructionCounter) {
     count(counter, "arc tangent, micromath", vector, |(y, x)| F32(y).atan2(F32(x)).0);
 }
 
-/// Counts a function at places all over a range.
+/// Counts a function at places all over a range. By itself: what else is in a frame would move its loop by an
+/// instruction or two.
+#[inline(never)]
 fn count<A, R>(counter: &mut InstructionCounter, name: &str, argument: impl Fn(f32) -> A, function: impl Fn(A) -> R) {
     #[inline(never)]
     fn call<A, R>(function: &impl Fn(A) -> R, argument: A) -> R {

@@ -6,6 +6,8 @@
 
 mod closest;
 mod evaluation;
+#[cfg(feature = "knob")]
+mod knob;
 mod mathematics;
 mod patches;
 mod servo;
@@ -16,6 +18,15 @@ mod tally;
 pub use tally::Tally;
 
 use crate::timer::InstructionCounter;
+
+/// Measures and prints the figures of the knob's tick.
+///
+/// # Errors
+/// What went wrong on its path, so that its figures would mean nothing.
+#[cfg(feature = "knob")]
+pub fn run_knob(counter: &mut InstructionCounter) -> Result<(), &'static str> {
+    knob::run(counter)
+}
 
 /// Measures and prints all figures.
 ///

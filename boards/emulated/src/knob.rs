@@ -1,0 +1,97 @@
+//! The knob on an emulated board: the sensor comes in a frame, the widths of three phases go out in one.
+
+#[path = "../../knob.rs"]
+mod shared;
+
+/// The cogging of the simulated motor, as it was recorded.
+mod cogging {
+    include!("../knob_cogging.rs");
+}
+
+use cortex_m::peripheral::SYST;
+use palpate::device::sensor::Frozen;
+use palpate::device::{Counts, Device, Dial};
+use palpate::servo::{Deadline, Event, Input};
+use palpate::wire::frame::{self, MAX_FRAME, Received};
+use palpate::wire::{Report, Sensors};
+
+use crate::board::Board;
+use crate::link::Link;
+use crate::timer::{INSTRUCTIONS_PER_SECOND, InstructionCounter};
+pub use shared::SETTINGS;
+use shared::{FROZEN, KnobServo, KnobState, MODULATION, SEARCH, device, report, servo, widths};
+
+/// Ticks in a row without any frame after which the host is taken for gone and the emulator ends.
+const SILENT_TICKS: u32 = 5;
+
+static DEVICE: Device<Dial, 1> = device(if cfg!(feature = "uncompensated") { None } else { Some(cogging::COGGING) });
+/// Everything the loop knows, in flash.
+pub static SERVO: KnobServo = servo(&DEVICE, SEARCH);
+
+const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate);
+
+/// What a tick of the knob is, and what is counted: the loop, and the widths of the three phases.
+#[inline(never)]
+pub fn tick(state: &mut KnobState, input: Input<1>) -> Option<[f32; 3]> {
+    SERVO.tick(state, input);
+    widths(&SERVO, state, &MODULATION)
+}
+
+/// The loop of the knob over a link.
+pub struct KnobLoop<L> {
+    link: L,
+    state: KnobState,
+    frozen: Frozen,
+    counter: InstructionCounter,
+    silent_ticks: u32,
+}
+
+impl<L: Link> KnobLoop<L> {
+    /// A loop before its first tick.
+    pub fn new(board: &Board, link: L, systick: SYST) -> Self {
+        Self {
+            link,
+            state: SERVO.start_after(board.reset_reason()),
+            frozen: FROZEN,
+            counter: InstructionCounter::new(board, systick),
+            silent_ticks: 0,
+        }
+    }
+
+    /// One tick.
+    pub fn tick(&mut self) {
+        let input = self.input();
+        let state = &mut self.state;
+        let (mut given, instructions) = self.counter.count(|| tick(state, input));
+        if DEADLINE.overrun(0, instructions) {
+            SERVO.note(state, Event::Overrun);
+            given = widths(&SERVO, state, &MODULATION);
+        }
+        let mut buffer = [0; MAX_FRAME];
+        if let Ok(frame) = frame::pack(&report(state, given, instructions), &mut buffer) {
+            self.link.send(frame);
+        }
+        if self.silent_ticks >= SILENT_TICKS {
+            semihosting::process::exit(0);
+        }
+    }
+
+    /// What the host says in this tick: the first count is the dial's, the second which feel is chosen.
+    fn input(&mut self) -> Input<1> {
+        let received = self.link.receive();
+        self.silent_ticks = if received.is_none() { self.silent_ticks + 1 } else { 0 };
+        match received {
+            Some(Received::Message(Sensors { tick, counts: [counts, feel, _], enable }))
+                if tick == self.state.ticks() =>
+            {
+                SERVO.note(&mut self.state, Event::Chosen { index: feel as u8 });
+                if self.frozen.is_frozen(counts as u32) {
+                    return Input::Damaged;
+                }
+                Input::Sensors { counts: [Counts(counts)], enable }
+            }
+            Some(Received::Damaged) => Input::Damaged,
+            Some(Received::Message(_) | Received::Empty) | None => Input::Lost,
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The knob of the boards: its device, how its rotor is aligned, and the table of what it feels like. The file to
+//! change first.
+
+use palpate::device::drive::{Field, Modulation};
+use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION};
+use palpate::device::sensor::Frozen;
+use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Reference};
+use palpate::math::Vec3;
+use palpate::render::{Detents, Ends, Feel, Spring, Wave};
+use palpate::servo::{Knob, KnobWitness, Output, Servo, ServoState, Settings};
+use palpate::track::Controller;
+use palpate::wire::Report;
+
+/// The loop of a knob.
+pub type KnobServo = Servo<'static, Knob, Dial, 1>;
+/// What it keeps between two ticks.
+pub type KnobState = ServoState<1, KnobWitness>;
+
+/// 4 kHz; stiffness and damping are the feels' own.
+pub const SETTINGS: Settings = Settings {
+    rate: 4_000.0,
+    stiffness: 1_000.0,
+    damping: 0.0,
+    max_force: 2.8,
+    velocity_corner: 150.0,
+    soft_start: 0.2,
+    body_origin: Vec3::ZERO,
+};
+
+/// The device, with the cogging of its motor if that has been recorded.
+pub const fn device(cogging: Option<CoggingMap>) -> Device<Dial, 1> {
+    Device { kinematics: Dial { cogging, ..GIMBAL_KNOB.kinematics }, ..GIMBAL_KNOB }
+}
+
+/// The field comes up within a fifth of a second and is led round three electrical turns, half a second each.
+pub const SEARCH: FieldSearch =
+    FieldSearch { commutation: GIMBAL_KNOB_COMMUTATION, torque: 0.03, ramp_ticks: 800, turn_ticks: 2_000, turns: 1 };
+
+/// A sensor that says the very same for a quarter of a second has frozen.
+pub const FROZEN: Frozen = Frozen::after(1_000);
+
+/// Torque that is let go of in a second when another feel is chosen, N·m: all of it in a twentieth.
+pub const LET_GO: f32 = 1.2;
+
+/// 15°.
+const PITCH: f32 = core::f32::consts::TAU / 24.0;
+
+/// The feels, in the order of [`NAMES`].
+pub static FEELS: [Feel; 6] = [
+    Feel { detents: Some(Wave { pitch: PITCH, torque: 0.03, centre: 0.0 }), damping: 6e-4, ..Feel::FREE },
+    Feel {
+        clicks: Some(Detents {
+            pitch: PITCH,
+            stiffness: 0.2,
+            damping: 6e-4,
+            snap: 0.55,
+            first: -5,
+            last: 5,
+            wall_stiffness: 0.8,
+            max_force: 0.05,
+        }),
+        ..Feel::FREE
+    },
+    Feel { texture: Some(Wave { pitch: PITCH / 6.0, torque: 0.01, centre: 0.0 }), damping: 6e-4, ..Feel::FREE },
+    Feel { spring: Some(Spring { stiffness: 0.06, rest: 0.0, most: 0.04 }), damping: 4e-4, ..Feel::FREE },
+    Feel { ends: Some(Ends { between: [-1.0, 1.0], stiffness: 1.2, damping: 1.5e-3 }), ..Feel::FREE },
+    Feel::FREE,
+];
+
+/// What the feels are called.
+pub const NAMES: [&str; FEELS.len()] = ["detents", "clicks", "texture", "spring", "end stops", "free"];
+
+/// How the rotor is aligned: while the button is held, and begun anew where it is let go of, for as long as eight times
+/// take.
+pub const fn homing(search: FieldSearch) -> Homing<1> {
+    Homing::new(GIMBAL_KNOB.encoders, Reference::Fields([search]), 1, 0, 8 * search.ticks())
+}
+
+/// The loop of a device, aligned by a search.
+pub const fn servo(device: &'static Device<Dial, 1>, search: FieldSearch) -> KnobServo {
+    // It lives as long as the loop: a constant of its own.
+    static KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, LET_GO);
+    Servo::new(device, &KNOB, Controller::SECOND_ORDER, SETTINGS).homing(homing(search))
+}
+
+/// The pulse widths that a state asks for; `None` disables the stage.
+#[inline]
+pub fn widths(servo: &KnobServo, state: &KnobState, modulation: &Modulation) -> Option<[f32; 3]> {
+    let Output::Drive([duty]) = state.output() else { return None };
+    let [angle] = servo.fields(state)?;
+    Some(modulation.widths(Field { angle, duty }))
+}
+
+/// Of a SimpleFOCShield at 25 kHz and 12 V: half a microsecond of dead time, and a ripple as large as the current of
+/// 0.23 V.
+pub const MODULATION: Modulation = Modulation { dead_share: 0.0125, ripple_share: 0.019 };
+
+/// What is told of a tick over a link, with the widths in the place of duties: −32,767 to 32,767 for none to all of a
+/// period, and −32,768 for a stage that is disabled.
+pub fn report(state: &KnobState, widths: Option<[f32; 3]>, instructions: u32) -> Report {
+    let duties = match widths {
+        Some(widths) => widths.map(|width| ((width - 0.5) * 65_534.0) as i16),
+        None => [i16::MIN; 3],
+    };
+    Report { duties, ..Report::new(state, instructions) }
+}

@@ -1,0 +1,139 @@
+//! A knob on a Nucleo-G474RE: a SimpleFOCShield with a gimbal motor, a magnetic sensor behind it, a button that asks
+//! for force and one that chooses what is felt.
+//!
+//! The loop is that of every board (`boards/bench`), in the interrupt of TIM7; here are this one's pins.
+//! `docs/knob.md` has the wiring; [`body`] is what to change first.
+
+#![no_std]
+#![no_main]
+
+#[path = "../../../knob.rs"]
+#[allow(dead_code)]
+mod body;
+#[path = "../chip.rs"]
+mod chip;
+mod choice;
+mod felt;
+#[path = "../port.rs"]
+mod port;
+mod stage;
+#[path = "../supply.rs"]
+mod supply;
+#[path = "../ticks.rs"]
+mod ticks;
+
+use cortex_m::peripheral::NVIC;
+use cortex_m_rt::entry;
+use embedded_hal::spi::MODE_1;
+use palpate::device::SupplyRange;
+use palpate::device::drive::NoPin;
+use palpate::servo::Heartbeat;
+use palpate::wire::Record;
+use palpate::wire::telemetry::Queue;
+use palpate_bench::sensors::{Angles, Watched, greatest_step};
+use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Memo, Parts, Settings};
+use palpate_cortex::{Cycles, HandOver};
+use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6};
+use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
+use stm32g4xx_hal::prelude::*;
+use stm32g4xx_hal::spi::Spi;
+use stm32g4xx_hal::stm32::{Interrupt, Peripherals, SPI1, interrupt};
+use stm32g4xx_hal::time::{ExtU32, RateExtU32};
+
+use crate::body::{FROZEN, SETTINGS};
+use crate::chip::{CLOCK, MEMO};
+use crate::choice::Choice;
+use crate::felt::{DEVICE, This};
+use crate::stage::Stage;
+use crate::supply::Volts;
+use crate::ticks::Ticks;
+
+/// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
+const SUPPLY: SupplyRange = SupplyRange { least: 10_000, most: 14_000 };
+const BENCH: Settings = Settings { supply: Some(SUPPLY), ..Settings::new(CLOCK) };
+
+type Pin = AnyPin<Input>;
+type Bus = Spi<SPI1, (PA5<AF5>, PA6<AF5>, PA7<AF5>)>;
+type Sensor = Watched<Angles<Bus, PB6<Output>, CycleDelay<Cycles>, 1>, 1>;
+type Board = Parts<Cycles, Ticks, Sensor, [Stage; 1], Pin, Pin, Pin, Volts, NoPin, 2>;
+
+/// The loop on its way from main to the interrupt, and what passes between them afterwards.
+static HANDED_OVER: HandOver<Bench<'static, This, Board, 1>> = HandOver::new();
+static MAILBOX: Mailbox = Mailbox::new();
+
+#[interrupt]
+fn TIM7() {
+    // Taken at the first tick: from then on no lock is needed.
+    static mut LOOP: Option<Bench<'static, This, Board, 1>> = None;
+
+    if LOOP.is_none() {
+        *LOOP = HANDED_OVER.take();
+    }
+    if let Some(servo_loop) = LOOP {
+        servo_loop.tick();
+    }
+}
+
+#[entry]
+fn main() -> ! {
+    static mut QUEUE: Queue<Record, 16> = Queue::new();
+
+    stage::motors_off();
+    let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
+        panic!("the peripherals are taken here and nowhere else")
+    };
+    let (mut rcc, flags) = chip::start(chip.RCC, chip.PWR, &chip.FLASH);
+    let reset = flags.reason(MEMO.read());
+    let cycles = Cycles::start(&mut core.DCB, core.DWT);
+    let (a, b, c) = (chip.GPIOA.split(&mut rcc), chip.GPIOB.split(&mut rcc), chip.GPIOC.split(&mut rcc));
+
+    // The stage first: not enabled.
+    let enable = a.pa9.into_push_pull_output();
+    let phases = (b.pb10.into_alternate(), c.pc7.into_alternate(), b.pb4.into_alternate());
+    let stage = stage::stage((chip.TIM2, chip.TIM3), phases, enable, &mut rcc);
+
+    let mut select = b.pb6.into_push_pull_output();
+    select.set_high();
+    let bus = (a.pa5.into_alternate(), a.pa6.into_alternate(), a.pa7.into_alternate());
+    let bus = chip.SPI1.spi(bus, MODE_1, 8.MHz(), &mut rcc);
+    let step = greatest_step(&DEVICE.encoders[0], DEVICE.max_joint_rate, SETTINGS.rate, BENCH.bad_frames);
+    let mut sensor = Angles::new(bus, [select], CycleDelay::new(cycles, CLOCK), [step]);
+    // If it does not start the loop says so, tick by tick.
+    let _ = sensor.start();
+    let mut port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
+    let mut delay = CycleDelay::new(cycles, CLOCK);
+
+    let board = Parts {
+        counter: cycles,
+        timer: Ticks::start(chip.TIM7, &rcc),
+        sensors: Watched::new(sensor, FROZEN),
+        drives: [stage],
+        lines: Lines {
+            // The blue button: high while pressed.
+            enable: c.pc13.into_floating_input().erase(),
+            enable_level: true,
+            stop: c.pc0.into_pull_up_input().erase(),
+            // The shield's fault and reset lines, both high while it is well, whichever of the two goes where.
+            ready: [b.pb0.into_pull_down_input().erase(), a.pa1.into_pull_down_input().erase()],
+            supply: Volts::new(chip.ADC1, chip.ADC12_COMMON, b.pb1.into_analog(), &mut delay, &mut rcc),
+        },
+        // The board's light hangs on the bus's clock.
+        light: NoPin,
+    };
+    let mut choice = Choice::new(a.pa10.into_pull_up_input(), cycles);
+    let (producer, records) = QUEUE.split();
+    HANDED_OVER.give(Bench::new(This, board, &BENCH, reset, producer, &MAILBOX));
+    MEMO.write(Memo::new(Cause::Running));
+    let mut watchdog = port::Bowl(IndependentWatchdog::new(chip.IWDG));
+    watchdog.0.start(20.millis());
+    // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
+    unsafe {
+        core.NVIC.set_priority(Interrupt::TIM7, 0);
+        NVIC::unmask(Interrupt::TIM7);
+    }
+    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default());
+    loop {
+        idle.step(&mut port, &mut watchdog);
+        choice.look(&MAILBOX);
+    }
+}
