@@ -98,6 +98,8 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
     let mut all = figures(&Program::prepare(board, "budget", &[], progress)?.run(Pace::Counting)?)?;
     // The protected loop is an image of its own: two loops in one would share code that each alone has for itself.
     let protected = figures(&Program::prepare(board, "budget", &["counted"], progress)?.run(Pace::Counting)?)?;
+    let knob = figures(&Program::prepare(board, "knob_budget", &["knob"], progress)?.run(Pace::Counting)?)?;
+    all.0.extend(knob.0);
     all.0.extend(protected.0.into_iter().filter(|(name, _)| name.contains("protected")));
     Ok(all)
 }

@@ -3,7 +3,7 @@
 use crate::own::{self, DeviceFile, OwnDevice};
 pub use crate::preset::{Limits, Preset};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use palpate::device::{Protection, presets};
+use palpate::device::presets;
 use palpate_plant::PlantSettings;
 use std::ffi::OsStr;
 use std::path::Path;
@@ -25,19 +25,14 @@ pub struct ShippedDevice {
     /// Where the palpate library has the preset: its mechanism's type and its constant, in a source file for an image.
     /// None with less than three joints.
     pub source: Option<[&'static str; 2]>,
-    /// The source of the constants of one's own device, and what protects it; none of one that ships.
-    pub constants: Option<(&'static str, Protection<3>)>,
+    /// The source of the constants of one's own device; none of one that ships.
+    pub constants: Option<&'static str>,
 }
 
 impl ShippedDevice {
     /// Its device file, where one's own begins; `None` with less than three joints.
     pub fn file(&self) -> Option<DeviceFile> {
         own::file_of(self.name, self.preset, &self.plant)
-    }
-
-    /// What protects it.
-    pub fn protection(&self) -> Protection<3> {
-        self.constants.map_or_else(|| own::protection_of(self.name), |(_, protection)| protection)
     }
 }
 
@@ -113,8 +108,20 @@ pub fn named(name: &str) -> Option<&'static ShippedDevice> {
     DEVICES.iter().find(|device| device.name == name)
 }
 
+/// A device of the command line: one that feels surfaces, or the knob, which has one joint and feels by itself.
+#[derive(Clone, Copy, Debug)]
+pub enum Chosen {
+    /// One of [`DEVICES`], or one's own.
+    Arm(&'static ShippedDevice),
+    /// The knob ([`crate::knob`]).
+    Knob,
+}
+
+/// The knob's name on the command line.
+const KNOB: &str = "knob";
+
 /// Takes a device from the command line: by its name, or one's own from its file.
-pub fn parser() -> impl TypedValueParser<Value = &'static ShippedDevice> {
+pub fn parser() -> impl TypedValueParser<Value = Chosen> {
     NameOrFile
 }
 
@@ -123,7 +130,7 @@ pub fn parser() -> impl TypedValueParser<Value = &'static ShippedDevice> {
 struct NameOrFile;
 
 impl TypedValueParser for NameOrFile {
-    type Value = &'static ShippedDevice;
+    type Value = Chosen;
 
     fn parse_ref(
         &self,
@@ -136,18 +143,25 @@ impl TypedValueParser for NameOrFile {
             let own = OwnDevice::read(path).map_err(|error| {
                 clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
             })?;
-            return Ok(own_device(&own, &path.display().to_string()));
+            return Ok(Chosen::Arm(own_device(&own, &path.display().to_string())));
         }
-        let names = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
         // The names are the table's: each is found.
-        let known = PossibleValuesParser::new(names).try_map(|name| named(&name).ok_or("no such device"));
+        let chosen = |name: String| {
+            if name == KNOB { Ok(Chosen::Knob) } else { named(&name).map(Chosen::Arm).ok_or("no such device") }
+        };
+        let known = PossibleValuesParser::new(names()).try_map(chosen);
         known.parse_ref(command, argument, value)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let names = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
-        Some(Box::new(names))
+        Some(Box::new(names()))
     }
+}
+
+/// The names on the command line, and what they stand for.
+fn names() -> impl Iterator<Item = PossibleValue> {
+    let arms = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
+    arms.chain([PossibleValue::new(KNOB).help("A knob on a motor with three phases: one joint, demo only")])
 }
 
 /// One's own device as a row of the table; it lives as long as the program.
@@ -164,7 +178,7 @@ pub fn own_device(own: &OwnDevice, from: &str) -> &'static ShippedDevice {
         plant: own.plant,
         assumed: "what of its inertia the file does not state is assumed",
         source: Some([mechanism, "DEVICE"]),
-        constants: Some((Box::leak(own::source(own, from).into_boxed_str()), own.protection)),
+        constants: Some(Box::leak(own::source(own, from).into_boxed_str())),
     }))
 }
 

@@ -1,8 +1,9 @@
 //! `palpate demo`: the firmware image on the emulated board, in closed loop with the simulated device.
 
 use super::options::{RATES, Scene, SceneOptions};
-use super::{progress, sim};
+use super::{demo_knob, progress, sim};
 use crate::budgets::Budget;
+use crate::devices::Chosen;
 use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
 use crate::report::{Page, Summary, plots, write_page};
 use crate::simulation::{self, Trace};
@@ -55,6 +56,9 @@ struct Run {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    if let Chosen::Knob = arguments.scene.device {
+        return demo_knob::run(arguments.board, arguments.host, &arguments.report, arguments.picture.as_deref());
+    }
     let mut scene = arguments.scene.scene()?;
     let run = if arguments.host { on_host(arguments, &scene)? } else { in_time(arguments, &mut scene)? };
     let mut figures = Summary::new(&run.trace).rows();
@@ -132,8 +136,8 @@ pub(super) fn write_tables(board: Board, scene: &Scene) -> anyhow::Result<(tempf
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
     fs::write(folder.path().join("body.rs"), scene.felt.source(&scene.origin())?)?;
     fs::write(folder.path().join("settings.rs"), scene.settings_source())?;
-    let [body, settings] = ["body.rs", "settings.rs"].map(|name| Some(folder.path().join(name)));
-    let choice = Choice { board, body, settings, protected: scene.protection.is_some() };
+    let choice =
+        Choice { board, body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };
     Ok((folder, choice))
 }
 

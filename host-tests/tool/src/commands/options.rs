@@ -1,14 +1,14 @@
 //! What `demo` and `sim` share: the scene, and how it is set up from the command line.
 
 use super::felt::Felt;
-use crate::devices::{self, Preset, ShippedDevice};
+use crate::devices::{self, Chosen, Preset, ShippedDevice};
 use crate::firmware::Link;
 use crate::models::ModelFile;
 use crate::simulation::HostLoop;
 use anyhow::{Context, bail};
 use clap::Args;
 use glam::DVec3;
-use palpate::device::{Device, Kinematics, Protection};
+use palpate::device::{Device, Kinematics};
 use palpate::servo::{Safety, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::source::Origin;
@@ -41,7 +41,7 @@ pub struct SceneOptions {
     pub patch: Option<String>,
     /// The device, or the file of one's own (my.toml); feeling a surface takes three joints
     #[arg(long, value_parser = devices::parser(), default_value = "woodenhaptics-2016")]
-    pub device: &'static ShippedDevice,
+    pub device: Chosen,
     /// Servo rate, Hz; 4,000, or what the emulated board has time for if that is less
     #[arg(long)]
     pub rate: Option<f32>,
@@ -66,9 +66,6 @@ pub struct SceneOptions {
     /// Seconds over which the force is faded in
     #[arg(long, default_value_t = 0.1)]
     pub soft_start: f32,
-    /// With all protection of the device: its motors' heat, speeds, signs that are wrong
-    #[arg(long)]
-    pub protected: bool,
     /// Where the model's origin lies in the device's workspace: x,y,z in mm from its centre; centres it if not given
     #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
     pub at: Option<Vec<f64>>,
@@ -86,8 +83,6 @@ pub struct Scene {
     pub device: &'static ShippedDevice,
     /// The loop's settings.
     pub settings: Settings,
-    /// What protects the device, if that was asked for.
-    pub protection: Option<Protection<3>>,
     /// Ticks to run.
     pub ticks: u32,
     /// The tick at which force is asked for: the witness point has converged by then.
@@ -107,7 +102,9 @@ impl SceneOptions {
             Some(&[x, y, z]) => (DVec3::new(x, y, z) * 1e-3 + model.centre).as_vec3(),
             _ => -felt.middle(),
         };
-        let device = self.device;
+        let Chosen::Arm(device) = self.device else {
+            bail!("the knob touches no surface: cargo palpate demo --device knob")
+        };
         if device.source.is_none() {
             bail!("{} has too few joints to feel a surface in space; see zwidth", device.name);
         }
@@ -125,8 +122,7 @@ impl SceneOptions {
             .check(limits.stiffness, limits.damping)
             .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
         let [ticks, enable_at] = self.ticks(settings.rate)?;
-        let protection = self.protected.then(|| device.protection());
-        Ok(Scene { file, centre: model.centre, felt, device, settings, protection, ticks, enable_at })
+        Ok(Scene { file, centre: model.centre, felt, device, settings, ticks, enable_at })
     }
 
     /// How many ticks to run at a rate, Hz, and at which of them force is asked for.
@@ -182,7 +178,7 @@ impl SceneOptions {
             paths.into_iter().find(|path| !is_too_fast(path)).unwrap_or_else(|| path_of(share, 1))
         };
         // Where the surface is larger than the workspace, it keeps to the middle of the surface.
-        let (mechanism, preset) = (self.device.plant.mechanism(0.0), self.device.preset);
+        let (mechanism, preset) = (scene.device.plant.mechanism(0.0), scene.device.preset);
         let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0);
         let path = (6..=20)
             .rev()
@@ -194,11 +190,11 @@ impl SceneOptions {
             .with_context(|| {
                 format!(
                     "{}: not even the middle third of the surface is in its workspace (move it with --at)",
-                    self.device.name
+                    scene.device.name
                 )
             })?
             .context("the hand finds no path")?;
-        Plant::new(&self.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate))
+        Plant::new(&scene.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate))
             .context("the simulated device cannot start here (move the model with --at)")
     }
 }
@@ -229,9 +225,8 @@ impl Scene {
         device: &'static Device<K, 3>,
         surface: &'static S,
     ) -> anyhow::Result<Box<dyn Link>> {
-        let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, self.settings)?;
-        let Some(protection) = self.protection else { return Ok(Box::new(HostLoop::new(servo.try_safety(SAFETY)?))) };
-        Ok(Box::new(HostLoop::new(servo.try_protect(protection)?.try_safety(SAFETY)?)))
+        let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, self.settings)?.try_safety(SAFETY)?;
+        Ok(Box::new(HostLoop::new(servo)))
     }
 
     /// The model file's name, without its directory.
@@ -260,7 +255,7 @@ impl Scene {
         let shipped = format!(
             "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE, presets::{device}_PROTECTION as PROTECTION}};"
         );
-        let constants = self.device.constants.map_or(shipped.as_str(), |(source, _)| source);
+        let constants = self.device.constants.unwrap_or(&shipped);
         format!(
             "{constants}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
              rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    \

@@ -1,7 +1,9 @@
 //! A board's program other than the plain ones: it prints, logs or tells of itself.
 
 use super::process::output;
-use super::{Board, Choice, Emulator, Image, LinkError, Pace, Progress, Qemu, Running, SetUpError, Toolchain, image};
+use super::{
+    Board, Choice, Emulator, Image, LinkError, Pace, Progress, Qemu, Running, SetUpError, Toolchain, Transport, image,
+};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, ChildStdout, Stdio};
@@ -81,6 +83,14 @@ impl Program {
     /// If the emulator does not start.
     pub fn start_with_line(&self) -> Result<(Running, TcpStream), LinkError> {
         Running::start(&self.qemu, &self.image)
+    }
+
+    /// Starts it where it speaks over FIFOs.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_over_fifos(&self) -> Result<Emulator, LinkError> {
+        Emulator::start(&self.qemu, &self.image, Transport::Fifo)
     }
 
     /// Starts it where it speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.

@@ -16,20 +16,7 @@ svg{max-width:100%;height:auto}.note{color:#57606a}";
 /// # Errors
 /// A plot that cannot be drawn, or a file that cannot be written, by name.
 pub fn write_page(page: &Page<'_>, path: &Path) -> anyhow::Result<()> {
-    let mut text = String::new();
-    write!(
-        text,
-        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title><style>{STYLE}</style>\
-         <h1>{0}</h1><p class=\"note\">{1}</p><table>",
-        escape(page.title),
-        escape(page.subtitle)
-    )?;
-    for (name, value) in page.figures {
-        write!(text, "<tr><td>{}</td><td>{}</td></tr>", escape(name), escape(value))?;
-    }
-    text.push_str("</table>");
-    for (heading, note, drawing) in [
+    let mut sections = vec![
         ("Probe path", "The surface, and the probe in front of it (blue) and pressing in (red).", plots::path(page)?),
         ("Gap", "Signed distance along the outward normal; below zero the probe presses in.", plots::gap(page.trace)?),
         ("Force", "Magnitude of the force at the probe.", plots::force(page.trace)?),
@@ -43,11 +30,41 @@ pub fn write_page(page: &Page<'_>, path: &Path) -> anyhow::Result<()> {
             "1 and 2: held at u = 0 and u = 1; 3 and 4: at v = 0 and v = 1; 5: interior; 6: corner.",
             plots::mode(page.trace)?,
         ),
-    ] {
-        write!(text, "<h2>{heading}</h2><p class=\"note\">{note}</p>{drawing}")?;
-    }
+    ];
     if let Some(drawing) = plots::instructions(page.trace)? {
-        write!(text, "<h2>Instructions a tick</h2><p class=\"note\">Counted under the emulator.</p>{drawing}")?;
+        sections.push(("Instructions a tick", "Counted under the emulator.", drawing));
+    }
+    write_sections([page.title, page.subtitle], page.figures, &sections, path)
+}
+
+/// A heading, a sentence and a drawing.
+pub type Section<'a> = (&'a str, &'a str, String);
+
+/// Writes a page with a headline and a sentence below it, whole or not at all.
+///
+/// # Errors
+/// A file that cannot be written, by name.
+pub fn write_sections(
+    [title, subtitle]: [&str; 2],
+    figures: &[(&str, String)],
+    sections: &[Section<'_>],
+    path: &Path,
+) -> anyhow::Result<()> {
+    let mut text = String::new();
+    write!(
+        text,
+        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title><style>{STYLE}</style>\
+         <h1>{0}</h1><p class=\"note\">{1}</p><table>",
+        escape(title),
+        escape(subtitle)
+    )?;
+    for (name, value) in figures {
+        write!(text, "<tr><td>{}</td><td>{}</td></tr>", escape(name), escape(value))?;
+    }
+    text.push_str("</table>");
+    for (heading, note, drawing) in sections {
+        write!(text, "<h2>{heading}</h2><p class=\"note\">{note}</p>{drawing}")?;
     }
     text.push_str("</html>\n");
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

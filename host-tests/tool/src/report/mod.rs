@@ -5,6 +5,6 @@ mod page;
 pub mod plots;
 mod summary;
 
-pub use html::write_page;
+pub use html::{Section, write_page, write_sections};
 pub use page::Page;
 pub use summary::{Instructions, Summary};

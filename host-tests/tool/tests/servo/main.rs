@@ -1,6 +1,5 @@
 //! The servo loop against the simulated device, against faults, against arbitrary sensors and arbitrary frames.
 
-mod arming;
 mod damping;
 mod faults;
 mod frames;
@@ -8,8 +7,8 @@ mod fuzz;
 mod guard;
 mod harmed;
 mod homing;
-mod injection;
 mod jogging;
+mod knob;
 mod limits;
 mod passivity;
 mod surfaces;
@@ -17,5 +16,4 @@ mod through;
 mod touch;
 mod traces;
 mod velocity;
-mod watched;
 mod weight;

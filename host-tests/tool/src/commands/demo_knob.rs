@@ -1,0 +1,239 @@
+//! `palpate demo --device knob`: the knob's image on an emulated board, a hand that turns the simulated dial.
+
+use super::progress;
+use crate::drawing::{BLUE_INK, Drawing, DrawingResult, GREEN_INK, RED_INK, draw, thinned};
+use crate::firmware::{Board, Image, Link as _, LinkError, Program, Progress, SetUpError};
+use crate::knob::turning::{HostEnd, TICKS, Turned, curve, size, turn, worst_detent};
+use crate::knob::{DIAL_ZERO, FEELS, NAMES, SEARCH, device, recorded, servo};
+use crate::report::{Section, write_sections};
+use anyhow::Context;
+use palpate::servo::{Fault, Phase};
+use palpate_plant::{Dial, DialSettings};
+use plotters::prelude::*;
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// A run, and what it was.
+pub struct Run {
+    /// Every tick.
+    pub turned: Vec<Turned>,
+    /// The image, where there is one.
+    image: Option<Image>,
+}
+
+/// Runs the knob's image, or its loop compiled for the host, with the map of its motor's cogging and without.
+///
+/// # Errors
+/// What cannot be built, run or written.
+pub fn run(board: Board, host: bool, file: &Path, picture: Option<&Path>) -> anyhow::Result<ExitCode> {
+    let run = |compensated: bool| if host { on_host(compensated) } else { on_board(board, compensated) };
+    let (with, without) = (run(true)?, run(false)?);
+    let on = match &with.image {
+        Some(_) => format!("firmware on an emulated {} ({}) over fifo", board.core(), board.machine()),
+        None => "the loop compiled for the host".to_owned(),
+    };
+    let subtitle = format!("a knob on a motor with three phases, {on}");
+    let figures = figures(&with, &without);
+    write_sections(["palpate demo", &subtitle], &figures, &sections(&with.turned, &without.turned)?, file)?;
+    if let Some(picture) = picture {
+        fs::write(picture, drawn(&with.turned, &without.turned)?)
+            .with_context(|| format!("cannot write {}", picture.display()))?;
+    }
+    println!("palpate demo: {subtitle}");
+    for (name, value) in &figures {
+        println!("  {name:<20} {value}");
+    }
+    println!("  {:<20} {}", "report", file.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// On the host.
+///
+/// # Errors
+/// None.
+pub fn on_host(compensated: bool) -> anyhow::Result<Run> {
+    let cogging = compensated.then_some(recorded::COGGING);
+    let mut end = HostEnd::new(servo(Box::leak(Box::new(device(cogging))), SEARCH));
+    let turned = turn(DialSettings::gimbal_knob(), |sensors| Ok(end.exchange(sensors)), |_| ())?;
+    Ok(Run { turned, image: None })
+}
+
+/// On an emulated board, or on the host where no emulator can be had.
+///
+/// # Errors
+/// What cannot be built or run.
+pub fn on_board(board: Board, compensated: bool) -> anyhow::Result<Run> {
+    let features: &[&str] = if compensated { &["knob"] } else { &["uncompensated"] };
+    let program = match Program::prepare(board, "knob", features, &Progress::new()) {
+        Ok(program) => program,
+        Err(error @ (SetUpError::NoEmulator(_) | SetUpError::NoToolchain(_))) => {
+            eprintln!("{error}");
+            eprintln!("running the same loop compiled for the host instead; nothing is counted there");
+            return on_host(compensated);
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let mut emulator = program.start_over_fifos()?;
+    let bar = progress::ticks(TICKS);
+    let exchange = |sensors: &_| -> Result<_, LinkError> { emulator.exchange(sensors) };
+    let turned = turn(DialSettings::gimbal_knob(), exchange, |done| bar.tell(done))?;
+    Ok(Run { turned, image: Some(program.image.clone()) })
+}
+
+/// Pitch, radians, and torque, N·m, of the first feel's detents.
+fn detents() -> (f64, f64) {
+    FEELS[0].detents.map_or((1.0, 1.0), |wave| (f64::from(wave.pitch), f64::from(wave.torque)))
+}
+
+fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
+    let (turned, plain) = (&with.turned, &without.turned);
+    let (pitch, torque) = detents();
+    let off = |turned: &[Turned]| 100.0 * worst_detent(&curve(turned, 0), pitch, torque);
+    let free = FEELS.len() as u8 - 1;
+    let [rms, most] = size(&curve(turned, free)).map(|torque| 1e3 * torque);
+    let [plain_rms, plain_most] = size(&curve(plain, free)).map(|torque| 1e3 * torque);
+    let aligned = turned.iter().position(|sample| sample.report.phase == Phase::Armed as u8);
+    let fault = turned.iter().position(|sample| sample.report.fault != 0);
+    let told = fault.map_or_else(
+        || "none".to_owned(),
+        |tick| {
+            let quiet =
+                turned[tick..].iter().all(|sample| sample.current == 0.0 && sample.report.duties == [i16::MIN; 3]);
+            let name = Fault::from_code(turned[tick].report.fault).map_or_else(String::new, |fault| fault.to_string());
+            format!("magnet slipped: {name}; {}", if quiet { "no current from that tick on" } else { "STILL DRIVEN" })
+        },
+    );
+    let mut figures = vec![
+        ("ticks", format!("{} at {} Hz", turned.len(), crate::knob::SETTINGS.rate)),
+        ("rotor aligned", aligned.map_or_else(|| "no".to_owned(), |tick| format!("after {:.2} s", turned[tick].time))),
+        (
+            "detents",
+            format!(
+                "off by at most {:.2} % of {:.0} mN·m; {:.1} % without the map",
+                off(turned),
+                1e3 * torque,
+                off(plain)
+            ),
+        ),
+        ("cogging", format!("{plain_rms:.2} mN·m rms, {plain_most:.2} at most")),
+        ("with the map", format!("{rms:.2} mN·m rms, {most:.2} at most")),
+        ("fault", told),
+        ("state hash", format!("{:08x}", hash(turned))),
+    ];
+    if let Some(image) = &with.image {
+        let mut counts: Vec<u32> = turned.iter().map(|sample| sample.report.instructions).collect();
+        counts.sort_unstable();
+        let (median, worst) = (counts[counts.len() / 2], counts[counts.len() - 1]);
+        figures.push(("instructions a tick", format!("{median} median, {worst} at most")));
+        figures.push(("flash", format!("{} bytes", image.flash)));
+        figures.push(("RAM, static", format!("{} bytes", image.ram)));
+    }
+    figures
+}
+
+/// Over the digests of all ticks: two runs that agree in it agreed in every bit.
+pub fn hash(turned: &[Turned]) -> u32 {
+    turned.iter().fold(0x811c_9dc5_u32, |hash, sample| (hash ^ sample.report.digest).wrapping_mul(0x0100_0193))
+}
+
+/// Points in degrees and mN·m.
+type Line = Vec<(f64, f64)>;
+
+fn in_degrees(curve: &[(f64, f64)]) -> Line {
+    curve.iter().map(|(angle, torque)| (angle.to_degrees(), 1e3 * torque)).collect()
+}
+
+/// What the table asks for at the angles of a curve.
+fn asked(feel: u8, curve: &[(f64, f64)]) -> Line {
+    let feel = &FEELS[usize::from(feel)];
+    let mut click = 0;
+    let torque = |angle: f64, click: &mut i32| f64::from(feel.torque(click, angle as f32, 0.0));
+    curve.iter().map(|(angle, _)| (angle.to_degrees(), 1e3 * torque(*angle, &mut click))).collect()
+}
+
+fn sections(with: &[Turned], without: &[Turned]) -> anyhow::Result<Vec<Section<'static>>> {
+    let mut sections = Vec::new();
+    for (index, name) in NAMES.into_iter().enumerate().take(FEELS.len() - 1) {
+        let felt = curve(with, index as u8);
+        let drawing = plot(
+            ["angle, degrees", "torque, mN·m"],
+            &[(asked(index as u8, &felt), GREEN_INK), (in_degrees(&felt), BLUE_INK)],
+        )?;
+        sections.push((
+            name,
+            "Asked for by the table (green), and felt at the shaft: the mean of there and back (blue).",
+            drawing,
+        ));
+    }
+    let free = FEELS.len() as u8 - 1;
+    let lines = [(in_degrees(&curve(without, free)), RED_INK), (in_degrees(&curve(with, free)), BLUE_INK)];
+    sections.push((
+        "cogging",
+        "Felt with nothing asked for: without the map (red) and with it (blue).",
+        plot(["angle, degrees", "torque, mN·m"], &lines)?,
+    ));
+    let over_time = |of: fn(&Turned) -> f64| -> Line { with.iter().map(|sample| (sample.time, of(sample))).collect() };
+    sections.push((
+        "phases",
+        "The largest current of the three phases: the rotor is aligned, every feel is turned through there and back, the magnet slips.",
+        plot(["time, s", "current, A"], &[(over_time(|sample| sample.current), RED_INK)])?,
+    ));
+    if with.iter().any(|sample| sample.report.instructions > 0) {
+        sections.push((
+            "instructions a tick",
+            "Counted under the emulator: the loop and the widths of three phases.",
+            plot(
+                ["time, s", "instructions"],
+                &[(over_time(|sample| f64::from(sample.report.instructions)), BLUE_INK)],
+            )?,
+        ));
+    }
+    Ok(sections)
+}
+
+/// The detents and the cogging, one below the other.
+fn drawn(with: &[Turned], without: &[Turned]) -> anyhow::Result<String> {
+    let felt = curve(with, 0);
+    let free = FEELS.len() as u8 - 1;
+    let detents = [(asked(0, &felt), GREEN_INK), (in_degrees(&felt), BLUE_INK)];
+    let cogging = [(in_degrees(&curve(without, free)), RED_INK), (in_degrees(&curve(with, free)), BLUE_INK)];
+    draw((920, 480), |area| {
+        let (upper, lower) = area.split_vertically(240);
+        chart(&upper, ["angle, degrees", "detents, mN·m"], &detents)?;
+        chart(&lower, ["angle, degrees", "cogging, mN·m"], &cogging)
+    })
+}
+
+fn plot(axes: [&str; 2], lines: &[(Line, RGBColor)]) -> anyhow::Result<String> {
+    draw((920, 240), |area| chart(area, axes, lines))
+}
+
+fn chart(area: &Drawing<'_>, [x, y]: [&str; 2], lines: &[(Line, RGBColor)]) -> DrawingResult {
+    let points = || lines.iter().flat_map(|(line, _)| line);
+    let range = |of: fn(&(f64, f64)) -> f64| {
+        let low = points().map(of).fold(f64::INFINITY, f64::min);
+        let high = points().map(of).fold(low + 1e-9, f64::max);
+        let margin = 0.04 * (high - low);
+        (low - margin)..(high + margin)
+    };
+    let (across, up) = (range(|point| point.0), range(|point| point.1));
+    let mut chart =
+        ChartBuilder::on(area).margin(8).x_label_area_size(36).y_label_area_size(56).build_cartesian_2d(across, up)?;
+    chart.configure_mesh().x_desc(x).y_desc(y).light_line_style(TRANSPARENT).draw()?;
+    for (line, ink) in lines {
+        chart.draw_series(LineSeries::new(thinned(line), *ink))?;
+    }
+    Ok(())
+}
+
+/// The cogging of the simulated dial, recorded anew, as the source that the image is built with.
+///
+/// # Errors
+/// The alignment is refused.
+pub fn recorded_source() -> anyhow::Result<String> {
+    let settings = DialSettings::gimbal_knob();
+    debug_assert!((settings.sensor.angle_at_zero - DIAL_ZERO).abs() < 1e-12);
+    let dial = Dial::new(settings, f64::from(crate::knob::SETTINGS.rate));
+    Ok(crate::knob::record(dial)?.source("the simulated gimbal motor"))
+}

@@ -1,0 +1,171 @@
+//! A hand that turns the knob through every feel, and what is measured meanwhile.
+
+use super::{DIAL_ZERO, FEELS, FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, report, widths};
+use crate::firmware::LinkError;
+use palpate::device::Counts;
+use palpate::device::sensor::Frozen;
+use palpate::servo::{Event, Input};
+use palpate::wire::{Report, Sensors};
+use palpate_plant::{Dial, DialSettings, Fingers, MagneticFault};
+
+/// Ticks from the start until force is there: the rotor is aligned, and force fades in.
+const UNTIL_FELT: u32 = SEARCH.ticks() + 1_200;
+/// Ticks of a way, there or back.
+const WAY: u32 = 4_800;
+/// How far a way goes, radians: a whole number of detents and of the finest cogging.
+const FAR: f64 = std::f64::consts::TAU / 4.0;
+/// Ticks between two feels, for the hand to come to where the next begins.
+const BETWEEN: u32 = 800;
+/// Ticks after the magnet has slipped.
+const AFTER: u32 = 400;
+/// By how many counts it slips.
+const SLIP: i32 = 900;
+
+/// Ticks of a whole run.
+pub const TICKS: u32 = UNTIL_FELT + FEELS.len() as u32 * (BETWEEN + 2 * WAY) + AFTER;
+
+/// One tick as both ends saw it.
+#[derive(Clone, Copy, Debug)]
+pub struct Turned {
+    /// Seconds since the start.
+    pub time: f64,
+    /// Which feel is chosen.
+    pub feel: u8,
+    /// Whether the hand is on a way that is measured, and which: 0 there, 1 back.
+    pub way: Option<usize>,
+    /// The dial's angle from its sensor's zero, radians.
+    pub angle: f64,
+    /// The torque on the shaft, N·m.
+    pub torque: f64,
+    /// The largest of the phases' currents, A.
+    pub current: f64,
+    /// What the loop answered.
+    pub report: Report,
+}
+
+/// Turns a dial through every feel, there and back, and lets its magnet slip at the end. `exchange` is the loop's end.
+///
+/// # Errors
+/// What the link says.
+pub fn turn(
+    settings: DialSettings,
+    mut exchange: impl FnMut(&Sensors) -> Result<Report, LinkError>,
+    mut progress: impl FnMut(u32),
+) -> Result<Vec<Turned>, LinkError> {
+    let mut dial = Dial::new(settings, f64::from(SETTINGS.rate));
+    let mut turned = Vec::with_capacity(TICKS as usize);
+    for tick in 0..TICKS {
+        let (feel, way) = grip(&mut dial, tick);
+        // A sensor that does not answer is one that says what cannot be.
+        let counts = [dial.counts().unwrap_or(i32::MIN), i32::from(feel), 0];
+        let report = exchange(&Sensors { tick, counts, enable: true })?;
+        dial.advance(given(&report));
+        turned.push(Turned {
+            time: dial.time(),
+            feel,
+            way,
+            angle: dial.angle() - DIAL_ZERO,
+            torque: dial.torque(),
+            current: dial.currents().into_iter().map(f64::abs).fold(0.0, f64::max),
+            report,
+        });
+        progress(tick + 1);
+    }
+    Ok(turned)
+}
+
+/// What the hand does at a tick, which feel is chosen, and the way it is on.
+fn grip(dial: &mut Dial, tick: u32) -> (u8, Option<usize>) {
+    let Some(felt) = tick.checked_sub(UNTIL_FELT) else { return (0, None) };
+    let feels = FEELS.len() as u32;
+    let (index, within) = (felt / (BETWEEN + 2 * WAY), felt % (BETWEEN + 2 * WAY));
+    if index >= feels {
+        if felt == feels * (BETWEEN + 2 * WAY) {
+            dial.spoil(Some(MagneticFault::Slipped(SLIP)));
+        }
+        return (FEELS.len() as u8 - 1, None);
+    }
+    let rate = FAR / f64::from(WAY) * f64::from(SETTINGS.rate);
+    let start = DIAL_ZERO - 0.5 * FAR;
+    let (aim, rate, way) = match within.checked_sub(BETWEEN) {
+        None => {
+            let share = f64::from(within + 1) / f64::from(BETWEEN);
+            (dial.angle() + (start - dial.angle()) * share, 0.0, None)
+        }
+        Some(gone) if gone < WAY => (start + FAR * f64::from(gone) / f64::from(WAY), rate, Some(0)),
+        Some(gone) => (start + FAR * f64::from(2 * WAY - gone) / f64::from(WAY), -rate, Some(1)),
+    };
+    dial.hold(Fingers { rate, ..Fingers::clamp(aim) });
+    (index as u8, way)
+}
+
+/// The widths of a report; `None` for a stage that is disabled.
+fn given(report: &Report) -> Option<[f64; 3]> {
+    (report.duties != [i16::MIN; 3]).then(|| report.duties.map(|duty| f64::from(duty) / 65_534.0 + 0.5))
+}
+
+/// The knob's loop compiled for the host, as the firmware has it.
+#[derive(Clone, Debug)]
+pub struct HostEnd {
+    servo: KnobServo,
+    state: KnobState,
+    frozen: Frozen,
+}
+
+impl HostEnd {
+    /// A loop before its first tick.
+    pub fn new(servo: KnobServo) -> Self {
+        let state = servo.start();
+        Self { servo, state, frozen: FROZEN }
+    }
+
+    /// One tick: sensors in, report out, as the board's loop does it.
+    pub fn exchange(&mut self, sensors: &Sensors) -> Report {
+        let [counts, feel, _] = sensors.counts;
+        self.servo.note(&mut self.state, Event::Chosen { index: feel as u8 });
+        let input = if self.frozen.is_frozen(counts as u32) {
+            Input::Damaged
+        } else {
+            Input::Sensors { counts: [Counts(counts)], enable: sensors.enable }
+        };
+        self.servo.tick(&mut self.state, input);
+        report(&self.state, widths(&self.servo, &self.state, &MODULATION), 0)
+    }
+}
+
+/// The torque over the angle in one feel: angles a third of a degree apart, radians, and the mean of there and back,
+/// N·m, which is without friction and damping.
+pub fn curve(turned: &[Turned], feel: u8) -> Vec<(f64, f64)> {
+    const STEP: f64 = std::f64::consts::PI / 540.0;
+    let mut sums = std::collections::BTreeMap::<i64, [(f64, u32); 2]>::new();
+    for sample in turned.iter().filter(|sample| sample.feel == feel) {
+        let Some(way) = sample.way else { continue };
+        let (sum, count) = &mut sums.entry((sample.angle / STEP).round() as i64).or_default()[way];
+        *sum += sample.torque;
+        *count += 1;
+    }
+    let mean = |(sum, count): (f64, u32)| (count > 0).then(|| sum / f64::from(count));
+    sums.into_iter()
+        .filter_map(|(place, [there, back])| Some((place as f64 * STEP, 0.5 * (mean(there)? + mean(back)?))))
+        .collect()
+}
+
+/// How far the peaks of the detents on the ways are from their torque at most, as a share: the greatest torque within
+/// three tenths of a pitch, on either side of each detent that is whole.
+pub fn worst_detent(curve: &[(f64, f64)], pitch: f64, torque: f64) -> f64 {
+    let whole = (0.5 * FAR / pitch) as i32 - 1;
+    let peak = |detent: i32, side: f64| {
+        let middle = (f64::from(detent) + 0.25 * side) * pitch;
+        let near = curve.iter().filter(|(angle, _)| (angle - middle).abs() < 0.1 * pitch);
+        near.map(|(_, felt)| -side * felt).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let sides = (-whole..=whole).flat_map(|detent| [(detent, -1.0), (detent, 1.0)]);
+    sides.map(|(detent, side)| (peak(detent, side) / torque - 1.0).abs()).fold(0.0, f64::max)
+}
+
+/// The root mean square and the largest torque of a curve, N·m.
+pub fn size(curve: &[(f64, f64)]) -> [f64; 2] {
+    let squares: f64 = curve.iter().map(|(_, torque)| torque * torque).sum();
+    let most = curve.iter().map(|(_, torque)| torque.abs()).fold(0.0, f64::max);
+    [(squares / curve.len().max(1) as f64).sqrt(), most]
+}

@@ -1,0 +1,272 @@
+//! The knob on the shared loop: its pins, its stage, its panel.
+
+use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
+use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
+use palpate::device::drive::ThreePhase;
+use palpate::device::{Counts, Device, Dial, SupplyRange};
+use palpate::servo::{Fault, Knob, Phase, ResetReason, Servo};
+use palpate::wire::Record;
+use palpate::wire::telemetry::Queue;
+use palpate_bench::sensors::{BadFrame, Sensors, Watched};
+use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
+use palpate_plant::{DialSettings, MagneticFault};
+use palpate_tool::knob::{FROZEN, KnobServo, MODULATION, SEARCH, SETTINGS, device, servo};
+use std::cell::RefCell;
+use std::convert::Infallible;
+use std::rc::Rc;
+
+const CLOCK: u32 = 170_000_000;
+const STEPS: u16 = 6_800;
+
+static DEVICE: Device<Dial, 1> = device(None);
+static SERVO: KnobServo = servo(&DEVICE, SEARCH);
+
+struct This;
+
+impl Felt<1> for This {
+    type Surface = Knob;
+    type Mechanism = Dial;
+
+    fn servo(&self) -> &Servo<'static, Knob, Dial, 1> {
+        &SERVO
+    }
+}
+
+/// What the pins are wired to.
+struct World {
+    dial: palpate_plant::Dial,
+    button: bool,
+    stop_open: bool,
+    ready: [bool; 2],
+    volts: f32,
+    widths: [u16; 3],
+    enabled: bool,
+    cycles: u32,
+    reading: u32,
+}
+
+type Shared = Rc<RefCell<World>>;
+
+struct In(Shared, fn(&World) -> bool);
+
+impl PinErrorType for In {
+    type Error = Infallible;
+}
+
+impl InputPin for In {
+    fn is_high(&mut self) -> Result<bool, Infallible> {
+        Ok((self.1)(&self.0.borrow()))
+    }
+
+    fn is_low(&mut self) -> Result<bool, Infallible> {
+        self.is_high().map(|high| !high)
+    }
+}
+
+struct Enable(Shared);
+
+impl PinErrorType for Enable {
+    type Error = Infallible;
+}
+
+impl OutputPin for Enable {
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        self.0.borrow_mut().enabled = false;
+        Ok(())
+    }
+
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        self.0.borrow_mut().enabled = true;
+        Ok(())
+    }
+}
+
+struct Width(Shared, usize);
+
+impl WidthErrorType for Width {
+    type Error = Infallible;
+}
+
+impl SetDutyCycle for Width {
+    fn max_duty_cycle(&self) -> u16 {
+        STEPS
+    }
+
+    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+        self.0.borrow_mut().widths[self.1] = duty;
+        Ok(())
+    }
+}
+
+struct Clock(Shared);
+
+impl Counter for Clock {
+    fn now(&self) -> u32 {
+        let mut world = self.0.borrow_mut();
+        world.cycles = world.cycles.wrapping_add(40);
+        world.cycles
+    }
+}
+
+impl Timer for Clock {
+    fn acknowledge(&mut self) {}
+}
+
+impl Supply for Clock {
+    fn volts(&mut self) -> Option<f32> {
+        Some(self.0.borrow().volts)
+    }
+}
+
+impl Sensors<1> for Clock {
+    fn read(&mut self) -> Result<[Counts; 1], BadFrame> {
+        let mut world = self.0.borrow_mut();
+        world.cycles = world.cycles.wrapping_add(world.reading);
+        world.dial.counts().map(|counts| [Counts(counts)]).ok_or(BadFrame::Absent)
+    }
+}
+
+type Stage = ThreePhase<Width, Width, Width, Enable>;
+type Board = Parts<Clock, Clock, Watched<Clock, 1>, [Stage; 1], In, In, In, Clock, palpate::device::drive::NoPin, 2>;
+
+struct Rig {
+    world: Shared,
+    bench: Bench<'static, This, Board, 1>,
+    mailbox: &'static Mailbox,
+}
+
+impl Rig {
+    fn new(reset: ResetReason) -> Self {
+        let world = World {
+            dial: palpate_plant::Dial::new(DialSettings::gimbal_knob(), f64::from(SETTINGS.rate)),
+            button: false,
+            stop_open: false,
+            ready: [true; 2],
+            volts: 12.0,
+            widths: [0; 3],
+            enabled: false,
+            cycles: 0,
+            reading: 200,
+        };
+        let world = Rc::new(RefCell::new(world));
+        let of = || Rc::clone(&world);
+        let widths = (Width(of(), 0), Width(of(), 1), Width(of(), 2));
+        let board = Parts {
+            counter: Clock(of()),
+            timer: Clock(of()),
+            sensors: Watched::new(Clock(of()), FROZEN),
+            drives: [ThreePhase::new(widths, Enable(of()), MODULATION)],
+            lines: Lines {
+                enable: In(of(), |world| world.button),
+                enable_level: true,
+                stop: In(of(), |world| world.stop_open),
+                ready: [In(of(), |world| world.ready[0]), In(of(), |world| world.ready[1])],
+                supply: Clock(of()),
+            },
+            light: palpate::device::drive::NoPin,
+        };
+        let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
+        let queue: &'static mut Queue<Record, 64> = Box::leak(Box::new(Queue::new()));
+        let (producer, _) = queue.split();
+        let settings = Settings { supply: Some(SupplyRange { least: 10_000, most: 14_000 }), ..Settings::new(CLOCK) };
+        let bench = Bench::new(This, board, &settings, reset, producer, mailbox);
+        Self { world, bench, mailbox }
+    }
+
+    fn tick(&mut self) {
+        self.bench.tick();
+        let mut world = self.world.borrow_mut();
+        let widths = world.enabled.then(|| world.widths.map(|width| f64::from(width) / f64::from(STEPS)));
+        world.dial.advance(widths);
+        world.cycles = world.cycles.wrapping_add(CLOCK / SETTINGS.rate as u32 / 2);
+    }
+
+    fn ticks(&mut self, ticks: u32) {
+        (0..ticks).for_each(|_| self.tick());
+    }
+
+    fn set(&self, change: impl FnOnce(&mut World)) {
+        change(&mut self.world.borrow_mut());
+    }
+
+    fn enabled(&self) -> bool {
+        self.world.borrow().enabled
+    }
+
+    fn fault(&self) -> Option<Fault> {
+        self.bench.state().fault().map(|(fault, _)| fault)
+    }
+
+    /// Presses the button that was released.
+    fn press(&mut self) {
+        self.set(|world| world.button = false);
+        self.ticks(10);
+        self.set(|world| world.button = true);
+    }
+
+    /// Halfway through the alignment.
+    fn aligning() -> Self {
+        let mut rig = Self::new(ResetReason::PowerOn);
+        rig.press();
+        rig.ticks(SEARCH.ticks() / 2);
+        assert!(rig.enabled() && rig.bench.state().phase() == Phase::Calibrate);
+        rig
+    }
+
+    fn running() -> Self {
+        let mut rig = Self::aligning();
+        rig.ticks(SEARCH.ticks());
+        assert_eq!((rig.bench.state().homed(), rig.enabled()), (true, false), "that press asked for the alignment");
+        rig.press();
+        rig.ticks(1_200);
+        assert_eq!((rig.bench.state().phase(), rig.fault()), (Phase::Running, None));
+        assert!(rig.enabled());
+        rig
+    }
+}
+
+#[test]
+fn a_button_that_is_held_at_reset_moves_nothing_and_one_press_aligns_and_the_next_is_felt() {
+    let mut rig = Rig::new(ResetReason::PowerOn);
+    rig.set(|world| world.button = true);
+    for _ in 0..4_000 {
+        rig.tick();
+        assert!(!rig.enabled());
+    }
+    let mut rig = Rig::running();
+    assert_eq!(rig.bench.state().witness().feel(), 0);
+    rig.mailbox.choose(3);
+    rig.tick();
+    assert_eq!((rig.bench.state().witness().feel(), rig.enabled()), (3, true));
+}
+
+/// What is done to the world, and whether the stage must be off after so many ticks.
+type Harm = (&'static str, fn(&mut World), u32);
+
+/// A supply is believed to be gone by its fourth reading, a frame by the third that is missing.
+const HARMS: [Harm; 7] = [
+    ("button let go of", |world| world.button = false, 1),
+    ("stop, or its wire", |world| world.stop_open = true, 1),
+    ("fault line, or its wire", |world| world.ready[0] = false, 1),
+    ("reset line, or its wire", |world| world.ready[1] = false, 1),
+    ("supply dips", |world| world.volts = 8.0, 4),
+    ("sensor absent", |world| world.dial.spoil(Some(MagneticFault::Absent)), 3),
+    ("late tick", |world| world.reading = CLOCK / 3_000, 5),
+];
+
+#[test]
+fn whatever_breaks_while_it_is_aligned_and_while_it_is_felt_disables_the_stage() {
+    for (when, make) in [("aligning", Rig::aligning as fn() -> Rig), ("running", Rig::running)] {
+        for (what, harm, within) in HARMS {
+            let mut rig = make();
+            rig.set(harm);
+            rig.ticks(within);
+            assert!(!rig.enabled(), "{what}, {when}");
+            assert_eq!(rig.world.borrow().widths, [0; 3], "{what}, {when}");
+            for _ in 0..400 {
+                rig.tick();
+                assert!(!rig.enabled() && rig.world.borrow().dial.currents() == [0.0; 3], "{what}, {when}");
+            }
+        }
+    }
+}
