@@ -73,12 +73,27 @@ pub enum JogRefusal {
     /// Another motor was asked for while the key was held.
     #[error("let the key go before another motor")]
     OtherMotor = 5,
+    /// A drive did not do what it was told, or its amplifier is no longer ready.
+    #[error("a drive does not obey")]
+    Drive = 6,
+    /// The tick took too long.
+    #[error("the device was too slow")]
+    Late = 7,
 }
 
 impl JogRefusal {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Sensor, Self::TooFast, Self::TooFar, Self::NoMotor, Self::OtherMotor, Self::Drive, Self::Late];
+
     /// The code in a reading, from 1.
     pub const fn code(self) -> u8 {
         self as u8
+    }
+
+    /// The refusal with this code.
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.into_iter().find(|refusal| refusal.code() == code)
     }
 }
 
@@ -135,6 +150,11 @@ impl<const JOINTS: usize> JogState<JOINTS> {
     /// What ended the last jog; it stands until the key is let go.
     pub const fn refusal(&self) -> Option<JogRefusal> {
         self.refusal
+    }
+
+    /// The last counts; `None` before the first, and while a sensor fails.
+    pub const fn counts(&self) -> Option<[Counts; JOINTS]> {
+        self.counts
     }
 
     /// Whether a motor is being driven.
@@ -260,7 +280,9 @@ impl<const JOINTS: usize> Jogging<JOINTS> {
         }
     }
 
-    fn refuse(&self, state: &mut JogState<JOINTS>, refusal: JogRefusal) {
+    /// Ends a jog, if there is one, for what the loop around it has seen. The first refusal stands until the key is let
+    /// go.
+    pub fn refuse(&self, state: &mut JogState<JOINTS>, refusal: JogRefusal) {
         state.held = None;
         state.refusal = state.refusal.or(Some(refusal));
         state.duties = [Duty::ZERO; JOINTS];

@@ -133,6 +133,11 @@ pub enum Command {
     Stop,
     /// Go on after a reset by the watchdog or a brown-out: [`crate::servo::Event::Acknowledged`].
     Acknowledge,
+    /// Let go of the servo until the next reset, and be set up: [`crate::commission`]. Taken only while nothing is
+    /// driven and the enable input is released.
+    SetUp,
+    /// One motor, while a key is held; taken only by a device that is being set up.
+    Jog(crate::commission::Jog),
 }
 
 /// From a device that is being set up: what it reads and what it gives its motors.
@@ -143,23 +148,16 @@ pub struct Reading {
     pub tick: u32,
     /// The number of the last [`crate::commission::Jog`] that was taken.
     pub number: u32,
-    /// Encoder counts.
+    /// Encoder counts, by the board's inputs; those of the last tick whose sensors answered.
     pub counts: [i32; 3],
-    /// Motor duties now applied, full scale ±32 767.
+    /// Motor duties now applied, by the board's outputs, full scale ±32 767.
     pub duties: [i16; 3],
     /// Whether a motor is being driven.
     pub live: bool,
+    /// Whether the enable input asks for it: pressed, and seen released before.
+    pub enable: bool,
     /// [`crate::commission::JogRefusal`] as its code, 0 for none.
     pub refusal: u8,
-}
-
-/// To a device that is being set up, in lockstep with a simulated one: what its sensors would say at this tick, and
-/// what came over the link.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Bench {
-    /// The sensors.
-    pub sensors: Sensors,
-    /// A command, if one came.
-    pub jog: Option<crate::commission::Jog>,
+    /// What of the person's side keeps the motors off, as bits ([`hold`]).
+    pub hold: u8,
 }

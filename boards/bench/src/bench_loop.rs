@@ -1,12 +1,14 @@
 //! The tick of a board.
 
 use crate::light::is_lit;
+use crate::mailbox::Plain;
 use crate::sensors::BadFrame;
+use crate::set_up::SetUp;
 use crate::{Board, Hold, Interlock, Mailbox, Panel, Settings, Verdict};
 use palpate::device::Kinematics;
 use palpate::servo::{Deadline, Event, FrameBridge, Input, Output, ResetReason, Servo, ServoState, Surface};
 use palpate::wire::telemetry::{Producer, Recorder};
-use palpate::wire::{Command, Record, hold};
+use palpate::wire::{Record, hold};
 
 /// What is felt on which device: where the loop finds its servo.
 ///
@@ -43,6 +45,9 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     /// Ticks done, in whatever phase.
     ticks: u32,
     acknowledging: Acknowledging,
+    /// What takes the servo's place once the host asks for it; `None` where jogging is not offered.
+    set_up: Option<SetUp<JOINTS>>,
+    is_set_up: bool,
 }
 
 /// How far somebody has come with pressing stop and letting go of it, which acknowledges a reset that is a fault.
@@ -82,6 +87,9 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             rate: rate as u32,
             ticks: 0,
             acknowledging: Acknowledging::NotYet,
+            // Limits that make no sense jog nothing.
+            set_up: settings.jog.and_then(|jog| SetUp::try_new(&jog, felt.servo().device(), rate).ok()),
+            is_set_up: false,
             felt,
         }
     }
@@ -93,6 +101,9 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         self.board.acknowledge();
         let panel = self.board.panel();
         self.listen(&panel);
+        if self.is_set_up {
+            return self.jog(began, &panel);
+        }
         let verdict = self.hold.next(&panel, matches!(self.state.output(), Output::Drive(_)));
         if verdict.is_drive_fault {
             self.felt.servo().note(&mut self.state, Event::DriveFault);
@@ -143,17 +154,23 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     #[inline]
     fn listen(&mut self, panel: &Panel) {
         let commands = self.mailbox.take();
-        if commands.has(Command::Alive) {
+        if commands.has(Plain::Alive) {
             self.felt.servo().note(&mut self.state, Event::LinkAlive);
         }
-        if commands.has(Command::Stop) {
+        if commands.has(Plain::Stop) {
             self.felt.servo().note(&mut self.state, Event::Stop);
+            if let Some(set_up) = &mut self.set_up {
+                set_up.stop();
+            }
+        }
+        if commands.has(Plain::SetUp) {
+            self.begin_to_set_up(panel);
         }
         if let Some(index) = commands.chosen() {
             self.felt.servo().note(&mut self.state, Event::Chosen { index });
         }
         let by_hand = self.acknowledging == Acknowledging::Pressed && !panel.stop && !panel.enable;
-        if by_hand || commands.has(Command::Acknowledge) {
+        if by_hand || commands.has(Plain::Acknowledge) {
             let was_fault = self.state.fault().is_some();
             self.felt.servo().note(&mut self.state, Event::Acknowledged);
             // Whoever holds enable meanwhile asked for force before there could be any.
@@ -167,6 +184,33 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             (Acknowledging::NotYet, true) => Acknowledging::NotYet,
             (Acknowledging::Released | Acknowledging::Pressed, true) => Acknowledging::Pressed,
         };
+    }
+
+    /// The host wants to set the device up. Nobody is surprised by it: not while anything is driven, not while somebody
+    /// holds the enable button. The servo is stopped first, and that is latched, whatever else goes wrong.
+    fn begin_to_set_up(&mut self, panel: &Panel) {
+        let is_quiet = matches!(self.state.output(), Output::Off) && !panel.enable;
+        if self.set_up.is_none() || self.is_set_up || !is_quiet {
+            return;
+        }
+        self.felt.servo().note(&mut self.state, Event::Stop);
+        self.is_set_up = true;
+        self.interlock.lock();
+        // What came before was for nobody.
+        let _ = self.mailbox.take_jog();
+    }
+
+    /// A tick of a device that is being set up.
+    fn jog(&mut self, began: u32, panel: &Panel) {
+        let Some(set_up) = &mut self.set_up else { return };
+        set_up.tick(&mut self.board, (&mut self.hold, &mut self.interlock), panel, self.mailbox);
+        if self.deadline.overrun(began, self.board.now()) {
+            set_up.overran(&mut self.board);
+        }
+        self.board.show(is_lit(self.ticks, self.rate, set_up.is_live(), false, set_up.hold() != 0));
+        self.ticks = self.ticks.wrapping_add(1);
+        self.mailbox.tell_reading(&set_up.reading(self.ticks));
+        self.mailbox.tell_ticks(self.ticks);
     }
 
     /// Whether the motors are driven: not while something holds, and not even to damp before the enable input has been

@@ -22,7 +22,7 @@ pub trait Watchdog {
     fn feed(&mut self);
 }
 
-/// Feeds the watchdog while ticks go on, sends records, takes commands.
+/// Feeds the watchdog while ticks go on, sends records or readings, takes commands.
 pub struct Idle<'a> {
     mailbox: &'a Mailbox,
     records: Consumer<'a, Record>,
@@ -48,8 +48,14 @@ impl<'a> Idle<'a> {
             self.mailbox.put(command);
         }
         if self.outbox.is_empty() {
-            let Some(record) = self.records.dequeue() else { return };
-            self.outbox.put(&record);
+            // Records in their order, then the newest reading.
+            if let Some(record) = self.records.dequeue() {
+                self.outbox.put(&record);
+            } else if let Some(reading) = self.mailbox.take_reading() {
+                self.outbox.put(&reading);
+            } else {
+                return;
+            }
         }
         self.outbox.step(port);
     }

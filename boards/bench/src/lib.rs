@@ -24,6 +24,7 @@
 //! | [`Bench`] | the tick |
 //! | [`Idle`] | what runs below it |
 //! | [`accept`] | another image: a board shows what it can, and drives no motor |
+//! | [`JogSettings`] | what may be jogged once a host sets the device up, in the servo's place |
 //!
 //! # What keeps a thumb safe
 //!
@@ -33,6 +34,9 @@
 //! - Broken wires stop: stop is a closed contact, ready is a level that the amplifier has to give.
 //! - While a hold lasts nothing is driven, not even to damp. After it, force comes by the soft start, and only once
 //!   enable has been seen released.
+//! - A host sets the device up only while nothing is driven and enable is released. The servo is then stopped for good,
+//!   and a motor moves only while enable is held, after it was seen released, *and* the host's key is held, as frames
+//!   that must keep coming say. Only a reset leads back.
 //! - A reset by the watchdog or a brown-out stays a fault until somebody acknowledges it: stop pressed and let go, with
 //!   enable released, or the host's command.
 
@@ -46,6 +50,7 @@ mod drives;
 mod hold;
 mod idle;
 mod interlock;
+mod letter;
 mod light;
 mod lines;
 mod mailbox;
@@ -53,6 +58,7 @@ mod outbox;
 mod parts;
 mod reset;
 pub mod sensors;
+mod set_up;
 mod settings;
 
 pub(crate) use bench_loop::State;
@@ -67,4 +73,5 @@ pub use lines::{Divider, Lines, NoSupply, Supply};
 pub use mailbox::Mailbox;
 pub use parts::{Parts, Timer};
 pub use reset::{Cause, Memo, ResetFlags};
+pub use set_up::JogSettings;
 pub use settings::Settings;

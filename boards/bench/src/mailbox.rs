@@ -1,23 +1,38 @@
 //! What passes between the interrupt and main.
 
+use crate::letter::Letter;
 use core::sync::atomic::{AtomicU32, Ordering};
-use palpate::wire::Command;
+use palpate::commission::Jog;
+use palpate::wire::{Command, Reading};
 
-/// A `static` of the board: the ticks done, for the watchdog, and the commands that came.
+/// A `static` of the board: the ticks done, for the watchdog; the commands that came; what a device that is being set
+/// up reads.
 #[derive(Debug)]
 pub struct Mailbox {
     ticks: AtomicU32,
     commands: AtomicU32,
+    jog: Letter<3>,
+    reading: Letter<8>,
 }
 
 /// Commands that came since they were looked at last. Each means the same once or twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Commands(u32);
 
+/// A command that means the same once or twice, by its bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub(crate) enum Plain {
+    Alive = 1 << 0,
+    Stop = 1 << 1,
+    Acknowledge = 1 << 2,
+    SetUp = 1 << 3,
+}
+
 impl Mailbox {
     /// Empty.
     pub const fn new() -> Self {
-        Self { ticks: AtomicU32::new(0), commands: AtomicU32::new(0) }
+        Self { ticks: AtomicU32::new(0), commands: AtomicU32::new(0), jog: Letter::new(), reading: Letter::new() }
     }
 
     pub(crate) fn tell_ticks(&self, ticks: u32) {
@@ -29,7 +44,17 @@ impl Mailbox {
     }
 
     pub(crate) fn put(&self, command: Command) {
-        self.commands.fetch_or(bit(command), Ordering::Relaxed);
+        let plain = match command {
+            Command::Alive => Plain::Alive,
+            Command::Stop => Plain::Stop,
+            Command::Acknowledge => Plain::Acknowledge,
+            Command::SetUp => Plain::SetUp,
+            Command::Jog(Jog { number, key, motor, duty }) => {
+                let push = u32::from(motor) | u32::from(duty as u16) << 16;
+                return self.jog.put([number, key, push]);
+            }
+        };
+        self.commands.fetch_or(plain as u32, Ordering::Relaxed);
     }
 
     /// Somebody has chosen what is felt, of a table of at most 256 ([`palpate::servo::Event::Chosen`]). Call it from
@@ -42,6 +67,34 @@ impl Mailbox {
     pub(crate) fn take(&self) -> Commands {
         Commands(self.commands.swap(0, Ordering::Relaxed))
     }
+
+    /// The newest jog since the last one taken.
+    pub(crate) fn take_jog(&self) -> Option<Jog> {
+        let [number, key, push] = self.jog.take()?;
+        Some(Jog { number, key, motor: push as u8, duty: (push >> 16) as i16 })
+    }
+
+    pub(crate) fn tell_reading(&self, reading: &Reading) {
+        let Reading { tick, number, counts: [a, b, c], duties, live, enable, refusal, hold } = *reading;
+        let [x, y, z] = duties.map(|duty| u32::from(duty as u16));
+        let flags = u32::from(live) | u32::from(enable) << 1 | u32::from(refusal) << 8 | u32::from(hold) << 16;
+        self.reading.put([tick, number, a as u32, b as u32, c as u32, x | y << 16, z, flags]);
+    }
+
+    /// The newest reading, unless it was taken before.
+    pub(crate) fn take_reading(&self) -> Option<Reading> {
+        let [tick, number, a, b, c, first, z, flags] = self.reading.take()?;
+        Some(Reading {
+            tick,
+            number,
+            counts: [a, b, c].map(|count| count as i32),
+            duties: [first, first >> 16, z].map(|duty| duty as i16),
+            live: flags & 1 != 0,
+            enable: flags & 2 != 0,
+            refusal: (flags >> 8) as u8,
+            hold: (flags >> 16) as u8,
+        })
+    }
 }
 
 impl Default for Mailbox {
@@ -51,8 +104,8 @@ impl Default for Mailbox {
 }
 
 impl Commands {
-    pub const fn has(self, command: Command) -> bool {
-        self.0 & bit(command) != 0
+    pub const fn has(self, command: Plain) -> bool {
+        self.0 & command as u32 != 0
     }
 
     /// What was chosen.
@@ -61,10 +114,6 @@ impl Commands {
     }
 }
 
-/// Something was chosen, and where its number lies; the commands' own bits are far below.
+/// Something was chosen, and where its number lies; the plain commands' bits are far below.
 const CHOSEN: u32 = 1 << 31;
 const CHOSEN_SHIFT: u32 = 16;
-
-const fn bit(command: Command) -> u32 {
-    1 << command as u32
-}

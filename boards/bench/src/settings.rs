@@ -1,5 +1,6 @@
 //! What is chosen about the loop of a board, beside the servo's own settings.
 
+use crate::JogSettings;
 use palpate::device::SupplyRange;
 use palpate::servo::FrameBridge;
 
@@ -18,11 +19,13 @@ pub struct Settings {
     /// Seconds within which the stop input or the supply must say why an amplifier that was driving is no longer ready.
     /// The motors are off meanwhile; after it, it is the amplifier's own fault.
     pub ready_grace: f32,
+    /// What may be jogged when the device is set up; `None` offers nothing of the kind.
+    pub jog: Option<JogSettings>,
 }
 
 impl Settings {
     /// 20 ticks a record, which 500,000 baud carry at 4 kHz; two bad frames bridged; no supply watched; 50 ms for a
-    /// contactor to fall.
+    /// contactor to fall; [`JogSettings::DEFAULT`].
     pub const fn new(clock: u32) -> Self {
         Self {
             clock,
@@ -30,6 +33,7 @@ impl Settings {
             bad_frames: FrameBridge::<1>::DEFAULT_IN_A_ROW,
             supply: None,
             ready_grace: 0.05,
+            jog: Some(JogSettings::DEFAULT),
         }
     }
 }

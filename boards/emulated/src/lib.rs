@@ -22,6 +22,8 @@ pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;
 pub mod panic;
+#[cfg(not(feature = "protected"))]
+pub mod pins;
 mod planted;
 pub mod recorded;
 pub mod reset;

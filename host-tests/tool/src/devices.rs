@@ -3,7 +3,7 @@
 use crate::own::{self, DeviceFile, OwnDevice};
 pub use crate::preset::{Limits, Preset};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use palpate::device::presets;
+use palpate::device::{Protection, presets};
 use palpate_plant::PlantSettings;
 use std::ffi::OsStr;
 use std::path::Path;
@@ -25,14 +25,19 @@ pub struct ShippedDevice {
     /// Where the palpate library has the preset: its mechanism's type and its constant, in a source file for an image.
     /// None with less than three joints.
     pub source: Option<[&'static str; 2]>,
-    /// The source of the constants of one's own device; none of one that ships.
-    pub constants: Option<&'static str>,
+    /// The source of the constants of one's own device, and what protects it; none of one that ships.
+    pub constants: Option<(&'static str, Protection<3>)>,
 }
 
 impl ShippedDevice {
     /// Its device file, where one's own begins; `None` with less than three joints.
     pub fn file(&self) -> Option<DeviceFile> {
         own::file_of(self.name, self.preset, &self.plant)
+    }
+
+    /// What protects it.
+    pub fn protection(&self) -> Protection<3> {
+        self.constants.map_or_else(|| own::protection_of(self.name), |(_, protection)| protection)
     }
 }
 
@@ -178,7 +183,7 @@ pub fn own_device(own: &OwnDevice, from: &str) -> &'static ShippedDevice {
         plant: own.plant,
         assumed: "what of its inertia the file does not state is assumed",
         source: Some([mechanism, "DEVICE"]),
-        constants: Some(Box::leak(own::source(own, from).into_boxed_str())),
+        constants: Some((Box::leak(own::source(own, from).into_boxed_str()), own.protection)),
     }))
 }
 

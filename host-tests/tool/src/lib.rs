@@ -26,4 +26,5 @@ pub mod repository;
 pub mod rides;
 pub mod sides;
 pub mod simulation;
+pub mod wall;
 pub mod zwidth;

@@ -2,8 +2,8 @@
 
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
-    accept, bake, budgets, check, closest, cycles, demo, device, figures, firmware, image, import, monitor, parts,
-    race, sim, test, zwidth,
+    accept, bake, budgets, check, closest, commission, cycles, demo, device, figures, firmware, image, import, monitor,
+    parts, race, sim, test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -18,6 +18,7 @@ struct CommandLine {
 enum Command {
     Demo(demo::Arguments),
     Accept(accept::Arguments),
+    Commission(commission::Arguments),
     Device(device::Arguments),
     Test(test::Arguments),
     Check(check::Arguments),
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Accept(arguments) => accept::run(&arguments),
+        Command::Commission(arguments) => commission::run(&arguments),
         Command::Device(arguments) => device::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -2,7 +2,7 @@
 
 use crate::firmware::{Link, LinkError};
 use palpate::device::{Counts, Kinematics};
-use palpate::servo::{Event, Input, Servo, ServoState, Surface};
+use palpate::servo::{Event, Guard, Input, Servo, ServoState, Surface, Unguarded};
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::{Report, Sensors};
 use palpate_plant::Plant;
@@ -10,16 +10,16 @@ use std::time::Duration;
 
 /// The servo loop compiled for the host, behind the same link as the firmware: the frames and the way from a frame to
 /// an input are those of the board.
-pub struct HostLoop<'a, S: Surface, K> {
-    servo: Servo<'a, S, K, 3>,
-    state: ServoState<3, S::Witness>,
+pub struct HostLoop<'a, S: Surface, K, G: Guard<3> = Unguarded> {
+    servo: Servo<'a, S, K, 3, G>,
+    state: ServoState<3, S::Witness, G::State>,
     receiver: Receiver<Sensors>,
     report: Option<Report>,
 }
 
-impl<'a, S: Surface, K: Kinematics<3>> HostLoop<'a, S, K> {
+impl<'a, S: Surface, K: Kinematics<3>, G: Guard<3>> HostLoop<'a, S, K, G> {
     /// A loop in its state before the first tick.
-    pub fn new(servo: Servo<'a, S, K, 3>) -> Self {
+    pub fn new(servo: Servo<'a, S, K, 3, G>) -> Self {
         let state = servo.start();
         Self { servo, state, receiver: Receiver::new(), report: None }
     }
@@ -30,7 +30,7 @@ impl<'a, S: Surface, K: Kinematics<3>> HostLoop<'a, S, K> {
     }
 }
 
-impl<S: Surface, K: Kinematics<3>> Link for HostLoop<'_, S, K> {
+impl<S: Surface, K: Kinematics<3>, G: Guard<3>> Link for HostLoop<'_, S, K, G> {
     fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         for byte in bytes {
             let received = self.receiver.feed(*byte);

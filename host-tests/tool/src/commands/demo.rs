@@ -136,8 +136,8 @@ pub(super) fn write_tables(board: Board, scene: &Scene) -> anyhow::Result<(tempf
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
     fs::write(folder.path().join("body.rs"), scene.felt.source(&scene.origin())?)?;
     fs::write(folder.path().join("settings.rs"), scene.settings_source())?;
-    let choice =
-        Choice { board, body: Some(folder.path().join("body.rs")), settings: Some(folder.path().join("settings.rs")) };
+    let [body, settings] = ["body.rs", "settings.rs"].map(|name| Some(folder.path().join(name)));
+    let choice = Choice { board, body, settings, protected: scene.protection.is_some() };
     Ok((folder, choice))
 }
 

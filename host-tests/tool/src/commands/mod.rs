@@ -5,6 +5,7 @@ pub mod bake;
 pub mod budgets;
 pub mod check;
 pub mod closest;
+pub mod commission;
 pub mod cycles;
 pub mod demo;
 pub mod demo_knob;

@@ -8,7 +8,7 @@ use crate::simulation::HostLoop;
 use anyhow::{Context, bail};
 use clap::Args;
 use glam::DVec3;
-use palpate::device::{Device, Kinematics};
+use palpate::device::{Device, Kinematics, Protection};
 use palpate::servo::{Safety, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::source::Origin;
@@ -66,6 +66,9 @@ pub struct SceneOptions {
     /// Seconds over which the force is faded in
     #[arg(long, default_value_t = 0.1)]
     pub soft_start: f32,
+    /// With all protection of the device: its motors' heat, speeds, signs that are wrong
+    #[arg(long)]
+    pub protected: bool,
     /// Where the model's origin lies in the device's workspace: x,y,z in mm from its centre; centres it if not given
     #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
     pub at: Option<Vec<f64>>,
@@ -83,6 +86,8 @@ pub struct Scene {
     pub device: &'static ShippedDevice,
     /// The loop's settings.
     pub settings: Settings,
+    /// What protects the device, if that was asked for.
+    pub protection: Option<Protection<3>>,
     /// Ticks to run.
     pub ticks: u32,
     /// The tick at which force is asked for: the witness point has converged by then.
@@ -122,7 +127,8 @@ impl SceneOptions {
             .check(limits.stiffness, limits.damping)
             .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
         let [ticks, enable_at] = self.ticks(settings.rate)?;
-        Ok(Scene { file, centre: model.centre, felt, device, settings, ticks, enable_at })
+        let protection = self.protected.then(|| device.protection());
+        Ok(Scene { file, centre: model.centre, felt, device, settings, protection, ticks, enable_at })
     }
 
     /// How many ticks to run at a rate, Hz, and at which of them force is asked for.
@@ -225,8 +231,9 @@ impl Scene {
         device: &'static Device<K, 3>,
         surface: &'static S,
     ) -> anyhow::Result<Box<dyn Link>> {
-        let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, self.settings)?.try_safety(SAFETY)?;
-        Ok(Box::new(HostLoop::new(servo)))
+        let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, self.settings)?;
+        let Some(protection) = self.protection else { return Ok(Box::new(HostLoop::new(servo.try_safety(SAFETY)?))) };
+        Ok(Box::new(HostLoop::new(servo.try_protect(protection)?.try_safety(SAFETY)?)))
     }
 
     /// The model file's name, without its directory.
@@ -255,7 +262,7 @@ impl Scene {
         let shipped = format!(
             "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE, presets::{device}_PROTECTION as PROTECTION}};"
         );
-        let constants = self.device.constants.unwrap_or(&shipped);
+        let constants = self.device.constants.map_or(shipped.as_str(), |(source, _)| source);
         format!(
             "{constants}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
              rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    \

@@ -1,49 +1,40 @@
 //! Commissioning: from a device file that is only nearly right to one that was measured.
 //!
-//! [`Lab`] is the bench with whoever stands at it: a simulated one ([`SimulatedLab`]), or a device at a port and a
-//! person who reads prompts. [`find`] asks it for what it needs and writes what it finds into the file.
+//! ```text
+//!  find ── Lab ─┬─ Device ── Line: a serial port │ an emulated board │ the loop of the boards on the host
+//!               └─ Hands: whoever stands at it   │ World: the simulated device, and what was planted in it
+//! ```
+//!
+//! The device's side is the loop of every board (`boards/bench`), wherever it runs. [`find`] asks the [`Lab`] for what
+//! it needs and writes what it finds into the file. A motor moves only while the [`Key`] is held.
 
+mod device;
+mod emulated;
+mod encoders;
 mod find;
-mod simulated;
+mod finding;
+mod hands;
+mod keyboard;
+mod lab;
+mod motors;
+mod on_host;
+mod person;
+mod planted;
+mod port;
+mod ramp;
+mod torques;
+mod world;
 
-pub use find::{Finding, find, find_mounting};
-pub use simulated::{Planted, SimulatedLab};
-
-use palpate::commission::JogLimits;
-use palpate::device::Duty;
-use palpate::wire::Reading;
-
-/// The servo rate at which the device is set up, Hz.
-pub const RATE: f32 = 4_000.0;
-
-/// What a device allows while it is set up: a tenth of full torque would not move a Falcon; three tenths hurt nobody at
-/// the speed allowed.
-pub const LIMITS: JogLimits<3> =
-    JogLimits { max_duty: [Duty(9_800); 3], max_speed: 20_000.0, max_travel: 4_000, patience: 0.1 };
-
-/// The bench, and whoever stands at it.
-pub trait Lab {
-    /// Runs for a fiftieth of a second: with the key held, this motor at this duty; else without current.
-    ///
-    /// # Errors
-    /// A link that fell silent.
-    fn step(&mut self, jog: Option<(u8, i16)>) -> anyhow::Result<Reading>;
-
-    /// The hand puts the joints at these angles, rad, by jig, stop or protractor, and holds them.
-    ///
-    /// # Errors
-    /// As [`Self::step`].
-    fn place(&mut self, angles: [f64; 3]) -> anyhow::Result<()>;
-
-    /// The hand lets go of one joint and goes on holding the others.
-    ///
-    /// # Errors
-    /// As [`Self::step`].
-    fn let_go(&mut self, joint: usize) -> anyhow::Result<()>;
-
-    /// A known weight pulls at the probe, over a pulley where it must: this force, N.
-    ///
-    /// # Errors
-    /// As [`Self::step`].
-    fn pull(&mut self, force: [f64; 3]) -> anyhow::Result<()>;
-}
+pub use device::{Device, Key, KeyHeld, Line, NoKey};
+pub use emulated::EmulatedLine;
+pub use encoders::angle;
+pub use find::{find, find_mounting};
+pub use finding::Finding;
+pub use hands::Hands;
+pub use keyboard::Keyboard;
+pub use lab::{Lab, RATE, Zero};
+pub use on_host::HostLine;
+pub use person::Person;
+pub use planted::{Planted, PlantedFault};
+pub use port::PortLine;
+pub use world::{SimulatedHands, World};

@@ -18,6 +18,8 @@ pub struct Choice {
     pub body: Option<PathBuf>,
     /// A settings file; the board's default if `None`.
     pub settings: Option<PathBuf>,
+    /// With all protection of the device.
+    pub protected: bool,
 }
 
 /// An image and what it takes.
@@ -122,6 +124,9 @@ fn cargo_build(toolchain: &Toolchain, choice: &Choice) -> Result<Command, SetUpE
         .arg(choice.board.cargo_config()?)
         .args(["build", "--release", "--target-dir"])
         .arg(choice.target_folder(toolchain)?);
+    if choice.protected {
+        cargo.args(["--features", "protected"]);
+    }
     // The log's levels are chosen when it is compiled.
     cargo.env("DEFMT_LOG", "info");
     for (variable, file) in [("PALPATE_BODY", &choice.body), ("PALPATE_SETTINGS", &choice.settings)] {

@@ -28,6 +28,20 @@ pub fn source(own: &OwnDevice, from: &str) -> String {
     text
 }
 
+/// The source that an image of a device that is to be set up is built with: its constants, gains that it bears, and
+/// nobody who has to be there. `rate` in Hz.
+pub fn settings_source(own: &OwnDevice, rate: f32) -> String {
+    let limits = own.preset.limits();
+    let (stiffness, damping, force) = (0.5 * limits.stiffness, 0.5 * limits.damping, limits.force);
+    format!(
+        "{}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
+         rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    max_force: {force:?},\n    \
+         velocity_corner: 200.0,\n    soft_start: 0.2,\n    body_origin: palpate::math::vec3(-0.03, -0.02, \
+         -0.015),\n}};\n/// Its limits.\npub const SAFETY: palpate::servo::Safety = palpate::servo::Safety::DEFAULT;\n",
+        source(own, &own.file.name),
+    )
+}
+
 /// `Debug` of the library's plain structs is the Rust that makes them, but for the paths.
 fn literal(value: &impl Debug) -> String {
     let text = format!("{value:?}");

@@ -7,9 +7,9 @@ mod preset;
 mod read;
 mod schema;
 
-pub use constant::source;
-pub use preset::file_of;
+pub use constant::{settings_source, source};
+pub use preset::{file_of, protection_of};
 pub use read::{DeviceFileError, OwnDevice};
 pub use schema::{
-    BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, MassEntry, MechanismEntry, MotorEntry,
+    BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry, MechanismEntry, MotorEntry,
 };

@@ -90,26 +90,17 @@ fn mechanism(entry: &MechanismEntry) -> MechanismSettings {
                 balance_inertia: [1e-3, 5e-4],
             })
         }
-        MechanismEntry::LinkageArm {
-            second_pivot,
-            cranks,
-            rods,
-            side,
-            tool,
-            pivot_reach,
-            workspace_centre,
-            masses,
-        } => {
-            let lengths = [cranks[0], cranks[1], tool.abs().max(rods[0]), rods[1]];
+        MechanismEntry::LinkageArm(arm) => {
+            let lengths = [arm.cranks[0], arm.cranks[1], arm.tool.abs().max(arm.rods[0]), arm.rods[1]];
             let assumed = |length: f64| MassEntry { mass: ROD, along: 0.5 * length, across: 0.0 };
-            let masses = masses.unwrap_or_else(|| lengths.map(assumed));
+            let masses = arm.masses.unwrap_or_else(|| lengths.map(assumed));
             MechanismSettings::LinkageArm(LinkageArmSettings {
                 linkage: FiveBarSettings {
-                    second_pivot: *second_pivot,
-                    cranks: *cranks,
-                    rods: *rods,
-                    tool: *tool,
-                    side: *side,
+                    second_pivot: arm.second_pivot,
+                    cranks: arm.cranks,
+                    rods: arm.rods,
+                    tool: arm.tool,
+                    side: arm.side,
                     bends: [1.0, 1.0],
                     workspace_centre: [0.0; 2],
                     links: core::array::from_fn(|link| LinkLump {
@@ -120,8 +111,8 @@ fn mechanism(entry: &MechanismEntry) -> MechanismSettings {
                     }),
                     tool_mass: 0.0,
                 },
-                pivot_reach: *pivot_reach,
-                workspace_centre: *workspace_centre,
+                pivot_reach: arm.pivot_reach,
+                workspace_centre: arm.workspace_centre,
                 turntable_inertia: TURNTABLE,
             })
         }

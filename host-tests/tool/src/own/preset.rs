@@ -1,7 +1,7 @@
 //! The device file of a device that ships: where one's own begins.
 
 use super::schema::{
-    BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, MassEntry, MechanismEntry, MotorEntry,
+    BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry, MechanismEntry, MotorEntry,
 };
 use crate::preset::Preset;
 use palpate::device::drive::Feed;
@@ -29,7 +29,7 @@ pub fn file_of(name: &str, preset: Preset, plant: &PlantSettings) -> Option<Devi
         }
         Preset::LinkageArm(device) => {
             let arm = device.kinematics;
-            let mechanism = MechanismEntry::LinkageArm {
+            let mechanism = MechanismEntry::LinkageArm(LinkageEntry {
                 second_pivot: decimal(arm.linkage.second_pivot),
                 cranks: arm.linkage.cranks.map(decimal),
                 rods: arm.linkage.rods.map(decimal),
@@ -42,7 +42,7 @@ pub fn file_of(name: &str, preset: Preset, plant: &PlantSettings) -> Option<Devi
                     along: decimal(link.along),
                     across: decimal(link.across),
                 })),
-            };
+            });
             (mechanism, rest(name, plant, device))
         }
         Preset::Delta(device) => {
@@ -66,8 +66,8 @@ pub fn file_of(name: &str, preset: Preset, plant: &PlantSettings) -> Option<Devi
     Some(DeviceFile { name: name.to_owned(), mechanism, limits, joint })
 }
 
-/// What protects a shipped device.
-fn protection(name: &str) -> Protection<3> {
+/// What protects a shipped device of three joints.
+pub fn protection_of(name: &str) -> Protection<3> {
     match name {
         "polhem-v2" => presets::POLHEM_V2_PROTECTION,
         "phantom-premium" => presets::PHANTOM_PREMIUM_PROTECTION,
@@ -78,7 +78,7 @@ fn protection(name: &str) -> Protection<3> {
 
 /// Limits and joints. Counts a turn and ratio are the plant's, for the library keeps their product alone.
 fn rest<K>(name: &str, settings: &PlantSettings, device: &Device<K, 3>) -> (LimitsEntry, Vec<JointEntry>) {
-    let protection = protection(name);
+    let protection = protection_of(name);
     let names = ["a", "b", "c"];
     let joints = (0..3).map(|index| {
         let plant = &settings.joints[index];

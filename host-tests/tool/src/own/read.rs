@@ -1,7 +1,7 @@
 //! From the text of a device file to a device that has been checked, entry by entry.
 
 use super::plant;
-use super::schema::{DeviceFile, JointEntry, MechanismEntry};
+use super::schema::{DeviceFile, JointEntry, LinkageEntry, MechanismEntry};
 use crate::preset::Preset;
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::{
@@ -163,7 +163,7 @@ fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> R
         MechanismEntry::SerialArm { first_link, second_link, .. } => {
             vec![("first_link", *first_link), ("second_link", *second_link)]
         }
-        MechanismEntry::LinkageArm { cranks, rods, .. } => {
+        MechanismEntry::LinkageArm(LinkageEntry { cranks, rods, .. }) => {
             vec![("cranks", cranks[0]), ("cranks", cranks[1]), ("rods", rods[0]), ("rods", rods[1])]
         }
         MechanismEntry::Delta { thigh, shin, .. } => vec![("thigh", *thigh), ("shin", *shin)],
@@ -173,8 +173,8 @@ fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> R
             return Err(refuse(&format!("mechanism.{name}"), &format!("{length} must be a length in metres")));
         }
     }
-    if let MechanismEntry::LinkageArm { side, .. } = file.mechanism
-        && side.abs() != 1.0
+    if let MechanismEntry::LinkageArm(arm) = file.mechanism
+        && arm.side.abs() != 1.0
     {
         return Err(refuse("mechanism.side", "must be 1 or -1"));
     }
@@ -202,31 +202,22 @@ fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
             );
             (Preset::SerialArm(Box::leak(Box::new(device))), device.check())
         }
-        MechanismEntry::LinkageArm {
-            second_pivot,
-            cranks,
-            rods,
-            side,
-            tool,
-            pivot_reach,
-            workspace_centre,
-            masses,
-        } => {
-            let [x, y, z] = three(*workspace_centre);
+        MechanismEntry::LinkageArm(arm) => {
+            let [x, y, z] = three(arm.workspace_centre);
             let device = device(
                 file,
                 LinkageArm {
                     linkage: FiveBar {
-                        second_pivot: *second_pivot as f32,
-                        cranks: cranks.map(|length| length as f32),
-                        rods: rods.map(|length| length as f32),
-                        side: *side as f32,
-                        tool: *tool as f32,
+                        second_pivot: arm.second_pivot as f32,
+                        cranks: arm.cranks.map(|length| length as f32),
+                        rods: arm.rods.map(|length| length as f32),
+                        side: arm.side as f32,
+                        tool: arm.tool as f32,
                         workspace_centre: Vec2::ZERO,
                     },
-                    pivot_reach: *pivot_reach as f32,
+                    pivot_reach: arm.pivot_reach as f32,
                     workspace_centre: vec3(x, y, z),
-                    masses: masses.unwrap_or_default().map(|link| LinkMass {
+                    masses: arm.masses.unwrap_or_default().map(|link| LinkMass {
                         mass: link.mass as f32,
                         along: link.along as f32,
                         across: link.across as f32,

@@ -35,25 +35,7 @@ pub enum MechanismEntry {
         end_masses: [f64; 2],
     },
     /// [`palpate::device::LinkageArm`].
-    LinkageArm {
-        /// On the x axis.
-        second_pivot: f64,
-        /// Lengths.
-        cranks: [f64; 2],
-        /// Lengths.
-        rods: [f64; 2],
-        /// 1 or −1.
-        side: f64,
-        /// From the first elbow towards the hinge.
-        tool: f64,
-        /// From the turntable's axis.
-        pivot_reach: f64,
-        /// From the foot of the first crank's pivot on the axis.
-        workspace_centre: [f64; 3],
-        /// First crank, second crank, first rod, second rod.
-        #[serde(default)]
-        masses: Option<[MassEntry; 4]>,
-    },
+    LinkageArm(LinkageEntry),
     /// [`palpate::device::Delta`].
     Delta {
         /// Length.
@@ -77,6 +59,29 @@ pub enum MechanismEntry {
         #[serde(default)]
         thigh_moment: f64,
     },
+}
+
+/// A linkage on a turntable, lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct LinkageEntry {
+    /// On the x axis.
+    pub second_pivot: f64,
+    /// Lengths.
+    pub cranks: [f64; 2],
+    /// Lengths.
+    pub rods: [f64; 2],
+    /// 1 or −1.
+    pub side: f64,
+    /// From the first elbow towards the hinge.
+    pub tool: f64,
+    /// From the turntable's axis.
+    pub pivot_reach: f64,
+    /// From the foot of the first crank's pivot on the axis.
+    pub workspace_centre: [f64; 3],
+    /// First crank, second crank, first rod, second rod.
+    #[serde(default)]
+    pub masses: Option<[MassEntry; 4]>,
 }
 
 /// A link's mass, kg, and where its centre lies, m.

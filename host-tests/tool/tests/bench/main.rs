@@ -11,3 +11,4 @@ mod phases;
 mod pins;
 mod reset;
 mod rig;
+mod set_up;

@@ -5,7 +5,7 @@ use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
 use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Kinematics, SupplyRange};
 use palpate::math::vec3;
-use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+use palpate::patch::SplinePatch;
 use palpate::servo::{Fault, Phase, ResetReason, Servo, ServoState};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
@@ -32,17 +32,8 @@ pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
     body_origin: vec3(0.0, 0.0, 0.0),
 };
 
-static LEVEL: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [0.0, 0.16, 0.0], [0.16, 0.0, 0.0], [0.0, 0.0, 0.0]];
 /// A level wall through the origin, felt from above.
-pub static WALL: SplinePatch = SplinePatch::from_table(
-    [1, 1],
-    &[0.0, 1.0],
-    &[0.0, 1.0],
-    Coefficients::Polynomial(&LEVEL),
-    ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
-    Orientation::Outward,
-    0.16,
-);
+pub use palpate_tool::wall::WALL;
 
 /// What the pins are wired to.
 pub struct World {

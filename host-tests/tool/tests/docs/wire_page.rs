@@ -4,9 +4,10 @@
 //! line and COBS by its definition. `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs wire_page` writes the
 //! tables anew.
 
+use palpate::commission::{Jog, KEY};
 use palpate::wire::acceptance::{Counted, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{MAX_FRAME, pack};
-use palpate::wire::{Command, Record, Report, Sensors};
+use palpate::wire::{Command, Reading, Record, Report, Sensors};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -310,7 +311,48 @@ fn every_byte_of_a_frame_is_documented() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/wire.md");
     let page = fs::read_to_string(&path).expect("the page is there");
     let command = documented(&Command::Acknowledge, &[vars("command", 2)]);
-    let mut sections = vec![("Sensors", sensors), ("Report", report), ("Record", record), ("Command", command)];
+    let jog = Jog { number: 300, key: KEY, motor: 2, duty: -1_200 };
+    let jog = documented(
+        &Command::Jog(jog),
+        &[
+            vars("command", 4),
+            vars("number", jog.number),
+            vars("key", jog.key),
+            byte("motor", jog.motor),
+            field("duty", "zig-zag", jog.duty, zig_zag(jog.duty.into())),
+        ],
+    );
+    let reading = Reading {
+        tick: 70_000,
+        number: 300,
+        counts: [-1, 0, 300],
+        duties: [0, 0, -1_200],
+        live: true,
+        enable: true,
+        refusal: 0,
+        hold: 0,
+    };
+    let reading = documented(
+        &reading,
+        &[
+            vars("tick", reading.tick),
+            vars("number", reading.number),
+            zig_zags("counts", reading.counts.map(i64::from)),
+            zig_zags("duties", reading.duties.map(i64::from)),
+            field("live", "flag", 1, vec![1]),
+            field("enable", "flag", 1, vec![1]),
+            byte("refusal", reading.refusal),
+            byte("hold", reading.hold),
+        ],
+    );
+    let mut sections = vec![
+        ("Sensors", sensors),
+        ("Report", report),
+        ("Record", record),
+        ("Command", command),
+        ("Command: jog", jog),
+        ("Reading", reading),
+    ];
     sections.extend(acceptance());
     let wanted = sections.iter().fold(page.clone(), |page, (title, section)| with_section(&page, title, section));
     if env::var_os("PALPATE_WRITE").is_some() {

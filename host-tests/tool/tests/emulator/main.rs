@@ -5,6 +5,7 @@ mod acceptance;
 mod agreement;
 mod bench;
 mod budgets;
+mod commissioning;
 mod demo;
 mod faults;
 mod image;

@@ -1,5 +1,6 @@
 //! The servo loop against the simulated device, against faults, against arbitrary sensors and arbitrary frames.
 
+mod arming;
 mod damping;
 mod faults;
 mod frames;
@@ -7,6 +8,7 @@ mod fuzz;
 mod guard;
 mod harmed;
 mod homing;
+mod injection;
 mod jogging;
 mod knob;
 mod limits;
@@ -16,4 +18,5 @@ mod through;
 mod touch;
 mod traces;
 mod velocity;
+mod watched;
 mod weight;

@@ -5,20 +5,8 @@ use palpate::patch::{
     Coefficients, Orientation, Patch, SecondDerivativeBounds, ShapeBounds, SplinePatch, SurfacePoint,
 };
 
-static BREAKS: [f32; 2] = [0.0, 1.0];
-/// Rows: 1, s; columns: 1, t. A square of 160 mm about the origin, level.
-static LEVEL: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [0.0, 0.16, 0.0], [0.16, 0.0, 0.0], [0.0, 0.0, 0.0]];
-
 /// A level wall through the origin, felt from above.
-pub static WALL: SplinePatch = SplinePatch::from_table(
-    [1, 1],
-    &BREAKS,
-    &BREAKS,
-    Coefficients::Polynomial(&LEVEL),
-    ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
-    Orientation::Outward,
-    0.16,
-);
+pub use palpate_tool::wall::WALL;
 
 /// A ball's cap with its top in the origin, by stereographic projection from the opposite pole: `(u, v) ∈ [0, 1]²` is a
 /// square around the top.

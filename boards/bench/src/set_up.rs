@@ -1,0 +1,139 @@
+//! A device that is being set up: one motor at a time, gently, while somebody holds a key.
+
+use crate::{Board, Hold, Interlock, Mailbox, Panel};
+use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging};
+use palpate::device::{Counts, Device, Duty, Encoder};
+use palpate::wire::{Reading, hold};
+
+/// What a jog may do, whatever the host asks for. It lies in the device's own flash.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JogSettings {
+    /// The greatest share of a motor's full duty; half at most.
+    pub share: f32,
+    /// The greatest speed of any joint, rad/s, by the encoders as the device believes they are.
+    pub rate: f32,
+    /// How far any joint may go while the key is held, rad.
+    pub travel: f32,
+    /// Seconds without a frame after which the key counts as let go; half a second at most.
+    pub patience: f32,
+}
+
+impl JogSettings {
+    /// Four tenths of full duty, for a third is what it takes to lift the plate of a Novint Falcon with one leg: 2 N at
+    /// the probe of a WoodenHaptics; 4 rad/s; 1 rad; a tenth of a second.
+    pub const DEFAULT: Self = Self { share: 0.4, rate: 4.0, travel: 1.0, patience: 0.1 };
+
+    /// The limits in counts and duties.
+    fn limits<const JOINTS: usize>(&self, encoders: &[Encoder; JOINTS]) -> JogLimits<JOINTS> {
+        // Of the finest encoder: nothing is known yet of which is where.
+        let finest = encoders.iter().map(|encoder| encoder.radians_per_count.abs()).fold(f32::INFINITY, f32::min);
+        JogLimits {
+            max_duty: [Duty::from_fraction(self.share); JOINTS],
+            max_speed: self.rate / finest,
+            // The cast saturates.
+            max_travel: (self.travel / finest) as u32,
+            patience: self.patience,
+        }
+    }
+}
+
+/// The loop in the place of the servo, which is stopped for good: only a reset leads back.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SetUp<const JOINTS: usize> {
+    jogging: Jogging<JOINTS>,
+    state: JogState<JOINTS>,
+    counts: [Counts; JOINTS],
+    /// Whether the enable input asks for it.
+    enable: bool,
+    hold: u8,
+    /// The host said stop: nothing moves any more.
+    is_stopped: bool,
+}
+
+impl<const JOINTS: usize> SetUp<JOINTS> {
+    /// Of a device, in a loop of `rate` Hz.
+    ///
+    /// # Errors
+    /// The limit that is refused: nothing will be jogged.
+    pub fn try_new<K>(settings: &JogSettings, device: &Device<K, JOINTS>, rate: f32) -> Result<Self, JogLimitsError> {
+        let jogging = Jogging::try_new(settings.limits(&device.encoders), rate)?;
+        let (state, counts) = (JogState::default(), [Counts(0); JOINTS]);
+        Ok(Self { jogging, state, counts, enable: false, hold: 0, is_stopped: false })
+    }
+
+    /// A tick up to the motors, whose duties this leaves with the board.
+    #[inline]
+    pub fn tick<B: Board<JOINTS>>(
+        &mut self,
+        board: &mut B,
+        (holds, interlock): (&mut Hold, &mut Interlock),
+        panel: &Panel,
+        mailbox: &Mailbox,
+    ) {
+        let verdict = holds.next(panel, self.state.is_live());
+        self.enable = interlock.next(panel.enable, verdict.hold != 0) && !self.is_stopped;
+        let stopped = if self.is_stopped { hold::STOP } else { 0 };
+        self.hold = verdict.hold | stopped | if interlock.is_locked() { hold::RELEASE_FIRST } else { 0 };
+        if verdict.is_drive_fault {
+            self.jogging.refuse(&mut self.state, JogRefusal::Drive);
+        }
+        let counts = board.read().ok();
+        self.counts = counts.unwrap_or(self.counts);
+        if let Some(jog) = mailbox.take_jog() {
+            self.jogging.command(&mut self.state, jog);
+        }
+        self.jogging.tick(&mut self.state, counts, self.enable);
+        self.output(board);
+    }
+
+    /// The host says stop: until the next reset, as everywhere.
+    pub const fn stop(&mut self) {
+        self.is_stopped = true;
+    }
+
+    /// The tick took too long.
+    #[cold]
+    pub fn overran<B: Board<JOINTS>>(&mut self, board: &mut B) {
+        self.jogging.refuse(&mut self.state, JogRefusal::Late);
+        self.output(board);
+    }
+
+    /// Whether a motor is driven.
+    pub const fn is_live(&self) -> bool {
+        self.state.is_live()
+    }
+
+    /// What of the person's side keeps the motors off.
+    pub const fn hold(&self) -> u8 {
+        self.hold
+    }
+
+    /// What to tell of a tick.
+    pub fn reading(&self, tick: u32) -> Reading {
+        let mut reading = Reading {
+            tick,
+            number: self.state.number(),
+            live: self.state.is_live(),
+            enable: self.enable,
+            refusal: self.state.refusal().map_or(0, JogRefusal::code),
+            hold: self.hold,
+            ..Reading::default()
+        };
+        for (told, Counts(count)) in reading.counts.iter_mut().zip(self.counts) {
+            *told = count;
+        }
+        for (told, Duty(duty)) in reading.duties.iter_mut().zip(self.state.duties()) {
+            *told = duty;
+        }
+        reading
+    }
+
+    fn output<B: Board<JOINTS>>(&mut self, board: &mut B) {
+        let obeyed = if self.state.is_live() { board.drive(self.state.duties()) } else { board.release() };
+        if obeyed.is_err() {
+            self.jogging.refuse(&mut self.state, JogRefusal::Drive);
+            // Whatever of it still obeys.
+            let _ = board.release();
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! The loop of the boards for the bench: its pins over two FIFOs of the host, its serial port over the UART.
+
+#![no_std]
+#![no_main]
+
+use core::cell::Cell;
+
+use cortex_m::interrupt::{Mutex, free};
+use cortex_m_rt::entry;
+use palpate::servo::Heartbeat;
+use palpate::wire::Record;
+use palpate::wire::telemetry::{Producer, Queue};
+use palpate_bench::{Bench, Idle, Mailbox, Settings};
+use palpate_emulated::accepted::This;
+use palpate_emulated::board::BOARD;
+use palpate_emulated::body::SETTINGS;
+use palpate_emulated::link_semihosting::FifoLink;
+use palpate_emulated::link_uart::Uart;
+use palpate_emulated::pins::{NoWatchdog, Pins};
+use palpate_emulated::vectors::interrupt;
+
+type Loop = Bench<'static, This, Pins<FifoLink>, 3>;
+
+/// The interrupt's end of the queue, on its way there from main.
+static HANDED_OVER: Mutex<Cell<Option<Producer<'static, Record>>>> = Mutex::new(Cell::new(None));
+static MAILBOX: Mailbox = Mailbox::new();
+
+#[entry]
+fn main() -> ! {
+    static mut QUEUE: Queue<Record, 16> = Queue::new();
+
+    let (producer, records) = QUEUE.split();
+    free(|section| HANDED_OVER.borrow(section).set(Some(producer)));
+    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default());
+    let mut port = Uart::new(&BOARD);
+    BOARD.start_timer(SETTINGS.rate);
+    loop {
+        idle.step(&mut port, &mut NoWatchdog);
+    }
+}
+
+#[interrupt]
+fn TIMER0() {
+    // Made in an interrupt of its own, in the only place that uses it: no lock is needed to hand it over, and the first
+    // tick is on time, though checking the tables takes longer than a period.
+    static mut LOOP: Option<Loop> = None;
+
+    BOARD.acknowledge_timer();
+    if let Some(servo_loop) = LOOP {
+        servo_loop.tick();
+        servo_loop.board().report();
+    } else if let Some(records) = free(|section| HANDED_OVER.borrow(section).take()) {
+        let pins = Pins::new(&BOARD, FifoLink::open());
+        *LOOP = Some(Bench::new(This, pins, &Settings::new(BOARD.clock), BOARD.reset_reason(), records, &MAILBOX));
+        BOARD.start_timer(SETTINGS.rate);
+    }
+}

@@ -1,0 +1,224 @@
+//! `palpate commission`: a device on the bench, measured into its file.
+
+use super::device::toml_of;
+use crate::commission::{
+    Device, EmulatedLine, Finding, HostLine, Key, KeyHeld, Keyboard, Lab, Line, NoKey, Person, Planted, PlantedFault,
+    PortLine, RATE, SimulatedHands, World, Zero, angle, find, find_mounting,
+};
+use crate::devices;
+use crate::firmware::{Board, Choice, Program, Progress};
+use crate::own::{self, DeviceFile, OwnDevice};
+use anyhow::{Context, bail};
+use clap::Args;
+use palpate::commission::JogRefusal;
+use palpate::wire::Reading;
+use std::io::{IsTerminal, Write as _, stdout};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Sets a device up: jogs its motors one at a time, measures it, and writes its file.
+///
+/// A motor moves only while the enable button of the device and the space bar are both held, with four tenths of its
+/// full torque at most; a line that falls silent counts as a key let go after 0.1 s. With --emulator or --host the
+/// device, its hands and what is wrong with it (--plant) are simulated, and nothing is asked.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The serial port the device is on, such as /dev/ttyACM0
+    #[arg(long, group = "where")]
+    port: Option<String>,
+    /// The port's speed
+    #[arg(long, default_value_t = 500_000)]
+    baud: u32,
+    /// An emulated board with a simulated device and hands, instead of a device
+    #[arg(long, value_enum, group = "where")]
+    emulator: Option<Board>,
+    /// The same without an emulator: the boards' loop compiled for the host
+    #[arg(long, group = "where")]
+    host: bool,
+    /// What the device is believed to be: the file of one's own (my.toml), or a device that ships
+    #[arg(long, value_name = "DEVICE", default_value = "woodenhaptics-2016")]
+    device: PathBuf,
+    /// Where the measured file goes (device.toml); nothing is measured without it
+    #[arg(long, value_name = "FILE.toml", required_unless_present_any = ["jog", "watch"])]
+    out: Option<PathBuf>,
+    /// By which known angles encoders are found
+    #[arg(long, value_enum, default_value_t)]
+    zero: Zero,
+    /// Measures torque constants and friction too, with known weights
+    #[arg(long)]
+    weigh: bool,
+    /// Shows counts, angles and what keeps the motors off for so many seconds, and drives nothing
+    #[arg(long, value_name = "SECONDS", conflicts_with_all = ["out", "jog"])]
+    watch: Option<f64>,
+    /// Jogs the motor on this output (0 to 2) while the keys are held, for --for seconds
+    #[arg(long, value_name = "OUTPUT", value_parser = clap::value_parser!(u8).range(0..3), conflicts_with = "out")]
+    jog: Option<u8>,
+    /// Of --jog: the share of full duty, negative for the other way; the device allows 0.4
+    #[arg(long, value_name = "SHARE", default_value_t = 0.1, allow_hyphen_values = true)]
+    duty: f64,
+    /// Of --jog: seconds
+    #[arg(long = "for", value_name = "SECONDS", default_value_t = 60.0)]
+    seconds: f64,
+    /// What is wrong with the simulated device, such as encoder-sign:0, motor-sign:2, ratio:0=1.25, zero:1=0.2,
+    /// torque:2=0.8, friction:0=2, encoders:0-1, motors:1-2; again for more
+    #[arg(long, value_name = "FAULT", conflicts_with = "port")]
+    plant: Vec<PlantedFault>,
+}
+
+/// How often a line is shown.
+const SHOWN: Duration = Duration::from_millis(100);
+
+/// Runs the command.
+///
+/// # Errors
+/// What the device or the person does not do; nothing is written then.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    if arguments.port.is_none() && arguments.emulator.is_none() && !arguments.host {
+        bail!("either --port, --emulator or --host");
+    }
+    let name = arguments.device.to_string_lossy();
+    let own = match devices::named(&name) {
+        Some(shipped) => {
+            OwnDevice::new(shipped.file().with_context(|| format!("{name} has less than three joints"))?, &name)?
+        }
+        None => OwnDevice::read(&arguments.device)?,
+    };
+    let mut lab = lab(arguments, &own)?;
+    if let Some(seconds) = arguments.watch {
+        return watch(&mut lab.device, &own.file, seconds);
+    }
+    if let Some(output) = arguments.jog {
+        return jog(&mut lab, &own.file, (output, arguments.duty), arguments.seconds);
+    }
+    let Some(out) = &arguments.out else { bail!("--out FILE.toml says where the measured file goes") };
+    let measured = if arguments.weigh { find } else { find_mounting };
+    let (file, findings) = measured(&mut lab, &own, arguments.zero)?;
+    let found = OwnDevice::new(file, "what was measured")?;
+    let head = format!("Measured by `palpate commission`, begun from {name}.");
+    std::fs::write(out, toml_of(&found, &head)?).with_context(|| format!("cannot write {}", out.display()))?;
+    report(&own, &findings);
+    println!("written to {}", out.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+fn report(own: &OwnDevice, findings: &[Finding]) {
+    match findings.len() {
+        0 => println!("{}: all that was measured is as the file says", own.file.name),
+        count => println!("{}: {count} found to be other than the file says", own.file.name),
+    }
+    for finding in findings {
+        println!("  {finding}");
+    }
+}
+
+/// The device and whoever stands at it.
+fn lab(arguments: &Arguments, own: &OwnDevice) -> anyhow::Result<Lab> {
+    if let Some(path) = &arguments.port {
+        // Looking takes nobody at the keys, and holds none.
+        let key: Box<dyn Key> = if arguments.watch.is_some() { Box::new(NoKey) } else { Box::new(Keyboard::new()?) };
+        let names = own.file.joint.iter().map(|joint| joint.name.clone()).collect();
+        let hands = Box::new(Person::new(names)?);
+        let device = Device::connect(Box::new(PortLine::open(path, arguments.baud)?), key)?;
+        return Ok(Lab { device, hands });
+    }
+    let planted = arguments.plant.iter().fold(Planted::sound(own.plant), |planted, fault| planted.with(*fault));
+    let world = World::shared(planted)?;
+    let line: Box<dyn Line> = match arguments.emulator {
+        Some(board) => {
+            let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+            let settings = folder.path().join("settings.rs");
+            std::fs::write(&settings, own::settings_source(own, RATE))?;
+            let choice = Choice { board, settings: Some(settings), ..Choice::default() };
+            let program = Program::prepare_with(&choice, "bench", &[], &Progress::new())?;
+            Box::new(EmulatedLine::start(program, &world)?)
+        }
+        None => Box::new(HostLine::new(own, &world)?),
+    };
+    let device = Device::connect(line, Box::new(KeyHeld))?;
+    Ok(Lab { device, hands: Box::new(SimulatedHands::new(&world)) })
+}
+
+/// Shows what the encoders say, and drives nothing.
+fn watch(device: &mut Device, file: &DeviceFile, seconds: f64) -> anyhow::Result<ExitCode> {
+    let mut shown = Shown::until(seconds)?;
+    while shown.goes_on() {
+        let reading = device.step(None)?;
+        shown.show(file, &reading)?;
+    }
+    shown.end()
+}
+
+/// Drives one motor while the keys are held.
+fn jog(lab: &mut Lab, file: &DeviceFile, (output, share): (u8, f64), seconds: f64) -> anyhow::Result<ExitCode> {
+    if !(share.abs() <= 0.4) {
+        bail!("--duty {share}: at most 0.4 of full duty, either way");
+    }
+    lab.hands.enable(false)?;
+    lab.device.step(None)?;
+    lab.hands.enable(true)?;
+    let mut shown = Shown::until(seconds)?;
+    while shown.goes_on() {
+        let reading = lab.device.step(Some((output, (share * 32_767.0) as i16)))?;
+        shown.show(file, &reading)?;
+        if reading.refusal != 0 {
+            // It stands until the key is let go.
+            lab.device.step(None)?;
+        }
+    }
+    lab.device.step(None)?;
+    shown.end()
+}
+
+/// A line that is kept up to date on a terminal, and written anew elsewhere.
+struct Shown {
+    began: Instant,
+    lasts: Duration,
+    last: Option<Instant>,
+}
+
+impl Shown {
+    fn until(seconds: f64) -> anyhow::Result<Self> {
+        let lasts = Duration::try_from_secs_f64(seconds).context("--watch or --for is not a time")?;
+        Ok(Self { began: Instant::now(), lasts, last: None })
+    }
+
+    fn goes_on(&self) -> bool {
+        self.began.elapsed() < self.lasts
+    }
+
+    fn show(&mut self, file: &DeviceFile, reading: &Reading) -> anyhow::Result<()> {
+        let is_due = self.last.is_none_or(|last| last.elapsed() >= SHOWN);
+        if !is_due {
+            return Ok(());
+        }
+        self.last = Some(Instant::now());
+        let joints =
+            file.joint.iter().enumerate().map(|(index, joint)| {
+                format!("{} {:+8.2}°", joint.name, angle(file, index, reading.counts).to_degrees())
+            });
+        let joints: Vec<_> = joints.collect();
+        let refusal = JogRefusal::from_code(reading.refusal).map_or_else(String::new, |refusal| format!("  {refusal}"));
+        let line = format!(
+            "tick {:>9}  counts {:>8?}  {}  duties {:>6?}  {}{}{refusal}",
+            reading.tick,
+            reading.counts,
+            joints.join("  "),
+            reading.duties,
+            if reading.live { "live" } else { "off" },
+            if reading.enable { "" } else { ", enable is not held" },
+        );
+        let mut output = stdout().lock();
+        if output.is_terminal() {
+            write!(output, "\r\x1b[2K{line}")?;
+        } else {
+            writeln!(output, "{line}")?;
+        }
+        Ok(output.flush()?)
+    }
+
+    fn end(self) -> anyhow::Result<ExitCode> {
+        println!();
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,181 @@
+//! A device that is being set up, at the other end of a line.
+
+use anyhow::{Context, bail};
+use palpate::commission::{Jog, JogRefusal, KEY};
+use palpate::wire::frame::{self, MAX_FRAME, Received, Receiver};
+use palpate::wire::{Command, Reading, hold};
+use std::collections::VecDeque;
+
+/// Ticks of a step: a fiftieth of a second at 4 kHz.
+const STEP: u32 = 80;
+/// How often a line may have nothing to say before the device counts as gone.
+const SILENCES: u32 = 200;
+/// How often a device is asked to be set up, and how often the line is looked at after each.
+const ASKED: u32 = 40;
+const LOOKS: u32 = 10;
+
+/// The bytes between this program and a device.
+pub trait Line {
+    /// Sends all of it.
+    ///
+    /// # Errors
+    /// A line that broke.
+    fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()>;
+
+    /// What came; waits for it a hundredth of a second at most. A simulated device runs for a moment meanwhile.
+    ///
+    /// # Errors
+    /// As [`Self::send`].
+    fn receive(&mut self) -> anyhow::Result<Vec<u8>>;
+}
+
+/// The key without which no motor moves.
+pub trait Key {
+    /// Whether it is held now.
+    fn is_held(&mut self) -> bool;
+}
+
+/// The key of a simulated hand.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct KeyHeld;
+
+impl Key for KeyHeld {
+    fn is_held(&mut self) -> bool {
+        true
+    }
+}
+
+/// No key: nothing can be driven.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoKey;
+
+impl Key for NoKey {
+    fn is_held(&mut self) -> bool {
+        false
+    }
+}
+
+/// A device at its line.
+pub struct Device {
+    line: Box<dyn Line>,
+    key: Box<dyn Key>,
+    receiver: Receiver<Reading>,
+    /// What came and was not looked at yet.
+    bytes: VecDeque<u8>,
+    /// Of the last jog sent.
+    number: u32,
+    last: Reading,
+}
+
+impl Device {
+    /// Asks the device to let go of its servo and be set up.
+    ///
+    /// # Errors
+    /// A device that does not answer so.
+    pub fn connect(line: Box<dyn Line>, key: Box<dyn Key>) -> anyhow::Result<Self> {
+        let (receiver, bytes) = (Receiver::new(), VecDeque::new());
+        let mut device = Self { line, key, receiver, bytes, number: 0, last: Reading::default() };
+        for _ in 0..ASKED {
+            device.send(Command::SetUp)?;
+            for _ in 0..LOOKS {
+                if let Some(reading) = device.look()? {
+                    device.number = reading.number;
+                    device.last = reading;
+                    return Ok(device);
+                }
+            }
+        }
+        bail!(
+            "the device does not answer: it lets itself be set up only while its motors are off and its enable button \
+             is released"
+        )
+    }
+
+    /// The last reading.
+    pub const fn last(&self) -> Reading {
+        self.last
+    }
+
+    /// Runs for a fiftieth of a second: with the key held this motor at this duty, else without current.
+    ///
+    /// The reading at its end. It is not live if the key was let go, if the enable button is, or if the device refused.
+    ///
+    /// # Errors
+    /// A line that broke or fell silent.
+    pub fn step(&mut self, jog: Option<(u8, i16)>) -> anyhow::Result<Reading> {
+        let began = self.last.tick;
+        let mut first = None;
+        loop {
+            // A key that was let go is let go for the whole step.
+            let held = jog.filter(|_| self.key.is_held());
+            let (motor, duty) = held.unwrap_or_default();
+            self.number = self.number.wrapping_add(1);
+            let key = if held.is_some() { KEY } else { 0 };
+            self.send(Command::Jog(Jog { number: self.number, key, motor, duty }))?;
+            let first = *first.get_or_insert(self.number);
+            let reading = self.next()?;
+            let is_heard = reading.number.wrapping_sub(first) as i32 >= 0;
+            if is_heard && (reading.tick.wrapping_sub(began) >= STEP || held.is_some() != jog.is_some()) {
+                return Ok(reading);
+            }
+        }
+    }
+
+    /// Waits until nothing but the key is missing.
+    ///
+    /// # Errors
+    /// A line that broke, or an enable button that nobody presses, with what keeps the motors off.
+    pub fn wait_for_enable(&mut self) -> anyhow::Result<()> {
+        for _ in 0..1_500 {
+            if self.step(None)?.enable {
+                return Ok(());
+            }
+        }
+        bail!("nobody presses the enable button for half a minute{}", said(&self.last))
+    }
+
+    /// The next reading.
+    fn next(&mut self) -> anyhow::Result<Reading> {
+        for _ in 0..SILENCES {
+            if let Some(reading) = self.look()? {
+                self.last = reading;
+                return Ok(reading);
+            }
+        }
+        bail!("the device fell silent")
+    }
+
+    /// The newest reading that has come, if any.
+    fn look(&mut self) -> anyhow::Result<Option<Reading>> {
+        let came = self.line.receive()?;
+        self.bytes.extend(came);
+        let mut newest = None;
+        for byte in self.bytes.drain(..) {
+            // Records of before are no readings, and are passed over as damaged.
+            if let Some(Received::Message(reading)) = self.receiver.feed(byte) {
+                newest = Some(reading);
+            }
+        }
+        Ok(newest)
+    }
+
+    fn send(&mut self, command: Command) -> anyhow::Result<()> {
+        let mut buffer = [0; MAX_FRAME];
+        let frame = frame::pack(&command, &mut buffer).context("a command is too long")?;
+        self.line.send(frame)
+    }
+}
+
+/// What a reading says that keeps the motors off, as the rest of a sentence.
+pub(super) fn said(reading: &Reading) -> String {
+    let holds = [
+        (hold::STOP, "stop is pressed"),
+        (hold::NOT_READY, "an amplifier is not ready"),
+        (hold::SUPPLY, "the supply is out of its range"),
+        (hold::RELEASE_FIRST, "enable has to be released first"),
+    ];
+    let mut reasons: Vec<String> =
+        holds.iter().filter(|(bit, _)| reading.hold & bit != 0).map(|(_, reason)| (*reason).to_owned()).collect();
+    reasons.extend(JogRefusal::from_code(reading.refusal).map(|refusal| refusal.to_string()));
+    if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) }
+}

@@ -1,0 +1,60 @@
+//! An emulated board with the loop of the boards in it: the simulated device is at its pins, this program at its port.
+
+use super::{Line, World};
+use crate::firmware::{Emulator, Link as _, Program};
+use palpate::wire::Sensors;
+use std::io::{ErrorKind, Read as _, Write as _};
+use std::net::TcpStream;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// Ticks that the device runs while the line is looked at: two milliseconds.
+const TICKS: u32 = 8;
+/// How long a byte may take on its way: emulated time stands still meanwhile.
+const WAIT: Duration = Duration::from_micros(200);
+
+/// A line to an emulated board.
+pub struct EmulatedLine {
+    pins: Emulator,
+    port: TcpStream,
+    world: Arc<Mutex<World>>,
+    tick: u32,
+    /// Its image, which the emulator may still be reading.
+    _program: Program,
+}
+
+impl EmulatedLine {
+    /// Starts a board that runs the program `bench`: its pins by one link, its serial port by another.
+    ///
+    /// # Errors
+    /// An emulator that does not start.
+    pub fn start(program: Program, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
+        let (pins, port) = program.start_with_telemetry()?;
+        port.set_read_timeout(Some(WAIT))?;
+        Ok(Self { pins, port, world: Arc::clone(world), tick: 0, _program: program })
+    }
+}
+
+impl Line for EmulatedLine {
+    fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
+        Ok(self.port.write_all(bytes)?)
+    }
+
+    fn receive(&mut self) -> anyhow::Result<Vec<u8>> {
+        for _ in 0..TICKS {
+            let sensors = {
+                let world = self.world.lock().unwrap_or_else(PoisonError::into_inner);
+                Sensors { tick: self.tick, counts: world.counts(), enable: world.enable }
+            };
+            let report = self.pins.exchange(&sensors)?;
+            self.world.lock().unwrap_or_else(PoisonError::into_inner).advance(report.duties);
+            self.tick = self.tick.wrapping_add(1);
+        }
+        let mut buffer = [0; 4096];
+        match self.port.read(&mut buffer) {
+            Ok(read) => Ok(buffer[..read].to_vec()),
+            Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock) => Ok(Vec::new()),
+            Err(error) => Err(error.into()),
+        }
+    }
+}

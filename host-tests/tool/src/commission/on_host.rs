@@ -1,0 +1,177 @@
+//! The loop of the boards, compiled for the host, on a simulated board.
+
+use super::{Line, RATE, World};
+use crate::own::OwnDevice;
+use crate::preset::Preset;
+use crate::wall::WALL;
+use anyhow::bail;
+use palpate::device::{Counts, Device, Duty, Kinematics};
+use palpate::math::vec3;
+use palpate::patch::SplinePatch;
+use palpate::servo::{Heartbeat, ResetReason, Servo, Settings};
+use palpate::track::Controller;
+use palpate::wire::Record;
+use palpate::wire::telemetry::Queue;
+use palpate_bench::sensors::BadFrame;
+use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Watchdog};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Of the simulated board's counter, Hz.
+const CLOCK: u32 = 100_000_000;
+/// Ticks that the device runs while the line is looked at: two milliseconds.
+const TICKS: u32 = 8;
+/// Bytes that a line of 500,000 baud carries in a tick, either way, with time to spare.
+const BYTES: u32 = 16;
+
+struct Made<K: 'static>(Servo<'static, SplinePatch, K, 3>);
+
+impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
+    type Surface = SplinePatch;
+    type Mechanism = K;
+
+    fn servo(&self) -> &Servo<'static, SplinePatch, K, 3> {
+        &self.0
+    }
+}
+
+/// A board whose pins are the simulated device's.
+struct SimulatedBoard {
+    world: Arc<Mutex<World>>,
+    duties: [i16; 3],
+}
+
+impl SimulatedBoard {
+    fn world(&self) -> MutexGuard<'_, World> {
+        self.world.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Board<3> for SimulatedBoard {
+    fn drive(&mut self, duties: [Duty; 3]) -> Result<(), NotObeyed> {
+        self.duties = duties.map(|duty| duty.0);
+        Ok(())
+    }
+}
+
+impl Passive<3> for SimulatedBoard {
+    fn now(&self) -> u32 {
+        0
+    }
+
+    fn acknowledge(&mut self) {}
+
+    fn panel(&mut self) -> Panel {
+        Panel { enable: self.world().enable, stop: false, ready: true, supply: None }
+    }
+
+    fn read(&mut self) -> Result<[Counts; 3], BadFrame> {
+        Ok(self.world().counts().map(Counts))
+    }
+
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        self.duties = [0; 3];
+        Ok(())
+    }
+
+    fn show(&mut self, _: bool) {}
+}
+
+/// A tick of a device, whatever its mechanism.
+trait Ticks {
+    /// A tick, and a period of the simulated device.
+    fn tick(&mut self);
+}
+
+impl<K: Kinematics<3> + 'static> Ticks for Bench<'static, Made<K>, SimulatedBoard, 3> {
+    fn tick(&mut self) {
+        Bench::tick(self);
+        let duties = self.board().duties;
+        self.board().world().advance(duties);
+    }
+}
+
+/// The serial port, both ends.
+#[derive(Default)]
+struct Bytes {
+    to_device: VecDeque<u8>,
+    from_device: Vec<u8>,
+}
+
+impl Port for Bytes {
+    fn send(&mut self, byte: u8) -> bool {
+        self.from_device.push(byte);
+        true
+    }
+
+    fn receive(&mut self) -> Option<u8> {
+        self.to_device.pop_front()
+    }
+}
+
+struct NoWatchdog;
+
+impl Watchdog for NoWatchdog {
+    fn feed(&mut self) {}
+}
+
+/// A line to the loop of the boards in this very program.
+pub struct HostLine {
+    bench: Box<dyn Ticks>,
+    idle: Idle<'static>,
+    bytes: Bytes,
+}
+
+impl HostLine {
+    /// A device as its firmware has it from this file, in this world.
+    ///
+    /// # Errors
+    /// A device of fewer joints, or settings that it does not take.
+    pub fn new(own: &OwnDevice, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
+        match own.preset {
+            Preset::SerialArm(device) => Self::of(device, world),
+            Preset::LinkageArm(device) => Self::of(device, world),
+            Preset::Delta(device) => Self::of(device, world),
+            Preset::FiveBar(_) | Preset::Paddle(_) => bail!("{} has too few joints", own.file.name),
+        }
+    }
+
+    fn of<K: Kinematics<3>>(device: &'static Device<K, 3>, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
+        let settings = Settings {
+            rate: RATE,
+            stiffness: 0.5 * device.max_stiffness,
+            damping: 0.5 * device.max_damping,
+            max_force: device.max_force,
+            velocity_corner: 200.0,
+            soft_start: 0.2,
+            body_origin: vec3(0.0, 0.0, -1.0),
+        };
+        let servo = Servo::try_new(device, &WALL, Controller::SECOND_ORDER, settings)?;
+        let board = SimulatedBoard { world: Arc::clone(world), duties: [0; 3] };
+        // They live as long as the program, as a board's statics do.
+        let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
+        let queue: &'static mut Queue<Record, 16> = Box::leak(Box::new(Queue::new()));
+        let (producer, records) = queue.split();
+        let settings = palpate_bench::Settings::new(CLOCK);
+        let bench = Bench::new(Made(servo), board, &settings, ResetReason::PowerOn, producer, mailbox);
+        let idle = Idle::new(mailbox, records, Heartbeat::default());
+        Ok(Self { bench: Box::new(bench), idle, bytes: Bytes::default() })
+    }
+}
+
+impl Line for HostLine {
+    fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
+        self.bytes.to_device.extend(bytes);
+        Ok(())
+    }
+
+    fn receive(&mut self) -> anyhow::Result<Vec<u8>> {
+        for _ in 0..TICKS {
+            self.bench.tick();
+            for _ in 0..BYTES {
+                self.idle.step(&mut self.bytes, &mut NoWatchdog);
+            }
+        }
+        Ok(std::mem::take(&mut self.bytes.from_device))
+    }
+}

@@ -1,0 +1,129 @@
+//! Torque constant and friction of each joint: the duties that just lift it off its support and just let it sink back,
+//! with and without a known weight.
+//!
+//! A joint that just moves up has a motor that carries the load and the friction; one that just sinks back, the load
+//! less the friction. Their mean is the load, half their difference the friction; what a known weight adds to the load
+//! is what a share of full duty is worth. Where that duty lies is found briskly first; then it is come to slowly, for a
+//! joint that has just come loose is not seen to move before it has gone two counts, and by how much the duty has grown
+//! meanwhile is taken for friction too.
+
+use super::device::said;
+use super::encoders::angle;
+use super::finding::differs;
+use super::motors::away;
+use super::ramp::{Growth, MOST, duty, grow};
+use super::{Finding, Lab};
+use crate::own::{DeviceFile, OwnDevice};
+use anyhow::{Context as _, bail};
+use std::f64::consts::TAU;
+
+/// What the weight loads a joint with, as a share of what its motor gives by its data sheet: as much as this, and as
+/// little as that where gravity and friction leave no more.
+const LOADS: [f64; 2] = [0.1, 0.02];
+/// How far below the duty that was found briskly the slow search begins, as a share of full duty: a fifth of it, or
+/// this.
+const LEAD: f64 = 0.03;
+/// Counts that are motion.
+const COUNTS: f64 = 2.0;
+
+/// Finds them and writes them into the file. `loads` is what gravity does to each joint, N·m.
+pub(super) fn find_torques(
+    lab: &mut Lab,
+    file: &mut DeviceFile,
+    own: &OwnDevice,
+    (centre, loads): ([f64; 3], [f64; 3]),
+    findings: &mut Vec<Finding>,
+) -> anyhow::Result<()> {
+    let jacobian = own.plant.mechanism(0.0).jacobian(centre);
+    for (index, load) in loads.into_iter().enumerate() {
+        let column: [f64; 3] = core::array::from_fn(|axis| jacobian[axis][index]);
+        let lever = column.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let motor = &file.joint[index].motor;
+        let by_file = (motor.torque_constant * motor.current_at_full * motor.ratio).abs();
+        let towards = away(load);
+        let [up, down] = edges(lab, file, (centre, index), towards)?;
+        // What is left for a weight, and two fifths of it for a motor that is weaker than the file says.
+        let share = LOADS[0].min(0.6 * (MOST - up));
+        if share < LOADS[1] {
+            bail!(
+                "joint {}: gravity and friction take {:.0} % of full duty, and with {:.0} % of it at most there is \
+                 nothing left to measure a weight with: balance the arm first",
+                file.joint[index].name,
+                100.0 * up,
+                100.0 * MOST
+            );
+        }
+        let wanted = share * by_file / lever;
+        // The way the load falls.
+        let pulled = lab.hands.pull(column.map(|part| -towards * part / lever * wanted))?;
+        let [weighed_up, weighed_down] = edges(lab, file, (centre, index), towards)?;
+        lab.hands.pull([0.0; 3])?;
+        let full = pulled * lever / (0.5 * (weighed_up + weighed_down) - 0.5 * (up + down));
+        let joint = &mut file.joint[index];
+        let motor = &mut joint.motor;
+        let found = full / (motor.current_at_full * motor.ratio).abs();
+        if !found.is_finite() || found <= 0.0 {
+            bail!("joint {}: the weight changed nothing", joint.name);
+        }
+        // The weight's duty is read to the last step of the ramp, 1.5 % of it and of friction.
+        if differs(found, motor.torque_constant, 0.05) {
+            findings.push(Finding(format!(
+                "joint {}: torque constant {found:.4} N·m/A, not {:.4}",
+                joint.name, motor.torque_constant
+            )));
+            motor.torque_constant = found;
+        }
+        let friction = 0.5 * (up - down) * full;
+        if differs(friction, joint.friction, 0.3) && (friction - joint.friction).abs() > 4e-3 {
+            findings
+                .push(Finding(format!("joint {}: friction {friction:.3} N·m, not {:.3}", joint.name, joint.friction)));
+            joint.friction = friction;
+        }
+    }
+    Ok(())
+}
+
+/// The shares of full duty, off the support, that just move a joint up, and just let it sink back.
+fn edges(
+    lab: &mut Lab,
+    file: &DeviceFile,
+    (centre, joint): ([f64; 3], usize),
+    towards: f64,
+) -> anyhow::Result<[f64; 2]> {
+    let entry = &file.joint[joint];
+    let (output, sign) = (u8::try_from(entry.motor.channel)?, entry.motor.ratio.signum() * towards);
+    let motion = COUNTS * (TAU / (entry.encoder.counts * entry.encoder.ratio)).abs();
+    let mut lift = |from: f64, growth: Growth| {
+        lab.place(centre)?;
+        lab.hands.rest(joint, towards)?;
+        let before = angle(file, joint, lab.device.step(None)?.counts);
+        let height = move |counts| towards * (angle(file, joint, counts) - before);
+        let lifted = grow(lab, output, sign, (from, growth), |counts| height(counts) >= motion)?;
+        let (up, counts) = lifted.with_context(|| {
+            format!(
+                "joint {}: {:.0} % of full duty do not lift it off its support: take less weight, or balance the arm",
+                entry.name,
+                100.0 * MOST
+            )
+        })?;
+        anyhow::Ok((up, height(counts), before))
+    };
+    let (about, ..) = lift(0.0, Growth::BRISK)?;
+    let (up, reached, before) = lift((about - LEAD.max(0.2 * about)).max(0.0), Growth::FINE)?;
+    let height = |counts| towards * (angle(file, joint, counts) - before);
+    let (mut highest, mut drop) = (reached, 0.0);
+    while up - drop > -MOST {
+        drop = Growth::BACK.next(drop);
+        let reading = lab.device.step(Some((output, duty(sign * (up - drop)))))?;
+        let now = height(reading.counts);
+        highest = highest.max(now);
+        if now <= highest - motion {
+            lab.device.step(None)?;
+            return Ok([up, up - drop]);
+        }
+        if !reading.live {
+            bail!("joint {}: key or button were let go in the middle of a measurement{}", entry.name, said(&reading));
+        }
+    }
+    bail!("joint {}: it does not sink back on its support", entry.name)
+}

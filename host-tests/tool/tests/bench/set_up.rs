@@ -1,0 +1,372 @@
+//! A device that is being set up, from the bytes on its line to the current in its motors: nothing moves without the
+//! enable button *and* the key, and whatever goes wrong lets go at once.
+
+use crate::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
+use palpate::commission::{Jog, JogRefusal, KEY};
+use palpate::device::SerialArm;
+use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::servo::{Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
+use palpate::track::Controller;
+use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
+use palpate::wire::{Command, Reading, hold};
+use palpate_bench::{Idle, Port, Settings, Watchdog};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+use std::collections::VecDeque;
+
+/// A line whose bytes are all there at once.
+#[derive(Default)]
+struct Wire {
+    to_device: VecDeque<u8>,
+    from_device: Vec<u8>,
+}
+
+impl Port for Wire {
+    fn send(&mut self, byte: u8) -> bool {
+        self.from_device.push(byte);
+        true
+    }
+
+    fn receive(&mut self) -> Option<u8> {
+        self.to_device.pop_front()
+    }
+}
+
+struct NoWatchdog;
+
+impl Watchdog for NoWatchdog {
+    fn feed(&mut self) {}
+}
+
+/// The whole device side: interrupt, main and line.
+struct Device {
+    rig: Rig<SerialArm>,
+    idle: Idle<'static>,
+    wire: Wire,
+    receiver: Receiver<Reading>,
+    last: Option<Reading>,
+    number: u32,
+}
+
+impl Device {
+    fn new(settings: &Settings, safety: Safety) -> Self {
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+        let mut rig = Rig::new(servo, held_at([0.0, 0.0, 0.02]), settings, ResetReason::PowerOn);
+        let records = rig.take_records();
+        let idle = Idle::new(rig.mailbox, records, Heartbeat::default());
+        Self { rig, idle, wire: Wire::default(), receiver: Receiver::new(), last: None, number: 0 }
+    }
+
+    fn send(&mut self, command: Command) {
+        let mut buffer = [0; MAX_FRAME];
+        self.wire.to_device.extend(pack(&command, &mut buffer).unwrap());
+    }
+
+    fn jog(&mut self, key: u32, motor: u8, duty: i16) {
+        self.number += 1;
+        self.send(Command::Jog(Jog { number: self.number, key, motor, duty }));
+    }
+
+    /// Main as long as it has something to do.
+    fn idle(&mut self) {
+        while !self.wire.to_device.is_empty() {
+            self.idle.step(&mut self.wire, &mut NoWatchdog);
+        }
+        for _ in 0..2 * MAX_FRAME {
+            self.idle.step(&mut self.wire, &mut NoWatchdog);
+        }
+        for byte in self.wire.from_device.drain(..) {
+            if let Some(Received::Message(reading)) = self.receiver.feed(byte) {
+                self.last = Some(reading);
+            }
+        }
+    }
+
+    fn tick(&mut self) {
+        self.idle();
+        self.rig.tick();
+        self.idle();
+    }
+
+    fn ticks(&mut self, ticks: u32) {
+        (0..ticks).for_each(|_| self.tick());
+    }
+
+    /// One being set up, whose enable button is held as it should be.
+    fn being_set_up() -> Self {
+        Self::being_set_up_with(&settings())
+    }
+
+    fn being_set_up_with(settings: &Settings) -> Self {
+        let mut device = Self::new(settings, Safety::DEFAULT);
+        device.ticks(50);
+        device.send(Command::SetUp);
+        device.ticks(10);
+        assert!(device.last.is_some(), "it is being set up");
+        device.rig.set(|world| world.button = true);
+        device.ticks(10);
+        device
+    }
+
+    /// Holds the key for so many ticks, a frame every 20 ms.
+    fn hold_key(&mut self, ticks: u32, motor: u8, duty: i16) {
+        for tick in 0..ticks {
+            if tick % 80 == 0 {
+                self.jog(KEY, motor, duty);
+            }
+            self.tick();
+        }
+    }
+
+    fn reading(&self) -> Reading {
+        self.last.unwrap()
+    }
+
+    #[track_caller]
+    fn assert_off(&mut self, ticks: u32) {
+        for tick in 0..ticks {
+            self.tick();
+            assert!(self.rig.is_off(), "tick {tick}: {:?}", self.reading());
+        }
+    }
+}
+
+#[test]
+fn one_motor_moves_while_key_and_button_are_held_by_no_more_than_its_limit() {
+    let mut device = Device::being_set_up();
+    for motor in 0..3 {
+        device.hold_key(1_000, motor, i16::MAX);
+        let reading = device.reading();
+        // Four tenths of full scale, rounded.
+        let mut wanted = [0; 3];
+        wanted[usize::from(motor)] = 13_107;
+        assert_eq!((reading.live, reading.duties, reading.refusal), (true, wanted, 0));
+        let currents = device.rig.world.borrow().currents();
+        for (joint, current) in currents.into_iter().enumerate() {
+            let wanted = if joint == usize::from(motor) { 0.4 } else { 0.0 };
+            // Half a step of 8,500 on a range of 0.4.
+            assert!((current - wanted).abs() < 2e-4, "{currents:?}");
+        }
+        device.jog(0, motor, 0);
+        device.assert_off(100);
+    }
+}
+
+#[test]
+fn a_key_that_falls_silent_is_let_go_after_a_tenth_of_a_second() {
+    let mut device = Device::being_set_up();
+    device.hold_key(1_000, 1, 5_000);
+    device.jog(KEY, 1, 5_000);
+    device.ticks(400);
+    assert!(!device.rig.is_off());
+    device.assert_off(2_000);
+    assert_eq!(device.reading().duties, [0; 3]);
+}
+
+#[test]
+fn whatever_goes_wrong_lets_go_in_the_same_tick() {
+    type Harm = (&'static str, fn(&mut World), u8, u8);
+    let harms: [Harm; 5] = [
+        ("the button is released", |world| world.button = false, 0, 0),
+        ("stop is pressed", |world| world.stop_open = true, 0, hold::STOP),
+        ("an amplifier fails", |world| world.amplifiers_well = false, 0, hold::NOT_READY),
+        ("a sensor fails", |world| world.bad = 1, JogRefusal::Sensor.code(), 0),
+        ("a tick is late", |world| world.reading = 43_000, JogRefusal::Late.code(), 0),
+    ];
+    for (name, harm, refusal, holds) in harms {
+        let mut device = Device::being_set_up();
+        device.hold_key(1_000, 0, 5_000);
+        assert!(!device.rig.is_off(), "{name}");
+        device.rig.set(harm);
+        device.jog(KEY, 0, 5_000);
+        device.assert_off(1);
+        assert_eq!((device.reading().refusal, device.reading().hold & holds), (refusal, holds), "{name}");
+    }
+    // The supply is believed for three readings more: one may be noise.
+    let mut device = Device::being_set_up();
+    device.hold_key(1_000, 0, 5_000);
+    device.rig.set(|world| world.supply = 12.0);
+    device.ticks(3);
+    device.assert_off(1);
+    // The host says stop, and stop it is until the next reset.
+    let mut device = Device::being_set_up();
+    device.hold_key(1_000, 0, 5_000);
+    device.send(Command::Stop);
+    device.assert_off(1);
+    device.rig.set(|world| world.button = false);
+    device.ticks(10);
+    device.rig.set(|world| world.button = true);
+    for _ in 0..20 {
+        device.jog(KEY, 0, 5_000);
+        device.assert_off(80);
+    }
+    assert_eq!(device.reading().hold, hold::STOP);
+}
+
+#[test]
+fn after_a_hold_the_button_must_be_released_first() {
+    let mut device = Device::being_set_up();
+    device.hold_key(1_000, 0, 5_000);
+    device.rig.set(|world| world.stop_open = true);
+    device.assert_off(10);
+    device.rig.set(|world| world.stop_open = false);
+    for _ in 0..20 {
+        device.jog(KEY, 0, 5_000);
+        device.assert_off(80);
+    }
+    assert_eq!(device.reading().hold, hold::RELEASE_FIRST);
+    device.rig.set(|world| world.button = false);
+    device.assert_off(10);
+    device.rig.set(|world| world.button = true);
+    device.hold_key(200, 0, 5_000);
+    assert!(!device.rig.is_off());
+}
+
+#[test]
+fn nobody_is_surprised_by_it() {
+    // Not while force is given, nor while the button is held, nor while something damps.
+    let mut device = Device::new(&settings(), Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT });
+    device.rig.press_until_it_runs();
+    device.send(Command::SetUp);
+    device.ticks(10);
+    assert_eq!((device.last, device.rig.state().phase()), (None, Phase::Running));
+    device.rig.set(|world| world.bad = 3);
+    device.ticks(10);
+    device.rig.set(|world| world.button = false);
+    device.ticks(10);
+    assert!(device.rig.fault().is_some() && !device.rig.is_off(), "it damps");
+    device.send(Command::SetUp);
+    device.ticks(10);
+    assert_eq!(device.last, None);
+    let mut device = Device::new(&settings(), Safety::DEFAULT);
+    device.ticks(50);
+    device.rig.set(|world| (world.button, world.stop_open) = (true, true));
+    device.ticks(10);
+    device.send(Command::SetUp);
+    device.ticks(10);
+    assert_eq!(device.last, None);
+    // A board that does not offer it is never set up.
+    let mut device = Device::new(&Settings { jog: None, ..settings() }, Safety::DEFAULT);
+    device.ticks(50);
+    device.send(Command::SetUp);
+    device.ticks(10);
+    assert_eq!((device.last, device.rig.fault()), (None, None));
+}
+
+#[test]
+fn the_servo_is_stopped_for_good() {
+    let mut device = Device::being_set_up();
+    assert_eq!(device.rig.fault(), Some(Fault::Stopped));
+    for command in [Command::Acknowledge, Command::Alive, Command::SetUp] {
+        device.send(command);
+        device.assert_off(100);
+    }
+    device.rig.set(|world| world.button = false);
+    device.assert_off(100);
+    device.rig.set(|world| world.button = true);
+    device.assert_off(1_000);
+    assert_eq!(device.rig.fault(), Some(Fault::Stopped));
+}
+
+#[test]
+fn a_jog_to_a_device_that_is_not_set_up_does_nothing_and_is_forgotten() {
+    let mut device = Device::new(&settings(), Safety::DEFAULT);
+    device.ticks(50);
+    device.hold_key(200, 0, 5_000);
+    assert!(device.rig.is_off());
+    device.send(Command::SetUp);
+    device.ticks(10);
+    device.rig.set(|world| world.button = true);
+    device.assert_off(100);
+    assert_eq!(device.reading().number, 0);
+}
+
+/// What a line may say that holds no key: frames of every kind with anything in them, frames with a key that came
+/// before, frames with a key that were harmed on the way, and rubbish. And the button is pressed all the while, or off
+/// and on.
+#[test]
+fn no_fuzzed_command_moves_a_motor_without_the_key() {
+    const COMMANDS: u32 = 1_000_000;
+    let mut device = Device::being_set_up();
+    let mut random = Pcg64::seed_from_u64(5);
+    let (mut buffer, mut stale) = ([0; MAX_FRAME], Vec::new());
+    // Held once, and let go: numbers up to this one hold no key any more.
+    device.number = 1_000;
+    device.hold_key(400, 0, 5_000);
+    assert!(!device.rig.is_off(), "the key does move it");
+    for number in 0..=device.number {
+        let jog = Command::Jog(Jog { number, key: KEY, motor: (number % 3) as u8, duty: 9_000 });
+        stale.push(pack(&jog, &mut buffer).unwrap().to_vec());
+    }
+    device.jog(0, 0, 0);
+    device.assert_off(1);
+    let mut kinds = [0_u32; 4];
+    for command in 0..COMMANDS {
+        let draw = random.next_u64();
+        let kind = (draw & 3) as usize;
+        kinds[kind] += 1;
+        let [a, b] = [random.next_u64(), random.next_u64()];
+        let jog = Jog { number: a as u32, key: (a >> 32) as u32, motor: b as u8, duty: (b >> 8) as i16 };
+        match kind {
+            0 => {
+                let key = match jog.key {
+                    // One in eight is nearly right.
+                    key if key & 7 == 0 => KEY ^ (1 << (key >> 8 & 31)),
+                    KEY => 0,
+                    key => key,
+                };
+                // Not to run away with the number: what is older is refused by itself.
+                let number = device.number.wrapping_add(jog.number % 3);
+                let commands = [
+                    Command::Alive,
+                    Command::Acknowledge,
+                    Command::SetUp,
+                    Command::Jog(Jog { number, key, ..jog }),
+                    Command::Jog(Jog { number, key, motor: jog.motor % 4, ..jog }),
+                ];
+                device.number = number;
+                device.send(commands[(draw >> 8) as usize % commands.len()]);
+            }
+            1 => device.wire.to_device.extend(&stale[(draw >> 8) as usize % stale.len()]),
+            2 => {
+                let held = Jog { number: device.number.wrapping_add(1), key: KEY, motor: jog.motor % 3, duty: 9_000 };
+                let mut frame = pack(&Command::Jog(held), &mut buffer).unwrap().to_vec();
+                // One bit to three: that many any CRC-32 finds in a frame this short.
+                let bits = frame.len() * 8;
+                let first = a as usize % bits;
+                frame[first / 8] ^= 1 << (first % 8);
+                for (at, also) in [(b as usize % bits, draw & 16 != 0), ((b >> 32) as usize % bits, draw & 32 != 0)] {
+                    if also && at != first {
+                        frame[at / 8] ^= 1 << (at % 8);
+                    }
+                }
+                // Two flips of one bit are none.
+                if frame != pack(&Command::Jog(held), &mut buffer).unwrap() {
+                    device.wire.to_device.extend(frame);
+                }
+            }
+            _ => device.wire.to_device.extend(&a.to_le_bytes()[..(draw >> 8) as usize % 9]),
+        }
+        while !device.wire.to_device.is_empty() {
+            device.idle.step(&mut device.wire, &mut NoWatchdog);
+        }
+        device.wire.from_device.clear();
+        if command % 1_000 == 0 {
+            device.rig.set(|world| world.button = draw & 64 != 0);
+        }
+        device.rig.bench.tick();
+        assert!(device.rig.is_off(), "command {command}");
+        assert_eq!(device.rig.world.borrow().currents(), [0.0; 3]);
+    }
+    println!("{COMMANDS} commands of the kinds {kinds:?}, and no motor moved");
+    // It was alive all the while: the key moves it still.
+    device.rig.set(|world| world.button = false);
+    device.wire.to_device.push_back(0);
+    device.ticks(10);
+    device.rig.set(|world| world.button = true);
+    device.ticks(10);
+    device.number = device.number.wrapping_add(10);
+    device.jog(0, 0, 0);
+    device.hold_key(200, 2, 5_000);
+    assert!(!device.rig.is_off());
+}
