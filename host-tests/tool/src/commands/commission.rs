@@ -151,7 +151,7 @@ fn watch(device: &mut Device, file: &DeviceFile, seconds: f64) -> anyhow::Result
 
 /// Drives one motor while the keys are held.
 fn jog(lab: &mut Lab, file: &DeviceFile, (output, share): (u8, f64), seconds: f64) -> anyhow::Result<ExitCode> {
-    if !(share.abs() <= 0.4) {
+    if !share.is_finite() || share.abs() > 0.4 {
         bail!("--duty {share}: at most 0.4 of full duty, either way");
     }
     lab.hands.enable(false)?;

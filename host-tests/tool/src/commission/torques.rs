@@ -25,6 +25,8 @@ const LOADS: [f64; 2] = [0.1, 0.02];
 const LEAD: f64 = 0.03;
 /// Counts that are motion.
 const COUNTS: f64 = 2.0;
+/// And how far at least, rad: more than a hard support gives way under the load that is lifted off it.
+const GIVE: f64 = 5e-4;
 
 /// Finds them and writes them into the file. `loads` is what gravity does to each joint, N·m.
 pub(super) fn find_torques(
@@ -92,7 +94,7 @@ fn edges(
 ) -> anyhow::Result<[f64; 2]> {
     let entry = &file.joint[joint];
     let (output, sign) = (u8::try_from(entry.motor.channel)?, entry.motor.ratio.signum() * towards);
-    let motion = COUNTS * (TAU / (entry.encoder.counts * entry.encoder.ratio)).abs();
+    let motion = GIVE.max(COUNTS * (TAU / (entry.encoder.counts * entry.encoder.ratio)).abs());
     let mut lift = |from: f64, growth: Growth| {
         lab.place(centre)?;
         lab.hands.rest(joint, towards)?;
