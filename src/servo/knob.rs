@@ -100,13 +100,17 @@ impl Knob {
             if let Err(error) = feel.check() {
                 return Err(KnobError::Feel(error));
             }
-            if !(feel.stiffness() <= device.max_stiffness * radius * radius) {
+            // Asked so that a number that is none is refused.
+            let bears_stiffness = feel.stiffness() <= device.max_stiffness * radius * radius;
+            let bears_damping = feel.greatest_damping() <= device.max_damping * radius * radius;
+            let bears_torque = feel.torque_between_ends() <= most;
+            if !bears_stiffness {
                 return Err(KnobError::Stiffness);
             }
-            if !(feel.greatest_damping() <= device.max_damping * radius * radius) {
+            if !bears_damping {
                 return Err(KnobError::Damping);
             }
-            if !(feel.torque_between_ends() <= most) {
+            if !bears_torque {
                 return Err(KnobError::Torque);
             }
             index += 1;

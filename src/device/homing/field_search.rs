@@ -157,7 +157,8 @@ impl FieldSearch {
         if !followed {
             return Led::Refused(Refusal::NotFollowed);
         }
-        if !(sweep.mean.abs() <= ASTRAY as f32) {
+        let is_near = sweep.mean.abs() <= ASTRAY as f32;
+        if !is_near {
             return Led::Refused(Refusal::NotFollowed);
         }
         // Through 32 bits, for the cast of a negative number to 16 without a sign would be 0.
