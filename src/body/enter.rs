@@ -11,7 +11,7 @@ use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
 use crate::patch::Patch as _;
-use crate::track::{Aim, BoundaryMode, Outcome};
+use crate::track::{Aim, BoundaryMode, Outcome, mode_at};
 
 /// Of the fall of `½ ‖ΔR‖²` that a step without a certificate promises, the part that is asked for.
 pub(super) const LEAST_FALL: f32 = 1.0 / 16.0;
@@ -82,12 +82,11 @@ impl Body {
         Some(Beyond { face, of, is_reversed: *reversed, inward })
     }
 
-    /// What is beyond a side of a face, by its edge. Both may be sides of one face.
+    /// What is beyond a side of the face that holds the witness point, by its edge. Both may be sides of one face.
     #[inline(always)]
-    pub(super) fn beyond_side(&self, edge: &Edge, face: &Face, number: usize) -> EdgeFace {
+    pub(super) fn beyond_side(edge: &Edge, from: Feature, number: usize) -> EdgeFace {
         let [first, second] = edge.faces;
-        let is_first = usize::from(first.side) == number
-            && self.faces.get(usize::from(first.face)).is_some_and(|of| core::ptr::eq(of, face));
+        let is_first = from == Feature::Face(first.face) && usize::from(first.side) == number;
         if is_first { second } else { first }
     }
 
@@ -126,7 +125,7 @@ impl Body {
     /// its own face: over a seam that gapes the distance may rise. Whether the side is such an edge.
     #[inline(never)]
     pub(super) fn step_across(&self, face: &Face, aim: &Aim, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
-        let Some(entry) = self.across(face, aim, state) else { return false };
+        let Some((entry, side)) = self.across(face, aim, state) else { return false };
         let Some(other) = self.faces.get(usize::from(entry.face)) else { return false };
         let reached = other.patch.evaluate_apart(entry.parameters);
         step.evaluations += 1;
@@ -135,29 +134,38 @@ impl Body {
             aim.landing_at(entry.parameters, entry.fall).settle(&reached, &mut state.witness, probe, self.size);
         state.witness.mode = aim.mode;
         if step.outcome != Outcome::Undone {
+            // Where another border has cut it, that one holds it.
+            let [u, v] = entry.parameters;
+            let is_cut = |along: f32| along <= 0.0 || along >= 1.0;
+            let held = if side < 2 { [false, is_cut(v)] } else { [is_cut(u), false] };
             (state.feature, state.witness.mode, step.switched) =
-                (Feature::Face(entry.face), BoundaryMode::Interior, true);
+                (Feature::Face(entry.face), mode_at(entry.parameters, held), true);
         }
         true
     }
 
-    /// Where a step of second order that ends at a smooth edge ends on the face beyond.
+    /// Where a step of second order that ends at a smooth edge ends on the face beyond, and over which side of that.
     #[inline]
-    fn across(&self, face: &Face, aim: &Aim, state: &BodyWitness) -> Option<Entry> {
+    fn across(&self, face: &Face, aim: &Aim, state: &BodyWitness) -> Option<(Entry, u8)> {
         let ([u, v], witness) = (aim.landing.parameters, &state.witness);
         let (number, along, is_along_v) = match aim.beyond {
             BoundaryMode::LowerU => (0, v, true),
             BoundaryMode::UpperU => (1, v, true),
             BoundaryMode::LowerV => (2, u, false),
             BoundaryMode::UpperV => (3, u, false),
-            BoundaryMode::Corner | BoundaryMode::Interior => return None,
+            BoundaryMode::Corner => {
+                let [first, second] = [usize::from(u > 0.5), 2 + usize::from(v > 0.5)];
+                let is_first = self.kind_of_side(face, first) == Some(EdgeKind::Smooth);
+                if is_first { (first, v, true) } else { (second, u, false) }
+            }
+            BoundaryMode::Interior => return None,
         };
         let Side::Edge { edge: index, reversed, .. } = face.sides.get(number)? else { return None };
         let edge = self.edges.get(usize::from(*index))?;
         if edge.kind != EdgeKind::Smooth {
             return None;
         }
-        let other = self.beyond_side(edge, face, number);
+        let other = Self::beyond_side(edge, state.feature, number);
         let t = if *reversed { 1.0 - along } else { along };
         // The border as it looks from the witness point.
         let step = [u - witness.parameters[0], v - witness.parameters[1]];
@@ -165,7 +173,8 @@ impl Body {
         let tangent = if is_along_v { witness.surface.tangent_v } else { witness.surface.tangent_u };
         let tangent = if *reversed { -tangent } else { tangent };
         let border = Border { along: Along::new(point, tangent, state.probe), tangent, t };
-        Some(self.beyond(other, &border, state.probe)?.entry(&border, true, state, face.bend(state.gap)))
+        let beyond = self.beyond(other, &border, state.probe)?;
+        Some((beyond.entry(&border, true, state, face.bend(state.gap)), other.side))
     }
 }
 

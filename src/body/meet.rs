@@ -2,10 +2,10 @@
 
 use super::feature::{EdgeKind, Face, Feature, Side, Spoke, Vertex};
 use super::table::Body;
-use super::tracker::BodyWitness;
+use super::tracker::{BodyStep, BodyWitness};
 use crate::math::{Vec3, inverse_sqrt, sqrt_from_above};
 use crate::patch::Patch as _;
-use crate::track::{BoundaryMode, Contact};
+use crate::track::{BoundaryMode, Contact, is_inside};
 
 /// So near a pole, in sizes of the body, the tangent around it may be rounding: coordinates of that size are rounded by
 /// `6e-8`, a hundredth of this and less with the tangents made of them.
@@ -13,9 +13,10 @@ const AT_POLE: f32 = 1.0e-5;
 
 impl Body {
     /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been
-    /// called. Until the witness point is located, and for a probe that is not finite, nothing changes.
+    /// called, and the step that it has made. Until the witness point is located, and for a probe that is not finite,
+    /// nothing changes.
     #[inline(always)]
-    pub fn meet(&self, state: &mut BodyWitness, probe: Vec3) {
+    pub fn meet(&self, state: &mut BodyWitness, probe: Vec3, step: &BodyStep) {
         if !state.is_located {
             return;
         }
@@ -26,13 +27,12 @@ impl Body {
                 let normal = at_pole.or_else(|| state.witness.normal(&face.patch)).unwrap_or(state.normal);
                 let away = probe - state.witness.surface.point;
                 let gap = away.dot(normal);
-                // Held at a border the witness point is not where the probe goes in: what is beyond it will say.
-                let is_held = state.witness.mode != BoundaryMode::Interior;
-                if gap < 0.0 && !state.witness.is_free {
+                if gap < 0.0 {
                     let contact = state.contact;
                     match contact {
-                        Contact::InFront if is_held => return,
-                        Contact::Touching if self.leaves_over_border(face, state) => return,
+                        // At a border the witness point is not where the probe goes in: what is beyond it will say.
+                        Contact::InFront if !is_inside(state.witness.parameters) => return,
+                        Contact::Touching if !step.hands_over() && self.leaves_over_border(face, state) => return,
                         _ => {}
                     }
                 }
@@ -112,26 +112,35 @@ impl Body {
     }
 
     /// On which side of a closed body a probe is that is nearest to a vertex, as far as is known. Where that holds it,
-    /// for no edge leads nearer, `outward` says so. Where three convex edges meet it is outside in front of any of the
-    /// three planes, too; behind all of them it is for a face to say.
+    /// for no edge leads nearer, `outward` says so. In front of three convex edges it is outside, too; behind them it
+    /// is for a face to say.
     pub(super) fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
         let height = towards.dot(vertex.outward);
-        let first = usize::from(vertex.first_spoke);
-        let spokes = self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[]);
-        if height != 0.0 && spokes.iter().all(|spoke| towards.dot(spoke.direction) <= 0.0) {
+        if height != 0.0 && self.spokes_of(vertex).iter().all(|spoke| towards.dot(spoke.direction) <= 0.0) {
             return Some(height > 0.0);
         }
+        self.is_in_front_at(vertex, towards).filter(|is_in_front| *is_in_front)
+    }
+
+    /// Where three convex edges meet at a vertex: whether it is in front of any of the three planes between them.
+    #[inline(never)]
+    pub(super) fn is_in_front_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
+        let [a, b, c] = self.spokes_of(vertex) else { return None };
         let is_convex =
-            |spoke: &Spoke| self.edges.get(usize::from(spoke.edge)).is_some_and(|edge| edge.kind == EdgeKind::Convex);
-        let [a, b, c] = spokes else { return None };
-        if !spokes.iter().all(is_convex) {
+            |spoke: &&Spoke| self.edges.get(usize::from(spoke.edge)).is_some_and(|edge| edge.kind == EdgeKind::Convex);
+        if ![a, b, c].iter().all(is_convex) {
             return None;
         }
         // `t = αa + βb + γc` has `α (a × b)·c = t·(b × c)`, and so on: behind all three none is below 0.
         let [a, b, c] = [a.direction, b.direction, c.direction];
         let normals = [a.cross(b), b.cross(c), c.cross(a)];
         let volume = normals[0].dot(c);
-        normals.iter().any(|normal| normal.dot(towards) * volume < 0.0).then_some(true)
+        Some(normals.iter().any(|normal| normal.dot(towards) * volume < 0.0))
+    }
+
+    fn spokes_of(&self, vertex: &Vertex) -> &[Spoke] {
+        let first = usize::from(vertex.first_spoke);
+        self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[])
     }
 
     /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe

@@ -59,7 +59,7 @@ impl Body {
     }
 
     /// The kind of the edge that a side of a face is; `None` of a pole.
-    fn kind_of_side(&self, face: &Face, number: usize) -> Option<EdgeKind> {
+    pub(super) fn kind_of_side(&self, face: &Face, number: usize) -> Option<EdgeKind> {
         let Some(Side::Edge { edge, .. }) = face.sides.get(number) else { return None };
         self.edges.get(usize::from(*edge)).map(|edge| edge.kind)
     }

@@ -72,6 +72,13 @@ impl BodyStep {
     /// Nothing done.
     pub(super) const NOTHING: Self =
         Self { outcome: Outcome::AtRest, switched: false, searched: false, evaluations: 0, unexplained: false };
+
+    /// Whether it has entered a face over an edge, which is work enough for a tick: what lies beyond that face's own
+    /// borders is for the next one.
+    #[inline]
+    pub(super) fn hands_over(&self) -> bool {
+        self.switched && self.outcome == Outcome::AtRest
+    }
 }
 
 impl Body {
@@ -115,7 +122,7 @@ impl Body {
         }
         let mut step = self.track(controller, state, probe, period);
         if !step.searched {
-            self.meet(state, probe.position);
+            self.meet(state, probe.position, &step);
         }
         step.unexplained = state.contact == Contact::Touching && -state.gap > state.reach + UNEXPLAINED * self.size;
         step

@@ -27,6 +27,15 @@ pub(super) enum Spans {
 }
 
 impl Spans {
+    /// Whether there are weights.
+    #[inline]
+    pub(super) const fn is_rational(&self) -> bool {
+        matches!(
+            self,
+            Self::RationalBilinear(_) | Self::RationalBiquadratic(_) | Self::RationalBicubic(_) | Self::RationalRows(_)
+        )
+    }
+
     /// The coefficients, counted already, in spans.
     pub(super) const fn new(degree: [u8; 2], coefficients: Coefficients) -> Self {
         match (degree, coefficients) {

@@ -66,6 +66,12 @@ pub struct SplinePatch {
 }
 
 impl SplinePatch {
+    /// Whether it has weights.
+    #[inline]
+    pub(crate) const fn is_rational(&self) -> bool {
+        self.spans.is_rational()
+    }
+
     /// Checks a table and takes it.
     ///
     /// # Errors

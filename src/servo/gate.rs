@@ -21,12 +21,10 @@ pub fn gate<const JOINTS: usize>(
     weight: [f32; JOINTS],
 ) -> Result<([Duty; JOINTS], f32), Fault> {
     let mut fractions = [0.0; JOINTS];
-    let (mut within, mut sum) = (true, 0.0);
+    let mut sum = 0.0;
     for (((fraction, motor), felt), weight) in fractions.iter_mut().zip(motors).zip(felt).zip(weight) {
         *fraction = motor.fraction(felt + weight);
-        let size = fraction.abs();
-        sum += size;
-        within &= size <= 1.0;
+        sum += fraction.abs();
     }
     // A sum is finite only where each of its terms is; all together beyond all bounds is as bad.
     if !sum.is_finite() {
@@ -35,7 +33,8 @@ pub fn gate<const JOINTS: usize>(
     if !drives {
         return Ok(([Duty::ZERO; JOINTS], 0.0));
     }
-    if within {
+    // Mostly: what all of them give together, one alone could.
+    if sum <= 1.0 {
         return Ok((fractions.map(Duty::from_fraction), 1.0));
     }
     Ok(saturate(motors, felt, weight, false, |_| 1.0))

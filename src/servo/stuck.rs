@@ -34,8 +34,8 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
     ) -> bool {
         let joint = if (self.turn as usize) < JOINTS { self.turn as usize } else { 0 };
         self.turn = joint as u32 + 1;
-        let bears = felt[joint].abs() > limits.load * friction[joint] && friction[joint] > 0.0;
-        if bears && counts[joint] == self.counts[joint] {
+        let bears = || felt[joint].abs() > limits.load * friction[joint] && friction[joint] > 0.0;
+        if counts[joint] == self.counts[joint] && bears() {
             return angles.iter().zip(self.since[joint]).any(|(angle, since)| (angle - since).abs() > limits.travel);
         }
         self.counts[joint] = counts[joint];

@@ -30,7 +30,7 @@ mod witness;
 
 pub(crate) use aim::Aim;
 pub use border::BoundaryMode;
-pub(crate) use border::mode_at;
+pub(crate) use border::{is_inside, mode_at};
 pub use boundary::Descent;
 pub use choices::ControllerError;
 pub use contact::Contact;

@@ -25,8 +25,8 @@ fn tick(body: &Body, witness: &mut BodyWitness, position: &Vec3) -> BodyStep {
 }
 
 #[inline(never)]
-fn meet(body: &Body, witness: &mut BodyWitness, position: &Vec3) {
-    body.meet(witness, *position);
+fn meet(body: &Body, witness: &mut BodyWitness, position: &Vec3, step: &BodyStep) {
+    body.meet(witness, *position, step);
 }
 
 /// Kinds of ticks.
@@ -78,7 +78,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         // As `Body::step` does.
         let mut sum = instructions;
         if !step.searched {
-            let ((), spent) = counter.count(|| meet(body, &mut witness, &position));
+            let ((), spent) = counter.count(|| meet(body, &mut witness, &position, &step));
             contact.add(spent);
             sum += spent;
         }
