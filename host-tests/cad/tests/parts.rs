@@ -102,6 +102,16 @@ fn few_patches_do() {
     }
 }
 
+/// A quad mesher's route, each of its cubic quads a patch, took so many for the same parts.
+#[test]
+fn a_third_of_what_a_mesher_takes_is_enough() {
+    for (part, mesher) in [("box", 24), ("knob", 158), ("filleted_box", 240)] {
+        let count = imported(part).patches.len();
+        assert!(3 * count <= mesher, "{part}: {count} patches");
+        println!("{part}: {count} patches, a mesher's {mesher}");
+    }
+}
+
 #[test]
 fn the_file_says_what_was_measured() {
     let imported = imported("s02");
