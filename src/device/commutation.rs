@@ -112,7 +112,7 @@ mod tests {
                     let ElectricalAngle(found) = motor.rotor(aligned, Counts(counts));
                     let expected = exact(&motor, counts, if reversed { -1.0 } else { 1.0 });
                     let off = (f64::from(found) - expected).rem_euclid(65_536.0);
-                    assert!(off < 1.001 || off > 65_534.999, "{counts} {reversed}: {found} {expected}");
+                    assert!(!(1.001..=65_534.999).contains(&off), "{counts} {reversed}: {found} {expected}");
                 }
             }
         }

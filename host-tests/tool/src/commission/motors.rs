@@ -17,8 +17,8 @@ pub(super) fn find_motors(
     findings: &mut Vec<Finding>,
 ) -> anyhow::Result<()> {
     let mut taken = [false; 3];
-    for index in 0..3 {
-        let towards = away(loads[index]);
+    for (index, load) in loads.into_iter().enumerate() {
+        let towards = away(load);
         let (output, with) = find_motor(lab, file, index, (centre, towards), taken)?;
         taken[output] = true;
         let joint = &mut file.joint[index];

@@ -7,8 +7,8 @@ use palpate::track::Contact;
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-/// Of the table check: 33 words and two ends.
-pub const TICKS_PER_PASS: u32 = 35;
+/// Of the table check: two for each of 33 words, and two ends.
+pub const TICKS_PER_PASS: u32 = 68;
 /// Until a sensor that stands still is called stuck by limits that allow next to no travel: each joint is looked at
 /// twice.
 pub const STUCK_TICKS: u32 = 6;
