@@ -67,7 +67,8 @@ pub static FEELS: [Feel; 6] = [
     Feel::FREE,
 ];
 
-/// What the feels are called.
+/// What the feels are called; a board does not tell.
+#[allow(dead_code)]
 pub const NAMES: [&str; FEELS.len()] = ["detents", "clicks", "texture", "spring", "end stops", "free"];
 
 /// How the rotor is aligned: while the button is held, and begun anew where it is let go of, for as long as eight times

@@ -12,8 +12,8 @@ use cortex_m::peripheral::SYST;
 use palpate::device::sensor::Frozen;
 use palpate::device::{Counts, Device, Dial};
 use palpate::servo::{Deadline, Event, Input};
+use palpate::wire::Sensors;
 use palpate::wire::frame::{self, MAX_FRAME, Received};
-use palpate::wire::{Report, Sensors};
 
 use crate::board::Board;
 use crate::link::Link;
