@@ -186,10 +186,17 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         };
     }
 
+    /// Whether the reset was a fault, and nobody has acknowledged it.
+    #[inline]
+    fn is_reset_pending(&self) -> bool {
+        self.state.reset().fault().is_some_and(|fault| self.state.fault() == Some((fault, 0)))
+    }
+
     /// The host wants to set the device up. Nobody is surprised by it: not while anything is driven, not while somebody
-    /// holds the enable button. The servo is stopped first, and that is latched, whatever else goes wrong.
+    /// holds the enable button, nor before a reset that is a fault has been acknowledged. The servo is stopped first,
+    /// and that is latched, whatever else goes wrong.
     fn begin_to_set_up(&mut self, panel: &Panel) {
-        let is_quiet = matches!(self.state.output(), Output::Off) && !panel.enable;
+        let is_quiet = matches!(self.state.output(), Output::Off) && !panel.enable && !self.is_reset_pending();
         if self.set_up.is_none() || self.is_set_up || !is_quiet {
             return;
         }
@@ -217,8 +224,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// seen released and a reset that is a fault has been acknowledged.
     #[inline]
     fn drives(&self, verdict: Verdict) -> bool {
-        let by_reset = self.state.reset().fault().is_some_and(|fault| self.state.fault() == Some((fault, 0)));
-        let may = verdict.hold == 0 && self.interlock.was_open() && !by_reset;
+        let may = verdict.hold == 0 && self.interlock.was_open() && !self.is_reset_pending();
         may && matches!(self.state.output(), Output::Drive(_))
     }
 

@@ -50,8 +50,12 @@ struct Device {
 
 impl Device {
     fn new(settings: &Settings, safety: Safety) -> Self {
+        Self::after(ResetReason::PowerOn, settings, safety)
+    }
+
+    fn after(reset: ResetReason, settings: &Settings, safety: Safety) -> Self {
         let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
-        let mut rig = Rig::new(servo, held_at([0.0, 0.0, 0.02]), settings, ResetReason::PowerOn);
+        let mut rig = Rig::new(servo, held_at([0.0, 0.0, 0.02]), settings, reset);
         let records = rig.take_records();
         let idle = Idle::new(rig.mailbox, records, Heartbeat::default());
         Self { rig, idle, wire: Wire::default(), receiver: Receiver::new(), last: None, number: 0 }
@@ -369,4 +373,24 @@ fn no_fuzzed_command_moves_a_motor_without_the_key() {
     device.jog(0, 0, 0);
     device.hold_key(200, 2, 5_000);
     assert!(!device.rig.is_off());
+}
+
+#[test]
+fn after_a_reset_by_the_watchdog_nothing_is_set_up_before_it_is_acknowledged() {
+    let mut device = Device::after(ResetReason::Watchdog, &settings(), Safety::DEFAULT);
+    device.ticks(50);
+    device.send(Command::SetUp);
+    device.ticks(10);
+    device.rig.set(|world| world.button = true);
+    device.jog(KEY, 0, 3_000);
+    for _ in 0..200 {
+        device.tick();
+        assert!(device.rig.is_off() && device.last.is_none());
+    }
+    device.rig.set(|world| world.button = false);
+    device.send(Command::Acknowledge);
+    device.ticks(10);
+    device.send(Command::SetUp);
+    device.ticks(10);
+    assert!(device.last.is_some(), "it is being set up");
 }
