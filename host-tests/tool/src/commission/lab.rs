@@ -1,10 +1,16 @@
 //! A device, and whoever stands at it.
 
 use super::{Device, Hands};
+use anyhow::bail;
 use clap::ValueEnum;
 
 /// The servo rate of a device that is simulated, Hz.
 pub const RATE: f32 = 4_000.0;
+/// So many readings in a row say the same of what is still: a joint that swings back from where it was put turns around
+/// within one of them, not within four.
+const STILL: u32 = 4;
+/// How many readings it may take to come to rest: ten seconds.
+const MOST: u32 = 500;
 
 /// A device, and whoever stands at it.
 pub struct Lab {
@@ -25,17 +31,23 @@ pub enum Zero {
 }
 
 impl Lab {
-    /// The joints are put at these angles, rad, and held.
+    /// The joints are put at these angles, rad, and held: the counts once they are still, to a count.
     ///
     /// # Errors
-    /// A line that fell silent.
+    /// A line that fell silent, or joints that do not come to rest.
     pub fn place(&mut self, angles: [f64; 3]) -> anyhow::Result<[i32; 3]> {
         // The key is let go before anybody reaches in.
         self.device.step(None)?;
         self.hands.place(angles)?;
-        for _ in 0..5 {
-            self.device.step(None)?;
+        let (mut began, mut still) = (self.device.step(None)?.counts, 0);
+        for _ in 0..MOST {
+            let counts = self.device.step(None)?.counts;
+            let is_still = counts.iter().zip(began).all(|(now, before)| now.wrapping_sub(before).unsigned_abs() <= 1);
+            (began, still) = if is_still { (began, still + 1) } else { (counts, 0) };
+            if still == STILL {
+                return Ok(counts);
+            }
         }
-        Ok(self.device.step(None)?.counts)
+        bail!("the joints do not come to rest: hold them against something that does not give")
     }
 }
