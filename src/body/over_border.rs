@@ -144,9 +144,9 @@ struct Rim {
 /// How far a face that is hollow may come in front of its tangent plane at a point of its border, metres, where a
 /// way from there leads: 0 of one that is not, and at a pole, where nothing is known.
 ///
-/// Within a radius of curvature `1/κ` it comes no farther than `κ` times the way squared. Nor, to second order, than the
-/// bounds of the second derivatives let it for the change of parameters that leads there. Past the border's end it is
-/// for another face to say.
+/// Within a radius of curvature `1/κ` it comes no farther than `κ` times the way squared. Nor, to second order, than
+/// the bounds of the second derivatives let it for the change of parameters that leads there. Past the border's end it
+/// is for another face to say.
 #[inline(always)]
 fn bulge(patch: &SplinePatch, is_across_u: bool, rim: &Rim, away: Vec3) -> f32 {
     let shape = patch.shape();
