@@ -117,7 +117,7 @@ fn cut_off() -> Vec<Spoiled> {
     let cut = |name: &str, text: &str, k: usize| Spoiled {
         name: format!("{name}-cut-{k}"),
         text: text[..k * text.len() / 11].to_owned(),
-        words: "not a whole STEP file",
+        words: "not a whole STEP file: ",
     };
     let parts = ["s02", "s09", "s12"].map(|name| (name, part(name)));
     parts.iter().flat_map(|(name, text)| (1..=10).map(|k| cut(name, text, k))).collect()
@@ -225,6 +225,14 @@ fn nonsense() -> Vec<Spoiled> {
             rows(&|id| format!("#{id} = CARTESIAN_POINT('',({id}.,0.,0.));\n")),
             "no solid and no shell",
         ),
+        many(
+            "million-cut-off",
+            rows(&|id| format!("#{id} = CARTESIAN_POINT('',({id}.,0.,0.));\n"))
+                .split_inclusive("(999")
+                .next()
+                .map_or_else(String::new, str::to_owned),
+            "it ends on line ",
+        ),
         many("million-in-a-chain", rows(&|id| format!("#{id} = VERTEX_POINT('',#{});\n", id + 1)), "#1 (VERTEX_POINT)"),
         edit("million-faces", &box_, "SHELL('',(#17,", &format!("SHELL('',(#17,{}", "#17,".repeat(1_000_000)), "faces"),
     ]
@@ -245,6 +253,9 @@ fn a_hundred_spoiled_files_are_refused_with_a_sentence() {
         assert_eq!(message.trim().lines().count(), 1, "{name}: {message}");
         assert!(message.contains(words), "{name}: {message}");
         assert!(!message.contains("failed on this part"), "{name} panicked");
+        // Where it is cut off: the line, and the entity there.
+        let is_placed = message.contains(" line ") && message.contains('#');
+        assert!(is_placed || !name.contains("-cut-"), "{name}: {message}");
         fs::remove_file(&file).unwrap();
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "{name} left a file");
         refused += 1;

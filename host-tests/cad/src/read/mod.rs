@@ -4,6 +4,7 @@ mod damage;
 mod sense;
 mod shape;
 mod statements;
+mod syntax;
 
 use crate::error::ImportError;
 use crate::part::Part;
@@ -47,18 +48,18 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
         return Err(ImportError::TooMany { file, count, what: "bytes", limit: LARGEST_FILE as usize });
     }
     let bytes = fs::read(path).map_err(cannot)?;
+    let text = String::from_utf8_lossy(&bytes);
     // The reader says it does not panic; a part is not worth the tool's life if it does.
     let read = std::panic::catch_unwind(|| step_io::read(bytes.as_slice()));
     let (model, report) = match read {
         Ok(Ok(read)) => read,
-        Ok(Err(error)) => return Err(ImportError::Syntax { file, message: error.to_string() }),
+        Ok(Err(error)) => return Err(ImportError::Syntax { file, message: syntax::message(&text, &error) }),
         Err(_) => return Err(ImportError::Syntax { file, message: "the reader gave up".to_owned() }),
     };
     let schema = model.header().schema.raw.join(", ");
     if !SCHEMAS.iter().any(|known| schema.to_ascii_uppercase().contains(known)) {
         return Err(ImportError::Schema { file, schema });
     }
-    let text = String::from_utf8_lossy(&bytes);
     let statements = statements::statements(&text);
     damage::check(&statements, &report, &file)?;
     if let Some(sense::Nonsense { id, kind, reason }) = sense::find(&statements) {

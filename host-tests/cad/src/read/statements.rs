@@ -13,20 +13,22 @@ pub(super) struct Statement<'t> {
     pub arguments: &'t str,
 }
 
+/// The number and the type of the statement that a text begins, and how much of the text stands from its type on.
+pub(super) fn statement(text: &str) -> Option<(u64, String, usize)> {
+    let (id, rest) = text.trim_start().strip_prefix('#')?.split_once('=')?;
+    let rest = rest.trim_start();
+    let kind = if let Some(parts) = rest.strip_prefix('(') {
+        let words = parts.split(|c: char| !(c.is_ascii_uppercase() || c == '_' || c.is_ascii_digit()));
+        let is_type = |word: &&str| word.len() > 3 && word.starts_with(|c: char| c.is_ascii_uppercase());
+        words.filter(is_type).collect::<Vec<_>>().join("+")
+    } else {
+        rest.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect()
+    };
+    Some((id.trim().parse().ok()?, kind, rest.len()))
+}
+
 /// All of them, as far as a glance tells: a semicolon in a name hides the statement that it is in.
 pub(super) fn statements(text: &str) -> Vec<Statement<'_>> {
-    let statement = |part: &'_ str| -> Option<(u64, String, usize)> {
-        let (id, rest) = part.trim_start().strip_prefix('#')?.split_once('=')?;
-        let rest = rest.trim_start();
-        let kind = if let Some(parts) = rest.strip_prefix('(') {
-            let words = parts.split(|c: char| !(c.is_ascii_uppercase() || c == '_' || c.is_ascii_digit()));
-            let is_type = |word: &&str| word.len() > 3 && word.starts_with(|c: char| c.is_ascii_uppercase());
-            words.filter(is_type).collect::<Vec<_>>().join("+")
-        } else {
-            rest.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect()
-        };
-        Some((id.trim().parse().ok()?, kind, rest.len()))
-    };
     let all = text.split(';').filter_map(|part| {
         let (id, kind, rest) = statement(part)?;
         let rest = &part[part.len() - rest..];
