@@ -4,7 +4,7 @@ use super::field::{Part, Probes};
 use super::piece::{Piece, Span};
 use super::rectangle::Rectangle;
 use super::samples::{Sample, Samples};
-use super::seams::{Seams, at_corner};
+use super::seams::{BorderCorner, BorderSide, Seams, at_corner};
 use super::stored::StoredSurface;
 use crate::BakedPatch;
 use crate::bounds::local_range;
@@ -190,6 +190,28 @@ impl<'a> Region<'a> {
                 [low, high]
             }
             Self::Vertex(vertex) => [at_corner(faces.seams.vertices[vertex as usize][0].corner); 2],
+        }
+    }
+
+    /// The side of its face that it lies on, if no other face meets it there; 4 and more for a vertex between two, by
+    /// its corner.
+    pub(super) fn open_side(&self, faces: &Faces) -> Option<u8> {
+        let edges = &faces.seams.edges;
+        match *self {
+            Self::Inside(_) => None,
+            Self::Side { side, edge, .. } => (edges[edge as usize].len() == 1).then_some(side),
+            Self::Vertex(vertex) => {
+                let members = &faces.seams.vertices[vertex as usize];
+                let is_open = |member: &BorderCorner| {
+                    let sides = [member.corner & 1, 2 + (member.corner >> 1)];
+                    let ends = |edge: &Vec<BorderSide>| match edge[..] {
+                        [only] => only.face == member.face && sides.contains(&only.side),
+                        _ => false,
+                    };
+                    edges.iter().any(ends)
+                };
+                members.iter().any(is_open).then(|| 4 + members[0].corner)
+            }
         }
     }
 

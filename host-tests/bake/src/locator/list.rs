@@ -5,7 +5,7 @@ use super::rectangle::Rectangle;
 use super::unique::{Minima, Proof, Subject, nearest};
 use palpate::body::Candidate;
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// An entry with what is proved of it.
 #[derive(Clone, Copy, Debug)]
@@ -63,8 +63,31 @@ impl Lister<'_> {
                 self.divide(face, &component, self.divisions, &mut entries);
             }
         }
-        entries.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.pack(false).cmp(&b.pack(false))));
+        sort(&mut entries);
         entries
+    }
+
+    /// Adds what is left of open borders to entries that are not all proved, by itself: a descent that begins inside a
+    /// face can end there and pass by a minimum at its border, where no other face has a start for it.
+    pub(super) fn add_open_borders(&self, regions: &[Region<'_>], entries: &mut Vec<Entry>) {
+        let mut borders: BTreeMap<(u16, u8), Vec<Region<'_>>> = BTreeMap::new();
+        for region in regions {
+            let Some(side) = region.open_side(self.faces) else { continue };
+            let face = region.face(self.faces);
+            let around = Rectangle::around(region.rectangle(self.faces));
+            let is_held = |entry: &Entry| {
+                entry.face == face && self.is_proved(entry.minima) && entry.rectangle.hull(&around) == entry.rectangle
+            };
+            if !entries.iter().any(is_held) {
+                borders.entry((face, side)).or_default().push(*region);
+            }
+        }
+        for ((face, _), regions) in borders {
+            for component in components(regions, self.faces) {
+                self.divide(face, &component, self.divisions, entries);
+            }
+        }
+        sort(entries);
     }
 
     /// Rectangles of faces that are proved to be convex.
@@ -117,9 +140,14 @@ impl Lister<'_> {
     }
 }
 
+/// The likeliest first.
+fn sort(entries: &mut [Entry]) {
+    entries.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.pack(false).cmp(&b.pack(false))));
+}
+
 /// The regions of each face, by rising index.
 fn by_face<'a>(regions: &[Region<'a>], faces: &Faces) -> Vec<(u16, Vec<Region<'a>>)> {
-    let mut groups: std::collections::BTreeMap<u16, Vec<Region<'a>>> = std::collections::BTreeMap::new();
+    let mut groups: BTreeMap<u16, Vec<Region<'a>>> = BTreeMap::new();
     for region in regions {
         groups.entry(region.face(faces)).or_default().push(*region);
     }

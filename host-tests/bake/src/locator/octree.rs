@@ -160,6 +160,9 @@ impl<'a> Search<'a> {
             entries = lister.entries(&left);
         }
         let proved = entries.iter().all(|entry| lister.is_proved(entry.minima));
+        if !proved && !self.options.convex {
+            lister.add_open_borders(&left, &mut entries);
+        }
         // Where much could be lost it is looked for harder.
         let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
         if !proved {

@@ -57,7 +57,7 @@ impl Default for LocatorOptions {
 impl LocatorOptions {
     /// For one patch: it is small beside a device's workspace, and has few faces to list.
     pub fn one_patch() -> Self {
-        Self { margin: 1.0, samples: 64, ..Self::default() }
+        Self { margin: 1.0, samples: 1024, ..Self::default() }
     }
 
     /// With a root cube that reaches at least so far beyond the bounding box, in sizes, at the same resolution: each

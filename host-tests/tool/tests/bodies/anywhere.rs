@@ -98,6 +98,31 @@ fn single_queries_around_ten_bodies_are_right_near_and_far() {
     none_wrong(&all.iter().flat_map(query).collect::<Vec<_>>());
 }
 
+/// An open patch as wavy as its net allows, of 80 mm: near its corners there are minima inside, on two sides and at the
+/// corner itself, all within a step of the locator's grid.
+fn wavy(seed: u64) -> String {
+    let mut random = Random::new(seed);
+    let place = [0.0, 2.7, 12.0, 28.0, 50.0, 67.0, 78.0, 80.0];
+    let mut point = |x: f64, y: f64| format!("[{x}, {y}, {}]", random.between(-8.0, 8.0));
+    let mut row = |x: &f64| format!("[{}]", place.map(|y| point(*x, y)).join(", "));
+    let rows: Vec<_> = place.iter().map(&mut row).collect();
+    let knots = "[0.0, 0.0, 0.0, 0.0, 0.1, 0.35, 0.6, 0.92, 1.0, 1.0, 1.0, 1.0]";
+    format!(
+        "unit = \"mm\"\n[[patch]]\ndegree = [3, 3]\nknots_u = {knots}\nknots_v = {knots}\npoints = [{}]\n",
+        rows.join(", ")
+    )
+}
+
+#[test]
+fn single_queries_around_open_wavy_patches_are_right_near_and_far() {
+    let count = from_environment("PALPATE_PROBES", 20_000);
+    let query = |seed: u64| {
+        let model = Model::parse(&wavy(seed), "wavy").unwrap_or_else(|error| panic!("{error}"));
+        wrong(&model, "wavy", count)
+    };
+    none_wrong(&(0..2).flat_map(query).collect::<Vec<_>>());
+}
+
 #[test]
 #[ignore = "for the file that PALPATE_MODEL names"]
 fn single_queries_around_a_model_file_are_right_near_and_far() {

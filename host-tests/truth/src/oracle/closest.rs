@@ -15,7 +15,7 @@ pub struct ClosestPoint {
     pub distance: f64,
 }
 
-/// Finds closest points of one patch: Newton's method from every local minimum of a dense grid.
+/// Finds closest points of one patch: Newton's method from every local minimum of a dense grid and of its sides.
 ///
 /// Global as far as the grid sees every basin: 12 intervals a span and at least 24 in all; it is checked against
 /// independent golden points.
@@ -54,10 +54,16 @@ impl<'a> Oracle<'a> {
         let [along_u, along_v] = &self.parameters;
         let (rows, columns) = (along_u.len(), along_v.len());
         let distance = |row: usize, column: usize| self.points[row * columns + column].distance_squared(query);
+        let around = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+        let is_end = |at: usize, count: usize| at == 0 || at + 1 == count;
+        // Of the grid, or of one of its sides: near a corner there are minima on both within one interval.
         let is_local_minimum = |row: usize, column: usize| {
             let here = distance(row, column);
-            (row.saturating_sub(1)..(row + 2).min(rows))
-                .all(|r| (column.saturating_sub(1)..(column + 2).min(columns)).all(|c| here <= distance(r, c)))
+            let along_u = around(row, rows).all(|r| here <= distance(r, column));
+            let along_v = around(column, columns).all(|c| here <= distance(row, c));
+            (is_end(column, columns) && along_u)
+                || (is_end(row, rows) && along_v)
+                || around(row, rows).all(|r| around(column, columns).all(|c| here <= distance(r, c)))
         };
         let mut best: Option<ClosestPoint> = None;
         for (row, &u) in along_u.iter().enumerate() {
