@@ -8,6 +8,7 @@ use crate::measure::{self, Measured};
 use crate::mesh::{Mesh, Source};
 use crate::part::Part;
 use crate::patches::{self, Made, SHARE_OF_EDGES};
+use crate::spheres::Hollow;
 use crate::{emit, heal, outline, picture, read, report, sew, spheres, split, trace, turn};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
@@ -74,7 +75,18 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     sew::sew(&mut part, options.tolerance)?;
     heal::take_out_seams(&mut part);
     turn::turn(&mut part, options.tolerance)?;
-    spheres::without_poles(&mut part);
+    let whole = part.clone();
+    if spheres::without_poles(&mut part, Hollow::Halved) == Hollow::Halved
+        && let Ok(done) = lightening(part, Hollow::Halved, options)
+    {
+        return Ok(done);
+    }
+    lightening(whole, Hollow::Whole, options)
+}
+
+/// Divides a part, and as often as it does not succeed makes the faces easier that were too much.
+fn lightening(mut part: Part, hollow: Hollow, options: &Options) -> Result<Imported, ImportError> {
+    spheres::without_poles(&mut part, hollow);
     split_the_large(&mut part, options.tolerance)?;
     let mut fine = Fine::new();
     for _ in 0..ROUNDS {
@@ -89,7 +101,7 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
                 return Err(error);
             }
         }
-        spheres::without_poles(&mut part);
+        spheres::without_poles(&mut part, hollow);
     }
     divided(&part, &fine, options).map_err(first)
 }

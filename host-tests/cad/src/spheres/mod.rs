@@ -1,8 +1,11 @@
 //! Spheres without poles. The file's own parameters run together at two points; on a face that has one of them inside
-//! it the surface is seen from elsewhere, and a whole sphere is six faces of a cube.
+//! it the surface is seen from elsewhere, or, where its holes leave no place for that, it is halved first; a whole sphere
+//! is six faces of a cube.
 //!
 //! Seen from the point opposite the middle of a face, on the plane that touches it there, a sphere is a rational
 //! surface of degree two (the stereographic projection): exact, and as smooth everywhere as it is there.
+
+mod halves;
 
 use crate::nurbs::{Curve, Surface};
 use crate::part::{Edge, Face, Part, Use};
@@ -26,22 +29,40 @@ struct Sphere {
     is_outward: bool,
 }
 
-/// Replaces the surface of every spherical face that has a pole inside it.
-pub fn without_poles(part: &mut Part) {
+/// What becomes of a sphere with holes that no place has a view of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hollow {
+    /// It stays as the file has it.
+    Whole,
+    /// It is halved.
+    Halved,
+}
+
+/// Replaces the surface of every spherical face that has a pole inside it; says whether any was halved.
+pub fn without_poles(part: &mut Part, hollow: Hollow) -> Hollow {
     let mut whole = Vec::new();
+    let mut unseen = Vec::new();
     for face in 0..part.faces.len() {
         let Some(sphere) = Sphere::of(&part.faces[face]) else { continue };
         if part.faces[face].loops.is_empty() {
             whole.push((face, sphere));
         } else if let Some((middle, farthest)) = middle(part, face, &sphere) {
             part.faces[face].surface = sphere.seen_about(middle, MARGIN * reach_at(farthest));
+        } else if hollow == Hollow::Halved && sphere.has_pole_in(part, face) {
+            unseen.push((face, sphere));
         }
     }
+    let six = whole.into_iter().map(|(face, sphere)| (face, sphere.as_cube(part, face))).collect::<Vec<_>>();
+    let two = unseen.into_iter().filter_map(|(face, sphere)| Some((face, sphere.halved(part, face)?.to_vec())));
+    let two = two.collect::<Vec<_>>();
+    let done = if two.is_empty() { Hollow::Whole } else { Hollow::Halved };
+    let mut pieces: Vec<_> = six.into_iter().chain(two).collect();
     // From the last, so that the places of those before hold.
-    for (face, sphere) in whole.into_iter().rev() {
-        let six = sphere.as_cube(part, face);
-        part.faces.splice(face..=face, six);
+    pieces.sort_by_key(|(face, _)| std::cmp::Reverse(*face));
+    for (face, pieces) in pieces {
+        part.faces.splice(face..=face, pieces);
     }
+    done
 }
 
 /// How far from the middle, on the plane of parameters, points are at an angle of this cosine.
@@ -52,11 +73,7 @@ fn reach_at(cosine: f64) -> f64 {
 /// The direction of the middle of a face that has a pole inside it, and the least cosine of the angle from it to its
 /// outline.
 fn middle(part: &Part, face: usize, sphere: &Sphere) -> Option<(DVec3, f64)> {
-    let loops: Vec<Vec<DVec3>> = part.faces[face]
-        .loops
-        .iter()
-        .map(|uses| uses.iter().flat_map(|used| around(part, *used)).map(|point| sphere.direction(point)).collect())
-        .collect();
+    let loops = sphere.outlines(part, face);
     let area = |points: &Vec<DVec3>| -> DVec3 {
         points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| a.cross(*b)).sum()
     };
