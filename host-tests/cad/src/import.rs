@@ -1,28 +1,24 @@
 //! The whole way: read, heal, outline, divide, fit, measure.
 
 use crate::bezier::Bezier;
-use crate::circles::{self, Turns};
 use crate::divide::{self, Turning};
 use crate::error::ImportError;
 use crate::measure::{self, Measured};
-use crate::mesh::{Mesh, Source};
+use crate::mesh::Mesh;
 use crate::part::Part;
-use crate::patches::{self, Made, SHARE_OF_EDGES};
+use crate::patches::{self, Made};
 use crate::spheres::Hollow;
-use crate::{emit, heal, outline, picture, read, report, sew, spheres, split, trace, turn};
-use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::FRAC_PI_2;
+use crate::wires::{FINEST, Fine, outlined};
+use crate::{emit, heal, picture, read, report, sew, spheres, split, turn};
 use std::path::Path;
 
 /// How often faces that are too much at once are made easier.
 const ROUNDS: usize = 16;
+/// How often what took far more patches than quads is tried otherwise.
+const SECOND_THOUGHTS: usize = 3;
 /// A face with more loops than this, or more edges, is split before it is tried.
 const MOST_LOOPS: usize = 12;
 const MOST_EDGES: usize = 64;
-
-/// How finely edges are cut, because a face of theirs was too much: 1 and 2 halve the pieces once and twice.
-type Fine = BTreeMap<usize, i32>;
-const FINEST: i32 = 2;
 
 /// What is asked for.
 #[derive(Clone, Debug)]
@@ -92,7 +88,7 @@ fn lightening(mut part: Part, hollow: Hollow, options: &Options) -> Result<Impor
     for _ in 0..ROUNDS {
         let errors = match divided(&part, &fine, options) {
             Err(errors) => errors,
-            Ok(done) => return Ok(done),
+            Ok(done) => return Ok(fewer(part, &fine, done, hollow, options)),
         };
         // From the last, so that the places of those before hold.
         for error in errors.into_iter().rev() {
@@ -103,7 +99,26 @@ fn lightening(mut part: Part, hollow: Hollow, options: &Options) -> Result<Impor
         }
         spheres::without_poles(&mut part, hollow);
     }
-    divided(&part, &fine, options).map_err(first)
+    divided(&part, &fine, options).map(|done| done.imported).map_err(first)
+}
+
+/// Where far more patches were made than there were quads, because cuts go on through face after face, the face with
+/// the most is made easier, as if it had been too much; the fewest patches win.
+fn fewer(mut part: Part, fine: &Fine, done: Divided, hollow: Hollow, options: &Options) -> Imported {
+    let (mut fine, mut best, mut busiest) = (fine.clone(), done.imported, done.busiest);
+    for _ in 0..SECOND_THOUGHTS {
+        let Some(face) = busiest else { break };
+        if !lightened(&mut part, face, &mut fine, options.tolerance).is_ok_and(|is_lighter| is_lighter) {
+            break;
+        }
+        spheres::without_poles(&mut part, hollow);
+        let Ok(other) = divided(&part, &fine, options) else { break };
+        busiest = other.busiest;
+        if other.imported.patches.len() < best.patches.len() {
+            best = other.imported;
+        }
+    }
+    best
 }
 
 /// The first of the errors.
@@ -148,9 +163,19 @@ fn single(error: ImportError) -> Vec<ImportError> {
     vec![error]
 }
 
+/// A part that was divided.
+struct Divided {
+    imported: Imported,
+    /// The face with the most patches, where there are far more than there were quads.
+    busiest: Option<usize>,
+}
+
 /// All that comes after the part is as it should be.
-fn divided(part: &Part, fine: &Fine, options: &Options) -> Result<Imported, Vec<ImportError>> {
-    let (mesh, made) = fewest(part, fine, options.tolerance)?;
+fn divided(part: &Part, fine: &Fine, options: &Options) -> Result<Divided, Vec<ImportError>> {
+    let (quads, mesh, made) = fewest(part, fine, options.tolerance)?;
+    let mut counts = vec![0; part.faces.len()];
+    made.iter().for_each(|made| counts[made.face] += 1);
+    let busiest = (0..counts.len()).max_by_key(|face| counts[*face]).filter(|_| made.len() >= 2 * quads);
     let measured = measure::measure(&mesh, &made, options.tolerance);
     refuse_far(part, &measured, options.tolerance).map_err(single)?;
     let report = report::lines(&mesh, &made, &measured, options.tolerance);
@@ -158,20 +183,20 @@ fn divided(part: &Part, fine: &Fine, options: &Options) -> Result<Imported, Vec<
     let picture = options.picture.then(|| picture::svg(part, &made, &measured, options.tolerance));
     let patch = |(name, made): (String, Made)| Patch { name, surface: made.bezier, flip: part.faces[made.face].flip };
     let patches = emit::names(part, &made).into_iter().zip(made).map(patch).collect();
-    Ok(Imported { model, patches, report, picture })
+    Ok(Divided { imported: Imported { model, patches, report, picture }, busiest })
 }
 
 /// The patches of a part. Where quads had to be halved for them, which goes on through all quads on the way, lines that
 /// turn far round a face are avoided in another try; the fewer patches win.
-fn fewest<'p>(part: &'p Part, fine: &Fine, tolerance: f64) -> Result<(Mesh<'p>, Vec<Made>), Vec<ImportError>> {
+fn fewest<'p>(part: &'p Part, fine: &Fine, tolerance: f64) -> Result<(usize, Mesh<'p>, Vec<Made>), Vec<ImportError>> {
     let (quads, mesh, made) = patched(part, fine, tolerance, Turning::Free)?;
     if made.len() > quads
-        && let Ok((_, other, fewer)) = patched(part, fine, tolerance, Turning::Dear)
+        && let Ok((quads, other, fewer)) = patched(part, fine, tolerance, Turning::Dear)
         && fewer.len() < made.len()
     {
-        return Ok((other, fewer));
+        return Ok((quads, other, fewer));
     }
-    Ok((mesh, made))
+    Ok((quads, mesh, made))
 }
 
 /// Patches, and how many quads there were before any was halved.
@@ -198,77 +223,4 @@ fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), Im
         }
     }
     Ok(())
-}
-
-/// The part with every face's outline closed in its parameters, and every wire cut into pieces that one curve can
-/// follow.
-fn outlined<'p>(part: &'p Part, fine: &Fine, tolerance: f64) -> Result<Mesh<'p>, ImportError> {
-    let mut mesh = Mesh::new(part);
-    let mut all_turns: Vec<Vec<Turns>> = Vec::new();
-    for (face, of) in part.faces.iter().enumerate() {
-        let mut turns = Vec::new();
-        let mut loops = Vec::new();
-        for uses in &of.loops {
-            let traced = trace::trace(&mesh, face, uses, tolerance)?;
-            turns.push(outline::turns(&traced.sides, traced.winding));
-            loops.push(traced.sides);
-        }
-        mesh.regions[face].loops = loops;
-        all_turns.push(turns);
-    }
-    let count = |mesh: &Mesh<'_>, wire: usize| {
-        let level = match mesh.wires[wire].source {
-            Source::Edge { edge, .. } => fine.get(&edge).copied().unwrap_or(0),
-            Source::Inside { .. } => 0,
-        };
-        pieces(mesh, wire, level, tolerance)
-    };
-    cut_bent(&mut mesh, &count, false);
-    circles::cut(&mut mesh, &all_turns, &count);
-    for (face, turns) in all_turns.iter().enumerate() {
-        outline::close(&mut mesh, face, turns)?;
-    }
-    cut_bent(&mut mesh, &count, true);
-    Ok(mesh)
-}
-
-/// Into how many pieces a wire is cut: none turns by more than a quarter, or less on a finer level, and each is one
-/// curve within the tolerance.
-fn pieces(mesh: &Mesh<'_>, wire: usize, level: i32, tolerance: f64) -> usize {
-    let (_, turn) = mesh.extent(wire);
-    let mut count = ((turn - 0.05) / (FRAC_PI_2 * 0.5_f64.powi(level))).ceil().max(1.0) as usize;
-    // On the finest even what is straight is cut.
-    count = count.max(if level == FINEST { 2 } else { 1 });
-    while count < 64 {
-        let borders: Vec<f64> = [0.0].into_iter().chain(mesh.even(wire, count)).chain([1.0]).collect();
-        let near = borders.windows(2).all(|pair| {
-            let at = |t: f64| {
-                let [point, slope] = mesh.at(wire, pair[0] + (pair[1] - pair[0]) * t);
-                [point, slope * (pair[1] - pair[0])]
-            };
-            crate::fit::fit_curve(at, [at(0.0)[0], at(1.0)[0]], 5).deviation <= SHARE_OF_EDGES * tolerance
-        });
-        if near {
-            break;
-        }
-        count += 1;
-    }
-    count
-}
-
-/// Cuts the wires of the outlines that need it; those that are closed and meet no other only if `all`.
-fn cut_bent(mesh: &mut Mesh<'_>, count: &dyn Fn(&Mesh<'_>, usize) -> usize, all: bool) {
-    let sides = mesh.regions.iter().flat_map(|region| region.loops.iter().flatten());
-    let wires: BTreeSet<usize> = sides.filter_map(|side| side.wire.map(|(wire, _)| wire)).collect();
-    for wire in wires {
-        let ends = mesh.wires[wire].ends;
-        if ends[0] == ends[1] && !all {
-            continue;
-        }
-        let count = count(mesh, wire).max(if ends[0] == ends[1] { 4 } else { 1 });
-        if count > 1 {
-            let at = mesh.even(wire, count);
-            mesh.cut(wire, &at);
-        }
-    }
 }

@@ -172,6 +172,13 @@ fn a_sphere_is_six_patches_without_a_pole() {
     }
 }
 
+/// Cuts for the tolerance would go on through face after face: 129 patches, where its side is not split instead.
+#[test]
+fn a_cone_with_two_holes_across_is_few_patches() {
+    let count = imported("cone_two_holes").patches.len();
+    assert!(count <= 90, "{count}");
+}
+
 /// Its hole is small and lies askew to the axis: no place has a view of it without a pole, two halves have.
 #[test]
 fn a_sphere_with_a_small_hole_is_few_patches() {
