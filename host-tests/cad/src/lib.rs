@@ -3,10 +3,10 @@
 //! The way of the data: [`read`] gives faces, loops, edges and vertices as exact NURBS, placed, in millimetres;
 //! [`sew`] joins what the file counts as one, [`heal`] takes out seams and [`turn`] turns faces that lie the wrong way
 //! round; [`trace`] finds where each edge runs in the parameters of its faces, [`circles`] and [`outline`] make every
-//! outline close there, and [`wires`] cuts it into pieces; [`divide`] cuts regions into quads without a side that ends on another's middle, or [`split`]
-//! makes less of a face first; [`patches`] gives each wire one curve, shared by both its faces, and each quad one
-//! polynomial patch ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with the part, both ways;
-//! [`emit`] writes the model.
+//! outline close there, and [`wires`] cuts it into pieces; [`divide`] cuts regions into quads without a side that ends
+//! on another's middle, or [`split`] makes less of a face first; [`patches`] gives each wire one curve, shared by both
+//! its faces, and each quad one polynomial patch ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with
+//! the part, both ways; [`emit`] writes the model.
 
 mod bezier;
 mod circles;

@@ -1,6 +1,6 @@
 //! Spheres without poles. The file's own parameters run together at two points; on a face that has one of them inside
-//! it the surface is seen from elsewhere, or, where its holes leave no place for that, it is halved first; a whole sphere
-//! is six faces of a cube.
+//! it the surface is seen from elsewhere, or, where its holes leave no place for that, it is halved first; a whole
+//! sphere is six faces of a cube.
 //!
 //! Seen from the point opposite the middle of a face, on the plane that touches it there, a sphere is a rational
 //! surface of degree two (the stereographic projection): exact, and as smooth everywhere as it is there.
