@@ -1,7 +1,7 @@
 //! `palpate demo`: the firmware image on the emulated board, in closed loop with the simulated device.
 
-use super::options::{RATES, Scene, SceneOptions};
-use super::{demo_knob, progress, sim};
+use super::options::{Scene, SceneOptions};
+use super::{demo_knob, progress, rate, sim};
 use crate::budgets::Budget;
 use crate::devices::Chosen;
 use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
@@ -9,7 +9,6 @@ use crate::report::{Page, Summary, plots, write_page};
 use crate::simulation::{self, Trace};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
-use palpate::servo::Fault;
 use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -60,7 +59,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         return demo_knob::run(arguments.board, arguments.host, &arguments.report, arguments.picture.as_deref());
     }
     let mut scene = arguments.scene.scene()?;
-    let run = if arguments.host { on_host(arguments, &scene)? } else { in_time(arguments, &mut scene)? };
+    let run = if arguments.host {
+        on_host(arguments, &scene)?
+    } else {
+        rate::in_time(&arguments.scene, &mut scene, |scene| on_board(arguments, scene), |run| &run.trace)?
+    };
     let mut figures = Summary::new(&run.trace).rows();
     figures.extend(run.sizes);
     let subtitle = format!("{} of {}, {}", scene.felt.name(), scene.model_name(), run.on);
@@ -77,22 +80,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     println!("  {:<20} {}", "report", arguments.report.display());
     Ok(ExitCode::SUCCESS)
-}
-
-/// On the emulated board at the highest rate at which no tick is too long for it, unless a rate is asked for.
-fn in_time(arguments: &Arguments, scene: &mut Scene) -> anyhow::Result<Run> {
-    let mut run = on_board(arguments, scene)?;
-    let slower = if arguments.scene.rate.is_none() { &RATES[1..] } else { &[] };
-    for rate in slower {
-        let Some((Fault::Overrun, tick)) = Summary::new(&run.trace).fault else { break };
-        eprintln!(
-            "at {} Hz tick {tick} takes longer than the board has: again at {rate} Hz (--rate)",
-            scene.settings.rate
-        );
-        arguments.scene.change_rate(scene, *rate)?;
-        run = on_board(arguments, scene)?;
-    }
-    Ok(run)
 }
 
 /// On the emulated board, or on the host where no emulator can be had.

@@ -21,6 +21,7 @@ mod output;
 pub mod parts;
 pub mod progress;
 pub mod race;
+pub mod rate;
 pub mod sim;
 mod table_report;
 pub mod test;

@@ -3,8 +3,10 @@
 
 use crate::running::is_wanted;
 use clap::Parser;
+use palpate::servo::Fault;
 use palpate_tool::commands::demo::prepare;
 use palpate_tool::commands::options::{Scene, SceneOptions};
+use palpate_tool::commands::rate::in_time;
 use palpate_tool::firmware::{Board, Link, Progress, Transport};
 use palpate_tool::report::Summary;
 use palpate_tool::simulation::{Trace, run};
@@ -49,6 +51,46 @@ fn every_device_of_three_joints_touches_alike_on_host_and_board() {
         assert!(board.touches > 0 && board.fault.is_none() && board.steps_undone == 0, "{name}: {board}");
         println!("{name}: {:?}", board.rows());
     }
+}
+
+/// The rates at which a part from CAD is tried, with the fault of each, and the last run's figures.
+fn felt(part: &str) -> (Vec<(f32, Option<Fault>)>, Summary) {
+    let model = format!("{}/tests/data/{part}.toml", env!("CARGO_MANIFEST_DIR"));
+    let Demo { options } = Demo::parse_from(["demo", "--model", &model]);
+    let mut scene = options.scene().expect("the part's scene");
+    let mut tried = Vec::new();
+    let run = |scene: &Scene| {
+        let firmware = prepare(Board::M4, scene, &Progress::new()).expect("the image builds");
+        let run = trace(&options, scene, &mut firmware.start(Transport::Fifo).expect("the emulator starts"));
+        tried.push((scene.settings.rate, Summary::new(&run).fault.map(|(fault, _)| fault)));
+        Ok(run)
+    };
+    let last = in_time(&options, &mut scene, run, |run| run).expect("rates that can be run");
+    let last = Summary::new(&last);
+    println!("{part}: {:?}", last.rows());
+    assert!(last.touches > 3 && last.contact_time > 0.5 && last.frames_lost == 0, "{part}: {last}");
+    (tried, last)
+}
+
+#[test]
+fn a_rounded_box_from_cad_is_felt_without_a_fault() {
+    if !is_wanted("a rounded box from CAD on the emulated board") {
+        return;
+    }
+    let (tried, last) = felt("rounded_box");
+    assert_eq!(tried, [(4_000.0, None)]);
+    assert!(last.ticks == 20_000 && last.features[0] > 10, "{last}");
+}
+
+/// Of degree 5: its worst tick is too long for the board at 4 kHz.
+#[test]
+fn a_shell_too_heavy_for_the_default_rate_is_felt_at_a_lower_one() {
+    if !is_wanted("a shell of degree 5 on the emulated board") {
+        return;
+    }
+    let (tried, last) = felt("shell");
+    assert_eq!(tried, [(4_000.0, Some(Fault::Overrun)), (3_000.0, None)]);
+    assert_eq!(last.ticks, 15_000);
 }
 
 #[test]
