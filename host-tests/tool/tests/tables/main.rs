@@ -3,6 +3,7 @@
 mod body_source;
 mod committed;
 mod flaws;
+mod from_cad;
 mod models;
 mod random_patches;
 mod second_order;
