@@ -20,6 +20,33 @@ pub fn gate<const JOINTS: usize>(
     felt: [f32; JOINTS],
     weight: [f32; JOINTS],
 ) -> Result<([Duty; JOINTS], f32), Fault> {
+    pass(drives, motors, felt, weight, 1.0, None)
+}
+
+/// As [`gate`], where each motor may be given only this share of its full scale; `least` is the least of them.
+///
+/// # Errors
+/// As [`gate`]'s.
+#[inline]
+pub fn gate_within<const JOINTS: usize>(
+    drives: bool,
+    motors: &[Motor; JOINTS],
+    felt: [f32; JOINTS],
+    weight: [f32; JOINTS],
+    (least, bounds): (f32, &[f32; JOINTS]),
+) -> Result<([Duty; JOINTS], f32), Fault> {
+    pass(drives, motors, felt, weight, least, Some(bounds))
+}
+
+#[inline(always)]
+fn pass<const JOINTS: usize>(
+    drives: bool,
+    motors: &[Motor; JOINTS],
+    felt: [f32; JOINTS],
+    weight: [f32; JOINTS],
+    least: f32,
+    bounds: Option<&[f32; JOINTS]>,
+) -> Result<([Duty; JOINTS], f32), Fault> {
     let mut fractions = [0.0; JOINTS];
     let mut sum = 0.0;
     for (((fraction, motor), felt), weight) in fractions.iter_mut().zip(motors).zip(felt).zip(weight) {
@@ -34,50 +61,30 @@ pub fn gate<const JOINTS: usize>(
         return Ok(([Duty::ZERO; JOINTS], 0.0));
     }
     // Mostly: what all of them give together, one alone could.
-    if sum <= 1.0 {
+    if sum <= least {
         return Ok((fractions.map(Duty::from_fraction), 1.0));
     }
-    Ok(saturate(motors, felt, weight, false, |_| 1.0))
+    Ok(saturate(motors, felt, weight, bounds))
 }
 
-/// As [`gate`], where each motor may be given only this share of its full scale.
-///
-/// # Errors
-/// As [`gate`]'s.
-#[cold]
-pub fn gate_within<const JOINTS: usize>(
-    drives: bool,
-    motors: &[Motor; JOINTS],
-    felt: [f32; JOINTS],
-    weight: [f32; JOINTS],
-    scales: &[f32; JOINTS],
-) -> Result<([Duty; JOINTS], f32), Fault> {
-    let (duties, scale) = gate(drives, motors, felt, weight)?;
-    let within = duties.iter().zip(scales).all(|(duty, scale)| duty.fraction().abs() <= *scale);
-    if within {
-        return Ok((duties, scale));
-    }
-    let mut carried = motors.iter().zip(weight).zip(scales);
-    let is_heavy = carried.any(|((motor, weight), scale)| motor.fraction(weight).abs() > *scale);
-    Ok(saturate(motors, felt, weight, is_heavy, |joint| scales[joint]))
-}
-
-/// The most of the felt torques that the motors have left above the weight, each within its own scale. `is_heavy` is
-/// whether the weight is known to be beyond any; where it leaves nothing for what is felt, that shows by itself.
-#[cold]
+/// The most of the felt torques that the motors have left above the weight, each within its bound.
+#[inline]
 fn saturate<const JOINTS: usize>(
     motors: &[Motor; JOINTS],
     felt: [f32; JOINTS],
     weight: [f32; JOINTS],
-    is_heavy: bool,
-    full: impl Fn(usize) -> f32,
+    bounds: Option<&[f32; JOINTS]>,
 ) -> ([Duty; JOINTS], f32) {
+    let full = |joint: usize| bounds.map_or(1.0, |bounds| bounds[joint]);
     let mut fractions = [[0.0; 2]; JOINTS];
-    let mut scale = 1.0;
+    let (mut scale, mut is_heavy) = (1.0, false);
     for (joint, ((fractions, motor), (felt, weight))) in
         fractions.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)).enumerate()
     {
-        *fractions = [motor.fraction(felt), motor.fraction(weight)];
+        let [asked, carried] = [motor.fraction(felt), motor.fraction(weight)];
+        *fractions = [asked, carried];
+        // Where all of the scale may be given, a weight beyond it shows by what it leaves, if anything is felt.
+        is_heavy |= bounds.is_some() && carried.abs() > full(joint);
         scale = least_scale(scale, *fractions, full(joint));
     }
     if is_heavy || scale < 0.0 {
@@ -87,6 +94,7 @@ fn saturate<const JOINTS: usize>(
 }
 
 /// Scales a weight that no motor carries to what they can.
+#[cold]
 fn relieve<const JOINTS: usize>(fractions: &mut [[f32; 2]; JOINTS], full: impl Fn(usize) -> f32) -> f32 {
     let shares = fractions.iter().enumerate().map(|(joint, [_, carried])| carried.abs() / full(joint));
     let heaviest = shares.fold(1.0, |most: f32, share| if share > most { share } else { most });
@@ -170,7 +178,8 @@ mod tests {
             let (felt, weight) = ([(); 3].map(|()| draw(2.0)), [(); 3].map(|()| draw(1.5)));
             // A third of them nothing at all.
             let scales = [(); 3].map(|()| draw(1.0)).map(|scale| if scale.abs() > 0.67 { 0.0 } else { scale.abs() });
-            let (duties, scale) = gate_within(true, &MOTORS, felt, weight, &scales).unwrap();
+            let least = scales.iter().copied().fold(1.0, f32::min);
+            let (duties, scale) = gate_within(true, &MOTORS, felt, weight, (least, &scales)).unwrap();
             assert!((0.0..=1.0).contains(&scale), "{felt:?} {weight:?} {scales:?}");
             for (duty, most) in duties.iter().zip(scales) {
                 // Half a step of duty.

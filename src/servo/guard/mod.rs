@@ -57,9 +57,6 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     /// Looks at a tick in which force is given; the share of the force that may be felt.
     fn motion(&self, state: &mut Self::State, moving: &Moving<'_, JOINTS>) -> Result<f32, Fault>;
 
-    /// How much of full scale each motor may be given in this tick; `None` is all of it.
-    fn bounds(&self, state: &Self::State) -> Option<[f32; JOINTS]>;
-
     /// The last thing before the motors (`gate.rs`): the duties for these torques, N·m, and what the felt ones were
     /// scaled by.
     ///
@@ -115,11 +112,6 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     #[inline]
     fn motion(&self, (): &mut (), _: &Moving<'_, JOINTS>) -> Result<f32, Fault> {
         Ok(1.0)
-    }
-
-    #[inline]
-    fn bounds(&self, (): &()) -> Option<[f32; JOINTS]> {
-        None
     }
 
     #[inline]

@@ -253,8 +253,7 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
                     worn = palpate::servo::Guard::<3>::start(servo.guard());
                 }
                 last_on = is_on;
-                let bound =
-                    palpate::servo::Guard::<3>::bounds(servo.guard(), &worn).map_or(1.0, |bounds| bounds[joint]);
+                let bound = worn.bounds()[joint];
                 let mut duties = [Duty::ZERO; 3];
                 duties[joint] = Duty::from_fraction(if is_on { bound } else { 0.0 });
                 palpate::servo::Guard::<3>::given(servo.guard(), &mut worn, &duties);
@@ -266,6 +265,30 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
                 bench.name, heat.greatest
             );
             assert!(hottest < heat.greatest, "{hottest} °C");
+        }
+    }
+}
+
+/// One motor's turn comes every third tick: duties that beat with it must count as fully as any others.
+#[test]
+fn a_motor_warms_by_what_it_is_given_in_every_tick_and_not_only_in_its_turn() {
+    let servo = Servo::new(&PHANTOM_PREMIUM, &WALL, Controller::SECOND_ORDER, settings(&PHANTOM_PREMIUM, Vec3::ZERO))
+        .protect(Protection { signs: None, ..PHANTOM_PREMIUM_PROTECTION });
+    let endurance = PHANTOM_PREMIUM_PROTECTION.motors[0];
+    for phase in 0..3 {
+        let mut state = palpate::servo::Guard::<3>::start(servo.guard());
+        let mut warmth = [f64::from(endurance.continuous).powi(2); 3];
+        for tick in 0..200_000_u32 {
+            let duties = [0, 1, 2].map(|joint| Duty(if tick % 3 == (phase + joint) % 3 { 20_000 } else { 100 }));
+            palpate::servo::Guard::<3>::given(servo.guard(), &mut state, &duties);
+            for (warmth, duty) in warmth.iter_mut().zip(duties) {
+                let square = (f64::from(duty.0) / 32_767.0).powi(2);
+                *warmth += (square - *warmth) / (f64::from(endurance.time_constant) * RATE);
+            }
+        }
+        for (heat, expected) in state.heat().into_iter().zip(warmth) {
+            // Rounding down by 2⁻³⁰ at each turn, over a memory of 16,000 turns: 1.5e-5 of 0.125.
+            assert!((f64::from(heat.fraction()) - expected).abs() < 3e-5, "{phase}: {heat:?} {expected}");
         }
     }
 }
