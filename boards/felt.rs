@@ -1,11 +1,11 @@
 //! The servo of every board on the bench, from its device, its settings and the body that the build chose.
 
 use palpate::device::{Homing, Reference, SerialArm};
-use palpate::servo::Servo;
+use palpate::servo::{Guarded, Servo};
 use palpate::track::Controller;
 use palpate_bench::Felt;
 
-use crate::body::{DEVICE, SETTINGS};
+use crate::body::{DEVICE, PROTECTION, SETTINGS};
 
 /// The body: `cargo palpate firmware --board BOARD --body MODEL build --release` puts another one here.
 mod tables {
@@ -23,10 +23,10 @@ const HOMING: Homing<3> = Homing::new(
 )
 .when_asked();
 
-/// Everything the servo knows. No host watches: the device runs by itself. The table is checked at boot and over and
-/// over.
-static SERVO: Servo<'static, tables::Surface, SerialArm, 3> =
-    Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS).homing(HOMING);
+/// Everything the servo knows, with its device's protection. No host watches: the device runs by itself. The table is
+/// checked at boot and over and over.
+static SERVO: Servo<'static, tables::Surface, SerialArm, 3, Guarded<3>> =
+    Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS).protect(PROTECTION).homing(HOMING);
 
 /// What the loop feels.
 pub struct This;
@@ -34,9 +34,10 @@ pub struct This;
 impl Felt<3> for This {
     type Surface = tables::Surface;
     type Mechanism = SerialArm;
+    type Guard = Guarded<3>;
 
     #[inline(always)]
-    fn servo(&self) -> &Servo<'static, tables::Surface, SerialArm, 3> {
+    fn servo(&self) -> &Servo<'static, tables::Surface, SerialArm, 3, Guarded<3>> {
         &SERVO
     }
 }

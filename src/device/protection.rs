@@ -16,8 +16,8 @@ pub struct Endurance {
 /// Two may look at it, each in its way. A servo that is guarded makes a fault of a supply that is out of its range, or
 /// that nobody measures: a fault is latched. The loop of the boards for the bench *holds*: without a supply the motors
 /// are off, and force comes back softly once the supply is there and enable was released, for an emergency stop takes
-/// the supply away without anything being wrong. It takes a servo without a guard, so that only one of the two looks;
-/// its range is told in its own settings, and nowhere else.
+/// the supply away without anything being wrong. Its range is told in its own settings, and the protection of its servo
+/// has none, so that only one of the two looks: a range told there is a fault, for that loop measures none for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SupplyRange {
     /// Millivolts.

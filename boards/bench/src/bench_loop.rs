@@ -6,7 +6,7 @@ use crate::sensors::BadFrame;
 use crate::set_up::SetUp;
 use crate::{Board, Hold, Interlock, Mailbox, Panel, Settings, Verdict};
 use palpate::device::Kinematics;
-use palpate::servo::{Deadline, Event, FrameBridge, Input, Output, ResetReason, Servo, ServoState, Surface};
+use palpate::servo::{Deadline, Event, FrameBridge, Guard, Input, Output, ResetReason, Servo, ServoState, Surface};
 use palpate::wire::telemetry::{Producer, Recorder};
 use palpate::wire::{Record, hold};
 
@@ -19,13 +19,20 @@ pub trait Felt<const JOINTS: usize> {
     type Surface: Surface + 'static;
     /// What it is touched with.
     type Mechanism: Kinematics<JOINTS> + 'static;
+    /// What guards motors and hand beyond the servo's own checks: of a real device, its protection. It measures no
+    /// supply, which the loop's own settings are told of.
+    type Guard: Guard<JOINTS> + 'static;
 
     /// The servo.
-    fn servo(&self) -> &Servo<'static, Self::Surface, Self::Mechanism, JOINTS>;
+    fn servo(&self) -> &Servo<'static, Self::Surface, Self::Mechanism, JOINTS, Self::Guard>;
 }
 
 /// What the servo keeps between two ticks.
-pub(crate) type State<F, const JOINTS: usize> = ServoState<JOINTS, <<F as Felt<JOINTS>>::Surface as Surface>::Witness>;
+pub(crate) type State<F, const JOINTS: usize> = ServoState<
+    JOINTS,
+    <<F as Felt<JOINTS>>::Surface as Surface>::Witness,
+    <<F as Felt<JOINTS>>::Guard as Guard<JOINTS>>::State,
+>;
 
 /// The loop of a board, which its timer's interrupt owns.
 pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {

@@ -10,7 +10,7 @@ use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Felt, NotObeyed, Panel, Passive, Watchdog};
 
 use crate::board::Board;
-use crate::body::{Felt as Surface, Mechanism, SERVO};
+use crate::body::{Chosen, Felt as Surface, Mechanism, SERVO};
 use crate::timer::{Clock, InstructionCounter};
 
 /// What is felt.
@@ -19,9 +19,10 @@ pub struct This;
 impl Felt<3> for This {
     type Surface = Surface;
     type Mechanism = Mechanism;
+    type Guard = Chosen;
 
     #[inline(always)]
-    fn servo(&self) -> &Servo<'static, Surface, Mechanism, 3> {
+    fn servo(&self) -> &Servo<'static, Surface, Mechanism, 3, Chosen> {
         &SERVO
     }
 }

@@ -2,8 +2,8 @@
 //! (`--body`).
 
 use palpate::device::drive::{Feed, VoltageFeed};
-use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Device, Encoder, SerialArm};
+use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
+use palpate::device::{Device, Encoder, Protection, SerialArm};
 use palpate::math::vec3;
 use palpate::servo::Settings;
 
@@ -29,6 +29,9 @@ pub static DEVICE: Device<SerialArm, 3> = Device {
     feeds: [feed(16.0), feed(-12.0), feed(12.0)],
     ..WOODEN_HAPTICS_2016
 };
+
+/// What its motors and joints bear; the supply is watched by the board's loop.
+pub const PROTECTION: Protection<3> = WOODEN_HAPTICS_2016_PROTECTION;
 
 /// 4 kHz and 600 N/m are well inside what the device takes.
 pub const SETTINGS: Settings = Settings {

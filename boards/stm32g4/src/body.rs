@@ -1,13 +1,16 @@
 //! With which device, and how, something is felt: the file to change first. What is felt is chosen by the build
 //! (`--body`).
 
-use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Device, SerialArm};
+use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
+use palpate::device::{Device, Protection, SerialArm};
 use palpate::math::vec3;
 use palpate::servo::Settings;
 
 /// The device. One of your own is a constant like this one; start from the preset that is nearest.
 pub static DEVICE: Device<SerialArm, 3> = WOODEN_HAPTICS_2016;
+
+/// What its motors and joints bear; the supply is watched by the board's loop.
+pub const PROTECTION: Protection<3> = WOODEN_HAPTICS_2016_PROTECTION;
 
 /// 4 kHz and 600 N/m are well inside what the device takes.
 pub const SETTINGS: Settings = Settings {

@@ -1,7 +1,7 @@
 //! The servo of the knob.
 
 use palpate::device::{Device, Dial};
-use palpate::servo::{Knob, Servo};
+use palpate::servo::{Knob, Servo, Unguarded};
 use palpate_bench::Felt;
 
 use crate::body::{KnobServo, SEARCH, device, servo};
@@ -16,6 +16,7 @@ pub struct This;
 impl Felt<1> for This {
     type Surface = Knob;
     type Mechanism = Dial;
+    type Guard = Unguarded;
 
     #[inline(always)]
     fn servo(&self) -> &Servo<'static, Knob, Dial, 1> {

@@ -8,7 +8,7 @@ use anyhow::bail;
 use palpate::device::{Counts, Device, Duty, Kinematics};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Heartbeat, ResetReason, Servo, Settings};
+use palpate::servo::{Heartbeat, ResetReason, Servo, Settings, Unguarded};
 use palpate::track::Controller;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
@@ -29,6 +29,7 @@ struct Made<K: 'static>(Servo<'static, SplinePatch, K, 3>);
 impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
     type Surface = SplinePatch;
     type Mechanism = K;
+    type Guard = Unguarded;
 
     fn servo(&self) -> &Servo<'static, SplinePatch, K, 3> {
         &self.0

@@ -26,6 +26,7 @@ struct This;
 impl Felt<1> for This {
     type Surface = Knob;
     type Mechanism = Dial;
+    type Guard = palpate::servo::Unguarded;
 
     fn servo(&self) -> &Servo<'static, Knob, Dial, 1> {
         &SERVO

@@ -3,6 +3,7 @@
 mod acceptance;
 mod angles;
 mod frames;
+mod guarded;
 mod homing;
 mod idle;
 mod knob;

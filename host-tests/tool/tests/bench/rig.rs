@@ -6,7 +6,7 @@ use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Kinematics, SupplyRange};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Fault, Phase, ResetReason, Servo, ServoState};
+use palpate::servo::{Fault, Guard, PatchWitness, Phase, ResetReason, Servo, ServoState, Unguarded};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, greatest_step};
@@ -207,21 +207,22 @@ type Amplifier = SetPointDrive<Width, Out>;
 pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
 
 /// A servo that a test made.
-pub struct Made<K: 'static>(pub Servo<'static, SplinePatch, K, 3>);
+pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch, K, 3, G>);
 
-impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
+impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
     type Surface = SplinePatch;
     type Mechanism = K;
+    type Guard = G;
 
-    fn servo(&self) -> &Servo<'static, SplinePatch, K, 3> {
+    fn servo(&self) -> &Servo<'static, SplinePatch, K, 3, G> {
         &self.0
     }
 }
 
 /// The loop on the simulated bench.
-pub struct Rig<K: Kinematics<3> + 'static> {
+pub struct Rig<K: Kinematics<3> + 'static, G: Guard<3> + 'static = Unguarded> {
     pub world: Shared,
-    pub bench: Bench<'static, Made<K>, SimulatedBoard, 3>,
+    pub bench: Bench<'static, Made<K, G>, SimulatedBoard, 3>,
     pub mailbox: &'static Mailbox,
     records: Option<Consumer<'static, Record>>,
 }
@@ -252,8 +253,8 @@ pub fn held_at(place: Vector) -> Plant {
 }
 
 /// A device at the pins of a board.
-pub fn wired<K: Kinematics<3> + 'static>(
-    servo: &Servo<'static, SplinePatch, K, 3>,
+pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
+    servo: &Servo<'static, SplinePatch, K, 3, G>,
     plant: Plant,
     settings: &Settings,
 ) -> (Shared, SimulatedBoard) {
@@ -311,9 +312,9 @@ pub fn wired<K: Kinematics<3> + 'static>(
     (Rc::clone(&world), board)
 }
 
-impl<K: Kinematics<3> + 'static> Rig<K> {
+impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
     pub fn new(
-        servo: Servo<'static, SplinePatch, K, 3>,
+        servo: Servo<'static, SplinePatch, K, 3, G>,
         plant: Plant,
         settings: &Settings,
         reset: ResetReason,
@@ -366,7 +367,7 @@ impl<K: Kinematics<3> + 'static> Rig<K> {
         self.world.borrow().enables == [false; 3]
     }
 
-    pub fn state(&self) -> &ServoState<3> {
+    pub fn state(&self) -> &ServoState<3, PatchWitness, G::State> {
         self.bench.state()
     }
 
