@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake capped_box.toml --out capped_box.rs
-// Table format 5. SHA-256 of the model file: 21e70fde5e93324ff67d2d8e8050f949f102ea8475d56dd65d5be85ec60a6a0b
+// Table format 6. SHA-256 of the model file: 21e70fde5e93324ff67d2d8e8050f949f102ea8475d56dd65d5be85ec60a6a0b
 // A body of 6 faces, 12 edges and 8 vertices. CRC-32 of its numbers: a9d065db
 
 // Span borders.
@@ -1267,7 +1267,7 @@ pub static BODY: palpate::body::Body = palpate::body::Body::from_tables(
     .with_crc(TABLE_CRC);
 /// What is felt.
 #[allow(dead_code)]
-pub type Surface = palpate::body::Body;
+pub type Surface = palpate::body::Body<'static>;
 /// The body.
 #[allow(dead_code)]
 pub const SURFACE: &Surface = &BODY;

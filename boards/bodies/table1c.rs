@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake table1c.toml --out table1c.rs
-// Table format 5. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
+// Table format 6. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
 
 // Patch 0, "S".
 #[rustfmt::skip]
@@ -129,7 +129,7 @@ pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
 ];
 /// What is felt.
 #[allow(dead_code)]
-pub type Surface = palpate::patch::SplinePatch;
+pub type Surface = palpate::patch::SplinePatch<'static>;
 /// The first patch.
 #[allow(dead_code)]
 pub const SURFACE: &Surface = &PATCHES[0];

@@ -139,7 +139,7 @@ mod tests {
     use crate::patch::Coefficients;
 
     /// 2 m along x, from the middle.
-    const fn straight(second_derivative: f32) -> SplineCurve {
+    const fn straight(second_derivative: f32) -> SplineCurve<'static> {
         SplineCurve {
             degree: 1,
             breaks: &[0.0, 1.0],
@@ -167,7 +167,7 @@ mod tests {
 
     /// A face that grows by 4 m a unit of its parameter away from the edge, towards −y, its separator given both ways:
     /// as a plane, and by a cross derivative that slants along the edge.
-    fn separators() -> [Separator; 2] {
+    fn separators() -> [Separator<'static>; 2] {
         let ruled = SplineCurve {
             degree: 0,
             breaks: &[0.0, 1.0],

@@ -11,7 +11,7 @@ use crate::track::{Contact, Witness};
 /// rounds, far below what a hand feels.
 const NEARER: f32 = 1.0e-3;
 
-impl Body {
+impl Body<'_> {
     /// One part of the search for a start, or of the rolling audit: its beginning, half an evaluation, or
     /// its end. `follows` is whether the probe is near that of the last tick. Whether the tracker may step.
     #[inline(never)]

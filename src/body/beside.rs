@@ -8,7 +8,7 @@ use super::tracker::{BodyStep, BodyWitness};
 use crate::patch::CurvedPoint;
 use crate::track::{Outcome, Witness, mode_at};
 
-impl Body {
+impl Body<'_> {
     /// One step of second order on a face that has a pole, where the certificate is of little use: bounds over the
     /// whole face do not know that around the pole all is small. The evaluation says whether the step was good; if not
     /// it is undone, and the next one is certified. Whether it was tried.

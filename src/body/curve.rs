@@ -26,19 +26,19 @@ pub struct CurvePoint {
 /// `breaks` are the span borders, rising from 0 to 1. Span `i` has `degree + 1` coefficients, entry `k` the power `k`
 /// of the distance from the span's centre.
 #[derive(Clone, Copy, Debug)]
-pub struct SplineCurve {
+pub struct SplineCurve<'a> {
     /// 1 to [`MAX_CURVE_DEGREE`]; 0 is a constant.
     pub degree: u8,
     /// Span borders.
-    pub breaks: &'static [f32],
+    pub breaks: &'a [f32],
     /// Coefficients of all spans.
-    pub coefficients: Coefficients,
+    pub coefficients: Coefficients<'a>,
     /// `sup ‖c''‖`, metres per unit of parameter squared, rounding included; what the certified step along the curve
     /// needs.
     pub second_derivative: f32,
 }
 
-impl SplineCurve {
+impl SplineCurve<'_> {
     /// Whether borders and coefficients fit together and are finite.
     pub(super) const fn is_valid(&self) -> bool {
         let count = match self.coefficients {

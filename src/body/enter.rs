@@ -44,7 +44,7 @@ pub(super) struct Entry {
 /// A face beyond a border, seen from a point of it.
 #[derive(Clone, Copy)]
 pub(super) struct Beyond<'a> {
-    face: &'a Face,
+    face: &'a Face<'a>,
     of: EdgeFace,
     /// Whether the side runs against the edge.
     is_reversed: bool,
@@ -72,7 +72,7 @@ impl Beyond<'_> {
     }
 }
 
-impl Body {
+impl Body<'_> {
     /// A face of an edge, seen from a point of it.
     #[inline(always)]
     pub(super) fn beyond(&self, of: EdgeFace, border: &Border, probe: Vec3) -> Option<Beyond<'_>> {
@@ -194,7 +194,7 @@ fn beyond_border(face: &Face, inward: &Inward, along: &Along, t: f32, [gap, know
     (landing, 2.0 * LEAST_FALL * slope)
 }
 
-impl Face {
+impl Face<'_> {
     /// The bound of the normal curvature that shortens steps on this side of the surface, 1/m.
     #[inline]
     fn bend(&self, gap: f32) -> f32 {

@@ -17,16 +17,16 @@ pub enum Feature {
 
 /// A patch with its four sides.
 #[derive(Clone, Copy, Debug)]
-pub struct Face {
+pub struct Face<'a> {
     /// The surface.
-    pub patch: SplinePatch,
+    pub patch: SplinePatch<'a>,
     /// The borders `u = 0`, `u = 1`, `v = 0`, `v = 1`, in this order.
-    pub sides: [Side; 4],
+    pub sides: [Side<'a>; 4],
 }
 
 /// What lies along one border of a face.
 #[derive(Clone, Copy, Debug)]
-pub enum Side {
+pub enum Side<'a> {
     /// An edge.
     Edge {
         /// Its index.
@@ -34,7 +34,7 @@ pub enum Side {
         /// Whether the edge runs against the face's own parameter along this border.
         reversed: bool,
         /// Where the face's Voronoi region ends.
-        separator: Separator,
+        separator: Separator<'a>,
     },
     /// The border is one point.
     Pole {
@@ -49,7 +49,7 @@ pub enum Side {
 /// With `m` the face's outward conormal (in its tangent plane, normal to the edge), a probe `Q` has left the face iff
 /// `(Q − c(t*)) · m(t*) > 0` at the parameter `t*` of the edge closest to `Q`.
 #[derive(Clone, Copy, Debug)]
-pub enum Separator {
+pub enum Separator<'a> {
     /// A plane: the edge is straight and the face's normal constant along it. Left iff `across · Q > offset`.
     Plane {
         /// Normal to the plane, out of the face's region: as much as the face's parameter across the border changes in
@@ -61,7 +61,7 @@ pub enum Separator {
     /// The face's derivative across the border, out of the face, in the edge's parameter: `±f_u` or `±f_v` times any
     /// positive function that is 1 at the middle of the edge. The conormal is its part normal to the edge. Exact: a
     /// polynomial of the patch's own numbers.
-    Ruled(SplineCurve),
+    Ruled(SplineCurve<'a>),
 }
 
 /// How the faces of an edge stand to each other, seen from outside the body.
@@ -82,9 +82,9 @@ pub enum EdgeKind {
 
 /// A border curve.
 #[derive(Clone, Copy, Debug)]
-pub struct Edge {
+pub struct Edge<'a> {
     /// The curve, never one point.
-    pub curve: SplineCurve,
+    pub curve: SplineCurve<'a>,
     /// `sup ‖c'''‖`, metres per unit of parameter cubed: what the step of second order along the edge needs. Infinite
     /// where nothing is proved.
     pub third_derivative: f32,

@@ -16,16 +16,16 @@ pub const LEAF: u16 = 0x8000;
 
 /// The octree.
 #[derive(Clone, Copy, Debug)]
-pub struct Locator {
+pub struct Locator<'a> {
     /// The lower corner of the root cube, metres, in the body's frame.
     pub corner: Vec3,
     /// The root cube's side, metres.
     pub side: f32,
     /// Inner nodes, the first is the root; child `x + 2 y + 4 z` (1 for the upper half) is the index of a node, or
     /// [`LEAF`] and the index of the first entry of its list.
-    pub nodes: &'static [[u16; 8]],
+    pub nodes: &'a [[u16; 8]],
     /// The lists of candidates, see [`Candidate::pack`].
-    pub entries: &'static [u32],
+    pub entries: &'a [u32],
 }
 
 /// A part of a face that can own the closest point.
@@ -73,7 +73,7 @@ impl Candidate {
     }
 }
 
-impl Locator {
+impl Locator<'_> {
     /// The index of the first entry for a probe; one outside the root cube gets the list of the nearest cell, which is
     /// then not proved to be complete. At most [`MAX_DEPTH`] rounds.
     #[inline]

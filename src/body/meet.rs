@@ -11,7 +11,7 @@ use crate::track::{BoundaryMode, Contact, is_inside};
 /// `6e-8`, a hundredth of this and less with the tangents made of them.
 const AT_POLE: f32 = 1.0e-5;
 
-impl Body {
+impl Body<'_> {
     /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been
     /// called, and the step that it has made. Until the witness point is located, and for a probe that is not finite,
     /// nothing changes.

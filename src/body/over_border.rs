@@ -24,7 +24,7 @@ const HOLLOW: f32 = 1.0e-6;
 /// What a rational patch's weights, squared, may differ by along a border: they do by 2 on a quarter of a circle.
 const WEIGHTS: f32 = 4.0;
 
-impl Body {
+impl Body<'_> {
     /// Ends contact where the probe is in front of what is beyond the border that the witness point lies on: then it
     /// has left the body over an edge or a vertex, though this face has it behind. Whether it has.
     #[inline(always)]

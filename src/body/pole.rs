@@ -14,7 +14,7 @@ use super::feature::{Face, Side};
 /// So near a pole, in parameters, the tangent around it is rounding.
 const AT_POLE: f32 = 1.0e-6;
 
-impl Face {
+impl Face<'_> {
     /// Which of its sides are poles, as bits.
     #[inline]
     pub const fn poles(&self) -> u8 {

@@ -193,7 +193,7 @@ impl Search {
     }
 }
 
-impl Body {
+impl Body<'_> {
     /// The closest point of the body from a standing start. At most [`MAX_EVALUATIONS`] of patches, on a convex body
     /// [`MAX_EVALUATIONS_CONVEX`].
     pub fn locate(&self, probe: Vec3) -> Located {

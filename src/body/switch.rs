@@ -11,7 +11,7 @@ use crate::math::Vec3;
 use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::track::{BoundaryMode, Witness};
 
-impl Body {
+impl Body<'_> {
     /// Hands over through the side that holds the witness point. While the witness point is free there is nothing to
     /// ask: the controller brings it to the side through which the probe has left, and there the measure numbers of the
     /// projection errors change sign where the probe passes the separator. Whether the tick is spent, or the edge's.

@@ -9,12 +9,12 @@ use thiserror::Error;
 
 /// A body of several patches: features, the surfaces that separate their Voronoi regions, and a locator.
 #[derive(Clone, Copy, Debug)]
-pub struct Body {
-    pub(super) faces: &'static [Face],
-    pub(super) edges: &'static [Edge],
-    pub(super) vertices: &'static [Vertex],
-    pub(super) spokes: &'static [Spoke],
-    pub(super) locator: Locator,
+pub struct Body<'a> {
+    pub(super) faces: &'a [Face<'a>],
+    pub(super) edges: &'a [Edge<'a>],
+    pub(super) vertices: &'a [Vertex],
+    pub(super) spokes: &'a [Spoke],
+    pub(super) locator: Locator<'a>,
     pub(super) size: f32,
     /// The contact from which there is nothing to audit: the body is touched, or it is convex and the probe in front of
     /// the witness point, so that no other point is nearer.
@@ -79,18 +79,18 @@ pub enum BodyError {
     Size,
 }
 
-impl Body {
+impl<'a> Body<'a> {
     /// Checks the tables and takes them. `is_convex` says that no closest point but the global one exists for a probe
     /// outside (theory §8); `size` is the largest side of the bounding box, metres.
     ///
     /// # Errors
     /// The first thing wrong.
     pub const fn try_new(
-        faces: &'static [Face],
-        edges: &'static [Edge],
-        vertices: &'static [Vertex],
-        spokes: &'static [Spoke],
-        locator: Locator,
+        faces: &'a [Face<'a>],
+        edges: &'a [Edge<'a>],
+        vertices: &'a [Vertex],
+        spokes: &'a [Spoke],
+        locator: Locator<'a>,
         size: f32,
         is_convex: bool,
     ) -> Result<Self, BodyError> {
@@ -139,11 +139,11 @@ impl Body {
     /// # Panics
     /// At compile time, naming the kind of table.
     pub const fn from_tables(
-        faces: &'static [Face],
-        edges: &'static [Edge],
-        vertices: &'static [Vertex],
-        spokes: &'static [Spoke],
-        locator: Locator,
+        faces: &'a [Face<'a>],
+        edges: &'a [Edge<'a>],
+        vertices: &'a [Vertex],
+        spokes: &'a [Spoke],
+        locator: Locator<'a>,
         size: f32,
         is_convex: bool,
     ) -> Self {
@@ -177,27 +177,27 @@ impl Body {
     }
 
     /// The faces.
-    pub const fn faces(&self) -> &'static [Face] {
+    pub const fn faces(&self) -> &'a [Face<'a>] {
         self.faces
     }
 
     /// The edges.
-    pub const fn edges(&self) -> &'static [Edge] {
+    pub const fn edges(&self) -> &'a [Edge<'a>] {
         self.edges
     }
 
     /// The vertices.
-    pub const fn vertices(&self) -> &'static [Vertex] {
+    pub const fn vertices(&self) -> &'a [Vertex] {
         self.vertices
     }
 
     /// The spokes of all vertices.
-    pub const fn spokes(&self) -> &'static [Spoke] {
+    pub const fn spokes(&self) -> &'a [Spoke] {
         self.spokes
     }
 
     /// The locator.
-    pub const fn locator(&self) -> &Locator {
+    pub const fn locator(&self) -> &Locator<'a> {
         &self.locator
     }
 
@@ -311,7 +311,7 @@ impl Body {
     }
 }
 
-impl Separator {
+impl Separator<'_> {
     const fn is_valid(&self) -> bool {
         match self {
             Self::Plane { across, offset } => is_finite(*across) && offset.is_finite(),

@@ -81,7 +81,7 @@ impl BodyStep {
     }
 }
 
-impl Body {
+impl Body<'_> {
     /// The state before the first tick: nothing is known.
     pub fn start(&self) -> BodyWitness {
         BodyWitness {

@@ -36,7 +36,7 @@ impl TableCursor {
     }
 }
 
-impl Body {
+impl Body<'_> {
     /// The word at a cursor; `None` past the end of its record, and of the table.
     pub fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         let word = cursor.word as usize;
@@ -116,7 +116,7 @@ const ENTRIES: usize = 16;
 /// Records of a face: its sides, then its patch.
 const FACE_RECORDS: usize = 5;
 
-impl Side {
+impl Side<'_> {
     fn word(&self, word: usize) -> Option<u32> {
         match (self, word) {
             (Self::Pole { vertex }, 0) => Some(u32::from(*vertex)),
@@ -134,7 +134,7 @@ impl Side {
     }
 }
 
-impl SplineCurve {
+impl SplineCurve<'_> {
     fn word(&self, word: usize) -> Option<u32> {
         match word {
             0 => Some(u32::from(self.degree) | self.coefficients.tag() << 8 | (self.breaks.len() as u32) << 16),
@@ -147,7 +147,7 @@ impl SplineCurve {
     }
 }
 
-impl Edge {
+impl Edge<'_> {
     /// Faces, ends and kind, what is proved of the third derivative, then the curve.
     fn word(&self, word: usize) -> Option<u32> {
         let [first, second] = self.faces;

@@ -3,14 +3,14 @@
 /// The coefficients of all spans: span `(i, j)` is entry `i · spans_v + j`; in a span, row `k` holds the power `k` of
 /// `s`, and its columns the powers of `t`.
 #[derive(Clone, Copy, Debug)]
-pub enum Coefficients {
+pub enum Coefficients<'a> {
     /// `[x, y, z]`, metres.
-    Polynomial(&'static [[f32; 3]]),
+    Polynomial(&'a [[f32; 3]]),
     /// `[w x, w y, w z, w]`.
-    Rational(&'static [[f32; 4]]),
+    Rational(&'a [[f32; 4]]),
 }
 
-impl Coefficients {
+impl Coefficients<'_> {
     /// 1 if rational.
     pub(crate) const fn tag(&self) -> u32 {
         matches!(self, Self::Rational(_)) as u32
@@ -18,7 +18,7 @@ impl Coefficients {
 }
 
 /// The `index`-th word of coefficients.
-pub(crate) const fn coefficient_word(coefficients: Coefficients, index: usize) -> Option<u32> {
+pub(crate) const fn coefficient_word(coefficients: Coefficients<'_>, index: usize) -> Option<u32> {
     match coefficients {
         Coefficients::Polynomial(entries) if index / 3 < entries.len() => Some(entries[index / 3][index % 3].to_bits()),
         Coefficients::Rational(entries) if index / 4 < entries.len() => Some(entries[index / 4][index % 4].to_bits()),

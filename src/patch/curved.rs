@@ -9,7 +9,7 @@ use super::spline::SplinePatch;
 use super::taylor::{self, Taylor};
 use crate::math::{Vec3, vec3};
 
-impl SplinePatch {
+impl SplinePatch<'_> {
     /// The point and its derivatives up to the second at `(u, v)`, by Horner's rule on the span that holds it.
     #[inline(always)]
     pub fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
@@ -26,7 +26,7 @@ impl SplinePatch {
     }
 }
 
-impl SplinePatch {
+impl SplinePatch<'_> {
     /// [`Self::evaluate_curved`] for where ten instructions more do not matter and flash does.
     #[inline(never)]
     pub(crate) fn evaluate_apart(&self, [u, v]: [f32; 2]) -> CurvedPoint {

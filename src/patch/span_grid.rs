@@ -5,13 +5,13 @@ pub const MAX_SPANS: usize = 256;
 
 /// The spans of a patch: their degrees, and their borders from 0 to 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SpanGrid {
+pub(super) struct SpanGrid<'a> {
     pub degree: [u8; 2],
-    pub breaks_u: &'static [f32],
-    pub breaks_v: &'static [f32],
+    pub breaks_u: &'a [f32],
+    pub breaks_v: &'a [f32],
 }
 
-impl SpanGrid {
+impl SpanGrid<'_> {
     /// Whether there is one span, from 0 to 1 along both parameters.
     #[inline(always)]
     pub fn is_one_span(&self) -> bool {
@@ -29,7 +29,7 @@ impl SpanGrid {
     /// [`super::Patch::beyond_knots`], with the spans that the evaluation takes.
     #[inline(never)]
     pub fn beyond_borders(&self, from: [f32; 2], to: [f32; 2]) -> [f32; 2] {
-        let along = |borders: &'static [f32], from: f32, to: f32| match guess(borders, from) {
+        let along = |borders: &[f32], from: f32, to: f32| match guess(borders, from) {
             (_, Some([left, right])) if *left <= to && to <= *right => 0.0,
             (span, Some(_)) => beyond_span(borders, span, to),
             (_, None) => beyond_span(borders, bisect(borders, from).0, to),

@@ -7,26 +7,26 @@ use crate::math::{Vec3, vec3};
 
 /// All spans of a patch.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Spans {
+pub(super) enum Spans<'a> {
     /// Degree (1, 1).
-    Bilinear(&'static [[[f32; 3]; 4]]),
+    Bilinear(&'a [[[f32; 3]; 4]]),
     /// Degree (2, 2).
-    Biquadratic(&'static [[[f32; 3]; 9]]),
+    Biquadratic(&'a [[[f32; 3]; 9]]),
     /// Degree (3, 3).
-    Bicubic(&'static [[[f32; 3]; 16]]),
+    Bicubic(&'a [[[f32; 3]; 16]]),
     /// Degree (1, 1), rational.
-    RationalBilinear(&'static [[[f32; 4]; 4]]),
+    RationalBilinear(&'a [[[f32; 4]; 4]]),
     /// Degree (2, 2), rational.
-    RationalBiquadratic(&'static [[[f32; 4]; 9]]),
+    RationalBiquadratic(&'a [[[f32; 4]; 9]]),
     /// Degree (3, 3), rational.
-    RationalBicubic(&'static [[[f32; 4]; 16]]),
+    RationalBicubic(&'a [[[f32; 4]; 16]]),
     /// Any other degree: row by row.
-    Rows(&'static [[f32; 3]]),
+    Rows(&'a [[f32; 3]]),
     /// Any other degree, rational.
-    RationalRows(&'static [[f32; 4]]),
+    RationalRows(&'a [[f32; 4]]),
 }
 
-impl Spans {
+impl<'a> Spans<'a> {
     /// Whether there are weights.
     #[inline]
     pub(super) const fn is_rational(&self) -> bool {
@@ -37,7 +37,7 @@ impl Spans {
     }
 
     /// The coefficients, counted already, in spans.
-    pub(super) const fn new(degree: [u8; 2], coefficients: Coefficients) -> Self {
+    pub(super) const fn new(degree: [u8; 2], coefficients: Coefficients<'a>) -> Self {
         match (degree, coefficients) {
             ([1, 1], Coefficients::Polynomial(entries)) => Self::Bilinear(entries.as_chunks().0),
             ([2, 2], Coefficients::Polynomial(entries)) => Self::Biquadratic(entries.as_chunks().0),
@@ -51,7 +51,7 @@ impl Spans {
     }
 
     /// The coefficients in one piece.
-    pub(super) const fn coefficients(&self) -> Coefficients {
+    pub(super) const fn coefficients(&self) -> Coefficients<'a> {
         match self {
             Self::Bilinear(spans) => Coefficients::Polynomial(spans.as_flattened()),
             Self::Biquadratic(spans) => Coefficients::Polynomial(spans.as_flattened()),
@@ -67,7 +67,7 @@ impl Spans {
     /// The point and both tangents at `(u, v)` of the patch whose spans these are, with its grid. Inlined, as each tick
     /// goes through it.
     #[inline(always)]
-    pub(super) fn evaluate(&self, grid: &SpanGrid, u: f32, v: f32) -> SurfacePoint {
+    pub(super) fn evaluate(&self, grid: &SpanGrid<'_>, u: f32, v: f32) -> SurfacePoint {
         match self {
             Self::Bilinear(spans) => whole::<3, 2, 4>(spans, grid, u, v),
             Self::Biquadratic(spans) => whole::<3, 3, 9>(spans, grid, u, v),
@@ -85,7 +85,7 @@ impl Spans {
 #[inline(always)]
 fn whole<const D: usize, const Q: usize, const N: usize>(
     spans: &[[[f32; D]; N]],
-    grid: &SpanGrid,
+    grid: &SpanGrid<'_>,
     u: f32,
     v: f32,
 ) -> SurfacePoint
@@ -102,7 +102,7 @@ where
 #[inline(never)]
 fn one_of<const D: usize, const Q: usize, const N: usize>(
     spans: &[[[f32; D]; N]],
-    grid: &SpanGrid,
+    grid: &SpanGrid<'_>,
     u: f32,
     v: f32,
 ) -> SurfacePoint
@@ -128,7 +128,7 @@ where
 
 /// Evaluates a span of any degree: the degree along `v` picks a loop that is unrolled for it, if there is one.
 #[inline(never)]
-fn by_rows<const D: usize>(entries: &[[f32; D]], grid: &SpanGrid, u: f32, v: f32) -> SurfacePoint
+fn by_rows<const D: usize>(entries: &[[f32; D]], grid: &SpanGrid<'_>, u: f32, v: f32) -> SurfacePoint
 where
     SurfacePoint: From<Derivatives<D>>,
 {
@@ -149,7 +149,7 @@ where
 #[inline(always)]
 pub(super) fn rows_at<'a, const D: usize>(
     entries: &'a [[f32; D]],
-    grid: &SpanGrid,
+    grid: &SpanGrid<'_>,
     u: f32,
     v: f32,
 ) -> Option<(&'a [[f32; D]], [f32; 2])> {

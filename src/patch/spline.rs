@@ -55,9 +55,9 @@ pub enum TableError {
 /// # Shapes
 /// `breaks_u` and `breaks_v` are the span borders, from 0 to 1; see [`Coefficients`] for the rest.
 #[derive(Clone, Copy, Debug)]
-pub struct SplinePatch {
-    pub(super) spans: Spans,
-    pub(super) grid: SpanGrid,
+pub struct SplinePatch<'a> {
+    pub(super) spans: Spans<'a>,
+    pub(super) grid: SpanGrid<'a>,
     shape: ShapeBounds,
     /// 1 if `f_u × f_v` points out of the body, −1 if into it.
     outward: f32,
@@ -65,7 +65,7 @@ pub struct SplinePatch {
     baked_crc: Option<NonZeroU32>,
 }
 
-impl SplinePatch {
+impl<'a> SplinePatch<'a> {
     /// Whether it has weights.
     #[inline]
     pub(crate) const fn is_rational(&self) -> bool {
@@ -78,9 +78,9 @@ impl SplinePatch {
     /// The first thing wrong with the table, as a [`TableError`].
     pub const fn try_new(
         degree: [u8; 2],
-        breaks_u: &'static [f32],
-        breaks_v: &'static [f32],
-        coefficients: Coefficients,
+        breaks_u: &'a [f32],
+        breaks_v: &'a [f32],
+        coefficients: Coefficients<'a>,
         shape: ShapeBounds,
         orientation: Orientation,
         size: f32,
@@ -126,9 +126,9 @@ impl SplinePatch {
     /// At compile time, naming what is wrong.
     pub const fn from_table(
         degree: [u8; 2],
-        breaks_u: &'static [f32],
-        breaks_v: &'static [f32],
-        coefficients: Coefficients,
+        breaks_u: &'a [f32],
+        breaks_v: &'a [f32],
+        coefficients: Coefficients<'a>,
         shape: ShapeBounds,
         orientation: Orientation,
         size: f32,
@@ -168,7 +168,7 @@ impl SplinePatch {
     }
 }
 
-impl SplinePatch {
+impl<'a> SplinePatch<'a> {
     /// The `index`-th word of the table: degrees and orientation, bounds, size, the borders along `u` and `v`, the
     /// coefficients.
     pub(crate) const fn word(&self, index: usize) -> Option<u32> {
@@ -220,7 +220,7 @@ impl SplinePatch {
 /// Words before the borders.
 const HEAD: usize = 17;
 
-impl Patch for SplinePatch {
+impl Patch for SplinePatch<'_> {
     #[inline(always)]
     fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
         self.evaluate_curved(u, v)

@@ -74,7 +74,7 @@ pub struct Touched {
     pub unexplained: bool,
 }
 
-impl Surface for Body {
+impl Surface for Body<'_> {
     type Witness = BodyWitness;
 
     fn rest(&self) -> BodyWitness {

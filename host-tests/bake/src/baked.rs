@@ -94,7 +94,7 @@ impl BakedPatch {
     ///
     /// # Errors
     /// What the library finds wrong with the table: nothing, if it was baked.
-    pub fn to_patch(&self) -> Result<SplinePatch, TableError> {
+    pub fn to_patch(&self) -> Result<SplinePatch<'static>, TableError> {
         let coefficients = match &self.coefficients {
             BakedCoefficients::Polynomial(entries) => Coefficients::Polynomial(entries.clone().leak()),
             BakedCoefficients::Rational(entries) => Coefficients::Rational(entries.clone().leak()),

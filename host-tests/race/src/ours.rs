@@ -18,7 +18,7 @@ const STEPS: usize = 8;
 
 /// Every query by itself.
 pub fn cold(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
-    struct Cold(Body);
+    struct Cold(Body<'static>);
     impl Contestant for Cold {
         fn answer(&mut self, probe: &Probe) -> Answer {
             parameters(self.0.locate(Vec3::from_array(probe.single)).parameters)
@@ -29,7 +29,7 @@ pub fn cold(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
 
 /// One step of the default controller a query, as in a servo tick; the start is cold.
 pub fn track(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
-    struct Track(SplinePatch, Witness);
+    struct Track(SplinePatch<'static>, Witness);
     impl Contestant for Track {
         fn answer(&mut self, probe: &Probe) -> Answer {
             // The gain is certified, not a rate: the period does not matter.
@@ -42,7 +42,7 @@ pub fn track(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
 
 /// The same until it has settled.
 pub fn track_settled(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
-    struct Track(SplinePatch, Witness);
+    struct Track(SplinePatch<'static>, Witness);
     impl Contestant for Track {
         fn answer(&mut self, probe: &Probe) -> Answer {
             for _ in 0..STEPS {
@@ -59,7 +59,7 @@ pub fn track_settled(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
 
 /// One step of the paper's law a query.
 pub fn track_to_first_order(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
-    struct Track(SplinePatch, Witness);
+    struct Track(SplinePatch<'static>, Witness);
     impl Contestant for Track {
         fn answer(&mut self, probe: &Probe) -> Answer {
             Controller::CERTIFIED.step(&self.0, &mut self.1, at(probe), 1.0);

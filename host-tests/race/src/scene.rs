@@ -26,9 +26,9 @@ pub struct Scene {
     /// palpate's table: 9 coefficients a span.
     pub coefficients: &'static [[f32; 3]],
     /// The patch as the firmware has it.
-    pub patch: SplinePatch,
+    pub patch: SplinePatch<'static>,
     /// The patch as a body with its locator, for a cold start. Its borders play no part in that and are left out.
-    pub body: Body,
+    pub body: Body<'static>,
     /// Of so many queries one is counted.
     pub stride: usize,
     /// The queries, in order.
@@ -83,7 +83,7 @@ impl Scene {
     }
 }
 
-fn body(patch: SplinePatch, size: f32, lines: &HashMap<&str, &str>) -> anyhow::Result<Body> {
+fn body(patch: SplinePatch<'static>, size: f32, lines: &HashMap<&str, &str>) -> anyhow::Result<Body<'static>> {
     let [x, y, z, side] = exactly(lines, "cube")?;
     let nodes: Vec<[u16; 8]> = numbers::<u16>(lines, "nodes")?.as_chunks().0.to_vec();
     let entries = numbers::<u32>(lines, "entries")?.leak();

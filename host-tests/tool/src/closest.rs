@@ -9,7 +9,7 @@ use palpate_bake::BakedBody;
 /// Finds closest points.
 #[derive(Debug)]
 pub struct Solver<'a> {
-    body: &'a Body,
+    body: &'a Body<'a>,
     baked: &'a BakedBody,
     sides: Sides<'a>,
     is_closed: bool,
@@ -50,7 +50,7 @@ pub struct Found {
 
 impl<'a> Solver<'a> {
     /// For a body and the tables it was made of.
-    pub fn new(body: &'a Body, baked: &'a BakedBody) -> Self {
+    pub fn new(body: &'a Body<'a>, baked: &'a BakedBody) -> Self {
         Self { body, baked, sides: Sides::new(body, baked), is_closed: baked.topology.is_closed() }
     }
 

@@ -14,7 +14,7 @@ use palpate_bake::locator::StoredSurface;
 /// Tells inside from outside.
 #[derive(Debug)]
 pub struct Sides<'a> {
-    body: &'a Body,
+    body: &'a Body<'a>,
     surfaces: Vec<StoredSurface>,
     turns: Vec<f64>,
 }
@@ -38,7 +38,7 @@ const OPPOSITE: f64 = 1e-6;
 
 impl<'a> Sides<'a> {
     /// For a body and the tables it was made of.
-    pub fn new(body: &'a Body, baked: &BakedBody) -> Self {
+    pub fn new(body: &'a Body<'a>, baked: &BakedBody) -> Self {
         let surfaces = baked.faces.iter().map(|face| StoredSurface::new(&face.patch)).collect();
         let turn = |orientation| if orientation == Orientation::Outward { 1.0 } else { -1.0 };
         let turns = baked.faces.iter().map(|face| turn(face.patch.orientation)).collect();
@@ -72,7 +72,7 @@ impl<'a> Sides<'a> {
     }
 
     /// The sides of its face that a point lies on, with the parameter along each.
-    fn sides_at(&self, foot: Foot) -> impl Iterator<Item = (Side, f64)> {
+    fn sides_at(&self, foot: Foot) -> impl Iterator<Item = (Side<'_>, f64)> {
         let [u, v] = foot.parameters;
         let at = [u <= 0.0, u >= 1.0, v <= 0.0, v >= 1.0];
         let sides = self.body.faces()[foot.face].sides;

@@ -26,7 +26,7 @@ mod capped_box {
 }
 
 /// A servo of a mechanism with three joints.
-pub type ServoOf<K, S = SplinePatch, G = Unguarded> = Servo<'static, S, K, 3, G>;
+pub type ServoOf<K, S = SplinePatch<'static>, G = Unguarded> = Servo<'static, S, K, 3, G>;
 
 const fn settings(body_origin: Vec3) -> Settings {
     Settings {

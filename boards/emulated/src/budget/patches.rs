@@ -21,7 +21,7 @@ const fn coefficients<const D: usize, const N: usize>() -> [[f32; D]; N] {
     entries
 }
 
-const fn patch(degree: u8, coefficients: Coefficients) -> SplinePatch {
+const fn patch(degree: u8, coefficients: Coefficients<'static>) -> SplinePatch<'static> {
     SplinePatch::from_table([degree, degree], &[0.0, 1.0], &[0.0, 1.0], coefficients, BOUNDS, Orientation::Outward, 0.1)
 }
 

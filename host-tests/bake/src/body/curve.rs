@@ -60,7 +60,7 @@ impl BakedCurve {
     }
 
     /// The curve as the firmware has it; its numbers stay allocated for good.
-    pub fn to_curve(&self) -> SplineCurve {
+    pub fn to_curve(&self) -> SplineCurve<'static> {
         let coefficients = match &self.coefficients {
             BakedCoefficients::Polynomial(entries) => Coefficients::Polynomial(entries.clone().leak()),
             BakedCoefficients::Rational(entries) => Coefficients::Rational(entries.clone().leak()),

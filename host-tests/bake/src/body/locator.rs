@@ -57,7 +57,7 @@ impl LocatorTable {
     }
 
     /// The locator as the firmware has it; its numbers stay allocated for good.
-    pub fn to_locator(&self) -> Locator {
+    pub fn to_locator(&self) -> Locator<'static> {
         Locator {
             corner: self.corner,
             side: self.side,

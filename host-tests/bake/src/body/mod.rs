@@ -274,7 +274,7 @@ impl BakedBody {
     ///
     /// # Errors
     /// What the library finds wrong with the tables: nothing, if they were baked.
-    pub fn to_body(&self) -> Result<Body, TableFault> {
+    pub fn to_body(&self) -> Result<Body<'static>, TableFault> {
         let mut faces = Vec::with_capacity(self.faces.len());
         for (index, face) in self.faces.iter().enumerate() {
             let patch = face.patch.to_patch().map_err(|error| TableFault::Patch { face: index, error })?;
@@ -304,7 +304,7 @@ impl BakedBody {
 
 impl BakedSide {
     /// The side as the firmware has it.
-    fn to_side(&self) -> Side {
+    fn to_side(&self) -> Side<'static> {
         match self {
             Self::Edge { edge, reversed, separator } => {
                 Side::Edge { edge: *edge, reversed: *reversed, separator: separator.to_separator() }

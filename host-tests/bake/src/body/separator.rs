@@ -58,7 +58,7 @@ impl BakedSeparator {
     }
 
     /// The separator as the firmware has it; its numbers stay allocated for good.
-    pub fn to_separator(&self) -> Separator {
+    pub fn to_separator(&self) -> Separator<'static> {
         match self {
             Self::Plane { across, offset } => Separator::Plane { across: Vec3::from_array(*across), offset: *offset },
             Self::Ruled(curve) => Separator::Ruled(curve.to_curve()),

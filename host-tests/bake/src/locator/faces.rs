@@ -16,7 +16,7 @@ use palpate::patch::SplinePatch;
 pub(crate) struct Faces {
     pub surfaces: Vec<StoredSurface>,
     /// The same as the firmware has them.
-    pub tables: Vec<SplinePatch>,
+    pub tables: Vec<SplinePatch<'static>>,
     /// The spans of each face.
     pub spans: Vec<Vec<Piece>>,
     pub seams: Seams,

@@ -94,7 +94,7 @@ impl fmt::Display for LocatorReport {
 
 impl BakedLocator {
     /// The locator as the firmware has it; its tables stay allocated for good.
-    pub fn to_locator(&self) -> Locator {
+    pub fn to_locator(&self) -> Locator<'static> {
         Locator {
             corner: self.corner,
             side: self.side,

@@ -253,7 +253,7 @@ fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
         .with_crc(TABLE_CRC);
         /// What is felt.
         #[allow(dead_code)]
-        pub type Surface = palpate::body::Body;
+        pub type Surface = palpate::body::Body<'static>;
         /// The body.
         #[allow(dead_code)]
         pub const SURFACE: &Surface = &BODY;

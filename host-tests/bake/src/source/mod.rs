@@ -19,7 +19,7 @@ use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
 
 /// Version of the form of the tables; raised when older firmware cannot take them.
-pub const FORMAT_VERSION: u32 = 5;
+pub const FORMAT_VERSION: u32 = 6;
 
 /// What the header says.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String
         pub static PATCHES: [palpate::patch::SplinePatch; #count] = [#(#tables),*];
         /// What is felt.
         #[allow(dead_code)]
-        pub type Surface = palpate::patch::SplinePatch;
+        pub type Surface = palpate::patch::SplinePatch<'static>;
         /// The first patch.
         #[allow(dead_code)]
         pub const SURFACE: &Surface = &PATCHES[0];

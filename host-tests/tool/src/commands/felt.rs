@@ -26,7 +26,7 @@ pub enum Felt {
         /// Its table.
         baked: Box<BakedPatch>,
         /// As the servo sees it.
-        patch: &'static SplinePatch,
+        patch: &'static SplinePatch<'static>,
     },
     /// All patches of a model, joined.
     Body {
@@ -35,7 +35,7 @@ pub enum Felt {
         /// What its faces are called.
         labels: Vec<String>,
         /// As the servo sees it.
-        body: &'static Body,
+        body: &'static Body<'static>,
         /// The model's name.
         name: String,
     },
@@ -54,7 +54,7 @@ impl Felt {
         };
         if let Some(index) = index {
             let baked = BakedPatch::all(model, &label)?.swap_remove(index);
-            let patch: &'static SplinePatch = Box::leak(Box::new(baked.to_patch()?));
+            let patch: &'static SplinePatch<'static> = Box::leak(Box::new(baked.to_patch()?));
             return Ok(Self::Patch { surface: model.patches[index].clone(), baked: Box::new(baked), patch });
         }
         let baked = BakedBody::new(model, &label)?;
@@ -63,7 +63,7 @@ impl Felt {
         let progress = |done, all| bar.tell("cells of space", done, all);
         let baked = cache::located(baked, text, &options, None, &progress)?;
         drop(bar);
-        let body: &'static Body = Box::leak(Box::new(baked.to_body()?));
+        let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?));
         Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone() })
     }
 
@@ -76,7 +76,7 @@ impl Felt {
     }
 
     /// Its patches.
-    pub fn patches(&self) -> Vec<&'static SplinePatch> {
+    pub fn patches(&self) -> Vec<&'static SplinePatch<'static>> {
         match self {
             Self::Patch { patch, .. } => vec![patch],
             Self::Body { body, .. } => body.faces().iter().map(|face| &face.patch).collect(),
@@ -120,7 +120,7 @@ impl Felt {
 /// See [`Felt::places`].
 enum Places {
     On(NurbsPatch),
-    Around { body: &'static Body, middle: Vec3 },
+    Around { body: &'static Body<'static>, middle: Vec3 },
 }
 
 impl Places {

@@ -24,14 +24,14 @@ const TICKS: u32 = 8;
 /// Bytes that a line of 500,000 baud carries in a tick, either way, with time to spare.
 const BYTES: u32 = 16;
 
-struct Made<K: 'static>(Servo<'static, SplinePatch, K, 3>);
+struct Made<K: 'static>(Servo<'static, SplinePatch<'static>, K, 3>);
 
 impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
-    type Surface = SplinePatch;
+    type Surface = SplinePatch<'static>;
     type Mechanism = K;
     type Guard = Unguarded;
 
-    fn servo(&self) -> &Servo<'static, SplinePatch, K, 3> {
+    fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, 3> {
         &self.0
     }
 }

@@ -13,7 +13,7 @@ const SIZE: (u32, u32) = (480, 360);
 /// A patch that cannot be baked.
 pub fn draw_shape(model: &Model, file: &str) -> anyhow::Result<String> {
     let baked = BakedPatch::all(model, file)?;
-    let patches: Vec<SplinePatch> = baked.iter().map(BakedPatch::to_patch).collect::<Result<_, _>>()?;
+    let patches: Vec<SplinePatch<'_>> = baked.iter().map(BakedPatch::to_patch).collect::<Result<_, _>>()?;
     let nets: Vec<_> = patches.iter().map(|patch| View::FRONT_RIGHT.net(patch)).collect();
     let (across, up) = equal_scale(nets.iter().flatten().flatten().copied(), (f64::from(SIZE.0), f64::from(SIZE.1)));
     draw(SIZE, |area| {

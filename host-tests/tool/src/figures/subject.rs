@@ -17,7 +17,7 @@ pub struct Subject {
     /// In double precision, for the oracle and the baselines.
     pub surface: NurbsPatch,
     /// As the firmware has it.
-    pub patch: SplinePatch,
+    pub patch: SplinePatch<'static>,
     /// The largest side of its bounding box, metres.
     pub size: f64,
 }

@@ -24,7 +24,7 @@ pub struct Touring {
     /// Its name.
     pub name: String,
     /// As the firmware has it.
-    pub body: Body,
+    pub body: Body<'static>,
     baked: BakedBody,
     centre: DVec3,
     reach: DVec3,

@@ -14,5 +14,5 @@ pub struct Page<'a> {
     /// The run.
     pub trace: &'a Trace,
     /// The surface that was touched.
-    pub patches: &'a [&'a SplinePatch],
+    pub patches: &'a [&'a SplinePatch<'a>],
 }

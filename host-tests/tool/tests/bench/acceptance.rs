@@ -16,7 +16,7 @@ use palpate_tool::accept::{Check, Found, Plan, Surroundings, Verdict, examine, e
 use std::collections::VecDeque;
 use std::io::{self, Read, Write};
 
-type Arm = Servo<'static, SplinePatch, SerialArm, 3>;
+type Arm = Servo<'static, SplinePatch<'static>, SerialArm, 3>;
 type Tick = Acceptance<'static, Made<SerialArm>, SimulatedBoard, 3>;
 
 fn arm() -> Arm {

@@ -11,7 +11,7 @@ const PRESSED: [f64; 3] = [0.0, 0.0, -0.008];
 
 /// Lets go of a device under force; what is found wrong then.
 fn let_go<G: Guard<3> + 'static>(
-    servo: Servo<'static, palpate::patch::SplinePatch, palpate::device::SerialArm, 3, G>,
+    servo: Servo<'static, palpate::patch::SplinePatch<'static>, palpate::device::SerialArm, 3, G>,
 ) -> Option<Fault> {
     let mut rig = Rig::new(servo, held_at(PRESSED), &settings(), ResetReason::PowerOn);
     // The hand comes down fast: force is asked for once it is there.

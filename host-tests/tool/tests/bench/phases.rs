@@ -7,7 +7,7 @@ use palpate::servo::{Event, Fault, Output, Phase, ResetReason, SafeOutput, Safet
 use palpate::track::Controller;
 use palpate_bench::Passive;
 
-fn servo(output: SafeOutput) -> Servo<'static, palpate::patch::SplinePatch, SerialArm, 3> {
+fn servo(output: SafeOutput) -> Servo<'static, palpate::patch::SplinePatch<'static>, SerialArm, 3> {
     let safety = Safety { output, settle_ticks: 50, ..Safety::DEFAULT };
     Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety)
 }

@@ -207,14 +207,14 @@ type Amplifier = SetPointDrive<Width, Out>;
 pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
 
 /// A servo that a test made.
-pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch, K, 3, G>);
+pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch<'static>, K, 3, G>);
 
 impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
-    type Surface = SplinePatch;
+    type Surface = SplinePatch<'static>;
     type Mechanism = K;
     type Guard = G;
 
-    fn servo(&self) -> &Servo<'static, SplinePatch, K, 3, G> {
+    fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, 3, G> {
         &self.0
     }
 }
@@ -254,7 +254,7 @@ pub fn held_at(place: Vector) -> Plant {
 
 /// A device at the pins of a board.
 pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
-    servo: &Servo<'static, SplinePatch, K, 3, G>,
+    servo: &Servo<'static, SplinePatch<'static>, K, 3, G>,
     plant: Plant,
     settings: &Settings,
 ) -> (Shared, SimulatedBoard) {
@@ -314,7 +314,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
 
 impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
     pub fn new(
-        servo: Servo<'static, SplinePatch, K, 3, G>,
+        servo: Servo<'static, SplinePatch<'static>, K, 3, G>,
         plant: Plant,
         settings: &Settings,
         reset: ResetReason,

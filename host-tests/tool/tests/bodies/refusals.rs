@@ -19,7 +19,7 @@ fn baked(name: &str) -> BakedBody {
 }
 
 /// The capped box with bounds of its curvature that are a lie: steps go too far.
-fn lying() -> Body {
+fn lying() -> Body<'static> {
     let mut baked = baked("capped_box");
     for face in &mut baked.faces {
         face.patch.shape.second_derivatives = SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 };
@@ -103,7 +103,7 @@ fn an_edge_is_not_left_for_its_vertex_before_both_faces_have_declined() {
 }
 
 /// A ball whose seams gape: every second face lies a twentieth of the radius farther out.
-fn gaping() -> Body {
+fn gaping() -> Body<'static> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/sphere_body.toml");
     let baked = BakedBody::new(&Model::read(&path).unwrap(), "sphere_body").unwrap();
     let options = baked.locator_options();

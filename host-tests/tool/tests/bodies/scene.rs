@@ -19,7 +19,7 @@ use std::sync::{Mutex, OnceLock};
 pub struct Scene {
     pub name: &'static str,
     pub patches: Vec<NurbsPatch>,
-    pub body: Body,
+    pub body: Body<'static>,
     pub low: DVec3,
     pub high: DVec3,
     /// Of its tables in flash.

@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake half_ball.toml --out half_ball.rs
-// Table format 5. SHA-256 of the model file: 8f0233ab18bff9eeb1e114f105852a17a7926877df3c21b33703ab64693ef0be
+// Table format 6. SHA-256 of the model file: 8f0233ab18bff9eeb1e114f105852a17a7926877df3c21b33703ab64693ef0be
 // A body of 8 faces, 12 edges and 6 vertices. CRC-32 of its numbers: a1eeaf53
 
 // Span borders.
@@ -1327,7 +1327,7 @@ pub static BODY: palpate::body::Body = palpate::body::Body::from_tables(
     .with_crc(TABLE_CRC);
 /// What is felt.
 #[allow(dead_code)]
-pub type Surface = palpate::body::Body;
+pub type Surface = palpate::body::Body<'static>;
 /// The body.
 #[allow(dead_code)]
 pub const SURFACE: &Surface = &BODY;

@@ -38,7 +38,7 @@ impl Kinematics<3> for Poisoned {
 /// The wall, with a switch that turns a bit of its table.
 #[derive(Debug)]
 pub struct Decayed {
-    wall: &'static SplinePatch,
+    wall: &'static SplinePatch<'static>,
     /// The CRC that it carries.
     pub baked: Option<u32>,
     /// Which one.

@@ -83,7 +83,7 @@ fn home<K: Kinematics<JOINTS>, const JOINTS: usize>(
 fn arm_servo(
     stops: [StopSearch; 3],
     timeout: u32,
-) -> Servo<'static, palpate::patch::SplinePatch, palpate::device::SerialArm, 3> {
+) -> Servo<'static, palpate::patch::SplinePatch<'static>, palpate::device::SerialArm, 3> {
     Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).homing(homing(
         &WOODEN_HAPTICS_2016,
         stops,

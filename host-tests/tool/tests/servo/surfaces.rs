@@ -47,7 +47,7 @@ impl Patch for Cap {
 }
 
 /// Table I's convex companion from its model file, in powers about the spans' centres.
-pub fn table1c() -> SplinePatch {
+pub fn table1c() -> SplinePatch<'static> {
     #[derive(serde::Deserialize)]
     struct Model {
         patch: Vec<Net>,

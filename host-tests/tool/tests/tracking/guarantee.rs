@@ -32,7 +32,7 @@ fn here(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-fn table1c() -> SplinePatch {
+fn table1c() -> SplinePatch<'static> {
     let model = Model::read(&here("../models/table1c.toml")).expect("the model is good");
     BakedPatch::all(&model, "table1c.toml").expect("it bakes")[0].to_patch().expect("the table is good")
 }

@@ -13,7 +13,7 @@ use std::path::Path;
 struct Body {
     name: &'static str,
     surface: NurbsPatch,
-    patch: SplinePatch,
+    patch: SplinePatch<'static>,
 }
 
 impl Body {

@@ -26,7 +26,7 @@ const TOLERANCE: f64 = 1e-5;
 
 struct Body {
     drawn: ConvexPatch,
-    patch: SplinePatch,
+    patch: SplinePatch<'static>,
     curvature: f64,
 }
 
@@ -193,7 +193,7 @@ fn the_common_normal_is_found_from_apart_through_contact_into_penetration() {
 }
 
 /// A cap of the sphere of a radius about the origin, around the direction +z.
-fn sphere_cap(radius: f64) -> SplinePatch {
+fn sphere_cap(radius: f64) -> SplinePatch<'static> {
     let surface = fit([2, 2], false, |u, v| {
         let (s, t) = (u - 0.5, v - 0.5);
         let square = s * s + t * t;

@@ -68,7 +68,7 @@ pub fn claims(body: &Body, probe: Vec3, is_behind: impl Fn(usize) -> bool) -> Cl
     Claims { features, margin }
 }
 
-fn side_of(body: &Body, of: EdgeFace) -> Option<&Separator> {
+fn side_of<'a>(body: &'a Body<'_>, of: EdgeFace) -> Option<&'a Separator<'a>> {
     match body.faces().get(usize::from(of.face))?.sides.get(usize::from(of.side))? {
         Side::Edge { separator, .. } => Some(separator),
         Side::Pole { .. } => None,
