@@ -2,7 +2,8 @@
 
 use super::curve::SplineCurve;
 use crate::math::Vec3;
-use crate::patch::SplinePatch;
+use crate::patch::{Coefficients, SplinePatch};
+use bytemuck::CheckedBitPattern;
 
 /// A feature of a body: what owns the closest point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +23,11 @@ pub struct Face<'a> {
     pub patch: SplinePatch<'a>,
     /// The borders `u = 0`, `u = 1`, `v = 0`, `v = 1`, in this order.
     pub sides: [Side<'a>; 4],
+}
+
+impl Face<'_> {
+    /// What a place for a face holds before there is one: a square of 1 m with poles for sides.
+    pub const VACANT: Self = Self { patch: SplinePatch::VACANT, sides: [Side::Pole { vertex: 0 }; 4] };
 }
 
 /// What lies along one border of a face.
@@ -98,6 +104,23 @@ pub struct Edge<'a> {
     pub kind: EdgeKind,
 }
 
+impl Edge<'_> {
+    /// What a place for an edge holds before there is one: a point, of no face.
+    pub const VACANT: Self = Self {
+        curve: SplineCurve {
+            degree: 0,
+            breaks: &[0.0, 1.0],
+            coefficients: Coefficients::Polynomial(&[[0.0; 3]]),
+            second_derivative: 0.0,
+        },
+        third_derivative: 0.0,
+        jump: 0.0,
+        faces: [EdgeFace::NONE; 2],
+        ends: [0; 2],
+        kind: EdgeKind::Open,
+    };
+}
+
 /// One face of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EdgeFace {
@@ -112,8 +135,9 @@ impl EdgeFace {
     pub const NONE: Self = Self { face: u16::MAX, side: 0 };
 }
 
-/// A point where edges meet.
-#[derive(Clone, Copy, Debug)]
+/// A point where edges meet. In a file it lies as it does in memory.
+#[derive(Clone, Copy, Debug, CheckedBitPattern)]
+#[repr(C)]
 pub struct Vertex {
     /// Where, metres.
     pub point: Vec3,
@@ -129,8 +153,9 @@ pub struct Vertex {
     pub is_open: bool,
 }
 
-/// One end of an edge, seen from its vertex.
-#[derive(Clone, Copy, Debug)]
+/// One end of an edge, seen from its vertex. In a file it lies as it does in memory.
+#[derive(Clone, Copy, Debug, CheckedBitPattern)]
+#[repr(C)]
 pub struct Spoke {
     /// Unit tangent of the edge, away from the vertex.
     pub direction: Vec3,

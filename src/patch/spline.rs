@@ -66,6 +66,17 @@ pub struct SplinePatch<'a> {
 }
 
 impl<'a> SplinePatch<'a> {
+    /// A square of 1 m.
+    pub(crate) const VACANT: Self = Self::from_table(
+        [1, 1],
+        &[0.0, 1.0],
+        &[0.0, 1.0],
+        Coefficients::Polynomial(&[[0.5, 0.5, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3]]),
+        ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
+        Orientation::Outward,
+        1.0,
+    );
+
     /// Whether it has weights.
     #[inline]
     pub(crate) const fn is_rational(&self) -> bool {
@@ -85,17 +96,10 @@ impl<'a> SplinePatch<'a> {
         orientation: Orientation,
         size: f32,
     ) -> Result<Self, TableError> {
-        if degree[0] < 1 || degree[0] as usize > MAX_DEGREE || degree[1] < 1 || degree[1] as usize > MAX_DEGREE {
-            return Err(TableError::Degree);
-        }
-        if !breaks_are_valid(breaks_u) {
-            return Err(TableError::BreaksU);
-        }
-        if !breaks_are_valid(breaks_v) {
-            return Err(TableError::BreaksV);
-        }
-        let spans = (breaks_u.len() - 1) * (breaks_v.len() - 1);
-        let expected = spans * (degree[0] as usize + 1) * (degree[1] as usize + 1);
+        let expected = match Self::coefficient_count(degree, [breaks_u, breaks_v]) {
+            Ok(expected) => expected,
+            Err(error) => return Err(error),
+        };
         let (count, finite) = match coefficients {
             Coefficients::Polynomial(entries) => (entries.len(), all_finite(entries)),
             Coefficients::Rational(entries) => (entries.len(), all_finite(entries)),
@@ -118,6 +122,24 @@ impl<'a> SplinePatch<'a> {
         };
         let spans = Spans::new(degree, coefficients);
         Ok(Self { spans, grid: SpanGrid { degree, breaks_u, breaks_v }, shape, outward, size, baked_crc: None })
+    }
+
+    /// How many coefficients a patch of these degrees and span borders has.
+    ///
+    /// # Errors
+    /// Degrees and borders that no patch has.
+    pub(crate) const fn coefficient_count(degree: [u8; 2], breaks: [&[f32]; 2]) -> Result<usize, TableError> {
+        let [degree_u, degree_v] = [degree[0] as usize, degree[1] as usize];
+        if degree_u < 1 || degree_u > MAX_DEGREE || degree_v < 1 || degree_v > MAX_DEGREE {
+            return Err(TableError::Degree);
+        }
+        if !breaks_are_valid(breaks[0]) {
+            return Err(TableError::BreaksU);
+        }
+        if !breaks_are_valid(breaks[1]) {
+            return Err(TableError::BreaksV);
+        }
+        Ok((breaks[0].len() - 1) * (breaks[1].len() - 1) * (degree_u + 1) * (degree_v + 1))
     }
 
     /// [`Self::try_new`] for a `static`: a bad table does not compile.
@@ -156,6 +178,16 @@ impl<'a> SplinePatch<'a> {
     /// Degrees along `u` and `v`.
     pub const fn degree(&self) -> [u8; 2] {
         self.grid.degree
+    }
+
+    /// Span borders along `u` and `v`.
+    pub const fn breaks(&self) -> [&'a [f32]; 2] {
+        [self.grid.breaks_u, self.grid.breaks_v]
+    }
+
+    /// The coefficients of all spans.
+    pub const fn coefficients(&self) -> Coefficients<'a> {
+        self.spans.coefficients()
     }
 
     /// Bytes of table this patch keeps in flash.

@@ -1,0 +1,159 @@
+//! A body from a file: the same tables as those of a `static`, borrowed from bytes that lie in flash, in RAM or in what
+//! a host has read.
+//!
+//! The numbers are read where they lie: a body from a file is felt by the same code and at the same cost as one that
+//! was compiled in. Only faces and edges, which refer to their numbers, are built, in a [`Room`] that the caller gives.
+//! Everything is checked first, once, in a time that the length of the file bounds. The form of the file is documented
+//! byte by byte in the repository's `docs/body-file.md`.
+
+mod error;
+mod records;
+mod sections;
+
+pub use error::{FileError, Section};
+pub use sections::FILE_VERSION;
+
+use super::feature::{Edge, Face};
+use super::locator::Locator;
+use super::table::Body;
+use crate::math::{Vec3, vec3};
+use records::Numbers;
+use sections::{BODY_WORDS, Sections};
+
+/// Where the faces and edges of a body from a file are built: 228 bytes a face and 52 an edge on a 32-bit target.
+///
+/// ```
+/// use palpate::body::{Aligned, Body, Edge, Face, FileError, Room};
+///
+/// # fn main() {
+/// static PART: &Aligned<[u8]> = &Aligned([0; 64]); // &Aligned(*include_bytes!("part.palp"))
+/// let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
+/// let body = Body::from_bytes(&PART.0, Room { faces: &mut faces, edges: &mut edges });
+/// assert_eq!(body.err(), Some(FileError::Magic));
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Room<'a> {
+    /// For the faces: as many as the file has, or more.
+    pub faces: &'a mut [Face<'a>],
+    /// For the edges.
+    pub edges: &'a mut [Edge<'a>],
+}
+
+/// Bytes at an address that is a multiple of 4, as [`Body::from_bytes`] needs them: for `include_bytes!`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(4))]
+pub struct Aligned<T: ?Sized>(
+    /// The bytes.
+    pub T,
+);
+
+/// What a file says of itself before anything is built.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FileHead {
+    /// How many faces the room needs.
+    pub faces: usize,
+    /// How many edges.
+    pub edges: usize,
+    /// SHA-256 of the model file.
+    pub source: [u8; 32],
+    /// Where the origin of the tables lies in the model, metres: a place of the model less this is one of the tables.
+    pub centre: Vec3,
+}
+
+/// What there is one of, from its record.
+struct Whole {
+    table_crc: u32,
+    is_convex: bool,
+    size: f32,
+    corner: Vec3,
+    side: f32,
+    centre: Vec3,
+}
+
+impl Whole {
+    fn of(record: &[u32; BODY_WORDS]) -> Result<Self, FileError> {
+        let wrong = FileError::Code { section: Section::Body, record: 0 };
+        let [table_crc, convex, numbers @ ..] = *record;
+        let is_convex = match convex {
+            0 => false,
+            1 => true,
+            _ => return Err(wrong),
+        };
+        let [size, x, y, z, side, centre_x, centre_y, centre_z] = numbers.map(f32::from_bits);
+        let centre = vec3(centre_x, centre_y, centre_z);
+        // The others are the body's to check.
+        if !centre.is_finite() {
+            return Err(wrong);
+        }
+        Ok(Self { table_crc, is_convex, size, corner: vec3(x, y, z), side, centre })
+    }
+}
+
+impl FileHead {
+    /// Looks at a file's CRC and its sections: what comes out is what was written, but nothing else is checked.
+    ///
+    /// # Errors
+    /// What is wrong with the file so far.
+    pub fn of(bytes: &[u8]) -> Result<Self, FileError> {
+        let sections = Sections::of(bytes)?;
+        let mut source = [0; 32];
+        for (bytes, word) in source.as_chunks_mut().0.iter_mut().zip(sections.source) {
+            *bytes = word.to_le_bytes();
+        }
+        let Whole { centre, .. } = Whole::of(sections.body)?;
+        Ok(Self { faces: sections.faces.len(), edges: sections.edges.len(), source, centre })
+    }
+
+    /// The notes of a file for people, [`Section::Notes`], which the library does not read.
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub fn notes(bytes: &[u8]) -> Result<&[u8], FileError> {
+        Ok(bytemuck::cast_slice(Sections::of(bytes)?.notes))
+    }
+}
+
+impl<'a> Body<'a> {
+    /// The body of a file, with every number, index and list of it checked; `room` is for its faces and edges.
+    ///
+    /// The time is bounded by the length of the file: a record takes a bounded number of steps and borders, and of its
+    /// coefficients none is another's.
+    ///
+    /// # Errors
+    /// The first thing wrong with the file.
+    pub fn from_bytes(bytes: &'a [u8], room: Room<'a>) -> Result<Self, FileError> {
+        let sections = Sections::of(bytes)?;
+        let Whole { table_crc: stated, is_convex, size, corner, side, .. } = Whole::of(sections.body)?;
+        finite(sections.borders, Section::Borders)?;
+        finite(sections.coefficients, Section::Coefficients)?;
+        let (faces, edges) = (sections.faces.len(), sections.edges.len());
+        let small = FileError::Room { faces: faces as u32, edges: edges as u32 };
+        let in_faces = room.faces.get_mut(..faces).ok_or(small)?;
+        let in_edges = room.edges.get_mut(..edges).ok_or(small)?;
+        let mut numbers = Numbers { borders: sections.borders, coefficients: sections.coefficients };
+        for (index, (face, record)) in in_faces.iter_mut().zip(sections.faces).enumerate() {
+            *face = numbers.face(record, index)?;
+        }
+        for (index, (edge, record)) in in_edges.iter_mut().zip(sections.edges).enumerate() {
+            *edge = numbers.edge(record).map_err(|wrong| wrong.at(Section::Edges, index))?;
+        }
+        if !numbers.coefficients.is_empty() {
+            return Err(FileError::LeftOver { numbers: numbers.coefficients.len() as u32 });
+        }
+        let locator = Locator { corner, side, nodes: sections.nodes, entries: sections.entries };
+        let body = Self::try_new(in_faces, in_edges, sections.vertices, sections.spokes, locator, size, is_convex)?;
+        // The very words that statics of this body have: what was read is what was baked.
+        match body.table_crc() {
+            found if found == stated => Ok(body.with_crc(stated)),
+            found => Err(FileError::Tables { stated, found }),
+        }
+    }
+}
+
+fn finite(numbers: &[f32], section: Section) -> Result<(), FileError> {
+    match numbers.iter().position(|number| !number.is_finite()) {
+        Some(index) => Err(FileError::Number { section, index: index as u32 }),
+        None => Ok(()),
+    }
+}
