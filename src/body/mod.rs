@@ -2,8 +2,8 @@
 //!
 //! *Features* are faces (patches), edges (border curves) and vertices. The space around a body falls into their Voronoi
 //! regions: a feature's region is where it owns the closest point. Membership depends on the probe alone (theory §9).
-//! [`Body`] holds the tables that the host has baked, as statics or from a file ([`Body::from_bytes`]); [`Locator`] gives
-//! a global start in bounded time (theory §10).
+//! [`Body`] holds the tables that the host has baked, as statics or from a file ([`Body::from_bytes`]); [`Locator`]
+//! gives a global start in bounded time (theory §10).
 
 mod along;
 mod audit;

@@ -18,6 +18,7 @@ mod check;
 mod coefficients;
 mod convexity;
 mod error;
+pub mod file;
 pub mod flaws;
 mod form;
 mod frame;

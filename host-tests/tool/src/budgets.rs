@@ -99,7 +99,9 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
     // The protected loop is an image of its own: two loops in one would share code that each alone has for itself.
     let protected = figures(&Program::prepare(board, "budget", &["counted"], progress)?.run(Pace::Counting)?)?;
     let knob = figures(&Program::prepare(board, "knob_budget", &["knob"], progress)?.run(Pace::Counting)?)?;
+    let file = figures(&Program::prepare(board, "file_budget", &[], progress)?.run(Pace::Counting)?)?;
     all.0.extend(knob.0);
+    all.0.extend(file.0);
     all.0.extend(protected.0.into_iter().filter(|(name, _)| name.contains("protected")));
     Ok(all)
 }

@@ -1,8 +1,13 @@
-//! Model files as commands name them: by a path, one that ships by its bare name, or a CAD part, which is imported on
-//! the way.
+//! Model files as commands name them: by a path, one that ships by its bare name, a CAD part, which is imported on the
+//! way, or a body that is baked already.
 
-use crate::cad;
-use palpate_bake::{Model, ModelError};
+use crate::{cache, cad};
+use anyhow::Context as _;
+use glam::DVec3;
+use palpate_bake::file::BakedFile;
+use palpate_bake::locator::LocatorOptions;
+use palpate_bake::{BakedBody, Model, ModelError};
+use sha2::{Digest as _, Sha256};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -29,9 +34,20 @@ pub struct ModelFile {
     pub label: String,
     /// Its name without a directory, as it stands in the head of the tables.
     pub name: String,
-    /// What stands in it.
+    /// What stands in it; nothing where it holds tables.
     pub text: Cow<'static, str>,
+    tables: Option<Box<Tables>>,
 }
+
+/// A body that is baked already.
+#[derive(Clone, Debug)]
+struct Tables {
+    bytes: Vec<u8>,
+    file: BakedFile,
+}
+
+/// How a body's file is called.
+const BAKED: &str = "palp";
 
 impl ModelFile {
     /// Reads a file. Where there is none, and the path is a bare name, the model of this name that ships. A CAD part is
@@ -44,14 +60,19 @@ impl ModelFile {
         if let Some((name, text)) = SHIPPED.iter().find(|(name, _)| path.as_os_str() == *name)
             && !path.is_file()
         {
-            return Ok(Self { label, name: format!("{name}.toml"), text: Cow::Borrowed(text) });
+            return Ok(Self { label, name: format!("{name}.toml"), text: Cow::Borrowed(text), tables: None });
         }
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
         if cad::is_part(path) {
-            return Ok(Self { label, name, text: Cow::Owned(cad::model_of(path)?) });
+            return Ok(Self { label, name, text: Cow::Owned(cad::model_of(path)?), tables: None });
+        }
+        if is_baked(path) {
+            let bytes = std::fs::read(path).map_err(|cause| ModelError::Read { file: label.clone(), cause })?;
+            let file = BakedFile::read(&bytes).with_context(|| label.clone())?;
+            return Ok(Self { label, name, text: Cow::Borrowed(""), tables: Some(Box::new(Tables { bytes, file })) });
         }
         match std::fs::read_to_string(path) {
-            Ok(text) => Ok(Self { label, name, text: Cow::Owned(text) }),
+            Ok(text) => Ok(Self { label, name, text: Cow::Owned(text), tables: None }),
             Err(cause) => Err(ModelError::Read { file: label, cause }.into()),
         }
     }
@@ -61,15 +82,68 @@ impl ModelFile {
     /// # Errors
     /// The first thing wrong with it.
     pub fn model(&self) -> Result<Model, ModelError> {
-        Model::parse(&self.text, &self.label)
+        match &self.tables {
+            None => Model::parse(&self.text, &self.label),
+            Some(tables) => Ok(tables.file.model.clone()),
+        }
+    }
+
+    /// What stands in it, as it is hashed.
+    pub fn bytes(&self) -> &[u8] {
+        self.tables.as_ref().map_or_else(|| self.text.as_bytes(), |tables| &tables.bytes)
+    }
+
+    /// SHA-256 of the model file: of the one that was baked, if this holds tables.
+    pub fn digest(&self) -> [u8; 32] {
+        self.tables.as_ref().map_or_else(|| Sha256::digest(self.text.as_bytes()).into(), |tables| tables.file.source)
+    }
+
+    /// The tables, if they are all that the file holds.
+    pub fn baked(&self) -> Option<&BakedBody> {
+        self.tables.as_ref().map(|tables| &tables.file.body)
+    }
+
+    /// The tables of the model: those of the file, or baked, with a locator that lists everything everywhere.
+    ///
+    /// # Errors
+    /// What is wrong with the model's patches, or between them.
+    pub fn body(&self, model: &Model) -> Result<BakedBody, ModelError> {
+        self.baked().map_or_else(|| BakedBody::new(model, &self.label), |body| Ok(body.clone()))
+    }
+
+    /// The tables with their locator: the file's own, one that was kept, or baked; see [`cache::located`].
+    ///
+    /// # Errors
+    /// Tables that would not fit their indices.
+    pub fn located(
+        &self,
+        body: BakedBody,
+        options: &LocatorOptions,
+        wanted: Option<&[DVec3]>,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> anyhow::Result<BakedBody> {
+        match &self.tables {
+            None => Ok(cache::located(body, &self.text, options, wanted, progress)?),
+            Some(_) => Ok(body),
+        }
     }
 }
 
-/// Reads and checks the model that a command names.
+/// Whether a file holds tables, by its name.
+pub fn is_baked(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(BAKED))
+}
+
+/// Reads and checks the model that a command names, surfaces in double precision and all.
 ///
 /// # Errors
-/// The first thing wrong with it.
+/// The first thing wrong with it, or that there are only tables.
 pub fn read(path: &Path) -> anyhow::Result<Model> {
+    anyhow::ensure!(
+        !is_baked(path),
+        "{}: holds tables only, and this needs the model that they are of",
+        path.display()
+    );
     Ok(ModelFile::read(path)?.model()?)
 }
 
@@ -88,7 +162,7 @@ mod tests {
         assert_eq!(names, shipped);
         for name in shipped {
             let (bare, file) = (ModelFile::read(Path::new(name))?, folder.join(name).with_extension("toml"));
-            assert_eq!((bare.text, bare.name), (ModelFile::read(&file)?.text, format!("{name}.toml")));
+            assert_eq!((bare.bytes(), &bare.name), (ModelFile::read(&file)?.bytes(), &format!("{name}.toml")));
         }
         for absent in ["./teapot", "teapot.toml", "no-such-model"] {
             let error = ModelFile::read(Path::new(absent)).expect_err(absent).to_string();

@@ -63,8 +63,20 @@ pub fn probe(tick: u32) -> Vec3 {
     MIDDLE + TRAVEL * vec3(wave(1.0), wave(1.37), wave(1.73))
 }
 
+/// The walk on the statics, kind by kind.
+///
+/// # Errors
+/// What the walk left out or ran into.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
-    let body = black_box(&BODY);
+    walk(counter, &BODY, "closest point of the capped box", true)
+}
+
+/// The walk on a body that is the capped box. `in_parts`: with each kind of tick by itself.
+///
+/// # Errors
+/// What the walk left out or ran into.
+pub fn walk(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, in_parts: bool) -> Result<(), &'static str> {
+    let body = black_box(body);
     let mut witness = body.start();
     let mut tallies = [const { Tally::new() }; KINDS.len()];
     let (mut any, mut contact, mut both) = (Tally::new(), Tally::new(), Tally::new());
@@ -90,12 +102,16 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         let code = witness.feature.code();
         met[usize::from(code >> 14)] |= 1 << (code & 31);
     }
-    for (name, tally) in KINDS.iter().zip(&tallies) {
-        tally.print_as("closest point of the capped box", name);
+    if in_parts {
+        for (kind, tally) in KINDS.iter().zip(&tallies) {
+            tally.print_as(name, kind);
+        }
     }
-    any.print_as("closest point of the capped box", "any");
-    contact.print("normal, gap and contact at the closest point");
-    both.print("closest point of the capped box with normal, gap and contact, any");
+    any.print_as(name, "any");
+    if in_parts {
+        contact.print("normal, gap and contact at the closest point");
+        both.print("closest point of the capped box with normal, gap and contact, any");
+    }
     if undone > 0 {
         return Err("a step on the capped box was undone");
     }

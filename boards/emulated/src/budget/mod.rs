@@ -6,6 +6,7 @@
 
 mod closest;
 mod evaluation;
+mod file;
 #[cfg(feature = "knob")]
 mod knob;
 mod mathematics;
@@ -26,6 +27,14 @@ use crate::timer::InstructionCounter;
 #[cfg(feature = "knob")]
 pub fn run_knob(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     knob::run(counter)
+}
+
+/// Measures and prints what it takes to load a body from its file, and to feel it then.
+///
+/// # Errors
+/// That the file is refused, or what the walk ran into.
+pub fn run_file(counter: &mut InstructionCounter) -> Result<(), &'static str> {
+    file::run(counter)
 }
 
 /// Measures and prints all figures.

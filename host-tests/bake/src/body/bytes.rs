@@ -10,6 +10,11 @@ const VERTEX: usize = 32;
 const SPOKE: usize = 16;
 const BODY: usize = 76;
 
+/// Bytes of RAM on a 32-bit target that a body from a file needs for its faces and edges.
+pub const fn room(body: &BakedBody) -> usize {
+    body.faces.len() * FACE + body.edges.len() * EDGE
+}
+
 /// Bytes by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BodyBytes {

@@ -8,7 +8,7 @@ mod locator;
 mod polynomial;
 mod separator;
 
-pub use bytes::BodyBytes;
+pub use bytes::{BodyBytes, room};
 pub use curve::BakedCurve;
 pub use locator::LocatorTable;
 pub use separator::BakedSeparator;

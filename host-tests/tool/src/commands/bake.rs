@@ -1,23 +1,27 @@
-//! `palpate bake`: writes a model's tables as Rust source.
+//! `palpate bake`: writes a model's tables as Rust source, or as a file.
 
 use super::check::{self, Loaded};
 use super::output::{print, write_whole};
 use super::progress;
 use super::table_report;
-use crate::cache;
-use anyhow::Context as _;
+use crate::models::is_baked;
+use anyhow::{Context as _, ensure};
 use clap::Args;
 use palpate_bake::body::BodyBytes;
+use palpate_bake::file::FileFault;
 use palpate_bake::graph;
 use palpate_bake::source::{self, Origin};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Writes a model's tables as Rust source, to `include!` in a module of the firmware.
+/// Writes a model's tables as Rust source, to `include!` in a module of the firmware, or as a file to be read.
 ///
 /// A model of several patches becomes a body: `pub static BODY: palpate::body::Body` and `pub const TABLE_CRC: u32`.
 /// One of a single patch becomes `pub static PATCHES: [palpate::patch::SplinePatch; 1]`, without features and without a
 /// locator. The same model gives the same bytes wherever it lies, on any number of cores.
+///
+/// A file whose name ends in .palp is binary: the whole body, for palpate::body::Body::from_bytes and for every command
+/// that takes a model.
 ///
 /// Exit status as `check`: 0 certified, 1 usable but not certified (the file is written), 2 bad input (it is not).
 #[derive(Args, Debug)]
@@ -25,8 +29,8 @@ use std::process::ExitCode;
 pub struct Arguments {
     /// The model: a file (TOML), or the name of one that ships.
     model: PathBuf,
-    /// The Rust file to write.
-    #[arg(long, value_name = "FILE.rs", group = "product")]
+    /// The file to write: Rust, or binary if it ends in .palp.
+    #[arg(long, value_name = "FILE", group = "product")]
     out: Option<PathBuf>,
     /// The file to write the automaton to, as Graphviz: features, and between which of them the tracker switches.
     #[arg(long, value_name = "FILE.dot", group = "product")]
@@ -35,7 +39,8 @@ pub struct Arguments {
     /// from farther away uses the list of the nearest cell, which is then not proved complete.
     #[arg(long, value_name = "SIZES", default_value_t = 0.0, value_parser = sizes)]
     margin: f64,
-    /// Prints the bytes of flash by kind, how much of the locator is proved, and the cost of a cold start.
+    /// Prints the bytes of flash by kind, those of a file and its room, how much of the locator is proved, and the cost
+    /// of a cold start.
     #[arg(long)]
     table_report: bool,
 }
@@ -50,7 +55,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let is_body = loaded.body.faces.len() > 1;
     let mut report = None;
     // The automaton has no locator in it.
-    if is_body && (arguments.out.is_some() || arguments.table_report) {
+    if loaded.file.baked().is_some() {
+        ensure!(arguments.margin == 0.0, "{}: has its locator, which reaches as far as it does", loaded.file.label);
+    } else if needs_locator(arguments, is_body) {
         let options = loaded.body.locator_options().reaching(arguments.margin);
         let bar = progress::work();
         let progress = |done, all| bar.tell("cells of space", done, all);
@@ -58,14 +65,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             let (body, of_locator) = loaded.body.located(&options, &progress)?;
             (loaded.body, report) = (body, Some(of_locator));
         } else {
-            loaded.body = cache::located(loaded.body, &loaded.file.text, &options, None, &progress)?;
+            loaded.body = loaded.file.located(loaded.body, &options, None, &progress)?;
         }
     }
-    if let Some(out) = &arguments.out {
+    if let Some(out) = arguments.out.as_ref().filter(|out| is_baked(out)) {
+        write_whole(out, &file(&loaded)?)?;
+    } else if let Some(out) = &arguments.out {
         let origin = Origin {
             model_file: &loaded.file.name,
             out_file: &file_name(out)?,
-            model: loaded.file.text.as_bytes(),
+            model: loaded.file.bytes(),
             centre: loaded.model.centre,
         };
         let text = source::source(&origin, &loaded.model, &loaded.body)?;
@@ -78,9 +87,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if arguments.table_report {
         let text = match &report {
             Some(report) => table_report::of_body(&loaded.body, report)?,
+            None if is_body => String::new(),
             None => table_report::of_patches(&surveys)?,
         };
-        let text = text + &table_report::on_boards(bytes(&loaded))?;
+        let mut text = text + &table_report::on_boards(bytes(&loaded))?;
+        if is_body {
+            text += &table_report::as_file(file(&loaded)?.len(), &loaded.body)?;
+        }
         print(text.as_bytes())?;
     }
     let flaws = loaded.flaws();
@@ -90,6 +103,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let verdict = check::worst(&surveys, &flaws);
     eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
     Ok(check::exit_code(verdict))
+}
+
+/// Whether what is asked for has the locator in it: the source of a single patch has none.
+fn needs_locator(arguments: &Arguments, is_body: bool) -> bool {
+    let in_file = arguments.out.as_ref().is_some_and(|out| is_body || is_baked(out));
+    in_file || arguments.table_report && is_body
 }
 
 /// A model's tables, baked for a board.
@@ -111,16 +130,17 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
         let options = loaded.body.locator_options();
         let bar = progress::work();
         let progress = |done, all| bar.tell("cells of space", done, all);
-        loaded.body = cache::located(loaded.body, &loaded.file.text, &options, None, &progress)?;
+        loaded.body = loaded.file.located(loaded.body, &options, None, &progress)?;
     }
-    let origin = Origin {
-        model_file: &loaded.file.name,
-        out_file,
-        model: loaded.file.text.as_bytes(),
-        centre: loaded.model.centre,
-    };
+    let origin =
+        Origin { model_file: &loaded.file.name, out_file, model: loaded.file.bytes(), centre: loaded.model.centre };
     let source = source::source(&origin, &loaded.model, &loaded.body)?;
     Ok(Baked { source, bytes: bytes(&loaded) })
+}
+
+/// A loaded model's body as a file.
+fn file(loaded: &Loaded) -> Result<Vec<u8>, FileFault> {
+    palpate_bake::file::write(loaded.file.digest(), &loaded.model, &loaded.body)
 }
 
 /// Bytes of a loaded model's tables on a 32-bit target.

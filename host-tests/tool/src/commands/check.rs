@@ -2,7 +2,6 @@
 
 use super::output::print;
 use super::progress;
-use crate::cache;
 use crate::models::ModelFile;
 use crate::rides::{self, Lateness, Rides};
 use clap::Args;
@@ -63,7 +62,7 @@ impl Loaded {
     pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
         let file = ModelFile::read(path)?;
         let model = file.model()?;
-        let body = BakedBody::new(&model, &file.label)?;
+        let body = file.body(&model)?;
         Ok(Self { file, model, body })
     }
 
@@ -255,7 +254,7 @@ fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::
     let &Arguments { rate, distance, speed, rides, .. } = arguments;
     let (options, bar) = (loaded.body.locator_options(), progress::work());
     let progress = |depth, _| bar.tell("octree", depth, options.depth);
-    let body = cache::located(loaded.body.clone(), &loaded.file.text, &options, None, &progress)?.to_body()?;
+    let body = loaded.file.located(loaded.body.clone(), &options, None, &progress)?.to_body()?;
     drop(bar);
     let Lateness { ticks, most, excess } = Rides { count: rides, rate, speed, distance: 1e-3 * distance }.along(&body);
     writeln!(

@@ -4,9 +4,8 @@ use super::output::{print, write_whole};
 use super::progress;
 use crate::closest::{Solver, Status};
 use crate::models::ModelFile;
-use crate::{cache, queries};
+use crate::queries;
 use clap::{Args, ValueEnum};
-use palpate_bake::BakedBody;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -61,13 +60,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let model = file.model()?;
     let per_metre = model.unit.per_metre();
     let queries = queries::read(&arguments.queries, &model)?;
-    let baked = BakedBody::new(&model, &arguments.model.display().to_string())?;
+    let baked = file.body(&model)?;
     // The tables reach as far as the queries do, and are baked where there are some.
     let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
     let options = baked.locator_options().reaching(baked.sizes_beyond(&probes));
     let bar = progress::work();
     let progress = |done, all| bar.tell("cells of space", done, all);
-    let baked = cache::located(baked, &file.text, &options, Some(&probes), &progress)?;
+    let baked = file.located(baked, &options, Some(&probes), &progress)?;
     drop(bar);
     let body = baked.to_body()?;
     let solver = Solver::new(&body, &baked);

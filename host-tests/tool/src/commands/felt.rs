@@ -1,13 +1,14 @@
 //! What is felt in a scene: one patch of a model, or the whole body.
 
 use super::progress;
-use crate::cache;
+use crate::models::ModelFile;
 use anyhow::Context;
 use glam::DVec3;
 use palpate::body::Body;
 use palpate::math::{Vec3, vec3};
 use palpate::patch::{Patch as _, SplinePatch};
 use palpate_bake::source::{Origin, body_source, rust_source};
+use palpate_bake::split::Provenance;
 use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch};
 use palpate_truth::oracle::OraclePoint;
 use std::f64::consts::PI;
@@ -42,26 +43,26 @@ pub enum Felt {
 }
 
 impl Felt {
-    /// The patch of this name or number; without one, the body, or the only patch. `text` is the model's.
+    /// The patch of this name or number; without one, the body, or the only patch.
     ///
     /// # Errors
     /// What is wrong with the model, or that there is no such patch.
-    pub fn read(model: &Model, text: &str, file: &Path, patch: Option<&str>) -> anyhow::Result<Self> {
-        let label = file.display().to_string();
+    pub fn read(model: &Model, from: &ModelFile, file: &Path, patch: Option<&str>) -> anyhow::Result<Self> {
         let index = match patch {
             Some(wanted) => Some(patch_index(model, file, wanted)?),
-            None => (model.patches.len() == 1).then_some(0),
+            // A patch that was cut into faces is one no more in a file of tables.
+            None => (from.baked().map_or(model.patches.len(), |body| body.faces.len()) == 1).then_some(0),
         };
         if let Some(index) = index {
-            let baked = BakedPatch::all(model, &label)?.swap_remove(index);
+            let baked = only_patch(model, from, index)?;
             let patch: &'static SplinePatch<'static> = Box::leak(Box::new(baked.to_patch()?));
             return Ok(Self::Patch { surface: model.patches[index].clone(), baked: Box::new(baked), patch });
         }
-        let baked = BakedBody::new(model, &label)?;
+        let baked = from.body(model)?;
         let options = baked.locator_options();
         let bar = progress::work();
         let progress = |done, all| bar.tell("cells of space", done, all);
-        let baked = cache::located(baked, text, &options, None, &progress)?;
+        let baked = from.located(baked, &options, None, &progress)?;
         drop(bar);
         let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?));
         Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone() })
@@ -146,6 +147,15 @@ impl Places {
             }
         }
     }
+}
+
+/// The table of one patch of a model.
+fn only_patch(model: &Model, from: &ModelFile, index: usize) -> anyhow::Result<BakedPatch> {
+    let Some(body) = from.baked() else { return Ok(BakedPatch::all(model, &from.label)?.swap_remove(index)) };
+    let whole = Provenance::whole(index);
+    let face = body.faces.iter().find(|face| face.source == whole);
+    let name = || format!("{}: patch {} is in pieces there: take the model file", from.label, model.patch_label(index));
+    Ok(face.with_context(name)?.patch.clone())
 }
 
 fn patch_index(model: &Model, file: &Path, wanted: &str) -> anyhow::Result<usize> {

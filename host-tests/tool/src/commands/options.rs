@@ -102,7 +102,7 @@ impl SceneOptions {
     pub fn scene(&self) -> anyhow::Result<Scene> {
         let file = ModelFile::read(&self.model)?;
         let model = file.model()?;
-        let felt = Felt::read(&model, &file.text, &self.model, self.patch.as_deref())?;
+        let felt = Felt::read(&model, &file, &self.model, self.patch.as_deref())?;
         let body_origin = match self.at.as_deref() {
             Some(&[x, y, z]) => (DVec3::new(x, y, z) * 1e-3 + model.centre).as_vec3(),
             _ => -felt.middle(),
@@ -243,12 +243,7 @@ impl Scene {
 
     /// Where the scene's tables come from.
     pub fn origin(&self) -> Origin<'_> {
-        Origin {
-            model_file: &self.file.name,
-            out_file: "body.rs",
-            model: self.file.text.as_bytes(),
-            centre: self.centre,
-        }
+        Origin { model_file: &self.file.name, out_file: "body.rs", model: self.file.bytes(), centre: self.centre }
     }
 
     /// The loop's settings and device as the source file that an image is built with. Every number reads back as the

@@ -4,7 +4,7 @@ use crate::firmware::BenchBoard;
 use palpate::body::{
     MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
 };
-use palpate_bake::body::{BakedBody, BodyBytes};
+use palpate_bake::body::{BakedBody, BodyBytes, room};
 use palpate_bake::locator::{LeafCounts, LocatorReport};
 use palpate_bake::survey::Survey;
 use std::fmt::{Error, Write as _};
@@ -42,6 +42,14 @@ pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
     row(&mut report, "borders", sum(|survey| survey.bytes.breaks), "")?;
     row(&mut report, "records", sum(|survey| survey.bytes.record), "")?;
     row(&mut report, "all", sum(|survey| survey.bytes.total()), "bytes of flash on a 32-bit target")?;
+    Ok(report)
+}
+
+/// What the body takes as a file, and what of it is built in RAM.
+pub(super) fn as_file(bytes: usize, body: &BakedBody) -> Result<String, Error> {
+    let mut report = String::new();
+    row(&mut report, "as a file", bytes, "bytes (.palp), read where they lie")?;
+    row(&mut report, "room for it", room(body), "bytes of RAM on a 32-bit target, for its faces and edges")?;
     Ok(report)
 }
 

@@ -7,6 +7,7 @@ mod brushes;
 mod cold;
 mod converging;
 mod drawn;
+mod files;
 mod locator;
 mod placement;
 mod plate;

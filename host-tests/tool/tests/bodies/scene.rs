@@ -3,7 +3,7 @@
 use glam::DVec3;
 use palpate::body::{Body, Feature, Side};
 use palpate::math::Vec3;
-use palpate_bake::body::BodyBytes;
+use palpate_bake::body::{BodyBytes, LocatorTable};
 use palpate_bake::locator::LocatorOptions;
 use palpate_bake::topology::bounding_box;
 use palpate_bake::{BakedBody, Model, NurbsPatch};
@@ -20,6 +20,7 @@ pub struct Scene {
     pub name: &'static str,
     pub patches: Vec<NurbsPatch>,
     pub body: Body<'static>,
+    pub locator: LocatorTable,
     pub low: DVec3,
     pub high: DVec3,
     /// Of its tables in flash.
@@ -83,7 +84,7 @@ impl Scene {
         let patches: Vec<_> = baked.faces.iter().map(|face| face.surface.clone()).collect();
         let (low, high) = bounding_box(&patches);
         let bytes = BodyBytes::of(baked).total();
-        Self { name, patches, body: baked.to_body().unwrap(), low, high, bytes }
+        Self { name, patches, body: baked.to_body().unwrap(), locator: baked.locator.clone(), low, high, bytes }
     }
 
     pub fn oracle(&self) -> BodyOracle<'_> {

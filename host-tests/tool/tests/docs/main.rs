@@ -5,6 +5,7 @@
 
 mod columns;
 mod commands;
+mod file_page;
 mod imports;
 mod links;
 mod mathematics;

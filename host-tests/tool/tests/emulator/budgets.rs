@@ -67,6 +67,12 @@ fn compare(board: Board) {
             "{board:?}: the closest point on a face, {side}, takes {closest} instructions, an evaluation {evaluation}"
         );
     }
+    // A body from a file is felt by the same code at the same cost.
+    for part in ["median", "worst"] {
+        let [statics, file] =
+            ["", " from its file"].map(|from| of(&format!("closest point of the capped box{from}, any, {part}")));
+        assert_eq!(file, statics, "{board:?}: a tick, {part}, of a body from a file and of statics");
+    }
     let tick = of("servo tick, worst");
     assert!(tick <= SERVO_TICK, "{board:?}: a servo tick takes {tick} instructions");
 }

@@ -1,5 +1,6 @@
 //! From a model file to the tables: what comes out, and what is refused.
 
+mod body_file;
 mod body_source;
 mod committed;
 mod flaws;
@@ -8,6 +9,7 @@ mod models;
 mod random_patches;
 mod second_order;
 mod splitting;
+mod spoiled_files;
 mod spoiled_models;
 mod spoiled_seams;
 mod spoiled_tables;

@@ -1,0 +1,164 @@
+//! The host's tables from a file.
+
+use super::fault::FileFault;
+use super::notes::{FaceNotes, Notes};
+use super::surface::surface;
+use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, BakedSide, LocatorTable};
+use crate::model::Model;
+use crate::topology::{Border, BorderRole, Sense, Topology, TopologyEdge, TopologySpoke, TopologyVertex};
+use crate::{BakedCoefficients, BakedPatch};
+use palpate::body::{Body, Edge, EdgeFace, Face, FileHead, Room, Separator, Side, SplineCurve};
+use palpate::patch::{Coefficients, Orientation, Patch as _};
+
+/// A file that has been read.
+#[derive(Clone, Debug)]
+pub struct BakedFile {
+    /// SHA-256 of the model's file.
+    pub source: [u8; 32],
+    /// What the host knows of the model: of a patch that is cut into several faces, the surface of the first.
+    pub model: Model,
+    /// The tables, with their locator.
+    pub body: BakedBody,
+}
+
+impl BakedFile {
+    /// Reads a file, with everything checked that the library checks.
+    ///
+    /// # Errors
+    /// The first thing wrong with it.
+    pub fn read(bytes: &[u8]) -> Result<Self, FileFault> {
+        // A vector of bytes may lie anywhere; one of words does not.
+        let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();
+        let aligned: &[u8] = if bytes.len().is_multiple_of(4) { bytemuck::cast_slice(&words) } else { bytes };
+        let head = FileHead::of(aligned)?;
+        let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
+        let body = Body::from_bytes(aligned, Room { faces: &mut faces, edges: &mut edges })?;
+        let borders: Vec<_> =
+            body.faces().iter().map(|face| face.patch.breaks().map(|breaks| breaks.len() - 2)).collect();
+        let notes = Notes::read(FileHead::notes(aligned)?, &borders)?;
+        let baked = baked(&body, &notes)?;
+        let first = |patch: usize| baked.faces.iter().find(|face| face.source.patch == patch);
+        let patches = (0..notes.patches.len()).filter_map(first).map(|face| face.surface.clone()).collect();
+        let model = Model { name: notes.name, unit: notes.unit, centre: head.centre.as_dvec3(), patches };
+        Ok(Self { source: head.source, model, body: baked })
+    }
+}
+
+fn baked(body: &Body<'_>, notes: &Notes) -> Result<BakedBody, FileFault> {
+    let mut faces = Vec::with_capacity(notes.faces.len());
+    for (index, (face, FaceNotes { source, continuity })) in body.faces().iter().zip(&notes.faces).enumerate() {
+        let patch = patch(face, notes.patches[source.patch].clone());
+        let surface = surface(&patch, continuity).ok_or(FileFault::Weight { face: index })?;
+        faces.push(BakedFace { patch, sides: face.sides.each_ref().map(side), surface, source: *source });
+    }
+    let locator = body.locator();
+    let locator = LocatorTable {
+        corner: locator.corner,
+        side: locator.side,
+        nodes: locator.nodes.to_vec(),
+        entries: locator.entries.to_vec(),
+    };
+    Ok(BakedBody {
+        faces,
+        edges: body.edges().iter().map(edge).collect(),
+        vertices: body.vertices().to_vec(),
+        spokes: body.spokes().to_vec(),
+        locator,
+        size: body.size(),
+        is_convex: body.is_convex(),
+        topology: topology(body),
+    })
+}
+
+fn patch(face: &Face<'_>, name: Option<String>) -> BakedPatch {
+    let patch = &face.patch;
+    BakedPatch {
+        name,
+        degree: patch.degree(),
+        breaks: patch.breaks().map(<[f32]>::to_vec),
+        coefficients: coefficients(patch.coefficients()),
+        shape: patch.shape(),
+        orientation: if patch.orientation() > 0.0 { Orientation::Outward } else { Orientation::Inward },
+        size: patch.size(),
+    }
+}
+
+fn coefficients(coefficients: Coefficients<'_>) -> BakedCoefficients {
+    match coefficients {
+        Coefficients::Polynomial(entries) => BakedCoefficients::Polynomial(entries.to_vec()),
+        Coefficients::Rational(entries) => BakedCoefficients::Rational(entries.to_vec()),
+    }
+}
+
+fn curve(curve: &SplineCurve<'_>) -> BakedCurve {
+    BakedCurve {
+        degree: curve.degree,
+        breaks: curve.breaks.to_vec(),
+        coefficients: coefficients(curve.coefficients),
+        second_derivative: curve.second_derivative,
+    }
+}
+
+fn side(side: &Side<'_>) -> BakedSide {
+    match side {
+        Side::Pole { vertex } => BakedSide::Pole { vertex: *vertex },
+        Side::Edge { edge, reversed, separator } => {
+            let separator = match separator {
+                Separator::Plane { across, offset } => {
+                    BakedSeparator::Plane { across: across.to_array(), offset: *offset }
+                }
+                Separator::Ruled(of) => BakedSeparator::Ruled(curve(of)),
+            };
+            BakedSide::Edge { edge: *edge, reversed: *reversed, separator }
+        }
+    }
+}
+
+fn edge(edge: &Edge<'_>) -> BakedEdge {
+    BakedEdge {
+        curve: curve(&edge.curve),
+        third_derivative: [edge.third_derivative, edge.jump],
+        faces: edge.faces,
+        ends: edge.ends,
+        kind: edge.kind,
+    }
+}
+
+/// How the features hang together, as the tables say.
+fn topology(body: &Body<'_>) -> Topology {
+    let sense = |reversed: bool| if reversed { Sense::Reversed } else { Sense::Same };
+    let role = |side: &Side<'_>| match side {
+        Side::Edge { edge, reversed, .. } => BorderRole::Edge { edge: usize::from(*edge), sense: sense(*reversed) },
+        Side::Pole { vertex } => BorderRole::Pole { vertex: usize::from(*vertex) },
+    };
+    let border = |of: EdgeFace| Border { patch: usize::from(of.face), side: usize::from(of.side) };
+    let partner = |of: EdgeFace| {
+        let side = body.faces().get(usize::from(of.face))?.sides.get(usize::from(of.side))?;
+        Some((border(of), sense(matches!(side, Side::Edge { reversed: true, .. }))))
+    };
+    let edge = |edge: &Edge<'_>| TopologyEdge {
+        owner: border(edge.faces[0]),
+        partner: partner(edge.faces[1]),
+        ends: edge.ends.map(usize::from),
+        kind: edge.kind,
+    };
+    let spoke = |spoke: &palpate::body::Spoke| TopologySpoke {
+        edge: usize::from(spoke.edge),
+        at_upper_end: spoke.at_upper_end,
+        direction: spoke.direction.as_dvec3(),
+    };
+    let vertex = |vertex: &palpate::body::Vertex| TopologyVertex {
+        point: vertex.point.as_dvec3(),
+        spokes: body.spokes()[usize::from(vertex.first_spoke)..][..usize::from(vertex.spokes)]
+            .iter()
+            .map(spoke)
+            .collect(),
+        outward: vertex.outward.as_dvec3(),
+    };
+    Topology {
+        roles: body.faces().iter().map(|face| face.sides.each_ref().map(role)).collect(),
+        edges: body.edges().iter().map(edge).collect(),
+        vertices: body.vertices().iter().map(vertex).collect(),
+        size: f64::from(body.size()),
+    }
+}
