@@ -28,12 +28,12 @@ fn words(bytes: &[u8]) -> Vec<u32> {
 
 /// Those whose files lie beside the tables of the boards.
 const COMMITTED: [&str; 2] = ["capped_box", "sphere_body"];
-/// Models whose locators take minutes.
-const SLOW: [&str; 3] = ["teapot", "ellipsoid_poles", "rounded_cylinder"];
+/// Models whose locators are soon baked.
+const QUICK: [&str; 3] = ["table1", "capped_box", "thin_plate"];
 
 #[test]
 fn a_file_gives_the_bits_of_statics() {
-    compare(&|name| !SLOW.contains(&name));
+    compare(&|name| QUICK.contains(&name));
 }
 
 #[test]
@@ -52,8 +52,8 @@ fn compare(is_wanted: &dyn Fn(&str) -> bool) {
         let words = words(&bytes);
         let head = FileHead::of(bytemuck::cast_slice(&words)).unwrap();
         let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-        let room = Room { faces: &mut faces, edges: &mut edges };
-        let from_file = Body::from_bytes(bytemuck::cast_slice(&words), room).unwrap();
+        let place = Room { faces: &mut faces, edges: &mut edges };
+        let from_file = Body::from_bytes(bytemuck::cast_slice(&words), place).unwrap();
         assert_eq!(from_file.baked_crc(), scene.body.baked_crc());
         let differing = repeat(PROBES, 61, |random| {
             let probe = scene.around(random);

@@ -32,7 +32,7 @@ fn crc(words: &[u32]) -> u32 {
 }
 
 /// Makes length and CRC those of the words before them.
-fn mend(words: &mut Vec<u32>) {
+fn mend(words: &mut [u32]) {
     let count = words.len();
     words[2] = 4 * count as u32;
     words[count - 1] = crc(&words[..count - 1]);
@@ -62,6 +62,9 @@ fn loaded<R>(bytes: &[u8], work: impl FnOnce(&Body<'_>) -> R) -> Result<R, FileE
     Ok(work(&Body::from_bytes(bytes, Room { faces: &mut faces, edges: &mut edges })?))
 }
 
+/// What is done to a file.
+type Spoil<'a> = Box<dyn Fn(&mut Vec<u32>) + 'a>;
+
 #[test]
 fn what_is_wrong_with_a_file_is_told() {
     let good = baked("capped_box");
@@ -74,7 +77,7 @@ fn what_is_wrong_with_a_file_is_told() {
     };
     let of = |section_: Section| section(&good, section_).0;
     let code = |section, record| Some(FileError::Code { section, record });
-    let cases: Vec<(&str, Box<dyn Fn(&mut Vec<u32>)>, Option<FileError>)> = vec![
+    let cases: Vec<(&str, Spoil<'_>, Option<FileError>)> = vec![
         ("another beginning", Box::new(|words| words[0] ^= 1), Some(FileError::Magic)),
         (
             "an older version",
@@ -103,7 +106,7 @@ fn what_is_wrong_with_a_file_is_told() {
         ),
         (
             "a length past the end",
-            Box::new(move |words| words[of(Section::Notes) - 1] = u32::MAX & !3),
+            Box::new(move |words| words[of(Section::Notes) - 1] = !3),
             Some(FileError::Section { section: Section::Notes }),
         ),
         (
