@@ -10,6 +10,9 @@ use crate::track::{BoundaryMode, Contact, is_inside};
 /// So near a pole, in sizes of the body, the tangent around it may be rounding: coordinates of that size are rounded by
 /// `6e-8`, a hundredth of this and less with the tangents made of them.
 const AT_POLE: f32 = 1.0e-5;
+/// Where only smooth edges meet, a probe higher than this over the tangent plane, for its distance, is outside: a body
+/// comes so far in front of it at a fifth of its least hollow radius.
+const STEEP: f32 = 0.1;
 
 impl Body<'_> {
     /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been
@@ -112,12 +115,17 @@ impl Body<'_> {
     }
 
     /// On which side of a closed body a probe is that is nearest to a vertex, as far as is known. Where that holds it,
-    /// for no edge leads nearer, `outward` says so. In front of three convex edges it is outside, too; behind them it
-    /// is for a face to say.
+    /// for no edge leads nearer, `outward` says so. Well above a smooth vertex, and in front of three convex edges, it
+    /// is outside, too; behind them it is for a face to say.
     pub(super) fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
         let height = towards.dot(vertex.outward);
-        if height != 0.0 && self.spokes_of(vertex).iter().all(|spoke| towards.dot(spoke.direction) <= 0.0) {
+        let spokes = self.spokes_of(vertex);
+        if height != 0.0 && spokes.iter().all(|spoke| towards.dot(spoke.direction) <= 0.0) {
             return Some(height > 0.0);
+        }
+        let is_steep = height > 0.0 && height * height > STEEP * STEEP * towards.length_squared();
+        if is_steep && spokes.iter().all(|spoke| self.is_of_kind(spoke, EdgeKind::Smooth)) {
+            return Some(true);
         }
         self.is_in_front_at(vertex, towards).filter(|is_in_front| *is_in_front)
     }
@@ -126,9 +134,7 @@ impl Body<'_> {
     #[inline(never)]
     pub(super) fn is_in_front_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
         let [a, b, c] = self.spokes_of(vertex) else { return None };
-        let is_convex =
-            |spoke: &&Spoke| self.edges.get(usize::from(spoke.edge)).is_some_and(|edge| edge.kind == EdgeKind::Convex);
-        if ![a, b, c].iter().all(is_convex) {
+        if ![a, b, c].iter().all(|spoke| self.is_of_kind(spoke, EdgeKind::Convex)) {
             return None;
         }
         // `t = αa + βb + γc` has `α (a × b)·c = t·(b × c)`, and so on: behind all three none is below 0.
@@ -136,6 +142,10 @@ impl Body<'_> {
         let normals = [a.cross(b), b.cross(c), c.cross(a)];
         let volume = normals[0].dot(c);
         Some(normals.iter().any(|normal| normal.dot(towards) * volume < 0.0))
+    }
+
+    fn is_of_kind(&self, spoke: &Spoke, kind: EdgeKind) -> bool {
+        self.edges.get(usize::from(spoke.edge)).is_some_and(|edge| edge.kind == kind)
     }
 
     fn spokes_of(&self, vertex: &Vertex) -> &[Spoke] {
