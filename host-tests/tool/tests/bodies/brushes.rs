@@ -4,7 +4,7 @@
 use crate::scene::{Scene, from_environment, repeat};
 use glam::DVec3;
 use palpate::body::Body;
-use palpate::math::Vec3;
+use palpate::math::{Vec3, vec3};
 use palpate::servo::{ContactLimits, Surface as _};
 use palpate::track::{Contact, Controller, Probe};
 use palpate_truth::body_oracle::BodyOracle;
@@ -83,8 +83,13 @@ impl Way<'_> {
     }
 }
 
-fn brush(scene: &Scene, oracle: &BodyOracle<'_>, controller: &Controller, random: &mut Random) -> Felt {
-    let (from, to, speed) = stroke(scene, random);
+/// A stroke from one place to another, metres, at a speed, m/s.
+fn brush(
+    scene: &Scene,
+    oracle: &BodyOracle<'_>,
+    controller: &Controller,
+    (from, to, speed): (Vec3, Vec3, f32),
+) -> Felt {
     let body: &Body = &scene.body;
     let stride = speed * PERIOD;
     let ticks = (from.distance(to) / stride).ceil() as u32;
@@ -127,7 +132,7 @@ fn is_behind(oracle: &BodyOracle<'_>, probe: DVec3, witness: DVec3) -> bool {
 fn brushes(scene: &Scene, controller: &Controller, most: u32) {
     let count = from_environment("PALPATE_BRUSHES", 200);
     let (name, oracle) = (scene.name, scene.oracle());
-    let felt = repeat(count, 5, |random| brush(scene, &oracle, controller, random));
+    let felt = repeat(count, 5, |random| brush(scene, &oracle, controller, stroke(scene, random)));
     let late: Vec<&Felt> = felt.iter().filter(|felt| felt.in_free_air > 0).collect();
     let touching = felt.iter().filter(|felt| felt.touching > 0).count();
     let lost = felt.iter().filter(|felt| felt.lost > 0);
@@ -169,6 +174,19 @@ fn a_brush_over_drawn_bodies_is_not_felt_in_free_air() {
     for body in [bodies::groove(), bodies::rounded(), bodies::slab()] {
         brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, 0);
     }
+}
+
+/// Out through a side right beside the pole of a rounded corner: the vertex has a smooth edge lead nearer, and says on
+/// which side of it the probe is all the same.
+#[test]
+fn a_stroke_out_past_a_rounded_corner_is_not_felt_in_free_air() {
+    let body = bodies::rounded();
+    let scene = Scene::parsed(body.name, &body.text);
+    let [from, to] =
+        [vec3(0.062_084_95, -0.030_850_423, -0.073_956_765), vec3(-0.009_255_586, 0.003_937_35, 0.100_869_84)];
+    let felt = brush(&scene, &scene.oracle(), &Controller::SECOND_ORDER, (from, to, 1.057_404));
+    assert!(felt.touching > 0);
+    assert_eq!((felt.in_free_air, felt.lost), (0, 0), "{felt:?}");
 }
 
 /// Corners that are poles of every patch around them, sharp.
