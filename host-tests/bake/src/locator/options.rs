@@ -55,7 +55,8 @@ impl Default for LocatorOptions {
 }
 
 impl LocatorOptions {
-    /// For one patch: it is small beside a device's workspace, and has few faces to list.
+    /// For one patch: it is small beside a device's workspace, and has few faces to list. Firmware holds no lists of
+    /// it: more samples cost the host's queries a moment.
     pub fn one_patch() -> Self {
         Self { margin: 1.0, samples: 1024, ..Self::default() }
     }

@@ -99,7 +99,6 @@ fn a_coarse_teapot_is_found_from_outside() {
 }
 
 #[test]
-#[ignore = "minutes: the whole teapot is baked"]
 fn the_teapot_is_found_from_anywhere() {
     let scene = Scene::load("teapot");
     check(scene, "around", 5, ANY, |random| scene.around(random));
@@ -107,7 +106,6 @@ fn the_teapot_is_found_from_anywhere() {
 }
 
 #[test]
-#[ignore = "a minute: no other test needs its tables"]
 fn the_ellipsoid_with_poles_is_weighed() {
     Scene::load("ellipsoid_poles");
 }
