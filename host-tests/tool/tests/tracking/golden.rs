@@ -182,7 +182,6 @@ fn cold_queries_find_the_closest_point_of_the_capped_box() -> Result<(), Box<dyn
 }
 
 #[test]
-#[ignore = "minutes: the whole teapot is baked"]
 fn cold_queries_find_the_closest_point_of_ellipsoid_and_teapot() -> Result<(), Box<dyn Error>> {
     bodies("ellipsoid_body.toml", "ellipsoid_closest.csv", 100.0, 1e-5)?;
     bodies("teapot.toml", "teapot_closest.csv", 6.4, 1e-4)
