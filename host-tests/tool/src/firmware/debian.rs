@@ -17,15 +17,22 @@ const LEAST_MINOR: u32 = 88;
 /// Part of the stamp: raise it when this file lays the cache out differently.
 const LAYOUT: u32 = 1;
 
+/// Whether nothing is missing and the cache holds the library.
+pub(super) fn is_at_hand(target: &str) -> bool {
+    let (Some(compiler), Some(_), Ok(cache)) = (Compiler::find(), find_linker(target), cache_folder()) else {
+        return false;
+    };
+    is_built(target, &compiler.sysroot(&cache, target), &compiler.stamp())
+}
+
 /// Installs what is missing and builds the library, unless the cache holds it.
 pub(super) fn set_up(target: &str, progress: &Progress) -> Result<Way, SetUpError> {
     install_missing(target, progress)?;
     let missing =
         |what: &str| SetUpError::NoToolchain(format!("{what} is still missing after installing the packages"));
     let compiler = Compiler::find().ok_or_else(|| missing("a recent /usr/bin/rustc with its library's source"))?;
-    let linker = find_linker().ok_or_else(|| missing("the linker lld"))?;
-    let sysroot = cache_folder()?.join(format!("debian-rust-{}-{target}", compiler.release));
-    let stamp = format!("layout {LAYOUT}\n{}", compiler.version);
+    let linker = find_linker(target).ok_or_else(|| missing("the linker lld"))?;
+    let (sysroot, stamp) = (compiler.sysroot(&cache_folder()?, target), compiler.stamp());
     if !is_built(target, &sysroot, &stamp) {
         let what = format!("building the library for {target}, once, into {}", sysroot.display());
         progress.during(&what, || build(target, &sysroot, &stamp))?;
@@ -46,7 +53,7 @@ fn install_missing(target: &str, progress: &Progress) -> Result<(), SetUpError> 
     if Compiler::find().is_none() {
         packages.extend(["rustc-web", "cargo-web", "rust-web-src"]);
     }
-    if find_linker().is_none() {
+    if find_linker(target).is_none() {
         packages.push("lld-22");
     }
     if packages.is_empty() {
@@ -77,13 +84,24 @@ impl Compiler {
             Path::new(rustc(&["--print", "sysroot"])?.trim()).join("lib/rustlib/src/rust/library/core/src/lib.rs");
         (minor >= LEAST_MINOR && source.exists()).then_some(Self { version, release })
     }
+
+    /// Where the library for a target lies in the cache.
+    fn sysroot(&self, cache: &Path, target: &str) -> PathBuf {
+        cache.join(format!("debian-rust-{}-{target}", self.release))
+    }
+
+    /// What says that it was built by this compiler, in this way.
+    fn stamp(&self) -> String {
+        format!("layout {LAYOUT}\n{}", self.version)
+    }
 }
 
-/// The linker of Debian's newest LLVM.
-fn find_linker() -> Option<PathBuf> {
+/// The linker of Debian's newest LLVM for a target.
+fn find_linker(target: &str) -> Option<PathBuf> {
+    let linker = if target.starts_with("wasm32") { "bin/wasm-ld" } else { "bin/ld.lld" };
     let versions = fs::read_dir("/usr/lib").ok()?.flatten().filter_map(|entry| {
         let version: u32 = entry.file_name().to_str()?.strip_prefix("llvm-")?.parse().ok()?;
-        Some((version, existing(entry.path().join("bin/ld.lld"))?))
+        Some((version, existing(entry.path().join(linker))?))
     });
     versions.max().map(|(_, linker)| linker)
 }

@@ -31,6 +31,11 @@ impl Toolchain {
         Ok(Self { target, way })
     }
 
+    /// Whether a way is open without installing or building anything.
+    pub fn is_at_hand(target: &str) -> bool {
+        has_target(target) || debian::is_at_hand(target)
+    }
+
     /// What it compiles for.
     pub const fn target(&self) -> &'static str {
         self.target
