@@ -17,6 +17,7 @@ pub mod knob;
 pub mod models;
 pub mod monitor;
 pub mod own;
+pub mod page;
 pub mod preset;
 pub mod proof;
 pub mod queries;

@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
     accept, bake, budgets, check, closest, commission, cycles, demo, device, figures, firmware, image, import, monitor,
-    parts, race, sim, test, zwidth,
+    page, parts, race, sim, test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -32,9 +32,11 @@ enum Command {
     Image(image::Arguments),
     Import(import::Arguments),
     Monitor(monitor::Arguments),
+    Page(page::Arguments),
     Parts(parts::Arguments),
     Zwidth(zwidth::Arguments),
     Race(race::Arguments),
+    View(page::ViewArguments),
 }
 
 fn main() -> ExitCode {
@@ -55,9 +57,11 @@ fn main() -> ExitCode {
         Command::Image(arguments) => image::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
+        Command::Page(arguments) => page::run(&arguments),
         Command::Parts(arguments) => parts::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
         Command::Race(arguments) => race::run(&arguments),
+        Command::View(arguments) => page::view(&arguments),
     };
     // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).
     outcome.unwrap_or_else(|error| {

@@ -138,6 +138,19 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
     Ok(Baked { source, bytes: bytes(&loaded) })
 }
 
+/// A model's body as a file, as [`run`] writes it with its defaults.
+///
+/// # Errors
+/// What is wrong with the model.
+pub(super) fn file_of(path: &Path) -> anyhow::Result<Vec<u8>> {
+    let mut loaded = Loaded::read(path)?;
+    let options = loaded.body.locator_options();
+    let bar = progress::work();
+    let progress = |done, all| bar.tell("cells of space", done, all);
+    loaded.body = loaded.file.located(loaded.body, &options, None, &progress)?;
+    Ok(file(&loaded)?)
+}
+
 /// A loaded model's body as a file.
 fn file(loaded: &Loaded) -> Result<Vec<u8>, FileFault> {
     palpate_bake::file::write(loaded.file.digest(), &loaded.model, &loaded.body)

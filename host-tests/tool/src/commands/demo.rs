@@ -66,11 +66,20 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     };
     let mut figures = Summary::new(&run.trace).rows();
     figures.extend(run.sizes);
+    // What the page has no device or body for is in the report alone.
+    let recorded = scene.recording(&run.trace, &run.on);
+    let recording = arguments.report.with_extension("json");
+    if recorded.is_ok() {
+        figures.push(("replay in 3-D", format!("cargo palpate view --recording {}", recording.display())));
+    }
     let subtitle = format!("{} of {}, {}", scene.felt.name(), scene.model_name(), run.on);
     let patches = scene.felt.patches();
     let page =
         Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, patches: &patches };
     write_page(&page, &arguments.report)?;
+    if let Ok(recorded) = &recorded {
+        sim::write_recording(recorded, &recording)?;
+    }
     if let Some(picture) = &arguments.picture {
         fs::write(picture, plots::path(&page)?).with_context(|| format!("cannot write {}", picture.display()))?;
     }
@@ -154,5 +163,5 @@ fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> an
 
 fn on_host(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Run> {
     let trace = sim::run_on_host(&arguments.scene, scene)?;
-    Ok(Run { trace, on: "the loop compiled for the host".to_owned(), sizes: Vec::new() })
+    Ok(Run { trace, on: sim::ON_HOST.to_owned(), sizes: Vec::new() })
 }

@@ -18,6 +18,7 @@ pub mod import;
 pub mod monitor;
 pub mod options;
 mod output;
+pub mod page;
 pub mod parts;
 pub mod progress;
 pub mod race;

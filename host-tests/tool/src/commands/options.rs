@@ -4,8 +4,9 @@ use super::felt::Felt;
 use crate::devices::{self, Chosen, Preset, ShippedDevice};
 use crate::firmware::Link;
 use crate::models::ModelFile;
-use crate::simulation::HostLoop;
-use anyhow::{Context, bail};
+use crate::page::{Cut, Loop, Recording};
+use crate::simulation::{HostLoop, Trace};
+use anyhow::{Context, bail, ensure};
 use clap::Args;
 use glam::DVec3;
 use palpate::device::{Device, Kinematics, Protection};
@@ -234,6 +235,38 @@ impl Scene {
         let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, self.settings)?;
         let Some(protection) = self.protection else { return Ok(Box::new(HostLoop::new(servo.try_safety(SAFETY)?))) };
         Ok(Box::new(HostLoop::new(servo.try_protect(protection)?.try_safety(SAFETY)?)))
+    }
+
+    /// A run of the scene as the page for the browser takes it.
+    ///
+    /// # Errors
+    /// Why the page could not feel it.
+    pub fn recording(&self, trace: &Trace, on: &str) -> anyhow::Result<Recording> {
+        if self.device.constants.is_some() {
+            return Err(Cut::Device.into());
+        }
+        let model = self.file.model()?;
+        let located;
+        let baked = match &self.felt {
+            Felt::Body { baked, .. } => baked,
+            Felt::Patch { .. } => {
+                let body = self.file.body(&model)?;
+                ensure!(body.faces.len() == 1, Cut::Patch);
+                let options = body.locator_options();
+                located = self.file.located(body, &options, None, &|_, _| {})?;
+                &located
+            }
+        };
+        let body = palpate_bake::file::write(self.file.digest(), &model, baked)?;
+        let of = Loop {
+            model: self.model_name(),
+            device: self.device.name,
+            settings: &self.settings,
+            link_timeout: SAFETY.link_timeout,
+            protected: self.protection.is_some(),
+            enable_at: self.enable_at,
+        };
+        Ok(Recording::new(trace, on, &body, &of))
     }
 
     /// The model file's name, without its directory.

@@ -1,7 +1,9 @@
 //! `palpate sim`: the servo loop, compiled for the host, against the simulated device.
 
 use super::options::{Scene, SceneOptions};
+use super::output::write_whole;
 use super::progress;
+use crate::page::Recording;
 use crate::report::Summary;
 use crate::simulation::{self, Trace};
 use anyhow::Context;
@@ -18,6 +20,9 @@ pub struct Arguments {
     /// Records every tick to this CSV file
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
+    /// Records the run to this file for the page in the browser (`view --recording`)
+    #[arg(long, value_name = "FILE.json")]
+    recording: Option<PathBuf>,
 }
 
 /// Runs the command.
@@ -32,7 +37,19 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         write_csv(&trace, scene.centre, path).with_context(|| format!("cannot write {}", path.display()))?;
         println!("  {:<20} {}", "recorded to", path.display());
     }
+    if let Some(path) = &arguments.recording {
+        write_recording(&scene.recording(&trace, ON_HOST)?, path)?;
+        println!("  {:<20} {}", "recorded to", path.display());
+    }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Where a loop runs that is not in an image.
+pub(super) const ON_HOST: &str = "the loop compiled for the host";
+
+/// Writes a recording, whole or not at all.
+pub(super) fn write_recording(recording: &Recording, path: &Path) -> anyhow::Result<()> {
+    write_whole(path, &serde_json::to_vec(recording)?)
 }
 
 /// Runs a scene's loop, compiled for the host.

@@ -1,6 +1,7 @@
 //! `palpate test`: sets up what it needs and runs every test, or those for every day.
 
 use crate::firmware::{self, Board, Choice, Progress, Transport, WITH_FIRMWARE};
+use crate::page;
 use crate::repository;
 use anyhow::Context;
 use clap::Args;
@@ -19,6 +20,9 @@ pub struct Arguments {
     /// Leaves the emulator out: runs only what plain `cargo test` runs.
     #[arg(long)]
     without_emulator: bool,
+    /// Only the page for the browser, in headless Chromium: sets up the browser, the code for it and the emulator.
+    #[arg(long, conflicts_with_all = ["quick", "without_emulator"])]
+    page: bool,
     /// Passed on to `cargo test`.
     #[arg(last = true)]
     cargo_test: Vec<String>,
@@ -30,6 +34,10 @@ pub struct Arguments {
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
+    if arguments.page {
+        let browser = page::Browser::set_up(&progress).context("the tests of the page cannot run")?;
+        return on_page(&browser, &arguments.cargo_test);
+    }
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     firmware::without_outer_cargo(&mut cargo);
     cargo.current_dir(repository::root()?).arg("test").env_remove(WITH_FIRMWARE);
@@ -59,6 +67,30 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         }
         cargo.env(WITH_FIRMWARE, "1");
     }
+    let status = cargo.status().with_context(|| format!("{cargo:?}"))?;
+    // Words for one suite are no words for another.
+    let is_whole = !arguments.quick && !arguments.without_emulator && arguments.cargo_test.is_empty();
+    let with_page = if !is_whole {
+        ExitCode::SUCCESS
+    } else if let Some(browser) = page::Browser::at_hand() {
+        on_page(&browser, &[])?
+    } else {
+        progress.say("left out: the page for the browser; cargo palpate test --page sets up what it needs");
+        ExitCode::SUCCESS
+    };
+    Ok(if status.success() { with_page } else { ExitCode::FAILURE })
+}
+
+/// The tests of the page, in its own workspace: nobody else needs what drives a browser.
+fn on_page(browser: &page::Browser, words: &[String]) -> anyhow::Result<ExitCode> {
+    let root = repository::root()?;
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    firmware::without_outer_cargo(&mut cargo);
+    cargo.args(["test", "--locked", "--package", "palpate-page-browser", "--manifest-path"]);
+    cargo.arg(root.join("host-tests/page/Cargo.toml")).arg("--target-dir").arg(root.join("target/page"));
+    cargo.env("PALPATE_TOOL", env::current_exe()?).env("PALPATE_CHROMIUM", browser.path());
+    // One browser at a time: each draws on all cores.
+    cargo.args(["--", "--test-threads=1", "--nocapture"]).args(words);
     let status = cargo.status().with_context(|| format!("{cargo:?}"))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

@@ -19,6 +19,9 @@ pub enum SetUpError {
     /// No compiler for the target, and none can be had.
     #[error("no compiler for the target: {0}")]
     NoToolchain(String),
+    /// No browser, and none can be had.
+    #[error("no browser: {0}")]
+    NoBrowser(String),
     /// A program ended with an error.
     #[error("`{command}` failed ({status})\n{output}")]
     Failed {

@@ -1,0 +1,124 @@
+//! A browser with the page in it, which keeps whatever goes wrong on the console.
+
+use crate::tool;
+use anyhow::{Context as _, bail, ensure};
+use headless_chrome::protocol::cdp::Page::CaptureScreenshotFormatOption;
+use headless_chrome::protocol::cdp::types::Event;
+use headless_chrome::protocol::cdp::{Log, Runtime};
+use headless_chrome::{Browser, LaunchOptions, Tab};
+use serde_json::Value;
+use std::ffi::OsStr;
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// The page in its browser, which ends when dropped.
+pub struct Page {
+    _browser: Browser,
+    /// The tab, for its mouse and keys.
+    pub tab: Arc<Tab>,
+    errors: Arc<Mutex<Vec<String>>>,
+}
+
+/// Nothing of these tests takes so long, on any machine.
+const PATIENCE: Duration = Duration::from_secs(300);
+
+impl Page {
+    /// Opens the page from its file and waits until it runs.
+    pub fn open() -> anyhow::Result<Self> {
+        // Before the browser starts, which does not wait for ever: the first time this builds the code.
+        let address = tool::address();
+        let options = LaunchOptions {
+            path: Some(tool::given("PALPATE_CHROMIUM")?),
+            // As root, which a container's user is, Chromium has no sandbox.
+            sandbox: false,
+            window_size: Some((1400, 860)),
+            idle_browser_timeout: PATIENCE,
+            args: [
+                // WebGL without a graphics card, and no word with a network that is not needed.
+                "--use-gl=angle",
+                "--use-angle=swiftshader",
+                "--enable-unsafe-swiftshader",
+                "--hide-scrollbars",
+                "--disable-quic",
+                "--no-first-run",
+                "--disable-background-networking",
+                "--disable-component-update",
+                "--disable-sync",
+            ]
+            .map(OsStr::new)
+            .to_vec(),
+            ..LaunchOptions::default()
+        };
+        let browser = Browser::new(options).context("Chromium does not start")?;
+        let tab = browser.new_tab()?;
+        tab.set_default_timeout(PATIENCE);
+        let errors = Arc::new(Mutex::new(Vec::new()));
+        let kept = Arc::clone(&errors);
+        tab.enable_log()?;
+        tab.enable_runtime()?;
+        tab.add_event_listener(Arc::new(move |event: &Event| {
+            if let Some(error) = error_of(event)
+                && let Ok(mut errors) = kept.lock()
+            {
+                errors.push(error);
+            }
+        }))?;
+        tab.navigate_to(&address)?;
+        let page = Self { _browser: browser, tab, errors };
+        // Until the page is there an expression finds nothing, or another page's world.
+        let began = Instant::now();
+        while page.ask("window.palpate?.ready").ok() != Some(Value::Bool(true)) {
+            ensure!(began.elapsed() < PATIENCE, "the page does not run: {:?}", page.errors());
+            thread::sleep(Duration::from_millis(200));
+        }
+        Ok(page)
+    }
+
+    /// The same without the picture, which takes nearly all the time where a processor draws it.
+    pub fn without_picture() -> anyhow::Result<Self> {
+        let page = Self::open()?;
+        page.ask("palpate.draws = false")?;
+        Ok(page)
+    }
+
+    /// What an expression comes to in the page, promises kept.
+    pub fn ask(&self, expression: &str) -> anyhow::Result<Value> {
+        let wrapped = format!("(async () => JSON.stringify((await ({expression})) ?? null))()");
+        let answer = self.tab.evaluate(&wrapped, true)?;
+        match answer.value {
+            Some(Value::String(text)) => Ok(serde_json::from_str(&text)?),
+            other => bail!("{expression}: {other:?} {:?}", answer.description),
+        }
+    }
+
+    /// A number that an expression comes to.
+    pub fn number(&self, expression: &str) -> anyhow::Result<f64> {
+        self.ask(expression)?.as_f64().with_context(|| format!("{expression} is no number"))
+    }
+
+    /// A picture of the page, PNG.
+    pub fn picture(&self) -> anyhow::Result<Vec<u8>> {
+        self.tab.capture_screenshot(CaptureScreenshotFormatOption::Png, None, None, true)
+    }
+
+    /// Whatever went wrong on the console so far.
+    pub fn errors(&self) -> Vec<String> {
+        self.errors.lock().map(|errors| errors.clone()).unwrap_or_default()
+    }
+}
+
+fn error_of(event: &Event) -> Option<String> {
+    match event {
+        Event::LogEntryAdded(event) => {
+            let entry = &event.params.entry;
+            (entry.level == Log::LogEntryLevel::Error).then(|| entry.text.clone())
+        }
+        Event::RuntimeExceptionThrown(event) => Some(format!("{:?}", event.params.exception_details)),
+        Event::RuntimeConsoleAPICalled(event) => {
+            let is_error = event.params.Type == Runtime::ConsoleAPICalledEventTypeOption::Error;
+            is_error.then(|| format!("{:?}", event.params.args))
+        }
+        _ => None,
+    }
+}

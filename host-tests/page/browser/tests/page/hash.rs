@@ -1,0 +1,68 @@
+//! The same bits: a million ticks beside the host's compiler, which every emulated core agrees with, and a run that
+//! the emulated board itself has recorded.
+
+use crate::browser::Page;
+use crate::tool::palpate;
+use anyhow::{Context as _, ensure};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use std::fs;
+use std::time::Instant;
+
+#[test]
+fn the_million_ticks_of_the_boards_come_to_the_same_and_their_time_is_told() -> anyhow::Result<()> {
+    let page = Page::without_picture()?;
+    let mut script = String::new();
+    let began = Instant::now();
+    palpate_exercise::run(&mut |name, tally| script += &format!("{name} {tally}\n"));
+    let native = began.elapsed();
+    let shown = page.ask(
+        "palpate.verify().then((same) => ({ same, hash: document.getElementById('hash').textContent, \
+                          verdict: document.getElementById('verdict').textContent }))",
+    )?;
+    ensure!(shown["same"] == true, "the page says: {}", shown["verdict"]);
+    let hash = script.bytes().fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
+    ensure!(shown["hash"] == format!("{hash:08x}"), "the page shows {}, and it is {hash:08x}", shown["hash"]);
+    let seconds = page.number("palpate.exerciseSeconds()")?;
+    println!("the script of the boards: {hash:08x}; {}", shown["verdict"]);
+    println!("a tick of it: {:.0} ns in wasm, {:.0} ns native", seconds * 1e3, native.as_secs_f64() * 1e3);
+    println!("a tick of the capped box: {:.0} ns in wasm", page.number("palpate.nanoseconds()")?);
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
+#[test]
+fn a_run_that_the_emulated_board_has_recorded_is_felt_anew_to_the_same_hash() -> anyhow::Result<()> {
+    let page = Page::without_picture()?;
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let printed = palpate(&["demo", "--report", &path("demo.html")])?;
+    let word = |name: &str| {
+        let line = printed.lines().find(|line| line.trim_start().starts_with(name));
+        line.and_then(|line| line.split_whitespace().last()).map(str::to_owned)
+    };
+    let hash = word("state hash").context("the demo prints no hash")?;
+    replayed(&page, &path("demo.json"), &hash)?;
+    println!("{}", printed.lines().next().unwrap_or_default());
+    println!("its 20,000 ticks in the page: state hash {hash}, the board's");
+    // A patch alone, another mechanism, with protection.
+    for arguments in [["--model", "table1c", "--device", "falcon"], ["--model", "sphere", "--device", "polhem-v2"]] {
+        let recording = path("sim.json");
+        let all = [&["sim", "--seconds", "2", "--protected", "--recording", &recording], &arguments[..]].concat();
+        let printed = palpate(&all)?;
+        let line = printed.lines().find(|line| line.contains("state hash")).context("no hash")?;
+        replayed(&page, &recording, line.split_whitespace().last().unwrap_or_default())?;
+        println!("{}: the same", arguments.join(" "));
+    }
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
+fn replayed(page: &Page, recording: &str, hash: &str) -> anyhow::Result<()> {
+    let bytes = STANDARD.encode(fs::read(recording)?);
+    page.ask(&format!("palpate.open('run.json', {bytes:?})"))?;
+    let state = page.ask("palpate.state()")?;
+    ensure!(state["refusal"].is_null(), "{}", state["refusal"]);
+    ensure!(state["replay"]["same"] == true && state["replay"]["hash"] == hash, "{hash}: {}", state["replay"]);
+    Ok(())
+}

@@ -1,0 +1,59 @@
+//! The mouse is the stylus.
+
+use crate::browser::Page;
+use anyhow::ensure;
+use headless_chrome::browser::tab::point::Point;
+use headless_chrome::protocol::cdp::Input::{DispatchMouseEvent, DispatchMouseEventTypeOption, MouseButton};
+use std::thread;
+use std::time::{Duration, Instant};
+
+#[test]
+fn the_mouse_moves_the_stylus_and_its_button_presses_it_in() -> anyhow::Result<()> {
+    let page = Page::open()?;
+    let over = Point { x: 540.0, y: 380.0 };
+    page.tab.move_mouse_to_point(over)?;
+    comes_to(
+        &page,
+        "palpate.state().contact === 1 && Math.abs(palpate.state().gap - 0.1 * palpate.about().size) < 1e-4",
+    )?;
+    mouse(&page, DispatchMouseEventTypeOption::MousePressed, over)?;
+    comes_to(&page, "palpate.state().contact === 2 && palpate.state().gap < -1e-3")?;
+    let touching = page.ask("document.getElementById('caption').textContent")?;
+    ensure!(touching.as_str().is_some_and(|words| words.starts_with("pressed ")), "{touching}");
+    mouse(&page, DispatchMouseEventTypeOption::MouseReleased, over)?;
+    comes_to(&page, "palpate.state().contact === 1 && palpate.state().gap > 1e-3")?;
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
+/// Waits until an expression is true: frames are slow where a processor draws them.
+fn comes_to(page: &Page, expression: &str) -> anyhow::Result<()> {
+    let began = Instant::now();
+    while page.ask(expression)? != true {
+        ensure!(began.elapsed() < Duration::from_secs(60), "{expression}: {}", page.ask("palpate.state()")?);
+        thread::sleep(Duration::from_millis(100));
+    }
+    Ok(())
+}
+
+fn mouse(page: &Page, event: DispatchMouseEventTypeOption, at: Point) -> anyhow::Result<()> {
+    page.tab.call_method(DispatchMouseEvent {
+        Type: event,
+        x: at.x,
+        y: at.y,
+        button: Some(MouseButton::Left),
+        buttons: Some(1),
+        click_count: Some(1),
+        modifiers: None,
+        timestamp: None,
+        force: None,
+        tangential_pressure: None,
+        tilt_x: None,
+        tilt_y: None,
+        twist: None,
+        delta_x: None,
+        delta_y: None,
+        pointer_Type: None,
+    })?;
+    Ok(())
+}

@@ -1,0 +1,321 @@
+//! What JavaScript calls: functions on numbers over one state.
+//!
+//! Bytes come in through [`input`]: ask for room, write there, then call. Numbers come out through [`output`] and
+//! [`output_length`], words through [`text`] and [`text_length`]; all four hold until the next call.
+
+use alloc::boxed::Box;
+use alloc::string::String;
+
+use alloc::vec::Vec;
+use core::fmt::Write as _;
+use core::mem;
+use palpate::body::Feature;
+use palpate::math::vec3;
+use palpate::patch::{Patch as _, SplinePatch};
+use spin::Mutex;
+
+use crate::basin::{self, Method};
+use crate::loaded::Loaded;
+use crate::monitor::Monitor;
+use crate::page::{Choices, Stage};
+use crate::replay::{self, Replay, Scene};
+use crate::{mesh, regions};
+
+struct Exports {
+    input: Vec<u32>,
+    output: Vec<f32>,
+    text: String,
+    stage: Option<Stage>,
+    replay: Option<Box<dyn Replay>>,
+    monitor: Monitor,
+}
+
+static STATE: Mutex<Exports> = Mutex::new(Exports {
+    input: Vec::new(),
+    output: Vec::new(),
+    text: String::new(),
+    stage: None,
+    replay: None,
+    monitor: Monitor::new(),
+});
+
+impl Exports {
+    fn say(&mut self, error: &str) -> i32 {
+        self.text.clear();
+        self.text.push_str(error);
+        -1
+    }
+
+    /// The first so many bytes of the input.
+    fn bytes(&self, length: usize) -> &[u8] {
+        bytemuck::cast_slice(&self.input).get(..length).unwrap_or_default()
+    }
+
+    /// What `write` makes of the stage, as output; how many numbers.
+    fn write(&mut self, write: impl FnOnce(&Stage, &mut Vec<f32>)) -> usize {
+        self.output.clear();
+        if let Some(stage) = &self.stage {
+            write(stage, &mut self.output);
+        }
+        self.output.len()
+    }
+}
+
+fn patch_of(stage: &Stage, face: u32) -> Option<&'static SplinePatch<'static>> {
+    stage.loaded.body.faces().get(face as usize).map(|face| &face.patch)
+}
+
+/// Room for so many bytes.
+#[unsafe(no_mangle)]
+pub extern "C" fn input(bytes: usize) -> *const u32 {
+    let mut state = STATE.lock();
+    state.input.clear();
+    state.input.resize(bytes.div_ceil(4), 0);
+    state.input.as_ptr()
+}
+
+/// Where the numbers are.
+#[unsafe(no_mangle)]
+pub extern "C" fn output() -> *const f32 {
+    STATE.lock().output.as_ptr()
+}
+
+/// How many there are.
+#[unsafe(no_mangle)]
+pub extern "C" fn output_length() -> usize {
+    STATE.lock().output.len()
+}
+
+/// Where the words are, in UTF-8.
+#[unsafe(no_mangle)]
+pub extern "C" fn text() -> *const u8 {
+    STATE.lock().text.as_ptr()
+}
+
+/// How many bytes there are.
+#[unsafe(no_mangle)]
+pub extern "C" fn text_length() -> usize {
+    STATE.lock().text.len()
+}
+
+/// Takes the body's file in the input, once in the life of an instance, with the hand at a place: 0, or −1 and why
+/// not. The output then is: faces, edges, vertices, whether it is convex, its size, where its origin lies in the
+/// model, and whether it is felt as a patch.
+#[unsafe(no_mangle)]
+pub extern "C" fn load(length: usize, x: f32, y: f32, z: f32) -> i32 {
+    let mut state = STATE.lock();
+    let words: &'static [u32] = Box::leak(mem::take(&mut state.input).into_boxed_slice());
+    let stage = Loaded::new(words, length).and_then(|loaded| Stage::new(loaded, vec3(x, y, z)));
+    match stage {
+        Ok(stage) => {
+            state.stage = Some(stage);
+            state.write(|stage, out| {
+                let body = stage.loaded.body;
+                let counts = [body.faces().len(), body.edges().len(), body.vertices().len()];
+                out.extend(counts.map(|count| count as f32));
+                out.extend([f32::from(u8::from(body.is_convex())), body.size()]);
+                out.extend(stage.loaded.centre.to_array());
+                out.push(f32::from(u8::from(body.faces().len() == 1)));
+            });
+            0
+        }
+        Err(error) => state.say(&error),
+    }
+}
+
+/// Changes what the loop feels like: 0, or −1 and why not.
+#[unsafe(no_mangle)]
+pub extern "C" fn choose(rate: f32, stiffness: f32, damping: f32, friction: f32, law: u32) -> i32 {
+    let mut state = STATE.lock();
+    let Some(stage) = &mut state.stage else { return state.say("there is no body") };
+    match stage.choose(Choices { rate, stiffness, damping, friction, law }) {
+        Ok(()) => 0,
+        Err(error) => state.say(&error),
+    }
+}
+
+/// Begins anew with the hand at a place.
+#[unsafe(no_mangle)]
+pub extern "C" fn restart(x: f32, y: f32, z: f32) {
+    if let Some(stage) = &mut STATE.lock().stage {
+        stage.restart(vec3(x, y, z));
+    }
+}
+
+/// So many ticks, in which the pointer moves straight to a place; the hand yields or not.
+#[unsafe(no_mangle)]
+pub extern "C" fn run(ticks: u32, x: f32, y: f32, z: f32, yields: u32) {
+    if let Some(stage) = &mut STATE.lock().stage {
+        stage.run(ticks, vec3(x, y, z), yields != 0);
+    }
+}
+
+/// So many ticks where the hand is, and nothing else: for a clock.
+#[unsafe(no_mangle)]
+pub extern "C" fn tick_only(ticks: u32) {
+    if let Some(stage) = &mut STATE.lock().stage {
+        stage.tick_only(ticks);
+    }
+}
+
+/// The state after the last tick, as `view.rs` has it.
+#[unsafe(no_mangle)]
+pub extern "C" fn view() -> usize {
+    STATE.lock().write(Stage::view)
+}
+
+/// The projection errors of the last run's ticks.
+#[unsafe(no_mangle)]
+pub extern "C" fn errors() -> usize {
+    STATE.lock().write(|stage, out| out.extend(&stage.errors))
+}
+
+/// A hash of every bit of the loop's state.
+#[unsafe(no_mangle)]
+pub extern "C" fn digest() -> u32 {
+    STATE.lock().stage.as_ref().map_or(0, Stage::digest)
+}
+
+/// The closest point of the body from a standing start: face, `u`, `v`, the point, its distance, evaluations, and
+/// whether the search was complete.
+#[unsafe(no_mangle)]
+pub extern "C" fn closest(x: f32, y: f32, z: f32) -> usize {
+    STATE.lock().write(|stage, out| {
+        let (body, probe) = (stage.loaded.body, vec3(x, y, z));
+        let found = body.locate(probe);
+        let [u, v] = found.parameters;
+        let Some(patch) = patch_of(stage, u32::from(found.face)) else { return };
+        let point = patch.evaluate(u, v).point;
+        out.extend([f32::from(found.face), u, v]);
+        out.extend(point.to_array());
+        out.extend([point.distance(probe), f32::from(found.evaluations), f32::from(u8::from(found.complete))]);
+    })
+}
+
+/// A face as a grid of points and normals, see `mesh.rs`.
+#[unsafe(no_mangle)]
+pub extern "C" fn face(index: u32, steps: u32) -> usize {
+    STATE.lock().write(|stage, out| mesh::face(stage.loaded.body, index, steps, out))
+}
+
+/// An edge as points and normals, see `mesh.rs`.
+#[unsafe(no_mangle)]
+pub extern "C" fn edge(index: u32, steps: u32) -> usize {
+    STATE.lock().write(|stage, out| mesh::edge(stage.loaded.body, index, steps, out))
+}
+
+/// What kind of edge it is: 0 convex, 1 smooth, 2 reflex, 3 mixed, 4 open.
+#[unsafe(no_mangle)]
+pub extern "C" fn edge_kind(index: u32) -> u32 {
+    let state = STATE.lock();
+    let edge = state.stage.as_ref().and_then(|stage| stage.loaded.body.edges().get(index as usize));
+    edge.map_or(4, |edge| edge.kind as u32)
+}
+
+/// The border of a feature's Voronoi region, see `regions.rs`; the feature by its code.
+#[unsafe(no_mangle)]
+pub extern "C" fn sheets(code: u32) -> usize {
+    let index = (code & 0x3fff) as u16;
+    let feature = match code >> 14 {
+        0 => Feature::Face(index),
+        1 => Feature::Edge(index),
+        _ => Feature::Vertex(index),
+    };
+    STATE.lock().write(|stage, out| regions::sheets(stage.loaded.body, feature, out))
+}
+
+/// The way of a method from a start on a face to the closest point of a probe: `u`, `v` and the point of each step.
+#[unsafe(no_mangle)]
+pub extern "C" fn way(face: u32, x: f32, y: f32, z: f32, u: f32, v: f32, method: u32) -> usize {
+    STATE.lock().write(|stage, out| {
+        let Some(patch) = patch_of(stage, face) else { return };
+        for [u, v] in basin::path(patch, vec3(x, y, z), [u, v], Method::of(method)) {
+            out.extend([u, v]);
+            // What has left the patch is shown at its border.
+            out.extend(patch.evaluate(u.clamp(0.0, 1.0), v.clamp(0.0, 1.0)).point.to_array());
+        }
+    })
+}
+
+/// A row of starts on a face at `u`: steps and distance at the end of each, see `basin.rs`.
+#[unsafe(no_mangle)]
+pub extern "C" fn basin_row(face: u32, x: f32, y: f32, z: f32, u: f32, columns: u32, method: u32) -> usize {
+    STATE.lock().write(|stage, out| {
+        if let Some(patch) = patch_of(stage, face) {
+            basin::row(patch, vec3(x, y, z), u, columns, Method::of(method), out);
+        }
+    })
+}
+
+/// The million ticks of the emulated boards; the text is what they print. Takes about a second.
+#[unsafe(no_mangle)]
+pub extern "C" fn exercise() {
+    let mut text = String::new();
+    palpate_exercise::run(&mut |name, tally| {
+        // A string takes all that is written.
+        let _ = writeln!(text, "{name} {tally}");
+    });
+    STATE.lock().text = text;
+}
+
+/// A recorded scene on the body that is loaded, its settings as nine numbers in the input (see `replay.rs`) and
+/// then the name of its device: 0, or −1 and why not.
+#[unsafe(no_mangle)]
+pub extern "C" fn replay_begin(name_length: usize, link_timeout: f32, protected: u32) -> i32 {
+    let mut state = STATE.lock();
+    let words = mem::take(&mut state.input);
+    let settings = words.get(..9).map(|words| words.iter().map(|word| f32::from_bits(*word)).collect::<Vec<_>>());
+    let settings = settings.and_then(|numbers| replay::settings(&numbers));
+    let name = words.get(9..).map(bytemuck::cast_slice::<u32, u8>).and_then(|bytes| bytes.get(..name_length));
+    let device = name.and_then(|name| core::str::from_utf8(name).ok());
+    let (Some(stage), Some(settings), Some(device)) = (&state.stage, settings, device) else {
+        return state.say("there is no body, or the scene is cut short");
+    };
+    match replay::replay(&stage.loaded, &Scene { device, settings, link_timeout, protected: protected != 0 }) {
+        Ok(replay) => {
+            state.replay = Some(replay);
+            0
+        }
+        Err(error) => state.say(&error),
+    }
+}
+
+/// So many recorded ticks: three counts and whether force is asked for, four words each, in the input.
+#[unsafe(no_mangle)]
+pub extern "C" fn replay_run(ticks: usize) {
+    let mut state = STATE.lock();
+    let Exports { input, replay: Some(replay), .. } = &mut *state else { return };
+    for [a, b, c, enable] in input.as_chunks().0.iter().take(ticks) {
+        replay.tick([*a as i32, *b as i32, *c as i32], *enable != 0);
+    }
+}
+
+/// The state after the last recorded tick, as `view.rs` has it.
+#[unsafe(no_mangle)]
+pub extern "C" fn replay_view() -> usize {
+    let mut state = STATE.lock();
+    let Exports { output, replay: Some(replay), stage: Some(stage), .. } = &mut *state else { return 0 };
+    replay.view(stage.loaded.body, output);
+    output.len()
+}
+
+/// The hash of the recorded ticks so far.
+#[unsafe(no_mangle)]
+pub extern "C" fn replay_hash() -> u32 {
+    STATE.lock().replay.as_ref().map_or(0, |replay| replay.hash())
+}
+
+/// Bytes from a device, in the input. The output is the last record, see `monitor.rs`, and how many came whole and
+/// damaged.
+#[unsafe(no_mangle)]
+pub extern "C" fn monitor(length: usize) -> usize {
+    let mut state = STATE.lock();
+    let bytes = state.bytes(length).to_vec();
+    let Exports { monitor, output, .. } = &mut *state;
+    monitor.feed(&bytes);
+    monitor.view(output);
+    if !output.is_empty() {
+        output.extend([monitor.records as f32, monitor.damaged as f32]);
+    }
+    output.len()
+}

@@ -1,0 +1,190 @@
+// The firmware's code: an instance of the wasm module is a device, its exports are in src/exports.rs.
+
+// The order of src/view.rs.
+const VECTORS = ["target", "probe", "point", "normal", "force", "anchor"];
+const NUMBERS = [
+  "gap",
+  "u",
+  "v",
+  "mode",
+  "contact",
+  "feature",
+  "gain",
+  "error",
+  "evaluations",
+  "phase",
+  "fault",
+  "held",
+  "slips",
+  "tooDeep",
+  "undone",
+];
+
+export const TOUCHING = 2;
+export const FACE = 0,
+  EDGE = 1,
+  VERTEX = 2;
+
+/** A feature's kind and index, from its code. */
+export const featureOf = (code) => ({ kind: code >> 14, index: code & 0x3fff });
+
+export const decode = (base64) => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+
+let compiled;
+/** The module, compiled once. */
+export const module = () => (compiled ??= WebAssembly.compile(decode(document.getElementById("firmware").textContent)));
+
+/** An instance on a body, from the bytes of its file. */
+export class Device {
+  static async on(bytes, place = [0, 0, 0]) {
+    const device = new Device((await WebAssembly.instantiate(await module(), {})).exports);
+    device.#put(bytes);
+    if (device.exports.load(bytes.length, ...place) < 0) throw new Error(device.#text());
+    const [faces, edges, vertices, convex, size, x, y, z, patch] = device.#numbers();
+    Object.assign(device, { faces, edges, vertices, size, convex: !!convex, isPatch: !!patch, centre: [x, y, z] });
+    return device;
+  }
+
+  constructor(exports) {
+    this.exports = exports;
+  }
+
+  choose({ rate, stiffness, damping, friction, law }) {
+    if (this.exports.choose(rate, stiffness, damping, friction, law) < 0) throw new Error(this.#text());
+  }
+
+  restart(place) {
+    this.exports.restart(...place);
+  }
+
+  /** So many ticks while the pointer moves straight to a place, metres. */
+  run(ticks, place, yields = true) {
+    this.exports.run(ticks, ...place, yields ? 1 : 0);
+  }
+
+  view() {
+    this.exports.view();
+    return seen(this.#numbers());
+  }
+
+  errors() {
+    this.exports.errors();
+    return this.#numbers();
+  }
+
+  digest() {
+    return hex(this.exports.digest());
+  }
+
+  closest(place) {
+    this.exports.closest(...place);
+    const [face, u, v, x, y, z, distance, evaluations, complete] = this.#numbers();
+    return { face, u, v, point: [x, y, z], distance, evaluations, complete: !!complete };
+  }
+
+  face(index, steps) {
+    this.exports.face(index, steps);
+    return this.#numbers();
+  }
+
+  edge(index, steps) {
+    this.exports.edge(index, steps);
+    return this.#numbers();
+  }
+
+  isSmooth(edge) {
+    return this.exports.edge_kind(edge) === 1;
+  }
+
+  sheets(code) {
+    this.exports.sheets(code);
+    return this.#numbers();
+  }
+
+  way(face, probe, [u, v], method) {
+    this.exports.way(face, ...probe, u, v, method);
+    return this.#numbers();
+  }
+
+  basinRow(face, probe, u, columns, method) {
+    this.exports.basin_row(face, ...probe, u, columns, method);
+    return this.#numbers();
+  }
+
+  /** Nanoseconds of a tick of the firmware alone, where the hand is. */
+  nanosecondsATick(ticks = 20_000) {
+    const began = performance.now();
+    this.exports.tick_only(ticks);
+    return ((performance.now() - began) * 1e6) / ticks;
+  }
+
+  beginReplay({ settings, device, link_timeout, protected: guarded }) {
+    const name = new TextEncoder().encode(device);
+    const words = new Uint8Array(36 + name.length);
+    words.set(new Uint8Array(Float32Array.from(settings).buffer));
+    words.set(name, 36);
+    this.#put(words);
+    if (this.exports.replay_begin(name.length, link_timeout, guarded ? 1 : 0) < 0) throw new Error(this.#text());
+  }
+
+  replay(rows) {
+    this.#put(new Uint8Array(rows.buffer, rows.byteOffset, rows.byteLength));
+    this.exports.replay_run(rows.length / 4);
+  }
+
+  replayView() {
+    this.exports.replay_view();
+    return seen(this.#numbers());
+  }
+
+  replayHash() {
+    return hex(this.exports.replay_hash());
+  }
+
+  /** Bytes of a device's telemetry; the last record so far, or nothing. */
+  monitor(bytes) {
+    this.#put(bytes);
+    if (this.exports.monitor(bytes.length) === 0) return null;
+    const [tick, phase, fault, mode, contact, feature, gap, px, py, pz, fx, fy, fz, took, period, records, damaged] =
+      this.#numbers();
+    return {
+      tick,
+      phase,
+      fault,
+      mode,
+      contact,
+      feature,
+      gap,
+      probe: [px, py, pz],
+      force: [fx, fy, fz],
+      took,
+      period,
+      records,
+      damaged,
+    };
+  }
+
+  #put(bytes) {
+    const at = this.exports.input(bytes.length);
+    new Uint8Array(this.exports.memory.buffer, at, bytes.length).set(bytes);
+  }
+
+  #numbers() {
+    const { memory, output, output_length } = this.exports;
+    return new Float32Array(memory.buffer, output(), output_length()).slice();
+  }
+
+  #text() {
+    const { memory, text, text_length } = this.exports;
+    return new TextDecoder().decode(new Uint8Array(memory.buffer, text(), text_length()));
+  }
+}
+
+export const hex = (word) => (word >>> 0).toString(16).padStart(8, "0");
+
+function seen(numbers) {
+  const view = {};
+  VECTORS.forEach((name, index) => (view[name] = Array.from(numbers.subarray(3 * index, 3 * index + 3))));
+  NUMBERS.forEach((name, index) => (view[name] = numbers[3 * VECTORS.length + index]));
+  return view;
+}

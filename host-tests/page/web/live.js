@@ -1,0 +1,55 @@
+// A device on a serial port, where the browser has Web Serial: the frames that `palpate monitor` reads.
+
+/** The speed that `palpate monitor` takes by default, Bd. */
+const SPEED = 500_000;
+
+/** Asks for a port and tells of each chunk's last record until it is closed. */
+export async function connect(device, tell) {
+  if (!navigator.serial) throw new Error("this browser has no Web Serial: Chromium and Edge do");
+  const port = await navigator.serial.requestPort();
+  await port.open({ baudRate: SPEED });
+  const reader = port.readable.getReader();
+  let reads = true;
+  (async () => {
+    while (reads) {
+      const { value, done } = await reader.read();
+      if (done) break;
+      const record = device.monitor(value);
+      if (record) tell(record);
+    }
+  })()
+    .catch(() => {})
+    .finally(async () => {
+      reader.releaseLock();
+      await port.close();
+      tell(null);
+    });
+  return () => {
+    reads = false;
+    reader.cancel();
+  };
+}
+
+/** A record as a view of the loop: the closest point lies a gap away from the probe, and the force shows the way. */
+export function seen(record, device) {
+  const found = device.closest(record.probe);
+  const away = record.probe.map((coordinate, axis) => coordinate - found.point[axis]);
+  const length = Math.hypot(...away) || 1,
+    side = record.gap < 0 ? -1 : 1;
+  return {
+    ...record,
+    target: record.probe,
+    point: found.point,
+    u: found.u,
+    v: found.v,
+    normal: away.map((coordinate) => (side * coordinate) / length),
+    anchor: found.point,
+    gain: 0,
+    error: 0,
+    evaluations: 0,
+    held: 0,
+    slips: 0,
+    tooDeep: 0,
+    undone: 0,
+  };
+}

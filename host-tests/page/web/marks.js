@@ -1,0 +1,214 @@
+// What is not the body: stylus, closest point, gap, normal, force, the god-object, and the region of the active
+// feature.
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  ConeGeometry,
+  CylinderGeometry,
+  DoubleSide,
+  Group,
+  Line2,
+  LineGeometry,
+  LineMaterial,
+  Mesh,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  SphereGeometry,
+  TorusGeometry,
+  Vector3,
+} from "three";
+import { TOUCHING } from "firmware";
+
+const WITNESS = 0x3fe0d0,
+  FORCE = 0xff9b42,
+  STEEL = 0xcdd4df,
+  NEWTON = 0xff5d6c;
+const UP = new Vector3(0, 1, 0);
+/** How far the region's sheets reach, and how long an arrow of a newton is, in sizes of the body. */
+const REACH = 0.42,
+  OF_A_NEWTON = 0.085;
+const RAYS = 25;
+
+export class Marks {
+  constructor(room) {
+    this.room = room;
+    this.group = new Group();
+    room.scene.add(this.group);
+    this.stylus = stylus();
+    this.ghost = ball(
+      0.016,
+      new MeshBasicMaterial({ color: STEEL, transparent: true, opacity: 0.4, depthTest: false }),
+    );
+    this.witness = ball(0.0135, new MeshBasicMaterial({ color: WITNESS }));
+    this.ring = new Mesh(new TorusGeometry(0.034, 0.0022, 10, 48), new MeshBasicMaterial({ color: WITNESS }));
+    // The god-object: where the stylus would be if the wall did not give.
+    this.god = ball(
+      0.022,
+      new MeshStandardMaterial({ color: FORCE, transparent: true, opacity: 0.45, roughness: 0.3 }),
+    );
+    this.gap = this.line(WITNESS, 2.2, true);
+    this.anchor = this.line(FORCE, 3);
+    this.normal = arrow(0xffffff, 0.0028);
+    this.force = arrow(FORCE, 0.0075);
+    this.sheet = new Mesh(
+      new BufferGeometry(),
+      new MeshBasicMaterial({ vertexColors: true, transparent: true, side: DoubleSide, depthWrite: false }),
+    );
+    // Chords of a way cut through the surface: they are seen all the same.
+    this.ours = this.line(WITNESS, 3.5);
+    this.newton = this.line(NEWTON, 3.5);
+    for (const way of [this.ours, this.newton]) way.material.depthTest = false;
+    this.group.add(
+      this.stylus,
+      this.ghost,
+      this.witness,
+      this.ring,
+      this.god,
+      this.gap,
+      this.anchor,
+      this.normal,
+      this.force,
+      this.sheet,
+      this.ours,
+      this.newton,
+    );
+    this.lean = new Vector3(0, 0, 1);
+    this.shown = { code: -1 };
+  }
+
+  line(color, linewidth, dashed = false) {
+    const material = new LineMaterial({ color, linewidth, dashed, dashSize: 0.02, gapSize: 0.014, transparent: true });
+    material.resolution.copy(this.room.resolution);
+    const line = new Line2(new LineGeometry(), material);
+    line.visible = false;
+    return line;
+  }
+
+  /** Forgets the body that was shown. */
+  begin() {
+    this.shown = { code: -1 };
+    this.ways();
+  }
+
+  /** Shows a view of the loop. */
+  show(view, withRegion) {
+    const { room } = this;
+    const probe = room.place(view.probe),
+      point = room.place(view.point);
+    const normal = new Vector3(...view.normal),
+      touching = view.contact === TOUCHING;
+    this.stylus.position.copy(probe);
+    // The pen leans towards the reader, and away from the surface.
+    const wanted = new Vector3(0.85, 0.42, 0.42).applyQuaternion(room.camera.quaternion).addScaledVector(normal, 0.42);
+    this.lean.lerp(wanted.normalize(), 0.12).normalize();
+    this.stylus.quaternion.setFromUnitVectors(UP, this.lean);
+    this.ghost.position.copy(probe);
+    this.witness.position.copy(point);
+    this.ring.position.copy(point).addScaledVector(normal, 0.002);
+    this.ring.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), normal.lengthSq() > 0 ? normal : UP);
+    this.god.visible = touching;
+    this.god.position.copy(point).addScaledVector(normal, 0.012);
+    this.draw(this.gap, [probe, point]);
+    const held = view.held > 0 && touching;
+    this.draw(this.anchor, held ? [point, room.place(view.anchor)] : []);
+    this.anchor.material.opacity = view.slips ? 0.5 : 1;
+    aim(this.normal, point, normal, normal.lengthSq() > 0 ? 0.16 : 0);
+    const force = new Vector3(...view.force),
+      newtons = force.length();
+    aim(this.force, touching ? point : probe, force, Math.min(newtons * OF_A_NEWTON, 0.9));
+    this.sheet.visible = withRegion;
+  }
+
+  /** Draws the region of a feature anew when it is another. */
+  region(code, device) {
+    if (code === this.shown.code) return;
+    this.shown.code = code;
+    const rays = device.sheets(code),
+      count = rays.length / 6;
+    const position = new Float32Array(6 * count),
+      colour = new Float32Array(8 * count),
+      index = [];
+    const base = new Vector3(),
+      out = new Vector3();
+    for (let ray = 0; ray < count; ray += 1) {
+      this.room.place(rays.subarray(6 * ray, 6 * ray + 3), base).toArray(position, 6 * ray);
+      out
+        .fromArray(rays, 6 * ray + 3)
+        .multiplyScalar(REACH)
+        .add(base)
+        .toArray(position, 6 * ray + 3);
+      colour.set([0.25, 0.88, 0.82, 0.34, 0.25, 0.88, 0.82, 0], 8 * ray);
+      if (ray % RAYS !== RAYS - 1) index.push(2 * ray, 2 * ray + 1, 2 * ray + 2, 2 * ray + 2, 2 * ray + 1, 2 * ray + 3);
+    }
+    this.sheet.geometry.dispose();
+    this.sheet.geometry = new BufferGeometry();
+    this.sheet.geometry.setAttribute("position", new BufferAttribute(position, 3));
+    this.sheet.geometry.setAttribute("color", new BufferAttribute(colour, 4));
+    this.sheet.geometry.setIndex(index);
+  }
+
+  /** The ways of both methods over the patch, as points in metres. */
+  ways(ours = [], newton = []) {
+    this.draw(
+      this.ours,
+      ours.map((place) => this.room.place(place)),
+    );
+    this.draw(
+      this.newton,
+      newton.map((place) => this.room.place(place)),
+    );
+  }
+
+  draw(line, points) {
+    line.visible = points.length > 1;
+    if (!line.visible) return;
+    line.geometry.dispose();
+    line.geometry = new LineGeometry().setPositions(points.flatMap((point) => point.toArray()));
+    line.material.resolution.copy(this.room.resolution);
+    if (line.material.dashed) line.computeLineDistances();
+  }
+}
+
+function ball(radius, material) {
+  return new Mesh(new SphereGeometry(radius, 32, 20), material);
+}
+
+function stylus() {
+  const steel = new MeshStandardMaterial({ color: STEEL, metalness: 0.85, roughness: 0.28 });
+  const grip = new MeshStandardMaterial({ color: 0x2a3246, metalness: 0.1, roughness: 0.6 });
+  const group = new Group();
+  const tip = ball(0.016, steel);
+  const taper = new Mesh(new CylinderGeometry(0.022, 0.008, 0.15, 32), steel);
+  taper.position.y = 0.083;
+  const shaft = new Mesh(new CylinderGeometry(0.022, 0.022, 0.3, 32), grip);
+  shaft.position.y = 0.308;
+  const collar = new Mesh(new CylinderGeometry(0.0225, 0.0225, 0.01, 32), steel);
+  collar.position.y = 0.19;
+  group.add(tip, taper, shaft, collar);
+  group.children.forEach((part) => (part.castShadow = true));
+  return group;
+}
+
+function arrow(color, radius) {
+  const material = new MeshBasicMaterial({ color });
+  const group = new Group();
+  group.shaft = new Mesh(new CylinderGeometry(radius, radius, 1, 16), material);
+  group.head = new Mesh(new ConeGeometry(3 * radius, 8 * radius, 20), material);
+  group.long = 8 * radius;
+  group.add(group.shaft, group.head);
+  return group;
+}
+
+// From a place along a direction, so long.
+function aim(arrow, from, direction, length) {
+  arrow.visible = length > 1e-3;
+  if (!arrow.visible) return;
+  arrow.position.copy(from);
+  arrow.quaternion.setFromUnitVectors(UP, direction.clone().normalize());
+  const head = Math.min(arrow.long, length);
+  arrow.shaft.scale.y = Math.max(length - head, 1e-4);
+  arrow.shaft.position.y = (length - head) / 2;
+  arrow.head.scale.setScalar(head / arrow.long);
+  arrow.head.position.y = length - head / 2;
+}

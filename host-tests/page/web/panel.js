@@ -1,0 +1,109 @@
+// The numbers beside the picture, and the sentence below it.
+
+import { EDGE, FACE, featureOf, TOUCHING } from "firmware";
+
+const MODES = ["", "held at u = 0", "held at u = 1", "held at v = 0", "held at v = 1", "interior", "corner"];
+const PHASES = ["reset", "calibrate", "armed", "running", "fault"];
+const by = (id) => document.getElementById(id);
+const set = (id, text) => {
+  const element = by(id);
+  if (element.textContent !== text) element.textContent = text;
+};
+
+export const length = (vector) => Math.hypot(...vector);
+
+/** A feature in words. */
+export function nameOf(code, body) {
+  const { kind, index } = featureOf(code);
+  if (kind === FACE) return body.device.isPatch ? "the patch" : `face “${body.faces[index] ?? index}”`;
+  return kind === EDGE ? `edge ${index}` : `vertex ${index}`;
+}
+
+/** Shows a view of the loop. */
+export function show(view, body) {
+  const millimetres = view.gap * 1e3,
+    touching = view.contact === TOUCHING;
+  set("gap", millimetres.toFixed(3).replace("-", "−"));
+  by("gap").dataset.metres = view.gap;
+  by("gap").classList.toggle("touching", touching);
+  set("contact", ["behind", "in front", "touching"][view.contact] + (view.tooDeep ? ", very deep" : ""));
+  set("feature", nameOf(view.feature, body));
+  set("parameters", `${view.u.toFixed(5)}, ${view.v.toFixed(5)}`);
+  set("mode", MODES[view.mode] ?? String(view.mode));
+  const newtons = length(view.force);
+  set("force", `${newtons.toFixed(2)} N${view.held ? (view.slips ? ", slipping" : ", sticking") : ""}`);
+  set("gain", view.gain.toFixed(4));
+  set("evaluations", String(view.evaluations));
+  set("phase", view.fault ? `${PHASES[view.phase]} ${view.fault}` : PHASES[view.phase]);
+  by("caption").innerHTML = caption(view, body, millimetres, newtons, touching);
+}
+
+function caption(view, body, millimetres, newtons, touching) {
+  const on = escape(nameOf(view.feature, body));
+  if (touching) {
+    return (
+      `pressed <b class="touch">${Math.abs(millimetres).toFixed(1)} mm</b> into ${on}: the motors push back with ` +
+      `<b class="touch">${newtons.toFixed(2)} N</b>`
+    );
+  }
+  if (view.contact === 1) return `<b class="away">${millimetres.toFixed(1)} mm</b> in front of ${on}`;
+  return `behind ${on}: nothing is felt before the stylus has been in front`;
+}
+
+const escape = (text) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
+
+const DECADES = [-9, -1];
+
+/** The projection errors of the last ticks, in sizes of the body, on a logarithmic scale. */
+export class Errors {
+  constructor(canvas) {
+    this.context = canvas.getContext("2d");
+    this.values = [];
+  }
+
+  add(errors, size) {
+    for (const error of errors) this.values.push(error / size);
+    this.values.splice(0, Math.max(this.values.length - 320, 0));
+  }
+
+  draw() {
+    const { context, values } = this;
+    const { width, height } = context.canvas;
+    grid(context, DECADES);
+    context.strokeStyle = "#3fe0d0";
+    context.lineWidth = 3;
+    context.lineJoin = "round";
+    context.beginPath();
+    values.forEach((value, index) => {
+      context.lineTo((width * (index + 320 - values.length)) / 319, level(value, DECADES, height));
+    });
+    context.stroke();
+  }
+}
+
+/** How high a value stands. */
+export function level(value, [low, high], height) {
+  const decade = Math.log10(Math.max(value, 1e-30));
+  return 8 + (height - 16) * (1 - Math.min(Math.max((decade - low) / (high - low), 0), 1));
+}
+
+/** Clears a canvas and draws a line a decade. */
+export function grid(context, [low, high], unit = "") {
+  const { width, height } = context.canvas;
+  context.clearRect(0, 0, width, height);
+  context.fillStyle = "#93a0b8";
+  context.strokeStyle = "#1f2a40";
+  context.lineWidth = 1;
+  context.font = "20px system-ui, sans-serif";
+  for (let decade = low; decade <= high; decade += 2) {
+    const y = level(10 ** decade, [low, high], height);
+    context.beginPath();
+    context.moveTo(0, y);
+    context.lineTo(width, y);
+    context.stroke();
+    context.fillText(`10${superscript(decade)}${unit}`, 6, y - 5 < 16 ? y + 22 : y - 5);
+  }
+}
+
+const superscript = (number) =>
+  [...String(number)].map((letter) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(letter)]).join("");

@@ -1,0 +1,148 @@
+// Where the reader wants the stylus: over the surface under the pointer at a height, or in a plane that faces the
+// reader.
+
+import { Plane, Raycaster, Vector2, Vector3 } from "three";
+
+/** In sizes of the body: how high the stylus hovers, how deep it is pressed, and what a key moves it. */
+const HOVER = 0.1,
+  PRESS = 0.11,
+  LOWEST = -0.3,
+  HIGHEST = 0.8,
+  STEP = 0.02;
+/** Seconds in which the stylus has gone two thirds of the way. */
+const EASE = 0.07;
+
+export class Pointer {
+  constructor(room, { touched }) {
+    Object.assign(this, { room, touched });
+    this.ray = new Raycaster();
+    this.at = new Vector2();
+    this.mode = "surface";
+    this.begin();
+    const { canvas } = room;
+    canvas.addEventListener("pointermove", (event) => event.buttons & 2 || this.move(event));
+    canvas.addEventListener("pointerdown", (event) => this.down(event));
+    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => (this.pressed = false));
+    canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    canvas.addEventListener("keyup", (event) => event.key === " " && (this.pressed = false));
+  }
+
+  /** Forgets where it was. */
+  begin() {
+    this.height = HOVER;
+    this.pressed = false;
+    this.goal = null;
+    this.held = null;
+  }
+
+  move(event) {
+    const { left, top, width, height } = this.room.canvas.getBoundingClientRect();
+    this.at.set((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height);
+    this.held = null;
+    this.aim();
+    this.touched();
+  }
+
+  down(event) {
+    if (event.button !== 0 || event.isPrimary === false) return;
+    this.room.canvas.focus();
+    this.move(event);
+    this.pressed = this.mode === "surface";
+  }
+
+  wheel(event) {
+    event.preventDefault();
+    if (event.shiftKey || event.ctrlKey) {
+      const factor = Math.exp((event.deltaY || event.deltaX) * 0.001);
+      const { camera, orbit } = this.room;
+      camera.position.sub(orbit.target).multiplyScalar(factor).clampLength(0.6, 8).add(orbit.target);
+      return;
+    }
+    this.raise(-Math.sign(event.deltaY) * STEP);
+  }
+
+  raise(by) {
+    if (this.mode === "plane" && this.goal) {
+      // Away from the reader, or nearer.
+      const away = this.room.camera.getWorldDirection(new Vector3());
+      this.goal.addScaledVector(away, -by);
+    } else {
+      this.height = Math.min(Math.max(this.height + by, LOWEST), HIGHEST);
+      this.aim();
+    }
+    this.touched();
+  }
+
+  key(event) {
+    const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (turn) {
+      this.at.x += turn[0] * 0.02;
+      this.at.y += turn[1] * 0.02;
+      this.held = null;
+      this.aim();
+    } else if (event.key === "PageUp" || event.key === "PageDown") {
+      this.raise(event.key === "PageUp" ? STEP : -STEP);
+    } else if (event.key === " ") {
+      this.pressed = true;
+    } else {
+      return;
+    }
+    event.preventDefault();
+    this.touched();
+  }
+
+  // Looks along the pointer: what it meets, or a plane that faces the reader.
+  aim() {
+    const { room } = this;
+    this.ray.setFromCamera(this.at, room.camera);
+    const through = this.goal ?? new Vector3();
+    if (this.mode === "surface") {
+      const [hit] = this.ray.intersectObjects(room.faces, false);
+      if (hit) {
+        const normal = smooth(hit);
+        this.foot = { point: hit.point.clone(), normal };
+        this.goal = null;
+        return;
+      }
+    }
+    const facing = room.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(
+      facing,
+      this.foot && !this.goal ? this.foot.point : through,
+    );
+    const place = this.ray.ray.intersectPlane(plane, new Vector3());
+    if (place) this.goal = place;
+    this.foot = null;
+  }
+
+  /** A place in the frame of the tables, metres, that holds until the pointer moves. */
+  hold(place) {
+    this.held = place;
+  }
+
+  /** Where the stylus is to be, coming from a place, after so many seconds; metres, in the frame of the tables. */
+  towards(from, seconds) {
+    if (this.held) return this.held;
+    let goal = this.goal;
+    if (this.foot) {
+      const height = this.pressed ? Math.min(this.height, 0) - PRESS : this.height;
+      goal = this.foot.point.clone().addScaledVector(this.foot.normal, height);
+    }
+    if (!goal) return from;
+    const share = 1 - Math.exp(-seconds / EASE);
+    return this.room.unplace(this.room.place(from).lerp(goal, share));
+  }
+}
+
+// The normal between those of a triangle's corners.
+function smooth({ face, object, barycoord, point }) {
+  const normals = object.geometry.attributes.normal;
+  const sum = new Vector3();
+  const weights = barycoord ? barycoord.toArray() : [1, 1, 1];
+  [face.a, face.b, face.c].forEach((corner, index) => {
+    sum.addScaledVector(new Vector3().fromBufferAttribute(normals, corner), weights[index]);
+  });
+  return sum.lengthSq() > 0 ? sum.normalize() : point.clone().normalize();
+}

@@ -1,0 +1,68 @@
+// A run that `palpate demo` or `palpate sim` has recorded: the counts of each tick, felt anew by the firmware's code.
+
+import { decode } from "firmware";
+import { read } from "bodies";
+
+/** How many ticks pass between two views that are kept. */
+const STRIDE = 8;
+
+/** A recording as the tool writes it: its body, the views of its run, and whether the hash is what was recorded. */
+export async function open(text, name) {
+  const said = JSON.parse(text);
+  if (said.palpate !== "recording") throw new Error(`${name}: not a recording of palpate`);
+  const body = await read(decode(said.body), said.model);
+  body.device.beginReplay(said);
+  const rows = counts(decode(said.counts), said.ticks, said.enable_at);
+  const views = [];
+  for (let tick = 0; tick < said.ticks; tick += STRIDE) {
+    body.device.replay(rows.subarray(4 * tick, 4 * Math.min(tick + STRIDE, said.ticks)));
+    views.push(body.device.replayView());
+  }
+  const hash = body.device.replayHash();
+  return {
+    body,
+    views,
+    seconds: STRIDE / said.settings[0],
+    hash,
+    recorded: said.hash,
+    same: hash === said.hash,
+    on: said.on,
+  };
+}
+
+/** Differences of counts from tick to tick, zig-zag and LEB128, as rows of three counts and whether force is asked for. */
+function counts(bytes, ticks, enableAt) {
+  const rows = new Int32Array(4 * ticks),
+    last = [0, 0, 0];
+  let at = 0;
+  for (let tick = 0; tick < ticks; tick += 1) {
+    for (let joint = 0; joint < 3; joint += 1) {
+      let number = 0,
+        shift = 0,
+        byte;
+      do {
+        byte = bytes[at++];
+        number |= (byte & 127) << shift;
+        shift += 7;
+      } while (byte > 127);
+      last[joint] = (last[joint] + ((number >>> 1) ^ -(number & 1))) | 0;
+      rows[4 * tick + joint] = last[joint];
+    }
+    rows[4 * tick + 3] = tick >= enableAt ? 1 : 0;
+  }
+  return rows;
+}
+
+/** The probe's places of a table that `palpate sim --csv` has written, in the frame of the tables, one a time. */
+export function places(text, centre) {
+  const [head, ...lines] = text
+    .trim()
+    .split(/\r?\n/)
+    .map((line) => line.split(","));
+  const columns = ["time", "probe_x", "probe_y", "probe_z"].map((name) => head.indexOf(name));
+  if (columns.includes(-1)) throw new Error("a table needs the columns time, probe_x, probe_y and probe_z");
+  return lines.map((line) => {
+    const [time, ...place] = columns.map((column) => Number(line[column]));
+    return { time, place: place.map((coordinate, axis) => coordinate - centre[axis]) };
+  });
+}

@@ -1,0 +1,228 @@
+// The room: camera, light, and the body in it. Places are those of the body's tables, metres; the room is measured in
+// sizes of the body, so that a ring and a ship are looked at alike.
+
+import {
+  ACESFilmicToneMapping,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  DoubleSide,
+  Group,
+  HemisphereLight,
+  LineMaterial,
+  LineSegments2,
+  LineSegmentsGeometry,
+  Mesh,
+  MeshPhysicalMaterial,
+  OrbitControls,
+  PCFShadowMap,
+  PerspectiveCamera,
+  PMREMGenerator,
+  PlaneGeometry,
+  RoomEnvironment,
+  Scene,
+  ShadowMaterial,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+
+const PORCELAIN = 0xe6dfd2,
+  LIT = 0x8fe3da,
+  SEAM = 0x6d7484,
+  BORDER = 0x20283a;
+
+export class Room {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer.toneMapping = ACESFilmicToneMapping;
+    this.renderer.toneMappingExposure = 0.92;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.scene = new Scene();
+    const environment = new PMREMGenerator(this.renderer);
+    this.scene.environment = environment.fromScene(new RoomEnvironment(), 0.04).texture;
+    this.scene.environmentIntensity = 0.42;
+    this.camera = new PerspectiveCamera(32, 1, 0.01, 60);
+    this.camera.up.set(0, 0, 1);
+    this.orbit = new OrbitControls(this.camera, canvas);
+    this.orbit.enableZoom = false;
+    this.orbit.enableDamping = true;
+    this.orbit.mouseButtons = { LEFT: null, MIDDLE: 2, RIGHT: 0 };
+    this.orbit.touches = { ONE: null, TWO: 2 };
+    this.light();
+    this.lines = [];
+    this.body = new Group();
+    this.scene.add(this.body);
+    this.resize();
+  }
+
+  light() {
+    this.sun = new DirectionalLight(0xfff1dc, 2.3);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.radius = 6;
+    this.sun.shadow.bias = -0.0004;
+    this.sun.shadow.normalBias = 0.012;
+    Object.assign(this.sun.shadow.camera, { left: -1.2, right: 1.2, top: 1.2, bottom: -1.2, near: 0.1, far: 8 });
+    const back = new DirectionalLight(0x7fa8ff, 0.9);
+    back.position.set(-2, 1.5, 0.6);
+    this.scene.add(this.sun, this.sun.target, back, new HemisphereLight(0xbcd0ff, 0x3a2f28, 0.5));
+    this.floor = new Mesh(new PlaneGeometry(30, 30), new ShadowMaterial({ opacity: 0.32 }));
+    this.floor.receiveShadow = true;
+    this.scene.add(this.floor);
+  }
+
+  /** From the frame of the tables to the room. */
+  place([x, y, z], into = new Vector3()) {
+    return into.set(x - this.middle[0], y - this.middle[1], z - this.middle[2]).multiplyScalar(1 / this.size);
+  }
+
+  /** And back. */
+  unplace({ x, y, z }) {
+    return [x, y, z].map((coordinate, axis) => coordinate * this.size + this.middle[axis]);
+  }
+
+  /** Shows a body: a mesh a face, so that the active one can be lit, seams thin and sharp edges dark. */
+  show(device) {
+    this.body.clear();
+    this.lines = [];
+    const steps = device.faces > 60 ? 12 : device.faces > 12 ? 24 : 48;
+    const grids = Array.from({ length: device.faces }, (_, face) => device.face(face, steps));
+    this.frame(grids, device.size);
+    this.faces = grids.map((grid) => this.face(grid, steps));
+    this.body.add(...this.faces);
+    const seams = [],
+      borders = [];
+    for (let edge = 0; edge < device.edges; edge += 1) {
+      (device.isSmooth(edge) ? seams : borders).push(device.edge(edge, 32));
+    }
+    this.line(seams, { color: SEAM, linewidth: 1.0, opacity: 0.55 });
+    this.line(borders, { color: BORDER, linewidth: 1.9, opacity: 0.9 });
+  }
+
+  frame(grids, size) {
+    const low = [Infinity, Infinity, Infinity],
+      high = [-Infinity, -Infinity, -Infinity];
+    const out = new Vector3();
+    for (const grid of grids) {
+      for (let at = 0; at < grid.length; at += 6) {
+        for (let axis = 0; axis < 3; axis += 1) {
+          low[axis] = Math.min(low[axis], grid[at + axis]);
+          high[axis] = Math.max(high[axis], grid[at + axis]);
+        }
+        out.add({ x: grid[at + 3], y: grid[at + 4], z: grid[at + 5] });
+      }
+    }
+    this.size = size;
+    this.middle = low.map((least, axis) => (least + high[axis]) / 2);
+    // An open patch is looked at from its front.
+    this.front = out.length() > (0.2 * grids.length * grids[0].length) / 6 ? out.normalize() : new Vector3(0, 0, 1);
+    const height = (high[2] - low[2]) / 2 / size;
+    this.floor.position.z = -height - 0.012;
+    this.floor.visible = this.front.z > -0.2;
+    this.sun.position.set(1.5, -1.0, 2.6);
+    const from = new Vector3(0.95, -1.45, 1.0).normalize();
+    if (this.front.z < -0.2) from.z *= -1;
+    // As near as the whole of it and the stylus fit, by the sphere around it.
+    const radius = Math.hypot(...low.map((least, axis) => high[axis] - least)) / 2 / size;
+    this.camera.position.copy(from.multiplyScalar(1.25 + 2.15 * radius));
+    this.orbit.target.set(0, 0, -0.02);
+    this.orbit.update();
+  }
+
+  face(grid, steps) {
+    const columns = steps + 1,
+      count = columns * columns;
+    const position = new Float32Array(3 * count),
+      normal = new Float32Array(3 * count);
+    const at = new Vector3();
+    for (let vertex = 0; vertex < count; vertex += 1) {
+      this.place(grid.subarray(6 * vertex, 6 * vertex + 3), at).toArray(position, 3 * vertex);
+      normal.set(grid.subarray(6 * vertex + 3, 6 * vertex + 6), 3 * vertex);
+    }
+    const index = [];
+    for (let row = 0; row < steps; row += 1) {
+      for (let column = 0; column < steps; column += 1) {
+        const corner = row * columns + column;
+        index.push(corner, corner + columns, corner + 1, corner + 1, corner + columns, corner + columns + 1);
+      }
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(position, 3));
+    geometry.setAttribute("normal", new BufferAttribute(normal, 3));
+    geometry.setIndex(turned(index, position, normal));
+    const material = new MeshPhysicalMaterial({
+      color: PORCELAIN,
+      roughness: 0.42,
+      clearcoat: 0.35,
+      clearcoatRoughness: 0.45,
+      side: DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    });
+    const mesh = new Mesh(geometry, material);
+    mesh.castShadow = true;
+    mesh.receiveShadow = true;
+    return mesh;
+  }
+
+  line(curves, { color, linewidth, opacity }) {
+    if (!curves.length) return;
+    const positions = [];
+    for (const curve of curves) {
+      const points = [];
+      for (let at = 0; at < curve.length; at += 9) points.push(this.place(curve.subarray(at, at + 3)).toArray());
+      for (let at = 1; at < points.length; at += 1) positions.push(...points[at - 1], ...points[at]);
+    }
+    const material = new LineMaterial({ color, linewidth, transparent: true, opacity });
+    material.resolution.copy(this.resolution);
+    const line = new LineSegments2(new LineSegmentsGeometry().setPositions(positions), material);
+    this.lines.push(material);
+    this.body.add(line);
+  }
+
+  /** Lights the faces of a feature. */
+  light_up(faces) {
+    const plain = new Color(PORCELAIN),
+      lit = new Color(LIT);
+    this.faces.forEach((mesh, face) => mesh.material.color.lerp(faces.includes(face) ? lit : plain, 0.25));
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / Math.max(height, 1);
+    // Narrow screens look from farther away.
+    this.camera.fov = this.camera.aspect < 1 ? 46 : 32;
+    this.camera.updateProjectionMatrix();
+    this.resolution = { x: width, y: height, isVector2: true };
+    this.lines?.forEach((material) => material.resolution.set(width, height));
+  }
+
+  draw() {
+    this.orbit.update();
+    this.renderer.render(this.scene, this.camera);
+  }
+}
+
+// Triangles whose front is where the normals point.
+function turned(index, position, normal) {
+  const at = (vertex) => new Vector3().fromArray(position, 3 * vertex);
+  let sum = 0;
+  for (let triangle = 0; triangle < index.length; triangle += 3) {
+    const [a, b, c] = [0, 1, 2].map((corner) => at(index[triangle + corner]));
+    sum += b
+      .sub(a)
+      .cross(c.sub(a))
+      .dot(new Vector3().fromArray(normal, 3 * index[triangle]));
+  }
+  if (sum >= 0) return index;
+  for (let triangle = 0; triangle < index.length; triangle += 3) {
+    [index[triangle + 1], index[triangle + 2]] = [index[triangle + 2], index[triangle + 1]];
+  }
+  return index;
+}

@@ -1,0 +1,106 @@
+//! `palpate page` and `palpate view`: the page for the browser, as a file and on the loopback.
+
+use super::bake;
+use super::output::{print, write_whole};
+use crate::firmware::Progress;
+use crate::models::SHIPPED;
+use crate::page::{self, Given, Recording, Shown};
+use anyhow::Context as _;
+use clap::Args;
+use palpate::body::FileHead;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// The body that is shown first.
+const FIRST: &str = "capped_box";
+
+/// Writes the page for the browser: feel every model that ships with the mouse, by the firmware's own code.
+///
+/// One HTML file that needs nothing beside it and no network: the firmware's servo loop as wasm, three.js, the
+/// models. The first run builds the code for the browser; what it needs for that is installed, and said.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The folder for the page, index.html
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Shows a model on the page for the browser, served on this machine alone.
+///
+/// It prints the address and answers until it is stopped with Ctrl-C.
+#[derive(Args, Debug)]
+pub struct ViewArguments {
+    /// The model: a file, or the name of one that ships
+    #[arg(required_unless_present = "recording")]
+    model: Option<PathBuf>,
+    /// A run that `demo` or `sim` has recorded, to be shown with its body
+    #[arg(long, value_name = "FILE.json", conflicts_with = "model")]
+    recording: Option<PathBuf>,
+    /// The port; 0 is any that is free
+    #[arg(long, default_value_t = 0)]
+    port: u16,
+}
+
+/// Runs `page`.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let text = written(Given { first: FIRST.to_owned(), bodies: shipped()?, script: script(), recording: None })?;
+    let out = &arguments.out;
+    fs::create_dir_all(out).with_context(|| format!("{}: the folder cannot be made", out.display()))?;
+    let path = out.join("index.html");
+    write_whole(&path, text.as_bytes())?;
+    println!("{}", path.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Runs `view`.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn view(arguments: &ViewArguments) -> anyhow::Result<ExitCode> {
+    let mut bodies = Vec::new();
+    let mut first = FIRST.to_owned();
+    if let Some(model) = &arguments.model {
+        first = model.file_stem().unwrap_or(model.as_os_str()).to_string_lossy().into_owned();
+        bodies.push(Shown::new(&first, &bake::file_of(model)?));
+    }
+    let recording = arguments.recording.as_deref().map(read).transpose()?;
+    bodies.extend(shipped()?.into_iter().filter(|body| body.name != first));
+    let text = written(Given { first, bodies, script: script(), recording })?;
+    page::serve(&text, arguments.port, |address| {
+        // Whoever reads it may have gone.
+        let _ = print(format!("{address}\n").as_bytes());
+    })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn written(given: Given) -> anyhow::Result<String> {
+    let firmware = page::compile(&Progress::new())?;
+    page::bundle(&given, &firmware)
+}
+
+/// Every model that ships, bodies before patches.
+fn shipped() -> anyhow::Result<Vec<Shown>> {
+    let mut bodies = Vec::new();
+    for (name, _) in SHIPPED {
+        let file = bake::file_of(Path::new(name))?;
+        bodies.push((FileHead::of(&file)?.faces == 1, Shown::new(name, &file)));
+    }
+    bodies.sort_by_key(|(is_patch, _)| *is_patch);
+    Ok(bodies.into_iter().map(|(_, body)| body).collect())
+}
+
+/// What the script of the emulated boards comes to.
+fn script() -> String {
+    let mut text = String::new();
+    palpate_exercise::run(&mut |name, tally| text += &format!("{name} {tally}\n"));
+    text
+}
+
+fn read(path: &Path) -> anyhow::Result<Recording> {
+    let text = fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    serde_json::from_str(&text).with_context(|| format!("{}: not a recording of a run", path.display()))
+}
