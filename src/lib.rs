@@ -7,6 +7,7 @@ pub mod device;
 pub mod math;
 pub mod patch;
 pub mod render;
+pub mod scene;
 pub mod servo;
 #[doc = include_str!("theory.md")]
 pub mod theory {}

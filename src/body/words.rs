@@ -79,6 +79,13 @@ impl Body<'_> {
         if word < ENTRIES { entries.get(index * ENTRIES + word).copied() } else { None }
     }
 
+    /// How many records there are.
+    pub fn table_records(&self) -> u32 {
+        let Locator { nodes, entries, .. } = self.locator;
+        let features = FACE_RECORDS * self.faces.len() + self.edges.len() + self.vertices.len() + self.spokes.len();
+        (1 + features + nodes.len() + entries.len().div_ceil(ENTRIES)) as u32
+    }
+
     /// CRC-32 of all words as they are now; as they were baked it is [`Self::baked_crc`].
     pub fn table_crc(&self) -> u32 {
         let (mut crc, mut place) = (0, Some(TableCursor::default()));

@@ -13,6 +13,7 @@ mod knob;
 pub mod limit;
 mod passivity;
 mod penalty;
+mod press;
 mod texture;
 
 pub use coupling::{Coupling, Tool};
@@ -21,4 +22,5 @@ pub use friction::{Anchor, Friction};
 pub use knob::{Detents, DetentsError};
 pub use passivity::{Energy, Motion, Passivity};
 pub use penalty::Penalty;
+pub use press::Press;
 pub use texture::{Texture, Touch, grating};

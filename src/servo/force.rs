@@ -1,9 +1,9 @@
 //! From the witness point to the force on the probe.
 
-use super::{Guard, Phase, Servo, ServoState, Surface, Tracked as _};
+use super::{Guard, Phase, Rendering, Servo, ServoState, Surface, Tracked as _};
 use crate::device::Kinematics;
-use crate::math::{Vec3, sqrt};
-use crate::render::{Motion, Tool, Touch, limit};
+use crate::math::Vec3;
+use crate::render::{Motion, Press, Tool, limit};
 use crate::track::Contact;
 
 impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
@@ -40,31 +40,18 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     /// The surface's force on what touches it, N.
     #[inline]
     fn surface_force(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, tool: Tool, normal: Vec3) -> Vec3 {
+        if S::FEELS_ITSELF {
+            return Vec3::ZERO;
+        }
         let push = match state.contact() {
             Contact::Touching => self.penalty.push(state.gap(), tool.velocity.dot(normal)),
             Contact::Behind | Contact::InFront => 0.0,
         };
-        let mut force = normal * push;
         let witness = *state.witness.witness();
         let surface = &witness.surface;
-        if let Some(friction) = &self.rendering.friction {
-            force += friction.pull(&mut state.anchor, surface.point, normal, push, tool.velocity);
-        }
-        if let Some(texture) = &self.rendering.texture
-            && push > 0.0
-        {
-            let squared = surface.tangent_u.length_squared();
-            let inverse = if squared > f32::MIN_POSITIVE { 1.0 / sqrt(squared) } else { 0.0 };
-            force += texture.bounded(&Touch {
-                parameters: witness.parameters,
-                point: surface.point,
-                normal,
-                along_u: surface.tangent_u * inverse,
-                velocity: tool.velocity,
-                push,
-            });
-        }
-        force
+        let Rendering { friction, texture, .. } = &self.rendering;
+        let press = Press { point: surface.point, normal, velocity: tool.velocity, push };
+        press.force(friction.as_ref(), texture.as_ref(), &mut state.anchor, || (witness.parameters, surface.tangent_u))
     }
 
     /// The force comes up slowly after each start, so that nothing kicks.

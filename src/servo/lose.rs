@@ -19,7 +19,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         let felt = u32::from(state.phase == Phase::Running);
         lost.in_a_row = if follows { lost.in_a_row.saturating_add(felt) } else { felt };
         lost.count = lost.count.saturating_add(1);
-        (lost.tick, lost.force, lost.share) = (state.ticks, state.force, 1.0);
+        (lost.tick, lost.force, lost.share) = (state.ticks, state.force, if S::FEELS_ITSELF { 0.0 } else { 1.0 });
         if lost.in_a_row > self.contact_watch.max_in_a_row { Err(Fault::ContactLost) } else { Ok(()) }
     }
 

@@ -172,6 +172,12 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         &self.witness
     }
 
+    /// The same for what its surface lets be changed between two ticks, as a [`crate::scene::Scene`] does.
+    #[inline]
+    pub const fn witness_mut(&mut self) -> &mut W {
+        &mut self.witness
+    }
+
     /// Where friction holds the surface.
     #[inline]
     pub const fn anchor(&self) -> Anchor {

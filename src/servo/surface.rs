@@ -7,6 +7,10 @@ use core::fmt::Debug;
 
 /// A surface whose closest point can be followed from tick to tick.
 pub trait Surface {
+    /// Whether all of its force is its own ([`Self::own_force`]): the loop then adds no spring, friction or texture to
+    /// it, and does not fade out what is left of contact that was lost.
+    const FEELS_ITSELF: bool = false;
+
     /// What is kept between two ticks.
     type Witness: Tracked;
 
@@ -38,6 +42,11 @@ pub trait Surface {
     /// A word of the tables, for the check that flash still holds what was baked; `None` past the end of the cursor's
     /// record, and of the tables. Bounded work.
     fn table_word(&self, cursor: TableCursor) -> Option<u32>;
+
+    /// How many records the tables have: for what is put together from several.
+    fn table_records(&self) -> u32 {
+        1
+    }
 
     /// CRC-32 of all those words as they were baked; `None` for tables that carry none: they are not checked.
     fn baked_crc(&self) -> Option<u32>;
@@ -98,6 +107,10 @@ impl Surface for Body<'_> {
 
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         Self::table_word(self, cursor)
+    }
+
+    fn table_records(&self) -> u32 {
+        Self::table_records(self)
     }
 
     fn baked_crc(&self) -> Option<u32> {

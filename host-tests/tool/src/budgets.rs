@@ -102,6 +102,9 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
     let file = figures(&Program::prepare(board, "file_budget", &[], progress)?.run(Pace::Counting)?)?;
     all.0.extend(knob.0);
     all.0.extend(file.0);
+    for scene in ["scene", "scene-path", "scene-free", "scene-two", "scene-four", "scene-sixteen"] {
+        all.0.extend(figures(&Program::prepare(board, "scene_budget", &[scene], progress)?.run(Pace::Counting)?)?.0);
+    }
     all.0.extend(protected.0.into_iter().filter(|(name, _)| name.contains("protected")));
     Ok(all)
 }

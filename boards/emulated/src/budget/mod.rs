@@ -11,6 +11,8 @@ mod file;
 mod knob;
 mod mathematics;
 mod patches;
+#[cfg(feature = "scene")]
+mod scene;
 mod servo;
 mod step;
 mod tables;
@@ -35,6 +37,15 @@ pub fn run_knob(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 /// That the file is refused, or what the walk ran into.
 pub fn run_file(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     file::run(counter)
+}
+
+/// Measures and prints what the tick costs over scenes.
+///
+/// # Errors
+/// What went wrong on a path, so that its figures would mean nothing.
+#[cfg(feature = "scene")]
+pub fn run_scene(counter: &mut InstructionCounter) -> Result<(), &'static str> {
+    scene::run(counter)
 }
 
 /// Measures and prints all figures.

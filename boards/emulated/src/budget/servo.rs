@@ -15,7 +15,7 @@ use crate::timer::InstructionCounter;
 /// Ticks of the path.
 const TICKS: u32 = 100_000;
 /// Newton steps to the start of the path.
-const APPROACH: u32 = 20;
+pub(super) const APPROACH: u32 = 20;
 
 #[inline(never)]
 fn tick(state: &mut State, input: Input<3>) {
@@ -23,14 +23,19 @@ fn tick(state: &mut State, input: Input<3>) {
 }
 
 /// The joints of a device that goes where it is told.
-struct Walk {
+pub(super) struct Walk {
     angles: [f32; 3],
 }
 
 impl Walk {
+    /// Where the encoders begin.
+    pub(super) fn start() -> Self {
+        Self { angles: DEVICE.encoders.map(|encoder| encoder.angle_at_zero) }
+    }
+
     /// One step of Newton's method a tick, from the last tick's angles: the path moves a tenth of a millimetre in
     /// between.
-    fn counts(&mut self, position: Vec3) -> [Counts; 3] {
+    pub(super) fn counts(&mut self, position: Vec3) -> [Counts; 3] {
         let pose = DEVICE.kinematics.pose(self.angles);
         let [a, b, c] = pose.jacobian;
         let missing = position - pose.position;
@@ -50,7 +55,7 @@ impl Walk {
 
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut state = SERVO.start();
-    let mut walk = Walk { angles: DEVICE.encoders.map(|encoder| encoder.angle_at_zero) };
+    let mut walk = Walk::start();
     for _ in 0..APPROACH {
         walk.counts(probe(0) + SETTINGS.body_origin);
     }

@@ -1,0 +1,179 @@
+//! From the file's entries to what the library takes.
+
+use super::file::{BodyEntry, JointEntry, SceneFile, SceneFileError};
+use glam::{DMat3, DVec3};
+use palpate::body::Body;
+use palpate::math::{Vec3, vec3};
+use palpate::render::Friction;
+use palpate::scene::{Joint, Limits, Material, Motion, Part, Path, RigidBody, Scene, SceneError, Sphere, Tether};
+use palpate::track::Placement;
+
+/// The most bodies of a file: an image and a loop are made for each number of them.
+pub const MAX_BODIES: usize = 8;
+
+/// What is known of a body's shape: its tables' frame in its model, and its bounding box in that frame, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Where the origin of the tables lies in the model.
+    pub centre: DVec3,
+    /// The box's lower corner.
+    pub low: DVec3,
+    /// Its upper corner.
+    pub high: DVec3,
+}
+
+impl Shape {
+    fn middle(&self) -> DVec3 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// Half the diagonal, and a thousandth for what the box was sampled by and for rounding.
+    fn radius(&self) -> f32 {
+        (0.5 * (self.high - self.low).length() * 1.001) as f32
+    }
+}
+
+impl SceneFile {
+    /// The scene's limits: those of a device, with what the file says.
+    pub fn limits(&self, of_device: Limits) -> Limits {
+        Limits { let_go: self.let_go.unwrap_or(of_device.let_go), ..of_device }
+    }
+
+    /// A scene of the file's bodies, in its order.
+    ///
+    /// # Errors
+    /// What the library refuses, naming the body.
+    ///
+    /// # Panics
+    /// Where `N` is not the number of bodies.
+    pub fn scene<const N: usize>(
+        &self,
+        limits: Limits,
+        bodies: &[(&'static Body<'static>, Shape)],
+    ) -> Result<Scene<'static, Body<'static>, N>, SceneFileError> {
+        let parts = self.parts(limits.rate, bodies);
+        let parts = <[_; N]>::try_from(parts).unwrap_or_else(|_| panic!("not {N} bodies"));
+        Scene::try_new(self.limits(limits), parts).map_err(|error| {
+            let index = match error {
+                SceneError::Stiffness(index)
+                | SceneError::Damping(index)
+                | SceneError::Friction(index)
+                | SceneError::Texture(index)
+                | SceneError::Motion(index)
+                | SceneError::Light(index)
+                | SceneError::Slack(index)
+                | SceneError::Sphere(index)
+                | SceneError::Group(index) => Some(usize::from(index)),
+                _ => None,
+            };
+            SceneFileError::Scene { body: index.and_then(|index| Some(self.body.get(index)?.name.clone())), error }
+        })
+    }
+
+    /// What a scene is made of, at a servo rate, Hz.
+    pub fn parts(&self, rate: f32, bodies: &[(&'static Body<'static>, Shape)]) -> Vec<Part<'static, Body<'static>>> {
+        let entries = self.body.iter().zip(bodies);
+        entries.map(|(entry, (body, shape))| entry.part(rate, body, shape)).collect()
+    }
+}
+
+impl BodyEntry {
+    fn part(&self, rate: f32, body: &'static Body<'static>, shape: &Shape) -> Part<'static, Body<'static>> {
+        let friction = self.friction.map(|friction| Friction {
+            stiffness: friction.stiffness,
+            damping: friction.damping,
+            static_coefficient: friction.static_coefficient,
+            dynamic_coefficient: friction.dynamic_coefficient,
+        });
+        Part {
+            surface: body,
+            motion: self.motion(rate, shape),
+            material: Material { stiffness: self.stiffness, damping: self.damping, friction, texture: None },
+            sphere: Sphere { centre: single(shape.middle()), radius: shape.radius() },
+            group: self.group,
+        }
+    }
+
+    /// Where the frame of the tables is at the start.
+    pub fn placement(&self, shape: &Shape) -> Placement {
+        let turn = self.turned.map_or(DMat3::IDENTITY, |turned| {
+            DMat3::from_axis_angle(DVec3::from_array(turned.axis).normalize(), turned.by.to_radians())
+        });
+        let origin = metres(self.at) + turn * shape.centre;
+        let axes = [turn.x_axis, turn.y_axis, turn.z_axis].map(single);
+        Placement { axes, origin: single(origin), ..Placement::IDENTITY }
+    }
+
+    fn motion(&self, rate: f32, shape: &Shape) -> Motion {
+        let start = self.placement(shape);
+        if let Some(free) = &self.free {
+            let size = shape.high - shape.low;
+            let block = DVec3::new(
+                size.y * size.y + size.z * size.z,
+                size.x * size.x + size.z * size.z,
+                size.x * size.x + size.y * size.y,
+            );
+            let inertia = free.inertia.map_or_else(|| single(block * f64::from(free.mass) / 12.0), Vec3::from_array);
+            let middle = single(shape.middle());
+            return Motion::Free(RigidBody {
+                start,
+                mass: free.mass,
+                inertia,
+                centre: middle,
+                joint: match free.joint {
+                    None => Joint::Free,
+                    Some(JointEntry::Fixed) => Joint::Fixed,
+                    Some(JointEntry::Slider { axis }) => Joint::Slider(unit(axis)),
+                    Some(JointEntry::Hinge { axis, about }) => {
+                        Joint::Hinge { axis: unit(axis), pivot: single(metres(about)) }
+                    }
+                },
+                gravity: Vec3::from_array(free.gravity),
+                damping: free.damping,
+                angular_damping: free.angular_damping,
+                tether: free.spring.map(|spring| Tether {
+                    anchor: start.point_to_a(middle),
+                    slack: single(metres(spring.slack)),
+                    stiffness: spring.stiffness,
+                    damping: spring.damping,
+                }),
+                angular_stiffness: free.angular_stiffness,
+            });
+        }
+        if self.turns.is_none() && self.sways.is_none() {
+            return Motion::Resting(start);
+        }
+        let mut path = Path::new(start);
+        if let Some([axis, pivot, by]) = self.turn_of() {
+            path = path.turning(axis, pivot, by.x, rate);
+        }
+        if let Some([amplitude, by]) = self.sway_of() {
+            path = path.swaying(amplitude, by.x, rate);
+        }
+        Motion::Prescribed(path)
+    }
+
+    /// Axis, pivot, and the rate in rad/s.
+    pub(super) fn turn_of(&self) -> Option<[Vec3; 3]> {
+        let turn = self.turns?;
+        Some([unit(turn.axis), single(metres(turn.about)), vec3(turn.rate.to_radians() as f32, 0.0, 0.0)])
+    }
+
+    /// Amplitude, and the rate in rad/s.
+    pub(super) fn sway_of(&self) -> Option<[Vec3; 2]> {
+        let sway = self.sways?;
+        Some([single(metres(sway.by)), vec3((sway.often * core::f64::consts::TAU) as f32, 0.0, 0.0)])
+    }
+}
+
+fn metres(millimetres: [f64; 3]) -> DVec3 {
+    DVec3::from_array(millimetres) * 1e-3
+}
+
+fn unit(axis: [f64; 3]) -> Vec3 {
+    single(DVec3::from_array(axis).normalize_or_zero())
+}
+
+fn single(vector: DVec3) -> Vec3 {
+    vec3(vector.x as f32, vector.y as f32, vector.z as f32)
+}

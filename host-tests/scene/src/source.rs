@@ -1,0 +1,125 @@
+//! A scene as Rust source, for an image.
+
+use super::file::{BodyEntry, SceneFile};
+use super::parts::Shape;
+use palpate::body::Body;
+use palpate::math::Vec3;
+use palpate::scene::{Joint, Limits, Motion, Part, Tether};
+use palpate::track::Placement;
+use std::fmt::Write as _;
+
+/// The source: a module of tables for each body, and the scene of them as `Surface` and `SURFACE`, which an image takes
+/// as it takes a body's. `tables` is each body's own source.
+pub fn source(
+    file: &SceneFile,
+    limits: Limits,
+    bodies: &[(&'static Body<'static>, Shape)],
+    tables: &[String],
+) -> String {
+    let mut text = String::from("// A scene, written by palpate from a scene file: not for editing.\n");
+    for (index, table) in tables.iter().enumerate() {
+        let _ = writeln!(text, "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}", file.body[index].name);
+    }
+    let count = tables.len();
+    let Limits { max_stiffness, max_damping, max_force, let_go, rate, max_speed } = file.limits(limits);
+    let _ = writeln!(
+        text,
+        "/// What is felt.\npub type Surface = palpate::scene::Scene<'static, palpate::body::Body<'static>, {count}>;\n\
+         /// The scene.\n#[rustfmt::skip]\nstatic SCENE: Surface = palpate::scene::Scene::new(\n    \
+         palpate::scene::Limits {{ max_stiffness: {max_stiffness:?}, max_damping: {max_damping:?}, \
+         max_force: {max_force:?}, let_go: {let_go:?}, rate: {rate:?}, max_speed: {max_speed:?} }},\n    ["
+    );
+    for (index, (entry, part)) in file.body.iter().zip(file.parts(limits.rate, bodies)).enumerate() {
+        let (centre, radius) = (vector(part.sphere.centre), part.sphere.radius);
+        let _ = writeln!(
+            text,
+            "        palpate::scene::Part {{ surface: &body_{index}::BODY, motion: {}, material: {}, \
+             sphere: palpate::scene::Sphere {{ centre: {centre}, radius: {radius:?} }}, group: {} }},",
+            motion(entry, &part, limits.rate),
+            material(&part),
+            part.group
+        );
+    }
+    text += "    ],\n);\n/// The scene.\npub const SURFACE: &Surface = &SCENE;\n";
+    text
+}
+
+fn vector(vector: Vec3) -> String {
+    let [x, y, z] = vector.to_array();
+    format!("palpate::math::vec3({x:?}, {y:?}, {z:?})")
+}
+
+fn placement(of: &Placement) -> String {
+    let [a, b, c] = of.axes.map(vector);
+    let origin = vector(of.origin);
+    format!(
+        "palpate::track::Placement {{ axes: [{a}, {b}, {c}], origin: {origin}, ..palpate::track::Placement::IDENTITY }}"
+    )
+}
+
+fn material(part: &Part<'static, Body<'static>>) -> String {
+    let material = &part.material;
+    let friction = material.friction.map_or_else(
+        || "None".to_owned(),
+        |friction| {
+            format!(
+                "Some(palpate::render::Friction {{ stiffness: {:?}, damping: {:?}, static_coefficient: {:?}, \
+                 dynamic_coefficient: {:?} }})",
+                friction.stiffness, friction.damping, friction.static_coefficient, friction.dynamic_coefficient
+            )
+        },
+    );
+    format!(
+        "palpate::scene::Material {{ friction: {friction}, ..palpate::scene::Material::new({:?}, {:?}) }}",
+        material.stiffness, material.damping
+    )
+}
+
+fn motion(entry: &BodyEntry, part: &Part<'static, Body<'static>>, rate: f32) -> String {
+    match &part.motion {
+        Motion::Resting(start) => format!("palpate::scene::Motion::Resting({})", placement(start)),
+        Motion::Prescribed(path) => {
+            let mut text = format!("palpate::scene::Path::new({})", placement(path.start()));
+            if let Some([axis, pivot, by]) = entry.turn_of() {
+                let _ = write!(text, ".turning({}, {}, {:?}, {rate:?})", vector(axis), vector(pivot), by.x);
+            }
+            if let Some([amplitude, by]) = entry.sway_of() {
+                let _ = write!(text, ".swaying({}, {:?}, {rate:?})", vector(amplitude), by.x);
+            }
+            format!("palpate::scene::Motion::Prescribed({text})")
+        }
+        Motion::Free(body) => {
+            let joint = match body.joint {
+                Joint::Free => "Free".to_owned(),
+                Joint::Fixed => "Fixed".to_owned(),
+                Joint::Slider(axis) => format!("Slider({})", vector(axis)),
+                Joint::Hinge { axis, pivot } => {
+                    format!("Hinge {{ axis: {}, pivot: {} }}", vector(axis), vector(pivot))
+                }
+            };
+            let tether = body.tether.map_or_else(
+                || "None".to_owned(),
+                |Tether { anchor, slack, stiffness, damping }| {
+                    format!(
+                        "Some(palpate::scene::Tether {{ anchor: {}, slack: {}, stiffness: {stiffness:?}, damping: {damping:?} }})",
+                        vector(anchor),
+                        vector(slack)
+                    )
+                },
+            );
+            format!(
+                "palpate::scene::Motion::Free(palpate::scene::RigidBody {{ start: {}, mass: {:?}, inertia: {}, \
+                 centre: {}, joint: palpate::scene::Joint::{joint}, gravity: {}, damping: {:?}, \
+                 angular_damping: {:?}, tether: {tether}, angular_stiffness: {:?} }})",
+                placement(&body.start),
+                body.mass,
+                vector(body.inertia),
+                vector(body.centre),
+                vector(body.gravity),
+                body.damping,
+                body.angular_damping,
+                body.angular_stiffness
+            )
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! What a scene is held to: `cargo test -p palpate-scene`.
+
+mod books;
+mod common;
+mod loops;
+mod motion;
+mod several;
+mod switching;

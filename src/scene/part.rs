@@ -1,0 +1,215 @@
+//! A body of the scene: what it is, how it moves and feels; and what is kept of it between two ticks.
+
+use super::frame::Frame;
+use super::path::{Path, finite, is_rigid};
+use super::rigid::{Moving, RigidBody, Wrench};
+use crate::body::Body;
+use crate::math::{Vec3, vec3};
+use crate::render::{Anchor, Friction, Texture};
+use crate::servo::Tracked;
+use crate::track::{Contact, Placement};
+
+/// How a body moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// It rests where it is, or goes where it is told ([`super::SceneState::lead`]).
+    Resting(Placement),
+    /// It moves as prescribed.
+    Prescribed(Path),
+    /// It is free, and pushed by what touches it.
+    Free(RigidBody),
+}
+
+/// How a body feels.
+#[derive(Clone, Copy, Debug)]
+pub struct Material {
+    /// Stiffness, N/m.
+    pub stiffness: f32,
+    /// Damping, N·s/m.
+    pub damping: f32,
+    /// Dry friction.
+    pub friction: Option<Friction>,
+    /// Texture on top; it is asked in the body's own frame.
+    pub texture: Option<Texture>,
+}
+
+impl Material {
+    /// A spring and a damper.
+    pub const fn new(stiffness: f32, damping: f32) -> Self {
+        Self { stiffness, damping, friction: None, texture: None }
+    }
+}
+
+/// A ball that holds all of a body, in its frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Metres.
+    pub centre: Vec3,
+    /// Metres.
+    pub radius: f32,
+}
+
+/// A body of the scene.
+#[derive(Debug)]
+pub struct Part<'a, S> {
+    /// Its surface, in its own frame.
+    pub surface: &'a S,
+    /// How it moves.
+    pub motion: Motion,
+    /// How it feels.
+    pub material: Material,
+    /// What holds all of it.
+    pub sphere: Sphere,
+    /// The group it belongs to, 0 to 31, which can be switched on and off.
+    pub group: u8,
+}
+
+impl<S> Clone for Part<'_, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S> Copy for Part<'_, S> {}
+
+impl<'a, 'b> Part<'a, Body<'b>> {
+    /// A body of group 0. Its sphere is what its tables prove: no two points of a body are farther from each other than
+    /// `√3` times its size. A smaller one that you know is a better one.
+    pub const fn new(body: &'a Body<'b>, motion: Motion, material: Material) -> Self {
+        let sphere = match body.vertices() {
+            [first, ..] => Sphere { centre: first.point, radius: 1.732_051 * body.size() },
+            [] => Sphere { centre: Vec3::ZERO, radius: f32::INFINITY },
+        };
+        Self { surface: body, motion, material, sphere, group: 0 }
+    }
+}
+
+impl<S> Part<'_, S> {
+    fn frame(&self) -> Frame {
+        match &self.motion {
+            Motion::Resting(placement) => Frame::new(placement),
+            Motion::Prescribed(path) => path.frame(),
+            Motion::Free(body) => body.frame(&body.rest()),
+        }
+    }
+
+    pub(super) const fn moves_well(&self) -> bool {
+        match &self.motion {
+            Motion::Resting(placement) => is_rigid(placement),
+            Motion::Prescribed(path) => path.is_valid(),
+            Motion::Free(body) => body.is_valid(),
+        }
+    }
+
+    pub(super) const fn is_held(&self) -> bool {
+        finite(self.sphere.centre) && self.sphere.radius >= 0.0
+    }
+}
+
+/// What is kept of a body between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartState<W> {
+    /// What its tracker keeps, in its own frame.
+    pub(super) witness: W,
+    /// Where it is.
+    pub(super) frame: Frame,
+    /// How it moves, where it is free.
+    pub(super) moving: Moving,
+    /// What pushed it in the last tick.
+    pub(super) push: Wrench,
+    /// Where friction holds it, in its frame.
+    pub(super) anchor: Anchor,
+    /// Whether the tool touches it.
+    pub(super) contact: Contact,
+    /// From the tool to it, metres.
+    pub(super) gap: f32,
+    /// Its outward normal at the witness point, and the tool's velocity past it, in its frame.
+    pub(super) normal: Vec3,
+    pub(super) velocity: Vec3,
+    /// Its force on the tool, N.
+    pub(super) force: Vec3,
+    pub(super) stiffness: f32,
+    pub(super) damping: f32,
+    /// The tick at which it was looked at last.
+    pub(super) seen: u32,
+    /// No look is due for so many ticks from then.
+    pub(super) rests: u32,
+    /// Whether the tracker lost it in this tick.
+    pub(super) unexplained: bool,
+}
+
+impl<W: Tracked> PartState<W> {
+    pub(super) fn new<S>(part: &Part<'_, S>, witness: W) -> Self {
+        let frame = part.frame();
+        let resting = RigidBody::new(Placement::IDENTITY, 1.0, vec3(1.0, 1.0, 1.0));
+        let moving = match &part.motion {
+            Motion::Free(body) => body.rest(),
+            _ => resting.rest(),
+        };
+        Self {
+            witness,
+            frame,
+            moving,
+            push: Wrench::default(),
+            anchor: Anchor::default(),
+            contact: Contact::Behind,
+            gap: 0.0,
+            normal: Vec3::ZERO,
+            velocity: Vec3::ZERO,
+            force: Vec3::ZERO,
+            stiffness: part.material.stiffness,
+            damping: part.material.damping,
+            seen: 0,
+            rests: 0,
+            unexplained: false,
+        }
+    }
+
+    /// What its tracker keeps; points are in the body's own frame.
+    pub const fn witness(&self) -> &W {
+        &self.witness
+    }
+
+    /// Where it was when it was looked at last: in this tick, if it is near.
+    pub fn placement(&self) -> Placement {
+        self.frame.placement()
+    }
+
+    /// How it moves, if it is free.
+    pub const fn moving(&self) -> &Moving {
+        &self.moving
+    }
+
+    /// Whether the tool touches it.
+    pub const fn contact(&self) -> Contact {
+        self.contact
+    }
+
+    /// From the tool's surface to it, metres; negative inside.
+    pub const fn gap(&self) -> f32 {
+        self.gap
+    }
+
+    /// Its force on the tool, N, in the scene's frame.
+    pub const fn force(&self) -> Vec3 {
+        self.force
+    }
+
+    pub(super) fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        self.witness.for_each_word(&mut take);
+        self.moving.for_each_word(&mut take);
+        let Frame { axes: [a, b, c], pivot, offset, velocity, angular_velocity } = self.frame;
+        let anchor = self.anchor.point.unwrap_or(Vec3::ZERO);
+        let pushes = [self.push.force, self.push.torque, self.force, self.normal, self.velocity, anchor];
+        for vector in [a, b, c, pivot, offset, velocity, angular_velocity].into_iter().chain(pushes) {
+            for number in vector.to_array() {
+                take(number.to_bits());
+            }
+        }
+        for number in [self.gap, self.stiffness, self.damping] {
+            take(number.to_bits());
+        }
+        take(self.contact as u32 | u32::from(self.anchor.slips) << 8 | u32::from(self.unexplained) << 9);
+        take(self.seen);
+        take(self.rests);
+    }
+}

@@ -1,0 +1,610 @@
+//! The scene: bodies, the checks of what was chosen of them, and the tick.
+
+use super::frame::Frame;
+use super::part::{Material, Motion, Part, PartState};
+use super::rigid::Wrench;
+use super::state::SceneState;
+use crate::body::TableCursor;
+use crate::device::Device;
+use crate::math::{Vec3, saturate};
+use crate::render::{Penalty, Press, limit};
+use crate::servo::{Surface, Touched, Tracked};
+use crate::track::{Contact, Controller, Placement, Probe};
+use thiserror::Error;
+
+/// No body.
+pub(super) const NOBODY: u8 = u8::MAX;
+
+/// What a step of the CRC (its register, and a word of 0) takes to all ones, which is how a CRC begins.
+const TO_ALL_ONES: u32 = 0x9226_f562;
+
+/// Bodies that stand and move in one frame, felt by one tool. Constant, in flash; `N` is their greatest number, at most
+/// 32.
+///
+/// A [`Surface`] like any other, whose force is all its own: give it to a [`crate::servo::Servo`]. The two bodies that
+/// are nearest are tracked at each tick, touched ones first; of the others one a tick is looked at.
+#[derive(Debug)]
+pub struct Scene<'a, S, const N: usize> {
+    parts: [Part<'a, S>; N],
+    limits: Limits,
+}
+
+/// What the parts share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// The greatest stiffness that a body may be given, N/m.
+    pub max_stiffness: f32,
+    /// The greatest damping, N·s/m.
+    pub max_damping: f32,
+    /// The greatest force of a body, N.
+    pub max_force: f32,
+    /// How much of a force that is no longer backed by a body is let go of in a second, N/s; a force that a switch
+    /// brings comes up as fast.
+    pub let_go: f32,
+    /// Ticks a second.
+    pub rate: f32,
+    /// No body is met faster than this, m/s: by the tool's speed and its own. It says how long a body that is far off
+    /// need not be looked at.
+    pub max_speed: f32,
+}
+
+/// Which choice is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum SceneError {
+    /// No body, or more than 32.
+    #[error("a scene has 1 to 32 bodies")]
+    Bodies,
+    /// A shared limit is not positive, or not finite.
+    #[error("the scene's limits must be positive and finite")]
+    Limits,
+    /// A stiffness is out of range. Where several bodies may be touched, two of them must be within it together.
+    #[error("body {0}: the stiffness must be between 0 and the greatest, with that of the stiffest other body")]
+    Stiffness(u8),
+    /// A damping is out of range.
+    #[error("body {0}: the damping must be between 0 and the greatest")]
+    Damping(u8),
+    /// Friction is negative, not finite, or holds more slipping than sticking.
+    #[error("body {0}: friction must be finite and not negative, its dynamic coefficient not above the static one")]
+    Friction(u8),
+    /// A texture's share is not between 0 and 1.
+    #[error("body {0}: a texture's share must be between 0 and 1")]
+    Texture(u8),
+    /// Axes that are not orthonormal, a number that is not finite, no mass.
+    #[error("body {0}: its motion has axes that are not orthonormal, a number that is not finite, or no mass")]
+    Motion(u8),
+    /// A free body is lighter than its stiffness, damping and friction allow at this rate.
+    #[error("body {0}: it is too light for its stiffness, damping and friction at this rate")]
+    Light(u8),
+    /// The damping along a free body's surface is less than its stiffness there times half a tick.
+    #[error("body {0}: friction on a free body needs a damping of at least its stiffness times half a tick")]
+    Slack(u8),
+    /// A sphere that is not finite.
+    #[error("body {0}: its sphere must have a finite centre and a radius")]
+    Sphere(u8),
+    /// A group of 32 and more.
+    #[error("body {0}: groups are 0 to 31")]
+    Group(u8),
+    /// There is no such body.
+    #[error("there is no body {0}")]
+    Missing(u8),
+    /// A placement that is no rigid motion, or of a body that does not rest.
+    #[error("body {0}: only a resting body is placed, with orthonormal axes and finite numbers")]
+    Placement(u8),
+    /// The radius of a tool's tip is negative or not finite.
+    #[error("the radius of the tip must be finite and not negative")]
+    TipRadius,
+}
+
+impl Limits {
+    /// Those of a device, at a servo rate: no more force than it has, let go of in 50 ms; bodies met at up to 2 m/s.
+    pub const fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>, rate: f32) -> Self {
+        let Device { max_stiffness, max_damping, max_force, .. } = *device;
+        Self { max_stiffness, max_damping, max_force, let_go: 20.0 * max_force, rate, max_speed: 2.0 }
+    }
+
+    const fn is_valid(&self) -> bool {
+        let Self { max_stiffness, max_damping, max_force, let_go, rate, max_speed } = *self;
+        max_stiffness > 0.0
+            && max_damping >= 0.0
+            && max_force > 0.0
+            && let_go > 0.0
+            && rate >= 1.0
+            && max_speed > 0.0
+            && max_stiffness < f32::INFINITY
+            && max_damping < f32::INFINITY
+            && max_force < f32::INFINITY
+            && let_go < f32::INFINITY
+            && rate < f32::INFINITY
+            && max_speed < f32::INFINITY
+    }
+}
+
+impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
+    /// The longest time, in ticks, from one look at a body that is on and not tracked to the next.
+    pub const LOOKS: u32 = if N > 2 { N as u32 - 2 } else { 1 };
+
+    /// Checks the bodies and takes them.
+    ///
+    /// # Errors
+    /// The first choice that is refused, naming the body by its index.
+    pub const fn try_new(limits: Limits, parts: [Part<'a, S>; N]) -> Result<Self, SceneError> {
+        if N == 0 || N > 32 {
+            return Err(SceneError::Bodies);
+        }
+        if !limits.is_valid() {
+            return Err(SceneError::Limits);
+        }
+        let scene = Self { parts, limits };
+        let mut index = 0;
+        while index < N {
+            let Part { material, group, .. } = &scene.parts[index];
+            if let Err(error) = scene.check(index, material.stiffness, material.damping) {
+                return Err(error);
+            }
+            let number = index as u8;
+            if let Some(friction) = &material.friction
+                && !friction.is_valid()
+            {
+                return Err(SceneError::Friction(number));
+            }
+            if let Some(texture) = &material.texture
+                && !(texture.max_share >= 0.0 && texture.max_share <= 1.0)
+            {
+                return Err(SceneError::Texture(number));
+            }
+            if !scene.parts[index].is_held() {
+                return Err(SceneError::Sphere(number));
+            }
+            if *group > 31 {
+                return Err(SceneError::Group(number));
+            }
+            index += 1;
+        }
+        Ok(scene)
+    }
+
+    /// [`Self::try_new`] for a `static`.
+    ///
+    /// # Panics
+    /// At compile time, where it is refused.
+    pub const fn new(limits: Limits, parts: [Part<'a, S>; N]) -> Self {
+        match Self::try_new(limits, parts) {
+            Ok(scene) => scene,
+            Err(SceneError::Bodies) => panic!("the number of bodies"),
+            Err(SceneError::Limits) => panic!("limits"),
+            Err(SceneError::Stiffness(_)) => panic!("a body's stiffness"),
+            Err(SceneError::Damping(_)) => panic!("a body's damping"),
+            Err(SceneError::Friction(_)) => panic!("a body's friction"),
+            Err(SceneError::Texture(_)) => panic!("a body's texture"),
+            Err(SceneError::Motion(_)) => panic!("a body's motion"),
+            Err(SceneError::Light(_)) => panic!("a body that is too light"),
+            Err(SceneError::Slack(_)) => panic!("a free body's friction"),
+            Err(SceneError::Sphere(_)) => panic!("a body's sphere"),
+            Err(SceneError::Group(_)) => panic!("a body's group"),
+            Err(_) => panic!("a scene"),
+        }
+    }
+
+    /// The bodies.
+    pub const fn parts(&self) -> &[Part<'a, S>; N] {
+        &self.parts
+    }
+
+    /// What they share.
+    pub const fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// Whether a body may have this stiffness and damping.
+    const fn check(&self, index: usize, stiffness: f32, damping: f32) -> Result<(), SceneError> {
+        let number = index as u8;
+        let Part { motion, material, sphere, .. } = &self.parts[index];
+        // Two bodies at once push with the sum of both.
+        let mut other = 0.0;
+        let mut beside = 0;
+        while beside < N {
+            let its = self.parts[beside].material.stiffness;
+            if beside != index && its > other {
+                other = its;
+            }
+            beside += 1;
+        }
+        if !(stiffness >= 0.0 && stiffness + other <= self.limits.max_stiffness) {
+            return Err(SceneError::Stiffness(number));
+        }
+        if !(damping >= 0.0 && damping <= self.limits.max_damping) {
+            return Err(SceneError::Damping(number));
+        }
+        if !self.parts[index].moves_well() {
+            return Err(SceneError::Motion(number));
+        }
+        if let Motion::Free(body) = motion {
+            let period = 1.0 / self.limits.rate;
+            let (mut hold, mut drag) = (stiffness, damping);
+            if let Some(friction) = &material.friction {
+                if friction.damping < 0.5 * period * friction.stiffness {
+                    return Err(SceneError::Slack(number));
+                }
+                hold += friction.stiffness;
+                drag += friction.damping;
+            }
+            // An explicit damper that takes more than all of the velocity in a tick would throw it back.
+            let light = (hold * period + drag) * period * body.max_mobility(sphere.centre, sphere.radius) <= 1.0;
+            if !light {
+                return Err(SceneError::Light(number));
+            }
+        }
+        Ok(())
+    }
+
+    /// Another stiffness (N/m) and damping (N·s/m) for a body. The force goes over to the new one without a step.
+    ///
+    /// # Errors
+    /// What is out of range; nothing changes then.
+    pub fn harden(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        stiffness: f32,
+        damping: f32,
+    ) -> Result<(), SceneError> {
+        if index >= N {
+            return Err(SceneError::Missing(saturated(index)));
+        }
+        self.check(index, stiffness, damping)?;
+        (state.parts[index].stiffness, state.parts[index].damping) = (stiffness, damping);
+        state.switched = true;
+        Ok(())
+    }
+
+    /// Puts a resting body somewhere else: what was felt of it fades, and it is felt anew once the tool has been in
+    /// front of it.
+    ///
+    /// # Errors
+    /// A placement that is none, or a body that moves by itself; nothing changes then.
+    pub fn place(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        placement: Placement,
+    ) -> Result<(), SceneError> {
+        let Some(part) = self.parts.get(index) else { return Err(SceneError::Missing(saturated(index))) };
+        if !matches!(part.motion, Motion::Resting(_)) || !super::path::is_rigid(&placement) {
+            return Err(SceneError::Placement(saturated(index)));
+        }
+        state.parts[index].frame = Frame::new(&placement);
+        self.forget(state, index);
+        Ok(())
+    }
+
+    /// Switches groups on and off: those of these bits, group 0 the lowest. What was felt of a body that is now off
+    /// fades; one that is now on is felt once the tool has been in front of it.
+    pub fn switch(&self, state: &mut SceneState<S::Witness, N>, groups: u32) {
+        let changed = groups ^ state.groups;
+        state.groups = groups;
+        for index in 0..N {
+            if changed & self.bit(index) != 0 {
+                self.forget(state, index);
+            }
+        }
+    }
+
+    /// A tool with a tip of another radius, metres. A body that only the larger tip would touch is felt once the tip
+    /// has been in front of it.
+    ///
+    /// # Errors
+    /// A radius that is none; nothing changes then.
+    pub fn set_tip_radius(&self, state: &mut SceneState<S::Witness, N>, radius: f32) -> Result<(), SceneError> {
+        if !(0.0..f32::INFINITY).contains(&radius) {
+            return Err(SceneError::TipRadius);
+        }
+        state.tip_radius = radius;
+        for part in &mut state.parts {
+            part.gap = part.witness.gap() - radius;
+            if part.contact == Contact::InFront && part.gap < 0.0 {
+                part.contact = Contact::Behind;
+            }
+        }
+        state.switched = true;
+        Ok(())
+    }
+
+    fn forget(&self, state: &mut SceneState<S::Witness, N>, index: usize) {
+        let part = &mut state.parts[index];
+        self.parts[index].surface.lose(&mut part.witness);
+        (part.contact, part.rests) = (Contact::Behind, 0);
+        state.switched = true;
+    }
+
+    const fn bit(&self, index: usize) -> u32 {
+        1 << (self.parts[index].group & 31)
+    }
+
+    #[inline]
+    fn is_on(&self, state: &SceneState<S::Witness, N>, index: usize) -> bool {
+        index < N && state.groups & self.bit(index) != 0
+    }
+
+    /// Moves a body on to this tick, and its witness point with it.
+    #[inline(never)]
+    fn visit(
+        &self,
+        controller: &Controller,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        probe: Probe,
+        period: f32,
+    ) -> bool {
+        let Part { surface, motion, sphere, .. } = &self.parts[index];
+        let (ticks, tip_radius) = (state.ticks, state.tip_radius);
+        let part = &mut state.parts[index];
+        let passed = ticks.wrapping_sub(part.seen);
+        part.seen = ticks;
+        let elapsed = if passed == 1 { period } else { period * passed as f32 };
+        match motion {
+            Motion::Resting(_) => {}
+            Motion::Prescribed(path) => path.go_on(ticks, &mut part.frame),
+            Motion::Free(body) => {
+                body.step(&mut part.moving, &part.push, elapsed);
+                part.frame = body.frame(&part.moving);
+                part.push = Wrench::default();
+            }
+        }
+        let frame = &part.frame;
+        let position = frame.point_to_body(probe.position);
+        part.velocity = frame.to_body(probe.velocity - frame.velocity_at(probe.position));
+        let seen = Probe { position, velocity: part.velocity };
+        let Touched { normal, undone, unexplained } = surface.follow(controller, &mut part.witness, seen, elapsed);
+        part.normal = normal;
+        part.unexplained = unexplained;
+        part.gap = part.witness.gap() - tip_radius;
+        part.contact = match part.witness.contact() {
+            Contact::Behind => Contact::Behind,
+            _ if part.gap >= 0.0 => Contact::InFront,
+            _ if part.contact != Contact::Behind => Contact::Touching,
+            _ => Contact::Behind,
+        };
+        if N > 2 {
+            // A witness point that has been left behind by an eighth of the body's size is searched for anew.
+            let clear = (position - sphere.centre).length() - sphere.radius - tip_radius;
+            let most = sphere.radius * (1.0 / 32.0);
+            let clear = saturate(clear, 0.0, if most < f32::INFINITY { most } else { 0.0 });
+            part.rests = (clear * self.limits.rate / self.limits.max_speed) as u32;
+        }
+        undone
+    }
+
+    /// One body beside the two that are tracked, the next that is due; and whether it is to be tracked from now on.
+    #[inline]
+    fn look(&self, controller: &Controller, state: &mut SceneState<S::Witness, N>, probe: Probe, period: f32) {
+        let mut next = usize::from(state.turn);
+        for _ in 0..N {
+            next = if next + 1 < N { next + 1 } else { 0 };
+            let due = state.ticks.wrapping_sub(state.parts[next].seen) > state.parts[next].rests;
+            if due && self.is_on(state, next) && !state.is_tracked(next) {
+                state.turn = next as u8;
+                self.visit(controller, state, next, probe, period);
+                self.promote(state, next);
+                return;
+            }
+        }
+    }
+
+    /// Tracks a body from now on, if it is nearer than one of those that are; a touched one stays.
+    fn promote(&self, state: &mut SceneState<S::Witness, N>, index: usize) {
+        let rank = |state: &SceneState<S::Witness, N>, index: usize| {
+            if !self.is_on(state, index) {
+                return f32::INFINITY;
+            }
+            let part = &state.parts[index];
+            if part.contact == Contact::Touching { f32::NEG_INFINITY } else { part.gap.abs() }
+        };
+        let [first, second] = state.tracked.map(usize::from);
+        let (a, b) = (rank(state, first), rank(state, second));
+        let (slot, farther) = if a > b { (0, a) } else { (1, b) };
+        if rank(state, index) < farther {
+            let left = usize::from(state.tracked[slot]);
+            if left < N {
+                state.parts[left].force = Vec3::ZERO;
+            }
+            state.tracked[slot] = index as u8;
+            // It may be touched since it was last looked at: its force comes up from nothing.
+            state.switched |= state.parts[index].contact == Contact::Touching;
+        }
+    }
+
+    /// The force of a body on the tool, N, in the scene's frame; what pushes it in turn is kept for its next tick.
+    #[inline(never)]
+    fn press(&self, state: &mut SceneState<S::Witness, N>, index: usize, period: f32) -> Vec3 {
+        let Part { material, motion, .. } = &self.parts[index];
+        let part = &mut state.parts[index];
+        let point = part.witness.witness().surface.point;
+        let mut push = 0.0;
+        if part.contact == Contact::Touching && !part.unexplained {
+            let penalty =
+                Penalty { stiffness: part.stiffness, damping: part.damping, max_force: self.limits.max_force };
+            push = penalty.push(part.gap, part.velocity.dot(part.normal));
+            if let Motion::Free(body) = motion {
+                // What the spring gives with the body in the middle of the tick, not at its start.
+                let (at, normal) = (part.frame.point_to_scene(point), part.frame.to_scene(part.normal));
+                let mobility = body.mobility(&part.moving, &part.frame, at, normal);
+                let towards = part.frame.velocity_at(at).dot(normal);
+                let half = 0.5 * period;
+                let yielding = 1.0 + half * mobility * (part.stiffness * half + part.damping);
+                push = saturate((push + part.stiffness * half * towards) / yielding, 0.0, self.limits.max_force);
+            }
+        }
+        let witness = part.witness.witness();
+        let place = || (witness.parameters, witness.surface.tangent_u);
+        let Material { friction, texture, .. } = material;
+        let press = Press { point, normal: part.normal, velocity: part.velocity, push };
+        let force = press.force(friction.as_ref(), texture.as_ref(), &mut part.anchor, place);
+        part.force = part.frame.to_scene(force);
+        if let Motion::Free(_) = motion {
+            let arm = part.frame.point_to_scene(point) - part.moving.position();
+            part.push = Wrench { force: -part.force, torque: arm.cross(-part.force) };
+        }
+        part.force
+    }
+
+    /// The body that is felt: the one touched deepest, or the nearer of the two.
+    #[inline]
+    fn foremost(&self, state: &SceneState<S::Witness, N>) -> u8 {
+        let [first, second] = state.tracked;
+        if !self.is_on(state, usize::from(second)) {
+            return first;
+        }
+        let [a, b] = [&state.parts[usize::from(first)], &state.parts[usize::from(second)]];
+        let is_second = if a.contact == b.contact && self.is_on(state, usize::from(first)) {
+            b.gap < a.gap
+        } else {
+            b.contact > a.contact || !self.is_on(state, usize::from(first))
+        };
+        if is_second { second } else { first }
+    }
+}
+
+fn saturated(index: usize) -> u8 {
+    u8::try_from(index).unwrap_or(u8::MAX)
+}
+
+impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
+    const FEELS_ITSELF: bool = true;
+
+    type Witness = SceneState<S::Witness, N>;
+
+    fn rest(&self) -> Self::Witness {
+        SceneState {
+            parts: core::array::from_fn(|index| PartState::new(&self.parts[index], self.parts[index].surface.rest())),
+            ticks: 0,
+            tracked: [0, if N > 1 { 1 } else { NOBODY }],
+            turn: 0,
+            felt: 0,
+            groups: u32::MAX,
+            tip_radius: 0.0,
+            force: Vec3::ZERO,
+            left_over: Vec3::ZERO,
+            switched: false,
+        }
+    }
+
+    #[inline]
+    fn follow(&self, controller: &Controller, state: &mut Self::Witness, probe: Probe, period: f32) -> Touched {
+        state.ticks = state.ticks.wrapping_add(1);
+        let mut undone = false;
+        for slot in 0..if N > 1 { 2 } else { 1 } {
+            let index = usize::from(state.tracked[slot]);
+            if self.is_on(state, index) {
+                undone |= self.visit(controller, state, index, probe, period);
+            }
+        }
+        if N > 2 {
+            self.look(controller, state, probe, period);
+        }
+        let mut force = Vec3::ZERO;
+        for slot in 0..if N > 1 { 2 } else { 1 } {
+            let index = usize::from(state.tracked[slot]);
+            if self.is_on(state, index) {
+                force += self.press(state, index, period);
+            }
+        }
+        if state.switched {
+            (state.left_over, state.switched) = (state.force - force, false);
+        }
+        if state.left_over != Vec3::ZERO {
+            state.left_over -= limit::saturated(state.left_over, self.limits.let_go * period);
+        }
+        state.force = force + state.left_over;
+        state.felt = self.foremost(state);
+        let part = &state.parts[usize::from(state.felt)];
+        Touched {
+            normal: part.frame.to_scene(part.normal),
+            undone,
+            unexplained: state.tracked.iter().any(|index| {
+                state
+                    .parts
+                    .get(usize::from(*index))
+                    .is_some_and(|part| part.unexplained && part.contact == Contact::Touching)
+            }),
+        }
+    }
+
+    fn lose(&self, state: &mut Self::Witness) {
+        let mut any = false;
+        for index in 0..N {
+            let part = &state.parts[index];
+            if state.is_tracked(index) && part.unexplained && part.contact == Contact::Touching {
+                self.forget(state, index);
+                any = true;
+            }
+        }
+        if !any {
+            self.forget(state, usize::from(state.felt));
+        }
+    }
+
+    fn is_too_deep(&self, state: &Self::Witness) -> bool {
+        let index = usize::from(state.felt);
+        self.parts[index].surface.is_too_deep(&state.parts[index].witness)
+    }
+
+    #[inline]
+    fn own_force(&self, state: &Self::Witness) -> Option<Vec3> {
+        Some(state.force)
+    }
+
+    /// Switches the group of this number on, and all others off.
+    fn choose(&self, state: &mut Self::Witness, group: u8) {
+        if group < 32 {
+            self.switch(state, 1 << group);
+        }
+    }
+
+    /// The tables of all bodies that carry a CRC, one after the other. After those of each comes a record of one word:
+    /// the one that takes the CRC of tables as they were baked back to 0, and every other to something else, for one
+    /// step of a CRC takes each word to another. So the CRC of the whole is 0 exactly where that of the last body is
+    /// right with all others, or two errors happen to cancel, once in 2³².
+    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+        let mut record = cursor.record;
+        for Part { surface, .. } in &self.parts {
+            let Some(baked) = surface.baked_crc() else { continue };
+            let records = surface.table_records();
+            if record < records {
+                return surface.table_word(TableCursor { record, ..cursor });
+            }
+            if record == records {
+                return (cursor.word == 0).then_some(!baked ^ TO_ALL_ONES);
+            }
+            record -= records + 1;
+        }
+        None
+    }
+
+    fn table_records(&self) -> u32 {
+        self.parts
+            .iter()
+            .filter(|part| part.surface.baked_crc().is_some())
+            .map(|part| part.surface.table_records() + 1)
+            .sum()
+    }
+
+    fn baked_crc(&self) -> Option<u32> {
+        self.parts.iter().any(|part| part.surface.baked_crc().is_some()).then_some(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patch::crc32;
+
+    #[test]
+    fn one_word_takes_a_right_crc_back_to_nothing_and_no_other() {
+        for baked in [0, 1, 0x9AE0_DAAF, u32::MAX] {
+            let word = !baked ^ TO_ALL_ONES;
+            assert_eq!(crc32(baked, word), 0);
+            assert_ne!(crc32(baked ^ 0x0001_0000, word), 0);
+        }
+    }
+}

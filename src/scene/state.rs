@@ -1,0 +1,125 @@
+//! What a scene keeps between two ticks, and what may be changed there while it is felt.
+
+use super::frame::Frame;
+use super::part::PartState;
+use crate::math::Vec3;
+use crate::servo::Tracked;
+use crate::track::{Contact, Placement, Witness};
+
+/// Everything of a scene that changes: a plain value, as the loop's own state. Change it between two ticks with
+/// [`super::Scene`]'s methods.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneState<W, const N: usize> {
+    pub(super) parts: [PartState<W>; N],
+    /// Ticks so far.
+    pub(super) ticks: u32,
+    /// The bodies that are tracked at each tick.
+    pub(super) tracked: [u8; 2],
+    /// The body that was looked at last beside these.
+    pub(super) turn: u8,
+    /// The one that is felt most, or nearest.
+    pub(super) felt: u8,
+    /// Which groups are on.
+    pub(super) groups: u32,
+    /// Of the tool's spherical tip, metres.
+    pub(super) tip_radius: f32,
+    /// The force of all of it on the tool, N.
+    pub(super) force: Vec3,
+    /// Of it what is left over from before a switch.
+    pub(super) left_over: Vec3,
+    /// Whether something was switched since the last tick.
+    pub(super) switched: bool,
+}
+
+impl<W: Tracked, const N: usize> SceneState<W, N> {
+    /// The body of this index, if there is one.
+    pub fn part(&self, index: usize) -> Option<&PartState<W>> {
+        self.parts.get(index)
+    }
+
+    /// The index of the body whose witness point, gap and feature this is: the one touched deepest, or the nearest of
+    /// those tracked.
+    pub const fn felt(&self) -> usize {
+        self.felt as usize
+    }
+
+    /// The bodies that are tracked at each tick; the second is `N` and more where there is no other.
+    pub const fn tracked(&self) -> [usize; 2] {
+        [self.tracked[0] as usize, self.tracked[1] as usize]
+    }
+
+    /// The force of the scene on the tool, N, in its frame, before soft start and limits.
+    pub const fn force(&self) -> Vec3 {
+        self.force
+    }
+
+    /// Ticks so far: the scene's clock.
+    pub const fn ticks(&self) -> u32 {
+        self.ticks
+    }
+
+    /// Radius of the tool's tip, metres.
+    pub const fn tip_radius(&self) -> f32 {
+        self.tip_radius
+    }
+
+    /// Whether the groups of these bits are on.
+    pub const fn groups(&self) -> u32 {
+        self.groups
+    }
+
+    /// Leads a resting body on: this is where it is in the next tick, and how it moves. For a motion that is given from
+    /// outside tick by tick: one that its velocity explains. A placement that is somewhere else is
+    /// [`super::Scene::place`]. Only where the part is [`super::Motion::Resting`]; nothing happens otherwise, nor where
+    /// the placement is not finite.
+    pub fn lead(&mut self, index: usize, placement: Placement) {
+        if let Some(part) = self.parts.get_mut(index)
+            && super::path::is_rigid(&placement)
+        {
+            part.frame = Frame::new(&placement);
+        }
+    }
+
+    pub(super) fn is_tracked(&self, index: usize) -> bool {
+        usize::from(self.tracked[0]) == index || usize::from(self.tracked[1]) == index
+    }
+
+    fn primary(&self) -> &PartState<W> {
+        // N is at least 1, and `felt` is below it.
+        &self.parts[if usize::from(self.felt) < N { usize::from(self.felt) } else { 0 }]
+    }
+}
+
+impl<W: Tracked, const N: usize> Tracked for SceneState<W, N> {
+    /// In the frame of the body that is felt.
+    fn witness(&self) -> &Witness {
+        self.primary().witness.witness()
+    }
+
+    fn gap(&self) -> f32 {
+        self.primary().gap
+    }
+
+    fn contact(&self) -> Contact {
+        self.primary().contact
+    }
+
+    /// That of the body that is felt: [`SceneState::felt`] says which.
+    fn feature(&self) -> u16 {
+        self.primary().witness.feature()
+    }
+
+    fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        for part in &self.parts {
+            part.for_each_word(&mut take);
+        }
+        take(self.ticks);
+        take(u32::from_le_bytes([self.tracked[0], self.tracked[1], self.turn, self.felt]));
+        take(self.groups);
+        for number in self.force.to_array().into_iter().chain(self.left_over.to_array()) {
+            take(number.to_bits());
+        }
+        take(self.tip_radius.to_bits());
+        take(u32::from(self.switched));
+    }
+}
