@@ -2,8 +2,8 @@
 //!
 //! [`Scene`] is a [`crate::servo::Surface`] made of surfaces: the servo loop that feels one body feels a scene. Each
 //! [`Part`] has a surface in its own frame, a [`Motion`] that places this frame at each tick, and a [`Material`]. The
-//! tracker works in the body's frame, where the probe's velocity is the relative one: `Rᵀ (q̇ − v − ω × (Q − o))`, which
-//! is what Remark 3's feed-forward wants; friction holds there, too, so that it rides on the body.
+//! tracker works in the body's frame, where the probe's velocity is the relative one: `Rᵀ (q̇ − v − ω × (Q − o))`,
+//! which is what Remark 3's feed-forward wants; friction holds there, too, so that it rides on the body.
 //!
 //! A tick: the two bodies in hand are moved on and tracked; one other is looked at, and taken in hand if it is nearer;
 //! then both press, and a free one is pushed in turn. Whatever was switched since the last tick, the force is that of

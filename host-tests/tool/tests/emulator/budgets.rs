@@ -15,6 +15,8 @@ const SERVO_TICK: u32 = 1_700;
 /// between two edges: a step at the border, or one that is certain only in part, has its model's minimiser over the
 /// square and the exact certificate in the one tick.
 const ANY_TICK: u32 = 1_000;
+/// The most that a body's path costs a tick, over one that rests.
+const PATH: u32 = 80;
 /// The most for the closest point on a face of degree 3, away from its border.
 const ON_A_FACE: u32 = 560;
 
@@ -72,6 +74,11 @@ fn compare(board: Board) {
         let [statics, file] =
             ["", " from its file"].map(|from| of(&format!("closest point of the capped box{from}, any, {part}")));
         assert_eq!(file, statics, "{board:?}: a tick, {part}, of a body from a file and of statics");
+    }
+    for part in ["median", "worst"] {
+        let [rest, path] =
+            ["at rest", "on a path"].map(|moves| of(&format!("servo tick, a scene of one body {moves}, {part}")));
+        assert!(path <= rest + PATH, "{board:?}: a tick, {part}, takes {path} with a path, {rest} without");
     }
     let tick = of("servo tick, worst");
     assert!(tick <= SERVO_TICK, "{board:?}: a servo tick takes {tick} instructions");
