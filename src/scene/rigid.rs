@@ -3,11 +3,11 @@
 //! # The step
 //!
 //! A push is held over a tick of length `h`. The state is the velocity `v` of the centre of mass and the angular
-//! momentum `L` about it, both in the world's frame. What damps, `c`, is taken at the middle of the tick: with `u = (v
-//! + v')/2`, `m (v' − v)/h = F − c u` is `u − v = (F − c v)/(2m/h + c)`, `x' = x + h u`, `v' = v + 2 (u − v)`.
-//! Multiplied by `h u`: `½ m v'² − ½ m v² = F · (x' − x) − h c u²`, exactly. **What the body gains is the work of the
-//! push over the way that the body has gone, less what is damped**: as a port it is passive at any `h`, `m` and `c ≥
-//! 0`. The same holds of its turning, in the body's principal axes, with `L`, `I` and the mean angular velocity.
+//! momentum `L` about it, both in the world's frame. What damps, `c`, is taken at the middle of the tick: with `u` the
+//! mean of `v` and `v'`, `m (v' − v)/h = F − c u` is `u − v = (F − c v)/(2m/h + c)`, and `x' = x + h u`. Multiplied by
+//! `h u`: `½ m v'² − ½ m v² = F · (x' − x) − h c u²`, exactly. **What the body gains is the work of the push over the
+//! way that the body has gone, less what is damped**: as a port it is passive at any `h` and `m` and at no negative
+//! `c`. The same holds of its turning, in the body's principal axes, with `L`, `I` and the mean angular velocity.
 //!
 //! A spring that is pulled at the start of the tick, where its potential `U` has a second derivative of at most `k`,
 //! gives `U' ≤ U + ∇U · Δx + ½ k Δx²` (the descent lemma), which is `½ k h² u²` too much: a damper of `c = ½ k h`
