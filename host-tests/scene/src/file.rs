@@ -3,6 +3,9 @@
 use serde::Deserialize;
 use thiserror::Error;
 
+/// The most bodies of a file: an image and a loop are made for each number of them.
+pub const MAX_BODIES: usize = 8;
+
 /// A scene file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -202,7 +205,7 @@ impl SceneFile {
     /// What is wrong, naming the body or the line.
     pub fn read(text: &str) -> Result<Self, SceneFileError> {
         let file: Self = toml::from_str(text).map_err(|error| SceneFileError::Syntax(error.to_string()))?;
-        let (found, most) = (file.body.len(), super::MAX_BODIES);
+        let (found, most) = (file.body.len(), MAX_BODIES);
         if !(1..=most).contains(&found) {
             return Err(SceneFileError::Bodies { found, most });
         }

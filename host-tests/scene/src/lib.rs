@@ -8,6 +8,8 @@ mod file;
 mod parts;
 mod source;
 
-pub use file::{BodyEntry, Free, FrictionEntry, JointEntry, SceneFile, SceneFileError, Spring, Sway, Turn, Turned};
-pub use parts::{MAX_BODIES, Shape};
+pub use file::{
+    BodyEntry, Free, FrictionEntry, JointEntry, MAX_BODIES, SceneFile, SceneFileError, Spring, Sway, Turn, Turned,
+};
+pub use parts::Shape;
 pub use source::source;

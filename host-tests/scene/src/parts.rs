@@ -8,9 +8,6 @@ use palpate::render::Friction;
 use palpate::scene::{Joint, Limits, Material, Motion, Part, Path, RigidBody, Scene, SceneError, Sphere, Tether};
 use palpate::track::Placement;
 
-/// The most bodies of a file: an image and a loop are made for each number of them.
-pub const MAX_BODIES: usize = 8;
-
 /// What is known of a body's shape: its tables' frame in its model, and its bounding box in that frame, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {

@@ -17,8 +17,10 @@ pub fn source(
     tables: &[String],
 ) -> String {
     let mut text = String::from("// A scene, written by palpate from a scene file: not for editing.\n");
-    for (index, table) in tables.iter().enumerate() {
-        let _ = writeln!(text, "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}", file.body[index].name);
+    // Those of bodies of one model are there once.
+    let first = |index: usize| tables.iter().position(|other| *other == tables[index]).unwrap_or(index);
+    for (index, table) in tables.iter().enumerate().filter(|(index, _)| first(*index) == *index) {
+        let _ = writeln!(text, "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}", file.body[index].model);
     }
     let count = tables.len();
     let Limits { max_stiffness, max_damping, max_force, let_go, rate, max_speed } = file.limits(limits);
@@ -33,8 +35,9 @@ pub fn source(
         let (centre, radius) = (vector(part.sphere.centre), part.sphere.radius);
         let _ = writeln!(
             text,
-            "        palpate::scene::Part {{ surface: &body_{index}::BODY, motion: {}, material: {}, \
+            "        palpate::scene::Part {{ surface: &body_{}::BODY, motion: {}, material: {}, \
              sphere: palpate::scene::Sphere {{ centre: {centre}, radius: {radius:?} }}, group: {} }},",
+            first(index),
             motion(entry, &part, limits.rate),
             material(&part),
             part.group

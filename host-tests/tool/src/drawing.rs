@@ -59,8 +59,13 @@ impl View {
 
     /// A patch as a net of lines, its border first.
     pub fn net<P: Patch>(&self, patch: &P) -> Vec<Vec<(f64, f64)>> {
+        self.net_of(|u, v| patch.evaluate(u, v).point.as_dvec3())
+    }
+
+    /// The same of what has a point for each `(u, v)` in `[0, 1]²`.
+    pub fn net_of(&self, point: impl Fn(f32, f32) -> DVec3) -> Vec<Vec<(f64, f64)>> {
         let grid = |index: usize| index as f32 / 24.0;
-        let seen = |u: f32, v: f32| self.seen(patch.evaluate(u, v).point.as_dvec3());
+        let seen = |u: f32, v: f32| self.seen(point(u, v));
         [0, 24]
             .into_iter()
             .chain((2..24).step_by(2))

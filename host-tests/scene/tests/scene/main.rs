@@ -2,6 +2,7 @@
 
 mod books;
 mod common;
+mod files;
 mod loops;
 mod motion;
 mod several;

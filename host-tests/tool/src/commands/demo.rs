@@ -73,9 +73,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         figures.push(("replay in 3-D", format!("cargo palpate view --recording {}", recording.display())));
     }
     let subtitle = format!("{} of {}, {}", scene.felt.name(), scene.model_name(), run.on);
-    let patches = scene.felt.patches();
-    let page =
-        Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, patches: &patches };
+    let net = scene.felt.net(scene.settings.rate);
+    let page = Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, net: &net };
     write_page(&page, &arguments.report)?;
     if let Ok(recorded) = &recorded {
         sim::write_recording(recorded, &recording)?;
@@ -130,7 +129,7 @@ pub fn prepare(board: Board, scene: &Scene, progress: &Progress) -> Result<Firmw
 /// The scene's tables and settings as Rust source, in a folder that goes when dropped, and the choice of them.
 pub(super) fn write_tables(board: Board, scene: &Scene) -> anyhow::Result<(tempfile::TempDir, Choice)> {
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-    fs::write(folder.path().join("body.rs"), scene.felt.source(&scene.origin())?)?;
+    fs::write(folder.path().join("body.rs"), scene.source()?)?;
     fs::write(folder.path().join("settings.rs"), scene.settings_source())?;
     let [body, settings] = ["body.rs", "settings.rs"].map(|name| Some(folder.path().join(name)));
     let choice = Choice { board, body, settings, protected: scene.protection.is_some() };

@@ -1,12 +1,15 @@
 //! What is felt in a scene: one patch of a model, or the whole body.
 
+use super::felt_scene::FeltScene;
 use super::progress;
+use crate::drawing::View;
 use crate::models::ModelFile;
 use anyhow::Context;
 use glam::DVec3;
 use palpate::body::Body;
 use palpate::math::{Vec3, vec3};
 use palpate::patch::{Patch as _, SplinePatch};
+use palpate::scene::Limits;
 use palpate_bake::source::{Origin, body_source, rust_source};
 use palpate_bake::split::Provenance;
 use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch};
@@ -40,6 +43,8 @@ pub enum Felt {
         /// The model's name.
         name: String,
     },
+    /// Bodies that stand and move.
+    Scene(FeltScene),
 }
 
 impl Felt {
@@ -73,6 +78,7 @@ impl Felt {
         match self {
             Self::Patch { surface, .. } => surface.name.as_deref().unwrap_or("a patch"),
             Self::Body { name, .. } => name,
+            Self::Scene(scene) => scene.name(),
         }
     }
 
@@ -81,15 +87,26 @@ impl Felt {
         match self {
             Self::Patch { patch, .. } => vec![patch],
             Self::Body { body, .. } => body.faces().iter().map(|face| &face.patch).collect(),
+            // Each in a frame of its own.
+            Self::Scene(_) => Vec::new(),
         }
     }
 
-    /// Its tables as Rust source.
+    /// It as a net of lines, for a report; a scene's at a servo rate, Hz.
+    pub fn net(&self, rate: f32) -> Vec<Vec<(f64, f64)>> {
+        match self {
+            Self::Scene(scene) => scene.nets(rate),
+            _ => self.patches().into_iter().flat_map(|patch| View::FRONT_RIGHT.net(patch)).collect(),
+        }
+    }
+
+    /// Its tables as Rust source; a scene's with these limits.
     ///
     /// # Errors
     /// A bug of the baker.
-    pub fn source(&self, origin: &Origin<'_>) -> anyhow::Result<String> {
+    pub fn source(&self, origin: &Origin<'_>, limits: Limits) -> anyhow::Result<String> {
         Ok(match self {
+            Self::Scene(scene) => scene.source(limits)?,
             Self::Patch { baked, .. } => rust_source(origin, std::slice::from_ref(&**baked))?,
             Self::Body { baked, labels, .. } => body_source(origin, baked, labels)?,
         })
@@ -97,6 +114,9 @@ impl Felt {
 
     /// The middle of its bounding box, from a grid of points.
     pub fn middle(&self) -> Vec3 {
+        if let Self::Scene(scene) = self {
+            return scene.middle();
+        }
         let grid = || (0..=16).flat_map(|i| (0..=16).map(move |j| (i as f32 / 16.0, j as f32 / 16.0)));
         let points = self.patches().into_iter().flat_map(|patch| grid().map(|(u, v)| patch.evaluate(u, v).point));
         let (low, high) = points
@@ -109,12 +129,13 @@ impl Felt {
     /// Where a hand may touch: a point and the outward normal for each `(u, v)` in `[0, 1]²`. On a patch its own
     /// parameters; on a body the direction from its middle, `(½, ½)` upwards, to a place outside, and the body's
     /// closest point to that place: continuous around a convex body, edges and corners included.
-    pub fn places(&self) -> impl Fn(f64, f64) -> (DVec3, DVec3) + use<> {
+    pub fn places(&self) -> Box<dyn Fn(f64, f64) -> (DVec3, DVec3)> {
         let felt = match self {
             Self::Patch { surface, .. } => Places::On(surface.clone()),
             Self::Body { body, .. } => Places::Around { body, middle: self.middle() },
+            Self::Scene(scene) => return Box::new(scene.places()),
         };
-        move |u, v| felt.at(u, v)
+        Box::new(move |u, v| felt.at(u, v))
     }
 }
 

@@ -11,6 +11,7 @@ pub mod demo;
 pub mod demo_knob;
 pub mod device;
 pub mod felt;
+mod felt_scene;
 pub mod figures;
 pub mod firmware;
 pub mod image;

@@ -1,6 +1,7 @@
 //! What `demo` and `sim` share: the scene, and how it is set up from the command line.
 
 use super::felt::Felt;
+use super::felt_scene::FeltScene;
 use crate::devices::{self, Chosen, Preset, ShippedDevice};
 use crate::firmware::Link;
 use crate::models::ModelFile;
@@ -10,10 +11,12 @@ use anyhow::{Context, bail, ensure};
 use clap::Args;
 use glam::DVec3;
 use palpate::device::{Device, Kinematics, Protection};
+use palpate::scene::Limits;
 use palpate::servo::{Safety, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::source::Origin;
 use palpate_plant::{HandSettings, PathError, Plant, TouchingPath, TouchingSettings};
+use palpate_scene::SceneFile;
 use std::path::PathBuf;
 
 /// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every preset holds it without a limit
@@ -34,7 +37,7 @@ const TOUCHES_PER_SECOND: f64 = 1.2;
 /// The scene: which surface, which device, how it is to feel, and the hand.
 #[derive(Args, Debug, Clone)]
 pub struct SceneOptions {
-    /// The surface: a model file, or the name of a model that ships
+    /// The surface: a model file, the name of a model that ships, or a scene file (docs/scene.md)
     #[arg(long, default_value = "capped_box")]
     pub model: PathBuf,
     /// One patch of the model, by name or index; without it, all patches joined to a body
@@ -102,10 +105,18 @@ impl SceneOptions {
     /// What is wrong, naming the file or the option.
     pub fn scene(&self) -> anyhow::Result<Scene> {
         let file = ModelFile::read(&self.model)?;
-        let model = file.model()?;
-        let felt = Felt::read(&model, &file, &self.model, self.patch.as_deref())?;
+        let is_scene = SceneFile::is_one(&file.text);
+        let (felt, centre) = if is_scene {
+            if self.patch.is_some() {
+                bail!("--patch is of a model, and {} is a scene", file.label);
+            }
+            (Felt::Scene(FeltScene::read(&file, &self.model)?), DVec3::ZERO)
+        } else {
+            let model = file.model()?;
+            (Felt::read(&model, &file, &self.model, self.patch.as_deref())?, model.centre)
+        };
         let body_origin = match self.at.as_deref() {
-            Some(&[x, y, z]) => (DVec3::new(x, y, z) * 1e-3 + model.centre).as_vec3(),
+            Some(&[x, y, z]) => (DVec3::new(x, y, z) * 1e-3 + centre).as_vec3(),
             _ => -felt.middle(),
         };
         let Chosen::Arm(device) = self.device else {
@@ -129,7 +140,7 @@ impl SceneOptions {
             .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
         let [ticks, enable_at] = self.ticks(settings.rate)?;
         let protection = self.protected.then(|| device.protection());
-        Ok(Scene { file, centre: model.centre, felt, device, settings, protection, ticks, enable_at })
+        Ok(Scene { file, centre, felt, device, settings, protection, ticks, enable_at })
     }
 
     /// How many ticks to run at a rate, Hz, and at which of them force is asked for.
@@ -224,6 +235,16 @@ impl Scene {
         match &self.felt {
             Felt::Patch { patch, .. } => self.host_loop_on(device, *patch),
             Felt::Body { body, .. } => self.host_loop_on(device, *body),
+            Felt::Scene(scene) => match scene.count() {
+                1 => self.host_loop_on(device, scene.scene::<1>(self.limits())?),
+                2 => self.host_loop_on(device, scene.scene::<2>(self.limits())?),
+                3 => self.host_loop_on(device, scene.scene::<3>(self.limits())?),
+                4 => self.host_loop_on(device, scene.scene::<4>(self.limits())?),
+                5 => self.host_loop_on(device, scene.scene::<5>(self.limits())?),
+                6 => self.host_loop_on(device, scene.scene::<6>(self.limits())?),
+                7 => self.host_loop_on(device, scene.scene::<7>(self.limits())?),
+                _ => self.host_loop_on(device, scene.scene::<{ palpate_scene::MAX_BODIES }>(self.limits())?),
+            },
         }
     }
 
@@ -245,11 +266,14 @@ impl Scene {
         if self.device.constants.is_some() {
             return Err(Cut::Device.into());
         }
+        if matches!(self.felt, Felt::Scene(_)) {
+            return Err(Cut::Scene.into());
+        }
         let model = self.file.model()?;
         let located;
         let baked = match &self.felt {
             Felt::Body { baked, .. } => baked,
-            Felt::Patch { .. } => {
+            Felt::Patch { .. } | Felt::Scene(_) => {
                 let body = self.file.body(&model)?;
                 ensure!(body.faces.len() == 1, Cut::Patch);
                 let options = body.locator_options();
@@ -267,6 +291,21 @@ impl Scene {
             enable_at: self.enable_at,
         };
         Ok(Recording::new(trace, on, &body, &of))
+    }
+
+    /// What the bodies of a scene share on this device.
+    fn limits(&self) -> Limits {
+        FeltScene::limits(self.device.preset.limits(), self.settings.max_force, self.settings.rate)
+    }
+
+    /// What is felt as the source file that an image is built with.
+    ///
+    /// # Errors
+    /// What the library refuses, or a bug of the baker.
+    pub fn source(&self) -> anyhow::Result<String> {
+        // What would not compile is said here.
+        self.host_loop()?;
+        self.felt.source(&self.origin(), self.limits())
     }
 
     /// The model file's name, without its directory.

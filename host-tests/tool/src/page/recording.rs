@@ -47,6 +47,9 @@ pub enum Cut {
     /// The device is one's own.
     #[error("a run on one's own device is not recorded: the page has the devices that ship")]
     Device,
+    /// Bodies that move were felt.
+    #[error("a run over a scene is not recorded: the page feels one body at rest")]
+    Scene,
 }
 
 /// How the loop of a run was set.

@@ -1,7 +1,6 @@
 //! What a page shows.
 
 use crate::simulation::Trace;
-use palpate::patch::SplinePatch;
 
 /// What goes on the page.
 pub struct Page<'a> {
@@ -13,6 +12,6 @@ pub struct Page<'a> {
     pub figures: &'a [(&'static str, String)],
     /// The run.
     pub trace: &'a Trace,
-    /// The surface that was touched.
-    pub patches: &'a [&'a SplinePatch<'a>],
+    /// The surface that was touched, as lines on the page.
+    pub net: &'a [Vec<(f64, f64)>],
 }

@@ -74,7 +74,7 @@ fn line_plot(
 /// The surface as a net of lines, and the probe's path over it.
 pub fn path(page: &Page<'_>) -> anyhow::Result<String> {
     let seen = |report: &Report| View::FRONT_RIGHT.seen(Vec3::from_array(report.probe).as_dvec3());
-    let net: Vec<_> = page.patches.iter().flat_map(|patch| View::FRONT_RIGHT.net(*patch)).collect();
+    let net = page.net;
     let stride = page.trace.samples.len().div_ceil(MOST_POINTS).max(1);
     let samples: Vec<_> = page.trace.samples.iter().step_by(stride).map(|sample| &sample.report).collect();
     let runs =
@@ -85,7 +85,7 @@ pub fn path(page: &Page<'_>) -> anyhow::Result<String> {
     draw((920, 520), |area| {
         let mut chart = ChartBuilder::on(area).margin(4).build_cartesian_2d(across, up)?;
         for line in net {
-            chart.draw_series(LineSeries::new(line, SURFACE_INK))?;
+            chart.draw_series(LineSeries::new(line.iter().copied(), SURFACE_INK))?;
         }
         for run in runs {
             let ink = if run.first().is_some_and(|report| report.contact == Contact::Touching as u8) {

@@ -17,6 +17,9 @@ fn every_committed_figure_is_drawn_the_same_again() {
     palpate(&["demo", "--host", "--report", &path("demo.html"), "--picture", &path("demo-path.svg")]);
     let knob = ["demo", "--device", "knob", "--host", "--report", &path("knob.html"), "--picture", &path("knob.svg")];
     palpate(&knob);
+    let scene = repository().join("host-tests/scenes/turntable.toml").to_string_lossy().into_owned();
+    let picture = path("turntable.svg");
+    palpate(&["demo", "--host", "--model", &scene, "--report", &path("scene.html"), "--picture", &picture]);
     let mut older = Vec::new();
     for file in files("docs/figures", "svg") {
         let name = file.rsplit('/').next().expect("a name");

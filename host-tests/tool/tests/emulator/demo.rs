@@ -25,9 +25,14 @@ fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
 
 /// The firmware's trace and the host's of a scene from the command line, the same in every bit of every tick.
 fn traces(arguments: &[&str]) -> [Trace; 2] {
+    traces_on(Board::M4, arguments)
+}
+
+/// The same on a board.
+fn traces_on(board: Board, arguments: &[&str]) -> [Trace; 2] {
     let Demo { options } = Demo::parse_from(arguments);
     let scene = options.scene().expect("the demo's scene");
-    let firmware = prepare(Board::M4, &scene, &Progress::new()).expect("the image builds");
+    let firmware = prepare(board, &scene, &Progress::new()).expect("the image builds");
     let mut emulator = firmware.start(Transport::Fifo).expect("the emulator starts");
     let device = trace(&options, &scene, &mut emulator);
     let host = trace(&options, &scene, scene.host_loop().expect("good settings").as_mut());
@@ -50,6 +55,21 @@ fn every_device_of_three_joints_touches_alike_on_host_and_board() {
         let [board, _] = traces(&["demo", "--device", name, "--seconds", "2"]).map(|trace| Summary::new(&trace));
         assert!(board.touches > 0 && board.fault.is_none() && board.steps_undone == 0, "{name}: {board}");
         println!("{name}: {:?}", board.rows());
+    }
+}
+
+/// Bodies on paths, and a free one that is pushed.
+#[test]
+fn a_scene_that_moves_is_felt_alike_on_the_host_and_every_board() {
+    if !is_wanted("a scene on the emulated boards") {
+        return;
+    }
+    let scene = format!("{}/../scenes/turntable.toml", env!("CARGO_MANIFEST_DIR"));
+    for board in Board::ALL {
+        let arguments = ["demo", "--model", &scene, "--rate", "3000", "--seconds", "3"];
+        let [there, _] = traces_on(board, &arguments).map(|trace| Summary::new(&trace));
+        assert!(there.touches > 0 && there.fault.is_none(), "{board:?}: {there}");
+        println!("{board:?}: {:?}", there.rows());
     }
 }
 

@@ -1,0 +1,63 @@
+//! Scene files: what is read, and what is refused by whose name.
+
+use crate::common::{BOX, LIMITS, RATE};
+use glam::DVec3;
+use palpate::scene::{Motion, SceneError};
+use palpate_scene::{SceneFile, SceneFileError, Shape, source};
+
+const SHIPPED: &str = include_str!("../../../scenes/turntable.toml");
+const SHAPE: Shape = Shape { centre: DVec3::ZERO, low: DVec3::ZERO, high: DVec3::new(0.06, 0.04, 0.0335) };
+
+#[test]
+fn the_scene_that_ships_is_what_it_says() {
+    let file = SceneFile::read(SHIPPED).unwrap();
+    let bodies = [(&BOX, SHAPE); 3];
+    let parts = file.parts(RATE, &bodies);
+    assert!(matches!(parts[0].motion, Motion::Prescribed(_)) && matches!(parts[1].motion, Motion::Prescribed(_)));
+    let Motion::Free(block) = parts[2].motion else { panic!("the block is free") };
+    // A block of 60 × 40 × 33.5 mm and 200 g, about its longest side.
+    assert!((block.inertia.x - 0.2 * (0.04 * 0.04 + 0.0335 * 0.0335) / 12.0).abs() < 1e-9);
+    file.scene::<3>(LIMITS, &bodies).unwrap();
+    let text = source(&file, LIMITS, &bodies, &["tables".to_owned(), "tables".to_owned(), "tables".to_owned()]);
+    assert_eq!(text.matches("mod body_").count(), 1, "tables of one model are there once");
+    assert_eq!(text.matches("surface: &body_0::BODY").count(), 3);
+}
+
+/// The shipped scene with one text in the place of another.
+fn with(from: &str, to: &str) -> Result<SceneFile, SceneFileError> {
+    assert!(SHIPPED.contains(from), "{from}");
+    SceneFile::read(&SHIPPED.replacen(from, to, 1))
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_by_name() {
+    let said = |from, to| with(from, to).unwrap_err().to_string();
+    assert!(said("stiffness = 400", "stifness = 400").contains("stifness"));
+    assert_eq!(
+        said("axis = [0, 0, 1], about", "axis = [0, 0, 0], about"),
+        "body \"part on the table\": an axis has no direction"
+    );
+    assert_eq!(said("\"its neighbour\"", "\"part on the table\""), "two bodies are called \"part on the table\"");
+    assert_eq!(
+        said("[body.free]", "sways = { by = [0, 0, 1], often = 1 }\n[body.free]"),
+        "body \"block on a spring\" is free and on a path: one of the two"
+    );
+    assert_eq!(
+        SceneFile::read("name = \"none\"\nbody = []").unwrap_err().to_string(),
+        "a scene file has 1 to 8 bodies, this one 0"
+    );
+}
+
+#[test]
+fn what_the_library_refuses_names_the_body() {
+    let bodies = [(&BOX, SHAPE); 3];
+    let refused = |from, to| with(from, to).unwrap().scene::<3>(LIMITS, &bodies).unwrap_err();
+    for (from, to, name, error) in [
+        ("mass = 0.2", "mass = 0.0", "block on a spring", SceneError::Motion(2)),
+        ("mass = 0.2", "mass = 1e-5", "block on a spring", SceneError::Light(2)),
+        ("stiffness = 400", "stiffness = 4000", "part on the table", SceneError::Stiffness(0)),
+        ("static = 0.5", "static = 0.3", "its neighbour", SceneError::Friction(1)),
+    ] {
+        assert_eq!(refused(from, to), SceneFileError::Scene { body: Some(name.to_owned()), error });
+    }
+}

@@ -1,0 +1,167 @@
+//! A scene file as what is felt: its bodies, baked, in their places.
+
+use super::progress;
+use crate::drawing::View;
+use crate::models::ModelFile;
+use crate::preset::Limits as DeviceLimits;
+use anyhow::Context;
+use glam::DVec3;
+use palpate::body::Body;
+use palpate::math::Vec3;
+use palpate::patch::Patch as _;
+use palpate::scene::{Limits, Motion, Scene};
+use palpate::track::Placement;
+use palpate_bake::BakedBody;
+use palpate_bake::source::{Origin, body_source};
+use palpate_scene::{SceneFile, Shape, source};
+use std::path::Path;
+
+/// Points of a face along either parameter, from which its box is taken.
+const GRID: usize = 24;
+/// Seconds at which a body on a path is drawn, beside the start.
+const DRAWN_AT: [f32; 2] = [1.0, 2.0];
+/// How far into the highest top the hand's level is, metres: it reaches for the tops of all.
+const REACH: f64 = 0.004;
+
+/// A scene that is felt. It lives as long as the program, as other surfaces do.
+#[derive(Debug)]
+pub struct FeltScene {
+    file: SceneFile,
+    bodies: Vec<(&'static Body<'static>, Shape)>,
+    tables: Vec<String>,
+}
+
+impl FeltScene {
+    /// Reads a scene file, and bakes its bodies.
+    ///
+    /// # Errors
+    /// What is wrong with the file, or with one of its models.
+    pub fn read(from: &ModelFile, path: &Path) -> anyhow::Result<Self> {
+        let file = SceneFile::read(&from.text).with_context(|| from.label.clone())?;
+        let (mut bodies, mut tables) = (Vec::new(), Vec::new());
+        for entry in &file.body {
+            // From the scene's own folder, or one that ships.
+            let beside = path.parent().unwrap_or(Path::new("")).join(&entry.model);
+            let named = if beside.is_file() { beside } else { entry.model.clone().into() };
+            let model_file =
+                ModelFile::read(&named).with_context(|| format!("{}: body {:?}", from.label, entry.name))?;
+            let model = model_file.model()?;
+            let baked: BakedBody = model_file.body(&model)?;
+            let options = baked.locator_options();
+            let bar = progress::work();
+            let progress = |done, all| bar.tell("cells of space", done, all);
+            let baked = model_file.located(baked, &options, None, &progress)?;
+            drop(bar);
+            let origin = Origin {
+                model_file: &model_file.name,
+                out_file: "body.rs",
+                model: model_file.bytes(),
+                centre: model.centre,
+            };
+            tables.push(body_source(&origin, &baked, &baked.labels(&model))?);
+            let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?));
+            bodies.push((body, shape(body, model.centre)));
+        }
+        Ok(Self { file, bodies, tables })
+    }
+
+    /// What to call it.
+    pub fn name(&self) -> &str {
+        &self.file.name
+    }
+
+    /// How many bodies it has.
+    pub fn count(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// The limits of the scene on a device, at a servo rate, Hz.
+    pub fn limits(device: DeviceLimits, max_force: f32, rate: f32) -> Limits {
+        let DeviceLimits { force, stiffness, damping } = device;
+        let max_force = if max_force < force { max_force } else { force };
+        Limits {
+            max_stiffness: stiffness,
+            max_damping: damping,
+            max_force,
+            let_go: 20.0 * max_force,
+            rate,
+            max_speed: 2.0,
+        }
+    }
+
+    /// The scene, of `N` bodies.
+    ///
+    /// # Errors
+    /// What the library refuses.
+    pub fn scene<const N: usize>(&self, limits: Limits) -> anyhow::Result<&'static Scene<'static, Body<'static>, N>> {
+        Ok(Box::leak(Box::new(self.file.scene(limits, &self.bodies)?)))
+    }
+
+    /// As Rust source.
+    ///
+    /// # Errors
+    /// What the library would refuse when that is compiled.
+    pub fn source(&self, limits: Limits) -> anyhow::Result<String> {
+        Ok(source(&self.file, limits, &self.bodies, &self.tables))
+    }
+
+    /// The bodies as nets of lines: where they start, and on their way.
+    pub fn nets(&self, rate: f32) -> Vec<Vec<(f64, f64)>> {
+        let parts = self.file.parts(rate, &self.bodies);
+        let mut nets = Vec::new();
+        for (part, (entry, (body, shape))) in parts.iter().zip(self.file.body.iter().zip(&self.bodies)) {
+            let mut places = vec![entry.placement(shape)];
+            if let Motion::Prescribed(path) = &part.motion {
+                places.extend(DRAWN_AT.map(|seconds| path.at((seconds * rate) as u32)));
+            }
+            for place in places {
+                let point = |patch: usize, u, v| place.point_to_a(body.faces()[patch].patch.evaluate(u, v).point);
+                let faces = 0..body.faces().len();
+                nets.extend(faces.flat_map(|face| View::FRONT_RIGHT.net_of(|u, v| point(face, u, v).as_dvec3())));
+            }
+        }
+        nets
+    }
+
+    /// The middle of the box that holds all bodies where they start.
+    pub fn middle(&self) -> Vec3 {
+        let (low, high) = self.bounds();
+        (0.5 * (low + high)).as_vec3()
+    }
+
+    /// Where a hand may touch: a level just under the highest top, over all bodies.
+    pub fn places(&self) -> impl Fn(f64, f64) -> (DVec3, DVec3) + use<> {
+        let (low, high) = self.bounds();
+        let size = high - low;
+        move |u, v| {
+            let at = DVec3::new(low.x + u * size.x, low.y + v * size.y, high.z - REACH);
+            (at, DVec3::Z)
+        }
+    }
+
+    fn bounds(&self) -> (DVec3, DVec3) {
+        let placed = self.file.body.iter().zip(&self.bodies);
+        placed.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), (entry, (body, shape))| {
+            let (a, b) = bounds(body, &entry.placement(shape));
+            (low.min(a), high.max(b))
+        })
+    }
+}
+
+fn shape(body: &Body<'_>, centre: DVec3) -> Shape {
+    let (low, high) = bounds(body, &Placement::IDENTITY);
+    Shape { centre, low, high }
+}
+
+/// The box of a grid of points on each face.
+fn bounds(body: &Body<'_>, place: &Placement) -> (DVec3, DVec3) {
+    let at = |index: usize| index as f32 / GRID as f32;
+    let mut bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for face in body.faces() {
+        for (i, j) in (0..=GRID).flat_map(|i| (0..=GRID).map(move |j| (i, j))) {
+            let point = place.point_to_a(face.patch.evaluate(at(i), at(j)).point).as_dvec3();
+            bounds = (bounds.0.min(point), bounds.1.max(point));
+        }
+    }
+    bounds
+}
