@@ -79,7 +79,9 @@ pub fn bake(
     loop {
         let (farthest, wanted) = (f64::from(side) * 3.0_f64.sqrt(), wanted.as_deref());
         let search = Search { faces: &faces, options: &options, size, farthest, wanted };
-        match tables::pack(&search.run(root, progress), corner, side, &options) {
+        // What is not even listed to the end has more nodes and entries than this.
+        let grown = search.run(root, progress).map_err(|entries| LocatorError::TooLarge { nodes: 0, entries });
+        match grown.and_then(|tree| tables::pack(&tree, corner, side, &options)) {
             Err(LocatorError::TooLarge { .. }) if options.depth > LEAST_DEPTH => options.depth -= 1,
             done => return done,
         }

@@ -1,4 +1,7 @@
 //! The octree: cells are divided until their lists are short and proved.
+//!
+//! First all lists, then samples of those that are not proved: samples take most of the time, and of lists that do not
+//! fit the tables' indices none is taken.
 
 use super::faces::{Faces, Query, Reference, Region};
 use super::field::Probes;
@@ -6,18 +9,20 @@ use super::list::{Entry, Lister};
 use super::options::LocatorOptions;
 use super::rectangle::Rectangle;
 use super::sampled::{self, Fault, Sampler, Sampling};
+use super::tables::{StoredLists, list};
 use super::tree::{Child, Kind, Leaf, Octree};
 use super::unique::nearest;
 use glam::DVec3;
-use palpate::body::{MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
+use palpate::body::{LEAF, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// What came of a cell.
 enum Outcome<'a> {
-    Leaf(Box<Leaf>, Vec<Entry>),
+    Leaf(Box<Listed<'a>>),
     Inner(Inherited<'a>),
 }
 
@@ -29,11 +34,30 @@ struct Inherited<'a> {
     convex: Vec<(u16, Rectangle)>,
 }
 
-/// A cell with all that came of it.
-enum Grown {
-    Leaf(Box<Leaf>, Vec<Entry>),
-    Inner(Vec<Grown>),
+/// A cell whose list is good enough, or is as deep as cells are.
+struct Listed<'a> {
+    probes: Probes,
+    depth: usize,
+    kind: Kind,
+    entries: Vec<Entry>,
+    /// Nothing if the list is proved.
+    unproved: Option<Unproved<'a>>,
 }
+
+/// What it takes to sample a list.
+struct Unproved<'a> {
+    inherited: Inherited<'a>,
+    is_loose: bool,
+}
+
+/// A cell with all that came of it.
+enum Grown<L> {
+    Leaf(L),
+    Inner(Vec<Grown<L>>),
+}
+
+/// A leaf with its list.
+type Done = (Leaf, Vec<Entry>);
 
 /// How often what is left of a face is divided at most for want of a proof.
 const DIVISIONS: usize = 2;
@@ -58,28 +82,44 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Divides the root cube; `progress` hears how many of the smallest cells are done, and how many there are.
+    /// Divides the root cube; `progress` hears how much is done, and how much there is: each of the smallest cells
+    /// once for its list and once for its samples.
     ///
     /// A cell is done before its neighbours are begun: they look at the same parts of faces.
-    pub(super) fn run(&self, root: Probes, progress: &(dyn Fn(usize, usize) + Sync)) -> Octree {
+    ///
+    /// # Errors
+    /// How many entries there are, as soon as they are more than indices can name.
+    pub(super) fn run(&self, root: Probes, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Octree, usize> {
         let done = AtomicUsize::new(0);
-        let all = cells_at(self.options.depth + self.options.deeper);
+        let cells = cells_at(self.options.depth + self.options.deeper);
         let told = |depth: usize| {
-            let share = all / cells_at(depth);
-            progress(done.fetch_add(share, Ordering::Relaxed) + share, all);
+            let share = cells / cells_at(depth);
+            progress(done.fetch_add(share, Ordering::Relaxed) + share, 2 * cells);
+        };
+        let stored = Mutex::new(StoredLists::default());
+        let keep = |listed: &Listed<'_>| {
+            told(listed.depth);
+            // A thread that panicked ends the bake.
+            let mut stored = stored.lock().unwrap_or_else(PoisonError::into_inner);
+            stored.add(&list(&listed.entries));
+            stored.entries() <= usize::from(LEAF)
         };
         let whole = Inherited { regions: self.faces.regions(), convex: Vec::new() };
-        flattened(self.children(&root, &whole, 1, &told))
+        match self.children(&root, &whole, 1, &keep) {
+            Some(children) => Ok(flattened(self.sampled(children, &told))),
+            None => Err(stored.lock().unwrap_or_else(PoisonError::into_inner).entries()),
+        }
     }
 
-    /// The children of a cell, by as many threads as there are; in their order, whatever thread was first.
+    /// The children of a cell, by as many threads as there are; in their order, whatever thread was first. `None` once
+    /// `keep` says that they are too many.
     fn children(
         &self,
         parent: &Probes,
         inherited: &Inherited<'a>,
         depth: usize,
-        told: &(dyn Fn(usize) + Sync),
-    ) -> Vec<Grown> {
+        keep: &(dyn Fn(&Listed<'_>) -> bool + Sync),
+    ) -> Option<Vec<Grown<Box<Listed<'a>>>>> {
         let half = 0.5 * parent.half;
         let quarter = Probes { centre: parent.centre, half };
         // Points of the body for the corners of all children, which share them.
@@ -94,15 +134,33 @@ impl<'a> Search<'a> {
                 let ([a, b, c], [x, y, z]) = (bits(index), bits(corner));
                 lattice[a + x + 3 * (b + y) + 9 * (c + z)]
             };
-            match self.cell(probes, (0..8).map(corner), inherited, depth) {
-                Outcome::Leaf(leaf, entries) => {
-                    told(depth);
-                    Grown::Leaf(leaf, entries)
-                }
-                Outcome::Inner(left) => Grown::Inner(self.children(&probes, &left, depth + 1, told)),
-            }
+            Some(match self.cell(probes, (0..8).map(corner), inherited, depth) {
+                Outcome::Leaf(listed) => Grown::Leaf(keep(&listed).then_some(listed)?),
+                Outcome::Inner(left) => Grown::Inner(self.children(&probes, &left, depth + 1, keep)?),
+            })
         };
         (0..8).into_par_iter().map(child).collect()
+    }
+
+    /// The same cells sampled where nothing is proved; some are divided for it.
+    fn sampled(&self, cells: Vec<Grown<Box<Listed<'a>>>>, told: &(dyn Fn(usize) + Sync)) -> Vec<Grown<Done>> {
+        let sampled = |cell| match cell {
+            Grown::Inner(children) => Grown::Inner(self.sampled(children, told)),
+            Grown::Leaf(listed) => {
+                let (probes, depth) = (listed.probes, listed.depth);
+                match self.sample(*listed) {
+                    Ok(done) => {
+                        told(depth);
+                        Grown::Leaf(done)
+                    }
+                    Err(left) => {
+                        let children = self.children(&probes, &left, depth + 1, &|_| true);
+                        Grown::Inner(self.sampled(children.unwrap_or_default(), told))
+                    }
+                }
+            }
+        };
+        cells.into_par_iter().map(sampled).collect()
     }
 
     /// Whether anybody asks for a cell; its walls belong to it.
@@ -163,14 +221,24 @@ impl<'a> Search<'a> {
         if !proved && !self.options.convex {
             lister.add_open_borders(&left, &mut entries);
         }
-        // Where much could be lost it is looked for harder.
         let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
-        if !proved {
+        let convex = lister.convex();
+        let unproved = (!proved).then_some(Unproved { inherited: Inherited { regions: left, convex }, is_loose });
+        Outcome::Leaf(Box::new(Listed { probes, depth, kind, entries, unproved }))
+    }
+
+    /// A leaf whose list passed all samples, or was mended where it failed, or cannot be divided; else what its
+    /// children inherit.
+    fn sample(&self, listed: Listed<'a>) -> Result<Done, Inherited<'a>> {
+        let Listed { probes, depth, kind, mut entries, unproved } = listed;
+        let proved = unproved.is_none();
+        if let Some(Unproved { inherited, is_loose }) = unproved {
+            // Where much could be lost it is looked for harder.
             let count = self.options.samples * if is_loose && kind != Kind::Deep { CLOSER } else { 1 };
             let evaluations = if self.options.convex { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
-            let (tolerance, size) = ((0.2 * tolerance) as f32, self.size as f32);
+            let (tolerance, size) = ((0.2 * self.options.tolerance * self.size) as f32, self.size as f32);
             let sampling = Sampling { count, evaluations, tolerance, size };
-            let mut sampler = Sampler::new(self.faces, probes, &left, &entries, sampling);
+            let mut sampler = Sampler::new(self.faces, probes, &inherited.regions, &entries, sampling);
             for repair in 1..=REPAIRS {
                 let Some(fault) = sampler.fault(&entries) else { break };
                 let is_mended = match fault {
@@ -179,17 +247,17 @@ impl<'a> Search<'a> {
                 };
                 if !is_mended {
                     if depth < self.options.depth + self.options.deeper {
-                        return Outcome::Inner(Inherited { regions: left, convex: lister.convex() });
+                        return Err(inherited);
                     }
                     break;
                 }
             }
         }
-        let worst = entries.iter().map(|entry| entry.minima).fold(super::unique::Minima::Convex, |a, b| {
+        let minima = entries.iter().map(|entry| entry.minima).fold(super::unique::Minima::Convex, |a, b| {
             if a.partial_cmp(&b) == Some(std::cmp::Ordering::Less) { b } else { a }
         });
-        let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth, kind, minima: worst, proved };
-        Outcome::Leaf(Box::new(leaf), entries)
+        let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth, kind, minima, proved };
+        Ok((leaf, entries))
     }
 
     /// What is left of some regions, divided as finely as the cell deserves.
@@ -236,10 +304,9 @@ impl<'a> Search<'a> {
 /// A cell that is not looked into: any list will do.
 fn unwanted<'a>(probes: &Probes, depth: usize) -> Outcome<'a> {
     let minima = super::unique::Minima::Unknown;
-    let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth, kind: Kind::Deep, minima, proved: false };
     let rectangle = Rectangle::around([[0.0; 2], [1.0; 2]]);
-    let entry = Entry { face: 0, rectangle, minima, distance: 0.0 };
-    Outcome::Leaf(Box::new(leaf), vec![entry])
+    let entries = vec![Entry { face: 0, rectangle, minima, distance: 0.0 }];
+    Outcome::Leaf(Box::new(Listed { probes: *probes, depth, kind: Kind::Deep, entries, unproved: None }))
 }
 
 /// How many cells of a depth there are.
@@ -248,14 +315,14 @@ fn cells_at(depth: usize) -> usize {
 }
 
 /// The tree in order of depth.
-fn flattened(root: Vec<Grown>) -> Octree {
+fn flattened(root: Vec<Grown<Done>>) -> Octree {
     let mut tree = Octree { nodes: vec![[Child::Leaf(0); 8]], leaves: Vec::new() };
     let mut open = VecDeque::from([(0, root)]);
     while let Some((node, children)) = open.pop_front() {
         for (index, child) in children.into_iter().enumerate() {
             tree.nodes[node][index] = match child {
-                Grown::Leaf(leaf, entries) => {
-                    tree.leaves.push((*leaf, entries));
+                Grown::Leaf(done) => {
+                    tree.leaves.push(done);
                     Child::Leaf(tree.leaves.len() - 1)
                 }
                 Grown::Inner(children) => {

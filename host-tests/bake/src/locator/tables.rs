@@ -5,8 +5,9 @@ use super::tree::{Child, Kind, Octree};
 use super::unique::Minima;
 use palpate::body::{LEAF, Locator};
 use palpate::math::Vec3;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 /// A locator's tables.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,6 +142,44 @@ pub(super) fn pack(
     Ok(BakedLocator { corner, side, nodes, entries, report })
 }
 
+/// How many entries lists take, one that is equal to another or its end none of its own: whatever their order, as many
+/// as [`pack`] stores.
+#[derive(Default)]
+pub(super) struct StoredLists {
+    /// Ends of all lists, whole ones included, by their hashes: of two that are taken for one, one is not counted.
+    ends: HashSet<u64>,
+    /// Lists that are no end of another, with their lengths.
+    whole: HashMap<u64, usize>,
+    entries: usize,
+}
+
+impl StoredLists {
+    /// Adds one.
+    pub(super) fn add(&mut self, list: &[u32]) {
+        let hash = |end: &[u32]| {
+            let mut hasher = DefaultHasher::new();
+            end.hash(&mut hasher);
+            hasher.finish()
+        };
+        if !self.ends.insert(hash(list)) {
+            return;
+        }
+        self.whole.insert(hash(list), list.len());
+        self.entries += list.len();
+        for skipped in 1..list.len() {
+            let end = hash(&list[skipped..]);
+            self.ends.insert(end);
+            // One that is stored as the end of this one needs no place of its own.
+            self.entries -= self.whole.remove(&end).unwrap_or(0);
+        }
+    }
+
+    /// Of all that were added.
+    pub(super) const fn entries(&self) -> usize {
+        self.entries
+    }
+}
+
 /// The likeliest first, the others in an order that lets lists share their ends.
 pub(super) fn list(entries: &[super::list::Entry]) -> Vec<u32> {
     let count = entries.len();
@@ -192,4 +231,33 @@ fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options
     }
     report.bytes = size_of_val(nodes) + size_of_val(entries);
     report
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+
+    /// Short lists of few numbers, so that many are the ends of others; against what all pairs say.
+    #[test]
+    fn stored_lists_are_counted_in_any_order() {
+        let mut random = Random::new(3);
+        let mut number = |below: f64| random.between(0.0, below) as usize;
+        for _ in 0..50 {
+            let lists: Vec<Vec<u32>> =
+                (0..40).map(|_| (0..1 + number(5.0)).map(|_| number(2.0) as u32).collect()).collect();
+            let is_end_of = |end: &Vec<u32>, other: &Vec<u32>| other.len() > end.len() && other.ends_with(end);
+            let whole: HashSet<&Vec<u32>> =
+                lists.iter().filter(|list| !lists.iter().any(|other| is_end_of(list, other))).collect();
+            let mut stored = StoredLists::default();
+            let mut before = 0;
+            for list in &lists {
+                stored.add(list);
+                // So that what is too much of some lists is too much of all.
+                assert!(stored.entries() >= before);
+                before = stored.entries();
+            }
+            assert_eq!(stored.entries(), whole.into_iter().map(Vec::len).sum::<usize>());
+        }
+    }
 }
