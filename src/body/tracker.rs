@@ -6,6 +6,7 @@ use super::feature::{EdgeFace, Face, Feature};
 use super::search::Search;
 use super::table::Body;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
+use crate::patch::SplinePatch;
 use crate::track::{Aim, BoundaryMode, Contact, Controller, Outcome, Probe, Witness};
 
 /// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew, once
@@ -86,7 +87,8 @@ impl Body<'_> {
     pub fn start(&self) -> BodyWitness {
         BodyWitness {
             feature: Feature::Face(0),
-            witness: Witness::at(&self.faces[0].patch, 0.5, 0.5),
+            // There is a face, but the compiler may not know.
+            witness: Witness::at(self.faces.first().map_or(&SplinePatch::VACANT, |face| &face.patch), 0.5, 0.5),
             normal: Vec3::ZERO,
             gap: 0.0,
             contact: Contact::Behind,
