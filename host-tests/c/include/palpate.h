@@ -1,0 +1,588 @@
+/**
+ * @file palpate.h
+ * @brief Feel a CAD surface from C: a body from a file, its closest point, and the whole servo tick.
+ *
+ * Nothing here allocates, waits or stops the program. All memory is the caller's, all work is bounded, and whatever is
+ * wrong comes back as a ::palpate_status; then nothing has been done. Lengths are in metres, angles in radians, forces
+ * in newtons, times in seconds, numbers in single precision. A body's numbers are in the frame of its tables, whose
+ * origin lies in the model where palpate_file_info::centre says.
+ *
+ * **Handles** (::palpate_body, ::palpate_tracker, ::palpate_pair, ::palpate_servo, ::palpate_receiver) lie in memory of
+ * the caller's, static or on a stack, and are made by the function that takes their size. What is in them is nobody's
+ * business. A handle stays where it was made: a copy elsewhere is refused with #PALPATE_NOT_READY, as is memory that
+ * was never made a handle. A body that is loaded anew ends what stands on it.
+ *
+ * **What is checked**: each pointer for null and alignment, each length, each number that must be finite, each index,
+ * the whole of a file. **What the caller promises**, for nobody can check it: a pointer that is not null points to as
+ * much memory as the function says; a file, its room and a body stay as they are for as long as anything stands on
+ * them; and no two calls that change a handle run at once.
+ *
+ * @code{.c}
+ * static palpate_body body;
+ * static palpate_word room[PALPATE_ROOM_WORDS(6, 12)];
+ * palpate_body_load(&body, sizeof body, part_palp, sizeof part_palp, room, sizeof room);
+ * palpate_tracker tracker;
+ * palpate_start(&tracker, sizeof tracker, &body);
+ * const float probe[3] = {0.01f, 0.02f, 0.05f};
+ * palpate_touch touch;
+ * palpate_step(&tracker, probe, &touch);
+ * @endcode
+ */
+#ifndef PALPATE_H
+#define PALPATE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** @name Memory
+ *  Words of the caller's memory that each handle takes.
+ *  @{ */
+
+/** What handles and rooms are made of: a word of the machine, at its alignment. */
+typedef uintptr_t palpate_word;
+
+#if UINTPTR_MAX == 0xffffffffu
+#define PALPATE_FACE_WORDS 57
+#define PALPATE_EDGE_WORDS 13
+#define PALPATE_BODY_WORDS 24
+#define PALPATE_TRACKER_WORDS 76
+#define PALPATE_PAIR_WORDS 56
+#define PALPATE_SERVO_WORDS 420
+#define PALPATE_RECEIVER_WORDS 38
+#else
+#define PALPATE_FACE_WORDS 45
+#define PALPATE_EDGE_WORDS 9
+#define PALPATE_BODY_WORDS 20
+#define PALPATE_TRACKER_WORDS 40
+#define PALPATE_PAIR_WORDS 32
+#define PALPATE_SERVO_WORDS 220
+#define PALPATE_RECEIVER_WORDS 22
+#endif
+
+/** Words of the room of a body with so many faces and edges (palpate_file_info::faces, palpate_file_info::edges). */
+#define PALPATE_ROOM_WORDS(faces, edges) ((faces) * PALPATE_FACE_WORDS + (edges) * PALPATE_EDGE_WORDS)
+
+/** A body: the tables of a file, checked. */
+typedef struct palpate_body { palpate_word reserved[PALPATE_BODY_WORDS]; } palpate_body;
+/** The closest point of a body, followed from tick to tick. */
+typedef struct palpate_tracker { palpate_word reserved[PALPATE_TRACKER_WORDS]; } palpate_tracker;
+/** The closest pair of two faces. */
+typedef struct palpate_pair { palpate_word reserved[PALPATE_PAIR_WORDS]; } palpate_pair;
+/** A servo loop: device, body, settings and state. */
+typedef struct palpate_servo { palpate_word reserved[PALPATE_SERVO_WORDS]; } palpate_servo;
+/** Bytes of a frame on their way in. */
+typedef struct palpate_receiver { palpate_word reserved[PALPATE_RECEIVER_WORDS]; } palpate_receiver;
+/** @} */
+
+/** What a call came to; palpate_status_text() has it in words. */
+typedef int32_t palpate_status;
+
+/** The values of ::palpate_status. */
+enum {
+    PALPATE_OK = 0,                        /**< Done. */
+    PALPATE_NULL = 1,                      /**< A pointer is null. */
+    PALPATE_MISALIGNED = 2,                /**< A pointer is not aligned for what it points to; a file needs 4. */
+    PALPATE_TOO_SMALL = 3,                 /**< The memory given is too small. */
+    PALPATE_NOT_READY = 4,                 /**< No handle, a moved one, or what it stands on was loaded anew. */
+    PALPATE_NOT_FINITE = 5,                /**< A number is NaN or infinite. */
+    PALPATE_OUT_OF_RANGE = 6,              /**< An index, a count or a code is out of its range. */
+    PALPATE_FILE_MAGIC = 16,               /**< No body's file: it does not begin with PALP. */
+    PALPATE_FILE_VERSION = 17,             /**< Of another version: bake it anew. */
+    PALPATE_FILE_LENGTH = 18,              /**< More or fewer bytes than the file says. */
+    PALPATE_FILE_DAMAGED = 19,             /**< Its CRC-32 is not the one it says. */
+    PALPATE_FILE_SECTION = 20,             /**< A section is not where it should be, or its length does not fit. */
+    PALPATE_FILE_NUMBER = 21,              /**< A number is not finite. */
+    PALPATE_FILE_CODE = 22,                /**< A kind or flag that there is not. */
+    PALPATE_FILE_MISSING = 23,             /**< A record needs numbers that are not there. */
+    PALPATE_FILE_LEFT_OVER = 24,           /**< There are numbers that belong to nothing. */
+    PALPATE_FILE_PATCH = 25,               /**< A face is not one. */
+    PALPATE_FILE_BODY = 26,                /**< The body is not one. */
+    PALPATE_FILE_TABLES = 27,              /**< The tables are not those that were baked. */
+    PALPATE_DEVICE_ENCODER = 32,           /**< Radians a count zero or not finite, or a zero not finite. */
+    PALPATE_DEVICE_MOTOR = 33,             /**< Torque zero or not finite, or no feed of a motor. */
+    PALPATE_DEVICE_FRICTION = 34,          /**< Dry friction negative or not finite. */
+    PALPATE_DEVICE_RANGE = 35,             /**< A least angle not below the greatest. */
+    PALPATE_DEVICE_LIMIT = 36,             /**< A limit of the whole device not positive and finite. */
+    PALPATE_SETTINGS_RATE = 48,            /**< Rate not between 1 Hz and 100 kHz. */
+    PALPATE_SETTINGS_STIFFNESS = 49,       /**< Stiffness not between 0 and the device's greatest. */
+    PALPATE_SETTINGS_DAMPING = 50,         /**< Damping not between 0 and the device's greatest. */
+    PALPATE_SETTINGS_MAX_FORCE = 51,       /**< Greatest force negative or not finite. */
+    PALPATE_SETTINGS_VELOCITY_CORNER = 52, /**< Velocity corner not positive and finite. */
+    PALPATE_SETTINGS_SOFT_START = 53,      /**< Soft start negative or not finite. */
+    PALPATE_SETTINGS_BODY_ORIGIN = 54,     /**< Origin not finite. */
+    PALPATE_SETTINGS_FRICTION = 55,        /**< Friction negative, not finite, or dynamic above static. */
+    PALPATE_SETTINGS_MAX_SLEW = 56,        /**< Slew limit not positive. */
+    PALPATE_SETTINGS_SAFE_DAMPING = 57,    /**< Safe damping not between 0 and the device's greatest. */
+    PALPATE_SETTINGS_LINK_TIMEOUT = 58     /**< Timeout not positive. */
+};
+
+/** A status in a sentence that stays for ever; "unknown" of a code that is none. */
+const char *palpate_status_text(int32_t status);
+/** A fault (palpate_output::fault) in words that stay for ever; "none" of 0, "unknown" of a code that is none. */
+const char *palpate_fault_text(uint32_t fault);
+
+/** @name Bodies
+ *  @{ */
+
+/** What a file says of itself. */
+typedef struct palpate_file_info {
+    uint32_t faces;      /**< Faces of the body. */
+    uint32_t edges;      /**< Edges of the body. */
+    uint32_t room_bytes; /**< Bytes of the room that it needs on this machine. */
+    float centre[3];     /**< Where the origin of the tables lies in the model, m. */
+    uint8_t source[32];  /**< SHA-256 of the model file. */
+} palpate_file_info;
+
+/** Where the closest point of a body lies. */
+typedef struct palpate_located {
+    uint32_t face;        /**< The face. */
+    float parameters[2];  /**< (u, v) on it, 0 to 1. */
+    float point[3];       /**< The point, m. */
+    float distance;       /**< From the probe, m; never negative. */
+    uint32_t evaluations; /**< Evaluations of patches spent. */
+    uint32_t complete;    /**< 1 if every candidate was searched to its end. */
+} palpate_located;
+
+/**
+ * Looks at a file: its CRC and its sections. How much room a body needs is known then.
+ *
+ * @param file  the bytes that `palpate bake MODEL --out part.palp` wrote, at a multiple of 4
+ * @param bytes how many
+ * @param info  where what it says goes
+ */
+palpate_status palpate_file_head(const uint8_t *file, size_t bytes, palpate_file_info *info);
+
+/**
+ * Makes a body of a file, with everything in it checked. The numbers are read where they lie: file and room stay as
+ * they are for as long as the body is used. The time is bounded by the length of the file.
+ *
+ * @param body        where the body goes
+ * @param body_bytes  `sizeof` it
+ * @param file        the file, at a multiple of 4
+ * @param file_bytes  its length
+ * @param room_memory memory for faces and edges, at the alignment of ::palpate_word
+ * @param room_bytes  `sizeof` it; palpate_file_info::room_bytes at least
+ */
+palpate_status palpate_body_load(palpate_body *body, size_t body_bytes, const uint8_t *file, size_t file_bytes,
+                                 void *room_memory, size_t room_bytes);
+
+/**
+ * The closest point from a standing start. At most 512 evaluations of patches, on a convex body 32.
+ *
+ * @param body    the body
+ * @param probe   three coordinates, m
+ * @param located where the answer goes
+ */
+palpate_status palpate_closest(const palpate_body *body, const float *probe, palpate_located *located);
+/** @} */
+
+/** @name Trackers
+ *  @{ */
+
+/** What is known of the closest point after a tick. */
+typedef struct palpate_touch {
+    float point[3];       /**< The witness point, m. */
+    float normal[3];      /**< Unit vector out of the body there. */
+    float gap;            /**< Along it, m; negative inside. */
+    float parameters[2];  /**< (u, v) on a face, (t, 0) on an edge. */
+    uint32_t feature;     /**< The index of a face, of an edge plus 0x4000, of a vertex plus 0x8000. */
+    uint32_t contact;     /**< 0 behind the surface, 1 in front of it, 2 touching. */
+    uint32_t located;     /**< 1 once it is known where the closest point is; until then nothing is touched. */
+    uint32_t undone;      /**< 1 if the step was undone because the distance would have risen. */
+    uint32_t searched;    /**< 1 if the tick went to the search for a global start. */
+    uint32_t unexplained; /**< 1 if it is farther off than the probe has moved since contact began. */
+    uint32_t evaluations; /**< Evaluations of patches spent in the tick. */
+} palpate_touch;
+
+/**
+ * Makes a tracker that knows nothing yet: its first ticks search.
+ *
+ * @param tracker       where it goes
+ * @param tracker_bytes `sizeof` it
+ * @param body          the body, which stays
+ */
+palpate_status palpate_start(palpate_tracker *tracker, size_t tracker_bytes, const palpate_body *body);
+
+/**
+ * Makes a tracker whose witness point lies on a face.
+ *
+ * @param tracker       where it goes
+ * @param tracker_bytes `sizeof` it
+ * @param body          the body, which stays
+ * @param face          the face
+ * @param u             first parameter, 0 to 1
+ * @param v             second parameter, 0 to 1
+ */
+palpate_status palpate_start_on(palpate_tracker *tracker, size_t tracker_bytes, const palpate_body *body,
+                                uint32_t face, float u, float v);
+
+/**
+ * Moves the witness point towards the point closest to the probe: one evaluation of a patch. palpate_meet() follows.
+ *
+ * @param tracker the tracker
+ * @param probe   three coordinates, m
+ */
+palpate_status palpate_track(palpate_tracker *tracker, const float *probe);
+
+/**
+ * Normal, gap and contact for the probe of the last palpate_track().
+ *
+ * @param tracker the tracker
+ * @param touch   where the answer goes
+ */
+palpate_status palpate_meet(palpate_tracker *tracker, palpate_touch *touch);
+
+/**
+ * A whole tick: palpate_track(), then palpate_meet(), and how far the probe has gone since contact began.
+ *
+ * @param tracker the tracker
+ * @param probe   three coordinates, m
+ * @param touch   where the answer goes
+ */
+palpate_status palpate_step(palpate_tracker *tracker, const float *probe, palpate_touch *touch);
+/** @} */
+
+/** @name Pairs
+ *  @{ */
+
+/** Where the second body stands in the frame of the first, and how it moves. */
+typedef struct palpate_pose {
+    float axes[3][3];          /**< Its axes, orthonormal and right-handed, one a row. */
+    float origin[3];           /**< Its origin, m. */
+    float velocity[3];         /**< Velocity of its origin, m/s. */
+    float angular_velocity[3]; /**< Angular velocity, rad/s. */
+} palpate_pose;
+
+/** What is known of a pair after a step. */
+typedef struct palpate_apart {
+    float first[3];             /**< On the first face, in its body's frame, m. */
+    float second[3];            /**< On the second face, in its own body's frame, m. */
+    float difference[3];        /**< First less second, in the first body's frame, m. */
+    float distance;             /**< Its length, m. */
+    float first_parameters[2];  /**< (u, v) on the first face. */
+    float second_parameters[2]; /**< (u, v) on the second face. */
+} palpate_apart;
+
+/**
+ * Makes a pair with its points in the middle of two faces.
+ *
+ * @param pair        where it goes
+ * @param pair_bytes  `sizeof` it
+ * @param first       a body, which stays
+ * @param first_face  one of its faces
+ * @param second      the other body, or the same
+ * @param second_face one of its faces
+ */
+palpate_status palpate_pair_start(palpate_pair *pair, size_t pair_bytes, const palpate_body *first,
+                                  uint32_t first_face, const palpate_body *second, uint32_t second_face);
+
+/**
+ * One step towards the closest pair of two faces that do not intersect: one evaluation of each. The distance never
+ * rises by more than rounding.
+ *
+ * @param pair  the pair
+ * @param pose  where the second body is
+ * @param apart where the answer goes
+ */
+palpate_status palpate_pair_step(palpate_pair *pair, const palpate_pose *pose, palpate_apart *apart);
+/** @} */
+
+/** @name A device from numbers
+ *  @{ */
+
+/** How a bridge that gives a voltage feeds a motor. All zero: the amplifier controls the current. */
+typedef struct palpate_voltage_feed {
+    float supply;          /**< Voltage at full duty, V; 0 for a current-controlled amplifier. */
+    float resistance;      /**< Of winding, brushes and bridge, ohms. */
+    float torque_constant; /**< N·m/A. */
+    float current_at_full; /**< Current that full duty of torque stands for, A. */
+    float ratio;           /**< Turns of the motor for one of the joint. */
+    float back_emf_share;  /**< How much of the back-EMF is made up for, 0 to 1. */
+} palpate_voltage_feed;
+
+/** A joint: encoder, motor, range. */
+typedef struct palpate_joint {
+    float radians_per_count;   /**< Joint angle a count, rad; negative where it counts the other way. */
+    float angle_at_zero;       /**< Joint angle in the middle of count zero, rad. */
+    float torque_at_full;      /**< Joint torque at full duty, N·m; negative where the motor turns the other way. */
+    float dry_friction;        /**< N·m, generously; 0 where it is not known. */
+    float least_angle;         /**< rad; what lies below is a sensor fault. */
+    float greatest_angle;      /**< rad. */
+    palpate_voltage_feed feed; /**< How the motor is fed. */
+} palpate_joint;
+
+/** A device, all but its mechanism. Joints that it does not have are not looked at. */
+typedef struct palpate_device {
+    palpate_joint joints[3]; /**< Its joints. */
+    float min_margin;        /**< Least distance from a singularity, m/rad. */
+    float max_joint_rate;    /**< The greatest believable joint speed, rad/s. */
+    float max_force;         /**< N. */
+    float max_stiffness;     /**< N/m. */
+    float max_damping;       /**< N·s/m. */
+} palpate_device;
+
+/** A turntable with a parallelogram of two links: WoodenHaptics, Phantom. Three joints. */
+typedef struct palpate_serial_arm {
+    float base_height;         /**< Height of the first link's axis, m. */
+    float first_link;          /**< m. */
+    float second_link;         /**< m. */
+    float workspace_centre[3]; /**< From the foot of the turntable, m. */
+    float end_masses[2];       /**< What each link lifts, as a mass at its end, kg; 0 if not known. */
+} palpate_serial_arm;
+
+/** Three legs with parallelograms: Falcon. Three joints. */
+typedef struct palpate_delta {
+    float thigh;               /**< m. */
+    float shin;                /**< m. */
+    float stub;                /**< Both stubs together, m. */
+    float reach;               /**< From the axis out to a hip, less the same from the probe to a shin's end, m. */
+    float side;                /**< The same difference to the left of a leg, m. */
+    float directions[3][2];    /**< Cosine and sine of each leg's direction. */
+    float workspace_centre[3]; /**< From the middle of the base, m. */
+    float up[3];               /**< Which way is up, a unit vector. */
+    float carried_mass;        /**< Mass that hangs on the probe, kg; 0 if not known. */
+    float thigh_moment;        /**< kg·m. */
+} palpate_delta;
+
+/** Two cranks and two rods in a plane: Haply. Two joints. */
+typedef struct palpate_five_bar {
+    float second_pivot;        /**< The second crank's pivot on the x axis, m. */
+    float cranks[2];           /**< m. */
+    float rods[2];             /**< m. */
+    float side;                /**< 1 or -1: which way the rods bend. */
+    float tool;                /**< The probe on the first rod, m from its elbow. */
+    float workspace_centre[2]; /**< From the first pivot, m. */
+} palpate_five_bar;
+
+/** A turntable that carries an upright five-bar: Polhem. Three joints. */
+typedef struct palpate_linkage_arm {
+    palpate_five_bar linkage;  /**< In the upright plane; its own workspace centre is not used. */
+    float pivot_reach;         /**< From the turntable's axis to the first crank's pivot, m. */
+    float workspace_centre[3]; /**< m. */
+    float masses[4][3];        /**< First crank, second crank, first rod, second rod: mass (kg), along, across (m). */
+} palpate_linkage_arm;
+
+/** A lever with one motor: Hapkit. One joint. */
+typedef struct palpate_paddle {
+    float handle;      /**< From the axis to the hand, m. */
+    float mass_moment; /**< kg·m; 0 if balanced or not known. */
+} palpate_paddle;
+
+/** A loop's settings. Begin with palpate_settings_default(). */
+typedef struct palpate_settings {
+    float rate;               /**< Servo rate, Hz, 1 to 100,000. */
+    float stiffness;          /**< N/m. */
+    float damping;            /**< N·s/m. */
+    float max_force;          /**< N; the device's own limit applies as well. */
+    float velocity_corner;    /**< Hz. */
+    float soft_start;         /**< Seconds over which the force is faded in. */
+    float body_origin[3];     /**< Where the origin of the body's tables lies in the device's frame, m. */
+    float friction_stiffness; /**< N/m. */
+    float friction_damping;   /**< N·s/m. */
+    float friction_static;    /**< With the next one 0: no friction. */
+    float friction_dynamic;   /**< Not above the static one. */
+    float max_slew;           /**< How fast the force may grow, N/s; INFINITY for no limit. */
+    float safe_damping;       /**< What the motors brake with after a fault, N·s/m; 0: nothing. */
+    float link_timeout;       /**< Seconds of silence after which the host is lost; INFINITY where none watches. */
+    uint32_t max_overruns;    /**< Ticks in a row that may overrun before it is a fault. */
+    uint32_t settle_ticks;    /**< Ticks of believable sensors before the loop is armed. */
+    uint32_t wait_for_homing; /**< 1: the loop waits for #PALPATE_HOMED before it is armed. */
+    uint32_t leave_weight;    /**< 1: the motors do not carry the links' weight. */
+} palpate_settings;
+
+/** Fills in the defaults: 1 kHz, a soft wall and little force, within what every device that ships takes. */
+palpate_status palpate_settings_default(palpate_settings *settings);
+/** @} */
+
+/** @name The servo loop
+ *  @{ */
+
+/** palpate_output::phase. */
+enum {
+    PALPATE_PHASE_RESET = 0,     /**< Nothing has been sensed yet. */
+    PALPATE_PHASE_CALIBRATE = 1, /**< Sensors settle, tables are checked. */
+    PALPATE_PHASE_ARMED = 2,     /**< Tracking, motors at zero. */
+    PALPATE_PHASE_RUNNING = 3,   /**< Rendering force. */
+    PALPATE_PHASE_FAULT = 4      /**< Stopped; only a new start leaves it. */
+};
+
+/** Why the chip was reset: the last argument of the starts. */
+enum {
+    PALPATE_RESET_POWER_ON = 0,  /**< Power was switched on. */
+    PALPATE_RESET_PIN = 1,       /**< The reset pin, or a debugger. */
+    PALPATE_RESET_SOFTWARE = 2,  /**< The program asked for it. */
+    PALPATE_RESET_WATCHDOG = 3,  /**< A watchdog: the loop starts with a fault. */
+    PALPATE_RESET_BROWN_OUT = 4, /**< The supply broke down: the loop starts with a fault. */
+    PALPATE_RESET_UNKNOWN = 5    /**< The board cannot tell. */
+};
+
+/** The events of palpate_servo_note(). */
+enum {
+    PALPATE_LINK_ALIVE = 1,     /**< The host said something. */
+    PALPATE_OVERRUN = 2,        /**< A tick took longer than its period. */
+    PALPATE_DRIVE_FAULT = 3,    /**< A motor driver reports a fault. */
+    PALPATE_HOMED = 4,          /**< Homing is done: counts are angles now. */
+    PALPATE_HOMING_REFUSED = 5, /**< Homing was refused. */
+    PALPATE_STOP = 6,           /**< Stop. */
+    PALPATE_ACKNOWLEDGED = 7    /**< Somebody has looked at the device after a reset that is a fault. */
+};
+
+/** What the motors get: do as it says, whatever the phase. */
+typedef struct palpate_output {
+    uint32_t drives;   /**< 0: every stage off; 1: these duties. */
+    int32_t duties[3]; /**< Full scale -32767 to 32767. */
+    uint32_t phase;    /**< What the loop is doing. */
+    uint32_t fault;    /**< What stopped it, 0 for nothing; palpate_fault_text() has it in words. */
+} palpate_output;
+
+/** A loop's state after a tick. */
+typedef struct palpate_state {
+    uint32_t ticks;         /**< Ticks done. */
+    uint32_t phase;         /**< What the loop is doing. */
+    uint32_t fault;         /**< What stopped it, 0 for nothing. */
+    uint32_t fault_tick;    /**< At which tick. */
+    uint32_t contact;       /**< 0 behind the surface, 1 in front of it, 2 touching. */
+    uint32_t feature;       /**< As palpate_touch::feature. */
+    uint32_t frames_lost;   /**< Frames lost, late or damaged so far. */
+    uint32_t overruns;      /**< Ticks that overran so far. */
+    uint32_t contacts_lost; /**< How often contact ended because no motion explained it. */
+    uint32_t steps_undone;  /**< Steps undone so far. */
+    float probe[3];         /**< In the body's frame, m. */
+    float point[3];         /**< The witness point, m. */
+    float parameters[2];    /**< Its parameters. */
+    float gap;              /**< m; negative inside. */
+    float force[3];         /**< On the probe, N, in the device's frame. */
+    float angles[3];        /**< Joint angles, rad. */
+    float rates[3];         /**< Joint rates, rad/s. */
+    float fade;             /**< How far the force is faded in, 0 to 1. */
+    float room;             /**< Room to the rim of the workspace, 0 to 1. */
+    uint32_t digest;        /**< Hash of every bit of the state: the same on every machine, and in Rust. */
+} palpate_state;
+
+/**
+ * Makes a loop of a device whose mechanism is a serial arm.
+ *
+ * @param servo       where it goes
+ * @param servo_bytes `sizeof` it
+ * @param mechanism   the mechanism's numbers
+ * @param device      the device's numbers; three joints are looked at
+ * @param body        what is felt, which stays
+ * @param settings    the settings
+ * @param reset       why the chip was reset
+ */
+palpate_status palpate_servo_start_serial_arm(palpate_servo *servo, size_t servo_bytes,
+                                              const palpate_serial_arm *mechanism, const palpate_device *device,
+                                              const palpate_body *body, const palpate_settings *settings,
+                                              uint32_t reset);
+/** The same of a delta; three joints. */
+palpate_status palpate_servo_start_delta(palpate_servo *servo, size_t servo_bytes, const palpate_delta *mechanism,
+                                         const palpate_device *device, const palpate_body *body,
+                                         const palpate_settings *settings, uint32_t reset);
+/** The same of a linkage arm; three joints. */
+palpate_status palpate_servo_start_linkage_arm(palpate_servo *servo, size_t servo_bytes,
+                                               const palpate_linkage_arm *mechanism, const palpate_device *device,
+                                               const palpate_body *body, const palpate_settings *settings,
+                                               uint32_t reset);
+/** The same of a five-bar; two joints. */
+palpate_status palpate_servo_start_five_bar(palpate_servo *servo, size_t servo_bytes,
+                                            const palpate_five_bar *mechanism, const palpate_device *device,
+                                            const palpate_body *body, const palpate_settings *settings,
+                                            uint32_t reset);
+/** The same of a paddle; one joint. */
+palpate_status palpate_servo_start_paddle(palpate_servo *servo, size_t servo_bytes, const palpate_paddle *mechanism,
+                                          const palpate_device *device, const palpate_body *body,
+                                          const palpate_settings *settings, uint32_t reset);
+
+/**
+ * One tick, from encoder counts to duties. The output is off unless the call comes back with #PALPATE_OK.
+ *
+ * @param servo  the loop
+ * @param counts encoder counts, one a joint
+ * @param joints how many: as many as the mechanism has
+ * @param enable not 0: force is asked for
+ * @param output where what the motors get goes
+ */
+palpate_status palpate_servo_tick(palpate_servo *servo, const int32_t *counts, size_t joints, uint32_t enable,
+                                  palpate_output *output);
+
+/**
+ * One tick without sensors: a fault.
+ *
+ * @param servo   the loop
+ * @param damaged 0: no frame came, or one of another tick; else one that is damaged
+ * @param output  where what the motors get goes
+ */
+palpate_status palpate_servo_tick_without(palpate_servo *servo, uint32_t damaged, palpate_output *output);
+
+/**
+ * Takes note of what happened outside a tick, at any time between two ticks.
+ *
+ * @param servo  the loop
+ * @param event  what happened
+ * @param output where what the motors now get goes
+ */
+palpate_status palpate_servo_note(palpate_servo *servo, uint32_t event, palpate_output *output);
+
+/**
+ * The state after the last tick.
+ *
+ * @param servo the loop
+ * @param state where it goes
+ */
+palpate_status palpate_servo_state(palpate_servo *servo, palpate_state *state);
+/** @} */
+
+/** @name The wire
+ *  Frames in lockstep with a simulated device, as `palpate demo` speaks them.
+ *  @{ */
+
+/** Bytes that hold any frame. */
+#define PALPATE_MAX_FRAME 128
+
+/** What a byte has completed. */
+typedef struct palpate_heard {
+    uint32_t what;     /**< 0 nothing, 1 sensors, 2 a damaged frame, 3 an empty one. */
+    uint32_t tick;     /**< Which tick the sensors are for. */
+    int32_t counts[3]; /**< Encoder counts. */
+    uint32_t enable;   /**< 1 if force is asked for. */
+} palpate_heard;
+
+/**
+ * Makes a receiver at the start of a frame.
+ *
+ * @param receiver       where it goes
+ * @param receiver_bytes `sizeof` it
+ */
+palpate_status palpate_receiver_start(palpate_receiver *receiver, size_t receiver_bytes);
+
+/**
+ * Takes the next byte.
+ *
+ * @param receiver the receiver
+ * @param byte     the byte
+ * @param heard    where what it completed goes
+ */
+palpate_status palpate_receiver_feed(palpate_receiver *receiver, uint8_t byte, palpate_heard *heard);
+
+/**
+ * Packs the report of the last tick into a frame.
+ *
+ * @param servo        the loop
+ * @param instructions what the board counted for the tick, 0 where it cannot
+ * @param frame        where the frame goes
+ * @param frame_bytes  how much there is; #PALPATE_MAX_FRAME holds any
+ * @param written      where the frame's length goes
+ */
+palpate_status palpate_servo_report(palpate_servo *servo, uint32_t instructions, uint8_t *frame, size_t frame_bytes,
+                                    size_t *written);
+/** @} */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,88 @@
+//! Handles: what is made here and lies in the caller's memory.
+//!
+//! Each begins with a word that no other memory is likely to hold: what it is, and where it was made. So memory that
+//! was never made a handle, one of another kind, and one that was copied elsewhere are told from a handle, and what
+//! refers to a handle may keep its address. It is a check against mistakes, not against malice.
+
+use crate::pointers::{checked, checked_mut};
+use crate::status::Status;
+use core::mem::MaybeUninit;
+use core::ptr::{addr_of, addr_of_mut};
+
+/// What can lie in a handle.
+pub trait Kind: Sized {
+    /// What the first word says of it.
+    const MARK: usize;
+}
+
+/// Memory of the caller's that holds a `T` once it has been made.
+#[repr(C)]
+pub struct Handle<T> {
+    mark: usize,
+    value: MaybeUninit<T>,
+}
+
+impl<T: Kind> Handle<T> {
+    fn mark_at(place: *const Self) -> usize {
+        T::MARK ^ place.addr()
+    }
+
+    /// Looks at memory that is to become a handle. Whatever was in it is gone.
+    ///
+    /// # Safety
+    /// If it is neither null nor misaligned, there are so many bytes, nobody else's.
+    pub unsafe fn vacate(place: *mut Self, bytes: usize) -> Result<*mut Self, Status> {
+        let place = checked_mut(place)?;
+        if bytes < size_of::<Self>() {
+            return Err(Status::TooSmall);
+        }
+        // SAFETY: neither null nor misaligned, large enough, and there by the caller's promise.
+        unsafe { addr_of_mut!((*place).mark).write(0) };
+        Ok(place)
+    }
+
+    /// Makes the handle.
+    ///
+    /// # Safety
+    /// The place comes from [`Self::vacate`].
+    pub unsafe fn fill(place: *mut Self, value: T) {
+        // SAFETY: a place that was looked at.
+        unsafe {
+            addr_of_mut!((*place).value).write(MaybeUninit::new(value));
+            addr_of_mut!((*place).mark).write(Self::mark_at(place));
+        }
+    }
+
+    /// Where the value lies, if it is a handle.
+    ///
+    /// # Safety
+    /// If it is neither null nor misaligned, there is memory for a handle.
+    pub unsafe fn live(place: *const Self) -> Result<*const T, Status> {
+        let place = checked(place)?;
+        // SAFETY: neither null nor misaligned, and there by the caller's promise. Any bits are a number.
+        let mark = unsafe { addr_of!((*place).mark).read_volatile() };
+        if mark != Self::mark_at(place) {
+            return Err(Status::NotReady);
+        }
+        // SAFETY: within the handle.
+        Ok(unsafe { addr_of!((*place).value) }.cast())
+    }
+
+    /// The value, to look at.
+    ///
+    /// # Safety
+    /// As [`Self::live`], and nobody writes to it for `'a`.
+    pub unsafe fn get<'a>(place: *const Self) -> Result<&'a T, Status> {
+        // SAFETY: by the caller's promise; a handle that is live holds a value.
+        unsafe { Ok(&*Self::live(place)?) }
+    }
+
+    /// The value, to change.
+    ///
+    /// # Safety
+    /// As [`Self::live`], and nobody else looks at it for `'a`.
+    pub unsafe fn get_mut<'a>(place: *mut Self) -> Result<&'a mut T, Status> {
+        // SAFETY: by the caller's promise; a handle that is live holds a value.
+        unsafe { Ok(&mut *Self::live(place)?.cast_mut()) }
+    }
+}

@@ -1,0 +1,249 @@
+//! The mechanisms as numbers, and a loop for each. A program that starts one links no other.
+
+use crate::body::Loaded;
+use crate::handle::Handle;
+use crate::numbers::{DeviceNumbers, SettingsNumbers};
+use crate::pointers::{Plain, finite, get};
+use crate::servo::{Started, begin};
+use crate::status::{Status, code};
+use palpate_core::device::{Delta, FiveBar, LinkMass, LinkageArm, Paddle, SerialArm};
+use palpate_core::math::{Vec3, vec2};
+
+/// A turntable with a parallelogram of two links.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct SerialArmNumbers {
+    pub base_height: f32,
+    pub first_link: f32,
+    pub second_link: f32,
+    pub workspace_centre: [f32; 3],
+    pub end_masses: [f32; 2],
+}
+
+/// Three legs with parallelograms.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct DeltaNumbers {
+    pub thigh: f32,
+    pub shin: f32,
+    pub stub: f32,
+    pub reach: f32,
+    pub side: f32,
+    pub directions: [[f32; 2]; 3],
+    pub workspace_centre: [f32; 3],
+    pub up: [f32; 3],
+    pub carried_mass: f32,
+    pub thigh_moment: f32,
+}
+
+/// Two cranks and two rods in a plane.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct FiveBarNumbers {
+    pub second_pivot: f32,
+    pub cranks: [f32; 2],
+    pub rods: [f32; 2],
+    pub side: f32,
+    pub tool: f32,
+    pub workspace_centre: [f32; 2],
+}
+
+/// A turntable that carries an upright five-bar.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct LinkageArmNumbers {
+    pub linkage: FiveBarNumbers,
+    pub pivot_reach: f32,
+    pub workspace_centre: [f32; 3],
+    pub masses: [[f32; 3]; 4],
+}
+
+/// A lever with one motor.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct PaddleNumbers {
+    pub handle: f32,
+    pub mass_moment: f32,
+}
+
+// SAFETY: floats alone.
+unsafe impl Plain for SerialArmNumbers {}
+// SAFETY: floats alone.
+unsafe impl Plain for DeltaNumbers {}
+// SAFETY: floats alone.
+unsafe impl Plain for FiveBarNumbers {}
+// SAFETY: floats alone.
+unsafe impl Plain for LinkageArmNumbers {}
+// SAFETY: floats alone.
+unsafe impl Plain for PaddleNumbers {}
+
+impl SerialArmNumbers {
+    fn mechanism(&self) -> Result<SerialArm, Status> {
+        let Self { base_height, first_link, second_link, workspace_centre, end_masses } = *self;
+        finite(&[base_height, first_link, second_link])?;
+        finite(&workspace_centre)?;
+        finite(&end_masses)?;
+        let workspace_centre = Vec3::from_array(workspace_centre);
+        Ok(SerialArm { base_height, first_link, second_link, workspace_centre, end_masses })
+    }
+}
+
+impl DeltaNumbers {
+    fn mechanism(&self) -> Result<Delta, Status> {
+        let Self { thigh, shin, stub, reach, side, directions, workspace_centre, up, carried_mass, thigh_moment } =
+            *self;
+        finite(&[thigh, shin, stub, reach, side, carried_mass, thigh_moment])?;
+        finite(directions.as_flattened())?;
+        finite(&workspace_centre)?;
+        finite(&up)?;
+        let (workspace_centre, up) = (Vec3::from_array(workspace_centre), Vec3::from_array(up));
+        Ok(Delta { thigh, shin, stub, reach, side, directions, workspace_centre, up, carried_mass, thigh_moment })
+    }
+}
+
+impl FiveBarNumbers {
+    fn mechanism(&self) -> Result<FiveBar, Status> {
+        let Self { second_pivot, cranks, rods, side, tool, workspace_centre: [x, y] } = *self;
+        finite(&[second_pivot, side, tool, x, y])?;
+        finite(&cranks)?;
+        finite(&rods)?;
+        Ok(FiveBar { second_pivot, cranks, rods, side, tool, workspace_centre: vec2(x, y) })
+    }
+}
+
+impl LinkageArmNumbers {
+    fn mechanism(&self) -> Result<LinkageArm, Status> {
+        finite(&[self.pivot_reach])?;
+        finite(&self.workspace_centre)?;
+        finite(self.masses.as_flattened())?;
+        Ok(LinkageArm {
+            linkage: self.linkage.mechanism()?,
+            pivot_reach: self.pivot_reach,
+            workspace_centre: Vec3::from_array(self.workspace_centre),
+            masses: self.masses.map(|[mass, along, across]| LinkMass { mass, along, across }),
+        })
+    }
+}
+
+impl PaddleNumbers {
+    fn mechanism(&self) -> Result<Paddle, Status> {
+        let Self { handle, mass_moment } = *self;
+        finite(&[handle, mass_moment])?;
+        Ok(Paddle { handle, mass_moment })
+    }
+}
+
+/// A loop of a serial arm.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_start_serial_arm(
+    servo: *mut Handle<Started>,
+    servo_bytes: usize,
+    mechanism: *const SerialArmNumbers,
+    device: *const DeviceNumbers,
+    body: *const Handle<Loaded>,
+    settings: *const SettingsNumbers,
+    reset: u32,
+) -> Status {
+    let start = || {
+        // SAFETY: the caller's numbers.
+        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
+        // SAFETY: the caller's memory, numbers and body.
+        unsafe { begin::<_, 3>(servo, servo_bytes, mechanism, device, body, settings, reset) }
+    };
+    code(start())
+}
+
+/// A loop of a delta.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_start_delta(
+    servo: *mut Handle<Started>,
+    servo_bytes: usize,
+    mechanism: *const DeltaNumbers,
+    device: *const DeviceNumbers,
+    body: *const Handle<Loaded>,
+    settings: *const SettingsNumbers,
+    reset: u32,
+) -> Status {
+    let start = || {
+        // SAFETY: the caller's numbers.
+        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
+        // SAFETY: the caller's memory, numbers and body.
+        unsafe { begin::<_, 3>(servo, servo_bytes, mechanism, device, body, settings, reset) }
+    };
+    code(start())
+}
+
+/// A loop of a linkage arm.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_start_linkage_arm(
+    servo: *mut Handle<Started>,
+    servo_bytes: usize,
+    mechanism: *const LinkageArmNumbers,
+    device: *const DeviceNumbers,
+    body: *const Handle<Loaded>,
+    settings: *const SettingsNumbers,
+    reset: u32,
+) -> Status {
+    let start = || {
+        // SAFETY: the caller's numbers.
+        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
+        // SAFETY: the caller's memory, numbers and body.
+        unsafe { begin::<_, 3>(servo, servo_bytes, mechanism, device, body, settings, reset) }
+    };
+    code(start())
+}
+
+/// A loop of a five-bar.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_start_five_bar(
+    servo: *mut Handle<Started>,
+    servo_bytes: usize,
+    mechanism: *const FiveBarNumbers,
+    device: *const DeviceNumbers,
+    body: *const Handle<Loaded>,
+    settings: *const SettingsNumbers,
+    reset: u32,
+) -> Status {
+    let start = || {
+        // SAFETY: the caller's numbers.
+        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
+        // SAFETY: the caller's memory, numbers and body.
+        unsafe { begin::<_, 2>(servo, servo_bytes, mechanism, device, body, settings, reset) }
+    };
+    code(start())
+}
+
+/// A loop of a paddle.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_start_paddle(
+    servo: *mut Handle<Started>,
+    servo_bytes: usize,
+    mechanism: *const PaddleNumbers,
+    device: *const DeviceNumbers,
+    body: *const Handle<Loaded>,
+    settings: *const SettingsNumbers,
+    reset: u32,
+) -> Status {
+    let start = || {
+        // SAFETY: the caller's numbers.
+        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
+        // SAFETY: the caller's memory, numbers and body.
+        unsafe { begin::<_, 1>(servo, servo_bytes, mechanism, device, body, settings, reset) }
+    };
+    code(start())
+}

@@ -1,0 +1,197 @@
+//! A device and a loop's settings as numbers.
+
+use crate::pointers::{Plain, finite};
+use crate::status::Status;
+use palpate_core::device::drive::{Feed, VoltageFeed};
+use palpate_core::device::{Device, Encoder, Motor};
+use palpate_core::math::Vec3;
+use palpate_core::render::Friction;
+use palpate_core::servo::{Rendering, SafeOutput, Safety, Settings};
+
+/// How a bridge feeds a motor; `supply` 0 for an amplifier that controls the current.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct VoltageNumbers {
+    pub supply: f32,
+    pub resistance: f32,
+    pub torque_constant: f32,
+    pub current_at_full: f32,
+    pub ratio: f32,
+    pub back_emf_share: f32,
+}
+
+/// A joint.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct JointNumbers {
+    pub radians_per_count: f32,
+    pub angle_at_zero: f32,
+    pub torque_at_full: f32,
+    pub dry_friction: f32,
+    pub least_angle: f32,
+    pub greatest_angle: f32,
+    pub feed: VoltageNumbers,
+}
+
+/// A device, all but its mechanism.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct DeviceNumbers {
+    pub joints: [JointNumbers; 3],
+    pub min_margin: f32,
+    pub max_joint_rate: f32,
+    pub max_force: f32,
+    pub max_stiffness: f32,
+    pub max_damping: f32,
+}
+
+// SAFETY: floats alone.
+unsafe impl Plain for DeviceNumbers {}
+
+/// A loop's settings.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct SettingsNumbers {
+    pub rate: f32,
+    pub stiffness: f32,
+    pub damping: f32,
+    pub max_force: f32,
+    pub velocity_corner: f32,
+    pub soft_start: f32,
+    pub body_origin: [f32; 3],
+    pub friction_stiffness: f32,
+    pub friction_damping: f32,
+    pub friction_static: f32,
+    pub friction_dynamic: f32,
+    pub max_slew: f32,
+    pub safe_damping: f32,
+    pub link_timeout: f32,
+    pub max_overruns: u32,
+    pub settle_ticks: u32,
+    pub wait_for_homing: u32,
+    pub leave_weight: u32,
+}
+
+// SAFETY: numbers alone.
+unsafe impl Plain for SettingsNumbers {}
+
+impl VoltageNumbers {
+    fn feed(&self) -> Result<Feed, Status> {
+        let Self { supply, resistance, torque_constant, current_at_full, ratio, back_emf_share } = *self;
+        finite(&[supply, resistance, torque_constant, current_at_full, ratio, back_emf_share])?;
+        if supply == 0.0 {
+            return Ok(Feed::Current);
+        }
+        if !(supply > 0.0 && resistance > 0.0 && (0.0..=1.0).contains(&back_emf_share)) {
+            return Err(Status::DeviceMotor);
+        }
+        let feed = VoltageFeed { supply, resistance, torque_constant, current_at_full, ratio, back_emf_share };
+        Ok(Feed::Voltage(feed))
+    }
+}
+
+impl DeviceNumbers {
+    /// The device with this mechanism.
+    pub fn device<K, const JOINTS: usize>(&self, kinematics: K) -> Result<Device<K, JOINTS>, Status> {
+        const { assert!(JOINTS <= 3) };
+        let mut device = Device {
+            kinematics,
+            encoders: [Encoder { radians_per_count: 1.0, angle_at_zero: 0.0 }; JOINTS],
+            motors: [Motor { torque_at_full: 1.0 }; JOINTS],
+            feeds: [Feed::Current; JOINTS],
+            dry_friction: [0.0; JOINTS],
+            joint_range: [[0.0; 2]; JOINTS],
+            min_margin: self.min_margin,
+            max_joint_rate: self.max_joint_rate,
+            max_force: self.max_force,
+            max_stiffness: self.max_stiffness,
+            max_damping: self.max_damping,
+        };
+        for (index, joint) in self.joints.iter().take(JOINTS).enumerate() {
+            device.encoders[index] =
+                Encoder { radians_per_count: joint.radians_per_count, angle_at_zero: joint.angle_at_zero };
+            device.motors[index] = Motor { torque_at_full: joint.torque_at_full };
+            device.feeds[index] = joint.feed.feed()?;
+            device.dry_friction[index] = joint.dry_friction;
+            device.joint_range[index] = [joint.least_angle, joint.greatest_angle];
+        }
+        device.check()?;
+        Ok(device)
+    }
+}
+
+impl SettingsNumbers {
+    const DEFAULT: Self = Self {
+        rate: Settings::DEFAULT.rate,
+        stiffness: Settings::DEFAULT.stiffness,
+        damping: Settings::DEFAULT.damping,
+        max_force: Settings::DEFAULT.max_force,
+        velocity_corner: Settings::DEFAULT.velocity_corner,
+        soft_start: Settings::DEFAULT.soft_start,
+        body_origin: [0.0; 3],
+        friction_stiffness: 0.0,
+        friction_damping: 0.0,
+        friction_static: 0.0,
+        friction_dynamic: 0.0,
+        max_slew: f32::INFINITY,
+        safe_damping: 0.0,
+        link_timeout: Safety::DEFAULT.link_timeout,
+        max_overruns: Safety::DEFAULT.max_overruns,
+        settle_ticks: Safety::DEFAULT.settle_ticks,
+        wait_for_homing: 0,
+        leave_weight: 0,
+    };
+
+    /// Rate, stiffness and the like.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            rate: self.rate,
+            stiffness: self.stiffness,
+            damping: self.damping,
+            max_force: self.max_force,
+            velocity_corner: self.velocity_corner,
+            soft_start: self.soft_start,
+            body_origin: Vec3::from_array(self.body_origin),
+        }
+    }
+
+    /// How the surface feels.
+    pub fn rendering(&self) -> Rendering {
+        let friction = Friction {
+            stiffness: self.friction_stiffness,
+            damping: self.friction_damping,
+            static_coefficient: self.friction_static,
+            dynamic_coefficient: self.friction_dynamic,
+        };
+        let is_none = self.friction_static == 0.0 && self.friction_dynamic == 0.0;
+        Rendering {
+            friction: if is_none { None } else { Some(friction) },
+            max_slew: self.max_slew,
+            carries_weight: self.leave_weight == 0,
+            ..Rendering::PLAIN
+        }
+    }
+
+    /// Limits and reactions.
+    pub fn safety(&self) -> Safety {
+        let output = if self.safe_damping == 0.0 { SafeOutput::Zero } else { SafeOutput::Damping(self.safe_damping) };
+        Safety {
+            output,
+            max_overruns: self.max_overruns,
+            link_timeout: self.link_timeout,
+            settle_ticks: self.settle_ticks,
+            wait_for_homing: self.wait_for_homing != 0,
+            ..Safety::DEFAULT
+        }
+    }
+}
+
+/// Fills in the defaults.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_settings_default(settings: *mut SettingsNumbers) -> Status {
+    // SAFETY: the caller's place for them.
+    crate::status::code(unsafe { crate::pointers::put(settings, SettingsNumbers::DEFAULT) })
+}

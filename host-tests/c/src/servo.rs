@@ -1,0 +1,276 @@
+//! The servo loop: started with a mechanism of any kind, ticked without a word of which.
+
+use crate::body::{Loaded, Standing};
+use crate::felt::Felt;
+use crate::handle::{Handle, Kind};
+use crate::memory::SERVO_WORDS;
+use crate::numbers::{DeviceNumbers, SettingsNumbers};
+use crate::pointers::{checked_mut, get, put, row};
+use crate::state::{MotorOutput, StateNumbers, report};
+use crate::status::{Status, code};
+use core::mem::MaybeUninit;
+use core::ptr::{NonNull, addr_of, addr_of_mut};
+use palpate_core::body::BodyWitness;
+use palpate_core::device::{Counts, Device, Kinematics};
+use palpate_core::servo::{Event, Input, ResetReason, Servo, ServoState};
+use palpate_core::track::Controller;
+use palpate_core::wire::Report;
+
+/// Words that hold any mechanism's device, loop and state: a handle's, less what goes before them.
+const WORDS: usize = SERVO_WORDS - 6;
+
+/// A loop in the caller's memory.
+#[repr(C)]
+pub struct Started {
+    standing: Standing,
+    /// The loop, which lies in `memory`: a handle that has moved is none.
+    running: NonNull<dyn Running>,
+    memory: MaybeUninit<[usize; WORDS]>,
+}
+
+impl Kind for Started {
+    const MARK: usize = 0x5041_4c53;
+}
+
+/// A device, and the loop that refers to it.
+#[repr(C)]
+struct Whole<K: 'static, const JOINTS: usize> {
+    device: Device<K, JOINTS>,
+    running: Loop<K, JOINTS>,
+}
+
+struct Loop<K: 'static, const JOINTS: usize> {
+    servo: Servo<'static, Felt, K, JOINTS>,
+    state: ServoState<JOINTS, BodyWitness>,
+}
+
+/// What the sensors say, or that they say nothing.
+#[derive(Clone, Copy)]
+pub enum Sensed<'a> {
+    Counts { counts: &'a [i32], enable: bool },
+    Lost,
+    Damaged,
+}
+
+/// A loop, whatever its mechanism.
+pub trait Running {
+    /// One tick; refused, with nothing done, for counts of other joints than there are.
+    fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status>;
+    /// What happened between two ticks.
+    fn note(&mut self, event: Event);
+    /// What the motors get.
+    fn output(&self) -> MotorOutput;
+    /// All that is told.
+    fn state(&self) -> StateNumbers;
+    /// The same for the wire.
+    fn report(&self, instructions: u32) -> Report;
+}
+
+impl<K: Kinematics<JOINTS>, const JOINTS: usize> Running for Loop<K, JOINTS> {
+    fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status> {
+        let input = match sensed {
+            Sensed::Counts { counts, enable } => {
+                let counts: [i32; JOINTS] = counts.try_into().map_err(|_| Status::OutOfRange)?;
+                Input::Sensors { counts: counts.map(Counts), enable }
+            }
+            Sensed::Lost => Input::Lost,
+            Sensed::Damaged => Input::Damaged,
+        };
+        self.servo.tick(&mut self.state, input);
+        Ok(())
+    }
+
+    fn note(&mut self, event: Event) {
+        self.servo.note(&mut self.state, event);
+    }
+
+    fn output(&self) -> MotorOutput {
+        MotorOutput::of(&self.state)
+    }
+
+    fn state(&self) -> StateNumbers {
+        StateNumbers::of(&self.state)
+    }
+
+    fn report(&self, instructions: u32) -> Report {
+        report(&self.state, instructions)
+    }
+}
+
+/// Makes a loop of any mechanism.
+///
+/// # Safety
+/// As the header says of all functions.
+pub unsafe fn begin<K: Kinematics<JOINTS> + 'static, const JOINTS: usize>(
+    servo: *mut Handle<Started>,
+    servo_bytes: usize,
+    mechanism: K,
+    device: *const DeviceNumbers,
+    body: *const Handle<Loaded>,
+    settings: *const SettingsNumbers,
+    reset: u32,
+) -> Result<(), Status> {
+    const { assert!(size_of::<Whole<K, JOINTS>>() <= size_of::<[usize; WORDS]>()) };
+    const { assert!(align_of::<Whole<K, JOINTS>>() <= align_of::<usize>()) };
+    // SAFETY: the caller's memory for the loop.
+    let place = unsafe { Handle::vacate(servo, servo_bytes) }?;
+    // SAFETY: the caller's numbers.
+    let (device, settings) = unsafe { (get(device)?, get(settings)?) };
+    // SAFETY: the caller's body, which stays.
+    let (standing, body) = unsafe { Standing::on(body) }?;
+    let device: Device<K, JOINTS> = device.device(mechanism)?;
+    let reset = ResetReason::ALL.into_iter().find(|known| *known as u32 == reset).ok_or(Status::OutOfRange)?;
+    // Made first, so that what lies in the memory is looked at by nobody until all of it is there.
+    let started = Started { standing, running: NonNull::<Loop<K, JOINTS>>::dangling(), memory: MaybeUninit::uninit() };
+    // SAFETY: the place that was vacated. No reference to the whole value is made from here on: only to its parts.
+    let value = unsafe {
+        Handle::fill(place, started);
+        Handle::live(place)?.cast_mut()
+    };
+    // SAFETY: within the value; by the assertions above it is large enough and aligned.
+    let whole = unsafe { addr_of_mut!((*value).memory) }.cast::<Whole<K, JOINTS>>();
+    // SAFETY: as above; the device is not written again, and stays for as long as the loop.
+    let device: &'static Device<K, JOINTS> = unsafe {
+        addr_of_mut!((*whole).device).write(device);
+        &*addr_of!((*whole).device)
+    };
+    let made = Servo::try_new(device, body, Controller::SECOND_ORDER, settings.settings())
+        .map_err(Status::from)
+        .and_then(|servo| Ok(servo.try_rendering(settings.rendering())?.try_safety(settings.safety())?));
+    let servo = match made {
+        Ok(servo) => servo,
+        Err(status) => {
+            // SAFETY: the place that was filled: there is no loop in it after all.
+            unsafe { Handle::vacate(place, servo_bytes) }?;
+            return Err(status);
+        }
+    };
+    // SAFETY: within the value.
+    unsafe {
+        let running = addr_of_mut!((*whole).running);
+        running.write(Loop { state: servo.start_after(reset), servo });
+        addr_of_mut!((*value).running).write(NonNull::new_unchecked(running));
+    }
+    Ok(())
+}
+
+/// The loop of a handle, if that and the body it feels are there.
+///
+/// # Safety
+/// As [`Handle::get_mut`].
+pub unsafe fn running<'a>(servo: *mut Handle<Started>) -> Result<&'a mut dyn Running, Status> {
+    // SAFETY: by the caller's promise. Parts of the value are looked at, never all of it at once.
+    let (standing, running) = unsafe {
+        let value = Handle::live(servo)?;
+        (addr_of!((*value).standing).read(), addr_of!((*value).running).read())
+    };
+    // SAFETY: the body it was started on, which the caller keeps.
+    unsafe { standing.body() }?;
+    // SAFETY: a handle that is live holds a loop, where it was made.
+    Ok(unsafe { &mut *running.as_ptr() })
+}
+
+unsafe fn tick(servo: *mut Handle<Started>, sensed: Sensed<'_>, output: *mut MotorOutput) -> Result<(), Status> {
+    // Off until a tick has said otherwise.
+    // SAFETY: the caller's place for it.
+    unsafe { put(output, MotorOutput::OFF) }?;
+    // SAFETY: the caller's handle, nobody else's.
+    let running = unsafe { running(servo) }?;
+    running.tick(sensed)?;
+    // SAFETY: as above.
+    unsafe { put(output, running.output()) }
+}
+
+/// One tick with sensors.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_tick(
+    servo: *mut Handle<Started>,
+    counts: *const i32,
+    joints: usize,
+    enable: u32,
+    output: *mut MotorOutput,
+) -> Status {
+    let ticked = || {
+        if joints == 0 || joints > 3 {
+            // SAFETY: the caller's place for it.
+            unsafe { put(output, MotorOutput::OFF) }?;
+            return Err(Status::OutOfRange);
+        }
+        // SAFETY: so many numbers of the caller's.
+        let counts = match unsafe { row(counts, joints) } {
+            Ok(counts) => counts,
+            Err(status) => {
+                // SAFETY: the caller's place for it.
+                unsafe { put(output, MotorOutput::OFF) }?;
+                return Err(status);
+            }
+        };
+        // SAFETY: the caller's handle and place.
+        unsafe { tick(servo, Sensed::Counts { counts, enable: enable != 0 }, output) }
+    };
+    code(ticked())
+}
+
+/// One tick without sensors.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_tick_without(
+    servo: *mut Handle<Started>,
+    damaged: u32,
+    output: *mut MotorOutput,
+) -> Status {
+    let sensed = if damaged == 0 { Sensed::Lost } else { Sensed::Damaged };
+    // SAFETY: the caller's handle and place.
+    code(unsafe { tick(servo, sensed, output) })
+}
+
+/// What happened outside a tick.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_note(
+    servo: *mut Handle<Started>,
+    event: u32,
+    output: *mut MotorOutput,
+) -> Status {
+    let note = || {
+        checked_mut(output)?;
+        // SAFETY: the caller's handle, nobody else's.
+        let running = unsafe { running(servo) }?;
+        running.note(match event {
+            1 => Event::LinkAlive,
+            2 => Event::Overrun,
+            3 => Event::DriveFault,
+            4 => Event::Homed,
+            5 => Event::HomingRefused,
+            6 => Event::Stop,
+            7 => Event::Acknowledged,
+            _ => return Err(Status::OutOfRange),
+        });
+        // SAFETY: the caller's place for it.
+        unsafe { put(output, running.output()) }
+    };
+    code(note())
+}
+
+/// The state after the last tick.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_state(servo: *mut Handle<Started>, state: *mut StateNumbers) -> Status {
+    let read = || {
+        checked_mut(state)?;
+        // SAFETY: the caller's handle, nobody else's.
+        let running = unsafe { running(servo) }?;
+        // SAFETY: the caller's place for it.
+        unsafe { put(state, running.state()) }
+    };
+    code(read())
+}

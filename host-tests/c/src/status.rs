@@ -1,0 +1,240 @@
+//! What a call came to, as a code and as a sentence.
+
+use core::ffi::{CStr, c_char};
+use palpate_core::body::FileError;
+use palpate_core::device::DeviceError;
+use palpate_core::servo::{Fault, RenderingError, SafetyError, SettingsError};
+
+/// What a call came to. Whatever it is but `Ok`, nothing has been done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(i32)]
+pub enum Status {
+    Ok = 0,
+    Null = 1,
+    Misaligned = 2,
+    TooSmall = 3,
+    NotReady = 4,
+    NotFinite = 5,
+    OutOfRange = 6,
+    FileMagic = 16,
+    FileVersion = 17,
+    FileLength = 18,
+    FileDamaged = 19,
+    FileSection = 20,
+    FileNumber = 21,
+    FileCode = 22,
+    FileMissing = 23,
+    FileLeftOver = 24,
+    FilePatch = 25,
+    FileBody = 26,
+    FileTables = 27,
+    DeviceEncoder = 32,
+    DeviceMotor = 33,
+    DeviceFriction = 34,
+    DeviceRange = 35,
+    DeviceLimit = 36,
+    SettingsRate = 48,
+    SettingsStiffness = 49,
+    SettingsDamping = 50,
+    SettingsMaxForce = 51,
+    SettingsVelocityCorner = 52,
+    SettingsSoftStart = 53,
+    SettingsBodyOrigin = 54,
+    SettingsFriction = 55,
+    SettingsMaxSlew = 56,
+    SettingsSafeDamping = 57,
+    SettingsLinkTimeout = 58,
+}
+
+impl Status {
+    const fn text(self) -> &'static CStr {
+        match self {
+            Self::Ok => c"done",
+            Self::Null => c"a pointer is null",
+            Self::Misaligned => c"a pointer is not aligned for what it points to",
+            Self::TooSmall => c"the memory given is too small",
+            Self::NotReady => c"the handle was not made here, was moved, or what it stands on was loaded anew",
+            Self::NotFinite => c"a number is not finite",
+            Self::OutOfRange => c"an index, a count or a code is out of its range",
+            Self::FileMagic => c"this is no body's file: it does not begin with PALP",
+            Self::FileVersion => c"the file is of another version: bake it anew",
+            Self::FileLength => c"the file has more or fewer bytes than it says",
+            Self::FileDamaged => c"the file is damaged: its CRC-32 is not the one it says",
+            Self::FileSection => c"a section of the file is not where it should be, or its length does not fit",
+            Self::FileNumber => c"a number in the file is not finite",
+            Self::FileCode => c"a record of the file has a kind or flag that there is not",
+            Self::FileMissing => c"a record needs numbers that the file does not have",
+            Self::FileLeftOver => c"the file has numbers that belong to nothing",
+            Self::FilePatch => c"a face of the file is not one",
+            Self::FileBody => c"the body of the file is not one",
+            Self::FileTables => c"the CRC-32 of the file's tables is not the one that was baked",
+            Self::DeviceEncoder => c"an encoder's radians a count must be finite and not zero, its zero finite",
+            Self::DeviceMotor => c"a motor's torque must be finite and not zero",
+            Self::DeviceFriction => c"dry friction must be finite and not negative",
+            Self::DeviceRange => c"a joint's least angle must be below its greatest, and both finite",
+            Self::DeviceLimit => c"a device's margin, rate, force, stiffness and damping must be positive and finite",
+            Self::SettingsRate => c"the servo rate must be between 1 Hz and 100 kHz",
+            Self::SettingsStiffness => c"the stiffness must be between 0 and the device's greatest",
+            Self::SettingsDamping => c"the damping must be between 0 and the device's greatest",
+            Self::SettingsMaxForce => c"the greatest force must be finite and not negative",
+            Self::SettingsVelocityCorner => c"the velocity corner must be positive and finite",
+            Self::SettingsSoftStart => c"the soft start must be finite and not negative",
+            Self::SettingsBodyOrigin => c"the body's origin must be finite",
+            Self::SettingsFriction => c"friction must be finite and not negative, dynamic not above static",
+            Self::SettingsMaxSlew => c"the slew limit must be positive",
+            Self::SettingsSafeDamping => c"the safe damping must be between 0 and the device's greatest",
+            Self::SettingsLinkTimeout => c"the link's timeout must be positive",
+        }
+    }
+
+    const ALL: [Self; 35] = [
+        Self::Ok,
+        Self::Null,
+        Self::Misaligned,
+        Self::TooSmall,
+        Self::NotReady,
+        Self::NotFinite,
+        Self::OutOfRange,
+        Self::FileMagic,
+        Self::FileVersion,
+        Self::FileLength,
+        Self::FileDamaged,
+        Self::FileSection,
+        Self::FileNumber,
+        Self::FileCode,
+        Self::FileMissing,
+        Self::FileLeftOver,
+        Self::FilePatch,
+        Self::FileBody,
+        Self::FileTables,
+        Self::DeviceEncoder,
+        Self::DeviceMotor,
+        Self::DeviceFriction,
+        Self::DeviceRange,
+        Self::DeviceLimit,
+        Self::SettingsRate,
+        Self::SettingsStiffness,
+        Self::SettingsDamping,
+        Self::SettingsMaxForce,
+        Self::SettingsVelocityCorner,
+        Self::SettingsSoftStart,
+        Self::SettingsBodyOrigin,
+        Self::SettingsFriction,
+        Self::SettingsMaxSlew,
+        Self::SettingsSafeDamping,
+        Self::SettingsLinkTimeout,
+    ];
+}
+
+/// For the last line of each call.
+pub fn code(done: Result<(), Status>) -> Status {
+    match done {
+        Ok(()) => Status::Ok,
+        Err(status) => status,
+    }
+}
+
+impl From<FileError> for Status {
+    fn from(error: FileError) -> Self {
+        match error {
+            FileError::Unaligned => Self::Misaligned,
+            FileError::Magic => Self::FileMagic,
+            FileError::Version { .. } => Self::FileVersion,
+            FileError::Length { .. } => Self::FileLength,
+            FileError::Damaged { .. } => Self::FileDamaged,
+            FileError::Section { .. } => Self::FileSection,
+            FileError::Number { .. } => Self::FileNumber,
+            FileError::Code { .. } => Self::FileCode,
+            FileError::Missing { .. } => Self::FileMissing,
+            FileError::LeftOver { .. } => Self::FileLeftOver,
+            FileError::Room { .. } => Self::TooSmall,
+            FileError::Patch { .. } => Self::FilePatch,
+            FileError::Body(_) => Self::FileBody,
+            FileError::Tables { .. } => Self::FileTables,
+        }
+    }
+}
+
+impl From<DeviceError> for Status {
+    fn from(error: DeviceError) -> Self {
+        match error {
+            DeviceError::Encoder(_) => Self::DeviceEncoder,
+            DeviceError::Motor(_) => Self::DeviceMotor,
+            DeviceError::Friction(_) => Self::DeviceFriction,
+            DeviceError::Range(_) => Self::DeviceRange,
+            DeviceError::Limit => Self::DeviceLimit,
+        }
+    }
+}
+
+impl From<SettingsError> for Status {
+    fn from(error: SettingsError) -> Self {
+        match error {
+            SettingsError::Rate => Self::SettingsRate,
+            SettingsError::Stiffness => Self::SettingsStiffness,
+            SettingsError::Damping => Self::SettingsDamping,
+            SettingsError::MaxForce => Self::SettingsMaxForce,
+            SettingsError::VelocityCorner => Self::SettingsVelocityCorner,
+            SettingsError::SoftStart => Self::SettingsSoftStart,
+            SettingsError::BodyOrigin => Self::SettingsBodyOrigin,
+        }
+    }
+}
+
+impl From<RenderingError> for Status {
+    fn from(error: RenderingError) -> Self {
+        match error {
+            RenderingError::Friction => Self::SettingsFriction,
+            RenderingError::Slew => Self::SettingsMaxSlew,
+            // What a C caller cannot choose.
+            RenderingError::Texture | RenderingError::Coupling | RenderingError::Passivity => Self::OutOfRange,
+        }
+    }
+}
+
+impl From<SafetyError> for Status {
+    fn from(error: SafetyError) -> Self {
+        match error {
+            SafetyError::Damping => Self::SettingsSafeDamping,
+            SafetyError::LinkTimeout => Self::SettingsLinkTimeout,
+            // The defaults, which are right.
+            SafetyError::Stuck | SafetyError::Contact => Self::OutOfRange,
+        }
+    }
+}
+
+/// A status in words, for ever there; "unknown" of a code that is none.
+#[unsafe(no_mangle)]
+pub extern "C" fn palpate_status_text(status: i32) -> *const c_char {
+    let known = Status::ALL.into_iter().find(|known| *known as i32 == status);
+    known.map_or(c"unknown", Status::text).as_ptr()
+}
+
+/// A fault in words, for ever there; "none" of 0, "unknown" of a code that is none.
+#[unsafe(no_mangle)]
+pub extern "C" fn palpate_fault_text(fault: u32) -> *const c_char {
+    let text = match u8::try_from(fault).ok().and_then(Fault::from_code) {
+        None if fault == 0 => c"none",
+        None => c"unknown",
+        Some(Fault::FrameLost) => c"sensor frame lost or late",
+        Some(Fault::FrameDamaged) => c"sensor frame damaged",
+        Some(Fault::JointOutOfRange) => c"joint angle out of range",
+        Some(Fault::JointJumped) => c"joint angle jumped",
+        Some(Fault::NotFinite) => c"force not finite",
+        Some(Fault::JointStuck) => c"joint sensor stuck",
+        Some(Fault::Overrun) => c"tick overrun",
+        Some(Fault::LinkLost) => c"host link lost",
+        Some(Fault::TableCorrupt) => c"table corrupted",
+        Some(Fault::WatchdogReset) => c"reset by the watchdog",
+        Some(Fault::BrownOut) => c"reset by a brown-out",
+        Some(Fault::Drive) => c"motor driver fault",
+        Some(Fault::Homing) => c"homing refused",
+        Some(Fault::Stopped) => c"stopped by hand",
+        Some(Fault::Unreachable) => c"pose out of the mechanism's reach",
+        Some(Fault::ContactLost) => c"contact lost again and again",
+        Some(Fault::Overspeed) => c"moving too fast under force",
+        Some(Fault::Supply) => c"motor supply out of range or not measured",
+        Some(Fault::WrongSign) => c"an encoder counts against its motor",
+    };
+    text.as_ptr()
+}

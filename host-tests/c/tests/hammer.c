@@ -1,0 +1,379 @@
+/* Calls with bad arguments, one spoiled thing each: every one must come back with an error code, and under the
+   sanitizers no byte may be touched that is not the library's to touch. Memory that is handed over is of exactly the
+   size that is said, on the heap. Prints how many calls came back with which status.
+
+   hammer FILE.palp CALLS */
+#include "palpate.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static uint64_t seed = 0x9e3779b97f4a7c15u;
+static uint32_t any(uint32_t below)
+{
+    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    return below ? (uint32_t)(seed >> 33) % below : 0;
+}
+
+static uint8_t *file;
+static size_t file_bytes;
+static palpate_file_info info;
+static palpate_body body;
+static void *room;
+static palpate_tracker tracker;
+static palpate_pair pair;
+static palpate_servo servo;
+static palpate_receiver receiver;
+
+static const palpate_serial_arm arm = {0.08f, 0.205f, 0.245f, {0.22f, 0, 0.08f}, {0.15f, 0.04f}};
+static palpate_device device;
+static palpate_settings settings;
+static const palpate_pose pose = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0.2f, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+
+static void stop(const char *what, palpate_status status)
+{
+    printf("hammer: %s: %s\n", what, palpate_status_text(status));
+    exit(1);
+}
+static void good(const char *what, palpate_status status)
+{
+    if (status != PALPATE_OK) stop(what, status);
+}
+
+/* A number that is none. */
+static float bad_float(void)
+{
+    const float bad[3] = {NAN, INFINITY, -INFINITY};
+    return bad[any(3)];
+}
+
+/* Memory of a handle that was never made one, or was made elsewhere. */
+static void *no_handle(const void *handle, size_t bytes)
+{
+    uint8_t *memory = malloc(bytes);
+    switch (any(3)) {
+    case 0: memset(memory, 0, bytes); break;
+    case 1: for (size_t i = 0; i < bytes; i++) memory[i] = (uint8_t)any(256); break;
+    default: memcpy(memory, handle, bytes); break; /* moved */
+    }
+    return memory;
+}
+
+/* One past an address: not aligned for anything. */
+#define ASKEW(pointer) ((void *)((uintptr_t)(pointer) + 1))
+
+static uint32_t crc32_of(const uint8_t *bytes, size_t count)
+{
+    uint32_t crc = 0xffffffffu;
+    for (size_t i = 0; i < count; i++) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++) crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+    }
+    return ~crc;
+}
+
+/* A tracker on a body: whatever an accepted file holds, nothing reads outside of it. */
+static void use(const palpate_body *spoiled)
+{
+    palpate_tracker one;
+    good("start", palpate_start(&one, sizeof one, spoiled));
+    for (int i = 0; i < 40; i++) {
+        const float probe[3] = {(float)any(200) * 1e-3f - 0.1f, (float)any(200) * 1e-3f - 0.1f,
+                                (float)any(200) * 1e-3f - 0.1f};
+        palpate_touch touch;
+        palpate_located located;
+        good("step", palpate_step(&one, probe, &touch));
+        good("closest", palpate_closest(spoiled, probe, &located));
+    }
+}
+
+static unsigned accepted;
+
+/* A file spoiled somewhere: cut short, changed, or changed with its CRC made right again. */
+static palpate_status spoiled_file(void)
+{
+    size_t bytes = file_bytes;
+    uint32_t kind = any(4);
+    if (kind == 0) bytes = any((uint32_t)file_bytes);
+    uint8_t *copy = aligned_alloc(8, (bytes + 8) & ~(size_t)7);
+    memcpy(copy, file, bytes);
+    if (kind > 0) copy[any((uint32_t)bytes)] ^= (uint8_t)(1u << any(8));
+    if (kind == 3) {
+        uint32_t crc = crc32_of(copy, bytes - 4);
+        memcpy(copy + bytes - 4, &crc, 4);
+    }
+    palpate_body one;
+    void *place = malloc(info.room_bytes);
+    palpate_status status = palpate_body_load(&one, sizeof one, copy, bytes, place, info.room_bytes);
+    if (status == PALPATE_OK) {
+        /* A hash, a note or a place in the model: another good file. Not counted. */
+        if (kind != 3) stop("a damaged file was taken", status);
+        accepted++;
+        use(&one);
+    } else {
+        palpate_touch touch;
+        const float probe[3] = {0, 0, 0};
+        palpate_tracker on;
+        if (palpate_start(&on, sizeof on, &one) != PALPATE_NOT_READY) stop("a refused body was taken", status);
+        (void)probe, (void)touch;
+    }
+    free(place);
+    free(copy);
+    return status;
+}
+
+static palpate_status bad_load(void)
+{
+    palpate_body *one = malloc(sizeof *one);
+    void *place = malloc(info.room_bytes);
+    palpate_status status;
+    switch (any(7)) {
+    case 0: status = palpate_body_load(NULL, sizeof *one, file, file_bytes, place, info.room_bytes); break;
+    case 1: status = palpate_body_load(one, sizeof *one, NULL, file_bytes, place, info.room_bytes); break;
+    case 2: status = palpate_body_load(one, sizeof *one, file, file_bytes, NULL, info.room_bytes); break;
+    case 3: status = palpate_body_load(ASKEW(one), sizeof *one, file, file_bytes, place, info.room_bytes); break;
+    case 4: {
+        size_t bytes = any(sizeof *one / 2);
+        void *small = malloc(bytes + 1);
+        status = palpate_body_load(small, bytes, file, file_bytes, place, info.room_bytes);
+        free(small);
+        break;
+    }
+    case 5: {
+        size_t bytes = any(info.room_bytes);
+        void *small = malloc(bytes + 1);
+        status = palpate_body_load(one, sizeof *one, file, file_bytes, small, bytes);
+        free(small);
+        break;
+    }
+    default: status = palpate_body_load(one, sizeof *one, ASKEW(file), file_bytes - 1, place, info.room_bytes); break;
+    }
+    free(place);
+    free(one);
+    return status;
+}
+
+static palpate_status bad_info(void)
+{
+    palpate_file_info out;
+    switch (any(4)) {
+    case 0: return palpate_file_head(NULL, file_bytes, &out);
+    case 1: return palpate_file_head(file, file_bytes, NULL);
+    case 2: return palpate_file_head(file, any((uint32_t)file_bytes), &out);
+    default: return palpate_file_head(file, (size_t)-1 - any(1000), &out);
+    }
+}
+
+static palpate_status bad_probe(void)
+{
+    float probe[3] = {0, 0, 0};
+    palpate_touch touch;
+    palpate_located located;
+    void *no_body = no_handle(&body, sizeof body), *no_tracker = no_handle(&tracker, sizeof tracker);
+    palpate_status status;
+    switch (any(12)) {
+    case 0: probe[any(3)] = bad_float(); status = palpate_step(&tracker, probe, &touch); break;
+    case 1: probe[any(3)] = bad_float(); status = palpate_closest(&body, probe, &located); break;
+    case 2: probe[any(3)] = bad_float(); status = palpate_track(&tracker, probe); break;
+    case 3: status = palpate_step(no_tracker, probe, &touch); break;
+    case 4: status = palpate_closest(no_body, probe, &located); break;
+    case 5: status = palpate_step(&tracker, NULL, &touch); break;
+    case 6: status = palpate_step(&tracker, probe, NULL); break;
+    case 7: status = palpate_step(NULL, probe, &touch); break;
+    case 8: status = palpate_closest(&body, ASKEW(probe), &located); break;
+    case 9: status = palpate_closest(&body, probe, NULL); break;
+    case 10: status = palpate_meet(no_tracker, &touch); break;
+    default: status = palpate_meet(&tracker, NULL); break;
+    }
+    free(no_body);
+    free(no_tracker);
+    return status;
+}
+
+static palpate_status bad_start(void)
+{
+    void *no_body = no_handle(&body, sizeof body);
+    size_t bytes = any(sizeof(palpate_tracker) / 2);
+    palpate_tracker *one = malloc(sizeof *one);
+    void *small = malloc(bytes + 1);
+    palpate_status status;
+    switch (any(7)) {
+    case 0: status = palpate_start(one, sizeof *one, no_body); break;
+    case 1: status = palpate_start(one, sizeof *one, NULL); break;
+    case 2: status = palpate_start(NULL, sizeof *one, &body); break;
+    case 3: status = palpate_start(small, bytes, &body); break;
+    case 4: status = palpate_start_on(one, sizeof *one, &body, info.faces + any(1u << 20), 0.5f, 0.5f); break;
+    case 5: status = palpate_start_on(one, sizeof *one, &body, 0, bad_float(), 0.5f); break;
+    default: status = palpate_start(ASKEW(one), sizeof *one, &body); break;
+    }
+    free(one);
+    free(small);
+    free(no_body);
+    return status;
+}
+
+static palpate_status bad_pair(void)
+{
+    palpate_pair *one = malloc(sizeof *one);
+    palpate_apart apart;
+    palpate_pose spoiled = pose;
+    ((float *)&spoiled)[any(sizeof spoiled / sizeof(float))] = bad_float();
+    void *no_pair = no_handle(&pair, sizeof pair);
+    palpate_status status;
+    switch (any(7)) {
+    case 0: status = palpate_pair_step(&pair, &spoiled, &apart); break;
+    case 1: status = palpate_pair_step(&pair, NULL, &apart); break;
+    case 2: status = palpate_pair_step(&pair, &pose, NULL); break;
+    case 3: status = palpate_pair_step(no_pair, &pose, &apart); break;
+    case 4: status = palpate_pair_start(one, sizeof *one, &body, info.faces + any(9), &body, 0); break;
+    case 5: status = palpate_pair_start(one, any(sizeof *one / 2), &body, 0, &body, 0); break;
+    default: status = palpate_pair_start(one, sizeof *one, &body, 0, NULL, 0); break;
+    }
+    free(no_pair);
+    free(one);
+    return status;
+}
+
+#define start_arm palpate_servo_start_serial_arm
+
+static palpate_status bad_servo(void)
+{
+    palpate_servo *one = malloc(sizeof *one);
+    palpate_serial_arm no_arm = arm;
+    palpate_device no_device = device;
+    palpate_settings no_settings = settings;
+    ((float *)&no_arm)[any(sizeof arm / sizeof(float))] = bad_float();
+    /* Every number of the device but the feed's ratio and what only a voltage needs must be finite. */
+    ((float *)&no_device)[any(sizeof device / sizeof(float))] = NAN;
+    /* Up to the timeout they are floats, and none may be NaN; without friction its stiffness is not looked at. */
+    no_settings.friction_static = 0.4f, no_settings.friction_dynamic = 0.3f;
+    ((float *)&no_settings)[any(offsetof(palpate_settings, max_overruns) / sizeof(float))] = NAN;
+    void *no_body = no_handle(&body, sizeof body);
+    palpate_status status;
+    switch (any(11)) {
+    case 0: status = start_arm(one, sizeof *one, &no_arm, &device, &body, &settings, 0); break;
+    case 1: status = start_arm(one, sizeof *one, &arm, &no_device, &body, &settings, 0); break;
+    case 2: status = start_arm(one, sizeof *one, &arm, &device, &body, &no_settings, 0); break;
+    case 3: status = start_arm(one, sizeof *one, &arm, &device, no_body, &settings, 0); break;
+    case 4: status = start_arm(one, any(sizeof *one / 2), &arm, &device, &body, &settings, 0); break;
+    case 5: status = start_arm(one, sizeof *one, &arm, &device, &body, &settings, 9 + any(9)); break;
+    case 6: status = start_arm(one, sizeof *one, NULL, &device, &body, &settings, 0); break;
+    case 7: status = start_arm(one, sizeof *one, &arm, NULL, &body, &settings, 0); break;
+    case 8: status = start_arm(one, sizeof *one, &arm, &device, &body, NULL, 0); break;
+    case 9: status = palpate_servo_start_serial_arm(NULL, sizeof *one, &arm, &device, &body, &settings, 0); break;
+    default: status = start_arm(ASKEW(one), sizeof *one, &arm, &device, &body, &settings, 0); break;
+    }
+    if (status != PALPATE_OK) {
+        palpate_state state;
+        if (palpate_servo_state(one, &state) != PALPATE_NOT_READY) stop("a refused loop was taken", status);
+    }
+    free(no_body);
+    free(one);
+    return status;
+}
+
+static palpate_status bad_tick(void)
+{
+    const int32_t counts[3] = {0, 0, 0};
+    palpate_output output;
+    palpate_state state;
+    uint8_t frame[PALPATE_MAX_FRAME];
+    size_t written;
+    memset(&output, 0xff, sizeof output);
+    void *no_servo = no_handle(&servo, sizeof servo);
+    palpate_status status;
+    switch (any(11)) {
+    case 0: status = palpate_servo_tick(no_servo, counts, 3, 1, &output); break;
+    case 1: status = palpate_servo_tick(&servo, NULL, 3, 1, &output); break;
+    case 2: status = palpate_servo_tick(&servo, counts, any(3), 1, &output); break;
+    case 3: status = palpate_servo_tick(&servo, counts, 4 + (size_t)any(1u << 30), 1, &output); break;
+    case 4: status = palpate_servo_tick(NULL, counts, 3, 1, &output); break;
+    case 5: status = palpate_servo_tick(&servo, ASKEW(counts), 3, 1, &output); break;
+    case 6: free(no_servo); return palpate_servo_tick(&servo, counts, 3, 1, NULL);
+    case 7: free(no_servo); return palpate_servo_note(&servo, 8 + any(1000), &output);
+    case 8: free(no_servo); return palpate_servo_state(any(2) ? NULL : &servo, any(2) ? NULL : ASKEW(&state));
+    case 9: {
+        uint32_t short_frame = any(20);
+        uint8_t *small = malloc(short_frame + 1);
+        status = palpate_servo_report(&servo, 0, small, short_frame, &written);
+        free(small);
+        free(no_servo);
+        return status;
+    }
+    default:
+        free(no_servo);
+        return palpate_servo_report(any(2) ? NULL : &servo, 0, any(2) ? NULL : frame, sizeof frame, NULL);
+    }
+    if (output.drives != 0 || output.duties[0] != 0) stop("a refused tick drives", status);
+    free(no_servo);
+    return status;
+}
+
+static palpate_status bad_receiver(void)
+{
+    palpate_heard heard;
+    void *none = no_handle(&receiver, sizeof receiver);
+    palpate_status status;
+    switch (any(4)) {
+    case 0: status = palpate_receiver_feed(none, 1, &heard); break;
+    case 1: status = palpate_receiver_feed(&receiver, 1, NULL); break;
+    case 2: status = palpate_receiver_start(NULL, sizeof receiver); break;
+    default: status = palpate_receiver_start(none, any(sizeof receiver / 2)); break;
+    }
+    free(none);
+    return status;
+}
+
+int main(int count, char **arguments)
+{
+    if (count != 3) return 2;
+    FILE *from = fopen(arguments[1], "rb");
+    if (!from) return 2;
+    file = aligned_alloc(8, 1 << 20);
+    file_bytes = fread(file, 1, 1 << 20, from);
+    fclose(from);
+    unsigned long calls = strtoul(arguments[2], NULL, 10);
+
+    for (int joint = 0; joint < 3; joint++) {
+        const palpate_joint one = {1e-4f, 0, 1, 0.01f, -2, 2, {0, 0, 0, 0, 0, 0}};
+        device.joints[joint] = one;
+    }
+    device.min_margin = 0.05f, device.max_joint_rate = 25, device.max_force = 5;
+    device.max_stiffness = 1000, device.max_damping = 8;
+    good("settings", palpate_settings_default(&settings));
+    good("head", palpate_file_head(file, file_bytes, &info));
+    room = malloc(info.room_bytes);
+    good("load", palpate_body_load(&body, sizeof body, file, file_bytes, room, info.room_bytes));
+    good("start", palpate_start(&tracker, sizeof tracker, &body));
+    good("pair", palpate_pair_start(&pair, sizeof pair, &body, 0, &body, 0));
+    good("servo", palpate_servo_start_serial_arm(&servo, sizeof servo, &arm, &device, &body, &settings, 0));
+    good("receiver", palpate_receiver_start(&receiver, sizeof receiver));
+    use(&body);
+
+    palpate_status (*const ways[])(void) = {spoiled_file, bad_load, bad_info, bad_probe, bad_start,
+                                            bad_pair, bad_servo, bad_tick, bad_receiver};
+    unsigned long of[64] = {0}, refused = 0;
+    while (refused < calls) {
+        uint32_t way = any(sizeof ways / sizeof ways[0]);
+        unsigned before = accepted;
+        palpate_status status = ways[way]();
+        if (accepted != before) continue;
+        if (status <= PALPATE_OK || status >= 64) {
+            printf("hammer: way %u was not refused: %d\n", way, (int)status);
+            return 1;
+        }
+        of[status]++;
+        refused++;
+    }
+    /* What is good still is. */
+    use(&body);
+    for (int status = 1; status < 64; status++) {
+        if (of[status]) printf("  %7lu  %s\n", of[status], palpate_status_text(status));
+    }
+    printf("hammer: %lu calls with bad arguments, an error code each; %u files that differ were good ones\n", refused,
+           accepted);
+    free(room);
+    free(file);
+    return 0;
+}
