@@ -13,6 +13,7 @@ pub mod devices;
 mod drawing;
 pub mod figures;
 pub mod firmware;
+pub mod in_c;
 pub mod knob;
 pub mod models;
 pub mod monitor;

@@ -2,8 +2,8 @@
 
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
-    accept, bake, budgets, check, closest, commission, cycles, demo, device, figures, firmware, image, import, monitor,
-    page, parts, race, sim, test, zwidth,
+    accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, figures, firmware, image,
+    import, monitor, page, parts, race, sim, test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -24,6 +24,7 @@ enum Command {
     Check(check::Arguments),
     Bake(bake::Arguments),
     Budgets(budgets::Arguments),
+    CLibrary(c_library::Arguments),
     Cycles(cycles::Arguments),
     Closest(closest::Arguments),
     Sim(sim::Arguments),
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Bake(arguments) => bake::run(&arguments),
         Command::Budgets(arguments) => budgets::run(&arguments),
+        Command::CLibrary(arguments) => c_library::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
         Command::Closest(arguments) => closest::run(&arguments),
         Command::Sim(arguments) => sim::run(&arguments),

@@ -3,6 +3,7 @@
 pub mod accept;
 pub mod bake;
 pub mod budgets;
+pub mod c_library;
 pub mod check;
 pub mod closest;
 pub mod commission;

@@ -1,6 +1,7 @@
 //! `palpate test`: sets up what it needs and runs every test, or those for every day.
 
 use crate::firmware::{self, Board, Choice, Progress, Transport, WITH_FIRMWARE};
+use crate::in_c::{self, WITH_C};
 use crate::page;
 use crate::repository;
 use anyhow::Context;
@@ -23,6 +24,9 @@ pub struct Arguments {
     /// Only the page for the browser, in headless Chromium: sets up the browser, the code for it and the emulator.
     #[arg(long, conflicts_with_all = ["quick", "without_emulator"])]
     page: bool,
+    /// Only the tests of the C library, with what they need set up: a C compiler for the boards, and the emulator.
+    #[arg(long, conflicts_with_all = ["quick", "without_emulator", "page"])]
+    c: bool,
     /// Passed on to `cargo test`.
     #[arg(last = true)]
     cargo_test: Vec<String>,
@@ -41,14 +45,23 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     firmware::without_outer_cargo(&mut cargo);
     cargo.current_dir(repository::root()?).arg("test").env_remove(WITH_FIRMWARE);
-    if arguments.quick {
+    cargo.env_remove(WITH_C);
+    if arguments.c {
+        progress.say(&in_c::set_up(&progress)?);
+        cargo.args(["-p", "palpate-tool", "--test", "c"]);
+    } else if arguments.quick {
         cargo.args(quick());
     } else {
         // All suites, also after one that failed: one run says all that is wrong.
         cargo.args(["--workspace", "--no-fail-fast"]);
     }
     cargo.args(&arguments.cargo_test);
-    if !arguments.without_emulator && !arguments.quick {
+    if arguments.c || (!arguments.without_emulator && !arguments.quick && in_c::has_compiler()) {
+        cargo.env(WITH_C, "1");
+    } else if !arguments.quick {
+        progress.say("left out: the C library; `cargo palpate test --c` sets up what it needs");
+    }
+    if !arguments.without_emulator && !arguments.quick && !arguments.c {
         for board in Board::ALL {
             firmware::build_all(board, &progress)
                 .context("the tests on the emulated boards cannot run (--without-emulator leaves them out)")?;
@@ -69,7 +82,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     let status = cargo.status().with_context(|| format!("{cargo:?}"))?;
     // Words for one suite are no words for another.
-    let is_whole = !arguments.quick && !arguments.without_emulator && arguments.cargo_test.is_empty();
+    let is_whole =
+        ![arguments.quick, arguments.without_emulator, arguments.c].contains(&true) && arguments.cargo_test.is_empty();
     let with_page = if !is_whole {
         ExitCode::SUCCESS
     } else if let Some(browser) = page::Browser::at_hand() {

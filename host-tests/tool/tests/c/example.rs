@@ -1,0 +1,83 @@
+//! The example in C on the emulated Cortex-M4F, in closed loop with the demo's scene, beside the image in Rust.
+
+use crate::running::{alone, capped_box, is_wanted};
+use clap::Parser;
+use object::{Object, ObjectSymbol};
+use palpate_tool::commands::demo::prepare;
+use palpate_tool::commands::options::{Scene, SceneOptions};
+use palpate_tool::firmware::{Board, Link, Progress, Transport};
+use palpate_tool::in_c;
+use palpate_tool::report::Summary;
+use palpate_tool::simulation::{Trace, run};
+use std::fs;
+use std::path::Path;
+
+#[derive(Parser)]
+struct Demo {
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
+    let mut plant = options.plant(scene).expect("the plant starts");
+    run(link, &mut plant, f64::from(scene.settings.rate), scene.ticks, scene.enable_at, |_| ()).expect("a whole run")
+}
+
+/// What ends a program that went wrong: none of these may be in an image.
+fn panics(names: impl Iterator<Item = String>) -> Vec<String> {
+    let marks = ["palpate_panicked", "rust_begin_unwind", "panicking", "unwrap_failed", "slice_index", "_fail"];
+    names.filter(|name| marks.iter().any(|mark| name.contains(mark))).collect()
+}
+
+fn symbols(file: &Path) -> Vec<String> {
+    let content = fs::read(file).expect("a file");
+    let elf = object::File::parse(content.as_slice()).expect("an ELF file");
+    elf.symbols().filter_map(|symbol| symbol.name().ok().map(str::to_owned)).collect()
+}
+
+#[test]
+fn the_example_in_c_computes_the_bits_of_the_image_in_rust_and_cannot_panic() {
+    if !is_wanted("the example in C on the emulated board") {
+        return;
+    }
+    let progress = Progress::new();
+    let folder = tempfile::tempdir().expect("a folder");
+    let elf = folder.path().join("example.elf");
+    let example = {
+        let _alone = alone();
+        in_c::example(&capped_box(), &elf, &progress).expect("the example builds")
+    };
+
+    // All of it, not a call tree: what the linker kept is what can be reached.
+    let found = panics(symbols(&elf).into_iter());
+    assert!(found.is_empty(), "the image can panic: {found:?}");
+    let Demo { options } = Demo::parse_from(["demo"]);
+    let scene = options.scene().expect("the demo's scene");
+    let in_c = trace(&options, &scene, &mut example.start_over_fifos().expect("the emulator starts"));
+    let rust = prepare(Board::M4, &scene, &progress).expect("the image builds");
+    let image = rust.images.of(Transport::Fifo);
+    // The same look finds them where they are: what the program around the loop in Rust expects, it says by a panic.
+    assert!(!panics(symbols(&image.elf).into_iter()).is_empty(), "the look is blind");
+    let in_rust = trace(&options, &scene, &mut rust.start(Transport::Fifo).expect("the emulator starts"));
+    assert_eq!(in_c.samples.len(), in_rust.samples.len());
+    for (there, here) in in_c.samples.iter().zip(&in_rust.samples) {
+        let mut report = there.report;
+        report.instructions = here.report.instructions;
+        assert_eq!(report, here.report, "they differ at tick {}", here.report.tick);
+    }
+    let [of_c, of_rust] = [&in_c, &in_rust].map(Summary::new);
+    assert_eq!(of_c.state_hash, of_rust.state_hash);
+    assert!(of_c.touches > 3 && of_c.contact_time > 1.0 && of_c.fault.is_none(), "{of_c}");
+    let most = |trace: &Trace| trace.samples.iter().map(|sample| sample.report.instructions).max().unwrap_or(0);
+    println!("the capped box on an emulated Cortex-M4F, {} ticks", in_c.samples.len());
+    println!("  {:<28} {:>9} {:>9}", "", "C", "Rust");
+    println!(
+        "  {:<28} {:>9} {:>9}",
+        "state hash",
+        format!("{:08x}", of_c.state_hash),
+        format!("{:08x}", of_rust.state_hash)
+    );
+    println!("  {:<28} {:>9} {:>9}", "flash, bytes", example.image.flash, image.flash);
+    println!("  {:<28} {:>9} {:>9}", "static RAM, bytes", example.image.ram, image.ram);
+    println!("  {:<28} {:>9} {:>9}", "a tick, instructions at most", most(&in_c), most(&in_rust));
+}

@@ -1,0 +1,53 @@
+//! Whether C is compiled here, and what of it.
+
+use palpate_tool::firmware::Progress;
+use palpate_tool::in_c::{self, WITH_C};
+use palpate_tool::repository;
+use std::env;
+use std::io::{Write, stderr};
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Whether a C compiler is to be used. If not, that is said.
+pub fn is_wanted(test: &str) -> bool {
+    let wanted = env::var_os(WITH_C).is_some();
+    if !wanted {
+        // Past the test harness, which would swallow it, and in one piece.
+        let line =
+            format!("LEFT OUT {test}: it needs a C compiler for the boards; `cargo palpate test --c` sets it up\n");
+        let _ = stderr().write_all(line.as_bytes());
+    }
+    wanted
+}
+
+/// One build at a time: cargo would wait for its own lock, and say so.
+pub fn alone() -> MutexGuard<'static, ()> {
+    static ONE: Mutex<()> = Mutex::new(());
+    ONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The library for a core.
+pub fn library(core: in_c::Core) -> PathBuf {
+    let _alone = alone();
+    in_c::library(core, &Progress::new()).expect("the library builds")
+}
+
+/// A file of the C crate.
+pub fn file(name: &str) -> PathBuf {
+    in_c::folder().expect("in the repository").join(name)
+}
+
+/// The file of the capped box.
+pub fn capped_box() -> PathBuf {
+    repository::root().expect("in the repository").join("boards/bodies/capped_box.palp")
+}
+
+/// Runs a program to its end and gives what it printed.
+pub fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let said = [output.stdout, output.stderr].concat();
+    let said = String::from_utf8_lossy(&said).into_owned();
+    assert!(output.status.success(), "{command:?}\n{said}");
+    said
+}
