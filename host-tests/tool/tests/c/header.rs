@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use syn::{Expr, Fields, FnArg, Item, ReturnType, Type};
 
+/// What every number of the header begins with.
+const PREFIX: &str = "PALPATE";
+
 /// What a type of the library is called in the header, where the names do not tell.
 const NAMES: [(&str, &str); 21] = [
     ("Loaded", "palpate_body"),
@@ -139,7 +142,7 @@ impl Library {
                     else {
                         panic!("a number")
                     };
-                    let mut name = "PALPATE".to_owned();
+                    let mut name = PREFIX.to_owned();
                     for letter in code.ident.to_string().chars() {
                         if letter.is_uppercase() {
                             name.push('_');
@@ -160,7 +163,7 @@ impl Library {
                 let Some((_, other)) = &choice.else_branch else { panic!("both") };
                 let Expr::Block(other) = &**other else { panic!("both") };
                 let words = [number(&choice.then_branch), number(&other.block)];
-                self.words.insert(format!("PALPATE_{}", constant.ident), words);
+                self.words.insert(format!("{PREFIX}_{}", constant.ident), words);
             }
             _ => {}
         }
@@ -211,9 +214,9 @@ fn the_header_has_every_number_of_the_library() {
     }
     for (phase, name) in palpate::servo::Phase::ALL.into_iter().zip(["RESET", "CALIBRATE", "ARMED", "RUNNING", "FAULT"])
     {
-        assert!(header.contains(&format!("PALPATE_PHASE_{name} = {}", phase as u8)), "{name}");
+        assert!(header.contains(&format!("{PREFIX}_PHASE_{name} = {}", phase as u8)), "{name}");
     }
-    assert!(header.contains(&format!("PALPATE_MAX_FRAME {}", palpate::wire::frame::MAX_FRAME)));
+    assert!(header.contains(&format!("{PREFIX}_MAX_FRAME {}", palpate::wire::frame::MAX_FRAME)));
 }
 
 /// Each function, structure and field says what it is.
@@ -228,7 +231,7 @@ fn everything_in_the_header_is_documented() {
             assert!(before.trim_end().ends_with("*/"), "nothing is said of {line}");
         }
         let is_field = line.starts_with("    ") && (line.contains(';') || line.contains(" = ")) && !line.contains(')');
-        if is_field || line.trim_start().starts_with("PALPATE_") {
+        if is_field || line.trim_start().starts_with(PREFIX) {
             assert!(line.contains("/**<"), "nothing is said of {line}");
         }
         before = line;
