@@ -42,13 +42,14 @@ static void servo_init(void)
     palpate_settings settings;
     palpate_settings_default(&settings);
     settings.rate = RATE;
-    settings.stiffness = 600.0f;
+    settings.stiffness = 1000.0f;
     settings.damping = 2.0f;
     settings.max_force = 5.0f;
-    settings.velocity_corner = 200.0f;
+    settings.velocity_corner = 150.0f;
+    settings.soft_start = 0.1f;
     settings.body_origin[0] = -0.03f;
     settings.body_origin[1] = -0.02f;
-    settings.body_origin[2] = -0.015f;
+    settings.body_origin[2] = -0.01675f;
     settings.link_timeout = 0.1f;
 
     size_t bytes = (size_t)(part_palp_end - part_palp);
