@@ -86,6 +86,13 @@ impl Surface for Felt {
         }
     }
 
+    fn table_records(&self) -> u32 {
+        match self {
+            Self::Body(body) => Surface::table_records(body),
+            Self::Patch(patch) => Surface::table_records(patch),
+        }
+    }
+
     fn baked_crc(&self) -> Option<u32> {
         match self {
             Self::Body(body) => body.baked_crc(),
