@@ -33,7 +33,6 @@ fn the_million_ticks_of_the_boards_come_to_the_same_and_their_time_is_told() -> 
 
 #[test]
 fn a_run_that_the_emulated_board_has_recorded_is_felt_anew_to_the_same_hash() -> anyhow::Result<()> {
-    let page = Page::without_picture()?;
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     let printed = palpate(&["demo", "--report", &path("demo.html")])?;
@@ -41,6 +40,8 @@ fn a_run_that_the_emulated_board_has_recorded_is_felt_anew_to_the_same_hash() ->
         let line = printed.lines().find(|line| line.trim_start().starts_with(name));
         line.and_then(|line| line.split_whitespace().last()).map(str::to_owned)
     };
+    // Only now: the image may have taken minutes to build, and a browser does not wait for ever.
+    let page = Page::without_picture()?;
     let hash = word("state hash").context("the demo prints no hash")?;
     replayed(&page, &path("demo.json"), &hash)?;
     println!("{}", printed.lines().next().unwrap_or_default());
