@@ -9,7 +9,7 @@ use crate::part::Part;
 use crate::patches::{self, Made};
 use crate::spheres::Hollow;
 use crate::wires::{FINEST, Fine, outlined};
-use crate::{emit, heal, picture, read, report, sew, spheres, split, turn};
+use crate::{emit, heal, picture, pinch, read, report, sew, spheres, split, turn};
 use std::path::Path;
 
 /// How often faces that are too much at once are made easier.
@@ -70,6 +70,7 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut part = read::read(path, options.solid.as_deref())?;
     sew::sew(&mut part, options.tolerance)?;
     heal::take_out_seams(&mut part);
+    pinch::refuse(&part, options.tolerance)?;
     turn::turn(&mut part, options.tolerance)?;
     let whole = part.clone();
     if spheres::without_poles(&mut part, Hollow::Halved) == Hollow::Halved

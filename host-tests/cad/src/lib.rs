@@ -1,8 +1,9 @@
 //! A CAD part as patches: STEP in, palpate's model file out.
 //!
 //! The way of the data: [`read`] gives faces, loops, edges and vertices as exact NURBS, placed, in millimetres;
-//! [`sew`] joins what the file counts as one, [`heal`] takes out seams and [`turn`] turns faces that lie the wrong way
-//! round; [`trace`] finds where each edge runs in the parameters of its faces, [`circles`] and [`outline`] make every
+//! [`sew`] joins what the file counts as one, [`heal`] takes out seams, [`pinch`] refuses outlines that touch
+//! themselves and [`turn`] turns faces that lie the wrong way round; [`trace`] finds where each edge runs in the
+//! parameters of its faces, [`circles`] and [`outline`] make every
 //! outline close there, and [`wires`] cuts it into pieces; [`divide`] cuts regions into quads without a side that ends
 //! on another's middle, or [`split`] makes less of a face first; [`patches`] gives each wire one curve, shared by both
 //! its faces, and each quad one polynomial patch ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with
@@ -24,6 +25,7 @@ mod part;
 mod patches;
 mod path;
 mod picture;
+mod pinch;
 mod project;
 mod proof;
 mod read;

@@ -119,3 +119,35 @@ fn a_face_that_lies_the_wrong_way_round_is_turned() {
         assert!(is_said == (name == "sense"), "{name}: {:?}", healed.report);
     }
 }
+
+fn part(name: &str) -> Result<Imported, String> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/parts/{name}.step"));
+    import(&path, &Options::default()).map_err(|error| error.to_string())
+}
+
+/// A hole that touches its cylinder's wall from inside leaves nothing there: no search for quads is begun.
+#[test]
+fn an_outline_that_touches_itself_is_refused_by_face_and_edges() {
+    let message = part("tangent_hole").unwrap_err();
+    assert!(message.contains("(#17)") && message.contains("touches itself at (0.000, 15.000, 15.000) mm"), "{message}");
+    assert_eq!(message.matches("edge #").count(), 2, "{message}");
+    // A hole that leaves a wall of half the tolerance.
+    let message = part("thin_wall").unwrap_err();
+    assert!(message.contains("passes its edge #") && message.contains("0.005000 mm off"), "{message}");
+}
+
+/// The same part as its file has it in millimetres, control point by control point.
+#[test]
+fn lengths_are_in_the_files_unit() {
+    let known = imported("millimetres", &whole()).unwrap();
+    for unit in ["inch", "metre", "centimetre"] {
+        let found = part(&format!("s02_{unit}")).unwrap();
+        assert_eq!(found.patches.len(), known.patches.len(), "{unit}");
+        for (a, b) in found.patches.iter().zip(&known.patches) {
+            for (p, q) in a.surface.points.iter().zip(&b.surface.points) {
+                // The file has 13 digits or more, and fits end within 1e-9 of each other.
+                assert!(p.distance(*q) < 1e-6, "{unit}: {} {p} {q}", a.name);
+            }
+        }
+    }
+}

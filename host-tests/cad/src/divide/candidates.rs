@@ -4,6 +4,7 @@ use super::plane::{Edge, Plane};
 use super::quality;
 use glam::DVec2;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// A quad: its corners, its sides from each corner to the next, and what it costs.
 #[derive(Clone, Debug)]
@@ -31,7 +32,7 @@ pub struct Candidates<'p> {
     pub plane: &'p Plane,
     seen: Vec<Vec<usize>>,
     starting: Vec<Vec<usize>>,
-    found: HashMap<Edge, Vec<Candidate>>,
+    found: HashMap<Edge, Rc<[Candidate]>>,
     /// How far the surface turns along a straight line of the plane, radians.
     turn: &'p dyn Fn(DVec2, DVec2) -> f64,
     turns: HashMap<[usize; 2], f64>,
@@ -79,16 +80,18 @@ impl<'p> Candidates<'p> {
     }
 
     /// The quads on the left of an edge, the cheapest first.
-    pub fn on(&mut self, edge: Edge) -> &[Candidate] {
-        if !self.found.contains_key(&edge) {
-            let mut found = self.find(edge);
-            for quad in &mut found {
-                quad.cost += quad.edges.map(|edge| self.turned(edge)).iter().sum::<f64>();
-            }
-            found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            self.found.insert(edge, found);
+    pub fn on(&mut self, edge: Edge) -> Rc<[Candidate]> {
+        if let Some(found) = self.found.get(&edge) {
+            return Rc::clone(found);
         }
-        &self.found[&edge]
+        let mut found = self.find(edge);
+        for quad in &mut found {
+            quad.cost += quad.edges.map(|edge| self.turned(edge)).iter().sum::<f64>();
+        }
+        found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let found: Rc<[Candidate]> = found.into();
+        self.found.insert(edge, Rc::clone(&found));
+        found
     }
 
     /// What a line costs for the turn of the surface along it; a side of the outline has its cuts already.

@@ -14,7 +14,8 @@ use crate::mesh::{Mesh, Quad, Side};
 use crate::nurbs::Surface;
 use crate::path::Path;
 use glam::DVec2;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
+use std::rc::Rc;
 
 /// Quads tried in a search without points inside.
 const TRIES: usize = 40_000;
@@ -142,28 +143,23 @@ impl<'p> Search<'p> {
         if state.cost + 0.25 * state.front.len() as f64 >= self.best || self.tries > self.most {
             return;
         }
-        let mut fewest: Option<Vec<Candidate>> = None;
+        let used = self.used_inside(state);
+        let mut fewest: Option<(Rc<[Candidate]>, Vec<usize>)> = None;
         for edge in &state.front {
-            let most = fewest.as_ref().map_or(usize::MAX, Vec::len);
-            let all = self.candidates.on(*edge).to_vec();
-            let mut fitting = Vec::new();
-            for candidate in all {
-                if self.fits(state, &candidate) {
-                    fitting.push(candidate);
-                    if fitting.len() >= most {
-                        break;
-                    }
-                }
-            }
+            let most = fewest.as_ref().map_or(usize::MAX, |(_, fitting)| fitting.len());
+            let all = self.candidates.on(*edge);
+            let fitting: Vec<usize> =
+                (0..all.len()).filter(|index| self.fits(state, &used, &all[*index])).take(most).collect();
             if fitting.len() < most {
                 let none = fitting.is_empty();
-                fewest = Some(fitting);
+                fewest = Some((all, fitting));
                 if none {
                     break;
                 }
             }
         }
-        for candidate in fewest.unwrap_or_default() {
+        let Some((all, fitting)) = fewest else { return };
+        for candidate in fitting.into_iter().map(|index| all[index].clone()) {
             self.tries += 1;
             let mut next = state.clone();
             for edge in candidate.edges {
@@ -181,7 +177,7 @@ impl<'p> Search<'p> {
     }
 
     /// Whether a quad's sides wait, or are new lines that cross none.
-    fn fits(&self, state: &State, candidate: &Candidate) -> bool {
+    fn fits(&self, state: &State, used: &[usize], candidate: &Candidate) -> bool {
         let point = |k: usize| self.candidates.plane.vertices[k].point;
         candidate.edges.iter().all(|edge| {
             if state.front.contains(edge) {
@@ -196,14 +192,22 @@ impl<'p> Search<'p> {
                     _ => false,
                 }
             })
-        }) && !self.covers(state, candidate)
+        }) && !self.covers(used, candidate)
+    }
+
+    /// The points inside that quads use already.
+    fn used_inside(&self, state: &State) -> Vec<usize> {
+        let is_inside = |k: &usize| self.candidates.plane.vertices[*k].node.is_none();
+        let mut used: Vec<usize> = state.lines.iter().flatten().copied().filter(is_inside).collect();
+        used.sort_unstable();
+        used.dedup();
+        used
     }
 
     /// Whether a quad lies on a point inside that others use already.
-    fn covers(&self, state: &State, candidate: &Candidate) -> bool {
-        let inside = |k: &usize| self.candidates.plane.vertices[*k].node.is_none() && !candidate.corners.contains(k);
-        let used: HashSet<usize> = state.lines.iter().flatten().copied().filter(|k| inside(k)).collect();
-        if used.is_empty() {
+    fn covers(&self, used: &[usize], candidate: &Candidate) -> bool {
+        let mut others = used.iter().filter(|k| !candidate.corners.contains(k)).peekable();
+        if others.peek().is_none() {
             return false;
         }
         let polygon: Vec<DVec2> = candidate
@@ -211,7 +215,7 @@ impl<'p> Search<'p> {
             .iter()
             .flat_map(|edge| (0..6).map(|k| self.candidates.plane.point(*edge, f64::from(k) / 6.0)))
             .collect();
-        used.iter().any(|k| crate::outline::contains(&polygon, self.candidates.plane.vertices[*k].point))
+        others.any(|k| crate::outline::contains(&polygon, self.candidates.plane.vertices[*k].point))
     }
 }
 
