@@ -30,8 +30,8 @@ const fn bit(side: &Side) -> u8 {
 /// A pole as seen from a point of its face.
 #[derive(Clone, Copy)]
 pub(super) struct Pole {
-    /// Which parameter leads away from it.
-    axis: usize,
+    /// Whether `v` leads away from it, not `u`: as an index 0 or 1, which the compiler sees.
+    is_along_v: bool,
     /// Whether that parameter rises on the way: 1, else −1.
     inward: f32,
     /// How far the point is from the pole along it.
@@ -50,22 +50,27 @@ impl Pole {
             let axis = side >> 1;
             let (inward, away) = if side & 1 == 0 { (1.0, at[axis]) } else { (-1.0, 1.0 - at[axis]) };
             if poles >> side & 1 == 1 && nearest.is_none_or(|nearest| away < nearest.away) {
-                nearest = Some(Self { axis, inward, away });
+                nearest = Some(Self { is_along_v: axis == 1, inward, away });
             }
         }
         nearest
     }
 
+    /// The index of the parameter that leads away from it.
+    const fn axis(&self) -> usize {
+        self.is_along_v as usize
+    }
+
     /// What the mixed second derivative of `φ` is more by, with the gradient of `φ`.
     pub(super) fn mixed(&self, gradient: [f32; 2]) -> f32 {
-        if self.away > AT_POLE { -self.inward * gradient[1 - self.axis] / self.away } else { 0.0 }
+        if self.away > AT_POLE { -self.inward * gradient[1 - self.axis()] / self.away } else { 0.0 }
     }
 
     /// From a step `(η, ω)` to the change of the parameters, in their `room`. One that ends at the pole keeps its `η`:
     /// where on the pole does not matter. One that a border stops ends at the border.
     pub(super) fn unrolled(&self, change: [f32; 2], [lower, upper]: [[f32; 2]; 2]) -> [f32; 2] {
-        let along = 1 - self.axis;
-        let left = self.away + self.inward * change[self.axis];
+        let along = 1 - self.axis();
+        let left = self.away + self.inward * change[self.axis()];
         let is_stopped = change[along] <= lower[along] || change[along] >= upper[along];
         let mut unrolled = change;
         if self.away > AT_POLE && left > AT_POLE && !is_stopped {
@@ -76,10 +81,10 @@ impl Pole {
 
     /// Half of a step, by its change of the parameters: the same way in `(η, ω)`.
     pub(super) fn halved(&self, change: [f32; 2]) -> [f32; 2] {
-        let left = self.away + self.inward * change[self.axis];
+        let left = self.away + self.inward * change[self.axis()];
         let mut half = change.map(|change| 0.5 * change);
         if self.away > AT_POLE && left > AT_POLE {
-            half[1 - self.axis] *= left / self.away;
+            half[1 - self.axis()] *= left / self.away;
         }
         self.unrolled(half, [[f32::NEG_INFINITY; 2], [f32::INFINITY; 2]])
     }
@@ -97,7 +102,7 @@ impl Pole {
         if self.away > AT_POLE {
             return None;
         }
-        let (across, along) = (self.axis, 1 - self.axis);
+        let (across, along) = (self.axis(), 1 - self.axis());
         let (slope, turn) = (self.inward * gradient[across], self.inward * bend);
         let reach = room[usize::from(turn < 0.0)][along];
         let (downhill, stretch) = (slope + turn * reach, form[2 * across]);
