@@ -12,7 +12,7 @@ use crate::track::{Contact, Placement};
 /// How a body moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// It rests where it is, or goes where it is told ([`super::SceneState::lead`]).
+    /// It rests where it is, or goes where it is told ([`super::Scene::lead`]).
     Resting(Placement),
     /// It moves as prescribed.
     Prescribed(Path),

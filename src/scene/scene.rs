@@ -6,7 +6,7 @@ use super::rigid::Wrench;
 use super::state::SceneState;
 use crate::body::TableCursor;
 use crate::device::Device;
-use crate::math::{Vec3, saturate};
+use crate::math::{Vec3, saturate, sqrt};
 use crate::render::{Penalty, Press, limit};
 use crate::servo::{Surface, Touched, Tracked};
 use crate::track::{Contact, Controller, Placement, Probe};
@@ -14,6 +14,9 @@ use thiserror::Error;
 
 /// No body.
 pub(super) const NOBODY: u8 = u8::MAX;
+
+/// Ticks that a placement from outside may be late: as far as a body comes in these it is led, not put.
+const LATE: f32 = 4.0;
 
 /// What a step of the CRC (its register, and a word of 0) takes to all ones, which is how a CRC begins.
 const TO_ALL_ONES: u32 = 0x9226_f562;
@@ -276,6 +279,35 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         state.parts[index].frame = Frame::new(&placement);
         self.forget(state, index);
         Ok(())
+    }
+
+    /// Leads a resting body on: this is where it is in the next tick, and how it moves. For a motion that is given from
+    /// outside tick by tick: one that its velocity explains. One that is farther off than it can have come at the
+    /// greatest speed in four ticks is somewhere else, as [`Self::place`] has it: no hand is pushed by a body that jumps
+    /// into it.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    pub fn lead(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        placement: Placement,
+    ) -> Result<(), SceneError> {
+        let Some(Part { motion: Motion::Resting(_), sphere, .. }) = self.parts.get(index) else {
+            return self.place(state, index, placement);
+        };
+        let (before, after) = (state.parts[index].frame, Frame::new(&placement));
+        let radius = if sphere.radius < f32::INFINITY { sphere.radius } else { 0.0 };
+        let turned = [0, 1, 2].map(|axis| (after.axes[axis] - before.axes[axis]).length_squared());
+        let moved = after.point_to_scene(sphere.centre) - before.point_to_scene(sphere.centre);
+        // A turn takes the axes together no less far than any unit vector.
+        let way = moved.length() + radius * sqrt(turned[0] + turned[1] + turned[2]);
+        if way <= LATE * self.limits.max_speed / self.limits.rate && super::path::is_rigid(&placement) {
+            state.parts[index].frame = after;
+            return Ok(());
+        }
+        self.place(state, index, placement)
     }
 
     /// Switches groups on and off: those of these bits, group 0 the lowest. What was felt of a body that is now off

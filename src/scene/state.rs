@@ -1,10 +1,9 @@
 //! What a scene keeps between two ticks, and what may be changed there while it is felt.
 
-use super::frame::Frame;
 use super::part::PartState;
 use crate::math::Vec3;
 use crate::servo::Tracked;
-use crate::track::{Contact, Placement, Witness};
+use crate::track::{Contact, Witness};
 
 /// Everything of a scene that changes: a plain value, as the loop's own state. Change it between two ticks with
 /// [`super::Scene`]'s methods.
@@ -66,18 +65,6 @@ impl<W: Tracked, const N: usize> SceneState<W, N> {
     /// Whether the groups of these bits are on.
     pub const fn groups(&self) -> u32 {
         self.groups
-    }
-
-    /// Leads a resting body on: this is where it is in the next tick, and how it moves. For a motion that is given from
-    /// outside tick by tick: one that its velocity explains. A placement that is somewhere else is
-    /// [`super::Scene::place`]. Only where the part is [`super::Motion::Resting`]; nothing happens otherwise, nor where
-    /// the placement is not finite.
-    pub fn lead(&mut self, index: usize, placement: Placement) {
-        if let Some(part) = self.parts.get_mut(index)
-            && super::path::is_rigid(&placement)
-        {
-            part.frame = Frame::new(&placement);
-        }
     }
 
     pub(super) fn is_tracked(&self, index: usize) -> bool {

@@ -42,7 +42,7 @@ fn a_body_moved_under_a_probe_is_felt_as_a_probe_moved_over_the_body() {
             if tick >= 200 {
                 ride.advance();
             }
-            state.lead(0, ride.placement());
+            scene.lead(&mut state, 0, ride.placement()).unwrap();
             let probe = DVec3::ZERO;
             scene.follow(&Controller::SECOND_ORDER, &mut state, Probe::at(Vec3::ZERO), PERIOD);
             alone.follow(&ride, probe, &Controller::SECOND_ORDER);
@@ -159,4 +159,29 @@ fn motion_fed_forward_takes_the_lag_of_a_turning_body_away() {
     // The certified law has next to no lag to take away: both are some ten roundings of the coordinates.
     assert!(certified_fed <= certified + 4e-9, "{certified_fed} {certified}");
     assert!(default <= certified, "{default} {certified}");
+}
+
+/// A body that a host leads into the tool from one tick to the next pushes nobody; one that comes there by and by does.
+#[test]
+fn a_body_that_jumps_into_the_tool_is_not_felt() {
+    let at = |origin| Placement { origin, ..Placement::IDENTITY };
+    // The side at x = 60 mm: the tool 1 mm in front of it, then 2 mm behind, which is no jump for the tracker.
+    let (away, inside) = (DVec3::new(-0.061, -0.02, -0.01), DVec3::new(-0.058, -0.02, -0.01));
+    for (steps, is_felt) in [(1_u16, false), (1_000, true)] {
+        let scene = Scene::new(LIMITS, [part(Motion::Resting(at(away.as_vec3())), MATERIAL)]);
+        let mut state = scene.rest();
+        let tick = |state: &mut _| scene.follow(&Controller::SECOND_ORDER, state, Probe::at(Vec3::ZERO), PERIOD);
+        for _ in 0..200 {
+            tick(&mut state);
+        }
+        for step in 1..=steps {
+            let share = f64::from(step) / f64::from(steps);
+            scene.lead(&mut state, 0, at(away.lerp(inside, share).as_vec3())).unwrap();
+            tick(&mut state);
+        }
+        for _ in 0..200 {
+            tick(&mut state);
+        }
+        assert_eq!(state.force() != Vec3::ZERO, is_felt, "in {steps} steps");
+    }
 }
