@@ -283,8 +283,8 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
 
     /// Leads a resting body on: this is where it is in the next tick, and how it moves. For a motion that is given from
     /// outside tick by tick: one that its velocity explains. One that is farther off than it can have come at the
-    /// greatest speed in four ticks is somewhere else, as [`Self::place`] has it: no hand is pushed by a body that jumps
-    /// into it.
+    /// greatest speed in four ticks is somewhere else, as [`Self::place`] has it: no hand is pushed by a body that
+    /// jumps into it.
     ///
     /// # Errors
     /// As [`Self::place`].
