@@ -1,0 +1,92 @@
+//! The loop against a simulated device in a scripted hand.
+
+use super::script::Script;
+use palpate::device::{Counts, Kinematics};
+use palpate::servo::{Fault, Input, Output, Servo, Surface};
+use palpate::track::Contact;
+use palpate_plant::{HandSettings, Plant, PlantError, PlantSettings, Vector};
+use thiserror::Error;
+
+/// From when on force is asked for, s: the witness point has converged by then, and the hand not yet begun.
+const ENABLED_AT: f64 = 0.05;
+
+/// One tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tick {
+    /// Where the probe really is, m in the device's frame.
+    pub probe: Vector,
+    /// The force that the loop renders, N.
+    pub force: Vector,
+    /// What the hand brings up, N.
+    pub hand: Vector,
+    /// Signed gap as the loop sees it, m.
+    pub gap: f64,
+    /// Whether the surface is touched.
+    pub is_touching: bool,
+}
+
+/// A run of a script.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// Servo rate, Hz.
+    pub rate: f64,
+    /// One after the other.
+    pub ticks: Vec<Tick>,
+}
+
+/// Why a run gives no recording.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum RunError {
+    /// The simulated device does not start.
+    #[error("the simulated device cannot start where the hand does: {0}")]
+    Plant(#[from] PlantError),
+    /// The loop stopped.
+    #[error("the loop stopped {time:.3} s into \"{script}\": {fault:?}")]
+    Fault {
+        /// What the hand did.
+        script: String,
+        /// When, s.
+        time: f64,
+        /// Why.
+        fault: Fault,
+    },
+}
+
+/// Runs a script to its end.
+///
+/// # Errors
+/// A start out of reach, or a fault of the loop.
+pub fn record<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize>(
+    servo: &Servo<'_, S, K, JOINTS>,
+    plant: &PlantSettings,
+    hand: HandSettings,
+    script: &Script,
+) -> Result<Recording, RunError> {
+    let rate = f64::from(servo.settings().rate);
+    let mut plant = Plant::new(plant, hand, Box::new(script.path.clone()), rate)?;
+    let mut state = servo.start();
+    let count = (script.path.end() * rate).ceil() as usize;
+    let mut ticks = Vec::with_capacity(count);
+    for _ in 0..count {
+        let all = plant.counts();
+        let counts = core::array::from_fn(|joint| Counts(all[joint]));
+        let (probe, hand) = (plant.position(), plant.hand_force());
+        servo.tick(&mut state, Input::Sensors { counts, enable: plant.time() >= ENABLED_AT });
+        if let Some((fault, _)) = state.fault() {
+            return Err(RunError::Fault { script: script.name.clone(), time: plant.time(), fault });
+        }
+        ticks.push(Tick {
+            probe,
+            force: state.force().to_array().map(f64::from),
+            hand,
+            gap: f64::from(state.gap()),
+            is_touching: state.contact() == Contact::Touching,
+        });
+        let mut duties = [0; 3];
+        if let Output::Drive(given) = state.output() {
+            duties.iter_mut().zip(given).for_each(|(duty, given)| *duty = given.0);
+        }
+        plant.advance(duties);
+    }
+    Ok(Recording { rate, ticks })
+}
