@@ -11,6 +11,7 @@ pub mod commission;
 pub mod cycles;
 pub mod devices;
 mod drawing;
+pub mod feel;
 pub mod figures;
 pub mod firmware;
 pub mod in_c;

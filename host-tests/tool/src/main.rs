@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
-    accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, figures, firmware, image,
+    accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, feel, figures, firmware, image,
     import, monitor, page, parts, race, sim, test, zwidth,
 };
 use std::process::ExitCode;
@@ -20,6 +20,7 @@ enum Command {
     Accept(accept::Arguments),
     Commission(commission::Arguments),
     Device(device::Arguments),
+    Feel(feel::Arguments),
     Test(test::Arguments),
     Check(check::Arguments),
     Bake(bake::Arguments),
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Accept(arguments) => accept::run(&arguments),
         Command::Commission(arguments) => commission::run(&arguments),
+        Command::Feel(arguments) => feel::run(&arguments),
         Command::Device(arguments) => device::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -11,6 +11,7 @@ pub mod cycles;
 pub mod demo;
 pub mod demo_knob;
 pub mod device;
+pub mod feel;
 pub mod felt;
 mod felt_scene;
 pub mod figures;

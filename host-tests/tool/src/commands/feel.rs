@@ -1,0 +1,149 @@
+//! `palpate feel`: what a hand feels of the loop on a device, against what people can feel.
+
+use super::felt::Felt;
+use crate::devices::{self, DEVICES, ShippedDevice};
+use crate::feel::table::Worst;
+use crate::feel::{Row, Wish, plot, rows, table};
+use crate::models::ModelFile;
+use crate::report::write_sections;
+use crate::zwidth::Slice;
+use anyhow::{Context, ensure};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use palpate::servo::Rendering;
+use palpate_feel::{BANDS, Threshold, recorded};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Says in figures what a hand feels: steps of force, ripple against what people can feel, stickiness, drag.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The device; `all` compares every device
+    #[arg(long, default_value = "all", value_parser = names())]
+    device: String,
+    /// The body whose edges are crossed, by devices of three joints: a model file, or the name of a model that ships
+    #[arg(long, default_value = "capped_box")]
+    model: PathBuf,
+    /// Servo rate, Hz
+    #[arg(long, default_value_t = 4_000.0)]
+    rate: f32,
+    /// Stiffness of the surface, N/m; no more than the device takes
+    #[arg(long, default_value_t = 1_000.0)]
+    stiffness: f32,
+    /// Damping of the surface, N·s/m; no more than the device takes
+    #[arg(long, default_value_t = 2.0)]
+    damping: f32,
+    /// Corner frequency of the velocity filter, Hz
+    #[arg(long, default_value_t = 150.0)]
+    velocity_corner: f32,
+    /// A threshold of one's own: a CSV file of frequency, Hz, and peak displacement, m, under a row of names
+    #[arg(long, value_name = "FILE.csv")]
+    threshold: Option<PathBuf>,
+    /// Takes the figures of a recording instead, of `sim --csv` or `monitor --csv`, on one device
+    #[arg(long, value_name = "FILE.csv")]
+    recording: Option<PathBuf>,
+    /// The folder that figures (CSV) and report (HTML) go to
+    #[arg(long, default_value = "palpate-report/feel")]
+    out: PathBuf,
+}
+
+/// Every device's name, and `all`.
+fn names() -> PossibleValuesParser {
+    PossibleValuesParser::new(DEVICES.iter().map(|device| device.name).chain(["all"]))
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let threshold = arguments.threshold.as_deref().map_or_else(|| Ok(Threshold::approximate()), read_threshold)?;
+    let chosen = devices::named(&arguments.device);
+    if let Some(path) = &arguments.recording {
+        let device = chosen.context("--recording is of one device: name it with --device")?;
+        print_recording(path, device, &threshold)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let wish = Wish {
+        rate: arguments.rate,
+        stiffness: arguments.stiffness,
+        damping: arguments.damping,
+        corner: arguments.velocity_corner,
+        rendering: Rendering::PLAIN,
+    };
+    let file = ModelFile::read(&arguments.model)?;
+    let felt = Felt::read(&file.model()?, &file, &arguments.model, None)?;
+    let body = match &felt {
+        Felt::Body { body, .. } => Some((*body, -felt.middle())),
+        Felt::Patch { .. } | Felt::Scene(_) => None,
+    };
+    let mut all: Vec<(&str, Vec<Row>)> = Vec::new();
+    for device in chosen.map_or_else(|| DEVICES.iter().collect(), |device| vec![device]) {
+        let settings = wish.settings(device);
+        println!(
+            "{}: {} N/m, {} N·s/m, {} kHz; steps and ripple in mN",
+            device.name,
+            settings.stiffness,
+            settings.damping,
+            settings.rate / 1_000.0
+        );
+        let rows = rows(device, body, &wish, &threshold)?;
+        println!("{}", table::text(&rows));
+        all.push((device.name, rows));
+    }
+    println!("{}", Worst::heading());
+    all.iter().for_each(|(name, rows)| println!("{}", Worst::of(rows).line(name)));
+    write(&all, &threshold, arguments)
+}
+
+/// A table of frequency, Hz, and displacement, m.
+fn read_threshold(path: &Path) -> anyhow::Result<Threshold> {
+    let mut reader = csv::Reader::from_path(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    let points = reader.deserialize::<[f64; 2]>().collect::<Result<Vec<_>, _>>();
+    let points = points.with_context(|| format!("{}: not rows of two numbers", path.display()))?;
+    Threshold::try_new(points).with_context(|| path.display().to_string())
+}
+
+fn print_recording(path: &Path, device: &ShippedDevice, threshold: &Threshold) -> anyhow::Result<()> {
+    let recording = recorded::read(path)?;
+    let figures = recorded::figures(&recording, Slice::of(device).mass, threshold);
+    let milli = |force: f64| format!("{:.1} mN", force * 1e3);
+    let seconds = recording.ticks.len() as f64 / recording.rate;
+    println!("{}: {} ticks, {seconds:.3} s at {:.0} Hz", path.display(), recording.ticks.len(), recording.rate);
+    println!("  {:<34} {}", "touches", figures.touches);
+    println!("  {:<34} {}", "largest step at contact", milli(figures.steps.contact));
+    println!("  {:<34} {}", "largest step at release", milli(figures.steps.release));
+    println!("  {:<34} {}", "largest step", milli(figures.steps.any));
+    println!("  {:<34} {}", "ripple in the longest touch", milli(figures.ripple));
+    for (band, peak) in BANDS.iter().zip(figures.bands) {
+        println!("  {:<34} {}", format!("of it {}", band.name), milli(peak));
+    }
+    println!(
+        "  {:<34} {:.1} dB at {:.0} Hz",
+        "above the threshold", figures.sensation.level, figures.sensation.frequency
+    );
+    println!("  {:<34} {:.1} ms", "force without touch", figures.afterglow * 1e3);
+    Ok(())
+}
+
+fn write(all: &[(&str, Vec<Row>)], threshold: &Threshold, arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    ensure!(!all.is_empty(), "no device");
+    let out = &arguments.out;
+    std::fs::create_dir_all(out).with_context(|| format!("cannot make {}", out.display()))?;
+    let csv = out.join("feel.csv");
+    table::write_csv(all, &csv).with_context(|| format!("cannot write {}", csv.display()))?;
+    let figures: Vec<(&str, String)> = all.iter().map(|(name, rows)| (*name, table::text(rows))).collect();
+    let note = "How far the probe moves under a hand that rests or slides, and what people feel (approximated).";
+    let mut sections = Vec::new();
+    for (name, rows) in all {
+        sections.push((*name, note, plot::spectra(rows, threshold)?));
+    }
+    let lines = all.iter().map(|(name, rows)| Worst::of(rows).line(name)).collect::<Vec<_>>().join("\n");
+    let worst = [("worst", format!("{}\n{lines}", Worst::heading()))];
+    let figures: Vec<(&str, String)> = worst.into_iter().chain(figures).collect();
+    let subtitle = format!("{} Hz, {} N/m, {} N·s/m", arguments.rate, arguments.stiffness, arguments.damping);
+    let report = out.join("report.html");
+    write_sections(["What the hand feels", &subtitle], &figures, &sections, &report)?;
+    println!("figures: {}\nreport: {}", csv.display(), report.display());
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,9 @@
+//! What a hand feels on the devices that ship: the scripts of [`palpate_feel`] on each, as rows of figures.
+//!
+//! [`rows`] runs them, [`table`] prints them and writes them as CSV, [`plot`] draws what is felt beside the threshold.
+
+pub mod plot;
+mod rows;
+pub mod table;
+
+pub use rows::{Row, Wish, rows};

@@ -1,0 +1,68 @@
+//! What the probe does under a hand that rests or slides, by frequency, beside what people feel.
+
+use super::rows::Row;
+use crate::drawing::{BLUE_INK, GREEN_INK, RED_INK, SURFACE_INK, TEXT_INK, draw};
+use palpate_feel::{Deed, Spectrum, Threshold, thirds};
+use plotters::prelude::*;
+
+/// Displacements drawn, m: what lies below is not drawn.
+const RANGE: [f64; 2] = [1e-10, 1e-4];
+const FREQUENCIES: [f64; 2] = [20.0, 1_000.0];
+const INKS: [RGBColor; 6] = [BLUE_INK, RED_INK, GREEN_INK, SURFACE_INK, RGBColor(130, 80, 223), RGBColor(188, 76, 0)];
+
+/// The curves of a device, as SVG text.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn spectra(rows: &[Row], threshold: &Threshold) -> anyhow::Result<String> {
+    let steady = |row: &&Row| matches!(row.script.deed, Deed::Rest | Deed::Slide | Deed::Across(None) | Deed::Air);
+    let curves: Vec<(&str, &Spectrum)> =
+        rows.iter().filter(steady).map(|row| (row.script.name.as_str(), &row.figures.displacement)).collect();
+    of_curves(&curves, threshold)
+}
+
+/// Displacement by third of an octave.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn of_curves(curves: &[(&str, &Spectrum)], threshold: &Threshold) -> anyhow::Result<String> {
+    draw((900, 460), |area| {
+        area.fill(&WHITE)?;
+        let mut chart =
+            ChartBuilder::on(area).margin(12).x_label_area_size(42).y_label_area_size(76).build_cartesian_2d(
+                (FREQUENCIES[0]..FREQUENCIES[1]).log_scale(),
+                (RANGE[0] * 1e6..RANGE[1] * 1e6).log_scale(),
+            )?;
+        chart
+            .configure_mesh()
+            .x_desc("frequency, Hz, by thirds of an octave")
+            .y_desc("peak displacement of the probe, µm")
+            .light_line_style(WHITE)
+            .draw()?;
+        let limit = (0..=200).map(|index| {
+            let frequency = FREQUENCIES[0] * (FREQUENCIES[1] / FREQUENCIES[0]).powf(f64::from(index) / 200.0);
+            (frequency, threshold.at(frequency) * 1e6)
+        });
+        chart
+            .draw_series(LineSeries::new(limit, TEXT_INK.stroke_width(3)))?
+            .label("people feel what lies above")
+            .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], TEXT_INK.stroke_width(3)));
+        for ((name, spectrum), ink) in curves.iter().zip(INKS.into_iter().cycle()) {
+            let points = thirds(spectrum, threshold).into_iter().map(|[frequency, level]| {
+                let displacement = threshold.at(frequency) * 10_f64.powf(level / 20.0);
+                (frequency, displacement.clamp(RANGE[0], RANGE[1]) * 1e6)
+            });
+            chart
+                .draw_series(LineSeries::new(points, ink.stroke_width(2)))?
+                .label(*name)
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], ink.stroke_width(2)));
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE.mix(0.8))
+            .border_style(BLACK.mix(0.3))
+            .draw()?;
+        Ok(())
+    })
+}

@@ -1,0 +1,180 @@
+//! Every script on a device.
+
+use crate::devices::ShippedDevice;
+use crate::preset::Preset;
+use crate::zwidth::Slice;
+use anyhow::Context;
+use palpate::body::Body;
+use palpate::device::{Device, Encoder, Kinematics};
+use palpate::math::Vec3;
+use palpate::render::Friction;
+use palpate::servo::{Rendering, Servo, Settings, Surface};
+use palpate::track::Controller;
+use palpate_feel::{Deed, Figures, Script, Stage, Threshold, over_edges, record, wall};
+use palpate_plant::{HandSettings, PlantSettings};
+
+/// Friction of the wall where the hand pulls on the verge of slipping.
+const FRICTION: Friction =
+    Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 };
+/// How much finer encoders are tried where a slide is felt.
+const FINER: [f64; 6] = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
+
+/// What the surface is to be.
+#[derive(Clone, Copy, Debug)]
+pub struct Wish {
+    /// Servo rate, Hz.
+    pub rate: f32,
+    /// N/m; no more than the device takes.
+    pub stiffness: f32,
+    /// N·s/m; no more than the device takes.
+    pub damping: f32,
+    /// Corner of the velocity estimator, Hz.
+    pub corner: f32,
+    /// Everything else of the force.
+    pub rendering: Rendering,
+}
+
+impl Wish {
+    /// The loop's settings on a device.
+    pub fn settings(&self, device: &ShippedDevice) -> Settings {
+        let limits = device.preset.limits();
+        Settings {
+            rate: self.rate,
+            stiffness: self.stiffness.min(limits.stiffness),
+            damping: self.damping.min(limits.damping),
+            max_force: limits.force,
+            velocity_corner: self.corner,
+            soft_start: 0.1,
+            body_origin: Vec3::ZERO,
+        }
+    }
+}
+
+/// A script on a device.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The script.
+    pub script: Script,
+    /// What the hand got.
+    pub figures: Figures,
+    /// By how much the mean force differs from stiffness times depth, as a share of it; of the loop's own depth.
+    pub force_error: Option<f64>,
+    /// Over how much travel the direction turned, m.
+    pub turn: Option<f64>,
+    /// For a slide that is felt: how much finer the encoders must be for it not to be; infinite if none tried is
+    /// enough.
+    pub finer: Option<f64>,
+}
+
+/// All scripts on a device; on a body, which lies at an origin, only with three joints.
+///
+/// # Errors
+/// Settings that are refused, a start out of reach, a fault of the loop.
+pub fn rows(
+    device: &ShippedDevice,
+    body: Option<(&Body<'_>, Vec3)>,
+    wish: &Wish,
+    threshold: &Threshold,
+) -> anyhow::Result<Vec<Row>> {
+    let bench = Bench { shipped: device, wish, threshold, settings: wish.settings(device) };
+    let rows = match device.preset {
+        Preset::SerialArm(arm) => bench.in_space(arm, body),
+        Preset::LinkageArm(arm) => bench.in_space(arm, body),
+        Preset::Delta(delta) => bench.in_space(delta, body),
+        Preset::FiveBar(five_bar) => bench.on_the_wall(five_bar),
+        Preset::Paddle(paddle) => bench.on_the_wall(paddle),
+    };
+    rows.with_context(|| device.name.to_owned())
+}
+
+struct Bench<'a> {
+    shipped: &'a ShippedDevice,
+    wish: &'a Wish,
+    threshold: &'a Threshold,
+    settings: Settings,
+}
+
+impl Bench<'_> {
+    fn stage(&self, joints: usize) -> Stage {
+        Stage {
+            joints,
+            stiffness: f64::from(self.settings.stiffness),
+            hand: HandSettings::default().stiffness,
+            dry: Slice::of(self.shipped).coulomb,
+            max_force: f64::from(self.settings.max_force),
+        }
+    }
+
+    fn in_space<K: Kinematics<3> + Copy>(
+        &self,
+        device: &Device<K, 3>,
+        body: Option<(&Body<'_>, Vec3)>,
+    ) -> anyhow::Result<Vec<Row>> {
+        let mut rows = self.on_the_wall(device)?;
+        if let Some((body, origin)) = body {
+            let settings = Settings { body_origin: origin, ..self.settings };
+            for script in over_edges(body, origin, &self.stage(3)) {
+                rows.push(self.row(device, &self.shipped.plant, body, settings, script)?);
+            }
+        }
+        Ok(rows)
+    }
+
+    fn on_the_wall<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
+        &self,
+        device: &Device<K, JOINTS>,
+    ) -> anyhow::Result<Vec<Row>> {
+        let mut rows = Vec::new();
+        for script in self.stage(JOINTS).on_the_wall() {
+            let mut row = self.row(device, &self.shipped.plant, wall(JOINTS), self.settings, script)?;
+            if row.script.deed == Deed::Slide && !row.figures.sensation.is_below() {
+                row.finer = Some(self.finer(device, &row.script)?);
+            }
+            rows.push(row);
+        }
+        Ok(rows)
+    }
+
+    fn row<S: Surface, K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
+        &self,
+        device: &Device<K, JOINTS>,
+        plant: &PlantSettings,
+        surface: &S,
+        settings: Settings,
+        script: Script,
+    ) -> anyhow::Result<Row> {
+        let friction = (script.deed == Deed::Verge).then_some(FRICTION);
+        let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, settings)?
+            .try_rendering(Rendering { friction, ..self.wish.rendering })?;
+        let recording = record(&servo, plant, HandSettings::default(), &script)?;
+        let figures = recording.figures(script.looked_at, self.threshold);
+        let steady = matches!(script.deed, Deed::Rest | Deed::Slide | Deed::Approach(_)) && figures.depth > 0.0;
+        let asked = f64::from(settings.stiffness) * figures.depth;
+        let turn = match script.deed {
+            Deed::Across(Some(normals)) => recording.turn(normals, script.looked_at),
+            _ => None,
+        };
+        Ok(Row { force_error: steady.then(|| figures.force / asked - 1.0), turn, finer: None, figures, script })
+    }
+
+    /// How much finer the encoders must be for a script not to be felt.
+    fn finer<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
+        &self,
+        device: &Device<K, JOINTS>,
+        script: &Script,
+    ) -> anyhow::Result<f64> {
+        for factor in FINER {
+            let mut plant = self.shipped.plant;
+            plant.joints.iter_mut().for_each(|joint| joint.counts_per_turn *= factor);
+            let encoders = device.encoders.map(|Encoder { radians_per_count, angle_at_zero }| {
+                Encoder::new(radians_per_count / factor as f32, angle_at_zero - 0.5 * radians_per_count)
+            });
+            let device = Device { encoders, ..*device };
+            let row = self.row(&device, &plant, wall(JOINTS), self.settings, script.clone())?;
+            if row.figures.sensation.is_below() {
+                return Ok(factor);
+            }
+        }
+        Ok(f64::INFINITY)
+    }
+}

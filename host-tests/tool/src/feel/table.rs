@@ -1,0 +1,195 @@
+//! Rows as text and as CSV, and a device on a line.
+
+use super::rows::Row;
+use palpate_feel::{BANDS, Deed};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Steps are held against their bound up to this speed, m/s.
+pub const BOUND_SPEED: f64 = 0.3;
+
+/// A level, dB, in words: what is not there at all has none.
+fn in_words(level: f64) -> String {
+    if level > -60.0 { format!("{level:.1}") } else { "none".to_owned() }
+}
+
+fn or_dash(value: Option<String>) -> String {
+    value.unwrap_or_else(|| "-".to_owned())
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1}", share * 100.0)
+}
+
+/// A table of a device's rows; forces in mN, times in ms.
+pub fn text(rows: &[Row]) -> String {
+    let mut text = format!(
+        "{:<22}{:>8}{:>8}{:>8}{:>8}  {:<24}{:>8}{:>8}{:>9}{:>8}{:>8}{:>7}{:>8}{:>7}\n",
+        "hand",
+        "contact",
+        "release",
+        "any",
+        "ripple",
+        "by bands",
+        "dB",
+        "at Hz",
+        "force, N",
+        "error %",
+        "drag, N",
+        "after",
+        "turn mm",
+        "finer"
+    );
+    for Row { script, figures, force_error, turn, finer } in rows {
+        let [contact, release, any] =
+            [figures.steps.contact, figures.steps.release, figures.steps.any].map(|step| format!("{:.1}", step * 1e3));
+        let bands = figures.bands.map(|band| format!("{:.1}", band * 1e3)).join(" ");
+        let drag = (script.deed == Deed::Air).then(|| format!("{:.3}", figures.drag));
+        let _ = writeln!(
+            text,
+            "{:<22}{contact:>8}{release:>8}{any:>8}{:>8.1}  {bands:<24}{:>8}{:>8.0}{:>9.3}{:>8}{:>8}{:>7.1}{:>8}{:>7}",
+            script.name,
+            figures.ripple * 1e3,
+            in_words(figures.sensation.level),
+            figures.sensation.frequency,
+            figures.force,
+            or_dash(force_error.map(percent)),
+            or_dash(drag),
+            figures.afterglow * 1e3,
+            or_dash(turn.map(|turn| format!("{:.2}", turn * 1e3))),
+            or_dash(finer.map(|factor| format!("{factor}x"))),
+        );
+    }
+    text
+}
+
+/// Writes the rows of all devices; SI units.
+///
+/// # Errors
+/// What the file system says.
+pub fn write_csv(rows: &[(&str, Vec<Row>)], path: &Path) -> csv::Result<()> {
+    let mut writer = csv::Writer::from_path(path)?;
+    let mut header = vec!["device", "hand", "contact_step", "release_step", "any_step", "ripple"];
+    header.extend(BANDS.map(|band| band.name));
+    header.extend([
+        "level_db",
+        "level_hz",
+        "force",
+        "depth",
+        "force_error",
+        "drag",
+        "touches",
+        "force_after",
+        "turn",
+        "finer",
+    ]);
+    writer.write_record(header)?;
+    for (device, rows) in rows {
+        for Row { script, figures, force_error, turn, finer } in rows {
+            let optional = |value: &Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+            let mut row = vec![(*device).to_owned(), script.name.clone()];
+            let steps = figures.steps;
+            row.extend([steps.contact, steps.release, steps.any, figures.ripple].map(|step| step.to_string()));
+            row.extend(figures.bands.map(|band| band.to_string()));
+            row.extend([figures.sensation.level, figures.sensation.frequency].map(|number| number.to_string()));
+            row.extend([figures.force, figures.depth].map(|number| number.to_string()));
+            row.push(optional(force_error));
+            row.extend([figures.drag.to_string(), figures.touches.to_string(), figures.afterglow.to_string()]);
+            row.extend([turn, finer].map(optional));
+            writer.write_record(row)?;
+        }
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// The worst of a device's rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst {
+    /// The largest step at contact, up to 0.3 m/s, N.
+    pub contact: f64,
+    /// At release, as far, N.
+    pub release: f64,
+    /// Off an edge or a corner, as far, N; none without a body.
+    pub off: Option<f64>,
+    /// The longest time for which there was force on a probe that touched nothing, s.
+    pub after: f64,
+    /// The strongest sensation at rest, dB.
+    pub rest: f64,
+    /// Sliding, smooth seams included, dB.
+    pub slide: Option<f64>,
+    /// How much finer encoders must be where sliding is felt.
+    pub finer: Option<f64>,
+    /// The greatest error of the steady force, a share.
+    pub error: f64,
+    /// The greatest force in front of the wall, N.
+    pub hover: f64,
+    /// Drag in free air, N.
+    pub drag: f64,
+    /// The longest turn of the force's direction round a convex edge, m.
+    pub turn: Option<f64>,
+}
+
+impl Worst {
+    /// Of these rows.
+    pub fn of(rows: &[Row]) -> Self {
+        let most = |values: &mut dyn Iterator<Item = f64>| values.reduce(f64::max);
+        let of = |like: fn(&Deed) -> bool, figure: fn(&Row) -> f64| {
+            most(&mut rows.iter().filter(|row| like(&row.script.deed)).map(figure))
+        };
+        let slow = |deed: &Deed| matches!(deed, Deed::Approach(speed) if *speed <= BOUND_SPEED);
+        let smooth = |deed: &Deed| matches!(deed, Deed::Slide | Deed::Across(None));
+        let zero = |value: Option<f64>| value.unwrap_or(0.0);
+        Self {
+            contact: zero(of(slow, |row| row.figures.steps.contact)),
+            release: zero(of(slow, |row| row.figures.steps.release)),
+            off: of(|deed| matches!(deed, Deed::Off(speed) if *speed <= BOUND_SPEED), |row| row.figures.steps.any),
+            after: zero(of(|_| true, |row| row.figures.afterglow)),
+            rest: of(|deed| *deed == Deed::Rest, |row| row.figures.sensation.level).unwrap_or(f64::NEG_INFINITY),
+            slide: of(smooth, |row| row.figures.sensation.level),
+            finer: most(&mut rows.iter().filter_map(|row| row.finer)),
+            error: zero(of(|deed| *deed == Deed::Rest, |row| row.force_error.map_or(0.0, f64::abs))),
+            hover: zero(of(|deed| matches!(deed, Deed::Hover | Deed::Air), |row| row.figures.force)),
+            drag: zero(of(|deed| *deed == Deed::Air, |row| row.figures.drag)),
+            turn: most(&mut rows.iter().filter_map(|row| row.turn)),
+        }
+    }
+
+    /// The heading of [`Self::line`].
+    pub fn heading() -> String {
+        format!(
+            "{:<20}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}{:>9}{:>9}{:>9}",
+            "device",
+            "contact mN",
+            "release",
+            "off edge",
+            "after ms",
+            "rest dB",
+            "slide dB",
+            "finer",
+            "error %",
+            "hover N",
+            "drag N",
+            "turn mm"
+        )
+    }
+
+    /// A device on a line.
+    pub fn line(&self, device: &str) -> String {
+        let milli = |value: f64| format!("{:.1}", value * 1e3);
+        format!(
+            "{device:<20}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}{:>9.3}{:>9.3}{:>9}",
+            milli(self.contact),
+            milli(self.release),
+            or_dash(self.off.map(milli)),
+            milli(self.after),
+            in_words(self.rest),
+            or_dash(self.slide.map(in_words)),
+            or_dash(self.finer.map(|factor| format!("{factor}x"))),
+            percent(self.error),
+            self.hover,
+            self.drag,
+            or_dash(self.turn.map(|turn| format!("{:.2}", turn * 1e3))),
+        )
+    }
+}
