@@ -2,9 +2,12 @@
 
 use super::enter::LEAST_FALL;
 use super::feature::Face;
-use super::minimise::StepBeside;
+use super::minimise::RESOLUTION;
+use super::pole::Pole;
+use super::quadratic::{Model, Seen};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
+use crate::math::{Vec3, saturate, sqrt_from_above};
 use crate::patch::CurvedPoint;
 use crate::track::{Outcome, Witness, mode_at};
 
@@ -33,5 +36,41 @@ impl Body<'_> {
             step.outcome = Outcome::Undone;
         }
         true
+    }
+}
+
+/// A step of second order on a face that has poles.
+#[derive(Clone, Copy)]
+struct StepBeside {
+    /// Where it leads.
+    parameters: [f32; 2],
+    /// Whether a border holds it there, by parameter.
+    is_held: [bool; 2],
+    /// What it should lower `φ` by, m².
+    fall: f32,
+}
+
+impl StepBeside {
+    /// The step from a point, in the coordinates around the nearest pole. `None` where it would be rounding, or there
+    /// is no pole.
+    #[inline(never)]
+    fn new(poles: u8, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
+        let pole = Pole::nearest(poles, at)?;
+        let seen = Seen::new(curved, curved.surface.point - probe);
+        let room = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
+        let model = Model::new(seen.beside(pole));
+        let (change, fall) = model.step(&seen, Some(pole), room);
+        let (distance, resolved) = (sqrt_from_above(2.0 * seen.half_squared), RESOLUTION * size);
+        let is_worth_it = -fall > resolved * (distance + resolved);
+        if !is_worth_it {
+            return None;
+        }
+        let parameters = [0, 1].map(|axis| saturate(at[axis] + change[axis], 0.0, 1.0));
+        let slope = model.slope(change);
+        let is_held = [0, 1].map(|axis| {
+            let at = parameters[axis];
+            (at <= 0.0 && slope[axis] > 0.0) || (at >= 1.0 && slope[axis] < 0.0)
+        });
+        Some(Self { parameters, is_held, fall: -fall })
     }
 }

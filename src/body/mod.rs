@@ -17,6 +17,7 @@ mod meet;
 mod minimise;
 mod over_border;
 mod pole;
+mod quadratic;
 mod search;
 mod switch;
 mod table;

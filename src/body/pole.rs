@@ -56,25 +56,29 @@ impl Pole {
         nearest
     }
 
-    /// The index of the parameter that leads away from it.
-    const fn axis(&self) -> usize {
-        self.is_along_v as usize
-    }
-
     /// What the mixed second derivative of `φ` is more by, with the gradient of `φ`.
     pub(super) fn mixed(&self, gradient: [f32; 2]) -> f32 {
         if self.away > AT_POLE { -self.inward * gradient[1 - self.axis()] / self.away } else { 0.0 }
     }
 
-    /// From a step `(η, ω)` to the change of the parameters, in their `room`. One that ends at the pole keeps its `η`:
-    /// where on the pole does not matter. One that a border stops ends at the border.
-    pub(super) fn unrolled(&self, change: [f32; 2], [lower, upper]: [[f32; 2]; 2]) -> [f32; 2] {
-        let along = 1 - self.axis();
+    /// By how much `η` may be more for a change of one across, for its room is the parameter's, and that is `η w / (w +
+    /// ω)`: 0 at the pole, where nothing is told apart.
+    pub(super) fn spread(&self) -> f32 {
+        if self.away > AT_POLE { self.inward / self.away } else { 0.0 }
+    }
+
+    /// The index of the parameter that leads away from it.
+    pub(super) const fn axis(&self) -> usize {
+        self.is_along_v as usize
+    }
+
+    /// From a step `(η, ω)` to the change of the parameters. One that ends at the pole keeps its `η`: where on the pole
+    /// does not matter.
+    pub(super) fn unrolled(&self, change: [f32; 2]) -> [f32; 2] {
         let left = self.away + self.inward * change[self.axis()];
-        let is_stopped = change[along] <= lower[along] || change[along] >= upper[along];
         let mut unrolled = change;
-        if self.away > AT_POLE && left > AT_POLE && !is_stopped {
-            unrolled[along] *= self.away / left;
+        if self.away > AT_POLE && left > AT_POLE {
+            unrolled[1 - self.axis()] *= self.away / left;
         }
         unrolled
     }
@@ -86,7 +90,7 @@ impl Pole {
         if self.away > AT_POLE && left > AT_POLE {
             half[1 - self.axis()] *= left / self.away;
         }
-        self.unrolled(half, [[f32::NEG_INFINITY; 2], [f32::INFINITY; 2]])
+        self.unrolled(half)
     }
 
     /// At the pole, where the slope into the face is not downhill here: the step to the end of the range where it

@@ -1,0 +1,220 @@
+//! The quadratic model of half the squared distance at a point of a patch, and its minimiser over a rectangle of
+//! parameters.
+//!
+//! With `φ = ½ ‖f − Q‖²`, gradient `g` and Hessian `H = I + ΔR · D²f` it is `g · δ + ½ δᵀ H δ`, where `H` is positive
+//! definite; where it is not, the absolute values of its diagonal stand in, which lead away from a saddle, or all of
+//! `I` (Gauss–Newton). Beside a pole the model is one in polar coordinates ([`super::pole`]).
+
+use super::pole::Pole;
+use crate::math::{Vec3, saturate};
+use crate::patch::CurvedPoint;
+
+/// A determinant below this part of the product of the diagonal is rounding.
+const MIN_DETERMINANT: f32 = 1.0e-4;
+/// A second derivative of `φ` closer to 0 than this part of that without curvature is taken for so much.
+const FLAT: f32 = 1.0e-2;
+/// `φ` and its derivatives at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Seen {
+    pub half_squared: f32,
+    pub gradient: [f32; 2],
+    /// The first fundamental form, and the Hessian: `[uu, uv, vv]`.
+    pub form: [f32; 3],
+    pub newton: [f32; 3],
+}
+
+impl Seen {
+    #[inline]
+    pub(super) fn new(CurvedPoint { surface, second }: &CurvedPoint, difference: Vec3) -> Self {
+        let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
+        let form = [f_u.dot(f_u), f_u.dot(f_v), f_v.dot(f_v)];
+        let bend = second.along(difference);
+        let newton = [form[0] + bend[0], form[1] + bend[1], form[2] + bend[2]];
+        let gradient = [difference.dot(f_u), difference.dot(f_v)];
+        Self { half_squared: 0.5 * difference.length_squared(), gradient, form, newton }
+    }
+
+    /// The same in the coordinates of [`super::pole`].
+    pub(super) fn beside(mut self, pole: Pole) -> Self {
+        self.newton[1] += pole.mixed(self.gradient);
+        self
+    }
+}
+
+/// The quadratic model of `φ` at a point.
+#[derive(Debug)]
+pub(super) struct Model {
+    gradient: [f32; 2],
+    /// `[uu, uv, vv]`, positive definite but for poles.
+    hessian: [f32; 3],
+    /// Whether that is the true one.
+    pub is_newton: bool,
+}
+
+impl Model {
+    pub(super) fn new(Seen { gradient, form, newton, .. }: Seen) -> Self {
+        let is_newton = is_positive_definite(newton);
+        let hessian = if is_newton { newton } else { Self::stand_in(form, newton) };
+        Self { gradient, hessian, is_newton }
+    }
+
+    /// What stands in for a Hessian that is not positive definite.
+    #[inline(never)]
+    fn stand_in(form: [f32; 3], newton: [f32; 3]) -> [f32; 3] {
+        // Along an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of
+        // the other parameter still counts.
+        let mixed = [0, 2].map(|axis| saturate(newton[axis].abs(), FLAT * form[axis], f32::MAX));
+        let mixed = [mixed[0], newton[1], mixed[1]];
+        if is_positive_definite(mixed) {
+            mixed
+        } else if is_positive_definite(form) {
+            form
+        } else {
+            // Near a pole: the trace is not below the greatest eigenvalue, a plain gradient step.
+            let trace = form[0] + form[2];
+            [trace, 0.0, trace]
+        }
+    }
+
+    /// The step to the minimiser, beside a pole in the coordinates of [`super::pole`], and the model's value there.
+    #[inline(always)]
+    pub(super) fn step(&self, seen: &Seen, pole: Option<Pole>, room: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+        let Some(pole) = pole else { return self.minimiser(room) };
+        let bend = seen.newton[1] - seen.form[1];
+        pole.around(seen.gradient, bend, seen.form, room).unwrap_or_else(|| {
+            let (change, fall) = self.minimiser_beside(&pole, room);
+            (pole.unrolled(change), fall)
+        })
+    }
+
+    /// The model's gradient after a step.
+    pub(super) fn slope(&self, [u, v]: [f32; 2]) -> [f32; 2] {
+        let [a, b, c] = self.hessian;
+        [self.gradient[0] + a * u + b * v, self.gradient[1] + b * u + c * v]
+    }
+
+    /// The least value of `g · δ` with `δ` in `room`: not positive.
+    pub(super) fn greatest_fall(&self, [lower, upper]: [[f32; 2]; 2]) -> f32 {
+        let along = |axis: usize| {
+            let (low, high) = (self.gradient[axis] * lower[axis], self.gradient[axis] * upper[axis]);
+            if low < high { low } else { high }
+        };
+        along(0) + along(1)
+    }
+
+    /// The minimiser of the model over `room`, and the model's value there. In two variables either the free minimiser
+    /// lies inside, or the best of the four sides is the minimiser.
+    #[inline(always)]
+    fn minimiser(&self, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+        let [a, b, c] = self.hessian;
+        let [p, q] = self.gradient;
+        let determinant = a * c - b * b;
+        let free = [(b * q - c * p) / determinant, (b * p - a * q) / determinant];
+        let inside = |axis: usize| free[axis] >= lower[axis] && free[axis] <= upper[axis];
+        if determinant > 0.0 && inside(0) && inside(1) {
+            return (free, self.value(free));
+        }
+        self.minimiser_on_sides([lower, upper])
+    }
+
+    #[inline(never)]
+    fn minimiser_on_sides(&self, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+        let [a, b, c] = self.hessian;
+        let [p, q] = self.gradient;
+        let mut best = ([0.0; 2], 0.0);
+        for u in [lower[0], upper[0]] {
+            self.consider([u, least_of_line(q + b * u, c, [lower[1], upper[1]])], &mut best);
+        }
+        for v in [lower[1], upper[1]] {
+            self.consider([least_of_line(p + b * v, a, [lower[0], upper[0]]), v], &mut best);
+        }
+        best
+    }
+
+    /// The same in the coordinates of a pole: the room of `η` is a wedge, as wide at the point as the parameter's.
+    #[inline(never)]
+    fn minimiser_beside(&self, pole: &Pole, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+        let ([a, b, c], spread) = (self.hessian, pole.spread());
+        let (across, along) = (pole.axis(), 1 - pole.axis());
+        let diagonal = [a, c];
+        let step = |beside: f32, out: f32| if across == 0 { [out, beside] } else { [beside, out] };
+        let [p, q] = self.gradient;
+        let determinant = a * c - b * b;
+        let free = [(b * q - c * p) / determinant, (b * p - a * q) / determinant];
+        let (beside, out) = (free[along], free[across]);
+        let width = 1.0 + spread * out;
+        let is_inside = out >= lower[across] && out <= upper[across];
+        if determinant > 0.0 && is_inside && beside >= lower[along] * width && beside <= upper[along] * width {
+            return (free, self.value(free));
+        }
+        let mut best = ([0.0; 2], 0.0);
+        for out in [lower[across], upper[across]] {
+            let width = 1.0 + spread * out;
+            let slope = self.gradient[along] + b * out;
+            let beside = least_of_line(slope, diagonal[along], [lower[along] * width, upper[along] * width]);
+            self.consider(step(beside, out), &mut best);
+        }
+        for end in [lower[along], upper[along]] {
+            let lean = end * spread;
+            let [beside, out] = [self.gradient[along] + diagonal[along] * end, self.gradient[across] + b * end];
+            let bend = lean * (diagonal[along] * lean + b + b) + diagonal[across];
+            let out = least_of_line(out + lean * beside, bend, [lower[across], upper[across]]);
+            self.consider(step(end + lean * out, out), &mut best);
+        }
+        best
+    }
+
+    /// Not inlined four times: the search has time, flash is scarce.
+    #[inline(never)]
+    fn consider(&self, change: [f32; 2], best: &mut ([f32; 2], f32)) {
+        let value = self.value(change);
+        if value < best.1 {
+            *best = (change, value);
+        }
+    }
+
+    fn value(&self, [u, v]: [f32; 2]) -> f32 {
+        let [a, b, c] = self.hessian;
+        self.gradient[0] * u + self.gradient[1] * v + 0.5 * (a * u * u + 2.0 * b * u * v + c * v * v)
+    }
+}
+
+/// The minimiser of `slope · x + ½ bend · x²` between two ends; the model's diagonal is not negative.
+fn least_of_line(slope: f32, bend: f32, [low, high]: [f32; 2]) -> f32 {
+    if bend > f32::MIN_POSITIVE {
+        saturate(-slope / bend, low, high)
+    } else if slope > 0.0 {
+        low
+    } else {
+        high
+    }
+}
+
+fn is_positive_definite([a, b, c]: [f32; 3]) -> bool {
+    a > 0.0 && a * c - b * b > MIN_DETERMINANT * a * c
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the least of a grid that has the minimiser's corners and sides on it.
+    #[test]
+    fn the_minimiser_of_a_model_is_the_least_on_its_rectangle() {
+        let room = [[-1.0, -0.5], [0.75, 1.0]];
+        for hessian in [[2.0, 0.5, 1.0], [1.0, -0.8, 1.5], [0.5, 0.0, 4.0]] {
+            for turn in 0..24 {
+                let (sine, cosine) = crate::math::sin_cos(turn as f32 * core::f32::consts::TAU / 24.0);
+                let model = Model { gradient: [1.5 * cosine, sine], hessian, is_newton: true };
+                let (at, fall) = model.minimiser(room);
+                assert!(at[0] >= -1.0 && at[0] <= 0.75 && at[1] >= -0.5 && at[1] <= 1.0, "{at:?}");
+                assert!((model.value(at) - fall).abs() < 1e-6);
+                for (i, j) in (0..=56).flat_map(|i| (0..=48).map(move |j| (i, j))) {
+                    let other = [i as f32 / 32.0 - 1.0, j as f32 / 32.0 - 0.5];
+                    // Rounding of values below 8.
+                    assert!(model.value(other) >= fall - 4.0 * f32::EPSILON, "{model:?}: {at:?}, {other:?}");
+                }
+            }
+        }
+    }
+}
