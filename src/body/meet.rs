@@ -1,6 +1,6 @@
 //! What the loop asks of the closest point once it is known: normal, signed gap, and whether the body is touched.
 
-use super::feature::{EdgeKind, Face, Feature, Side, Spoke, Vertex};
+use super::feature::{EdgeKind, Face, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::{Vec3, inverse_sqrt, sqrt_from_above};
@@ -10,9 +10,6 @@ use crate::track::{BoundaryMode, Contact, is_inside};
 /// So near a pole, in sizes of the body, the tangent around it may be rounding: coordinates of that size are rounded by
 /// `6e-8`, a hundredth of this and less with the tangents made of them.
 const AT_POLE: f32 = 1.0e-5;
-/// Where only smooth edges meet, a probe higher than this over the tangent plane, for its distance, is outside: a body
-/// comes so far in front of it at a fifth of its least hollow radius.
-const STEEP: f32 = 0.1;
 
 impl Body<'_> {
     /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been
@@ -35,7 +32,11 @@ impl Body<'_> {
                     match contact {
                         // At a border the witness point is not where the probe goes in: what is beyond it will say.
                         Contact::InFront if !is_inside(state.witness.parameters) => return,
-                        Contact::Touching if !step.hands_over() && self.leaves_over_border(face, state) => return,
+                        Contact::InFront | Contact::Touching
+                            if !step.hands_over() && self.leaves_over_border(face, state, away) =>
+                        {
+                            return;
+                        }
                         _ => {}
                     }
                 }
@@ -45,20 +46,21 @@ impl Body<'_> {
                 }
             }
             Feature::Edge(index) => {
-                let kind = self.edges.get(usize::from(index)).map_or(EdgeKind::Mixed, |edge| edge.kind);
-                let is_outward = match kind {
+                let Some(edge) = self.edges.get(usize::from(index)) else { return };
+                let is_outward = match edge.kind {
                     EdgeKind::Open => None,
                     EdgeKind::Convex => Some(state.is_declined || state.gap >= 0.0),
                     EdgeKind::Reflex => Some(false),
-                    EdgeKind::Smooth | EdgeKind::Mixed => Some(state.gap >= 0.0),
+                    EdgeKind::Smooth => Some(state.gap >= 0.0 || self.is_above_smooth(edge, state)),
+                    EdgeKind::Mixed => Some(state.gap >= 0.0),
                 };
-                self.meet_border(state, probe, is_outward);
+                self.meet_border(state, is_outward);
             }
             Feature::Vertex(index) => {
                 let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
                 let is_outward = || self.is_outside_at(vertex, probe - vertex.point).unwrap_or(state.gap >= 0.0);
                 let is_outward = (!vertex.is_open).then(is_outward);
-                self.meet_border(state, probe, is_outward);
+                self.meet_border(state, is_outward);
             }
         }
     }
@@ -78,8 +80,8 @@ impl Body<'_> {
     /// contact holds where the witness point crosses the edge, and does not begin there. `is_outward` is `None` over
     /// the rim of an open body, where there is neither front nor back.
     #[inline(never)]
-    pub(super) fn meet_border(&self, state: &mut BodyWitness, probe: Vec3, is_outward: Option<bool>) {
-        let away = probe - state.witness.surface.point;
+    pub(super) fn meet_border(&self, state: &mut BodyWitness, is_outward: Option<bool>) {
+        let away = state.probe - state.witness.surface.point;
         let sign = if is_outward == Some(false) { -1.0 } else { 1.0 };
         let squared = away.length_squared();
         if !squared.is_finite() {
@@ -112,45 +114,6 @@ impl Body<'_> {
             }
         }
         None
-    }
-
-    /// On which side of a closed body a probe is that is nearest to a vertex, as far as is known. Where that holds it,
-    /// for no edge leads nearer, `outward` says so. Well above a smooth vertex, and in front of three convex edges, it
-    /// is outside, too; behind them it is for a face to say.
-    pub(super) fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
-        let height = towards.dot(vertex.outward);
-        let spokes = self.spokes_of(vertex);
-        if height != 0.0 && spokes.iter().all(|spoke| towards.dot(spoke.direction) <= 0.0) {
-            return Some(height > 0.0);
-        }
-        let is_steep = height > 0.0 && height * height > STEEP * STEEP * towards.length_squared();
-        if is_steep && spokes.iter().all(|spoke| self.is_of_kind(spoke, EdgeKind::Smooth)) {
-            return Some(true);
-        }
-        self.is_in_front_at(vertex, towards).filter(|is_in_front| *is_in_front)
-    }
-
-    /// Where three convex edges meet at a vertex: whether it is in front of any of the three planes between them.
-    #[inline(never)]
-    pub(super) fn is_in_front_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
-        let [a, b, c] = self.spokes_of(vertex) else { return None };
-        if ![a, b, c].iter().all(|spoke| self.is_of_kind(spoke, EdgeKind::Convex)) {
-            return None;
-        }
-        // `t = αa + βb + γc` has `α (a × b)·c = t·(b × c)`, and so on: behind all three none is below 0.
-        let [a, b, c] = [a.direction, b.direction, c.direction];
-        let normals = [a.cross(b), b.cross(c), c.cross(a)];
-        let volume = normals[0].dot(c);
-        Some(normals.iter().any(|normal| normal.dot(towards) * volume < 0.0))
-    }
-
-    fn is_of_kind(&self, spoke: &Spoke, kind: EdgeKind) -> bool {
-        self.edges.get(usize::from(spoke.edge)).is_some_and(|edge| edge.kind == kind)
-    }
-
-    fn spokes_of(&self, vertex: &Vertex) -> &[Spoke] {
-        let first = usize::from(vertex.first_spoke);
-        self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[])
     }
 
     /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe

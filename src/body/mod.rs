@@ -15,6 +15,7 @@ mod file;
 mod locator;
 mod meet;
 mod minimise;
+mod outside;
 mod over_border;
 mod pole;
 mod quadratic;

@@ -1,15 +1,15 @@
 //! Out over a border: what a face has behind may be in front of the face beyond a sharp edge, and the tick that comes
 //! to the edge is not to be felt.
 
-use super::feature::{EdgeKind, Face, Separator, Side};
+use super::feature::{Edge, EdgeKind, Face, Separator, Side};
 use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::math::Vec3;
 use crate::patch::{Patch as _, SecondDerivativeBounds, SplinePatch};
-use crate::track::BoundaryMode;
 
-/// So near a border, in parameters, a witness point lies on it: it may still be on its way there.
-const AT_BORDER: f32 = 1.0e-4;
+/// So near a border, in parameters, a witness point is asked for what is beyond: it may still be on its way there, and
+/// the probe past it.
+const AT_BORDER: f32 = 1.0 / 512.0;
 
 /// Whether a parameter is farther than that from both ends: one comparison of bits, which rise with a positive number.
 #[inline(always)]
@@ -18,127 +18,141 @@ fn is_apart(x: f32) -> bool {
     x.to_bits().wrapping_sub(LEAST) < (1.0 - AT_BORDER).to_bits() - LEAST
 }
 
+/// Which end of its range a parameter is near to, 0 or 1, by the bits again.
+#[inline(always)]
+const fn is_upper(x: f32) -> usize {
+    (x.to_bits().cast_signed() > 0.5_f32.to_bits().cast_signed()) as usize
+}
+
+/// So near its end, in parameters, an edge looks like what meets there.
+const AT_END: f32 = 1.0 / 16.0;
+
 /// A face whose bound says that it is hollower than this, 1/m, is; below it is the rounding of a plane's bound.
-const HOLLOW: f32 = 1.0e-6;
+pub(super) const HOLLOW: f32 = 1.0e-6;
 
 /// What a rational patch's weights, squared, may differ by along a border: they do by 2 on a quarter of a circle.
 const WEIGHTS: f32 = 4.0;
 
 impl Body<'_> {
-    /// Ends contact where the probe is in front of what is beyond the border that the witness point lies on: then it
+    /// Ends contact where the probe is in front of what is beyond the border that the witness point is near to: then it
     /// has left the body over an edge or a vertex, though this face has it behind. Whether it has.
     #[inline(always)]
-    pub(super) fn leaves_over_border(&self, face: &Face, state: &mut BodyWitness) -> bool {
-        match state.witness.mode {
-            BoundaryMode::LowerU => self.leaves_over_side(face, 0, state),
-            BoundaryMode::UpperU => self.leaves_over_side(face, 1, state),
-            BoundaryMode::LowerV => self.leaves_over_side(face, 2, state),
-            BoundaryMode::UpperV => self.leaves_over_side(face, 3, state),
-            BoundaryMode::Corner => self.leaves_over_corner(face, state),
-            BoundaryMode::Interior => {
-                let [u, v] = state.witness.parameters;
-                !(is_apart(u) && is_apart(v)) && self.leaves_over_any(face, state)
-            }
+    pub(super) fn leaves_over_border(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
+        let [u, v] = state.witness.parameters;
+        if is_apart(u) {
+            !is_apart(v) && self.leaves_over_side(face, 2 + is_upper(v), state, away)
+        } else if is_apart(v) {
+            self.leaves_over_side(face, is_upper(u), state, away)
+        } else {
+            self.leaves_over_corner(face, state, away)
         }
     }
 
-    /// The same over any of the borders that the witness point lies on, though none holds it.
+    /// The same near a corner: by the planes between three convex edges, else over either side.
     #[inline(never)]
-    fn leaves_over_any(&self, face: &Face, state: &mut BodyWitness) -> bool {
-        let [u, v] = state.witness.parameters;
-        let ways = [u, 1.0 - u, v, 1.0 - v];
-        (0..4).any(|number| ways[number] <= AT_BORDER && self.leaves_over_side(face, number, state))
-    }
-
-    /// The same at a corner: by the planes between three convex edges, else over either side.
-    #[inline(never)]
-    fn leaves_over_corner(&self, face: &Face, state: &mut BodyWitness) -> bool {
+    fn leaves_over_corner(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
         let (probe, [u, v]) = (state.probe, state.witness.parameters);
-        let sides = [usize::from(u > 0.5), 2 + usize::from(v > 0.5)];
+        let sides = [is_upper(u), 2 + is_upper(v)];
         let vertex = match face.sides.get(sides[0]) {
             Some(Side::Pole { vertex }) => Some(*vertex),
             Some(Side::Edge { edge, reversed, .. }) => {
-                self.edges.get(usize::from(*edge)).map(|edge| edge.ends[usize::from((v > 0.5) != *reversed)])
+                self.edges.get(usize::from(*edge)).map(|edge| edge.ends[is_upper(v) ^ usize::from(*reversed)])
             }
             None => None,
         };
         let vertex = vertex.and_then(|vertex| self.vertices.get(usize::from(vertex)));
         match vertex.and_then(|vertex| self.is_in_front_at(vertex, probe - vertex.point)) {
-            Some(false) => false,
-            Some(true) => {
-                self.meet_border(state, probe, Some(true));
-                true
+            Some(is_over) => {
+                if is_over {
+                    self.meet_border(state, Some(true));
+                }
+                is_over
             }
-            None => sides.into_iter().any(|number| self.leaves_over_side(face, number, state)),
+            None => sides.into_iter().any(|number| self.leaves_over_side(face, number, state, away)),
         }
     }
 
     #[inline(never)]
-    fn leaves_over_side(&self, face: &Face, number: usize, state: &mut BodyWitness) -> bool {
-        let is_over = self.is_over_side(face, number, state);
+    fn leaves_over_side(&self, face: &Face, number: usize, state: &mut BodyWitness, away: Vec3) -> bool {
+        let is_over = self.is_over_side(face, number, state, away);
         if is_over {
-            let probe = state.probe;
-            self.meet_border(state, probe, Some(true));
+            self.meet_border(state, Some(true));
         }
         is_over
     }
 
     /// Whether the probe is in front of what is beyond one side. Over a convex edge by the normal `t × m` of the face
-    /// beyond: this face lies behind that one.
+    /// beyond: this face lies behind that one. The witness point is behind it, too, as far as it is from the border.
+    ///
+    /// Over a smooth edge there is more of the same surface: but where that is a sliver that ends at a vertex, what
+    /// is beyond the sliver begins at once.
     #[inline(always)]
-    fn is_over_side(&self, face: &Face, number: usize, state: &BodyWitness) -> bool {
+    fn is_over_side(&self, face: &Face, number: usize, state: &BodyWitness, away: Vec3) -> bool {
         let witness = &state.witness;
-        let away = state.probe - witness.surface.point;
         let (index, is_reversed) = match face.sides.get(number) {
             Some(Side::Edge { edge, reversed, .. }) => (*edge, *reversed),
             Some(Side::Pole { vertex }) => {
-                let vertex = self.vertices.get(usize::from(*vertex));
-                return vertex.is_some_and(|vertex| self.is_outside_at(vertex, away) == Some(true));
+                let Some(vertex) = self.vertices.get(usize::from(*vertex)) else { return false };
+                return self.is_outside_at(vertex, state.probe - vertex.point) == Some(true);
             }
             None => return false,
         };
         let Some(edge) = self.edges.get(usize::from(index)) else { return false };
-        if edge.kind != EdgeKind::Convex {
-            return false;
+        let (surface, [u, v]) = (&witness.surface, witness.parameters);
+        let (along, tangent, across, from_lower) = if number < 2 {
+            (v, &surface.tangent_v, &surface.tangent_u, u)
+        } else {
+            (u, &surface.tangent_u, &surface.tangent_v, v)
+        };
+        let is_lower = number & 1 == 0;
+        let t = || if is_reversed { 1.0 - along } else { along };
+        match edge.kind {
+            EdgeKind::Convex => {}
+            EdgeKind::Smooth => {
+                return is_lower == (away.dot(*across) < 0.0) && self.is_past_end(edge, t(), state.probe);
+            }
+            EdgeKind::Reflex | EdgeKind::Mixed | EdgeKind::Open => return false,
         }
         let of = Self::beyond_side(edge, state.feature, number);
         let Some(beyond) = self.faces.get(usize::from(of.face)) else { return false };
-        let (surface, [u, v]) = (&witness.surface, witness.parameters);
-        let (along, tangent, across) = if number < 2 {
-            (v, surface.tangent_v, surface.tangent_u)
-        } else {
-            (u, surface.tangent_u, surface.tangent_v)
-        };
         // A derivative of the face beyond across the side, of any sign and length; of a plane its inverse.
         let mut is_plane = true;
         let cross = match beyond.sides.get(usize::from(of.side)) {
             Some(Side::Edge { separator: Separator::Plane { across, .. }, .. }) => *across,
             Some(Side::Edge { separator: Separator::Ruled(cross), .. }) => {
                 is_plane = false;
-                cross.point(if is_reversed { 1.0 - along } else { along })
+                cross.point(t())
             }
             _ => return false,
         };
         let normal = tangent.cross(cross);
-        let height = normal.dot(away);
-        // `across` points into this face at a lower border, out of it at an upper one.
-        let product = height * normal.dot(across);
-        let is_in_front = if number & 1 == 0 { product < 0.0 } else { product > 0.0 };
+        // `across` points into this face at a lower border, out of it at an upper one; seen from the border.
+        let (rise, to_border) = (normal.dot(*across), if is_lower { from_lower } else { from_lower - 1.0 });
+        let height = normal.dot(away) + to_border * rise;
+        let is_in_front = if is_lower { height * rise < 0.0 } else { height * rise > 0.0 };
         is_in_front && {
             let length = normal.length_squared();
-            let cross = if is_plane { cross * (1.0 / cross.length_squared()) } else { cross };
-            let most = bulge(&beyond.patch, of.side < 2, &Rim { tangent, cross, along }, away);
+            let most = bulge(&beyond.patch, of.side < 2, &Rim { tangent: *tangent, cross, is_plane, along }, away);
             height * height > most * most * length
         }
     }
+
+    /// Whether the probe is in front of what meets at an end of a smooth edge, as seen from a point near that end.
+    #[inline(never)]
+    fn is_past_end(&self, edge: &Edge, t: f32, probe: Vec3) -> bool {
+        let (end, from_end) = if t > 0.5 { (1, 1.0 - t) } else { (0, t) };
+        let Some(vertex) = self.vertices.get(usize::from(edge.ends[end])) else { return false };
+        from_end <= AT_END && self.is_in_front_at(vertex, probe - vertex.point) == Some(true)
+    }
 }
 
-/// Where a face meets a border: the border's tangent and the derivative of the face across it, metres per unit, and the
-/// parameter along the border.
-struct Rim {
-    tangent: Vec3,
-    cross: Vec3,
-    along: f32,
+/// Where a face meets a border: the border's tangent and the derivative of the face across it, metres per unit, of a
+/// plane's separator its inverse; and the parameter along the border.
+pub(super) struct Rim {
+    pub tangent: Vec3,
+    pub cross: Vec3,
+    pub is_plane: bool,
+    pub along: f32,
 }
 
 /// How far a face that is hollow may come in front of its tangent plane at a point of its border, metres, where a
@@ -148,16 +162,17 @@ struct Rim {
 /// the bounds of the second derivatives let it for the change of parameters that leads there. Past the border's end it
 /// is for another face to say.
 #[inline(always)]
-fn bulge(patch: &SplinePatch, is_across_u: bool, rim: &Rim, away: Vec3) -> f32 {
+pub(super) fn bulge(patch: &SplinePatch, is_across_u: bool, rim: &Rim, away: Vec3) -> f32 {
     let shape = patch.shape();
     let least = shape.curvature.min;
     if !(least < -HOLLOW && least > f32::NEG_INFINITY) {
         return 0.0;
     }
     let by_curvature = -least * away.length_squared();
-    let Rim { tangent, cross, along } = rim;
-    let (stretch, skew, reach) = (tangent.length_squared(), tangent.dot(*cross), cross.length_squared());
-    let (forward, out) = (away.dot(*tangent), away.dot(*cross));
+    let Rim { tangent, cross, is_plane, along } = rim;
+    let cross = if *is_plane { *cross * (1.0 / cross.length_squared()) } else { *cross };
+    let (stretch, skew, reach) = (tangent.length_squared(), tangent.dot(cross), cross.length_squared());
+    let (forward, out) = (away.dot(*tangent), away.dot(cross));
     let inverse = 1.0 / (stretch * reach - skew * skew);
     let is_past_end = if forward > 0.0 { *along >= 1.0 } else { *along <= 0.0 };
     // Of a rational patch the derivative is known but for the square of its weights.

@@ -176,17 +176,32 @@ fn a_brush_over_drawn_bodies_is_not_felt_in_free_air() {
     }
 }
 
-/// Out through a side right beside the pole of a rounded corner: the vertex has a smooth edge lead nearer, and says on
-/// which side of it the probe is all the same.
+/// Of many random strokes the few that were felt. Past a rounded corner: out through a side right beside its pole,
+/// where the vertex has a smooth edge lead nearer; and over a fillet in three ticks, with the witness point on a smooth
+/// edge between two of its faces. Both say on which side of them the probe is all the same.
 #[test]
-fn a_stroke_out_past_a_rounded_corner_is_not_felt_in_free_air() {
-    let body = bodies::rounded();
-    let scene = Scene::parsed(body.name, &body.text);
-    let [from, to] =
-        [vec3(0.062_084_95, -0.030_850_423, -0.073_956_765), vec3(-0.009_255_586, 0.003_937_35, 0.100_869_84)];
-    let felt = brush(&scene, &scene.oracle(), &Controller::SECOND_ORDER, (from, to, 1.057_404));
-    assert!(felt.touching > 0);
-    assert_eq!((felt.in_free_air, felt.lost), (0, 0), "{felt:?}");
+fn a_stroke_past_a_rounded_corner_is_not_felt_in_free_air() {
+    let strokes: [(_, [f32; 7]); 3] = [
+        (
+            bodies::rounded(),
+            [0.062_084_95, -0.030_850_423, -0.073_956_765, -0.009_255_586, 0.003_937_35, 0.100_869_84, 1.057_404],
+        ),
+        (
+            bodies::slab(),
+            [0.083_026_43, -0.061_520_98, -0.043_778_535, -0.014_908_665, 0.102_002_39, 0.044_362_4, 1.933_401_6],
+        ),
+        (
+            bodies::slab(),
+            [-0.010_060_296, -0.054_489_564, -0.097_551_525, -0.056_678_58, 0.012_179_294, 0.096_051_164, 0.988_578_6],
+        ),
+    ];
+    for (body, [x, y, z, to_x, to_y, to_z, speed]) in strokes {
+        let scene = Scene::parsed(body.name, &body.text);
+        let stroke = (vec3(x, y, z), vec3(to_x, to_y, to_z), speed);
+        let felt = brush(&scene, &scene.oracle(), &Controller::SECOND_ORDER, stroke);
+        assert!(felt.touching > 0, "{}", body.name);
+        assert_eq!((felt.in_free_air, felt.lost), (0, 0), "{}: {felt:?}", body.name);
+    }
 }
 
 /// Corners that are poles of every patch around them, sharp.

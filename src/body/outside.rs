@@ -1,0 +1,135 @@
+//! On which side of a closed body a probe is, as far as what meets at an edge or a vertex says.
+
+use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
+use super::over_border::{HOLLOW, Rim, bulge};
+use super::table::Body;
+use super::tracker::BodyWitness;
+use crate::math::Vec3;
+use crate::patch::Patch as _;
+
+/// Where only smooth edges and hollow faces meet, a probe higher than this over the tangent plane, for its distance, is
+/// outside: a body comes so far in front of it at a fifth of its least hollow radius.
+const STEEP: f32 = 0.1;
+/// The same where no face is hollow: what coordinates that are rounded may say of a probe a hundred-thousandth of the
+/// size away.
+const LEVEL: f32 = 0.01;
+
+impl Body<'_> {
+    /// Whether a probe is well above the surface on both sides of a smooth edge, by the tangent plane at the witness
+    /// point: `n = t × m`, with `m` out of a face over the edge.
+    #[inline(never)]
+    pub(super) fn is_above_smooth(&self, edge: &Edge, state: &BodyWitness) -> bool {
+        let [of, _] = edge.faces;
+        let Some(face) = self.faces.get(usize::from(of.face)) else { return false };
+        let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return false };
+        let across = match separator {
+            Separator::Plane { across, .. } => *across,
+            Separator::Ruled(cross) => cross.point(state.witness.parameters[0]),
+        };
+        let (tangent, away) = (state.witness.surface.tangent_u, state.probe - state.witness.surface.point);
+        let normal = tangent.cross(across);
+        // `f_u × f_v` is `t × m` at the lower border of `u` and the upper one of `v`, along the parameter.
+        let is_turned = matches!(of.side, 1 | 2) != *reversed;
+        let outward = if is_turned { -face.patch.orientation() } else { face.patch.orientation() };
+        let height = outward * normal.dot(away);
+        let hollowest = edge.faces.iter().filter_map(|of| self.faces.get(usize::from(of.face))).fold(0.0, hollower);
+        is_steep(height, normal.length_squared() * away.length_squared(), hollowest)
+    }
+
+    /// On which side of a closed body a probe is that is nearest to a vertex, as far as is known. Where that holds it,
+    /// for no edge leads nearer, `outward` says so. Well above a smooth vertex, and in front of three convex edges, it
+    /// is outside, too; behind them it is for a face to say.
+    pub(super) fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
+        let height = towards.dot(vertex.outward);
+        let spokes = self.spokes_of(vertex);
+        if height != 0.0 && spokes.iter().all(|spoke| towards.dot(spoke.direction) <= 0.0) {
+            return Some(height > 0.0);
+        }
+        if height > 0.0
+            && spokes.iter().all(|spoke| self.is_of_kind(spoke, EdgeKind::Smooth))
+            && is_steep(height, towards.length_squared(), self.hollowest_at(vertex))
+        {
+            return Some(true);
+        }
+        self.is_in_front_at(vertex, towards).filter(|is_in_front| *is_in_front)
+    }
+
+    /// Where three convex edges meet at a vertex, smooth ones aside: whether it is in front of any of the three planes
+    /// between them, by more than a hollow face may be.
+    #[inline(never)]
+    pub(super) fn is_in_front_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
+        let spokes = self.spokes_of(vertex);
+        let (mut sharp, mut count) = ([spokes.first()?; 3], 0);
+        for spoke in spokes {
+            match self.edges.get(usize::from(spoke.edge))?.kind {
+                EdgeKind::Convex => {
+                    *sharp.get_mut(count)? = spoke;
+                    count += 1;
+                }
+                EdgeKind::Smooth => {}
+                EdgeKind::Reflex | EdgeKind::Mixed | EdgeKind::Open => return None,
+            }
+        }
+        if count < sharp.len() {
+            return None;
+        }
+        // `t = αa + βb + γc` has `α (a × b)·c = t·(b × c)`, and so on: behind all three none is below 0.
+        let [a, b, c] = sharp;
+        let volume = a.direction.cross(b.direction).dot(c.direction);
+        Some([[a, b], [b, c], [c, a]].into_iter().any(|[from, to]| {
+            let normal = from.direction.cross(to.direction);
+            let height = normal.dot(towards);
+            let is_in_front = height * volume < 0.0;
+            is_in_front
+                && (self.is_convex() || {
+                    let most = self
+                        .bulge_between(from, to, towards)
+                        .unwrap_or_else(|| self.hollowest_at(vertex) * towards.length_squared());
+                    height * height > most * most * normal.length_squared()
+                })
+        }))
+    }
+
+    /// How far the face between two edges of a vertex may come in front of its tangent plane there; `None` where there
+    /// are more faces than one between them.
+    #[inline(never)]
+    fn bulge_between(&self, from: &Spoke, to: &Spoke, towards: Vec3) -> Option<f32> {
+        let [first, second] = [self.edges.get(usize::from(from.edge))?, self.edges.get(usize::from(to.edge))?];
+        let is_common = |of: &&EdgeFace| second.faces.iter().any(|other| other.face == of.face);
+        let of = first.faces.iter().find(is_common)?;
+        let face = self.faces.get(usize::from(of.face))?;
+        let [along, beside] = [from, to].map(|spoke| if spoke.at_upper_end { 1.0 } else { 0.0 });
+        let (tangent, cross) = (first.curve.evaluate(along).tangent, second.curve.evaluate(beside).tangent);
+        Some(bulge(&face.patch, of.side < 2, &Rim { tangent, cross, is_plane: false, along }, towards))
+    }
+
+    /// The least curvature of the faces around a vertex where one is hollow, 1/m, else 0. At a pole nothing is known.
+    #[inline(never)]
+    fn hollowest_at(&self, vertex: &Vertex) -> f32 {
+        let spokes = self.spokes_of(vertex).iter();
+        let faces = spokes.filter_map(|spoke| self.edges.get(usize::from(spoke.edge))).flat_map(|edge| edge.faces);
+        faces.filter_map(|of| self.faces.get(usize::from(of.face))).fold(0.0, hollower)
+    }
+
+    fn is_of_kind(&self, spoke: &Spoke, kind: EdgeKind) -> bool {
+        self.edges.get(usize::from(spoke.edge)).is_some_and(|edge| edge.kind == kind)
+    }
+
+    fn spokes_of(&self, vertex: &Vertex) -> &[Spoke] {
+        let first = usize::from(vertex.first_spoke);
+        self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[])
+    }
+}
+
+/// Whether a height over a tangent plane is more than a body may have there, for a distance that is given squared and
+/// the least curvature of the faces, 1/m.
+fn is_steep(height: f32, squared: f32, hollowest: f32) -> bool {
+    let least = if hollowest < -HOLLOW { STEEP } else { LEVEL };
+    height > 0.0 && height * height > least * least * squared
+}
+
+/// The lesser of a curvature and a face's least one. Where that is not known, at a pole, it does not count.
+fn hollower(hollowest: f32, face: &Face) -> f32 {
+    let least = face.patch.shape().curvature.min;
+    if least < hollowest && least > f32::NEG_INFINITY { least } else { hollowest }
+}
