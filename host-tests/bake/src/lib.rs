@@ -32,6 +32,7 @@ mod patch;
 mod random;
 mod sampling;
 pub mod shape;
+pub mod sides;
 pub mod source;
 pub mod spline;
 pub mod split;

@@ -1,10 +1,10 @@
 //! Closest points of a model with the firmware's own code: from a standing start, or tick after tick.
 
-use crate::sides::Sides;
 use palpate::body::{Body, BodyWitness, Edge, Face, Feature, Side};
 use palpate::math::Vec3;
 use palpate::track::{Contact, Controller, Probe, Witness};
 use palpate_bake::BakedBody;
+use palpate_bake::sides::Sides;
 
 /// Finds closest points.
 #[derive(Debug)]

@@ -27,7 +27,6 @@ pub mod race;
 pub mod report;
 pub mod repository;
 pub mod rides;
-pub mod sides;
 pub mod simulation;
 pub mod wall;
 pub mod zwidth;

@@ -5,11 +5,11 @@
 //! closest point, so the point that the firmware's arithmetic has found is first followed to its end in double
 //! precision, over the borders too.
 
+use crate::body::BakedBody;
+use crate::locator::StoredSurface;
 use glam::DVec3;
 use palpate::body::{Body, EdgeFace, Side};
 use palpate::patch::Orientation;
-use palpate_bake::BakedBody;
-use palpate_bake::locator::StoredSurface;
 
 /// Tells inside from outside.
 #[derive(Debug)]
