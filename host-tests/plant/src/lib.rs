@@ -25,6 +25,7 @@ mod thermal;
 mod touching;
 mod validate;
 mod vector;
+mod within;
 
 pub use arm::{Arm, Link};
 pub use delta::DeltaSettings;
@@ -42,6 +43,7 @@ pub use thermal::{AIR, Thermal, ThermalSettings};
 pub use touching::TouchingSettings;
 pub use validate::PlantError;
 pub use vector::{Matrix, Vector, dot, inverse, scaled, times};
+pub use within::direction_around;
 
 use encoder::FaultyEncoder;
 use mechanics::Mechanics;

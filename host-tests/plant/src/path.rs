@@ -32,6 +32,9 @@ pub enum PathError {
         /// The speed, m/s.
         speed: f64,
     },
+    /// The hand would leave the workspace, however little of the surface it feels.
+    #[error("not even the middle third of the surface is in its workspace")]
+    NoRoom,
 }
 
 /// The touching hand, as a cubic through knots a millisecond apart: position and velocity are continuous.

@@ -7,18 +7,15 @@ use crate::models::ModelFile;
 use anyhow::Context;
 use glam::DVec3;
 use palpate::body::Body;
-use palpate::math::{Vec3, vec3};
+use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
 use palpate::scene::Limits;
 use palpate_bake::source::{Origin, body_source, rust_source};
 use palpate_bake::split::Provenance;
 use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch};
+use palpate_plant::direction_around;
 use palpate_truth::oracle::OraclePoint;
-use std::f64::consts::PI;
 use std::path::Path;
-
-/// How far a hand reaches around a body, seen from its middle: from above to this angle, radians, along either axis.
-const AROUND: f64 = 0.6 * PI;
 
 /// What the servo touches. It lives as long as the program: a servo keeps its surface in flash.
 #[derive(Debug)]
@@ -154,11 +151,7 @@ impl Places {
                 (at.point, at.tangent_u.cross(at.tangent_v).normalize_or_zero() * turn)
             }
             Self::Around { body, middle } => {
-                let [a, b] = [u, v].map(|share| 2.0 * AROUND * (share - 0.5));
-                let angle = a.hypot(b);
-                // sin(x)/x at 0 is 1.
-                let sideways = if angle > 1e-9 { angle.sin() / angle } else { 1.0 };
-                let direction = vec3((a * sideways) as f32, (b * sideways) as f32, angle.cos() as f32);
+                let direction = DVec3::from_array(direction_around(u, v)).as_vec3();
                 let outside = *middle + direction * body.size();
                 let found = body.locate(outside);
                 let [u, v] = found.parameters;

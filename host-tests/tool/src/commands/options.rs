@@ -7,7 +7,7 @@ use crate::firmware::Link;
 use crate::models::ModelFile;
 use crate::page::{Cut, Loop, Recording};
 use crate::simulation::{HostLoop, Trace};
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, anyhow, bail, ensure};
 use clap::Args;
 use glam::DVec3;
 use palpate::device::{Device, Kinematics, Protection};
@@ -15,7 +15,7 @@ use palpate::scene::Limits;
 use palpate::servo::{Safety, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::source::Origin;
-use palpate_plant::{HandSettings, PathError, Plant, TouchingPath, TouchingSettings};
+use palpate_plant::{HandSettings, PathError, Plant, TouchingPath};
 use palpate_scene::SceneFile;
 use std::path::PathBuf;
 
@@ -30,9 +30,6 @@ pub const RATES: [f32; 4] = [4_000.0, 3_000.0, 2_000.0, 1_000.0];
 
 /// The limits of a loop with a host at its link, which is gone when it is silent for 100 ms.
 const SAFETY: Safety = Safety { link_timeout: 0.1, ..Safety::DEFAULT };
-
-/// How often the hand touches: a stroke of 0.8 s.
-const TOUCHES_PER_SECOND: f64 = 1.2;
 
 /// The scene: which surface, which device, how it is to feel, and the hand.
 #[derive(Args, Debug, Clone)]
@@ -174,44 +171,16 @@ impl SceneOptions {
             let (point, normal) = places(u, v);
             ((point + origin).to_array(), normal.to_array())
         };
-        // A short run sees the start of a path that a hand could follow.
-        let duration = self.seconds.max(1.0);
-        let most_touches = (TOUCHES_PER_SECOND * duration).round() as u32;
-        let path_of = |share: f64, touches| {
-            // Most touches stay on the face; in the air the hand goes over the rim.
-            let touching = TouchingSettings {
-                duration,
-                touches,
-                press_depth: [0.006, 0.014],
-                pressed_reach: 0.8,
-                ..TouchingSettings::default()
-            };
-            let part = |at: f64| 0.5 + share * (at - 0.5);
-            TouchingPath::new(|u, v| point_and_normal(part(u), part(v)), touching, self.seed)
-        };
-        // Where a surface or a seed asks for more speed than a hand has, it touches less often.
-        let is_too_fast = |path: &Result<_, PathError>| matches!(path, Err(PathError::TooFast { .. }));
-        let slower = |share| {
-            let paths = (1..=most_touches).rev().map(|touches| path_of(share, touches));
-            paths.into_iter().find(|path| !is_too_fast(path)).unwrap_or_else(|| path_of(share, 1))
-        };
         // Where the surface is larger than the workspace, it keeps to the middle of the surface.
         let (mechanism, preset) = (scene.device.plant.mechanism(0.0), scene.device.preset);
         let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0);
-        let path = (6..=20)
-            .rev()
-            .map(|share| slower(f64::from(share) / 20.0))
-            .find(|path| {
-                path.as_ref()
-                    .map_or_else(|error| !matches!(error, PathError::TooFast { .. }), |path| path.keeps_to(has_room))
-            })
-            .with_context(|| {
-                format!(
-                    "{}: not even the middle third of the surface is in its workspace (move it with --at)",
-                    scene.device.name
-                )
-            })?
-            .context("the hand finds no path")?;
+        let path = TouchingPath::within(point_and_normal, self.seconds, self.seed, has_room).map_err(|error| {
+            if error == PathError::NoRoom {
+                anyhow!("{}: {error} (move it with --at)", scene.device.name)
+            } else {
+                anyhow::Error::new(error).context("the hand finds no path")
+            }
+        })?;
         Plant::new(&scene.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate))
             .context("the simulated device cannot start here (move the model with --at)")
     }
