@@ -1,0 +1,39 @@
+"""Feel a CAD surface from Python: the firmware's own code over numpy arrays.
+
+Lengths are metres, angles radians, forces newtons, times seconds. Points are in the frame of the model that a body was
+baked from; the library computes in single precision in the frame of the body's tables, and every bit of an answer is
+the one that a microcontroller would give. No function loops over points in Python, and while one computes, other
+threads run.
+
+>>> import numpy as np, palpate
+>>> body = palpate.Body.bake("capped_box")
+>>> found = body.closest(np.array([[0.03, 0.02, 0.05]]))
+>>> found.gap.shape, found.point.shape
+((1,), (1, 3))
+"""
+
+from ._native import ArrayError, FileError, LinkError, ModelError, SettingsError
+from .bodies import Body, Pair, Tracker
+from .loops import Link, devices, simulate
+from .results import Apart, Closest, Curved, Records, Run, Settled, Ticks
+
+__all__ = [
+    "Apart",
+    "ArrayError",
+    "Body",
+    "Closest",
+    "Curved",
+    "FileError",
+    "Link",
+    "LinkError",
+    "ModelError",
+    "Pair",
+    "Records",
+    "Run",
+    "Settled",
+    "SettingsError",
+    "Ticks",
+    "Tracker",
+    "devices",
+    "simulate",
+]

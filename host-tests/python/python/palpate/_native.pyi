@@ -1,0 +1,117 @@
+"""The compiled half: arrays of exact kinds, without the comforts of the package."""
+
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "ArrayError",
+    "Body",
+    "FileError",
+    "Link",
+    "LinkError",
+    "ModelError",
+    "Pair",
+    "SettingsError",
+    "Tracker",
+    "devices",
+    "simulate",
+]
+
+class ArrayError(ValueError): ...
+class FileError(ValueError): ...
+class LinkError(OSError): ...
+class ModelError(ValueError): ...
+class SettingsError(ValueError): ...
+
+@final
+class Body:
+    @staticmethod
+    def bake(model: str | PathLike[str] | Sequence[Mapping[str, Any]], tolerance: float, unit: str) -> Body: ...
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Body: ...
+    def save(self, path: str | PathLike[str]) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def patches(self) -> list[str]: ...
+    @property
+    def faces(self) -> int: ...
+    @property
+    def edges(self) -> int: ...
+    @property
+    def vertices(self) -> int: ...
+    @property
+    def size(self) -> float: ...
+    @property
+    def centre(self) -> tuple[float, float, float]: ...
+    @property
+    def is_closed(self) -> bool: ...
+    @property
+    def is_convex(self) -> bool: ...
+    def closest(
+        self, points: NDArray[np.float64], signed: bool
+    ) -> tuple[
+        NDArray[np.uint32],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.uint32],
+        NDArray[np.float32],
+        NDArray[np.uint32],
+        NDArray[np.bool_],
+        NDArray[np.bool_],
+    ]: ...
+    def evaluate(self, face: int, parameters: NDArray[np.float64]) -> list[NDArray[np.float64]]: ...
+    def settle(
+        self, face: int, probe: tuple[float, ...], starts: NDArray[np.float64], law_name: str, most: int
+    ) -> tuple[NDArray[np.float32], NDArray[np.uint32]]: ...
+    def tracker(self, law: str, start: tuple[int, float, float] | None) -> Tracker: ...
+    def pair(self, other: Body, face: int, other_face: int) -> Pair: ...
+
+@final
+class Tracker:
+    def step(
+        self, points: NDArray[np.float64]
+    ) -> tuple[
+        NDArray[np.float64],
+        NDArray[np.float32],
+        NDArray[np.float32],
+        NDArray[np.float32],
+        NDArray[np.uint16],
+        NDArray[np.uint8],
+        NDArray[np.bool_],
+        NDArray[np.uint8],
+    ]: ...
+
+@final
+class Pair:
+    def step(
+        self, origins: NDArray[np.float64], axes_of: NDArray[np.float64], steps: int
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float32]]: ...
+
+@final
+class Link:
+    def __new__(cls, port: str, baud: int) -> Link: ...
+    def read(self, count: int, timeout: float) -> dict[str, Any]: ...
+    def close(self) -> None: ...
+
+def simulate(
+    device: str,
+    body: Body,
+    *,
+    rate: float,
+    seconds: float,
+    seed: int,
+    stiffness: float | None,
+    damping: float | None,
+    max_force: float,
+    velocity_corner: float,
+    soft_start: float,
+    protected: bool,
+    at: tuple[float, ...] | None,
+) -> dict[str, Any]: ...
+def devices() -> list[str]: ...

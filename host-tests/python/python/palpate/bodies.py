@@ -1,0 +1,190 @@
+"""Bodies, and what follows their closest points."""
+
+from __future__ import annotations
+
+from os import PathLike
+from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from .results import Apart, Closest, Curved, Settled, Ticks
+from .rows import row, rows
+
+# The firmware's law, and the paper's at the certified gain: a name for whoever reads types, and nothing at run time.
+if TYPE_CHECKING:
+    Law = Literal["second-order", "certified"]
+
+
+class Body:
+    """A body of patches, with the tables that the firmware has. Its memory is kept until the process ends."""
+
+    __slots__ = ("_native",)
+
+    def __init__(self, native: _native.Body):
+        """Bodies come from `Body.bake` and `Body.load`."""
+        self._native = native
+
+    @staticmethod
+    def bake(
+        model: str | PathLike[str] | Sequence[Mapping[str, Any]], *, tolerance: float = 1e-5, unit: str = "m"
+    ) -> Body:
+        """Bakes a body, its certificates and Voronoi regions proved on the way.
+
+        `model` is a path: a model file (``.toml``), a CAD part (``.step``, ``.stp``, made into patches within
+        `tolerance`, m), a baked body (``.palp``), or the bare name of a model that ships. Or it is a list of patches,
+        each a dictionary as in a model file: ``degree`` (two integers) and ``points`` (rows along u of rows along v of
+        3 or 4 numbers, in `unit`: "m", "cm" or "mm"), and by choice ``name``, ``knots_u``, ``knots_v``, ``flip``.
+
+        Raises ModelError for what is no body, FileError for a spoiled ``.palp``, FileNotFoundError and its like for a
+        path that cannot be read; each names the culprit.
+
+        >>> import palpate
+        >>> square = {"degree": [1, 1], "points": [[[0, 0, 0], [0, 4, 0]], [[6, 0, 0], [6, 4, 0]]]}
+        >>> palpate.Body.bake([square], unit="cm").closest([0.03, 0.02, 0.01]).gap.round(9)
+        array([0.01])
+        """
+        if isinstance(model, (list, tuple)):
+            model = [_plain(patch) for patch in model]
+        return Body(_native.Body.bake(model, tolerance, unit))
+
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Body:
+        """Reads a body's file (``.palp``), with everything in it checked.
+
+        Raises FileError for one that is spoiled or none, FileNotFoundError and its like for one that cannot be read.
+        """
+        return Body(_native.Body.load(path))
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes the body's file (``.palp``), byte by byte the one that ``palpate bake`` writes."""
+        self._native.save(path)
+
+    def closest(self, points: ArrayLike, *, signed: bool = True) -> Closest:
+        """The closest points of `points`, (n, 3), m, each from a standing start.
+
+        ``signed=False`` leaves out on which side of a closed body a point is, which takes most of the time. Raises
+        ArrayError for another shape, or a number that is not finite.
+        """
+        return Closest(*self._native.closest(rows("points", points, 3), signed))
+
+    def evaluate(self, face: int, parameters: ArrayLike) -> Curved:
+        """Points of a face at `parameters`, (n, 2), 0 to 1, with their first and second derivatives.
+
+        Raises IndexError where there is no such face, ArrayError as `closest` does.
+        """
+        return Curved(*self._native.evaluate(face, rows("parameters", parameters, 2)))
+
+    def settle(
+        self, face: int, probe: ArrayLike, starts: ArrayLike, *, law: Law = "second-order", most: int = 1000
+    ) -> Settled:
+        """Where a control law ends on one face for a `probe`, (3,), m, from each of `starts`, (n, 2), 0 to 1.
+
+        `law` is "second-order", the firmware's, or "certified", the paper's at the certified gain; it takes at most
+        `most` steps. Raises SettingsError for another law.
+        """
+        place = row("probe", probe, 3)
+        return Settled(*self._native.settle(face, place, rows("starts", starts, 2), law, most))
+
+    def tracker(self, *, law: Law = "second-order", start: tuple[int, float, float] | None = None) -> Tracker:
+        """A tracker that knows nothing yet, or whose witness point lies at `start`: a face and (u, v) on it."""
+        return Tracker(self._native.tracker(law, start))
+
+    def pair(self, other: Body, face: int = 0, other_face: int = 0) -> Pair:
+        """The closest pair of a face of this body and one of another; both begin in the middle of their faces."""
+        return Pair(self._native.pair(other._native, face, other_face))
+
+    @property
+    def name(self) -> str:
+        """The name of the model."""
+        return self._native.name
+
+    @property
+    def patches(self) -> list[str]:
+        """What the model's patches are called."""
+        return self._native.patches
+
+    @property
+    def faces(self) -> int:
+        """How many faces the body has."""
+        return self._native.faces
+
+    @property
+    def edges(self) -> int:
+        """How many edges."""
+        return self._native.edges
+
+    @property
+    def vertices(self) -> int:
+        """How many vertices."""
+        return self._native.vertices
+
+    @property
+    def size(self) -> float:
+        """The largest side of its bounding box, m."""
+        return self._native.size
+
+    @property
+    def centre(self) -> tuple[float, float, float]:
+        """Where the origin of its tables lies in the model, m."""
+        return self._native.centre
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether it has an inside."""
+        return self._native.is_closed
+
+    @property
+    def is_convex(self) -> bool:
+        """Whether a probe outside has no nearest point but the closest one."""
+        return self._native.is_convex
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+
+class Tracker:
+    """The closest point of a body, followed from tick to tick as the firmware follows it."""
+
+    __slots__ = ("_native",)
+
+    def __init__(self, native: _native.Tracker):
+        """Trackers come from `Body.tracker`."""
+        self._native = native
+
+    def step(self, points: ArrayLike) -> Ticks:
+        """One servo tick a row of `points`, (n, 3), m. It goes on where the last call ended."""
+        return Ticks(*self._native.step(rows("points", points, 3)))
+
+
+class Pair:
+    """The closest pair of two faces that do not intersect."""
+
+    __slots__ = ("_native",)
+
+    def __init__(self, native: _native.Pair):
+        """Pairs come from `Body.pair`."""
+        self._native = native
+
+    def step(self, origins: ArrayLike, axes: ArrayLike | None = None, *, steps: int = 1) -> Apart:
+        """`steps` steps at each pose of the second model in the frame of the first; it goes on where it was.
+
+        `origins`, (n, 3), m, is where its origin lies; `axes`, (n, 3, 3), its x, y and z axis a row each, orthonormal
+        and right-handed, or None where they are parallel. Raises ArrayError for others.
+        """
+        places = rows("origins", origins, 3)
+        count = len(places)
+        if axes is None:
+            axes = np.broadcast_to(np.eye(3), (count, 3, 3))
+        turned = np.asarray(axes, dtype=np.float64)
+        if turned.shape != (count, 3, 3):
+            raise _native.ArrayError(f"axes is of shape {turned.shape}, and must be ({count}, 3, 3)")
+        return Apart(*self._native.step(places, turned.reshape(count, 9), steps))
+
+
+def _plain(patch: Any) -> Any:
+    """A patch whose arrays are lists."""
+    if not isinstance(patch, Mapping):
+        return patch
+    return {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in patch.items()}

@@ -1,0 +1,187 @@
+//! The simulated loop of `palpate sim`: a device in a hand, the servo loop, a body.
+
+use crate::refusal::Refusal;
+use glam::DVec3;
+use palpate::body::Body;
+use palpate::device::{Counts, Device, Kinematics, Protection};
+use palpate::math::Vec3;
+use palpate::patch::Patch as _;
+use palpate::servo::{Event, Guard, Input, Safety, Servo, Settings};
+use palpate::track::Controller;
+use palpate::wire::Report;
+use palpate_plant::{HandSettings, PathError, Plant, PlantSettings, TouchingPath, direction_around};
+
+/// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every device holds it without a limit
+/// cycle.
+const STIFFNESS: f32 = 1_000.0;
+const DAMPING: f32 = 2.0;
+/// The seconds before force is asked for, in which the witness point converges.
+const STANDBY: f32 = 0.1;
+/// The longest run: an hour of a hand's path is 86 MB.
+const LONGEST: f64 = 3_600.0;
+/// The limits of a loop with a host at its link, which is gone when it is silent for 100 ms.
+const SAFETY: Safety = Safety { link_timeout: 0.1, ..Safety::DEFAULT };
+/// Steps along each parameter of the grid on which a body's bounding box is taken.
+const GRID: u16 = 16;
+
+/// What is asked for.
+pub struct Wishes {
+    /// Servo rate, Hz.
+    pub rate: f32,
+    /// How long, s.
+    pub seconds: f64,
+    /// Of the hand's path.
+    pub seed: u64,
+    /// N/m.
+    pub stiffness: Option<f32>,
+    /// N·s/m.
+    pub damping: Option<f32>,
+    /// N.
+    pub max_force: f32,
+    /// Corner frequency of the velocity filter, Hz.
+    pub velocity_corner: f32,
+    /// Seconds over which the force is faded in.
+    pub soft_start: f32,
+    /// With all protection of the device.
+    pub protected: bool,
+    /// Where the origin of the tables lies in the device's workspace, m; centres the body if not given.
+    pub origin: Option<DVec3>,
+}
+
+/// One tick as both ends saw it.
+pub struct Sample {
+    /// Seconds since the start.
+    pub time: f64,
+    /// What the encoders said.
+    pub counts: [i32; 3],
+    /// What the loop answered.
+    pub report: Report,
+    /// Where the simulated probe really was, m, in the device's frame.
+    pub hand: [f64; 3],
+}
+
+/// A run, a sample a tick.
+pub struct Run {
+    /// Its samples.
+    pub samples: Vec<Sample>,
+}
+
+impl Run {
+    /// A hash over the digest of every tick's state, as `palpate sim` and `palpate demo` print it.
+    pub fn state_hash(&self) -> u32 {
+        self.samples.iter().fold(0, |hash, sample| (hash ^ sample.report.digest).wrapping_mul(0x0100_0193))
+    }
+}
+
+/// Runs the loop against a simulated device.
+///
+/// # Errors
+/// A wish that the device or the loop refuses, and a body that the hand cannot reach.
+pub fn run<K: Kinematics<3>>(
+    device: &'static Device<K, 3>,
+    protection: Protection<3>,
+    simulated: &PlantSettings,
+    body: &'static Body<'static>,
+    wishes: &Wishes,
+) -> Result<Run, Refusal> {
+    let ticks = wishes.seconds * f64::from(wishes.rate);
+    if !(wishes.seconds <= LONGEST && (1.0..=f64::from(u32::MAX)).contains(&ticks)) {
+        let Wishes { seconds, rate, .. } = wishes;
+        return Err(Refusal::Settings(format!("{seconds} s at {rate} Hz is not a number of ticks that can be run")));
+    }
+    let settings = Settings {
+        rate: wishes.rate,
+        stiffness: wishes.stiffness.unwrap_or(STIFFNESS.min(device.max_stiffness)),
+        damping: wishes.damping.unwrap_or(DAMPING.min(device.max_damping)),
+        max_force: wishes.max_force,
+        velocity_corner: wishes.velocity_corner,
+        soft_start: wishes.soft_start,
+        body_origin: wishes.origin.map_or_else(|| -middle(body), |origin| origin.as_vec3()),
+    };
+    let [most_stiffness, most_damping] = [device.max_stiffness, device.max_damping];
+    let bound = |says: &dyn std::fmt::Display| {
+        Refusal::Settings(format!("{says}: this device takes up to {most_stiffness} N/m and {most_damping} N·s/m"))
+    };
+    let servo = Servo::try_new(device, body, Controller::SECOND_ORDER, settings).map_err(|error| bound(&error))?;
+    let mut plant = plant(device, simulated, body, settings.body_origin, wishes)?;
+    let refused = |says: &dyn std::fmt::Display| Refusal::Settings(says.to_string());
+    let samples = if wishes.protected {
+        let servo = servo.try_protect(protection).map_err(|error| refused(&error))?;
+        looped(&servo.try_safety(SAFETY).map_err(|error| refused(&error))?, &mut plant, wishes.rate, ticks as u32)
+    } else {
+        looped(&servo.try_safety(SAFETY).map_err(|error| refused(&error))?, &mut plant, wishes.rate, ticks as u32)
+    };
+    Ok(Run { samples })
+}
+
+/// The closed loop, in lockstep.
+fn looped<K: Kinematics<3>, G: Guard<3>>(
+    servo: &Servo<'_, Body<'static>, K, 3, G>,
+    plant: &mut Plant,
+    rate: f32,
+    ticks: u32,
+) -> Vec<Sample> {
+    let enable_at = (STANDBY * rate) as u32;
+    let mut state = servo.start();
+    let mut samples = Vec::with_capacity(ticks as usize);
+    for tick in 0..ticks {
+        let (time, counts, hand) = (plant.time(), plant.counts(), plant.position());
+        servo.note(&mut state, Event::LinkAlive);
+        servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: tick >= enable_at });
+        let report = Report::new(&state, 0);
+        samples.push(Sample { time, counts, report, hand });
+        plant.advance(report.duties);
+    }
+    samples
+}
+
+/// The simulated device with a hand that touches the body.
+fn plant<K: Kinematics<3>>(
+    device: &'static Device<K, 3>,
+    simulated: &PlantSettings,
+    body: &'static Body<'static>,
+    origin: Vec3,
+    wishes: &Wishes,
+) -> Result<Plant, Refusal> {
+    let middle = middle(body);
+    let origin = origin.as_dvec3();
+    let surface = |u, v| {
+        let (point, normal) = place(body, middle, direction_around(u, v));
+        ((point + origin).to_array(), normal.to_array())
+    };
+    let mechanism = simulated.mechanism(0.0);
+    let has_room = |place| {
+        mechanism.angles(place).is_some_and(|angles: [f64; 3]| {
+            let angles = angles.map(|angle| angle as f32);
+            device.room(device.to_stop(&angles), &device.kinematics.pose(angles)) > 0.0
+        })
+    };
+    let advice = |error: &dyn std::fmt::Display| Refusal::Settings(format!("{error} (move the model with `at`)"));
+    let path = TouchingPath::within(surface, wishes.seconds, wishes.seed, has_room).map_err(|error| match error {
+        PathError::NoRoom => advice(&error),
+        _ => Refusal::Settings(format!("the hand finds no path: {error}")),
+    })?;
+    Plant::new(simulated, HandSettings::default(), Box::new(path), f64::from(wishes.rate))
+        .map_err(|error| advice(&error))
+}
+
+/// Where a hand may touch, seen from the body's middle: the closest point to a place outside in this direction, and
+/// the direction back. Continuous around a convex body, edges and corners included.
+fn place(body: &Body<'_>, middle: Vec3, direction: [f64; 3]) -> (DVec3, DVec3) {
+    let outside = middle + DVec3::from_array(direction).as_vec3() * body.size();
+    let found = body.locate(outside);
+    let [u, v] = found.parameters;
+    let point = body.faces()[usize::from(found.face)].patch.evaluate(u, v).point;
+    (point.as_dvec3(), (outside - point).as_dvec3().normalize_or_zero())
+}
+
+/// The middle of a body's bounding box, from a grid of points.
+fn middle(body: &Body<'_>) -> Vec3 {
+    let share = |index: u16| f32::from(index) / f32::from(GRID);
+    let grid = || (0..=GRID).flat_map(|i| (0..=GRID).map(move |j| (i, j)));
+    let points =
+        body.faces().iter().flat_map(|face| grid().map(|(i, j)| face.patch.evaluate(share(i), share(j)).point));
+    let [low, high] =
+        points.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)]);
+    0.5 * (low + high)
+}

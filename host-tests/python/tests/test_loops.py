@@ -1,0 +1,182 @@
+"""Trackers, pairs, simulated loops and telemetry."""
+
+import os
+import struct
+import zlib
+
+import numpy as np
+import palpate
+import pytest
+
+from conftest import ROOT, same_bits
+
+
+def test_a_tracker_arrives_at_the_closest_point_and_goes_on_where_it_was(capped_box):
+    path = np.linspace([0.03, 0.02, 0.06], [0.05, 0.03, 0.05], 4000)
+    whole = capped_box.tracker().step(path)
+    parts = capped_box.tracker()
+    halves = [parts.step(path[:1000]), parts.step(path[1000:])]
+    for index, column in enumerate(whole):
+        same_bits(column, np.concatenate([half[index] for half in halves]))
+    assert whole.located[-1] and whole.contact[-1] == 1
+    cold = capped_box.closest(path[-1:], signed=False)
+    # It follows within a tick's lag, of second order in a step of 6 micrometres.
+    assert abs(np.linalg.norm(whole.point[-1] - path[-1]) - cold.gap[0]) < 1e-6 * capped_box.size
+
+
+def test_a_tracker_begins_where_it_is_told_to(capped_box):
+    start = (2, 0.25, 0.75)
+    [place] = capped_box.evaluate(2, [start[1:]]).point
+    ticks = capped_box.tracker(start=start).step(np.tile(place, (3, 1)))
+    assert ticks.feature[0] == 2 and np.linalg.norm(ticks.point[0] - place) < 1e-6 * capped_box.size
+    with pytest.raises(IndexError, match="there is no face 6"):
+        capped_box.tracker(start=(6, 0.5, 0.5))
+    with pytest.raises(palpate.ArrayError, match=r"start\[0\] is not finite"):
+        capped_box.tracker(start=(0, float("nan"), 0.5))
+    with pytest.raises(palpate.SettingsError, match="there is no law \"newton\""):
+        capped_box.tracker(law="newton")
+
+
+def test_both_laws_end_at_the_same_point(capped_box):
+    starts = np.stack(np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 11)), -1).reshape(-1, 2)
+    at = capped_box.evaluate(0, [[0.5, 0.5]])
+    normal = np.cross(at.u[0], at.v[0])
+    probe = at.point[0] + 0.03 * normal / np.linalg.norm(normal)
+    ends = [capped_box.settle(0, probe, starts, law=law, most=5000) for law in ("second-order", "certified")]
+    places = [capped_box.evaluate(0, end.parameters).point for end in ends]
+    distances = np.stack([np.linalg.norm(place - probe, axis=1) for place in places])
+    # Single precision, of the size.
+    assert np.abs(distances - distances.min()).max() < 1e-6 * capped_box.size
+    assert ends[0].steps.max() < ends[1].steps.max()
+    assert capped_box.settle(0, probe, starts, most=1).steps.max() == 1
+    with pytest.raises(palpate.SettingsError, match="there is no law \"newton\""):
+        capped_box.settle(0, probe, starts, law="newton")
+    with pytest.raises(palpate.ArrayError, match=r"probe is of shape \(2, 3\)"):
+        capped_box.settle(0, [[0, 0, 0], [0, 0, 0]], starts)
+
+
+def test_a_pair_of_parallel_squares_is_as_far_apart_as_their_planes():
+    square = {"degree": [1, 1], "points": [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]]}
+    body = palpate.Body.bake([square])
+    apart = body.pair(body).step([[0.2, 0.1, 0.5], [3.0, 0.0, 0.0]], steps=200)
+    # Closed forms: over each other the gap is 0.5; beside each other the edges are 2 apart.
+    np.testing.assert_allclose(apart.distance, [0.5, 2.0], rtol=1e-6)
+    quarter = [[[0, 1, 0], [-1, 0, 0], [0, 0, 1]]]
+    turned = body.pair(body).step([[3.0, 0.0, 0.0]], quarter, steps=200)
+    np.testing.assert_allclose(turned.distance, [1.0], rtol=1e-6)
+    for axes in ([[[1, 0, 0], [0, 1, 0], [0, 0, -1]]], [[[2, 0, 0], [0, 1, 0], [0, 0, 1]]], [np.full((3, 3), np.nan)]):
+        with pytest.raises(palpate.ArrayError, match=r"axes\[0\]"):
+            body.pair(body).step([[0, 0, 1]], axes)
+    with pytest.raises(palpate.ArrayError, match=r"axes is of shape \(3, 3\), and must be \(1, 3, 3\)"):
+        body.pair(body).step([[0, 0, 1]], np.eye(3))
+    with pytest.raises(IndexError, match="there is no face 1"):
+        body.pair(body, 0, 1)
+
+
+def test_a_pair_knows_both_models_frames():
+    away = np.array([7.0, 2.0, -4.0])
+    points = np.array([[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]])
+    near, far = (palpate.Body.bake([{"degree": [1, 1], "points": points + at}]) for at in (0 * away, away))
+    # The second model is put so that its square lies half a metre over the first one's.
+    apart = near.pair(far).step([np.array([0.0, 0.0, 0.5]) - away], steps=200)
+    np.testing.assert_allclose(apart.distance, [0.5], rtol=1e-6)
+    np.testing.assert_allclose(apart.second - away + [0, 0, 0.5], apart.first + [0, 0, 0.5], atol=1e-6)
+
+
+def test_a_simulated_run_is_the_demo_of_the_readme(capped_box):
+    run = palpate.simulate("woodenhaptics-2016", capped_box)
+    assert f"state hash           {run.state_hash}" in (ROOT / "README.md").read_text()
+    assert run.time.shape == (20_000,) and run.force.shape == (20_000, 3) and not run.fault.any()
+    assert (run.contact == 2).mean() > 0.2 and np.abs(run.force).max() > 1
+    again = palpate.simulate("woodenhaptics-2016", capped_box)
+    for ours, theirs in zip(run[1:], again[1:]):
+        same_bits(ours, theirs)
+
+
+@pytest.mark.parametrize("device", palpate.devices())
+def test_every_device_feels_the_box(device, capped_box):
+    for protected in (False, True):
+        run = palpate.simulate(device, capped_box, seconds=1.5, seed=3, protected=protected)
+        assert len(run.time) == 6000 and not run.fault.any() and (run.contact == 2).any()
+
+
+def test_settings_reach_the_loop(capped_box):
+    run = palpate.simulate("falcon", capped_box, seconds=0.5, rate=2000, stiffness=500, max_force=0.1, at=(0, 0, -0.04))
+    assert len(run.time) == 1000 and np.isclose(run.time[1], 1 / 2000)
+    # The force is held to the limit, up to the rounding of a norm.
+    assert np.linalg.norm(run.force, axis=1).max() < 0.1 * (1 + 1e-6)
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ({"stiffness": 1e9}, "stiffness"),
+        ({"damping": -1}, "damping"),
+        ({"rate": float("nan")}, "ticks"),
+        ({"seconds": 0}, "ticks"),
+        ({"seconds": 1e12}, "ticks"),
+        ({"max_force": float("nan")}, "force"),
+        ({"at": (9, 9, 9)}, "workspace"),
+    ],
+)
+def test_what_a_device_cannot_is_refused_by_name(options, says, capped_box):
+    with pytest.raises(palpate.SettingsError, match=says):
+        palpate.simulate("falcon", capped_box, **options)
+
+
+def test_unknown_devices_and_places_that_are_none_are_refused(capped_box):
+    with pytest.raises(palpate.SettingsError, match="there is no device \"hapkit\"; there are woodenhaptics-2016"):
+        palpate.simulate("hapkit", capped_box)
+    with pytest.raises(palpate.ArrayError, match=r"at\[0\] is not finite"):
+        palpate.simulate("falcon", capped_box, at=(0, 0, np.nan))
+    with pytest.raises(TypeError, match="colour"):
+        palpate.simulate("falcon", capped_box, colour=1)
+
+
+def varint(number):
+    out = bytearray()
+    while number > 127:
+        out.append(number & 127 | 128)
+        number >>= 7
+    return bytes([*out, number])
+
+
+def zigzag(number):
+    return varint(number * 2 if number >= 0 else -number * 2 - 1)
+
+
+def frame(record):
+    """COBS(message, CRC-32), 0: by docs/wire.md, not by the library."""
+    message = record + struct.pack("<I", zlib.crc32(record))
+    runs = message.split(b"\0")
+    return b"".join(bytes([len(run) + 1]) + run for run in runs) + b"\0"
+
+
+def record(tick, gap):
+    """The fields in the order of docs/wire.md."""
+    before = b"".join(map(varint, (tick, tick, 25_000_000, 7, 6250, 6251, 1800, 0)))
+    state = bytes([3, 0]) + varint(0) + bytes([0]) + varint(0) + varint(0) + bytes([0]) + varint(2) + bytes([0, 2])
+    return before + state + struct.pack("<7f", gap, 0.1, 0.2, 0.3, 1.0, 2.0, 3.0) + b"".join(map(zigzag, (-5, 0, 700)))
+
+
+def test_telemetry_comes_from_a_port_and_nothing_goes_to_it():
+    device, line = os.openpty()
+    with palpate.Link(os.ttyname(line)) as link:
+        sent = b"".join(frame(record(tick, -1e-3 * tick)) for tick in range(5))
+        os.write(device, b"rubbish\0" + sent)
+        records = link.read(5, timeout=10)
+        np.testing.assert_array_equal(records.tick, range(5))
+        np.testing.assert_allclose(records.gap, -1e-3 * np.arange(5), rtol=1e-6)
+        np.testing.assert_array_equal(records.duties[-1], [-5, 0, 700])
+        np.testing.assert_allclose(records.force[-1], [1, 2, 3])
+        assert records.damaged == 1
+        assert len(link.read(1, timeout=0.05).tick) == 0, "nothing more came"
+        os.set_blocking(device, False)
+        with pytest.raises(BlockingIOError):
+            os.read(device, 1)
+        with pytest.raises(palpate.SettingsError, match="timeout"):
+            link.read(1, timeout=-1)
+    with pytest.raises(palpate.LinkError, match="is closed"):
+        link.read(1)
+    with pytest.raises(palpate.LinkError, match="/dev/none"):
+        palpate.Link("/dev/none")

@@ -1,0 +1,66 @@
+"""The package itself: its notebooks run, its docstrings' examples hold, its stubs are those of the module."""
+
+import doctest
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+import palpate
+import pytest
+from nbclient import NotebookClient
+from palpate import bodies, loops
+
+from conftest import FOLDER, ROOT
+
+NOTEBOOKS = sorted((FOLDER / "notebooks").glob("*.ipynb"))
+
+
+def test_what_is_tested_is_the_wheel_that_was_installed():
+    assert Path(sys.prefix) in Path(palpate.__file__).parents
+    assert FOLDER not in Path(palpate.__file__).parents
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_runs(path):
+    notebook = nbformat.read(path, as_version=4)
+    nbformat.validate(notebook)
+    NotebookClient(notebook, timeout=600, kernel_name="python3", resources={"metadata": {"path": ROOT}}).execute()
+
+
+def test_there_are_two_notebooks_and_no_outputs_in_them():
+    assert len(NOTEBOOKS) == 2
+    for path in NOTEBOOKS:
+        cells = [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]
+        assert cells and not any(cell.outputs for cell in cells)
+
+
+def test_the_examples_in_the_docstrings_hold():
+    done = [doctest.testmod(module) for module in (palpate, bodies, loops)]
+    assert sum(tried.failed for tried in done) == 0 and sum(tried.attempted for tried in done) > 5
+
+
+def test_everything_public_says_what_it_is():
+    for name in palpate.__all__:
+        item = getattr(palpate, name)
+        assert inspect.getdoc(item), name
+        if inspect.isclass(item) and item.__module__.startswith("palpate."):
+            for member, value in vars(item).items():
+                is_public = not member.startswith("_") and member not in getattr(item, "_fields", ())
+                assert not is_public or inspect.getdoc(value), f"{name}.{member}"
+    for columns in (palpate.Closest, palpate.Ticks, palpate.Curved, palpate.Apart, palpate.Run, palpate.Records):
+        for field in columns._fields:
+            assert field in columns.__doc__, f"{columns.__name__}.{field}: neither shape nor unit"
+
+
+def test_the_types_are_those_of_the_module_and_of_the_package(tmp_path):
+    settings = tmp_path / "mypy.ini"
+    settings.write_text("[mypy]\nstrict = True\n")
+    programs = Path(sys.executable).parent
+    for command in (
+        [programs / "stubtest", "palpate", "--mypy-config-file", settings],
+        [programs / "mypy", "--config-file", settings, "--cache-dir", tmp_path / "cache", "-p", "palpate"],
+    ):
+        done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+        assert done.returncode == 0, done.stdout + done.stderr
