@@ -15,6 +15,7 @@ pub mod feel;
 pub mod figures;
 pub mod firmware;
 pub mod in_c;
+pub mod in_python;
 pub mod knob;
 pub mod models;
 pub mod monitor;

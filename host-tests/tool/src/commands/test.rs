@@ -2,6 +2,7 @@
 
 use crate::firmware::{self, Board, Choice, Progress, Transport, WITH_FIRMWARE};
 use crate::in_c::{self, WITH_C};
+use crate::in_python;
 use crate::page;
 use crate::repository;
 use anyhow::Context;
@@ -27,7 +28,10 @@ pub struct Arguments {
     /// Only the tests of the C library, with what they need set up: a C compiler for the boards, and the emulator.
     #[arg(long, conflicts_with_all = ["quick", "without_emulator", "page"])]
     c: bool,
-    /// Passed on to `cargo test`.
+    /// Only the tests of the wheel for Python, with what they need set up in virtual environments in `target/python`.
+    #[arg(long, conflicts_with_all = ["quick", "without_emulator", "page", "c"])]
+    python: bool,
+    /// Passed on to `cargo test`, or with `--python` to pytest.
     #[arg(last = true)]
     cargo_test: Vec<String>,
 }
@@ -41,6 +45,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if arguments.page {
         let browser = page::Browser::set_up(&progress).context("the tests of the page cannot run")?;
         return on_page(&browser, &arguments.cargo_test);
+    }
+    if arguments.python {
+        return in_python::test(&arguments.cargo_test);
     }
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     firmware::without_outer_cargo(&mut cargo);
@@ -84,15 +91,20 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     // Words for one suite are no words for another.
     let is_whole =
         ![arguments.quick, arguments.without_emulator, arguments.c].contains(&true) && arguments.cargo_test.is_empty();
-    let with_page = if !is_whole {
-        ExitCode::SUCCESS
-    } else if let Some(browser) = page::Browser::at_hand() {
-        on_page(&browser, &[])?
-    } else {
-        progress.say("left out: the page for the browser; cargo palpate test --page sets up what it needs");
-        ExitCode::SUCCESS
-    };
-    Ok(if status.success() { with_page } else { ExitCode::FAILURE })
+    let mut all = vec![if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE }];
+    if is_whole {
+        if let Some(browser) = page::Browser::at_hand() {
+            all.push(on_page(&browser, &[])?);
+        } else {
+            progress.say("left out: the page for the browser; `cargo palpate test --page` sets up what it needs");
+        }
+        if in_python::is_set_up() {
+            all.push(in_python::test(&[])?);
+        } else {
+            progress.say("left out: the wheel for Python; `cargo palpate test --python` sets up what it needs");
+        }
+    }
+    Ok(if all.iter().all(|code| *code == ExitCode::SUCCESS) { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// The tests of the page, in its own workspace: nobody else needs what drives a browser.

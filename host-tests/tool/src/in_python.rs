@@ -1,0 +1,31 @@
+//! palpate for Python: the wheel's tests, in virtual environments of their own.
+
+use crate::firmware::{SetUpError, on_path, without_outer_cargo};
+use crate::repository;
+use anyhow::Context as _;
+use std::process::{Command, ExitCode};
+
+/// What runs them. Its script sets up everything else, and says so.
+const PYTHON: &str = "python3";
+
+/// Whether everything is there that they need: they have run here before, and nothing has to be installed.
+pub fn is_set_up() -> bool {
+    let builder = repository::root().map(|root| root.join("target/python/builder/complete"));
+    on_path(PYTHON).is_some() && builder.is_ok_and(|mark| mark.exists())
+}
+
+/// Builds the wheel, installs it in a fresh virtual environment and runs its tests there; `words` go to pytest.
+///
+/// # Errors
+/// Where there is no Python, or no repository.
+pub fn test(words: &[String]) -> anyhow::Result<ExitCode> {
+    if on_path(PYTHON).is_none() {
+        let missing = format!("there is no {PYTHON}: install Python 3.10 or newer, with venv");
+        return Err(SetUpError::NoToolchain(missing).into());
+    }
+    let mut python = Command::new(PYTHON);
+    without_outer_cargo(&mut python);
+    python.arg(repository::root()?.join("host-tests/python/run_tests.py")).args(words);
+    let status = python.status().with_context(|| format!("{python:?}"))?;
+    Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
