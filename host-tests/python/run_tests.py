@@ -79,8 +79,9 @@ def main() -> int:
     loop = plain_loop()
     fresh = environment("fresh", f"{made}[test]", anew=True)
     # In another folder than the sources: what is imported is the wheel.
+    pytest = [fresh / "python", "-m", "pytest", "-q", "-rs", "-s", "-p", "no:cacheprovider"]
     tests = subprocess.run(
-        [fresh / "python", "-m", "pytest", "-q", "-rs", "-s", "-p", "no:cacheprovider", FOLDER / "tests", *sys.argv[1:]],
+        [*pytest, FOLDER / "tests", *sys.argv[1:]],
         cwd=TARGET,
         env=dict(os.environ, PALPATE_PLAIN_LOOP=str(loop), MPLBACKEND="agg", PYTHONDONTWRITEBYTECODE="1"),
     )

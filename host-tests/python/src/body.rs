@@ -1,21 +1,11 @@
-//! Bodies: baked or loaded, and what is asked of them.
+//! Bodies: baked or loaded.
 
-use crate::arrays::{Line, Table, line, rows, table, usable};
-use crate::closest::Found;
-use crate::model::{Made, Source, of_baked, of_file};
-use crate::pair::Pair;
+use crate::model::{Made, Source};
 use crate::refusal::Refusal;
-use crate::settle::settle;
-use crate::tracker::{Tracker, law};
-use crate::{evaluate, patches};
 use glam::DVec3;
-use numpy::PyReadonlyArray2;
 use palpate::math::Vec3;
 use palpate_bake::{BakedBody, Model};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple};
-use std::fs;
-use std::path::PathBuf;
 
 /// A body. Its tables stay in memory until the process ends.
 #[pyclass(frozen, module = "palpate")]
@@ -24,12 +14,18 @@ pub struct Body {
     pub tables: &'static palpate::body::Body<'static>,
     /// As the baker has it.
     pub baked: BakedBody,
-    model: Model,
-    bytes: Vec<u8>,
+    /// What is known of its model.
+    pub model: Model,
+    /// Its file.
+    pub bytes: Vec<u8>,
 }
 
 impl Body {
-    fn of(source: Source) -> Result<Self, Refusal> {
+    /// Bakes it, if it is not baked already.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn of(source: Source) -> Result<Self, Refusal> {
         let Made { model, baked, bytes } = source.made()?;
         let tables = baked.to_body().map_err(|fault| Refusal::Model(format!("{}: {fault}", model.name)))?;
         Ok(Self { tables: Box::leak(Box::new(tables)), baked, model, bytes })
@@ -58,137 +54,9 @@ impl Body {
         let faces = self.tables.faces();
         faces.get(index).ok_or_else(|| Refusal::Index(format!("there is no face {index}; there are {}", faces.len())))
     }
-}
 
-#[pymethods]
-impl Body {
-    #[staticmethod]
-    fn bake(py: Python<'_>, model: &Bound<'_, PyAny>, tolerance: f64, unit: &str) -> PyResult<Self> {
-        let source = if let Ok(path) = model.extract::<PathBuf>() {
-            py.detach(|| of_file(&path, tolerance))?
-        } else {
-            let listed: Vec<Bound<'_, PyDict>> = model
-                .extract()
-                .map_err(|_| Refusal::Model("a model is a path, or a list of patches, each a dictionary".to_owned()))?;
-            patches::model(&listed, unit)?
-        };
-        Ok(py.detach(|| Self::of(source))?)
-    }
-
-    #[staticmethod]
-    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(py.detach(|| of_baked(&path).and_then(Self::of))?)
-    }
-
-    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let written = py.detach(|| fs::write(&path, &self.bytes));
-        Ok(written.map_err(|cause| Refusal::Path(path.display().to_string(), cause))?)
-    }
-
-    #[getter]
-    fn name(&self) -> &str {
-        &self.model.name
-    }
-
-    #[getter]
-    fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        PyList::new(py, (0..self.model.patches.len()).map(|index| self.model.patch_label(index)))
-    }
-
-    #[getter]
-    fn faces(&self) -> usize {
-        self.tables.faces().len()
-    }
-
-    #[getter]
-    fn edges(&self) -> usize {
-        self.tables.edges().len()
-    }
-
-    #[getter]
-    fn vertices(&self) -> usize {
-        self.tables.vertices().len()
-    }
-
-    #[getter]
-    fn size(&self) -> f32 {
-        self.tables.size()
-    }
-
-    #[getter]
-    fn centre(&self) -> (f64, f64, f64) {
-        self.model.centre.into()
-    }
-
-    #[getter]
-    pub fn is_closed(&self) -> bool {
+    /// Whether it has an inside.
+    pub fn has_inside(&self) -> bool {
         self.baked.topology.is_closed()
-    }
-
-    #[getter]
-    fn is_convex(&self) -> bool {
-        self.tables.is_convex()
-    }
-
-    fn __repr__(&self) -> String {
-        format!("<palpate.Body {:?}: {} faces, {} edges>", self.model.name, self.faces(), self.edges())
-    }
-
-    fn closest<'py>(
-        &self,
-        py: Python<'py>,
-        points: PyReadonlyArray2<'py, f64>,
-        signed: bool,
-    ) -> PyResult<Bound<'py, PyTuple>> {
-        let points = rows::<3>("points", &points)?;
-        let found = py.detach(|| Found::of(self, &points, signed));
-        (
-            line(py, found.patch),
-            table(py, found.parameters),
-            table(py, found.point),
-            line(py, found.gap),
-            line(py, found.face),
-            table(py, found.on_face),
-            line(py, found.evaluations),
-            line(py, found.converged),
-            line(py, found.far),
-        )
-            .into_pyobject(py)
-    }
-
-    fn evaluate<'py>(
-        &self,
-        py: Python<'py>,
-        face: usize,
-        parameters: PyReadonlyArray2<'py, f64>,
-    ) -> PyResult<[Table<'py, f64>; 6]> {
-        let at = rows::<2>("parameters", &parameters)?;
-        let patch = &self.face(face)?.patch;
-        let columns = py.detach(|| evaluate::columns(patch, &at, |point| self.placed(point)));
-        Ok(columns.map(|column| table(py, column)))
-    }
-
-    fn settle<'py>(
-        &self,
-        py: Python<'py>,
-        face: usize,
-        probe: [f64; 3],
-        starts: PyReadonlyArray2<'py, f64>,
-        law_name: &str,
-        most: u32,
-    ) -> PyResult<(Table<'py, f32>, Line<'py, u32>)> {
-        let starts = rows::<2>("starts", &starts)?;
-        usable("probe", &[probe])?;
-        let (controller, patch, probe) = (law(law_name)?, &self.face(face)?.patch, self.local(probe));
-        let (ends, steps) = py.detach(|| settle(patch, &controller, probe, &starts, most));
-        Ok((table(py, ends), line(py, steps)))
-    }
-
-    fn tracker(slf: Py<Self>, law: &str, start: Option<(u16, f32, f32)>) -> PyResult<Tracker> {
-        Ok(Tracker::new(slf, law, start)?)
-    }
-
-    fn pair(slf: Py<Self>, other: Py<Self>, face: usize, other_face: usize) -> PyResult<Pair> {
-        Ok(Pair::new([slf, other], [face, other_face])?)
     }
 }

@@ -46,7 +46,7 @@ impl Found {
     /// The closest points of a body to these places of its model; with `signed`, on which side of a closed body each
     /// of them is.
     pub fn of(body: &Body, points: &[[f64; 3]], signed: bool) -> Self {
-        let sides = (signed && body.is_closed()).then(|| Sides::new(body.tables, &body.baked));
+        let sides = (signed && body.has_inside()).then(|| Sides::new(body.tables, &body.baked));
         let mut found = Self::with_room(points.len());
         for given in points {
             let probe = body.local(*given);

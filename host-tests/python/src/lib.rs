@@ -9,6 +9,7 @@ mod closest;
 mod devices;
 mod evaluate;
 mod link;
+mod methods;
 mod model;
 mod pair;
 mod patches;

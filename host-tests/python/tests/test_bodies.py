@@ -63,7 +63,8 @@ def test_a_part_from_cad_is_baked():
     assert body.is_closed and body.faces >= 6 and len(body.patches) >= 6
     points = around(body, 500)
     # A box by its corners: the distance to it has a closed form outside.
-    corners = np.concatenate([body.evaluate(face, [[0, 0], [0, 1], [1, 0], [1, 1]]).point for face in range(body.faces)])
+    ends = [[0, 0], [0, 1], [1, 0], [1, 1]]
+    corners = np.concatenate([body.evaluate(face, ends).point for face in range(body.faces)])
     beyond = np.maximum(np.maximum(corners.min(axis=0) - points, points - corners.max(axis=0)), 0)
     exact = np.linalg.norm(beyond, axis=1)
     gap = body.closest(points).gap
@@ -105,7 +106,8 @@ def test_units_and_tolerances_are_checked():
 
 
 def test_files_that_are_no_models_are_refused_by_name(tmp_path):
-    for name, data in [("text.toml", b"degree = ["), ("bytes.toml", b"\xff\xfe"), ("part.step", b"ISO-10303-21;\nHEADER;")]:
+    spoiled = {"text.toml": b"degree = [", "bytes.toml": b"\xff\xfe", "part.step": b"ISO-10303-21;\nHEADER;"}
+    for name, data in spoiled.items():
         (tmp_path / name).write_bytes(data)
         with pytest.raises(palpate.ModelError, match=name):
             palpate.Body.bake(tmp_path / name)

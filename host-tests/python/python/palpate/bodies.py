@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,10 +11,6 @@ from numpy.typing import ArrayLike
 from . import _native
 from .results import Apart, Closest, Curved, Settled, Ticks
 from .rows import row, rows
-
-# The firmware's law, and the paper's at the certified gain: a name for whoever reads types, and nothing at run time.
-if TYPE_CHECKING:
-    Law = Literal["second-order", "certified"]
 
 
 class Body:
@@ -77,7 +73,7 @@ class Body:
         return Curved(*self._native.evaluate(face, rows("parameters", parameters, 2)))
 
     def settle(
-        self, face: int, probe: ArrayLike, starts: ArrayLike, *, law: Law = "second-order", most: int = 1000
+        self, face: int, probe: ArrayLike, starts: ArrayLike, *, law: str = "second-order", most: int = 1000
     ) -> Settled:
         """Where a control law ends on one face for a `probe`, (3,), m, from each of `starts`, (n, 2), 0 to 1.
 
@@ -87,7 +83,7 @@ class Body:
         place = row("probe", probe, 3)
         return Settled(*self._native.settle(face, place, rows("starts", starts, 2), law, most))
 
-    def tracker(self, *, law: Law = "second-order", start: tuple[int, float, float] | None = None) -> Tracker:
+    def tracker(self, *, law: str = "second-order", start: tuple[int, float, float] | None = None) -> Tracker:
         """A tracker that knows nothing yet, or whose witness point lies at `start`: a face and (u, v) on it."""
         return Tracker(self._native.tracker(law, start))
 
