@@ -13,7 +13,7 @@ use pyo3::types::PyDict;
 #[pyo3(signature = (
     device, body, *, rate, seconds, seed, stiffness, damping, max_force, velocity_corner, soft_start, protected, at
 ))]
-#[expect(clippy::too_many_arguments, reason = "each is an argument of the function in Python, by its name")]
+#[allow(clippy::too_many_arguments, reason = "each is an argument of the function in Python, by its name")]
 pub fn simulate<'py>(
     py: Python<'py>,
     device: &str,
