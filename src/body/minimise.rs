@@ -17,7 +17,7 @@ pub const MAX_EVALUATIONS_PER_CANDIDATE_CONVEX: u8 = 16;
 /// of `f32` coordinates of that size.
 pub(super) const RESOLUTION: f32 = 2.0e-7;
 /// It is found without another look where it is proved to be within this of what the model says: a fifth of what is
-/// asked of a cold start, and a bound that is seldom near the truth.
+/// asked of a cold start.
 const PROVED: f32 = 2.0e-6;
 /// The same as a part of `φ`: a tenth of what the tracker changes over for.
 const SHARE: f32 = 1.0e-4;
@@ -110,7 +110,8 @@ impl Descending {
     /// The second half on a face that may have poles ([`super::Face::poles`]).
     #[inline(never)]
     pub fn judge_beside(&mut self, patch: &SplinePatch, poles: u8, known: f32, size: f32) -> Judgement {
-        self.judged(patch, poles, known, size)
+        // Below the compiler then knows that there are some.
+        if poles == 0 { self.judge(patch, known, size) } else { self.judged(patch, poles, known, size) }
     }
 
     #[inline(always)]
@@ -123,7 +124,7 @@ impl Descending {
             let [lower, upper] = self.candidate.rectangle();
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
-            if self.candidate.convex && half_squared + model.greatest_fall(room) > known {
+            if self.candidate.convex && known < half_squared && half_squared + model.greatest_fall(room) > known {
                 return Judgement::Beaten;
             }
             (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
@@ -139,20 +140,14 @@ impl Descending {
                 return Judgement::Found;
             }
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
-            // What the model is proved to say rightly of its minimiser need not be seen there. Half of what it falls
-            // by: of what is left after the step it says nothing else.
-            if pole.is_none() && model.is_newton {
-                let least = half_squared + fall;
-                // And the sum is rounded.
-                let misfit = misfit(&patch.shape(), change, seen.form, distance) + f32::EPSILON * half_squared;
-                if misfit <= SHARE * least
-                    && misfit * misfit <= (2.0 * PROVED * PROVED) * (size * size) * least
-                    && misfit <= -0.5 * fall
-                    && patch.beyond_knots(at, self.trial) == [0.0; 2]
-                {
-                    (self.parameters, self.half_squared) = (self.trial, least);
-                    return Judgement::Found;
-                }
+            // What the model is proved to say rightly of its minimiser need not be seen there.
+            if poles == 0
+                && model.is_newton
+                && is_proved(&patch.shape(), &model, &seen, change, fall, size)
+                && patch.beyond_knots(at, self.trial) == [0.0; 2]
+            {
+                (self.parameters, self.half_squared) = (self.trial, half_squared + fall);
+                return Judgement::Found;
             }
         } else {
             self.halvings += 1;
@@ -170,17 +165,43 @@ impl Descending {
     }
 }
 
-/// By how much `φ` may differ from the quadratic model `q` at its minimiser over a rectangle, m², if both ends of the
-/// step `w` lie in one span. With `a = Df w`, `b = D²f[w, w]` and Taylor's remainder `e` it is `φ − q = (ΔR + a)·e +
-/// ½ a·b + ½ |½ b + e|²`, where the patch bounds `|b|` and `|e|`, and `|a|² = wᵀIw`.
+/// Whether `φ` is proved to be what the quadratic model says at its minimiser over a rectangle, and to have little left
+/// to fall by from there: a step `w` away, with both ends in one span, where the model has fallen by `fall`.
+///
+/// With `a = Df w`, `b = D²f[w, w]` and Taylor's remainder `e` the derivative along the parameter `i` is off from the
+/// model's by `g_i = f_i·(½ b + e) + D f_i w·(a + ½ b + e)` and the remainder of `f_i`, `½ D²f_i[w, w]`, times what
+/// `ΔR` has become, where the patch bounds second and third derivatives and `|a|² = wᵀIw`. Part `t` of the way it is
+/// off by `t² g` at most, so that `φ` is off by a third of `|g|·|w|`; and `φ` has `½ gᵀH⁻¹g` left, as far as the
+/// Hessian of the step's beginning says.
 #[inline(always)]
-fn misfit(shape: &ShapeBounds, [w_u, w_v]: [f32; 2], form: [f32; 3], distance: f32) -> f32 {
+fn is_proved(shape: &ShapeBounds, model: &Model, seen: &Seen, [w_u, w_v]: [f32; 2], fall: f32, size: f32) -> bool {
     let (second, third) = (&shape.second_derivatives, &shape.third_derivatives);
-    let (xx, yy, product) = (w_u * w_u, w_v * w_v, w_u * w_v);
-    let (x, y, xy) = (w_u.abs(), w_v.abs(), product.abs());
-    let bend = 0.5 * (second.uu * xx + second.vv * yy) + second.uv * xy;
-    let twist = x * (third.uuu * xx + 3.0 * third.uuv * xy) + y * (third.vvv * yy + 3.0 * third.uvv * xy);
-    let rest = (1.0 / 6.0) * twist;
-    let length = sqrt_from_above(form[0] * xx + 2.0 * form[1] * product + form[2] * yy);
-    bend * (length + 0.5 * bend) + rest * (distance + length + bend + 0.5 * rest)
+    let least = seen.half_squared + fall;
+    let (share, proved) = (SHARE * least, PROVED * size * sqrt_from_above(2.0 * least));
+    let is_little = |off: f32| off <= share && off <= proved;
+    let (x, y) = (w_u.abs(), w_v.abs());
+    let turn = [second.uu * x + second.uv * y, second.uv * x + second.vv * y];
+    let bend = 0.5 * (turn[0] * x + turn[1] * y);
+    let [stretch_u, skew, stretch_v] = seen.form;
+    let (xx, yy) = (w_u * w_u, w_v * w_v);
+    let length = sqrt_from_above(stretch_u * xx + 2.0 * skew * (w_u * w_v) + stretch_v * yy);
+    // Most steps that are too long fail here already.
+    if !is_little(bend * length) {
+        return false;
+    }
+    let xy = x * y;
+    let twist = [
+        third.uuu * xx + 2.0 * third.uuv * xy + third.uvv * yy,
+        third.uuv * xx + 2.0 * third.uvv * xy + third.vvv * yy,
+    ];
+    let beside = bend + (1.0 / 6.0) * (x * twist[0] + y * twist[1]);
+    let moved = length + beside;
+    let half = 0.5 * (sqrt_from_above(2.0 * seen.half_squared) + moved);
+    let gradient = [
+        sqrt_from_above(stretch_u) * beside + turn[0] * moved + twist[0] * half,
+        sqrt_from_above(stretch_v) * beside + turn[1] * moved + twist[1] * half,
+    ];
+    // And the sum is rounded.
+    let value = (1.0 / 3.0) * (gradient[0] * x + gradient[1] * y) + f32::EPSILON * seen.half_squared;
+    is_little(value) && is_little(model.fall_at_most(gradient))
 }

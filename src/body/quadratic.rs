@@ -102,6 +102,14 @@ impl Model {
         along(0) + along(1)
     }
 
+    /// What `φ` may still fall by from a point where its derivatives are at most these, m², as far as the Hessian here
+    /// says: `½ gᵀH⁻¹g`.
+    #[inline(always)]
+    pub(super) fn fall_at_most(&self, [p, q]: [f32; 2]) -> f32 {
+        let [a, b, c] = self.hessian;
+        (0.5 * (c * p * p + a * q * q) + b.abs() * p * q) / (a * c - b * b)
+    }
+
     /// The minimiser of the model over `room`, and the model's value there. In two variables either the free minimiser
     /// lies inside, or the best of the four sides is the minimiser.
     #[inline(always)]
