@@ -4,7 +4,7 @@
 const SPEED = 500_000;
 
 /** Asks for a port and tells of each chunk's last record until it is closed. */
-export async function connect(device, tell) {
+async function connect(device, tell) {
   if (!navigator.serial) throw new Error("this browser has no Web Serial: Chromium and Edge do");
   const port = await navigator.serial.requestPort();
   await port.open({ baudRate: SPEED });
@@ -30,8 +30,33 @@ export async function connect(device, tell) {
   };
 }
 
+/** Shows what a device says, or leaves the one that is shown. */
+export async function toggle(page) {
+  const by = (id) => document.getElementById(id);
+  if (page.live) return page.live.stop();
+  const { device } = page.body;
+  const tell = (record) => {
+    if (!record) {
+      page.live = null;
+      by("serial").textContent = "Connect a device…";
+      return;
+    }
+    page.live.view = seen(record, device);
+    by("live").textContent =
+      `${record.records} records, ${record.damaged} damaged; a tick took ${(record.took * 1e6).toFixed(1)} µs`;
+  };
+  try {
+    page.live = { stop: await connect(device, tell), view: null };
+    by("serial").textContent = "Disconnect";
+  } catch (error) {
+    // Whoever closes the browser's list of ports has chosen none.
+    if (error.name !== "NotFoundError") page.refuse(error.message);
+  }
+  return undefined;
+}
+
 /** A record as a view of the loop: the closest point lies a gap away from the probe, and the force shows the way. */
-export function seen(record, device) {
+function seen(record, device) {
   const found = device.closest(record.probe);
   const away = record.probe.map((coordinate, axis) => coordinate - found.point[axis]);
   const length = Math.hypot(...away) || 1,

@@ -49,6 +49,7 @@ export class Marks {
     );
     this.gap = this.line(WITNESS, 2.2, true);
     this.anchor = this.line(FORCE, 3);
+    this.rim = this.line(WITNESS, 4.5);
     this.normal = arrow(0xffffff, 0.0028);
     this.force = arrow(FORCE, 0.0075);
     this.sheet = new Mesh(
@@ -67,6 +68,7 @@ export class Marks {
       this.god,
       this.gap,
       this.anchor,
+      this.rim,
       this.normal,
       this.force,
       this.sheet,
@@ -74,7 +76,7 @@ export class Marks {
       this.newton,
     );
     this.lean = new Vector3(0, 0, 1);
-    this.shown = { code: -1 };
+    this.shown = {};
   }
 
   line(color, linewidth, dashed = false) {
@@ -87,7 +89,7 @@ export class Marks {
 
   /** Forgets the body that was shown. */
   begin() {
-    this.shown = { code: -1 };
+    this.shown = {};
     this.ways();
   }
 
@@ -118,6 +120,17 @@ export class Marks {
       newtons = force.length();
     aim(this.force, touching ? point : probe, force, Math.min(newtons * OF_A_NEWTON, 0.9));
     this.sheet.visible = withRegion;
+  }
+
+  /** Lights an edge, or none. */
+  edge(index, device) {
+    if (index === this.shown.edge) return;
+    this.shown.edge = index;
+    const curve = index === null ? [] : device.edge(index, 32);
+    this.draw(
+      this.rim,
+      Array.from({ length: curve.length / 9 }, (_, at) => this.room.place(curve.subarray(9 * at, 9 * at + 3))),
+    );
   }
 
   /** Draws the region of a feature anew when it is another. */

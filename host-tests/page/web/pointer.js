@@ -20,9 +20,11 @@ export class Pointer {
     this.mode = "surface";
     this.begin();
     const { canvas } = room;
-    canvas.addEventListener("pointermove", (event) => event.buttons & 2 || this.move(event));
+    // Two fingers turn the view, as the right button does.
+    this.fingers = new Set();
+    canvas.addEventListener("pointermove", (event) => event.buttons & 2 || this.fingers.size > 1 || this.move(event));
     canvas.addEventListener("pointerdown", (event) => this.down(event));
-    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => (this.pressed = false));
+    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => this.up(event));
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("keydown", (event) => this.key(event));
@@ -46,10 +48,17 @@ export class Pointer {
   }
 
   down(event) {
-    if (event.button !== 0 || event.isPrimary === false) return;
+    if (event.pointerType === "touch") this.fingers.add(event.pointerId);
+    if (this.fingers.size > 1) this.pressed = false;
+    if (event.button !== 0 || this.fingers.size > 1) return;
     this.room.canvas.focus();
     this.move(event);
     this.pressed = this.mode === "surface";
+  }
+
+  up(event) {
+    this.fingers.delete(event.pointerId);
+    this.pressed = false;
   }
 
   wheel(event) {
@@ -114,6 +123,13 @@ export class Pointer {
     );
     const place = this.ray.ray.intersectPlane(plane, new Vector3());
     if (place) this.goal = place;
+    this.foot = null;
+  }
+
+  /** From a place in the frame of the tables, metres, moves on over the surface, or in a plane that faces the reader. */
+  moveIn(mode, place) {
+    this.mode = mode;
+    this.goal = this.room.place(place);
     this.foot = null;
   }
 

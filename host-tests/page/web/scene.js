@@ -32,6 +32,11 @@ const PORCELAIN = 0xe6dfd2,
   SEAM = 0x6d7484,
   BORDER = 0x20283a;
 
+// What three.js calls MOUSE.PAN, MOUSE.ROTATE and TOUCH.DOLLY_ROTATE.
+const MOUSE_PAN = 2,
+  MOUSE_ROTATE = 0,
+  TOUCH_ROTATE = 3;
+
 export class Room {
   constructor(canvas) {
     this.canvas = canvas;
@@ -49,8 +54,8 @@ export class Room {
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.enableZoom = false;
     this.orbit.enableDamping = true;
-    this.orbit.mouseButtons = { LEFT: null, MIDDLE: 2, RIGHT: 0 };
-    this.orbit.touches = { ONE: null, TWO: 2 };
+    this.orbit.mouseButtons = { LEFT: null, MIDDLE: MOUSE_PAN, RIGHT: MOUSE_ROTATE };
+    this.orbit.touches = { ONE: null, TWO: TOUCH_ROTATE };
     this.light();
     this.lines = [];
     this.body = new Group();

@@ -4,7 +4,7 @@ use crate::tool;
 use anyhow::{Context as _, bail, ensure};
 use headless_chrome::protocol::cdp::Page::CaptureScreenshotFormatOption;
 use headless_chrome::protocol::cdp::types::Event;
-use headless_chrome::protocol::cdp::{Log, Runtime};
+use headless_chrome::protocol::cdp::{Emulation, Log, Runtime};
 use headless_chrome::{Browser, LaunchOptions, Tab};
 use serde_json::Value;
 use std::ffi::OsStr;
@@ -75,11 +75,29 @@ impl Page {
         Ok(page)
     }
 
-    /// The same without the picture, which takes nearly all the time where a processor draws it.
-    pub fn without_picture() -> anyhow::Result<Self> {
+    /// The same held still: nothing moves but what a test moves, and nothing is drawn, which takes nearly all the time
+    /// where a processor does it.
+    pub fn held_still() -> anyhow::Result<Self> {
         let page = Self::open()?;
-        page.ask("palpate.draws = false")?;
+        page.ask("palpate.draw(false)")?;
+        page.ask("palpate.pause()")?;
         Ok(page)
+    }
+
+    /// Lets the page have one in so many moments of the processor, as on a machine that has much else to do.
+    pub fn slow_down(&self, times: f64) -> anyhow::Result<()> {
+        self.tab.call_method(Emulation::SetCPUThrottlingRate { rate: times })?;
+        Ok(())
+    }
+
+    /// Waits until an expression is true: frames are slow where a processor draws them.
+    pub fn comes_to(&self, expression: &str) -> anyhow::Result<()> {
+        let began = Instant::now();
+        while self.ask(expression)? != true {
+            ensure!(began.elapsed() < PATIENCE, "{expression}: {}", self.ask("palpate.state()")?);
+            thread::sleep(Duration::from_millis(50));
+        }
+        Ok(())
     }
 
     /// What an expression comes to in the page, promises kept.

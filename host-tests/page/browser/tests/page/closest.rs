@@ -32,10 +32,38 @@ fn numbers(value: &Value) -> anyhow::Result<Vec<f64>> {
 
 #[test]
 fn the_page_has_the_closest_points_of_the_host_and_its_gaps() -> anyhow::Result<()> {
-    let page = Page::without_picture()?;
+    let page = Page::held_still()?;
     for body in BODIES {
         check(&page, body).with_context(|| body.to_owned())?;
     }
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
+/// What the frames do between a script's steps: whether they are drawn, and how many times slower the processor is.
+const FRAMES: [(bool, f64); 3] = [(false, 1.0), (true, 1.0), (true, 20.0)];
+
+#[test]
+fn a_script_comes_to_the_same_state_whatever_the_frames_do() -> anyhow::Result<()> {
+    let page = Page::held_still()?;
+    let mut seen = Vec::new();
+    for (draws, times) in FRAMES {
+        page.ask(&format!("palpate.draw({draws})"))?;
+        page.slow_down(times)?;
+        page.ask("palpate.take('teapot')")?;
+        let about = page.ask("palpate.about()")?;
+        let (size, middle) = (about["size"].as_f64().context("size")?, numbers(&about["middle"])?);
+        for place in &places()[..4] {
+            let at = [0, 1, 2].map(|axis| middle[axis] + size * place[axis]);
+            page.ask(&format!("palpate.hold({at:?}, 300)"))?;
+            page.ask("palpate.drawn(2)")?;
+        }
+        let state = page.ask("palpate.state()")?;
+        let rate = state["rate"].as_f64().context("rate")?;
+        println!("draws: {draws}, slower {times} times: {rate:.0} frames a second, state {}", state["digest"]);
+        seen.push(state["digest"].clone());
+    }
+    ensure!(seen.iter().all(|digest| *digest == seen[0]), "states {seen:?}");
     ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
     Ok(())
 }

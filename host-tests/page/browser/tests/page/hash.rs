@@ -11,7 +11,7 @@ use std::time::Instant;
 
 #[test]
 fn the_million_ticks_of_the_boards_come_to_the_same_and_their_time_is_told() -> anyhow::Result<()> {
-    let page = Page::without_picture()?;
+    let page = Page::held_still()?;
     let mut script = String::new();
     let began = Instant::now();
     palpate_exercise::run(&mut |name, tally| script += &format!("{name} {tally}\n"));
@@ -41,7 +41,7 @@ fn a_run_that_the_emulated_board_has_recorded_is_felt_anew_to_the_same_hash() ->
         line.and_then(|line| line.split_whitespace().last()).map(str::to_owned)
     };
     // Only now: the image may have taken minutes to build, and a browser does not wait for ever.
-    let page = Page::without_picture()?;
+    let page = Page::held_still()?;
     let hash = word("state hash").context("the demo prints no hash")?;
     replayed(&page, &path("demo.json"), &hash)?;
     println!("{}", printed.lines().next().unwrap_or_default());

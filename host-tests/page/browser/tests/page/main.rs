@@ -6,7 +6,10 @@
 mod browser;
 mod closest;
 mod files;
+mod hands;
 mod hash;
 mod pictures;
+mod regions;
 mod stylus;
 mod tool;
+mod work;

@@ -1,0 +1,105 @@
+//! What moves the stylus besides a mouse: fingers and keys. Each test waits for what a reader would see, however slow
+//! the frames.
+
+use crate::browser::Page;
+use anyhow::{Context as _, ensure};
+use headless_chrome::protocol::cdp::Input::{DispatchTouchEvent, DispatchTouchEventTypeOption, TouchPoint};
+
+/// Where the body is drawn, pixels.
+const OVER: [f64; 2] = [540.0, 380.0];
+
+/// In front of the body by the height it hovers at.
+const HOVERS: &str =
+    "palpate.state().contact === 1 && Math.abs(palpate.state().gap - 0.1 * palpate.about().size) < 1e-4";
+const PRESSED: &str = "palpate.state().contact === 2 && palpate.state().gap < -1e-3";
+
+#[test]
+fn a_finger_presses_where_it_is_and_two_turn_the_view() -> anyhow::Result<()> {
+    let page = Page::open()?;
+    fingers(&page, DispatchTouchEventTypeOption::TouchStart, &[OVER])?;
+    page.comes_to(PRESSED)?;
+    let before = place(&page)?;
+    fingers(&page, DispatchTouchEventTypeOption::TouchMove, &[[OVER[0] + 60.0, OVER[1]]])?;
+    page.comes_to(&format!("Math.hypot(...palpate.state().probe.map((x, axis) => x - {before:?}[axis])) > 1e-3"))?;
+    fingers(&page, DispatchTouchEventTypeOption::TouchEnd, &[])?;
+    page.comes_to(HOVERS)?;
+    let (stylus, from) = (place(&page)?, page.ask("palpate.state().looksFrom")?);
+    let far = page.number("Math.hypot(...palpate.state().looksFrom)")?;
+    let second = [OVER[0] + 80.0, OVER[1]];
+    fingers(&page, DispatchTouchEventTypeOption::TouchStart, &[OVER, second])?;
+    for step in 1..=4 {
+        let along = 30.0 * f64::from(step);
+        let moved = [OVER, second].map(|[x, y]| [x + along, y]);
+        fingers(&page, DispatchTouchEventTypeOption::TouchMove, &moved)?;
+    }
+    page.comes_to(&format!("Math.hypot(...palpate.state().looksFrom.map((x, axis) => x - {from}[axis])) > 0.2"))?;
+    fingers(&page, DispatchTouchEventTypeOption::TouchEnd, &[])?;
+    page.ask("palpate.drawn(2)")?;
+    let now = page.number("Math.hypot(...palpate.state().looksFrom)")?;
+    ensure!((now / far - 1.0).abs() < 0.02, "the view has come nearer: {far} to {now}");
+    let moved = place(&page)?.iter().zip(&stylus).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    // From one finger that comes down to the other, the stylus may go to where the first is.
+    ensure!(moved < 0.05, "the stylus went along: {moved} m");
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
+#[test]
+fn keys_move_the_stylus_raise_it_and_press_it_in() -> anyhow::Result<()> {
+    let page = Page::open()?;
+    // The picture has the keys from the beginning.
+    page.tab.press_key("ArrowLeft")?;
+    page.comes_to(HOVERS)?;
+    let before = place(&page)?;
+    for _ in 0..4 {
+        page.tab.press_key("ArrowRight")?;
+    }
+    page.comes_to(&format!("Math.hypot(...palpate.state().probe.map((x, axis) => x - {before:?}[axis])) > 1e-3"))?;
+    for _ in 0..2 {
+        page.tab.press_key("PageUp")?;
+    }
+    page.comes_to("Math.abs(palpate.state().gap - 0.14 * palpate.about().size) < 1e-4")?;
+    // A key that stays down: `press_key` lets go at once.
+    key(&page, "keydown")?;
+    page.comes_to(PRESSED)?;
+    key(&page, "keyup")?;
+    page.comes_to("palpate.state().contact === 1 && palpate.state().gap > 1e-3")?;
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
+fn key(page: &Page, what: &str) -> anyhow::Result<()> {
+    page.ask(&format!(
+        "document.activeElement.dispatchEvent(new KeyboardEvent({what:?}, {{ key: ' ', bubbles: true }})) && null"
+    ))?;
+    Ok(())
+}
+
+/// Where the probe is, metres.
+fn place(page: &Page) -> anyhow::Result<Vec<f64>> {
+    let probe = page.ask("palpate.state().probe")?;
+    probe.as_array().context("no probe")?.iter().map(|x| x.as_f64().context("no number")).collect()
+}
+
+fn fingers(page: &Page, event: DispatchTouchEventTypeOption, at: &[[f64; 2]]) -> anyhow::Result<()> {
+    let points = at.iter().enumerate().map(|(finger, [x, y])| TouchPoint {
+        x: *x,
+        y: *y,
+        radius_x: None,
+        radius_y: None,
+        rotation_angle: None,
+        force: None,
+        tangential_pressure: None,
+        tilt_x: None,
+        tilt_y: None,
+        twist: None,
+        id: Some(finger as f64),
+    });
+    page.tab.call_method(DispatchTouchEvent {
+        Type: event,
+        touch_points: points.collect(),
+        modifiers: None,
+        timestamp: None,
+    })?;
+    Ok(())
+}

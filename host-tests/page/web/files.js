@@ -1,0 +1,34 @@
+// Files that a reader opens or drops: a body, a recording, or a table of places.
+
+import { read } from "bodies";
+import { open, places } from "recording";
+
+/** Opens a file by what its name ends in; whether it was taken. */
+export async function openFile(page, file) {
+  const { name } = file;
+  if (/\.palp$/i.test(name)) {
+    const bytes = file.arrayBuffer().then((buffer) => new Uint8Array(buffer));
+    return page.take(bytes.then((bytes) => read(bytes, name.replace(/\.palp$/i, ""))));
+  }
+  const text = await file.text();
+  return /\.csv$/i.test(name) ? openTable(page, text) : openRecording(page, text, name);
+}
+
+/** Shows a recording, from its text. */
+export async function openRecording(page, text, name) {
+  let found;
+  const opened = await page.take((async () => (found = await open(text, name)).body)());
+  if (opened) page.player.open(found);
+  return opened;
+}
+
+function openTable(page, text) {
+  try {
+    page.loop.follow(places(text, page.body.device.centre));
+    page.refuse(null);
+    return true;
+  } catch (error) {
+    page.refuse(error.message);
+    return false;
+  }
+}

@@ -1,0 +1,96 @@
+// The loop in time: how many ticks a frame owes, and what moves the stylus in them.
+
+import { number, pace } from "choices";
+import { stroll } from "stroll";
+
+/** Seconds without a pointer before the stylus strolls again. */
+const IDLE = 20;
+/** Seconds in which a stroll that begins has gone two thirds of its way from where the stylus was. */
+const EASE = 0.12;
+
+export class Loop {
+  constructor(room, pointer) {
+    Object.assign(this, { room, pointer });
+    Object.assign(this, { clock: 0, owed: 0, idle: 0, strolls: true, stands: false, nanoseconds: 0 });
+    /** While it is set, no frame moves anything: only a script does. */
+    this.paused = false;
+  }
+
+  /** Begins on another device. */
+  begin(device) {
+    this.device = device;
+    this.table = null;
+    this.place = this.room.unplace(this.room.front.clone().multiplyScalar(0.9));
+    device.restart(this.place);
+    this.strolls = true;
+    this.stands = false;
+  }
+
+  /** A reader has taken the stylus. */
+  taken() {
+    this.idle = 0;
+    this.strolls = this.stands = false;
+  }
+
+  /** The hand goes where the probe was, by a table of places. */
+  follow(table) {
+    this.table = Object.assign(table, { at: 0, began: this.clock });
+  }
+
+  /** So many seconds of a frame; the projection errors of its ticks. */
+  advance(seconds) {
+    if (this.stands || this.paused) return [];
+    this.idle += seconds;
+    if (this.idle > IDLE && !this.pointer.held) this.strolls = true;
+    this.owed += seconds * pace() * number("rate");
+    const ticks = Math.floor(this.owed);
+    this.owed -= ticks;
+    this.clock += seconds * pace();
+    if (ticks === 0) return [];
+    this.place = this.next(seconds);
+    const began = performance.now();
+    this.device.run(ticks, this.place, !this.pointer.held);
+    this.nanoseconds += 0.05 * (((performance.now() - began) * 1e6) / ticks - this.nanoseconds);
+    return this.device.errors();
+  }
+
+  next(seconds) {
+    if (this.table) return this.along(this.table);
+    return this.strolls ? this.ease(seconds) : this.pointer.towards(this.place, seconds);
+  }
+
+  along(table) {
+    while (table.at + 1 < table.length && table[table.at + 1].time < this.clock - table.began) table.at += 1;
+    if (table.at + 1 >= table.length) this.table = null;
+    return table[table.at].place;
+  }
+
+  // From wherever the stylus is to where it strolls.
+  ease(seconds) {
+    const to = stroll(this.device, this.room, this.clock),
+      share = 1 - Math.exp(-seconds / EASE);
+    return this.place.map((coordinate, axis) => coordinate + (to[axis] - coordinate) * share);
+  }
+
+  /** Puts the stylus to a place, metres in the frame of the tables, in so many ticks, and holds it there. */
+  hold(place, ticks) {
+    this.strolls = false;
+    this.place = place;
+    this.pointer.hold(place);
+    this.device.run(ticks, place, false);
+  }
+
+  /** A stroll from a time on, s, that comes to rest and stands there until a reader takes the stylus. */
+  show(time) {
+    this.clock = time;
+    for (let step = 0; step < 60; step += 1) {
+      this.clock += 1 / 60;
+      this.place = this.ease(1 / 60);
+      this.device.run(67, this.place);
+    }
+    this.pointer.hold(this.place);
+    for (let count = 0; count < 30; count += 1) this.device.run(100, this.place);
+    this.strolls = false;
+    this.stands = true;
+  }
+}

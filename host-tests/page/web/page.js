@@ -1,0 +1,160 @@
+// The page as one thing: which body is shown, in which panel, and what is seen of it.
+
+import { EDGE, FACE, featureOf } from "firmware";
+import { read, shipped } from "bodies";
+import { Room } from "scene";
+import { Marks } from "marks";
+import { Pointer } from "pointer";
+import { Loop } from "loop";
+import { Player } from "player";
+import { Errors, show } from "panel";
+import { Basin } from "basin";
+import { choices, number, pace, say } from "choices";
+import { verify } from "proof";
+
+const by = (id) => document.getElementById(id);
+/** A page that was away for longer does not catch up, s. */
+const LONGEST_FRAME = 0.05;
+/** How often the words about speed change, ms. */
+const TOLD_EVERY = 500;
+
+export class Page {
+  constructor() {
+    this.room = new Room(by("scene"));
+    this.marks = new Marks(this.room);
+    this.errors = new Errors(by("errors"));
+    this.pointer = new Pointer(this.room, { touched: () => this.loop.taken() });
+    this.loop = new Loop(this.room, this.pointer);
+    this.player = new Player();
+    const ways = ([ours, newton]) => this.panel === "basin" && this.marks.ways(ours.places, newton.places);
+    this.basin = new Basin({ changed: ways });
+    this.panel = "feel";
+    /** Bodies of files that were opened, by name. */
+    this.opened = new Map();
+    /** A device on a line, and what it says; see live.js. */
+    this.live = null;
+    /** Whether frames are drawn: a processor that does it alone has little time for all else. */
+    this.draws = true;
+    Object.assign(this, { frames: 0, rate: 60 });
+  }
+
+  /** Takes a body, or says why not. */
+  async take(promise) {
+    this.refuse(null);
+    try {
+      this.body = await promise;
+    } catch (error) {
+      this.refuse(error.message);
+      return false;
+    }
+    const { device, name, title, bytes } = this.body;
+    this.player.close();
+    this.room.show(device);
+    this.marks.begin();
+    this.pointer.begin();
+    this.choose();
+    this.loop.begin(device);
+    if (!by("body").querySelector(`option[value="${CSS.escape(name)}"]`)) {
+      by("body").add(new Option(title, name));
+      this.opened.set(name, bytes);
+    }
+    by("body").value = name;
+    if (this.panel === "basin") this.beginBasin();
+    return true;
+  }
+
+  /** The body of a name in the list. */
+  named(name) {
+    return this.opened.has(name) ? read(this.opened.get(name), name) : shipped(name);
+  }
+
+  /** Says what is wrong, or that nothing is. */
+  refuse(message) {
+    by("refusal").hidden = !message;
+    by("refusal").textContent = message ?? "";
+  }
+
+  /** Goes on as the sliders say. */
+  choose() {
+    say();
+    try {
+      this.body.device.choose(choices());
+      this.refuse(null);
+    } catch (error) {
+      this.refuse(error.message);
+    }
+  }
+
+  /** Turns to a panel. */
+  turnTo(name) {
+    this.panel = name;
+    document.querySelectorAll("[data-tab]").forEach((element) => {
+      if (element.role === "tab") element.setAttribute("aria-selected", String(element.dataset.tab === name));
+      else element.hidden = element.dataset.tab !== name;
+    });
+    this.marks.ways();
+    if (name === "basin") this.beginBasin();
+    if (name === "proof" && by("hash").textContent === "…") verify();
+  }
+
+  beginBasin() {
+    const { device } = this.body;
+    // Straight out from where the patch is, or where the reader has left the stylus.
+    const at = device.isPatch ? over(device) : (this.view?.probe ?? this.loop.place);
+    this.basin.begin(device, at);
+    device.restart(at);
+    device.run(200, at, false);
+    this.view = device.view();
+  }
+
+  /** A frame of the browser's, at its time in ms. */
+  frame(now) {
+    const took = now - (this.last ?? now);
+    if (took > 0) this.rate += 0.05 * (1e3 / took - this.rate);
+    this.last = now;
+    if (!this.body) return;
+    this.advance(Math.min(took / 1e3, LONGEST_FRAME));
+    this.frames += 1;
+  }
+
+  /** So many seconds of whatever is shown, and the picture of it. */
+  advance(seconds) {
+    if (this.live) this.view = this.live.view ?? this.view;
+    else if (this.player.recording) this.view = this.player.advance(seconds);
+    else if (this.panel === "basin") this.basin.step();
+    else {
+      this.errors.add(this.loop.advance(seconds), this.body.device.size);
+      this.view = this.body.device.view();
+    }
+    this.picture();
+    if (this.draws) this.room.draw();
+  }
+
+  /** Puts marks and words to where the view is. */
+  picture() {
+    const { view, body, marks } = this;
+    if (!view) return;
+    const { kind, index } = featureOf(view.feature),
+      isPatch = body.device.isPatch;
+    this.room.light_up(kind === FACE && !isPatch ? [index] : []);
+    marks.edge(kind === EDGE && !isPatch ? index : null, body.device);
+    const withRegion = by("regions").checked && this.panel === "feel";
+    if (withRegion) marks.region(view.feature, body.device);
+    marks.show(view, withRegion);
+    show(view, body);
+    if (this.panel === "feel") this.errors.draw();
+    if (Math.floor(this.last / TOLD_EVERY) === this.told) return;
+    this.told = Math.floor(this.last / TOLD_EVERY);
+    by("speed").textContent =
+      `${Math.round(number("rate") * pace())} ticks a second at ${Math.round(this.rate)} frames; ` +
+      `${(this.loop.nanoseconds / 1e3).toFixed(2)} µs a tick here`;
+  }
+}
+
+// A probe over a patch, a third of its size straight out.
+function over(device) {
+  const steps = 10,
+    grid = device.face(0, steps),
+    at = 6 * (3 * (steps + 1) + 7);
+  return [0, 1, 2].map((axis) => grid[at + axis] + 0.35 * device.size * grid[at + 3 + axis]);
+}

@@ -1,0 +1,42 @@
+// A recording that is shown: its views in time, and the bar to move in it.
+
+import { pace } from "choices";
+
+const by = (id) => document.getElementById(id);
+
+export class Player {
+  constructor() {
+    this.close();
+    by("play").addEventListener("click", () => {
+      this.plays = !this.plays;
+      by("play").textContent = this.plays ? "pause" : "play";
+    });
+    by("time").addEventListener("input", () => (this.at = Number(by("time").value)));
+  }
+
+  /** Shows a recording from its beginning. */
+  open(recording) {
+    Object.assign(this, { recording, at: 0, plays: true });
+    by("play").textContent = "pause";
+    by("time").max = recording.views.length - 1;
+    by("timeline").hidden = false;
+    by("live").textContent = recording.same
+      ? `state hash ${recording.hash}: ${recording.on}’s, bit for bit`
+      : `state hash ${recording.hash}, recorded was ${recording.recorded}`;
+  }
+
+  /** Leaves it. */
+  close() {
+    this.recording = null;
+    by("timeline").hidden = true;
+  }
+
+  /** The view after so many seconds more. */
+  advance(seconds) {
+    const { views, seconds: apart } = this.recording;
+    if (this.plays) this.at = (this.at + (seconds * pace()) / apart) % views.length;
+    by("time").value = Math.floor(this.at);
+    by("clock").textContent = `${(this.at * apart).toFixed(2)} s`;
+    return views[Math.floor(this.at)];
+  }
+}

@@ -1,0 +1,126 @@
+// What a script may ask of the page, as `window.palpate`: the tests do, and the curious in the console.
+
+import { given, shipped } from "bodies";
+import { openFile } from "files";
+import { hashOf, secondsOf, verify } from "proof";
+
+const by = (id) => document.getElementById(id);
+
+export class Script {
+  constructor(page) {
+    this.page = page;
+    /** When the page runs. */
+    this.ready = null;
+    this.verify = verify;
+    this.exerciseSeconds = secondsOf;
+  }
+
+  /** Holds the loop still: nothing moves but what a script moves, however many frames pass. */
+  pause(paused = true) {
+    this.page.loop.paused = paused;
+  }
+
+  /** Whether frames are drawn. */
+  draw(draws) {
+    this.page.draws = draws;
+  }
+
+  /** A shipped body. */
+  take(name) {
+    return this.page.take(shipped(name));
+  }
+
+  /** A file of a name, its bytes in base64. */
+  open(name, base64) {
+    return openFile(this.page, new File([Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0))], name));
+  }
+
+  panel(name) {
+    this.page.turnTo(name);
+  }
+
+  /** Puts the stylus to a place, metres in the frame of the tables, in so many ticks; what is seen there. */
+  hold(place, ticks = 400) {
+    const { page } = this;
+    page.loop.hold(place, ticks);
+    page.view = page.body.device.view();
+    page.picture();
+    return { ...page.view, shown: Number(by("gap").dataset.metres), text: by("gap").textContent };
+  }
+
+  /** A stroll from a time on, s, that stands where it ends. */
+  show(time) {
+    this.page.loop.show(time);
+  }
+
+  /** When so many more frames have been drawn. */
+  async drawn(frames) {
+    const last = this.page.frames + frames;
+    while (this.page.frames < last) await new Promise(requestAnimationFrame);
+  }
+
+  /** When all starts of the comparison have been tried. */
+  async settled() {
+    while (!this.page.basin.done) await new Promise(requestAnimationFrame);
+  }
+
+  /** The closest point of a place from a standing start. */
+  closest(place) {
+    return this.page.body.device.closest(place);
+  }
+
+  /** The rays of a feature's region. */
+  sheets(code) {
+    return Array.from(this.page.body.device.sheets(code));
+  }
+
+  /** Bytes of a device's telemetry; the last record. */
+  monitor(bytes) {
+    return this.page.body.device.monitor(Uint8Array.from(bytes));
+  }
+
+  /** Nanoseconds of a tick. */
+  nanoseconds() {
+    return this.page.body.device.nanosecondsATick(400_000);
+  }
+
+  /** Milliseconds of this thread for each of so many frames of a 60th of a second, a stroll from a time on, s. */
+  work(frames, time = 0) {
+    const { page } = this;
+    Object.assign(page.loop, { clock: time, strolls: true, stands: false });
+    return Array.from({ length: frames }, () => {
+      const began = performance.now();
+      page.advance(1 / 60);
+      return performance.now() - began;
+    });
+  }
+
+  about() {
+    const { body, room } = this.page,
+      { size, centre, faces, edges, vertices } = body.device;
+    return { size, centre, faces, edges, vertices, middle: room.middle, units: body.units };
+  }
+
+  state() {
+    const { body, basin, player, view, panel, rate, frames, room, marks } = this.page,
+      recording = player.recording;
+    return {
+      name: body.name,
+      title: body.title,
+      panel,
+      replay: recording && { same: recording.same, hash: recording.hash },
+      arrived: basin.arrived,
+      refusal: by("refusal").hidden ? null : by("refusal").textContent,
+      contact: view?.contact,
+      gap: view?.gap,
+      probe: view?.probe,
+      feature: view?.feature,
+      region: marks.sheet.visible ? marks.shown.code : null,
+      looksFrom: room.camera.position.toArray(),
+      rate,
+      frames,
+      digest: body.device.digest(),
+      script: given.script && hashOf(given.script),
+    };
+  }
+}
