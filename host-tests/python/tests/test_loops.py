@@ -1,6 +1,8 @@
 """Trackers, pairs, simulated loops and telemetry."""
 
+import inspect
 import os
+import re
 import struct
 import zlib
 
@@ -184,3 +186,9 @@ def test_telemetry_comes_from_a_port_and_nothing_goes_to_it():
         link.read(1)
     with pytest.raises(palpate.LinkError, match="/dev/none"):
         palpate.Link("/dev/none")
+
+
+def test_a_link_opens_at_the_speed_that_monitor_takes():
+    monitor = (ROOT / "host-tests/tool/src/commands/monitor.rs").read_text()
+    [speed] = re.findall(r"default_value_t = ([\d_]+)\)\]\s+baud:", monitor)
+    assert inspect.signature(palpate.Link).parameters["baud"].default == int(speed)

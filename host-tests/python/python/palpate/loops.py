@@ -67,8 +67,8 @@ class Link:
 
     __slots__ = ("_native",)
 
-    def __init__(self, port: str, *, baud: int = 115_200):
-        """Opens a port. Raises LinkError for one that cannot be opened."""
+    def __init__(self, port: str, *, baud: int = 500_000):
+        """Opens a port at `baud`, Bd. Raises LinkError for one that cannot be opened."""
         self._native = _native.Link(port, baud)
 
     def read(self, count: int, *, timeout: float = 1.0) -> Records:
