@@ -40,6 +40,8 @@ pub struct Descending {
     halvings: u8,
     /// Evaluations that it may still cost.
     left: u8,
+    /// Whether the last step may be taken unseen.
+    may_end_unseen: bool,
 }
 
 /// What an evaluation found out.
@@ -68,7 +70,14 @@ impl Descending {
             seen: None,
             halvings: 0,
             left: most,
+            may_end_unseen: true,
         }
+    }
+
+    /// The same, which sees every step's end: one evaluation more for what is left of the error.
+    pub const fn to_the_end(mut self) -> Self {
+        self.may_end_unseen = false;
+        self
     }
 
     /// Both halves of a step at one go.
@@ -142,6 +151,7 @@ impl Descending {
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
             // What the model is proved to say rightly of its minimiser need not be seen there.
             if poles == 0
+                && self.may_end_unseen
                 && model.is_newton
                 && is_proved(&patch.shape(), &model, &seen, change, fall, size)
                 && patch.beyond_knots(at, self.trial) == [0.0; 2]

@@ -210,8 +210,13 @@ impl Body<'_> {
 
     /// A search from the middle of the candidate at an index.
     fn descending(&self, entry: usize) -> Descending {
-        let most = if self.is_convex() { MAX_EVALUATIONS_PER_CANDIDATE_CONVEX } else { MAX_EVALUATIONS_PER_CANDIDATE };
-        Descending::new(self.candidate(entry), most)
+        let candidate = self.candidate(entry);
+        // A convex body's lists are short, and no audit looks again.
+        if self.is_convex() {
+            Descending::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX).to_the_end()
+        } else {
+            Descending::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE)
+        }
     }
 
     fn poles_of(&self, face: u16) -> u8 {
