@@ -19,9 +19,7 @@ pub mod in_python;
 pub mod knob;
 pub mod models;
 pub mod monitor;
-pub mod own;
 pub mod page;
-pub mod preset;
 pub mod proof;
 pub mod queries;
 pub mod race;
@@ -31,3 +29,5 @@ pub mod rides;
 pub mod simulation;
 pub mod wall;
 pub mod zwidth;
+
+pub use palpate_devices::{self as own, preset};

@@ -1,15 +1,17 @@
 //! A lab's own device, as a `device.toml` describes it: read and checked, turned into the library's constant,
-//! simulated, and written.
+//! simulated, and written. Apart from the tool, for whoever runs a loop against a device.
 
 mod constant;
 mod plant;
-mod preset;
+pub mod preset;
 mod read;
 mod schema;
+mod shipped;
 
 pub use constant::{settings_source, source};
-pub use preset::{file_of, protection_of};
+pub use preset::Preset;
 pub use read::{DeviceFileError, OwnDevice};
 pub use schema::{
     BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry, MechanismEntry, MotorEntry,
 };
+pub use shipped::{file_of, protection_of};
