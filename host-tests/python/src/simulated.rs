@@ -7,6 +7,7 @@ use crate::simulate::{Run, Sample, Wishes};
 use glam::DVec3;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 
 /// Runs the loop; `at` is where the model's origin lies in the device's workspace, m.
 #[pyfunction]
@@ -16,7 +17,7 @@ use pyo3::types::PyDict;
 #[allow(clippy::too_many_arguments, reason = "each is an argument of the function in Python, by its name")]
 pub fn simulate<'py>(
     py: Python<'py>,
-    device: &str,
+    device: PathBuf,
     body: Py<Body>,
     rate: f32,
     seconds: f64,
@@ -36,7 +37,7 @@ pub fn simulate<'py>(
     let origin = at.map(|at| DVec3::from_array(at) + body.middle());
     let wishes =
         Wishes { rate, seconds, seed, stiffness, damping, max_force, velocity_corner, soft_start, protected, origin };
-    let run = py.detach(|| run_on(device, body.tables, &wishes))?;
+    let run = py.detach(|| run_on(&device, body.tables, &wishes))?;
     columns(py, &run)
 }
 

@@ -101,6 +101,50 @@ def test_every_device_feels_the_box(device, capped_box):
     assert len(run.time) == 6000 and not run.fault.any() and (run.contact == 2).any()
 
 
+def device_file(folder, **changes):
+    """The arm in the example of docs/device-format.md, with entries changed."""
+    text = (ROOT / "docs/device-format.md").read_text().split("```toml\n")[1].split("```")[0]
+    head, joint = text.split("[[joint]]")
+    kinds = (("-16.0", "16.0", "[-1.6, 1.6]"), ("-12.0", "-12.0", "[-0.8, 2.2]"), ("12.0", "12.0", "[-1.2, 1.8]"))
+    joints = [
+        joint.replace("ratio = -16.0", f"ratio = {encoder}")
+        .replace("ratio = 16.0", f"ratio = {motor}")
+        .replace("range = [-1.6, 1.6]", f"range = {span}")
+        .replace("channel = 0", f"channel = {index}")
+        for index, (encoder, motor, span) in enumerate(kinds)
+    ]
+    text = "[[joint]]".join([head, *joints])
+    for before, after in changes.values():
+        assert before in text
+        text = text.replace(before, after, 1)
+    path = folder / "my.toml"
+    path.write_text(text)
+    return path
+
+
+def test_a_device_of_ones_own_feels_the_box(capped_box, tmp_path):
+    run = palpate.simulate(device_file(tmp_path), capped_box, seconds=1.5, seed=3)
+    assert len(run.time) == 6000 and not run.fault.any() and (run.contact == 2).any()
+    # Another motor is another run, though the counts are the same until it is driven.
+    weaker = device_file(tmp_path, motor=("torque_constant = 0.0259", "torque_constant = 0.0200"))
+    other = palpate.simulate(str(weaker), capped_box, seconds=1.5, seed=3)
+    assert other.state_hash != run.state_hash
+    same_bits(other.counts[:400], run.counts[:400])
+
+
+def test_a_device_file_that_is_none_is_refused_by_its_entry(capped_box, tmp_path):
+    for before, after, entry in (
+        ("first_link = 0.205", "first_link = 205.0", "mechanism.first_link"),
+        ("counts = 2000.0", "count = 2000.0", "unknown field `count`"),
+        ("max_force = 5.0", "max_force = -5.0", "limits"),
+    ):
+        spoilt = device_file(tmp_path, spoilt=(before, after))
+        with pytest.raises(palpate.SettingsError, match=entry):
+            palpate.simulate(spoilt, capped_box)
+    with pytest.raises(FileNotFoundError, match="none.toml"):
+        palpate.simulate(tmp_path / "none.toml", capped_box)
+
+
 def test_protection_reaches_the_loop(capped_box):
     plain, protected = (palpate.simulate("falcon", capped_box, seconds=0.5, protected=with_) for with_ in (False, True))
     assert plain.state_hash != protected.state_hash

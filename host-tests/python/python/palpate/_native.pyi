@@ -100,7 +100,7 @@ class Link:
     def close(self) -> None: ...
 
 def simulate(
-    device: str,
+    device: str | PathLike[str],
     body: Body,
     *,
     rate: float,

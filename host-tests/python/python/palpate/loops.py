@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from types import TracebackType
 
 from numpy.typing import ArrayLike
@@ -18,7 +19,7 @@ def devices() -> list[str]:
 
 
 def simulate(
-    device: str,
+    device: str | PathLike[str],
     body: Body,
     *,
     rate: float = 4000.0,
@@ -36,13 +37,14 @@ def simulate(
 
     For a body of several faces it is what ``palpate sim`` runs, bit by bit; one face is felt as a body, too.
 
-    `device` is one of `devices`, `body` what it feels. `rate`, Hz, `seconds`, and `seed` of the hand's path;
+    `device` is one of `devices`, or the path of one's own device file (``.toml``); `body` is what it feels. `rate`, Hz, `seconds`, and `seed` of the hand's path;
     `stiffness`, N/m, and `damping`, N·s/m, of the surface, 1000 and 2 or what the device takes if that is less;
     `max_force`, N; `velocity_corner`, Hz, of the velocity filter; `soft_start`, s, over which force is faded in;
     `protected` with all protection of the device; `at`, (3,), m, where the model's origin lies in the device's
     workspace, or None to centre the body there.
 
-    Raises SettingsError for what the device or the loop refuses.
+    Raises SettingsError for what the device or the loop refuses and for a device file that describes no device,
+    FileNotFoundError and its like for one that cannot be read.
     """
     place = None if at is None else row("at", at, 3)
     columns = _native.simulate(
