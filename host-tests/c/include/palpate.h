@@ -51,7 +51,7 @@ typedef uintptr_t palpate_word;
 #define PALPATE_BODY_WORDS 24
 #define PALPATE_TRACKER_WORDS 76
 #define PALPATE_PAIR_WORDS 56
-#define PALPATE_SERVO_WORDS 420
+#define PALPATE_SERVO_WORDS 500
 #define PALPATE_RECEIVER_WORDS 38
 #else
 #define PALPATE_FACE_WORDS 45
@@ -59,7 +59,7 @@ typedef uintptr_t palpate_word;
 #define PALPATE_BODY_WORDS 20
 #define PALPATE_TRACKER_WORDS 40
 #define PALPATE_PAIR_WORDS 32
-#define PALPATE_SERVO_WORDS 220
+#define PALPATE_SERVO_WORDS 260
 #define PALPATE_RECEIVER_WORDS 22
 #endif
 
@@ -117,7 +117,15 @@ enum {
     PALPATE_SETTINGS_FRICTION = 55,        /**< Friction negative, not finite, or dynamic above static. */
     PALPATE_SETTINGS_MAX_SLEW = 56,        /**< Slew limit not positive. */
     PALPATE_SETTINGS_SAFE_DAMPING = 57,    /**< Safe damping not between 0 and the device's greatest. */
-    PALPATE_SETTINGS_LINK_TIMEOUT = 58     /**< Timeout not positive. */
+    PALPATE_SETTINGS_LINK_TIMEOUT = 58,    /**< Timeout not positive. */
+    PALPATE_SETTINGS_TEXTURE = 59,         /**< No texture was given, or its share is not between 0 and 1. */
+    PALPATE_SETTINGS_COUPLING = 60,        /**< The tool is too light for coupling, surface and rate. */
+    PALPATE_SETTINGS_PASSIVITY = 61,       /**< A number of passivity control negative or not finite. */
+    PALPATE_PROTECTION_CONTINUOUS = 64,    /**< A motor's continuous torque not positive and finite. */
+    PALPATE_PROTECTION_TIME_CONSTANT = 65, /**< A time constant not between 100 ticks and ten minutes. */
+    PALPATE_PROTECTION_SPEED = 66,         /**< A greatest speed not positive. */
+    PALPATE_PROTECTION_SUPPLY = 67,        /**< The least supply not below the most. */
+    PALPATE_PROTECTION_INERTIA = 68        /**< An inertia not positive and finite. */
 };
 
 /** A status in a sentence that stays for ever; "unknown" of a code that is none. */
@@ -385,6 +393,14 @@ typedef struct palpate_settings {
     float friction_damping;   /**< N·s/m. */
     float friction_static;    /**< With the next one 0: no friction. */
     float friction_dynamic;   /**< Not above the static one. */
+    float texture_share;      /**< The texture's force at most, as a share of the normal force, 0 to 1; 0: none. */
+    float coupling_stiffness; /**< Between probe and virtual tool, N/m. */
+    float coupling_damping;   /**< N·s/m. */
+    float coupling_mass;      /**< Of the virtual tool, kg; 0: the probe itself touches. */
+    float passivity_damping;  /**< The most that passivity control adds, N·s/m; 0: none. */
+    float passivity_resolution; /**< How far the probe seems to move when every encoder counts one, m. */
+    float device_damping;     /**< What the device has at least, for passivity control, N·s/m; 0 to be careful. */
+    float device_friction;    /**< The same of dry friction, N. */
     float max_slew;           /**< How fast the force may grow, N/s; INFINITY for no limit. */
     float safe_damping;       /**< What the motors brake with after a fault, N·s/m; 0: nothing. */
     float link_timeout;       /**< Seconds of silence after which the host is lost; INFINITY where none watches. */
@@ -393,6 +409,44 @@ typedef struct palpate_settings {
     uint32_t wait_for_homing; /**< 1: the loop waits for #PALPATE_HOMED before it is armed. */
     uint32_t leave_weight;    /**< 1: the motors do not carry the links' weight. */
 } palpate_settings;
+
+/** What a texture may look at. */
+typedef struct palpate_touched {
+    float parameters[2]; /**< (u, v) of the witness point. */
+    float point[3];      /**< The witness point, m. */
+    float normal[3];     /**< Unit vector out of the body there. */
+    float along_u[3];    /**< Unit tangent along u. */
+    float velocity[3];   /**< Of the probe, m/s. */
+    float push;          /**< Normal force without texture, N. */
+} palpate_touched;
+
+/** A texture: writes an extra force on the probe, three components, N. Called in the tick, it must return soon. */
+typedef void (*palpate_texture_force)(const palpate_touched *touched, float *force);
+
+/**
+ * Takes the program's texture, one for all loops whose palpate_settings::texture_share is not 0: before those start.
+ *
+ * @param force the function, which stays
+ */
+palpate_status palpate_texture(palpate_texture_force force);
+
+/** What a motor's winding bears. */
+typedef struct palpate_endurance {
+    float continuous;    /**< Torque that it bears for ever, as a share of full duty. */
+    float time_constant; /**< Of the winding, s. */
+} palpate_endurance;
+
+/** What protects motors and hand. Joints that the device does not have are not looked at. */
+typedef struct palpate_protection {
+    palpate_endurance motors[3]; /**< What each motor bears. */
+    float max_joint_rates[3];    /**< Greatest speed of each joint while force is given, rad/s. */
+    float max_probe_speed;       /**< Greatest speed of the probe while force is given, m/s. */
+    uint32_t watch_signs;        /**< 1: an encoder that counts against its motor is a fault. */
+    float inertia[3];            /**< What turns with each joint, kg·m²; for that watch. */
+    uint32_t watch_supply;       /**< 1: a supply out of range, or not told by palpate_servo_supply(), is a fault. */
+    uint32_t least_supply;       /**< mV. */
+    uint32_t most_supply;        /**< mV. */
+} palpate_protection;
 
 /** Fills in the defaults: 1 kHz, a soft wall and little force, within what every device that ships takes. */
 palpate_status palpate_settings_default(palpate_settings *settings);
@@ -498,6 +552,46 @@ palpate_status palpate_servo_start_paddle(palpate_servo *servo, size_t servo_byt
                                           const palpate_settings *settings, uint32_t reset);
 
 /**
+ * Makes a loop that protects motors and hand, of a device whose mechanism is a serial arm. It is larger and slower than
+ * one that is not protected; a program that starts none links nothing of it.
+ *
+ * @param servo       where it goes
+ * @param servo_bytes `sizeof` it
+ * @param mechanism   the mechanism's numbers
+ * @param device      the device's numbers; three joints are looked at
+ * @param body        what is felt, which stays
+ * @param settings    the settings
+ * @param protection  what motors and joints bear; three joints are looked at
+ * @param reset       why the chip was reset
+ */
+palpate_status palpate_servo_start_serial_arm_protected(palpate_servo *servo, size_t servo_bytes,
+                                                        const palpate_serial_arm *mechanism,
+                                                        const palpate_device *device,
+                                                        const palpate_body *body, const palpate_settings *settings,
+                                                        const palpate_protection *protection, uint32_t reset);
+/** The same of a delta; three joints. */
+palpate_status palpate_servo_start_delta_protected(palpate_servo *servo, size_t servo_bytes,
+                                                   const palpate_delta *mechanism, const palpate_device *device,
+                                                   const palpate_body *body, const palpate_settings *settings,
+                                                   const palpate_protection *protection, uint32_t reset);
+/** The same of a linkage arm; three joints. */
+palpate_status palpate_servo_start_linkage_arm_protected(palpate_servo *servo, size_t servo_bytes,
+                                                         const palpate_linkage_arm *mechanism,
+                                                         const palpate_device *device,
+                                                         const palpate_body *body, const palpate_settings *settings,
+                                                         const palpate_protection *protection, uint32_t reset);
+/** The same of a five-bar; two joints. */
+palpate_status palpate_servo_start_five_bar_protected(palpate_servo *servo, size_t servo_bytes,
+                                                      const palpate_five_bar *mechanism, const palpate_device *device,
+                                                      const palpate_body *body, const palpate_settings *settings,
+                                                      const palpate_protection *protection, uint32_t reset);
+/** The same of a paddle; one joint. */
+palpate_status palpate_servo_start_paddle_protected(palpate_servo *servo, size_t servo_bytes,
+                                                    const palpate_paddle *mechanism, const palpate_device *device,
+                                                    const palpate_body *body, const palpate_settings *settings,
+                                                    const palpate_protection *protection, uint32_t reset);
+
+/**
  * One tick, from encoder counts to duties. The output is off unless the call comes back with #PALPATE_OK.
  *
  * @param servo  the loop
@@ -526,6 +620,15 @@ palpate_status palpate_servo_tick_without(palpate_servo *servo, uint32_t damaged
  * @param output where what the motors now get goes
  */
 palpate_status palpate_servo_note(palpate_servo *servo, uint32_t event, palpate_output *output);
+
+/**
+ * Tells what the motors' supply was measured at, between two ticks. A loop that does not watch it takes no notice.
+ *
+ * @param servo      the loop
+ * @param millivolts mV
+ * @param output     where what the motors now get goes
+ */
+palpate_status palpate_servo_supply(palpate_servo *servo, uint32_t millivolts, palpate_output *output);
 
 /**
  * The state after the last tick.

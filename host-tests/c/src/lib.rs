@@ -17,9 +17,14 @@ mod memory;
 mod numbers;
 mod pair;
 mod pointers;
+mod protected_starts;
+mod protection;
+mod running;
 mod servo;
+mod starts;
 mod state;
 mod status;
+mod texture;
 mod tracker;
 
 use core::panic::PanicInfo;

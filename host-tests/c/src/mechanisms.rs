@@ -1,13 +1,18 @@
-//! The mechanisms as numbers, and a loop for each. A program that starts one links no other.
+//! The mechanisms as numbers.
 
-use crate::body::Loaded;
-use crate::handle::Handle;
-use crate::numbers::{DeviceNumbers, SettingsNumbers};
-use crate::pointers::{Plain, finite, get};
-use crate::servo::{Started, begin};
-use crate::status::{Status, code};
+use crate::pointers::{Plain, finite};
+use crate::status::Status;
 use palpate_core::device::{Delta, FiveBar, LinkMass, LinkageArm, Paddle, SerialArm};
 use palpate_core::math::{Vec3, vec2};
+
+/// A mechanism as numbers.
+pub trait MechanismNumbers: Plain {
+    /// What they are of.
+    type Mechanism;
+
+    /// The mechanism, or what is wrong with a number.
+    fn mechanism(&self) -> Result<Self::Mechanism, Status>;
+}
 
 /// A turntable with a parallelogram of two links.
 #[derive(Clone, Copy)]
@@ -77,7 +82,9 @@ unsafe impl Plain for LinkageArmNumbers {}
 // SAFETY: floats alone.
 unsafe impl Plain for PaddleNumbers {}
 
-impl SerialArmNumbers {
+impl MechanismNumbers for SerialArmNumbers {
+    type Mechanism = SerialArm;
+
     fn mechanism(&self) -> Result<SerialArm, Status> {
         let Self { base_height, first_link, second_link, workspace_centre, end_masses } = *self;
         finite(&[base_height, first_link, second_link])?;
@@ -88,7 +95,9 @@ impl SerialArmNumbers {
     }
 }
 
-impl DeltaNumbers {
+impl MechanismNumbers for DeltaNumbers {
+    type Mechanism = Delta;
+
     fn mechanism(&self) -> Result<Delta, Status> {
         let Self { thigh, shin, stub, reach, side, directions, workspace_centre, up, carried_mass, thigh_moment } =
             *self;
@@ -101,7 +110,9 @@ impl DeltaNumbers {
     }
 }
 
-impl FiveBarNumbers {
+impl MechanismNumbers for FiveBarNumbers {
+    type Mechanism = FiveBar;
+
     fn mechanism(&self) -> Result<FiveBar, Status> {
         let Self { second_pivot, cranks, rods, side, tool, workspace_centre: [x, y] } = *self;
         finite(&[second_pivot, side, tool, x, y])?;
@@ -111,7 +122,9 @@ impl FiveBarNumbers {
     }
 }
 
-impl LinkageArmNumbers {
+impl MechanismNumbers for LinkageArmNumbers {
+    type Mechanism = LinkageArm;
+
     fn mechanism(&self) -> Result<LinkageArm, Status> {
         finite(&[self.pivot_reach])?;
         finite(&self.workspace_centre)?;
@@ -125,125 +138,12 @@ impl LinkageArmNumbers {
     }
 }
 
-impl PaddleNumbers {
+impl MechanismNumbers for PaddleNumbers {
+    type Mechanism = Paddle;
+
     fn mechanism(&self) -> Result<Paddle, Status> {
         let Self { handle, mass_moment } = *self;
         finite(&[handle, mass_moment])?;
         Ok(Paddle { handle, mass_moment })
     }
-}
-
-/// A loop of a serial arm.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_serial_arm(
-    servo: *mut Handle<Started>,
-    servo_bytes: usize,
-    mechanism: *const SerialArmNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let start = || {
-        // SAFETY: the caller's numbers.
-        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
-        // SAFETY: the caller's memory, numbers and body.
-        unsafe { begin::<_, 3>(servo, servo_bytes, mechanism, device, body, settings, reset) }
-    };
-    code(start())
-}
-
-/// A loop of a delta.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_delta(
-    servo: *mut Handle<Started>,
-    servo_bytes: usize,
-    mechanism: *const DeltaNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let start = || {
-        // SAFETY: the caller's numbers.
-        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
-        // SAFETY: the caller's memory, numbers and body.
-        unsafe { begin::<_, 3>(servo, servo_bytes, mechanism, device, body, settings, reset) }
-    };
-    code(start())
-}
-
-/// A loop of a linkage arm.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_linkage_arm(
-    servo: *mut Handle<Started>,
-    servo_bytes: usize,
-    mechanism: *const LinkageArmNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let start = || {
-        // SAFETY: the caller's numbers.
-        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
-        // SAFETY: the caller's memory, numbers and body.
-        unsafe { begin::<_, 3>(servo, servo_bytes, mechanism, device, body, settings, reset) }
-    };
-    code(start())
-}
-
-/// A loop of a five-bar.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_five_bar(
-    servo: *mut Handle<Started>,
-    servo_bytes: usize,
-    mechanism: *const FiveBarNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let start = || {
-        // SAFETY: the caller's numbers.
-        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
-        // SAFETY: the caller's memory, numbers and body.
-        unsafe { begin::<_, 2>(servo, servo_bytes, mechanism, device, body, settings, reset) }
-    };
-    code(start())
-}
-
-/// A loop of a paddle.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_paddle(
-    servo: *mut Handle<Started>,
-    servo_bytes: usize,
-    mechanism: *const PaddleNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let start = || {
-        // SAFETY: the caller's numbers.
-        let mechanism = unsafe { get(mechanism) }?.mechanism()?;
-        // SAFETY: the caller's memory, numbers and body.
-        unsafe { begin::<_, 1>(servo, servo_bytes, mechanism, device, body, settings, reset) }
-    };
-    code(start())
 }

@@ -22,7 +22,7 @@ pub const TRACKER_WORDS: usize = if NARROW { 76 } else { 40 };
 /// Words of a pair.
 pub const PAIR_WORDS: usize = if NARROW { 56 } else { 32 };
 /// Words of a servo.
-pub const SERVO_WORDS: usize = if NARROW { 420 } else { 220 };
+pub const SERVO_WORDS: usize = if NARROW { 500 } else { 260 };
 /// Words of a receiver.
 pub const RECEIVER_WORDS: usize = if NARROW { 38 } else { 22 };
 

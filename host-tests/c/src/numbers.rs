@@ -2,10 +2,11 @@
 
 use crate::pointers::{Plain, finite};
 use crate::status::Status;
+use crate::texture::texture;
 use palpate_core::device::drive::{Feed, VoltageFeed};
 use palpate_core::device::{Device, Encoder, Motor};
 use palpate_core::math::Vec3;
-use palpate_core::render::Friction;
+use palpate_core::render::{Coupling, Friction, Passivity};
 use palpate_core::servo::{Rendering, SafeOutput, Safety, Settings};
 
 /// How a bridge feeds a motor; `supply` 0 for an amplifier that controls the current.
@@ -63,6 +64,14 @@ pub struct SettingsNumbers {
     pub friction_damping: f32,
     pub friction_static: f32,
     pub friction_dynamic: f32,
+    pub texture_share: f32,
+    pub coupling_stiffness: f32,
+    pub coupling_damping: f32,
+    pub coupling_mass: f32,
+    pub passivity_damping: f32,
+    pub passivity_resolution: f32,
+    pub device_damping: f32,
+    pub device_friction: f32,
     pub max_slew: f32,
     pub safe_damping: f32,
     pub link_timeout: f32,
@@ -133,6 +142,14 @@ impl SettingsNumbers {
         friction_damping: 0.0,
         friction_static: 0.0,
         friction_dynamic: 0.0,
+        texture_share: 0.0,
+        coupling_stiffness: 0.0,
+        coupling_damping: 0.0,
+        coupling_mass: 0.0,
+        passivity_damping: 0.0,
+        passivity_resolution: 0.0,
+        device_damping: 0.0,
+        device_friction: 0.0,
         max_slew: f32::INFINITY,
         safe_damping: 0.0,
         link_timeout: Safety::DEFAULT.link_timeout,
@@ -156,20 +173,31 @@ impl SettingsNumbers {
     }
 
     /// How the surface feels.
-    pub fn rendering(&self) -> Rendering {
+    pub fn rendering(&self) -> Result<Rendering, Status> {
         let friction = Friction {
             stiffness: self.friction_stiffness,
             damping: self.friction_damping,
             static_coefficient: self.friction_static,
             dynamic_coefficient: self.friction_dynamic,
         };
-        let is_none = self.friction_static == 0.0 && self.friction_dynamic == 0.0;
-        Rendering {
-            friction: if is_none { None } else { Some(friction) },
+        let slips_freely = self.friction_static == 0.0 && self.friction_dynamic == 0.0;
+        let coupling =
+            Coupling { stiffness: self.coupling_stiffness, damping: self.coupling_damping, mass: self.coupling_mass };
+        let passivity = Passivity {
+            device_damping: self.device_damping,
+            device_friction: self.device_friction,
+            max_damping: self.passivity_damping,
+            resolution: self.passivity_resolution,
+        };
+        Ok(Rendering {
+            friction: if slips_freely { None } else { Some(friction) },
+            texture: texture(self.texture_share)?,
+            coupling: if self.coupling_mass == 0.0 { None } else { Some(coupling) },
+            passivity: if self.passivity_damping == 0.0 { None } else { Some(passivity) },
             max_slew: self.max_slew,
             carries_weight: self.leave_weight == 0,
             ..Rendering::PLAIN
-        }
+        })
     }
 
     /// Limits and reactions.

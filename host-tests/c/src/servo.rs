@@ -1,20 +1,20 @@
 //! The servo loop: started with a mechanism of any kind, ticked without a word of which.
 
 use crate::body::{Loaded, Standing};
-use crate::felt::Felt;
 use crate::handle::{Handle, Kind};
+use crate::mechanisms::MechanismNumbers;
 use crate::memory::SERVO_WORDS;
 use crate::numbers::{DeviceNumbers, SettingsNumbers};
 use crate::pointers::{checked_mut, get, put, row};
-use crate::state::{MotorOutput, StateNumbers, report};
+use crate::protection::Guarding;
+use crate::running::{Loop, Running, Sensed};
+use crate::state::{MotorOutput, StateNumbers};
 use crate::status::{Status, code};
 use core::mem::MaybeUninit;
 use core::ptr::{NonNull, addr_of, addr_of_mut};
-use palpate_core::body::BodyWitness;
-use palpate_core::device::{Counts, Device, Kinematics};
-use palpate_core::servo::{Event, Input, ResetReason, Servo, ServoState};
+use palpate_core::device::{Device, Kinematics};
+use palpate_core::servo::{Event, Guard, ResetReason, Servo};
 use palpate_core::track::Controller;
-use palpate_core::wire::Report;
 
 /// Words that hold any mechanism's device, loop and state: a handle's, less what goes before them.
 const WORDS: usize = SERVO_WORDS - 6;
@@ -34,109 +34,68 @@ impl Kind for Started {
 
 /// A device, and the loop that refers to it.
 #[repr(C)]
-struct Whole<K: 'static, const JOINTS: usize> {
+struct Whole<K: 'static, const JOINTS: usize, G: Guard<JOINTS>> {
     device: Device<K, JOINTS>,
-    running: Loop<K, JOINTS>,
+    running: Loop<K, JOINTS, G>,
 }
 
-struct Loop<K: 'static, const JOINTS: usize> {
-    servo: Servo<'static, Felt, K, JOINTS>,
-    state: ServoState<JOINTS, BodyWitness>,
+/// What a loop is made of, beside its mechanism.
+pub struct Parts<P> {
+    /// The device's numbers.
+    pub device: *const DeviceNumbers,
+    /// What is felt.
+    pub body: *const Handle<Loaded>,
+    /// The settings.
+    pub settings: *const SettingsNumbers,
+    /// How it is guarded.
+    pub guarding: P,
+    /// Why the chip was reset.
+    pub reset: u32,
 }
 
-/// What the sensors say, or that they say nothing.
-#[derive(Clone, Copy)]
-pub enum Sensed<'a> {
-    Counts { counts: &'a [i32], enable: bool },
-    Lost,
-    Damaged,
-}
-
-/// A loop, whatever its mechanism.
-pub trait Running {
-    /// One tick; refused, with nothing done, for counts of other joints than there are.
-    fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status>;
-    /// What happened between two ticks.
-    fn note(&mut self, event: Event);
-    /// What the motors get.
-    fn output(&self) -> MotorOutput;
-    /// All that is told.
-    fn state(&self) -> StateNumbers;
-    /// The same for the wire.
-    fn report(&self, instructions: u32) -> Report;
-}
-
-impl<K: Kinematics<JOINTS>, const JOINTS: usize> Running for Loop<K, JOINTS> {
-    fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status> {
-        let input = match sensed {
-            Sensed::Counts { counts, enable } => {
-                let counts: [i32; JOINTS] = counts.try_into().map_err(|_| Status::OutOfRange)?;
-                Input::Sensors { counts: counts.map(Counts), enable }
-            }
-            Sensed::Lost => Input::Lost,
-            Sensed::Damaged => Input::Damaged,
-        };
-        self.servo.tick(&mut self.state, input);
-        Ok(())
-    }
-
-    fn note(&mut self, event: Event) {
-        self.servo.note(&mut self.state, event);
-    }
-
-    fn output(&self) -> MotorOutput {
-        MotorOutput::of(&self.state)
-    }
-
-    fn state(&self) -> StateNumbers {
-        StateNumbers::of(&self.state)
-    }
-
-    fn report(&self, instructions: u32) -> Report {
-        report(&self.state, instructions)
-    }
-}
-
-/// Makes a loop of any mechanism.
+/// Makes a loop of any mechanism, guarded or not.
 ///
 /// # Safety
 /// As the header says of all functions.
-pub unsafe fn begin<K: Kinematics<JOINTS> + 'static, const JOINTS: usize>(
+pub unsafe fn begin<M: MechanismNumbers, const JOINTS: usize, P: Guarding<JOINTS>>(
     servo: *mut Handle<Started>,
     servo_bytes: usize,
-    mechanism: K,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Result<(), Status> {
-    const { assert!(size_of::<Whole<K, JOINTS>>() <= size_of::<[usize; WORDS]>()) };
-    const { assert!(align_of::<Whole<K, JOINTS>>() <= align_of::<usize>()) };
+    mechanism: *const M,
+    parts: Parts<P>,
+) -> Result<(), Status>
+where
+    M::Mechanism: Kinematics<JOINTS> + 'static,
+{
+    const { assert!(size_of::<Whole<M::Mechanism, JOINTS, P::Guard>>() <= size_of::<[usize; WORDS]>()) };
+    const { assert!(align_of::<Whole<M::Mechanism, JOINTS, P::Guard>>() <= align_of::<usize>()) };
+    let Parts { device, body, settings, guarding, reset } = parts;
     // SAFETY: the caller's memory for the loop.
     let place = unsafe { Handle::vacate(servo, servo_bytes) }?;
     // SAFETY: the caller's numbers.
-    let (device, settings) = unsafe { (get(device)?, get(settings)?) };
+    let (mechanism, device, settings) = unsafe { (get(mechanism)?, get(device)?, get(settings)?) };
     // SAFETY: the caller's body, which stays.
     let (standing, body) = unsafe { Standing::on(body) }?;
-    let device: Device<K, JOINTS> = device.device(mechanism)?;
+    let device: Device<M::Mechanism, JOINTS> = device.device(mechanism.mechanism()?)?;
     let reset = ResetReason::ALL.into_iter().find(|known| *known as u32 == reset).ok_or(Status::OutOfRange)?;
     // Made first, so that what lies in the memory is looked at by nobody until all of it is there.
-    let started = Started { standing, running: NonNull::<Loop<K, JOINTS>>::dangling(), memory: MaybeUninit::uninit() };
+    let dangling = NonNull::<Loop<M::Mechanism, JOINTS, P::Guard>>::dangling();
+    let started = Started { standing, running: dangling, memory: MaybeUninit::uninit() };
     // SAFETY: the place that was vacated. No reference to the whole value is made from here on: only to its parts.
     let value = unsafe {
         Handle::fill(place, started);
         Handle::live(place)?.cast_mut()
     };
     // SAFETY: within the value; by the assertions above it is large enough and aligned.
-    let whole = unsafe { addr_of_mut!((*value).memory) }.cast::<Whole<K, JOINTS>>();
+    let whole = unsafe { addr_of_mut!((*value).memory) }.cast::<Whole<M::Mechanism, JOINTS, P::Guard>>();
     // SAFETY: as above; the device is not written again, and stays for as long as the loop.
-    let device: &'static Device<K, JOINTS> = unsafe {
+    let device: &'static Device<M::Mechanism, JOINTS> = unsafe {
         addr_of_mut!((*whole).device).write(device);
         &*addr_of!((*whole).device)
     };
     let made = Servo::try_new(device, body, Controller::SECOND_ORDER, settings.settings())
         .map_err(Status::from)
-        .and_then(|servo| Ok(servo.try_rendering(settings.rendering())?.try_safety(settings.safety())?));
+        .and_then(|servo| Ok(servo.try_rendering(settings.rendering()?)?.try_safety(settings.safety())?))
+        .and_then(|servo| guarding.guard(servo));
     let servo = match made {
         Ok(servo) => servo,
         Err(status) => {
@@ -253,6 +212,27 @@ pub unsafe extern "C" fn palpate_servo_note(
             7 => Event::Acknowledged,
             _ => return Err(Status::OutOfRange),
         });
+        // SAFETY: the caller's place for it.
+        unsafe { put(output, running.output()) }
+    };
+    code(note())
+}
+
+/// The motors' supply was measured.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_supply(
+    servo: *mut Handle<Started>,
+    millivolts: u32,
+    output: *mut MotorOutput,
+) -> Status {
+    let note = || {
+        checked_mut(output)?;
+        // SAFETY: the caller's handle, nobody else's.
+        let running = unsafe { running(servo) }?;
+        running.note(Event::Supply { millivolts });
         // SAFETY: the caller's place for it.
         unsafe { put(output, running.output()) }
     };

@@ -3,7 +3,7 @@
 use core::ffi::{CStr, c_char};
 use palpate_core::body::FileError;
 use palpate_core::device::DeviceError;
-use palpate_core::servo::{Fault, RenderingError, SafetyError, SettingsError};
+use palpate_core::servo::{Fault, ProtectionError, RenderingError, SafetyError, SettingsError};
 
 /// What a call came to. Whatever it is but `Ok`, nothing has been done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +44,14 @@ pub enum Status {
     SettingsMaxSlew = 56,
     SettingsSafeDamping = 57,
     SettingsLinkTimeout = 58,
+    SettingsTexture = 59,
+    SettingsCoupling = 60,
+    SettingsPassivity = 61,
+    ProtectionContinuous = 64,
+    ProtectionTimeConstant = 65,
+    ProtectionSpeed = 66,
+    ProtectionSupply = 67,
+    ProtectionInertia = 68,
 }
 
 impl Status {
@@ -84,10 +92,18 @@ impl Status {
             Self::SettingsMaxSlew => c"the slew limit must be positive",
             Self::SettingsSafeDamping => c"the safe damping must be between 0 and the device's greatest",
             Self::SettingsLinkTimeout => c"the link's timeout must be positive",
+            Self::SettingsTexture => c"a texture needs its function, and a share between 0 and 1",
+            Self::SettingsCoupling => c"the virtual tool is too light for its coupling and the surface at this rate",
+            Self::SettingsPassivity => c"passivity control's parameters must be finite and not negative",
+            Self::ProtectionContinuous => c"a motor's continuous torque must be a positive share of full duty",
+            Self::ProtectionTimeConstant => c"a winding's time constant must be between 100 ticks and ten minutes",
+            Self::ProtectionSpeed => c"the greatest speeds must be positive",
+            Self::ProtectionSupply => c"the supply's least voltage must be below its most",
+            Self::ProtectionInertia => c"the joints' inertias must be positive and finite",
         }
     }
 
-    const ALL: [Self; 35] = [
+    const ALL: [Self; 43] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -123,6 +139,14 @@ impl Status {
         Self::SettingsMaxSlew,
         Self::SettingsSafeDamping,
         Self::SettingsLinkTimeout,
+        Self::SettingsTexture,
+        Self::SettingsCoupling,
+        Self::SettingsPassivity,
+        Self::ProtectionContinuous,
+        Self::ProtectionTimeConstant,
+        Self::ProtectionSpeed,
+        Self::ProtectionSupply,
+        Self::ProtectionInertia,
     ];
 }
 
@@ -186,8 +210,9 @@ impl From<RenderingError> for Status {
         match error {
             RenderingError::Friction => Self::SettingsFriction,
             RenderingError::Slew => Self::SettingsMaxSlew,
-            // What a C caller cannot choose.
-            RenderingError::Texture | RenderingError::Coupling | RenderingError::Passivity => Self::OutOfRange,
+            RenderingError::Texture => Self::SettingsTexture,
+            RenderingError::Coupling => Self::SettingsCoupling,
+            RenderingError::Passivity => Self::SettingsPassivity,
         }
     }
 }
@@ -199,6 +224,18 @@ impl From<SafetyError> for Status {
             SafetyError::LinkTimeout => Self::SettingsLinkTimeout,
             // The defaults, which are right.
             SafetyError::Stuck | SafetyError::Contact => Self::OutOfRange,
+        }
+    }
+}
+
+impl From<ProtectionError> for Status {
+    fn from(error: ProtectionError) -> Self {
+        match error {
+            ProtectionError::Continuous => Self::ProtectionContinuous,
+            ProtectionError::TimeConstant => Self::ProtectionTimeConstant,
+            ProtectionError::Speed => Self::ProtectionSpeed,
+            ProtectionError::Supply => Self::ProtectionSupply,
+            ProtectionError::Inertia => Self::ProtectionInertia,
         }
     }
 }

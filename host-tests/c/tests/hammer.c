@@ -29,6 +29,12 @@ static palpate_receiver receiver;
 static const palpate_serial_arm arm = {0.08f, 0.205f, 0.245f, {0.22f, 0, 0.08f}, {0.15f, 0.04f}};
 static palpate_device device;
 static palpate_settings settings;
+static const palpate_protection protection = {
+    {{0.5f, 16}, {0.5f, 16}, {0.5f, 16}}, {15, 15, 15}, 1.5f, 1, {5e-3f, 5e-3f, 5e-3f}, 1, 20000, 30000};
+static void smooth(const palpate_touched *touched, float *force)
+{
+    (void)touched, force[0] = force[1] = force[2] = 0;
+}
 static const palpate_pose pose = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0.2f, 0, 0}, {0, 0, 0}, {0, 0, 0}};
 
 static void stop(const char *what, palpate_status status)
@@ -248,6 +254,8 @@ static palpate_status bad_servo(void)
     ((float *)&no_device)[any(sizeof device / sizeof(float))] = NAN;
     /* Up to the timeout they are floats, and none may be NaN; without friction its stiffness is not looked at. */
     no_settings.friction_static = 0.4f, no_settings.friction_dynamic = 0.3f;
+    no_settings.texture_share = 0.2f, no_settings.passivity_damping = 1, no_settings.passivity_resolution = 1e-4f;
+    no_settings.coupling_stiffness = 500, no_settings.coupling_damping = 3, no_settings.coupling_mass = 0.1f;
     ((float *)&no_settings)[any(offsetof(palpate_settings, max_overruns) / sizeof(float))] = NAN;
     void *no_body = no_handle(&body, sizeof body);
     palpate_status status;
@@ -269,6 +277,35 @@ static palpate_status bad_servo(void)
         if (palpate_servo_state(one, &state) != PALPATE_NOT_READY) stop("a refused loop was taken", status);
     }
     free(no_body);
+    free(one);
+    return status;
+}
+
+#define start_protected palpate_servo_start_serial_arm_protected
+
+static palpate_status bad_protection(void)
+{
+    palpate_servo *one = malloc(sizeof *one);
+    palpate_protection none = protection;
+    palpate_settings no_settings = settings;
+    palpate_status status;
+    switch (any(9)) {
+    case 0: none.motors[any(3)].continuous = any(2) ? bad_float() : -1; break;
+    case 1: none.motors[any(3)].time_constant = any(2) ? bad_float() : 1e-9f; break;
+    case 2: none.max_joint_rates[any(3)] = any(2) ? NAN : 0; break;
+    case 3: none.max_probe_speed = any(2) ? NAN : -1; break;
+    case 4: none.inertia[any(3)] = any(2) ? bad_float() : 0; break;
+    case 5: none.least_supply = none.most_supply + any(9); break;
+    case 6: no_settings.texture_share = 1.5f; break;
+    case 7:
+        status = start_protected(one, sizeof *one, &arm, &device, &body, &settings, any(2) ? NULL : ASKEW(&none), 0);
+        free(one);
+        return status;
+    default:
+        free(one);
+        return palpate_texture(NULL);
+    }
+    status = start_protected(one, sizeof *one, &arm, &device, &body, &no_settings, &none, 0);
     free(one);
     return status;
 }
@@ -342,6 +379,7 @@ int main(int count, char **arguments)
     device.min_margin = 0.05f, device.max_joint_rate = 25, device.max_force = 5;
     device.max_stiffness = 1000, device.max_damping = 8;
     good("settings", palpate_settings_default(&settings));
+    good("texture", palpate_texture(smooth));
     good("head", palpate_file_head(file, file_bytes, &info));
     room = malloc(info.room_bytes);
     good("load", palpate_body_load(&body, sizeof body, file, file_bytes, room, info.room_bytes));
@@ -352,14 +390,14 @@ int main(int count, char **arguments)
     use(&body);
 
     palpate_status (*const ways[])(void) = {spoiled_file, bad_load, bad_info, bad_probe, bad_start,
-                                            bad_pair, bad_servo, bad_tick, bad_receiver};
-    unsigned long of[64] = {0}, refused = 0;
+                                            bad_pair, bad_servo, bad_protection, bad_tick, bad_receiver};
+    unsigned long of[80] = {0}, refused = 0;
     while (refused < calls) {
         uint32_t way = any(sizeof ways / sizeof ways[0]);
         unsigned before = accepted;
         palpate_status status = ways[way]();
         if (accepted != before) continue;
-        if (status <= PALPATE_OK || status >= 64) {
+        if (status <= PALPATE_OK || status >= 80) {
             printf("hammer: way %u was not refused: %d\n", way, (int)status);
             return 1;
         }
@@ -368,7 +406,7 @@ int main(int count, char **arguments)
     }
     /* What is good still is. */
     use(&body);
-    for (int status = 1; status < 64; status++) {
+    for (int status = 1; status < 80; status++) {
         if (of[status]) printf("  %7lu  %s\n", of[status], palpate_status_text(status));
     }
     printf("hammer: %lu calls with bad arguments, an error code each; %u files that differ were good ones\n", refused,

@@ -3,6 +3,7 @@
 
 mod arduino;
 mod bad_arguments;
+mod everything;
 mod example;
 mod header;
 mod running;

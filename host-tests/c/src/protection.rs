@@ -1,0 +1,102 @@
+//! What protects motors and hand, as numbers.
+
+use crate::felt::Felt;
+use crate::pointers::Plain;
+use crate::status::Status;
+use palpate_core::device::{Endurance, Protection, SignWatch, SupplyRange};
+use palpate_core::servo::{Guard, Guarded, Servo, Unguarded};
+
+/// What a motor's winding bears.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct EnduranceNumbers {
+    pub continuous: f32,
+    pub time_constant: f32,
+}
+
+/// What protects a device; joints that it does not have are not looked at.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct ProtectionNumbers {
+    pub motors: [EnduranceNumbers; 3],
+    pub max_joint_rates: [f32; 3],
+    pub max_probe_speed: f32,
+    pub watch_signs: u32,
+    pub inertia: [f32; 3],
+    pub watch_supply: u32,
+    pub least_supply: u32,
+    pub most_supply: u32,
+}
+
+// SAFETY: numbers alone.
+unsafe impl Plain for ProtectionNumbers {}
+
+/// How a loop is guarded.
+pub trait Guarding<const JOINTS: usize> {
+    /// What guards it.
+    type Guard: Guard<JOINTS> + 'static;
+
+    /// The loop, guarded.
+    fn guard<K>(
+        &self,
+        servo: Servo<'static, Felt, K, JOINTS>,
+    ) -> Result<Servo<'static, Felt, K, JOINTS, Self::Guard>, Status>
+    where
+        K: palpate_core::device::Kinematics<JOINTS>;
+}
+
+/// Not at all.
+pub struct Unprotected;
+
+impl<const JOINTS: usize> Guarding<JOINTS> for Unprotected {
+    type Guard = Unguarded;
+
+    fn guard<K>(&self, servo: Servo<'static, Felt, K, JOINTS>) -> Result<Servo<'static, Felt, K, JOINTS>, Status>
+    where
+        K: palpate_core::device::Kinematics<JOINTS>,
+    {
+        Ok(servo)
+    }
+}
+
+impl<const JOINTS: usize> Guarding<JOINTS> for ProtectionNumbers {
+    type Guard = Guarded<JOINTS>;
+
+    fn guard<K>(
+        &self,
+        servo: Servo<'static, Felt, K, JOINTS>,
+    ) -> Result<Servo<'static, Felt, K, JOINTS, Guarded<JOINTS>>, Status>
+    where
+        K: palpate_core::device::Kinematics<JOINTS>,
+    {
+        Ok(servo.try_protect(self.protection())?)
+    }
+}
+
+impl ProtectionNumbers {
+    fn protection<const JOINTS: usize>(&self) -> Protection<JOINTS> {
+        let mut protection = Protection {
+            motors: [Endurance { continuous: 0.0, time_constant: 0.0 }; JOINTS],
+            max_joint_rates: [0.0; JOINTS],
+            max_probe_speed: self.max_probe_speed,
+            supply: None,
+            signs: None,
+        };
+        let mut signs = SignWatch { inertia: [0.0; JOINTS] };
+        // No device has more than three joints: the numbers reach.
+        let joints = protection.motors.iter_mut().zip(&mut protection.max_joint_rates).zip(&mut signs.inertia);
+        let numbers = self.motors.iter().zip(&self.max_joint_rates).zip(&self.inertia);
+        for (((motor, rate), inertia), ((given, max_rate), given_inertia)) in joints.zip(numbers) {
+            *motor = Endurance { continuous: given.continuous, time_constant: given.time_constant };
+            *rate = *max_rate;
+            *inertia = *given_inertia;
+        }
+        if self.watch_signs != 0 {
+            protection.signs = Some(signs);
+        }
+        if self.watch_supply != 0 {
+            protection.supply = Some(SupplyRange { least: self.least_supply, most: self.most_supply });
+        }
+        protection
+    }
+}

@@ -1,0 +1,129 @@
+//! A loop with all that a C program may choose (protection, virtual tool, texture, passivity control) beside the same
+//! loop in Rust, tick by tick over the counts of a run.
+
+use crate::running::{capped_box, file, is_wanted, library, run};
+use clap::Parser;
+use palpate::body::{Body, Edge, Face, FileHead, Room};
+use palpate::device::drive::Feed;
+use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
+use palpate::device::{Counts, Protection, SupplyRange};
+use palpate::math::vec3;
+use palpate::render::{Coupling, Passivity, Texture, Touch};
+use palpate::servo::{Event, Input, Rendering, Safety, Servo, Settings};
+use palpate::track::{Contact, Controller};
+use palpate_tool::commands::options::SceneOptions;
+use palpate_tool::commands::sim::run_on_host;
+use palpate_tool::in_c::{self, Core};
+use std::fs;
+use std::process::Command;
+
+#[derive(Parser)]
+struct Demo {
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+const PROTECTION: Protection<3> =
+    Protection { supply: Some(SupplyRange { least: 20_000, most: 30_000 }), ..WOODEN_HAPTICS_2016_PROTECTION };
+
+/// The numbers of arm, device and protection in the order of the header's structures.
+fn numbers() -> Vec<f32> {
+    let device = &WOODEN_HAPTICS_2016;
+    let arm = device.kinematics;
+    let mut all = vec![arm.base_height, arm.first_link, arm.second_link];
+    all.extend(arm.workspace_centre.to_array());
+    all.extend(arm.end_masses);
+    for joint in 0..3 {
+        assert_eq!(device.feeds[joint], Feed::Current, "its feed has no numbers");
+        let (encoder, [least, greatest]) = (device.encoders[joint], device.joint_range[joint]);
+        all.extend([encoder.radians_per_count, encoder.angle_at_zero, device.motors[joint].torque_at_full]);
+        all.extend([device.dry_friction[joint], least, greatest]);
+        all.extend([0.0; 6]);
+    }
+    all.extend([device.min_margin, device.max_joint_rate, device.max_force, device.max_stiffness, device.max_damping]);
+    all.extend(PROTECTION.motors.iter().flat_map(|motor| [motor.continuous, motor.time_constant]));
+    all.extend(PROTECTION.max_joint_rates);
+    all.push(PROTECTION.max_probe_speed);
+    all.extend(PROTECTION.signs.expect("the watch over signs").inertia);
+    all
+}
+
+/// As in `tests/replay.c`.
+fn bowl(touch: &Touch) -> palpate::math::Vec3 {
+    let share = -0.25 * touch.push * (touch.parameters[0] - 0.5);
+    touch.along_u * share
+}
+
+/// The hash of the states, how many ticks touched, and whether it ended in a fault.
+fn in_rust(counts: &[[i32; 3]], enable_at: usize) -> (u32, u32, bool) {
+    let bytes = fs::read(capped_box()).expect("the body");
+    // Words, so that they are aligned.
+    let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();
+    let bytes: &[u8] = bytemuck::cast_slice(&words);
+    let head = FileHead::of(bytes).expect("a body's file");
+    let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
+    let body = Body::from_bytes(bytes, Room { faces: &mut faces, edges: &mut edges }).expect("a body");
+    let settings = Settings {
+        rate: 4_000.0,
+        stiffness: 1_000.0,
+        damping: 2.0,
+        max_force: 5.0,
+        velocity_corner: 150.0,
+        soft_start: 0.1,
+        body_origin: vec3(-0.03, -0.02, -0.01675),
+    };
+    let rendering = Rendering {
+        texture: Some(Texture { force: bowl, max_share: 0.2 }),
+        coupling: Some(Coupling { stiffness: 800.0, damping: 4.0, mass: 0.05 }),
+        passivity: Some(Passivity { device_damping: 0.5, device_friction: 0.01, max_damping: 4.0, resolution: 1e-4 }),
+        ..Rendering::PLAIN
+    };
+    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, &body, Controller::SECOND_ORDER, settings)
+        .expect("settings")
+        .try_rendering(rendering)
+        .expect("rendering")
+        .try_safety(Safety { link_timeout: 0.1, ..Safety::DEFAULT })
+        .expect("safety")
+        .try_protect(PROTECTION)
+        .expect("protection");
+    let mut state = servo.start();
+    let (mut hash, mut touched) = (0_u32, 0);
+    for (tick, counts) in counts.iter().enumerate() {
+        servo.note(&mut state, Event::LinkAlive);
+        servo.note(&mut state, Event::Supply { millivolts: 24_000 });
+        servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: tick >= enable_at });
+        hash = (hash ^ state.digest()).wrapping_mul(0x0100_0193);
+        touched += u32::from(state.contact() == Contact::Touching);
+    }
+    (hash, touched, state.fault().is_some())
+}
+
+#[test]
+fn a_protected_loop_with_tool_texture_and_passivity_control_is_that_of_rust() {
+    if !is_wanted("a protected loop in C") {
+        return;
+    }
+    let Demo { options } = Demo::parse_from(["demo"]);
+    let scene = options.scene().expect("the demo's scene");
+    let trace = run_on_host(&options, &scene).expect("a whole run");
+    let counts: Vec<[i32; 3]> = trace.samples.iter().map(|sample| sample.sensors.counts).collect();
+    let enable_at = scene.enable_at as usize;
+    let (hash, touched, failed) = in_rust(&counts, enable_at);
+    assert!(touched > 1_000 && !failed, "{touched} ticks touched, a fault: {failed}");
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("numbers"), bytemuck::cast_slice::<f32, u8>(&numbers())).expect("numbers");
+    fs::write(path("counts"), bytemuck::cast_slice::<[i32; 3], u8>(&counts)).expect("counts");
+    let mut gcc = in_c::compiler(Core::Host, "gcc").expect("in the repository");
+    gcc.args(["-std=c11"]).arg(file("tests/replay.c")).arg(library(Core::Host)).args(["-lm", "-o"]);
+    run(gcc.arg(path("replay")));
+    let mut replay = Command::new(path("replay"));
+    replay.arg(capped_box()).args([path("numbers"), path("counts")]).arg(enable_at.to_string());
+    let said = run(&mut replay);
+    assert_eq!(said.trim(), format!("{hash:08x} {touched} none"));
+    println!(
+        "{} ticks with protection, tool, texture and passivity control: {hash:08x} in C and in Rust",
+        counts.len()
+    );
+}
