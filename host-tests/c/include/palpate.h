@@ -125,7 +125,12 @@ enum {
     PALPATE_PROTECTION_TIME_CONSTANT = 65, /**< A time constant not between 100 ticks and ten minutes. */
     PALPATE_PROTECTION_SPEED = 66,         /**< A greatest speed not positive. */
     PALPATE_PROTECTION_SUPPLY = 67,        /**< The least supply not below the most. */
-    PALPATE_PROTECTION_INERTIA = 68        /**< An inertia not positive and finite. */
+    PALPATE_PROTECTION_INERTIA = 68,       /**< An inertia not positive and finite. */
+    PALPATE_HOMING_ANGLE = 72,             /**< A reference angle not finite. */
+    PALPATE_HOMING_STILL = 73,             /**< No tick to hold still for. */
+    PALPATE_HOMING_STOP = 74,              /**< A search for a stop that makes no sense. */
+    PALPATE_HOMING_TIMEOUT = 75,           /**< No more time than it is to hold still. */
+    PALPATE_HOMING_STARTED = 76            /**< The loop has ticked already. */
 };
 
 /** A status in a sentence that stays for ever; "unknown" of a code that is none. */
@@ -406,7 +411,7 @@ typedef struct palpate_settings {
     float link_timeout;       /**< Seconds of silence after which the host is lost; INFINITY where none watches. */
     uint32_t max_overruns;    /**< Ticks in a row that may overrun before it is a fault. */
     uint32_t settle_ticks;    /**< Ticks of believable sensors before the loop is armed. */
-    uint32_t wait_for_homing; /**< 1: the loop waits for #PALPATE_HOMED before it is armed. */
+    uint32_t wait_for_homing; /**< 1: the loop waits for #PALPATE_HOMED before it is armed. Its own homing waits anyway. */
     uint32_t leave_weight;    /**< 1: the motors do not carry the links' weight. */
 } palpate_settings;
 
@@ -448,6 +453,32 @@ typedef struct palpate_protection {
     uint32_t most_supply;        /**< mV. */
 } palpate_protection;
 
+/** palpate_homing::by. */
+enum {
+    PALPATE_BY_POSE = 1,  /**< A hand holds the device still in a pose whose joint angles are known. */
+    PALPATE_BY_INDEX = 2, /**< Each joint passes its index mark once: palpate_servo_index(). */
+    PALPATE_BY_STOPS = 3  /**< The motors drive one joint after the other to its end stop. */
+};
+
+/** Where a joint is known. All but the angle is for its stop alone. */
+typedef struct palpate_reference {
+    float angle;     /**< The joint's angle there, rad. */
+    float speed;     /**< Towards the stop, rad/s; its sign is the way. */
+    float torque;    /**< The greatest, N·m: above friction and weight, below what would hurt. */
+    float clearance; /**< How far it moves away first, rad: a joint that does not come off is jammed. */
+    float travel;    /**< How far the stop may be from there, rad. */
+} palpate_reference;
+
+/** How a loop finds out where its joints are. Joints that the device does not have are not looked at. */
+typedef struct palpate_homing {
+    uint32_t by;                 /**< By what. */
+    uint32_t still_ticks;        /**< For so many ticks ... */
+    uint32_t still_counts;       /**< ... within so many counts: that is still. */
+    uint32_t timeout_ticks;      /**< After so many ticks it is refused, a fault. */
+    uint32_t when_asked;         /**< 1: it goes on only while force is asked for, as stops always do. */
+    palpate_reference joints[3]; /**< Each joint's. */
+} palpate_homing;
+
 /** Fills in the defaults: 1 kHz, a soft wall and little force, within what every device that ships takes. */
 palpate_status palpate_settings_default(palpate_settings *settings);
 /** @} */
@@ -479,7 +510,7 @@ enum {
     PALPATE_LINK_ALIVE = 1,     /**< The host said something. */
     PALPATE_OVERRUN = 2,        /**< A tick took longer than its period. */
     PALPATE_DRIVE_FAULT = 3,    /**< A motor driver reports a fault. */
-    PALPATE_HOMED = 4,          /**< Homing is done: counts are angles now. */
+    PALPATE_HOMED = 4,          /**< Homing of the program's own is done: counts are angles now. */
     PALPATE_HOMING_REFUSED = 5, /**< Homing was refused. */
     PALPATE_STOP = 6,           /**< Stop. */
     PALPATE_ACKNOWLEDGED = 7    /**< Somebody has looked at the device after a reset that is a fault. */
@@ -629,6 +660,25 @@ palpate_status palpate_servo_note(palpate_servo *servo, uint32_t event, palpate_
  * @param output     where what the motors now get goes
  */
 palpate_status palpate_servo_supply(palpate_servo *servo, uint32_t millivolts, palpate_output *output);
+
+/**
+ * Has a loop find out where its joints are, between its start and its first tick: until that is done no angle is
+ * believed, and #PALPATE_HOMED is not listened to. Where the motors drive the joints, palpate_output says so.
+ *
+ * @param servo  the loop
+ * @param homing how
+ */
+palpate_status palpate_servo_home(palpate_servo *servo, const palpate_homing *homing);
+
+/**
+ * Tells that a joint passed its index mark, between two ticks. A loop that homes in another way takes no notice.
+ *
+ * @param servo  the loop
+ * @param joint  which, from 0
+ * @param counts the count that was caught there
+ * @param output where what the motors now get goes
+ */
+palpate_status palpate_servo_index(palpate_servo *servo, uint32_t joint, int32_t counts, palpate_output *output);
 
 /**
  * The state after the last tick.

@@ -6,6 +6,7 @@ use palpate_core::track::{Controller, Probe};
 
 /// A body whose closest point is followed by the law of second order, whatever the loop says: so the compiler sees that
 /// there is no other, and links none.
+#[derive(Clone, Copy)]
 #[repr(transparent)]
 pub struct Felt(pub Body<'static>);
 

@@ -11,6 +11,8 @@ mod body;
 mod felt;
 mod frame;
 mod handle;
+mod homing;
+mod homing_calls;
 mod link;
 mod mechanisms;
 mod memory;

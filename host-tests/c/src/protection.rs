@@ -34,7 +34,7 @@ unsafe impl Plain for ProtectionNumbers {}
 /// How a loop is guarded.
 pub trait Guarding<const JOINTS: usize> {
     /// What guards it.
-    type Guard: Guard<JOINTS> + 'static;
+    type Guard: Guard<JOINTS> + Copy + 'static;
 
     /// The loop, guarded.
     fn guard<K>(

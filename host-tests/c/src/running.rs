@@ -1,11 +1,12 @@
 //! A loop that runs, whatever its mechanism and its guard.
 
 use crate::felt::Felt;
+use crate::homing::HomingNumbers;
 use crate::state::{MotorOutput, StateNumbers, report};
 use crate::status::Status;
 use palpate_core::body::BodyWitness;
 use palpate_core::device::{Counts, Kinematics};
-use palpate_core::servo::{Event, Guard, Input, Servo, ServoState};
+use palpate_core::servo::{Event, Guard, Input, ResetReason, Servo, ServoState};
 use palpate_core::wire::Report;
 
 /// A loop and its state.
@@ -14,6 +15,8 @@ pub struct Loop<K: 'static, const JOINTS: usize, G: Guard<JOINTS>> {
     pub servo: Servo<'static, Felt, K, JOINTS, G>,
     /// What it remembers.
     pub state: ServoState<JOINTS, BodyWitness, G::State>,
+    /// Why the chip was reset.
+    pub reset: ResetReason,
 }
 
 /// What the sensors say, or that they say nothing.
@@ -28,6 +31,10 @@ pub enum Sensed<'a> {
 pub trait Running {
     /// One tick; refused, with nothing done, for counts of other joints than there are.
     fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status>;
+    /// Has it find out where its joints are; refused, with nothing done, after its first tick.
+    fn home(&mut self, homing: &HomingNumbers) -> Result<(), Status>;
+    /// How many joints it has.
+    fn joints(&self) -> usize;
     /// What happened between two ticks.
     fn note(&mut self, event: Event);
     /// What the motors get.
@@ -38,7 +45,7 @@ pub trait Running {
     fn report(&self, instructions: u32) -> Report;
 }
 
-impl<K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Running for Loop<K, JOINTS, G> {
+impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize, G: Guard<JOINTS> + Copy> Running for Loop<K, JOINTS, G> {
     fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status> {
         let input = match sensed {
             Sensed::Counts { counts, enable } => {
@@ -50,6 +57,19 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Running for L
         };
         self.servo.tick(&mut self.state, input);
         Ok(())
+    }
+
+    fn home(&mut self, homing: &HomingNumbers) -> Result<(), Status> {
+        if self.state.ticks() > 0 {
+            return Err(Status::HomingStarted);
+        }
+        self.servo = self.servo.homing(homing.homing(self.servo.device().encoders)?);
+        self.state = self.servo.start_after(self.reset);
+        Ok(())
+    }
+
+    fn joints(&self) -> usize {
+        JOINTS
     }
 
     fn note(&mut self, event: Event) {

@@ -64,7 +64,7 @@ pub unsafe fn begin<M: MechanismNumbers, const JOINTS: usize, P: Guarding<JOINTS
     parts: Parts<P>,
 ) -> Result<(), Status>
 where
-    M::Mechanism: Kinematics<JOINTS> + 'static,
+    M::Mechanism: Kinematics<JOINTS> + Copy + 'static,
 {
     const { assert!(size_of::<Whole<M::Mechanism, JOINTS, P::Guard>>() <= size_of::<[usize; WORDS]>()) };
     const { assert!(align_of::<Whole<M::Mechanism, JOINTS, P::Guard>>() <= align_of::<usize>()) };
@@ -107,7 +107,7 @@ where
     // SAFETY: within the value.
     unsafe {
         let running = addr_of_mut!((*whole).running);
-        running.write(Loop { state: servo.start_after(reset), servo });
+        running.write(Loop { state: servo.start_after(reset), servo, reset });
         addr_of_mut!((*value).running).write(NonNull::new_unchecked(running));
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use core::ffi::{CStr, c_char};
 use palpate_core::body::FileError;
-use palpate_core::device::DeviceError;
+use palpate_core::device::{DeviceError, HomingError};
 use palpate_core::servo::{Fault, ProtectionError, RenderingError, SafetyError, SettingsError};
 
 /// What a call came to. Whatever it is but `Ok`, nothing has been done.
@@ -52,6 +52,11 @@ pub enum Status {
     ProtectionSpeed = 66,
     ProtectionSupply = 67,
     ProtectionInertia = 68,
+    HomingAngle = 72,
+    HomingStill = 73,
+    HomingStop = 74,
+    HomingTimeout = 75,
+    HomingStarted = 76,
 }
 
 impl Status {
@@ -100,10 +105,15 @@ impl Status {
             Self::ProtectionSpeed => c"the greatest speeds must be positive",
             Self::ProtectionSupply => c"the supply's least voltage must be below its most",
             Self::ProtectionInertia => c"the joints' inertias must be positive and finite",
+            Self::HomingAngle => c"a reference angle must be finite",
+            Self::HomingStill => c"homing must hold still for at least a tick",
+            Self::HomingStop => c"a stop needs an angle, a speed, and a positive torque, clearance and travel",
+            Self::HomingTimeout => c"homing must be given more time than it is to hold still",
+            Self::HomingStarted => c"homing is to be said before the first tick",
         }
     }
 
-    const ALL: [Self; 43] = [
+    const ALL: [Self; 48] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -147,6 +157,11 @@ impl Status {
         Self::ProtectionSpeed,
         Self::ProtectionSupply,
         Self::ProtectionInertia,
+        Self::HomingAngle,
+        Self::HomingStill,
+        Self::HomingStop,
+        Self::HomingTimeout,
+        Self::HomingStarted,
     ];
 }
 
@@ -236,6 +251,19 @@ impl From<ProtectionError> for Status {
             ProtectionError::Speed => Self::ProtectionSpeed,
             ProtectionError::Supply => Self::ProtectionSupply,
             ProtectionError::Inertia => Self::ProtectionInertia,
+        }
+    }
+}
+
+impl From<HomingError> for Status {
+    fn from(error: HomingError) -> Self {
+        match error {
+            HomingError::Angle => Self::HomingAngle,
+            HomingError::StillTicks => Self::HomingStill,
+            HomingError::Stop => Self::HomingStop,
+            HomingError::TimeoutTicks => Self::HomingTimeout,
+            // No loop of this library looks for a field.
+            HomingError::Field => Self::OutOfRange,
         }
     }
 }

@@ -310,6 +310,43 @@ static palpate_status bad_protection(void)
     return status;
 }
 
+static palpate_status bad_homing(void)
+{
+    const palpate_reference stop_at = {0.5f, -0.4f, 0.2f, 0.1f, 3};
+    palpate_homing homing = {PALPATE_BY_STOPS, 100, 2, 40000, 0, {stop_at, stop_at, stop_at}};
+    palpate_servo *one = malloc(sizeof *one);
+    palpate_output output;
+    good("a loop", start_arm(one, sizeof *one, &arm, &device, &body, &settings, 0));
+    palpate_status status;
+    switch (any(9)) {
+    case 0: homing.by = 4 + any(1000); break;
+    case 1: ((float *)&homing.joints[any(3)])[any(sizeof stop_at / sizeof(float))] = bad_float(); break;
+    case 2: homing.by = 1 + any(2), homing.joints[any(3)].angle = bad_float(); break;
+    case 3: homing.still_ticks = 0; break;
+    case 4: homing.timeout_ticks = any(100); break;
+    case 5:
+        status = palpate_servo_home(any(2) ? NULL : one, any(2) ? NULL : ASKEW(&homing));
+        free(one);
+        return status;
+    case 6: {
+        const int32_t counts[3] = {0, 0, 0};
+        good("a tick", palpate_servo_tick(one, counts, 3, 0, &output));
+        break;
+    }
+    case 7:
+        status = palpate_servo_index(one, 3 + any(1u << 30), 0, &output);
+        free(one);
+        return status;
+    default:
+        status = palpate_servo_index(any(2) ? NULL : one, 0, 0, any(2) ? NULL : ASKEW(&output));
+        free(one);
+        return status;
+    }
+    status = palpate_servo_home(one, &homing);
+    free(one);
+    return status;
+}
+
 static palpate_status bad_tick(void)
 {
     const int32_t counts[3] = {0, 0, 0};
@@ -390,7 +427,7 @@ int main(int count, char **arguments)
     use(&body);
 
     palpate_status (*const ways[])(void) = {spoiled_file, bad_load, bad_info, bad_probe, bad_start,
-                                            bad_pair, bad_servo, bad_protection, bad_tick, bad_receiver};
+                                            bad_pair, bad_servo, bad_protection, bad_homing, bad_tick, bad_receiver};
     unsigned long of[80] = {0}, refused = 0;
     while (refused < calls) {
         uint32_t way = any(sizeof ways / sizeof ways[0]);

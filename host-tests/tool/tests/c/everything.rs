@@ -1,9 +1,9 @@
 //! A loop with all that a C program may choose (protection, virtual tool, texture, passivity control) beside the same
 //! loop in Rust, tick by tick over the counts of a run.
 
-use crate::running::{capped_box, file, is_wanted, library, run};
+use crate::running::{capped_box, is_wanted, program, run, with_capped_box};
 use clap::Parser;
-use palpate::body::{Body, Edge, Face, FileHead, Room};
+use palpate::body::Body;
 use palpate::device::drive::Feed;
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
 use palpate::device::{Counts, Protection, SupplyRange};
@@ -13,9 +13,7 @@ use palpate::servo::{Event, Input, Rendering, Safety, Servo, Settings};
 use palpate::track::{Contact, Controller};
 use palpate_tool::commands::options::SceneOptions;
 use palpate_tool::commands::sim::run_on_host;
-use palpate_tool::in_c::{self, Core};
 use std::fs;
-use std::process::Command;
 
 #[derive(Parser)]
 struct Demo {
@@ -27,7 +25,7 @@ const PROTECTION: Protection<3> =
     Protection { supply: Some(SupplyRange { least: 20_000, most: 30_000 }), ..WOODEN_HAPTICS_2016_PROTECTION };
 
 /// The numbers of arm, device and protection in the order of the header's structures.
-fn numbers() -> Vec<f32> {
+pub fn numbers() -> Vec<f32> {
     let device = &WOODEN_HAPTICS_2016;
     let arm = device.kinematics;
     let mut all = vec![arm.base_height, arm.first_link, arm.second_link];
@@ -56,13 +54,10 @@ fn bowl(touch: &Touch) -> palpate::math::Vec3 {
 
 /// The hash of the states, how many ticks touched, and whether it ended in a fault.
 fn in_rust(counts: &[[i32; 3]], enable_at: usize) -> (u32, u32, bool) {
-    let bytes = fs::read(capped_box()).expect("the body");
-    // Words, so that they are aligned.
-    let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();
-    let bytes: &[u8] = bytemuck::cast_slice(&words);
-    let head = FileHead::of(bytes).expect("a body's file");
-    let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-    let body = Body::from_bytes(bytes, Room { faces: &mut faces, edges: &mut edges }).expect("a body");
+    with_capped_box(|body| in_rust_on(body, counts, enable_at))
+}
+
+fn in_rust_on(body: &Body<'_>, counts: &[[i32; 3]], enable_at: usize) -> (u32, u32, bool) {
     let settings = Settings {
         rate: 4_000.0,
         stiffness: 1_000.0,
@@ -78,7 +73,7 @@ fn in_rust(counts: &[[i32; 3]], enable_at: usize) -> (u32, u32, bool) {
         passivity: Some(Passivity { device_damping: 0.5, device_friction: 0.01, max_damping: 4.0, resolution: 1e-4 }),
         ..Rendering::PLAIN
     };
-    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, &body, Controller::SECOND_ORDER, settings)
+    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, body, Controller::SECOND_ORDER, settings)
         .expect("settings")
         .try_rendering(rendering)
         .expect("rendering")
@@ -115,10 +110,7 @@ fn a_protected_loop_with_tool_texture_and_passivity_control_is_that_of_rust() {
     let path = |name: &str| folder.path().join(name);
     fs::write(path("numbers"), bytemuck::cast_slice::<f32, u8>(&numbers())).expect("numbers");
     fs::write(path("counts"), bytemuck::cast_slice::<[i32; 3], u8>(&counts)).expect("counts");
-    let mut gcc = in_c::compiler(Core::Host, "gcc").expect("in the repository");
-    gcc.args(["-std=c11"]).arg(file("tests/replay.c")).arg(library(Core::Host)).args(["-lm", "-o"]);
-    run(gcc.arg(path("replay")));
-    let mut replay = Command::new(path("replay"));
+    let mut replay = program("tests/replay.c", folder.path());
     replay.arg(capped_box()).args([path("numbers"), path("counts")]).arg(enable_at.to_string());
     let said = run(&mut replay);
     assert_eq!(said.trim(), format!("{hash:08x} {touched} none"));

@@ -6,4 +6,5 @@ mod bad_arguments;
 mod everything;
 mod example;
 mod header;
+mod homing;
 mod running;

@@ -1,13 +1,14 @@
 //! Whether C is compiled here, and what of it.
 
+use palpate::body::{Body, Edge, Face, FileHead, Room};
 use palpate_tool::firmware::Progress;
 use palpate_tool::in_c::{self, WITH_C};
 use palpate_tool::repository;
-use std::env;
 use std::io::{Write, stderr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::{env, fs};
 
 /// Whether a C compiler is to be used. If not, that is said.
 pub fn is_wanted(test: &str) -> bool {
@@ -41,6 +42,26 @@ pub fn file(name: &str) -> PathBuf {
 /// The file of the capped box.
 pub fn capped_box() -> PathBuf {
     repository::root().expect("in the repository").join("boards/bodies/capped_box.palp")
+}
+
+/// The same as the library has it, for Rust to feel.
+pub fn with_capped_box<T>(then: impl FnOnce(&Body<'_>) -> T) -> T {
+    let bytes = fs::read(capped_box()).expect("the body");
+    // Words, so that they are aligned.
+    let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();
+    let bytes: &[u8] = bytemuck::cast_slice(&words);
+    let head = FileHead::of(bytes).expect("a body's file");
+    let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
+    then(&Body::from_bytes(bytes, Room { faces: &mut faces, edges: &mut edges }).expect("a body"))
+}
+
+/// A program of the host from a source of the C crate, linked with the library.
+pub fn program(source: &str, folder: &Path) -> Command {
+    let mut gcc = in_c::compiler(in_c::Core::Host, "gcc").expect("in the repository");
+    let made = folder.join("program");
+    gcc.args(["-std=c11"]).arg(file(source)).arg(library(in_c::Core::Host)).args(["-lm", "-o"]).arg(&made);
+    run(&mut gcc);
+    Command::new(made)
 }
 
 /// Runs a program to its end and gives what it printed.
