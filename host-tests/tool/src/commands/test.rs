@@ -6,7 +6,7 @@ use crate::in_python;
 use crate::page;
 use crate::repository;
 use anyhow::Context;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::env;
 use std::process::{Command, ExitCode};
 
@@ -22,6 +22,9 @@ pub struct Arguments {
     /// Leaves the emulator out: runs only what plain `cargo test` runs.
     #[arg(long)]
     without_emulator: bool,
+    /// Leaves suites out that have a run of their own, as in a CI whose other lanes run them.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "SUITES")]
+    without: Vec<Suite>,
     /// Only the page for the browser, in headless Chromium: sets up the browser, the code for it and the emulator.
     #[arg(long, conflicts_with_all = ["quick", "without_emulator"])]
     page: bool,
@@ -34,6 +37,17 @@ pub struct Arguments {
     /// Passed on to `cargo test`, or with `--python` to pytest.
     #[arg(last = true)]
     cargo_test: Vec<String>,
+}
+
+/// A suite that is apart, which `cargo palpate test` runs where its tools are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Suite {
+    /// The C library.
+    C,
+    /// The page for the browser.
+    Page,
+    /// The wheel for Python.
+    Python,
 }
 
 /// Runs the command.
@@ -63,9 +77,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         cargo.args(["--workspace", "--no-fail-fast"]);
     }
     cargo.args(&arguments.cargo_test);
-    if arguments.c || (!arguments.without_emulator && !arguments.quick && in_c::has_compiler()) {
+    let is_asked_for = |suite: Suite| !arguments.without.contains(&suite);
+    let with_c = !arguments.without_emulator && !arguments.quick && is_asked_for(Suite::C) && in_c::has_compiler();
+    if arguments.c || with_c {
         cargo.env(WITH_C, "1");
-    } else if !arguments.quick {
+    } else if !arguments.quick && is_asked_for(Suite::C) {
         progress.say("left out: the C library; `cargo palpate test --c` sets up what it needs");
     }
     if !arguments.without_emulator && !arguments.quick && !arguments.c {
@@ -92,12 +108,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let is_whole =
         ![arguments.quick, arguments.without_emulator, arguments.c].contains(&true) && arguments.cargo_test.is_empty();
     let mut all = vec![if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE }];
-    if is_whole {
+    if is_whole && is_asked_for(Suite::Page) {
         if let Some(browser) = page::Browser::at_hand() {
             all.push(on_page(&browser, &[])?);
         } else {
             progress.say("left out: the page for the browser; `cargo palpate test --page` sets up what it needs");
         }
+    }
+    if is_whole && is_asked_for(Suite::Python) {
         if in_python::is_set_up() {
             all.push(in_python::test(&[])?);
         } else {
