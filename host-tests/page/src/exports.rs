@@ -18,7 +18,7 @@ use crate::basin::{self, Method};
 use crate::loaded::Loaded;
 use crate::monitor::Monitor;
 use crate::page::{Choices, Stage};
-use crate::replay::{self, Replay, Scene};
+use crate::replay::{self, Replay, Run};
 use crate::{mesh, regions};
 
 struct Exports {
@@ -26,6 +26,7 @@ struct Exports {
     output: Vec<f32>,
     text: String,
     stage: Option<Stage>,
+    others: Vec<Loaded>,
     replay: Option<Box<dyn Replay>>,
     monitor: Monitor,
 }
@@ -35,6 +36,7 @@ static STATE: Mutex<Exports> = Mutex::new(Exports {
     output: Vec::new(),
     text: String::new(),
     stage: None,
+    others: Vec::new(),
     replay: None,
     monitor: Monitor::new(),
 });
@@ -258,20 +260,31 @@ pub extern "C" fn exercise() {
     STATE.lock().text = text;
 }
 
-/// A recorded scene on the body that is loaded, its settings as nine numbers in the input (see `replay.rs`) and
-/// then the name of its device: 0, or −1 and why not.
+/// Takes the file in the input for another body of a recorded scene: 0, or −1 and why not.
 #[unsafe(no_mangle)]
-pub extern "C" fn replay_begin(name_length: usize, link_timeout: f32, protected: u32) -> i32 {
+pub extern "C" fn replay_body(length: usize) -> i32 {
+    let mut state = STATE.lock();
+    let words: &'static [u32] = Box::leak(mem::take(&mut state.input).into_boxed_slice());
+    match Loaded::new(words, length) {
+        Ok(loaded) => {
+            state.others.push(loaded);
+            0
+        }
+        Err(error) => state.say(&error),
+    }
+}
+
+/// A recorded run on what is loaded, as so many numbers in the input, of which so many are the device's (see
+/// [`Run::of`]): 0, or −1 and why not.
+#[unsafe(no_mangle)]
+pub extern "C" fn replay_begin(count: usize, of_device: usize, link_timeout: f32) -> i32 {
     let mut state = STATE.lock();
     let words = mem::take(&mut state.input);
-    let settings = words.get(..9).map(|words| words.iter().map(|word| f32::from_bits(*word)).collect::<Vec<_>>());
-    let settings = settings.and_then(|numbers| replay::settings(&numbers));
-    let name = words.get(9..).map(bytemuck::cast_slice::<u32, u8>).and_then(|bytes| bytes.get(..name_length));
-    let device = name.and_then(|name| core::str::from_utf8(name).ok());
-    let (Some(stage), Some(settings), Some(device)) = (&state.stage, settings, device) else {
-        return state.say("there is no body, or the scene is cut short");
+    let numbers: Vec<f32> = words.iter().take(count).map(|word| f32::from_bits(*word)).collect();
+    let (Some(stage), Some(run)) = (&state.stage, Run::of(&numbers, of_device, link_timeout)) else {
+        return state.say("there is no body, or the run's numbers are no device's");
     };
-    match replay::replay(&stage.loaded, &Scene { device, settings, link_timeout, protected: protected != 0 }) {
+    match replay::replay(&run, &stage.loaded, &state.others) {
         Ok(replay) => {
             state.replay = Some(replay);
             0
@@ -290,12 +303,12 @@ pub extern "C" fn replay_run(ticks: usize) {
     }
 }
 
-/// The state after the last recorded tick, as `view.rs` has it.
+/// The state after the last recorded tick, as `view.rs` has it; of a scene also which body is felt, and where each is.
 #[unsafe(no_mangle)]
 pub extern "C" fn replay_view() -> usize {
     let mut state = STATE.lock();
-    let Exports { output, replay: Some(replay), stage: Some(stage), .. } = &mut *state else { return 0 };
-    replay.view(stage.loaded.body, output);
+    let Exports { output, replay: Some(replay), .. } = &mut *state else { return 0 };
+    replay.view(output);
     output.len()
 }
 

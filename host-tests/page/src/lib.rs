@@ -14,13 +14,14 @@ mod exports;
 mod felt;
 mod hand;
 mod loaded;
-mod mechanism;
 mod mesh;
 mod monitor;
 mod newton;
 mod page;
 mod regions;
 mod replay;
+mod sight;
+mod slides;
 mod view;
 
 #[global_allocator]

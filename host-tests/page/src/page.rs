@@ -12,7 +12,8 @@ use palpate::track::{Controller, Law};
 use crate::felt::{Felt, FeltWitness};
 use crate::hand::{Grip, Hand};
 use crate::loaded::Loaded;
-use crate::mechanism::{self, Mechanism};
+use crate::sight::Sighted as _;
+use crate::slides::{self, Slides};
 use crate::view;
 
 /// What the reader may change while the loop runs.
@@ -44,16 +45,16 @@ impl Choices {
     }
 }
 
-type Slides = Servo<'static, Felt, Mechanism, 3>;
+type Loop = Servo<'static, Felt, Slides, 3>;
 type State = ServoState<3, FeltWitness, <Unguarded as Guard<3>>::State>;
 
 /// A body that is felt.
 pub struct Stage {
     /// What is felt.
     pub loaded: Loaded,
-    device: &'static Device<Mechanism, 3>,
+    device: &'static Device<Slides, 3>,
     choices: Choices,
-    servo: Slides,
+    servo: Loop,
     state: State,
     hand: Hand,
     target: Vec3,
@@ -67,7 +68,7 @@ impl Stage {
     /// # Errors
     /// What the loop refuses, in a sentence.
     pub fn new(loaded: Loaded, place: Vec3) -> Result<Self, String> {
-        let device: &'static _ = Box::leak(Box::new(mechanism::slides(loaded.body.size())));
+        let device: &'static _ = Box::leak(Box::new(slides::slides(loaded.body.size())));
         let choices = Choices::DEFAULT;
         let servo = servo(device, loaded.felt, &choices)?;
         let hand = Hand { position: place, velocity: Vec3::ZERO };
@@ -101,15 +102,16 @@ impl Stage {
             let at = |tick: u32| from + (to - from) * (tick as f32 / ticks as f32);
             let way = [at(tick), at(tick + 1)];
             if yields {
-                let force = mechanism::force_of(self.device, self.state.duties().map(|duty| duty.fraction()));
+                let force = slides::force_of(self.device, self.state.duties().map(|duty| duty.fraction()));
                 self.hand.advance(&Grip::LIGHT, way, force, period);
             } else {
                 self.hand = Hand { position: way[1], velocity: Vec3::ZERO };
             }
-            let counts = mechanism::counts_at(self.device, self.hand.position).map(Counts);
+            let counts = slides::counts_at(self.device, self.hand.position).map(Counts);
             self.servo.note(&mut self.state, Event::LinkAlive);
             self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
-            let [_, error] = view::next_step(self.loaded.body, &controller, self.state.witness(), self.state.probe());
+            let [_, error] =
+                view::next_step(&self.loaded.felt.sight(self.state.witness()), &controller, self.state.probe());
             self.errors.push(error);
         }
         self.target = to;
@@ -117,7 +119,7 @@ impl Stage {
 
     /// Only the ticks, for their time.
     pub fn tick_only(&mut self, ticks: u32) {
-        let counts = mechanism::counts_at(self.device, self.hand.position).map(Counts);
+        let counts = slides::counts_at(self.device, self.hand.position).map(Counts);
         for _ in 0..ticks {
             self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
         }
@@ -125,9 +127,7 @@ impl Stage {
 
     /// What there is to see.
     pub fn view(&self, out: &mut Vec<f32>) {
-        let controller = self.choices.controller();
-        let next = view::next_step(self.loaded.body, &controller, self.state.witness(), self.state.probe());
-        view::write(&self.state, self.loaded.felt, next, self.target, out);
+        view::write(&self.state, self.loaded.felt, &self.choices.controller(), self.target, out);
     }
 
     /// A hash of every bit of the loop's state.
@@ -136,7 +136,7 @@ impl Stage {
     }
 }
 
-fn servo(device: &'static Device<Mechanism, 3>, felt: &'static Felt, choices: &Choices) -> Result<Slides, String> {
+fn servo(device: &'static Device<Slides, 3>, felt: &'static Felt, choices: &Choices) -> Result<Loop, String> {
     let settings = Settings {
         rate: choices.rate,
         stiffness: choices.stiffness,

@@ -3,30 +3,52 @@
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
-use palpate::device::presets::{
-    NOVINT_FALCON_PROTECTION, PHANTOM_PREMIUM_PROTECTION, POLHEM_V2_PROTECTION, WOODEN_HAPTICS_2016_PROTECTION,
-};
-use palpate::device::{Counts, Protection};
+use palpate::body::Body;
+use palpate::device::{Counts, Device};
 use palpate::math::Vec3;
+use palpate::scene::Scene;
 use palpate::servo::{Event, Guard, Input, Safety, Servo, ServoState, Settings};
 use palpate::track::Controller;
+use palpate_recorded::{Mechanism, Recorded, SceneNumbers};
 
-use crate::felt::{Felt, FeltWitness};
 use crate::loaded::Loaded;
-use crate::mechanism::{self, Mechanism};
+use crate::sight::Sighted;
 use crate::view;
 
-/// How a scene's loop was set.
-#[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
-    /// The device's name.
-    pub device: &'a str,
+/// How a run was made.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// On which device.
+    pub on: Recorded,
     /// The loop's settings.
     pub settings: Settings,
     /// Seconds without a host after which it stops.
     pub link_timeout: f32,
-    /// Whether its device was protected.
-    pub protected: bool,
+    /// The scene that was felt; none, where it was one body or patch.
+    pub scene: Option<SceneNumbers>,
+}
+
+/// How many numbers the loop's settings are.
+const SETTINGS: usize = 9;
+
+impl Run {
+    /// From the numbers of a recording: rate, stiffness, damping, greatest force, velocity corner, soft start and the
+    /// body's origin; then so many of the device; then those of the scene, if it was one.
+    pub fn of(numbers: &[f32], of_device: usize, link_timeout: f32) -> Option<Self> {
+        let (settings, numbers) = numbers.split_at_checked(SETTINGS)?;
+        let (device, scene) = numbers.split_at_checked(of_device)?;
+        let &[rate, stiffness, damping, max_force, velocity_corner, soft_start, x, y, z] = settings else {
+            return None;
+        };
+        let body_origin = Vec3::new(x, y, z);
+        let scene = if scene.is_empty() { None } else { Some(SceneNumbers::of(scene)?) };
+        Some(Self {
+            on: Recorded::of(device)?,
+            settings: Settings { rate, stiffness, damping, max_force, velocity_corner, soft_start, body_origin },
+            link_timeout,
+            scene,
+        })
+    }
 }
 
 /// A loop that is told what the sensors said.
@@ -34,22 +56,21 @@ pub trait Replay: Send {
     /// One tick.
     fn tick(&mut self, counts: [i32; 3], enable: bool);
     /// What there is to see.
-    fn view(&self, body: &palpate::body::Body<'static>, out: &mut Vec<f32>);
+    fn view(&self, out: &mut Vec<f32>);
     /// The hash so far, as the tool's summary prints it.
     fn hash(&self) -> u32;
 }
 
-struct Recorded<G: Guard<3> + 'static>
-where
-    G::State: Send,
-{
-    servo: Servo<'static, Felt, Mechanism, 3, G>,
-    state: ServoState<3, FeltWitness, G::State>,
+struct Replayed<S: Sighted, G: Guard<3> + 'static> {
+    surface: &'static S,
+    servo: Servo<'static, S, Mechanism, 3, G>,
+    state: ServoState<3, S::Witness, G::State>,
     hash: u32,
 }
 
-impl<G: Guard<3> + Send> Replay for Recorded<G>
+impl<S: Sighted + Sync, G: Guard<3> + Send> Replay for Replayed<S, G>
 where
+    S::Witness: Send,
     G::State: Send,
 {
     fn tick(&mut self, counts: [i32; 3], enable: bool) {
@@ -58,10 +79,8 @@ where
         self.hash = (self.hash ^ self.state.digest()).wrapping_mul(0x0100_0193);
     }
 
-    fn view(&self, body: &palpate::body::Body<'static>, out: &mut Vec<f32>) {
-        let probe = self.state.probe();
-        let next = view::next_step(body, &Controller::SECOND_ORDER, self.state.witness(), probe);
-        view::write(&self.state, self.servo.surface(), next, probe, out);
+    fn view(&self, out: &mut Vec<f32>) {
+        view::write(&self.state, self.surface, &Controller::SECOND_ORDER, self.state.probe(), out);
     }
 
     fn hash(&self) -> u32 {
@@ -69,46 +88,59 @@ where
     }
 }
 
-/// The loop of a scene.
+/// The loop of a run: over a scene of these bodies, or over the first of them.
 ///
 /// # Errors
 /// What the loop refuses, in a sentence.
-pub fn replay(loaded: &Loaded, scene: &Scene<'_>) -> Result<Box<dyn Replay>, String> {
-    let device = mechanism::shipped(scene.device)
-        .ok_or_else(|| alloc::format!("{}: the page knows no such device", scene.device))?;
-    let device = Box::leak(Box::new(device));
-    let settings = scene.settings;
-    let servo =
-        Servo::try_new(device, loaded.felt, Controller::SECOND_ORDER, settings).map_err(|error| error.to_string())?;
-    let safety = Safety { link_timeout: scene.link_timeout, ..Safety::DEFAULT };
-    if scene.protected {
-        let servo = servo.try_protect(protection(scene.device)).map_err(|error| error.to_string())?;
-        return recorded(servo.try_safety(safety).map_err(|error| error.to_string())?);
+pub fn replay(run: &Run, first: &Loaded, others: &[Loaded]) -> Result<Box<dyn Replay>, String> {
+    let Some(scene) = &run.scene else { return begin(run, first.felt) };
+    let bodies: Vec<&'static Body<'static>> = [first].into_iter().chain(others).map(|loaded| loaded.body).collect();
+    match scene.entries.len() {
+        1 => over::<1>(run, scene, &bodies),
+        2 => over::<2>(run, scene, &bodies),
+        3 => over::<3>(run, scene, &bodies),
+        4 => over::<4>(run, scene, &bodies),
+        5 => over::<5>(run, scene, &bodies),
+        6 => over::<6>(run, scene, &bodies),
+        7 => over::<7>(run, scene, &bodies),
+        8 => over::<8>(run, scene, &bodies),
+        count => Err(alloc::format!("{count} bodies: the page has scenes of 1 to 8")),
     }
-    recorded(servo.try_safety(safety).map_err(|error| error.to_string())?)
 }
 
-fn recorded<G: Guard<3> + Send + 'static>(
-    servo: Servo<'static, Felt, Mechanism, 3, G>,
+fn over<const N: usize>(
+    run: &Run,
+    scene: &SceneNumbers,
+    bodies: &[&'static Body<'static>],
+) -> Result<Box<dyn Replay>, String> {
+    let parts = scene.parts(bodies).and_then(|parts| <[_; N]>::try_from(parts).ok());
+    let parts = parts.ok_or("the scene has a body that is not there")?;
+    let scene = Scene::try_new(scene.limits, parts).map_err(|error| error.to_string())?;
+    begin(run, Box::leak(Box::new(scene)))
+}
+
+fn begin<S: Sighted + Sync>(run: &Run, surface: &'static S) -> Result<Box<dyn Replay>, String>
+where
+    S::Witness: Send,
+{
+    let device: &'static Device<Mechanism, 3> = Box::leak(Box::new(run.on.device));
+    let safety = Safety { link_timeout: run.link_timeout, ..Safety::DEFAULT };
+    let servo =
+        Servo::try_new(device, surface, Controller::SECOND_ORDER, run.settings).map_err(|error| error.to_string())?;
+    if let Some(protection) = run.on.protection {
+        let servo = servo.try_protect(protection).map_err(|error| error.to_string())?;
+        return started(surface, servo.try_safety(safety).map_err(|error| error.to_string())?);
+    }
+    started(surface, servo.try_safety(safety).map_err(|error| error.to_string())?)
+}
+
+fn started<S: Sighted + Sync, G: Guard<3> + Send + 'static>(
+    surface: &'static S,
+    servo: Servo<'static, S, Mechanism, 3, G>,
 ) -> Result<Box<dyn Replay>, String>
 where
+    S::Witness: Send,
     G::State: Send,
 {
-    Ok(Box::new(Recorded { state: servo.start(), servo, hash: 0 }))
-}
-
-fn protection(device: &str) -> Protection<3> {
-    match device {
-        "phantom-premium" => PHANTOM_PREMIUM_PROTECTION,
-        "polhem-v2" => POLHEM_V2_PROTECTION,
-        "falcon" => NOVINT_FALCON_PROTECTION,
-        _ => WOODEN_HAPTICS_2016_PROTECTION,
-    }
-}
-
-/// The settings as the page gives them: rate, stiffness, damping, greatest force, velocity corner, soft start, and
-/// the body's origin.
-pub fn settings(numbers: &[f32]) -> Option<Settings> {
-    let &[rate, stiffness, damping, max_force, velocity_corner, soft_start, x, y, z] = numbers else { return None };
-    Some(Settings { rate, stiffness, damping, max_force, velocity_corner, soft_start, body_origin: Vec3::new(x, y, z) })
+    Ok(Box::new(Replayed { state: servo.start(), surface, servo, hash: 0 }))
 }

@@ -118,13 +118,24 @@ export class Device {
     return ((performance.now() - began) * 1e6) / ticks;
   }
 
-  beginReplay({ settings, device, link_timeout, protected: guarded }) {
-    const name = new TextEncoder().encode(device);
-    const words = new Uint8Array(36 + name.length);
-    words.set(new Uint8Array(Float32Array.from(settings).buffer));
-    words.set(name, 36);
-    this.#put(words);
-    if (this.exports.replay_begin(name.length, link_timeout, guarded ? 1 : 0) < 0) throw new Error(this.#text());
+  /** Takes another body of a scene, from the bytes of its file. */
+  addToReplay(bytes) {
+    this.#put(bytes);
+    if (this.exports.replay_body(bytes.length) < 0) throw new Error(this.#text());
+  }
+
+  /** A run on the device of these numbers, over a scene's if there are any; numbers are bytes of f32. */
+  beginReplay({ settings, device, scene, linkTimeout }) {
+    const parts = [new Uint8Array(Float32Array.from(settings).buffer), device, scene];
+    const numbers = new Uint8Array(parts.reduce((length, part) => length + part.length, 0));
+    let at = 0;
+    for (const part of parts) {
+      numbers.set(part, at);
+      at += part.length;
+    }
+    this.#put(numbers);
+    const begun = this.exports.replay_begin(numbers.length / 4, device.length / 4, linkTimeout);
+    if (begun < 0) throw new Error(this.#text());
   }
 
   replay(rows) {
@@ -186,5 +197,9 @@ function seen(numbers) {
   const view = {};
   VECTORS.forEach((name, index) => (view[name] = Array.from(numbers.subarray(3 * index, 3 * index + 3))));
   NUMBERS.forEach((name, index) => (view[name] = numbers[3 * VECTORS.length + index]));
+  // Of a scene: which of its parts is felt, and of each its axes and its origin.
+  const [felt = 0, ...places] = numbers.subarray(3 * VECTORS.length + NUMBERS.length);
+  view.part = felt;
+  view.places = Array.from({ length: places.length / 12 }, (_, part) => places.slice(12 * part, 12 * part + 12));
   return view;
 }

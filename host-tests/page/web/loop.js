@@ -80,17 +80,23 @@ export class Loop {
     this.device.run(ticks, place, false);
   }
 
-  /** A stroll from a time on, s, that comes to rest and stands there until a reader takes the stylus. */
+  /**
+   * A stroll from a time on, s, that comes to rest and stands there until a reader takes the stylus; the projection
+   * errors of its ticks.
+   */
   show(time) {
+    const errors = [];
     this.clock = time;
     for (let step = 0; step < 60; step += 1) {
       this.clock += 1 / 60;
       this.place = this.ease(1 / 60);
       this.device.run(67, this.place);
+      errors.push(...this.device.errors());
     }
     this.pointer.hold(this.place);
     for (let count = 0; count < 30; count += 1) this.device.run(100, this.place);
     this.strolls = false;
     this.stands = true;
+    return errors;
   }
 }

@@ -23,7 +23,7 @@ function wire() {
   by("file").addEventListener("change", ({ target: { files } }) => files[0] && openFile(page, files[0]));
   by("verify").addEventListener("click", verify);
   by("table1").addEventListener("click", () => page.take(shipped("table1")));
-  by("leave").addEventListener("click", () => page.take(Promise.resolve(page.body)));
+  by("leave").addEventListener("click", () => page.leave());
   by("serial").addEventListener("click", () => toggle(page));
   addEventListener("resize", () => page.room.resize());
   addEventListener("dragover", (event) => (event.preventDefault(), (by("drop").hidden = false)));

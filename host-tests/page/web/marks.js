@@ -68,13 +68,15 @@ export class Marks {
       this.god,
       this.gap,
       this.anchor,
-      this.rim,
       this.normal,
       this.force,
-      this.sheet,
       this.ours,
       this.newton,
     );
+    // These lie on a body, and go where it goes.
+    this.local = new Group();
+    this.local.add(this.rim, this.sheet);
+    this.group.add(this.local);
     this.lean = new Vector3(0, 0, 1);
     this.shown = {};
   }
@@ -91,6 +93,14 @@ export class Marks {
   begin() {
     this.shown = {};
     this.ways();
+  }
+
+  /** What lies on a body lies on this one, of those that the room shows. */
+  on(body) {
+    const { position, quaternion } = this.room.bodies[body];
+    this.local.position.copy(position);
+    this.local.quaternion.copy(quaternion);
+    if (body !== this.shown.body) this.shown = { body };
   }
 
   /** Shows a view of the loop. */
@@ -129,7 +139,7 @@ export class Marks {
     const curve = index === null ? [] : device.edge(index, 32);
     this.draw(
       this.rim,
-      Array.from({ length: curve.length / 9 }, (_, at) => this.room.place(curve.subarray(9 * at, 9 * at + 3))),
+      Array.from({ length: curve.length / 9 }, (_, at) => this.room.within(curve.subarray(9 * at, 9 * at + 3))),
     );
   }
 
@@ -145,7 +155,7 @@ export class Marks {
     const base = new Vector3(),
       out = new Vector3();
     for (let ray = 0; ray < count; ray += 1) {
-      this.room.place(rays.subarray(6 * ray, 6 * ray + 3), base).toArray(position, 6 * ray);
+      this.room.within(rays.subarray(6 * ray, 6 * ray + 3), base).toArray(position, 6 * ray);
       out
         .fromArray(rays, 6 * ray + 3)
         .multiplyScalar(REACH)

@@ -47,20 +47,25 @@ export class Page {
       this.refuse(error.message);
       return false;
     }
-    const { device, name, title, bytes } = this.body;
+    const { device, name, title, bytes, parts } = this.body;
     this.player.close();
-    this.room.show(device);
+    this.room.show(parts ?? [this.body]);
     this.marks.begin();
     this.pointer.begin();
     this.choose();
     this.loop.begin(device);
-    if (!by("body").querySelector(`option[value="${CSS.escape(name)}"]`)) {
+    if (!parts && !by("body").querySelector(`option[value="${CSS.escape(name)}"]`)) {
       by("body").add(new Option(title, name));
       this.opened.set(name, bytes);
     }
-    by("body").value = name;
+    by("body").value = parts ? "" : name;
     if (this.panel === "basin") this.beginBasin();
     return true;
+  }
+
+  /** Leaves a recording: of a scene its first body stays. */
+  leave() {
+    return this.take(Promise.resolve({ ...this.body, parts: undefined }));
   }
 
   /** The body of a name in the list. */
@@ -120,7 +125,10 @@ export class Page {
   /** So many seconds of whatever is shown, and the picture of it. */
   advance(seconds) {
     if (this.live) this.view = this.live.view ?? this.view;
-    else if (this.player.recording) this.view = this.player.advance(seconds);
+    else if (this.player.recording) {
+      this.view = this.player.advance(seconds);
+      this.errors.add([this.view.error], this.body.device.size);
+    }
     else if (this.panel === "basin") this.basin.step();
     else {
       this.errors.add(this.loop.advance(seconds), this.body.device.size);
@@ -134,14 +142,19 @@ export class Page {
   picture() {
     const { view, body, marks } = this;
     if (!view) return;
+    // Of a scene, the part that is felt.
+    const part = body.parts ? (view.part ?? 0) : 0,
+      felt = body.parts?.[part] ?? body;
     const { kind, index } = featureOf(view.feature),
-      isPatch = body.device.isPatch;
-    this.room.light_up(kind === FACE && !isPatch ? [index] : []);
-    marks.edge(kind === EDGE && !isPatch ? index : null, body.device);
+      isPatch = felt.device.isPatch;
+    this.room.put(view.places ?? []);
+    this.room.lightUp(part, kind === FACE && !isPatch ? index : null);
+    marks.on(part);
+    marks.edge(kind === EDGE && !isPatch ? index : null, felt.device);
     const withRegion = by("regions").checked && this.panel === "feel";
-    if (withRegion) marks.region(view.feature, body.device);
+    if (withRegion) marks.region(view.feature, felt.device);
     marks.show(view, withRegion);
-    show(view, body);
+    show(view, felt);
     if (this.panel === "feel") this.errors.draw();
     if (Math.floor(this.last / TOLD_EVERY) === this.told) return;
     this.told = Math.floor(this.last / TOLD_EVERY);

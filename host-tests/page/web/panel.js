@@ -12,9 +12,13 @@ const set = (id, text) => {
 
 export const length = (vector) => Math.hypot(...vector);
 
-/** A feature in words. */
+/** A feature in words, of a scene's part with what that is called. */
 export function nameOf(code, body) {
-  const { kind, index } = featureOf(code);
+  const of = body.called ? ` of ${body.called}` : "";
+  return placeOf(featureOf(code), body) + of;
+}
+
+function placeOf({ kind, index }, body) {
   if (kind === FACE) return body.device.isPatch ? "the patch" : `face “${body.faces[index] ?? index}”`;
   return kind === EDGE ? `edge ${index}` : `vertex ${index}`;
 }
@@ -33,7 +37,8 @@ export function show(view, body) {
   const newtons = length(view.force);
   set("force", `${newtons.toFixed(2)} N${view.held ? (view.slips ? ", slipping" : ", sticking") : ""}`);
   set("gain", view.gain.toFixed(4));
-  set("evaluations", String(view.evaluations));
+  // Several bodies share a tick.
+  set("evaluations", body.called ? "–" : String(view.evaluations));
   set("phase", view.fault ? `${PHASES[view.phase]} ${view.fault}` : PHASES[view.phase]);
   by("caption").innerHTML = caption(view, body, millimetres, newtons, touching);
 }

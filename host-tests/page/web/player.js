@@ -25,6 +25,12 @@ export class Player {
       : `state hash ${recording.hash}, recorded was ${recording.recorded}`;
   }
 
+  /** Stands at a time, s. */
+  seek(seconds) {
+    Object.assign(this, { plays: false, at: seconds / this.recording.seconds });
+    by("play").textContent = "play";
+  }
+
   /** Leaves it. */
   close() {
     this.recording = null;

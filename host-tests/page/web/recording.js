@@ -10,8 +10,16 @@ const STRIDE = 8;
 export async function open(text, name) {
   const said = JSON.parse(text);
   if (said.palpate !== "recording") throw new Error(`${name}: not a recording of palpate`);
-  const body = await read(decode(said.body), said.model);
-  body.device.beginReplay(said);
+  if (!said.bodies?.length || !said.device_numbers) throw new Error(`${name}: recorded by another version of palpate`);
+  const bodies = await Promise.all(said.bodies.map(({ name, file }) => read(decode(file), name)));
+  const [body] = bodies;
+  for (const { bytes } of bodies.slice(1)) body.device.addToReplay(bytes);
+  body.device.beginReplay({
+    settings: said.settings,
+    device: decode(said.device_numbers),
+    scene: said.scene ? decode(said.scene.numbers) : new Uint8Array(),
+    linkTimeout: said.link_timeout,
+  });
   const rows = counts(decode(said.counts), said.ticks, said.enable_at);
   const views = [];
   for (let tick = 0; tick < said.ticks; tick += STRIDE) {
@@ -20,7 +28,7 @@ export async function open(text, name) {
   }
   const hash = body.device.replayHash();
   return {
-    body,
+    body: said.scene ? { ...body, title: said.model, parts: parts(said.scene, bodies, views[0].places) } : body,
     views,
     seconds: STRIDE / said.settings[0],
     hash,
@@ -28,6 +36,11 @@ export async function open(text, name) {
     same: hash === said.hash,
     on: said.on,
   };
+}
+
+/** What a scene is made of: each part with its body, what it is called, and where it begins. */
+function parts(scene, bodies, places) {
+  return scene.parts.map(([called, body], index) => ({ ...bodies[body], called, place: places[index] }));
 }
 
 /** Differences of counts from tick to tick, zig-zag and LEB128, as rows of three counts and whether force is asked for. */

@@ -10,6 +10,7 @@ import {
   DoubleSide,
   Group,
   HemisphereLight,
+  Matrix4,
   LineMaterial,
   LineSegments2,
   LineSegmentsGeometry,
@@ -58,8 +59,8 @@ export class Room {
     this.orbit.touches = { ONE: null, TWO: TOUCH_ROTATE };
     this.light();
     this.lines = [];
-    this.body = new Group();
-    this.scene.add(this.body);
+    /** What is shown: a group a body, in the frame of its tables. */
+    this.bodies = [];
     this.resize();
   }
 
@@ -79,7 +80,7 @@ export class Room {
     this.scene.add(this.floor);
   }
 
-  /** From the frame of the tables to the room. */
+  /** From the frame of what is felt, a body's tables or a scene, to the room. */
   place([x, y, z], into = new Vector3()) {
     return into.set(x - this.middle[0], y - this.middle[1], z - this.middle[2]).multiplyScalar(1 / this.size);
   }
@@ -89,41 +90,71 @@ export class Room {
     return [x, y, z].map((coordinate, axis) => coordinate * this.size + this.middle[axis]);
   }
 
-  /** Shows a body: a mesh a face, so that the active one can be lit, seams thin and sharp edges dark. */
-  show(device) {
-    this.body.clear();
+  /** A place in the frame of a body's tables, in its group. */
+  within([x, y, z], into = new Vector3()) {
+    return into.set(x, y, z).multiplyScalar(1 / this.size);
+  }
+
+  /** Shows bodies where they begin: a mesh a face, so that the active one can be lit, seams thin and sharp edges dark. */
+  show(bodies) {
+    this.scene.remove(...this.bodies);
     this.lines = [];
-    const steps = device.faces > 60 ? 12 : device.faces > 12 ? 24 : 48;
-    const grids = Array.from({ length: device.faces }, (_, face) => device.face(face, steps));
-    this.frame(grids, device.size);
-    this.faces = grids.map((grid) => this.face(grid, steps));
-    this.body.add(...this.faces);
+    const steps = ({ device: { faces } }) => (faces > 60 ? 12 : faces > 12 ? 24 : 48);
+    const grids = bodies.map((body) =>
+      Array.from({ length: body.device.faces }, (_, face) => body.device.face(face, steps(body))),
+    );
+    this.frame(bodies, grids);
+    this.bodies = bodies.map((body, index) => this.body(body, grids[index], steps(body)));
+    this.put(bodies.map(({ place }) => place ?? IDENTITY));
+    this.scene.add(...this.bodies);
+    /** All faces, for who looks along a ray. */
+    this.faces = this.bodies.flatMap(({ faces }) => faces);
+  }
+
+  body({ device }, grids, steps) {
+    const group = new Group();
+    group.faces = grids.map((grid) => this.face(grid, steps));
+    group.add(...group.faces);
     const seams = [],
       borders = [];
     for (let edge = 0; edge < device.edges; edge += 1) {
       (device.isSmooth(edge) ? seams : borders).push(device.edge(edge, 32));
     }
-    this.line(seams, { color: SEAM, linewidth: 1.0, opacity: 0.55 });
-    this.line(borders, { color: BORDER, linewidth: 1.9, opacity: 0.9 });
+    this.line(group, seams, { color: SEAM, linewidth: 1.0, opacity: 0.55 });
+    this.line(group, borders, { color: BORDER, linewidth: 1.9, opacity: 0.9 });
+    return group;
   }
 
-  frame(grids, size) {
+  /** Puts each body to its place: its axes and its origin, twelve numbers. */
+  put(places) {
+    places.forEach((place, index) => pose(this.bodies[index], place, this));
+  }
+
+  frame(bodies, grids) {
     const low = [Infinity, Infinity, Infinity],
       high = [-Infinity, -Infinity, -Infinity];
-    const out = new Vector3();
-    for (const grid of grids) {
-      for (let at = 0; at < grid.length; at += 6) {
-        for (let axis = 0; axis < 3; axis += 1) {
-          low[axis] = Math.min(low[axis], grid[at + axis]);
-          high[axis] = Math.max(high[axis], grid[at + axis]);
+    const out = new Vector3(),
+      at = new Vector3();
+    let count = 0;
+    bodies.forEach(({ place = IDENTITY }, body) => {
+      const matrix = matrixOf(place);
+      for (const grid of grids[body]) {
+        for (let start = 0; start < grid.length; start += 6) {
+          at.fromArray(grid, start).applyMatrix4(matrix);
+          at.toArray().forEach((coordinate, axis) => {
+            low[axis] = Math.min(low[axis], coordinate);
+            high[axis] = Math.max(high[axis], coordinate);
+          });
+          out.add(at.fromArray(grid, start + 3).transformDirection(matrix));
+          count += 1;
         }
-        out.add({ x: grid[at + 3], y: grid[at + 4], z: grid[at + 5] });
       }
-    }
-    this.size = size;
+    });
+    this.size = bodies.length > 1 ? Math.max(...high.map((most, axis) => most - low[axis])) : bodies[0].device.size;
+    const { size } = this;
     this.middle = low.map((least, axis) => (least + high[axis]) / 2);
     // An open patch is looked at from its front.
-    this.front = out.length() > (0.2 * grids.length * grids[0].length) / 6 ? out.normalize() : new Vector3(0, 0, 1);
+    this.front = out.length() > 0.2 * count ? out.normalize() : new Vector3(0, 0, 1);
     const height = (high[2] - low[2]) / 2 / size;
     this.floor.position.z = -height - 0.012;
     this.floor.visible = this.front.z > -0.2;
@@ -144,7 +175,7 @@ export class Room {
       normal = new Float32Array(3 * count);
     const at = new Vector3();
     for (let vertex = 0; vertex < count; vertex += 1) {
-      this.place(grid.subarray(6 * vertex, 6 * vertex + 3), at).toArray(position, 3 * vertex);
+      this.within(grid.subarray(6 * vertex, 6 * vertex + 3), at).toArray(position, 3 * vertex);
       normal.set(grid.subarray(6 * vertex + 3, 6 * vertex + 6), 3 * vertex);
     }
     const index = [];
@@ -174,26 +205,27 @@ export class Room {
     return mesh;
   }
 
-  line(curves, { color, linewidth, opacity }) {
+  line(group, curves, { color, linewidth, opacity }) {
     if (!curves.length) return;
     const positions = [];
     for (const curve of curves) {
       const points = [];
-      for (let at = 0; at < curve.length; at += 9) points.push(this.place(curve.subarray(at, at + 3)).toArray());
+      for (let at = 0; at < curve.length; at += 9) points.push(this.within(curve.subarray(at, at + 3)).toArray());
       for (let at = 1; at < points.length; at += 1) positions.push(...points[at - 1], ...points[at]);
     }
     const material = new LineMaterial({ color, linewidth, transparent: true, opacity });
     material.resolution.copy(this.resolution);
     const line = new LineSegments2(new LineSegmentsGeometry().setPositions(positions), material);
     this.lines.push(material);
-    this.body.add(line);
+    group.add(line);
   }
 
-  /** Lights the faces of a feature. */
-  light_up(faces) {
+  /** Lights a face of a body, or none. */
+  lightUp(body, face) {
     const plain = new Color(PORCELAIN),
-      lit = new Color(LIT);
-    this.faces.forEach((mesh, face) => mesh.material.color.lerp(faces.includes(face) ? lit : plain, 0.25));
+      lit = new Color(LIT),
+      active = face === null ? null : this.bodies[body].faces[face];
+    for (const mesh of this.faces) mesh.material.color.lerp(mesh === active ? lit : plain, 0.25);
   }
 
   resize() {
@@ -212,6 +244,19 @@ export class Room {
     this.orbit.update();
     this.renderer.render(this.scene, this.camera);
   }
+}
+
+const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
+
+function matrixOf(place) {
+  const [x, y, z, origin] = [0, 3, 6, 9].map((at) => new Vector3().fromArray(place, at));
+  return new Matrix4().makeBasis(x, y, z).setPosition(origin);
+}
+
+/** Puts a group of the room's to a place, its axes and its origin. */
+export function pose(group, place, room) {
+  group.quaternion.setFromRotationMatrix(matrixOf(place));
+  room.place(place.slice(9), group.position);
 }
 
 // Triangles whose front is where the normals point.

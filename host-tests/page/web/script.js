@@ -50,7 +50,7 @@ export class Script {
 
   /** A stroll from a time on, s, that stands where it ends. */
   show(time) {
-    this.page.loop.show(time);
+    this.page.errors.add(this.page.loop.show(time), this.page.body.device.size);
   }
 
   /** When so many more frames have been drawn. */
@@ -62,6 +62,16 @@ export class Script {
   /** When all starts of the comparison have been tried. */
   async settled() {
     while (!this.page.basin.done) await new Promise(requestAnimationFrame);
+  }
+
+  /** All views of the recording that is shown. */
+  views() {
+    return this.page.player.recording.views;
+  }
+
+  /** Shows the recording at a time, s, and stands there. */
+  seek(seconds) {
+    this.page.player.seek(seconds);
   }
 
   /** The closest point of a place from a standing start. */

@@ -5,8 +5,9 @@ use glam::{DMat3, DVec3};
 use palpate::body::Body;
 use palpate::math::{Vec3, vec3};
 use palpate::render::Friction;
-use palpate::scene::{Joint, Limits, Material, Motion, Part, Path, RigidBody, Scene, SceneError, Sphere, Tether};
+use palpate::scene::{Joint, Limits, Material, Part, RigidBody, Scene, SceneError, Sphere, Tether};
 use palpate::track::Placement;
+use palpate_recorded::{Entry, Movement, SceneNumbers, Turn};
 
 /// What is known of a body's shape: its tables' frame in its model, and its bounding box in that frame, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +68,22 @@ impl SceneFile {
         })
     }
 
+    /// The scene as a recording carries it; `which` says of each part which of the recorded bodies it is.
+    pub fn numbers(&self, limits: Limits, bodies: &[(&'static Body<'static>, Shape)], which: &[u32]) -> SceneNumbers {
+        let parts = self.parts(limits.rate, bodies);
+        let entries = self.body.iter().zip(bodies).zip(parts.iter().zip(which));
+        let entries = entries.map(|((entry, (_, shape)), (part, which))| Entry {
+            body: *which,
+            movement: entry.movement(shape),
+            stiffness: part.material.stiffness,
+            damping: part.material.damping,
+            friction: part.material.friction,
+            sphere: part.sphere,
+            group: part.group,
+        });
+        SceneNumbers { limits: self.limits(limits), entries: entries.collect() }
+    }
+
     /// What a scene is made of, at a servo rate, Hz.
     pub fn parts(&self, rate: f32, bodies: &[(&'static Body<'static>, Shape)]) -> Vec<Part<'static, Body<'static>>> {
         let entries = self.body.iter().zip(bodies);
@@ -84,7 +101,7 @@ impl BodyEntry {
         });
         Part {
             surface: body,
-            motion: self.motion(rate, shape),
+            motion: self.movement(shape).at(rate),
             material: Material { stiffness: self.stiffness, damping: self.damping, friction, texture: None },
             sphere: Sphere { centre: single(shape.middle()), radius: shape.radius() },
             group: self.group,
@@ -101,7 +118,8 @@ impl BodyEntry {
         Placement { axes, origin: single(origin), ..Placement::IDENTITY }
     }
 
-    fn motion(&self, rate: f32, shape: &Shape) -> Motion {
+    /// How it moves.
+    pub fn movement(&self, shape: &Shape) -> Movement {
         let start = self.placement(shape);
         if let Some(free) = &self.free {
             let size = shape.high - shape.low;
@@ -112,7 +130,7 @@ impl BodyEntry {
             );
             let inertia = free.inertia.map_or_else(|| single(block * f64::from(free.mass) / 12.0), Vec3::from_array);
             let middle = single(shape.middle());
-            return Motion::Free(RigidBody {
+            return Movement::Free(RigidBody {
                 start,
                 mass: free.mass,
                 inertia,
@@ -138,28 +156,15 @@ impl BodyEntry {
             });
         }
         if self.turns.is_none() && self.sways.is_none() {
-            return Motion::Resting(start);
+            return Movement::Resting(start);
         }
-        let mut path = Path::new(start);
-        if let Some([axis, pivot, by]) = self.turn_of() {
-            path = path.turning(axis, pivot, by.x, rate);
-        }
-        if let Some([amplitude, by]) = self.sway_of() {
-            path = path.swaying(amplitude, by.x, rate);
-        }
-        Motion::Prescribed(path)
-    }
-
-    /// Axis, pivot, and the rate in rad/s.
-    pub(super) fn turn_of(&self) -> Option<[Vec3; 3]> {
-        let turn = self.turns?;
-        Some([unit(turn.axis), single(metres(turn.about)), vec3(turn.rate.to_radians() as f32, 0.0, 0.0)])
-    }
-
-    /// Amplitude, and the rate in rad/s.
-    pub(super) fn sway_of(&self) -> Option<[Vec3; 2]> {
-        let sway = self.sways?;
-        Some([single(metres(sway.by)), vec3((sway.often * core::f64::consts::TAU) as f32, 0.0, 0.0)])
+        let turn = self.turns.map(|turn| Turn {
+            axis: unit(turn.axis),
+            pivot: single(metres(turn.about)),
+            rate: turn.rate.to_radians() as f32,
+        });
+        let sway = self.sways.map(|sway| (single(metres(sway.by)), (sway.often * core::f64::consts::TAU) as f32));
+        Movement::Prescribed { start, turn, sway }
     }
 }
 

@@ -1,11 +1,12 @@
 //! A scene as Rust source, for an image.
 
-use super::file::{BodyEntry, SceneFile};
+use super::file::SceneFile;
 use super::parts::Shape;
 use palpate::body::Body;
 use palpate::math::Vec3;
-use palpate::scene::{Joint, Limits, Motion, Part, Tether};
+use palpate::scene::{Joint, Limits, Part, Tether};
 use palpate::track::Placement;
+use palpate_recorded::{Movement, Turn};
 use std::fmt::Write as _;
 
 /// The source: a module of tables for each body, and the scene of them as `Surface` and `SURFACE`, which an image takes
@@ -31,14 +32,15 @@ pub fn source(
          palpate::scene::Limits {{ max_stiffness: {max_stiffness:?}, max_damping: {max_damping:?}, \
          max_force: {max_force:?}, let_go: {let_go:?}, rate: {rate:?}, max_speed: {max_speed:?} }},\n    ["
     );
-    for (index, (entry, part)) in file.body.iter().zip(file.parts(limits.rate, bodies)).enumerate() {
+    let entries = file.body.iter().zip(bodies).zip(file.parts(limits.rate, bodies));
+    for (index, ((entry, (_, shape)), part)) in entries.enumerate() {
         let (centre, radius) = (vector(part.sphere.centre), part.sphere.radius);
         let _ = writeln!(
             text,
             "        palpate::scene::Part {{ surface: &body_{}::BODY, motion: {}, material: {}, \
              sphere: palpate::scene::Sphere {{ centre: {centre}, radius: {radius:?} }}, group: {} }},",
             first(index),
-            motion(entry, &part, limits.rate),
+            motion(&entry.movement(shape), limits.rate),
             material(&part),
             part.group
         );
@@ -78,20 +80,20 @@ fn material(part: &Part<'static, Body<'static>>) -> String {
     )
 }
 
-fn motion(entry: &BodyEntry, part: &Part<'static, Body<'static>>, rate: f32) -> String {
-    match &part.motion {
-        Motion::Resting(start) => format!("palpate::scene::Motion::Resting({})", placement(start)),
-        Motion::Prescribed(path) => {
-            let mut text = format!("palpate::scene::Path::new({})", placement(path.start()));
-            if let Some([axis, pivot, by]) = entry.turn_of() {
-                let _ = write!(text, ".turning({}, {}, {:?}, {rate:?})", vector(axis), vector(pivot), by.x);
+fn motion(movement: &Movement, rate: f32) -> String {
+    match movement {
+        Movement::Resting(start) => format!("palpate::scene::Motion::Resting({})", placement(start)),
+        Movement::Prescribed { start, turn, sway } => {
+            let mut text = format!("palpate::scene::Path::new({})", placement(start));
+            if let Some(Turn { axis, pivot, rate: by }) = turn {
+                let _ = write!(text, ".turning({}, {}, {by:?}, {rate:?})", vector(*axis), vector(*pivot));
             }
-            if let Some([amplitude, by]) = entry.sway_of() {
-                let _ = write!(text, ".swaying({}, {:?}, {rate:?})", vector(amplitude), by.x);
+            if let Some((amplitude, by)) = sway {
+                let _ = write!(text, ".swaying({}, {by:?}, {rate:?})", vector(*amplitude));
             }
             format!("palpate::scene::Motion::Prescribed({text})")
         }
-        Motion::Free(body) => {
+        Movement::Free(body) => {
             let joint = match body.joint {
                 Joint::Free => "Free".to_owned(),
                 Joint::Fixed => "Fixed".to_owned(),

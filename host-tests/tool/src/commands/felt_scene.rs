@@ -3,6 +3,7 @@
 use super::progress;
 use crate::drawing::View;
 use crate::models::ModelFile;
+use crate::page::{RecordedBody, RecordedScene};
 use crate::preset::Limits as DeviceLimits;
 use anyhow::Context;
 use glam::DVec3;
@@ -11,8 +12,8 @@ use palpate::math::Vec3;
 use palpate::patch::Patch as _;
 use palpate::scene::{Limits, Motion, Scene};
 use palpate::track::Placement;
-use palpate_bake::BakedBody;
 use palpate_bake::source::{Origin, body_source};
+use palpate_bake::{BakedBody, Model};
 use palpate_scene::{SceneFile, Shape, source};
 use std::path::Path;
 
@@ -29,6 +30,15 @@ pub struct FeltScene {
     file: SceneFile,
     bodies: Vec<(&'static Body<'static>, Shape)>,
     tables: Vec<String>,
+    sources: Vec<Source>,
+}
+
+/// What a body was baked from, and what came of it.
+#[derive(Debug)]
+struct Source {
+    digest: [u8; 32],
+    model: Model,
+    baked: BakedBody,
 }
 
 impl FeltScene {
@@ -38,7 +48,7 @@ impl FeltScene {
     /// What is wrong with the file, or with one of its models.
     pub fn read(from: &ModelFile, path: &Path) -> anyhow::Result<Self> {
         let file = SceneFile::read(&from.text).with_context(|| from.label.clone())?;
-        let (mut bodies, mut tables) = (Vec::new(), Vec::new());
+        let (mut bodies, mut tables, mut sources) = (Vec::new(), Vec::new(), Vec::new());
         for entry in &file.body {
             // From the scene's own folder, or one that ships.
             let beside = path.parent().unwrap_or(Path::new("")).join(&entry.model);
@@ -61,8 +71,9 @@ impl FeltScene {
             tables.push(body_source(&origin, &baked, &baked.labels(&model))?);
             let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?));
             bodies.push((body, shape(body, model.centre)));
+            sources.push(Source { digest: model_file.digest(), model, baked });
         }
-        Ok(Self { file, bodies, tables })
+        Ok(Self { file, bodies, tables, sources })
     }
 
     /// What to call it.
@@ -103,6 +114,25 @@ impl FeltScene {
     /// What the library would refuse when that is compiled.
     pub fn source(&self, limits: Limits) -> anyhow::Result<String> {
         Ok(source(&self.file, limits, &self.bodies, &self.tables))
+    }
+
+    /// What a recording carries of it: each body once, and the scene of them.
+    ///
+    /// # Errors
+    /// A bug of the baker.
+    pub fn recorded(&self, limits: Limits) -> anyhow::Result<(Vec<RecordedBody>, Option<RecordedScene>)> {
+        let (mut bodies, mut which) = (Vec::<RecordedBody>::new(), Vec::new());
+        for Source { digest, model, baked } in &self.sources {
+            let body = RecordedBody::new(&model.name, &palpate_bake::file::write(*digest, model, baked)?);
+            let index = bodies.iter().position(|other| *other == body).unwrap_or(bodies.len());
+            if index == bodies.len() {
+                bodies.push(body);
+            }
+            which.push(index as u32);
+        }
+        let numbers = self.file.numbers(limits, &self.bodies, &which);
+        let names = self.file.body.iter().map(|entry| entry.name.clone());
+        Ok((bodies, Some(RecordedScene::new(&numbers, names))))
     }
 
     /// The bodies as nets of lines: where they start, and on their way.

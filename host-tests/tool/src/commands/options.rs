@@ -5,7 +5,7 @@ use super::felt_scene::FeltScene;
 use crate::devices::{self, Chosen, Preset, ShippedDevice};
 use crate::firmware::Link;
 use crate::models::ModelFile;
-use crate::page::{Cut, Loop, Recording};
+use crate::page::{Cut, Loop, RecordedBody, Recording};
 use crate::simulation::{HostLoop, Trace};
 use anyhow::{Context, anyhow, bail, ensure};
 use clap::Args;
@@ -15,7 +15,9 @@ use palpate::scene::Limits;
 use palpate::servo::{Safety, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::source::Origin;
+use palpate_bake::{BakedBody, Model, NurbsPatch};
 use palpate_plant::{HandSettings, PathError, Plant, TouchingPath};
+use palpate_recorded::Recorded;
 use palpate_scene::SceneFile;
 use std::path::PathBuf;
 
@@ -232,34 +234,48 @@ impl Scene {
     /// # Errors
     /// Why the page could not feel it.
     pub fn recording(&self, trace: &Trace, on: &str) -> anyhow::Result<Recording> {
-        if self.device.constants.is_some() {
-            return Err(Cut::Device.into());
-        }
-        if matches!(self.felt, Felt::Scene(_)) {
-            return Err(Cut::Scene.into());
-        }
-        let model = self.file.model()?;
-        let located;
-        let baked = match &self.felt {
-            Felt::Body { baked, .. } => baked,
-            Felt::Patch { .. } | Felt::Scene(_) => {
-                let body = self.file.body(&model)?;
-                ensure!(body.faces.len() == 1, Cut::Patch);
-                let options = body.locator_options();
-                located = self.file.located(body, &options, None, &|_, _| {})?;
-                &located
-            }
+        let (bodies, scene) = match &self.felt {
+            Felt::Scene(scene) => scene.recorded(self.limits())?,
+            Felt::Body { baked, .. } => (vec![self.recorded_body(&self.file.model()?, baked)?], None),
+            Felt::Patch { surface, .. } => (vec![self.recorded_patch(surface)?], None),
         };
-        let body = palpate_bake::file::write(self.file.digest(), &model, baked)?;
         let of = Loop {
             model: self.model_name(),
+            bodies,
+            scene,
             device: self.device.name,
+            numbers: &self.recorded_device()?,
             settings: &self.settings,
             link_timeout: SAFETY.link_timeout,
-            protected: self.protection.is_some(),
             enable_at: self.enable_at,
         };
-        Ok(Recording::new(trace, on, &body, &of))
+        Ok(Recording::new(trace, on, of))
+    }
+
+    fn recorded_body(&self, model: &Model, baked: &BakedBody) -> anyhow::Result<RecordedBody> {
+        let name = model.name.as_str();
+        Ok(RecordedBody::new(name, &palpate_bake::file::write(self.file.digest(), model, baked)?))
+    }
+
+    /// The patch as a body of its own.
+    fn recorded_patch(&self, surface: &NurbsPatch) -> anyhow::Result<RecordedBody> {
+        let whole = self.file.model()?;
+        let name = surface.name.clone().filter(|_| whole.patches.len() > 1).unwrap_or_else(|| whole.name.clone());
+        let model = Model { patches: vec![surface.clone()], name, ..whole };
+        let body = BakedBody::new(&model, &self.file.label)?;
+        ensure!(body.faces.len() == 1, Cut::Pieces(body.faces.len()));
+        let options = body.locator_options();
+        let (body, _) = body.located(&options, &|_, _| {})?;
+        self.recorded_body(&model, &body)
+    }
+
+    fn recorded_device(&self) -> anyhow::Result<Recorded> {
+        Ok(match self.device.preset {
+            Preset::SerialArm(device) => Recorded::new(device, self.protection),
+            Preset::LinkageArm(device) => Recorded::new(device, self.protection),
+            Preset::Delta(device) => Recorded::new(device, self.protection),
+            Preset::FiveBar(_) | Preset::Paddle(_) => return Err(Cut::Joints(self.device.name).into()),
+        })
     }
 
     /// What the bodies of a scene share on this device.

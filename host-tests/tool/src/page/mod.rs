@@ -8,6 +8,6 @@ mod serve;
 
 pub use browser::Browser;
 pub use bundle::{Given, Shown, bundle};
-pub use compile::{TARGET, compile};
-pub use recording::{Cut, Loop, Recording};
+pub use compile::{TARGET, compile, compiled};
+pub use recording::{Cut, Loop, RecordedBody, RecordedScene, Recording};
 pub use serve::serve;

@@ -6,6 +6,7 @@ use crate::simulation::Trace;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use palpate::servo::Settings;
+use palpate_recorded::{Recorded, SceneNumbers};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -16,18 +17,20 @@ pub struct Recording {
     pub palpate: String,
     /// On what it was run.
     pub on: String,
-    /// The model's name.
+    /// The name of the model, or of the scene.
     pub model: String,
-    /// The body's file, in base64.
-    pub body: String,
+    /// The bodies: one, or each of a scene's once.
+    pub bodies: Vec<RecordedBody>,
+    /// The scene's numbers, as `palpate_recorded` has them, in base64; none, where one body is felt.
+    pub scene: Option<RecordedScene>,
     /// The device's name.
     pub device: String,
+    /// Its numbers, as `palpate_recorded` has them, in base64, with those of what protects it.
+    pub device_numbers: String,
     /// Rate, stiffness, damping, greatest force, velocity corner, soft start, and the body's origin: SI units.
     pub settings: [f32; 9],
     /// Seconds without a host after which the loop stops.
     pub link_timeout: f32,
-    /// Whether the device was protected.
-    pub protected: bool,
     /// Ticks.
     pub ticks: usize,
     /// The tick from which force was asked for.
@@ -38,57 +41,97 @@ pub struct Recording {
     pub hash: String,
 }
 
+/// A body of a recorded run.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+pub struct RecordedBody {
+    /// Its model's name.
+    pub name: String,
+    /// Its file, in base64.
+    pub file: String,
+}
+
+/// A scene of a recorded run.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
+pub struct RecordedScene {
+    /// What each of its parts is called, and which of the recorded bodies it is.
+    pub parts: Vec<(String, u32)>,
+    /// Its numbers, as `palpate_recorded` has them, in base64.
+    pub numbers: String,
+}
+
+impl RecordedBody {
+    /// A body of a name, from its file.
+    pub fn new(name: &str, file: &[u8]) -> Self {
+        Self { name: name.to_owned(), file: STANDARD.encode(file) }
+    }
+}
+
+impl RecordedScene {
+    /// A scene with what its parts are called, in their order.
+    pub fn new(scene: &SceneNumbers, names: impl Iterator<Item = String>) -> Self {
+        let parts = names.zip(scene.entries.iter().map(|entry| entry.body)).collect();
+        Self { parts, numbers: in_base64(&scene.numbers()) }
+    }
+}
+
 /// Why a run is not recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum Cut {
-    /// One patch of several was felt.
-    #[error("one patch of a model of several is not recorded: leave out --patch")]
-    Patch,
-    /// The device is one's own.
-    #[error("a run on one's own device is not recorded: the page has the devices that ship")]
-    Device,
-    /// Bodies that move were felt.
-    #[error("a run over a scene is not recorded: the page feels one body at rest")]
-    Scene,
+    /// One patch was felt that a body's file has in several pieces.
+    #[error("this patch is not recorded: a body's file has it in {0} pieces, and the run felt it in one")]
+    Pieces(usize),
+    /// A device with fewer joints.
+    #[error("{0} has too few joints to feel a surface in space")]
+    Joints(&'static str),
 }
 
 /// How the loop of a run was set.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Loop<'a> {
-    /// The model's name.
+    /// The name of the model, or of the scene.
     pub model: &'a str,
+    /// What was felt.
+    pub bodies: Vec<RecordedBody>,
+    /// As a scene, if it was one.
+    pub scene: Option<RecordedScene>,
     /// The device's name.
     pub device: &'a str,
+    /// The device.
+    pub numbers: &'a Recorded,
     /// Its settings.
     pub settings: &'a Settings,
     /// Seconds without a host after which it stops.
     pub link_timeout: f32,
-    /// Whether the device was protected.
-    pub protected: bool,
     /// The tick from which force was asked for.
     pub enable_at: u32,
 }
 
 impl Recording {
-    /// Of a run on a body, by its file.
-    pub fn new(trace: &Trace, on: &str, body: &[u8], of: &Loop<'_>) -> Self {
+    /// Of a run.
+    pub fn new(trace: &Trace, on: &str, of: Loop<'_>) -> Self {
         let Settings { rate, stiffness, damping, max_force, velocity_corner, soft_start, body_origin } = *of.settings;
         let [x, y, z] = body_origin.to_array();
         Self {
             palpate: "recording".to_owned(),
             on: on.to_owned(),
             model: of.model.to_owned(),
-            body: STANDARD.encode(body),
+            bodies: of.bodies,
+            scene: of.scene,
             device: of.device.to_owned(),
+            device_numbers: in_base64(&of.numbers.numbers()),
             settings: [rate, stiffness, damping, max_force, velocity_corner, soft_start, x, y, z],
             link_timeout: of.link_timeout,
-            protected: of.protected,
             ticks: trace.samples.len(),
             enable_at: of.enable_at,
             counts: STANDARD.encode(differences(trace)),
             hash: format!("{:08x}", Summary::new(trace).state_hash),
         }
     }
+}
+
+/// Numbers with all their bits, which decimals in JSON have only where they are finite.
+fn in_base64(numbers: &[f32]) -> String {
+    STANDARD.encode(numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>())
 }
 
 fn differences(trace: &Trace) -> Vec<u8> {

@@ -20,6 +20,9 @@ pub struct Page {
     errors: Arc<Mutex<Vec<String>>>,
 }
 
+/// Width and height of a picture, pixels.
+const PICTURE: [u32; 2] = [1400, 860];
+
 /// Nothing of these tests takes so long, on any machine.
 const PATIENCE: Duration = Duration::from_secs(300);
 
@@ -27,7 +30,11 @@ impl Page {
     /// Opens the page from its file and waits until it runs.
     pub fn open() -> anyhow::Result<Self> {
         // Before the browser starts, which does not wait for ever: the first time this builds the code.
-        let address = tool::address();
+        Self::open_at(&tool::address())
+    }
+
+    /// The same of a page that lies elsewhere.
+    pub fn open_at(address: &str) -> anyhow::Result<Self> {
         let options = LaunchOptions {
             path: Some(tool::given("PALPATE_CHROMIUM")?),
             // As root, which a container's user is, Chromium has no sandbox.
@@ -64,7 +71,7 @@ impl Page {
                 errors.push(error);
             }
         }))?;
-        tab.navigate_to(&address)?;
+        tab.navigate_to(address)?;
         let page = Self { _browser: browser, tab, errors };
         // Until the page is there an expression finds nothing, or another page's world.
         let began = Instant::now();
@@ -115,8 +122,26 @@ impl Page {
         self.ask(expression)?.as_f64().with_context(|| format!("{expression} is no number"))
     }
 
-    /// A picture of the page, PNG.
+    /// A picture of the page, PNG, of a size that no browser's own bars take part of.
     pub fn picture(&self) -> anyhow::Result<Vec<u8>> {
+        let [width, height] = PICTURE;
+        self.tab.call_method(Emulation::SetDeviceMetricsOverride {
+            width,
+            height,
+            device_scale_factor: 1.0,
+            mobile: false,
+            scale: None,
+            screen_width: None,
+            screen_height: None,
+            position_x: None,
+            position_y: None,
+            dont_set_visible_size: None,
+            screen_orientation: None,
+            viewport: None,
+            display_feature: None,
+            device_posture: None,
+        })?;
+        self.ask("palpate.drawn(3)")?;
         self.tab.capture_screenshot(CaptureScreenshotFormatOption::Png, None, None, true)
     }
 

@@ -7,7 +7,7 @@ use std::fs;
 
 /// The pictures: what is done before each.
 const PICTURES: [(&str, &str); 2] = [
-    ("page", "palpate.take('capped_box').then(() => palpate.panel('feel')).then(() => palpate.show(7.4))"),
+    ("page", "palpate.take('capped_box').then(() => palpate.panel('feel')).then(() => palpate.show(18.4))"),
     ("page-basin", "palpate.take('table1').then(() => palpate.panel('basin')).then(() => palpate.settled())"),
 ];
 

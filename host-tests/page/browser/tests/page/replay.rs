@@ -1,0 +1,143 @@
+//! Recorded runs of every kind: patches, bodies and scenes, on devices that ship and on one's own.
+
+use crate::browser::Page;
+use crate::tool::{palpate, repository};
+use anyhow::{Context as _, ensure};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::Value;
+use std::fs;
+
+const SCENE: &str = "host-tests/scenes/turntable.toml";
+
+#[test]
+fn runs_of_every_kind_are_felt_anew_to_the_same_hash() -> anyhow::Result<()> {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    // Devices that do not ship: a longer thigh and fewer lines, and other masses.
+    let own = |from: &str, entry: &str, instead: &str| -> anyhow::Result<String> {
+        let file = path(&format!("own-{from}.toml"));
+        palpate(&["device", from, "--out", &file])?;
+        let text = fs::read_to_string(&file)?;
+        ensure!(text.matches(entry).count() > 0, "{from}: no {entry}");
+        fs::write(&file, text.replace(entry, instead).replace(&format!("name = \"{from}\""), "name = \"mine\""))?;
+        Ok(file)
+    };
+    let delta = own("falcon", "thigh = 0.06\n", "thigh = 0.061\n")?;
+    let linkage = own("polhem-v2", "mass = 0.15764\n", "mass = 0.2\n")?;
+    let page = Page::held_still()?;
+    let mut hashes = Vec::new();
+    for arguments in [
+        &["--model", "table1c", "--device", "falcon", "--protected"][..],
+        &["--model", "table1c", "--device", &delta, "--protected"],
+        &["--model", "sphere", "--device", "polhem-v2", "--protected"],
+        &["--model", "sphere", "--device", &linkage, "--protected"],
+        &["--model", "capped_box", "--device", "phantom-premium"],
+        &["--model", "capped_box", "--patch", "2"],
+        &["--model", "teapot", "--patch", "3"],
+        &["--model", SCENE],
+        &["--model", SCENE, "--device", &linkage, "--protected"],
+    ] {
+        let recording = path("sim.json");
+        let all = [&["sim", "--seconds", "2", "--recording", &recording], arguments].concat();
+        let printed = palpate(&all)?;
+        let line = printed.lines().find(|line| line.contains("state hash")).context("no hash")?;
+        let hash = line.split_whitespace().last().unwrap_or_default().to_owned();
+        replayed(&page, &recording, &hash).with_context(|| arguments.join(" "))?;
+        println!("{}: {hash}, in the page too", arguments.join(" "));
+        ensure!(!hashes.contains(&hash), "{hash}: another run has it");
+        hashes.push(hash);
+    }
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
+/// How fast the turntable turns, degrees a second, and how its second part begins; of the scene's file.
+const TURNS: f64 = 20.0;
+const BEGINS: [f64; 2] = [0.0, 90.0];
+/// Ticks between two views that the page keeps, and ticks a second.
+const STRIDE: usize = 8;
+const RATE: f64 = 4_000.0;
+
+#[test]
+fn a_scenes_bodies_are_seen_where_they_are_and_its_gap_is_the_hosts() -> anyhow::Result<()> {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let [recording, table] = ["run.json", "run.csv"].map(path);
+    let printed = palpate(&["sim", "--model", SCENE, "--seconds", "3", "--recording", &recording, "--csv", &table])?;
+    let hash = printed.lines().find(|line| line.contains("state hash")).context("no hash")?;
+    let page = Page::held_still()?;
+    replayed(&page, &recording, hash.split_whitespace().last().unwrap_or_default())?;
+    let views: Vec<Value> = serde_json::from_value(page.ask("palpate.views()")?)?;
+    let table = fs::read_to_string(table)?;
+    let head: Vec<&str> = table.lines().next().context("an empty table")?.split(',').collect();
+    let column = |name: &str| head.iter().position(|found| *found == name).with_context(|| name.to_owned());
+    let columns = [column("gap")?, column("probe_x")?, column("probe_y")?, column("probe_z")?];
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    ensure!(views.len() == rows.len() / STRIDE, "{} views of {} ticks", views.len(), rows.len());
+    let (mut turned, mut touched, mut felt) = (0, 0, [false; 3]);
+    for (index, view) in views.iter().enumerate() {
+        let number = |value: &Value| value.as_f64().with_context(|| format!("{value} is no number"));
+        let vector = |name: &str| -> anyhow::Result<Vec<f64>> {
+            view[name].as_array().context("no vector")?.iter().map(number).collect()
+        };
+        // The view after a stride is that of its last tick. Nine digits tell one f32 from the next.
+        let row = &rows[STRIDE * index + STRIDE - 1];
+        let [gap, at @ ..] = columns.map(|column| row[column].parse::<f32>());
+        let (gap, probe) = (gap?, vector("probe")?);
+        ensure!(number(&view["gap"])? as f32 == gap, "view {index}: a gap of {} m, the host says {gap}", view["gap"]);
+        for (ours, theirs) in probe.iter().zip(at) {
+            ensure!(*ours as f32 == theirs?, "view {index}: the probe is elsewhere: {}", view["probe"]);
+        }
+        let part = number(&view["part"])? as usize;
+        if view["contact"] == 0 {
+            continue;
+        }
+        felt[part] = true;
+        touched += usize::from(view["contact"] == 2);
+        // In the scene's frame, so that the body's place is in it: a few roundings of coordinates of 0.1 m.
+        let apart = vector("point")?.iter().zip(&probe).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        let error = (apart - f64::from(gap.abs())).abs();
+        ensure!(error < 2e-6, "view {index}: the closest point is {apart} m away, and the gap {gap} m");
+        if let Some(begins) = BEGINS.get(part) {
+            let place: Vec<f64> =
+                view["places"][part].as_array().context("no place")?.iter().map(number).collect::<Result<_, _>>()?;
+            let angle = place[1].atan2(place[0]).to_degrees();
+            let seconds = (STRIDE * (index + 1)) as f64 / RATE;
+            // Up to a tick, and roundings of 1e-6 rad.
+            ensure!((angle - begins - TURNS * seconds).abs() < TURNS / RATE + 1e-4, "view {index}: {angle} degrees");
+            turned += 1;
+        }
+    }
+    println!("{} views of a scene: {touched} touched, {turned} on what turns, parts felt: {felt:?}", views.len());
+    ensure!(touched > 50 && turned > 100 && felt.iter().filter(|felt| **felt).count() > 1, "too little was felt");
+    let spoiled = fs::read_to_string(&recording)?.replacen("\"device_numbers\":\"", "\"device_numbers\":\"AAAA", 1);
+    let state = opened(&page, spoiled.as_bytes())?;
+    ensure!(state["refusal"].as_str().is_some_and(|words| words.contains("no device's")), "{state}");
+    if std::env::var_os("PALPATE_WRITE").is_some() {
+        opened(&page, &fs::read(&recording)?)?;
+        page.ask("palpate.draw(true)")?;
+        // Pressed into what turns.
+        let pressed = |view: &&Value| view["contact"] == 2 && view["part"] == 1 && view["gap"].as_f64() < Some(-1e-3);
+        let count = views.iter().filter(pressed).count();
+        let at = views.iter().position(|view| Some(view) == views.iter().filter(pressed).nth(count / 2));
+        page.ask(&format!("palpate.seek({})", at.unwrap_or(0) as f64 * STRIDE as f64 / RATE))?;
+        page.ask("palpate.drawn(40)")?;
+        fs::write(repository("docs/figures/page-scene.png"), page.picture()?)?;
+    }
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
+/// Opens a recording, which must come to its hash.
+pub fn replayed(page: &Page, recording: &str, hash: &str) -> anyhow::Result<()> {
+    let state = opened(page, &fs::read(recording)?)?;
+    ensure!(state["refusal"].is_null(), "{}", state["refusal"]);
+    ensure!(state["replay"]["same"] == true && state["replay"]["hash"] == hash, "{hash}: {}", state["replay"]);
+    Ok(())
+}
+
+fn opened(page: &Page, recording: &[u8]) -> anyhow::Result<Value> {
+    page.ask(&format!("palpate.open('run.json', {:?})", STANDARD.encode(recording)))?;
+    page.ask("palpate.state()")
+}
