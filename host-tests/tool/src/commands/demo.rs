@@ -1,7 +1,7 @@
 //! `palpate demo`: the firmware image on the emulated board, in closed loop with the simulated device.
 
 use super::options::{Scene, SceneOptions};
-use super::{demo_knob, progress, rate, sim};
+use super::{demo_knob, page, progress, rate, sim};
 use crate::budgets::Budget;
 use crate::devices::Chosen;
 use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
@@ -10,7 +10,7 @@ use crate::simulation::{self, Trace};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Runs the firmware image on an emulated board in closed loop with the simulated device, and writes a report.
@@ -69,16 +69,21 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     // What the page has no device or body for is in the report alone.
     let recorded = scene.recording(&run.trace, &run.on);
     let recording = arguments.report.with_extension("json");
-    if recorded.is_ok() {
+    let mut replay = None;
+    if let Ok(recorded) = &recorded {
         figures.push(("replay in 3-D", format!("cargo palpate view --recording {}", recording.display())));
+        let folder = folder_of(&arguments.report);
+        fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        sim::write_recording(recorded, &recording)?;
+        let beside = arguments.report.with_extension("replay.html");
+        replay = page::write_replay(recorded, &beside)?.then_some(beside);
     }
+    let replay = replay.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy());
     let subtitle = format!("{} of {}, {}", scene.felt.name(), scene.model_name(), run.on);
     let net = scene.felt.net(scene.settings.rate);
-    let page = Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, net: &net };
+    let page =
+        Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, net: &net, replay };
     write_page(&page, &arguments.report)?;
-    if let Ok(recorded) = &recorded {
-        sim::write_recording(recorded, &recording)?;
-    }
     if let Some(picture) = &arguments.picture {
         fs::write(picture, plots::path(&page)?).with_context(|| format!("cannot write {}", picture.display()))?;
     }
@@ -88,6 +93,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     println!("  {:<20} {}", "report", arguments.report.display());
     Ok(ExitCode::SUCCESS)
+}
+
+fn folder_of(file: &Path) -> &Path {
+    file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// On the emulated board, or on the host where no emulator can be had.

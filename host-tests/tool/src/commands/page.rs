@@ -77,6 +77,21 @@ pub fn view(arguments: &ViewArguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Writes a page that shows a recording, with its own bodies alone; `false` where the page's code has not been built
+/// here before: this sets nothing up.
+///
+/// # Errors
+/// What the compiler says, or a file that cannot be written.
+pub(super) fn write_replay(recording: &Recording, path: &Path) -> anyhow::Result<bool> {
+    let Some(firmware) = page::compiled(&Progress::new())? else { return Ok(false) };
+    let bodies: Vec<Shown> =
+        recording.bodies.iter().map(|body| Shown::encoded(&body.name, body.file.clone())).collect();
+    let first = bodies.first().map(|body| body.name.clone()).unwrap_or_default();
+    let given = Given { first, bodies, script: script(), recording: Some(recording.clone()) };
+    write_whole(path, page::bundle(&given, &firmware)?.as_bytes())?;
+    Ok(true)
+}
+
 fn written(given: Given) -> anyhow::Result<String> {
     let firmware = page::compile(&Progress::new())?;
     page::bundle(&given, &firmware)

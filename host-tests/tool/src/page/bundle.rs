@@ -40,7 +40,12 @@ pub struct Shown {
 impl Shown {
     /// A body of a name, from its file.
     pub fn new(name: &str, file: &[u8]) -> Self {
-        Self { name: name.to_owned(), title: name.replace('_', " "), palp: STANDARD.encode(file) }
+        Self::encoded(name, STANDARD.encode(file))
+    }
+
+    /// The same, from its file in base64.
+    pub fn encoded(name: &str, palp: String) -> Self {
+        Self { name: name.to_owned(), title: name.replace('_', " "), palp }
     }
 }
 

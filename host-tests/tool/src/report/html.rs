@@ -34,7 +34,9 @@ pub fn write_page(page: &Page<'_>, path: &Path) -> anyhow::Result<()> {
     if let Some(drawing) = plots::instructions(page.trace)? {
         sections.push(("Instructions a tick", "Counted under the emulator.", drawing));
     }
-    write_sections([page.title, page.subtitle], page.figures, &sections, path)
+    let link =
+        page.replay.as_ref().map(|file| (file.as_ref(), "The same run in 3-D, felt anew by the firmware's code"));
+    write_linked([page.title, page.subtitle], link, page.figures, &sections, path)
 }
 
 /// A heading, a sentence and a drawing.
@@ -45,7 +47,18 @@ pub type Section<'a> = (&'a str, &'a str, String);
 /// # Errors
 /// A file that cannot be written, by name.
 pub fn write_sections(
+    headline: [&str; 2],
+    figures: &[(&str, String)],
+    sections: &[Section<'_>],
+    path: &Path,
+) -> anyhow::Result<()> {
+    write_linked(headline, None, figures, sections, path)
+}
+
+/// The same with a link below the headline: a file, and what is there.
+fn write_linked(
     [title, subtitle]: [&str; 2],
+    link: Option<(&str, &str)>,
     figures: &[(&str, String)],
     sections: &[Section<'_>],
     path: &Path,
@@ -55,10 +68,14 @@ pub fn write_sections(
         text,
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title><style>{STYLE}</style>\
-         <h1>{0}</h1><p class=\"note\">{1}</p><table>",
+         <h1>{0}</h1><p class=\"note\">{1}</p>",
         escape(title),
         escape(subtitle)
     )?;
+    if let Some((file, words)) = link {
+        write!(text, "<p><a href=\"{}\">{}</a></p>", escape(file), escape(words))?;
+    }
+    text.push_str("<table>");
     for (name, value) in figures {
         write!(text, "<tr><td>{}</td><td>{}</td></tr>", escape(name), escape(value))?;
     }

@@ -1,6 +1,7 @@
 //! What a page shows.
 
 use crate::simulation::Trace;
+use std::borrow::Cow;
 
 /// What goes on the page.
 pub struct Page<'a> {
@@ -14,4 +15,6 @@ pub struct Page<'a> {
     pub trace: &'a Trace,
     /// The surface that was touched, as lines on the page.
     pub net: &'a [Vec<(f64, f64)>],
+    /// The file beside it that shows the run in 3-D, if there is one.
+    pub replay: Option<Cow<'a, str>>,
 }
