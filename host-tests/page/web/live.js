@@ -3,11 +3,16 @@
 /** The speed that `palpate monitor` takes by default, Bd. */
 const SPEED = 500_000;
 
-/** Asks for a port and tells of each chunk's last record until it is closed. */
-async function connect(device, tell) {
+/** Asks for a port, and opens it. */
+async function connect() {
   if (!navigator.serial) throw new Error("this browser has no Web Serial: Chromium and Edge do");
   const port = await navigator.serial.requestPort();
   await port.open({ baudRate: SPEED });
+  return port;
+}
+
+/** Tells of each chunk's last record until the port is closed, and then of nothing; what closes it. */
+function listen(port, device, tell) {
   const reader = port.readable.getReader();
   let reads = true;
   (async () => {
@@ -46,7 +51,10 @@ export async function toggle(page) {
       `${record.records} records, ${record.damaged} damaged; a tick took ${(record.took * 1e6).toFixed(1)} µs`;
   };
   try {
-    page.live = { stop: await connect(device, tell), view: null };
+    const port = await connect();
+    // Before the first byte is read.
+    page.live = { view: null };
+    page.live.stop = listen(port, device, tell);
     by("serial").textContent = "Disconnect";
   } catch (error) {
     // Whoever closes the browser's list of ports has chosen none.

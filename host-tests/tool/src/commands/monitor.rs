@@ -9,6 +9,7 @@ use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use palpate::wire::Command;
 use palpate::wire::frame::{self, MAX_FRAME};
+use std::fs::File;
 use std::io::{self, ErrorKind, IsTerminal, Read, Write, stdout};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -35,6 +36,9 @@ pub struct Arguments {
     /// Records everything to this CSV file
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
+    /// Keeps every byte of the line in this file, as it came
+    #[arg(long, value_name = "OUT")]
+    raw: Option<PathBuf>,
     /// Stops after this many seconds
     #[arg(long = "for", value_name = "SECONDS")]
     ends_after: Option<f64>,
@@ -120,6 +124,7 @@ fn watch_emulator(arguments: &Arguments, board: Board, view: &mut View) -> anyho
 struct View {
     monitor: Monitor,
     table: Option<Table>,
+    raw: Option<File>,
     refreshes: bool,
     start: Instant,
     ends_after: Option<Duration>,
@@ -129,10 +134,12 @@ struct View {
 impl View {
     fn new(arguments: &Arguments) -> anyhow::Result<Self> {
         let table = |path: &PathBuf| Table::create(path).with_context(|| format!("cannot write {}", path.display()));
+        let raw = |path: &PathBuf| File::create(path).with_context(|| format!("cannot write {}", path.display()));
         let ends_after = arguments.ends_after.map(Duration::try_from_secs_f64).transpose();
         Ok(Self {
             monitor: Monitor::default(),
             table: arguments.csv.as_ref().map(table).transpose()?,
+            raw: arguments.raw.as_ref().map(raw).transpose()?,
             refreshes: stdout().is_terminal(),
             start: Instant::now(),
             ends_after: ends_after.context("--for is not a time")?,
@@ -156,6 +163,9 @@ impl View {
                     }
                 },
             };
+            if let Some(raw) = &mut self.raw {
+                raw.write_all(bytes).context("the bytes of the line cannot be written")?;
+            }
             for byte in bytes {
                 if let Some(figures) = self.monitor.feed(*byte) {
                     self.take(&figures)?;
