@@ -2,11 +2,13 @@
 
 use alloc::vec::Vec;
 use palpate::wire::Record;
-use palpate::wire::frame::{Received, Receiver};
+use palpate::wire::frame::{DELIMITER, Received, Receiver};
 
 /// What has come so far.
 pub struct Monitor {
     receiver: Receiver<Record>,
+    /// Whether a frame has ended on the line: what comes before may be the rest of one.
+    in_step: bool,
     /// Whole records.
     pub records: u32,
     /// Frames that are none.
@@ -17,12 +19,16 @@ pub struct Monitor {
 impl Monitor {
     /// Before the first byte.
     pub const fn new() -> Self {
-        Self { receiver: Receiver::new(), records: 0, damaged: 0, last: None }
+        Self { receiver: Receiver::new(), in_step: false, records: 0, damaged: 0, last: None }
     }
 
     /// Takes bytes as they come.
     pub fn feed(&mut self, bytes: &[u8]) {
         for byte in bytes {
+            if !self.in_step {
+                self.in_step = *byte == DELIMITER;
+                continue;
+            }
             match self.receiver.feed(*byte) {
                 Some(Received::Message(record)) => {
                     self.records += 1;

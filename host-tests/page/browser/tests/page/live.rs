@@ -2,7 +2,7 @@
 
 use crate::browser::Page;
 use crate::tool::palpate;
-use anyhow::{Context as _, ensure};
+use anyhow::{Context as _, bail, ensure};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::fs;
@@ -35,9 +35,10 @@ fn what_the_emulated_board_says_on_its_line_is_shown_as_monitor_reads_it() -> an
     let folder = tempfile::tempdir()?;
     let [raw, csv] = ["line.bin", "line.csv"].map(|name| folder.path().join(name).to_string_lossy().into_owned());
     let said = palpate(&["monitor", "--emulator", "m4", "--seconds", "3", "--raw", &raw, "--csv", &csv])?;
-    // The emulator ends in the middle of a frame, perhaps.
-    let damaged =
-        said.split(" of them damaged").next().and_then(|before| before.rsplit(' ').next()).context("damaged")?;
+    // "355 records, 0 lost on the line, 0 of them damaged, 0 resets".
+    let counted = said.lines().find(|line| line.contains(" lost on the line, ")).context("no count of records")?;
+    let counts: Vec<u32> = counted.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    let &[records, _, damaged, _] = &counts[..] else { bail!("{counted}") };
     let table = fs::read_to_string(csv)?;
     let head: Vec<&str> = table.lines().next().context("an empty table")?.split(',').collect();
     let last: Vec<&str> = table.lines().next_back().context("no row")?.split(',').collect();
@@ -45,7 +46,6 @@ fn what_the_emulated_board_says_on_its_line_is_shown_as_monitor_reads_it() -> an
         let column = head.iter().position(|found| *found == name).with_context(|| name.to_owned())?;
         Ok(last[column].parse()?)
     };
-    let records = table.lines().count() - 1;
     ensure!(records > 50 && cell("contact")? > 0.0, "{records} records, the last: {last:?}");
     let page = Page::held_still()?;
     page.ask("palpate.take('capped_box')")?;
