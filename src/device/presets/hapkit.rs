@@ -26,7 +26,8 @@ pub const HAPKIT: Device<Paddle, 1> = Device {
     })],
     dry_friction: [2e-3],
     joint_range: [[-0.8, 0.8]],
-    min_margin: 0.06,
+    // The only margin a lever has is its own length: a quarter above, all of the force is given.
+    min_margin: 0.05,
     max_joint_rate: 35.0,
     max_force: 7.9,
     max_stiffness: 500.0,
