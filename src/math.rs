@@ -21,6 +21,16 @@ pub fn inverse_sqrt(x: f32) -> f32 {
     y + y * (0.5 - half * y * y)
 }
 
+/// `1/√x` for a normal positive `x`, or less by up to 0.2 %. About 10 instructions.
+///
+/// The first of [`inverse_sqrt`]'s Newton steps: from either side it ends below, but for its rounding.
+#[inline]
+pub fn inverse_sqrt_from_below(x: f32) -> f32 {
+    let half = 0.5 * x;
+    let y = f32::from_bits(0x5f37_59df_u32.wrapping_sub(x.to_bits() >> 1));
+    y * (1.5 - half * y * y)
+}
+
 /// Square root. About 25 instructions, against 51 for `libm::sqrtf`, which has no Cortex-M path; inline assembly is not
 /// ours.
 ///
@@ -135,6 +145,15 @@ mod tests {
             root = root.max(units(sqrt(x), f64::from(x).sqrt()));
         }
         assert!(inverse <= 2.0 && root <= 2.0, "{inverse} {root}");
+    }
+
+    #[test]
+    fn the_root_from_below_is_never_above_and_near() {
+        for x in two_octaves() {
+            let share = f64::from(inverse_sqrt_from_below(x)) * f64::from(x).sqrt();
+            // Rounding at the best place of the curve.
+            assert!(share > 0.998 && share < 1.0 + f64::from(f32::EPSILON), "{x}: {share}");
+        }
     }
 
     #[test]

@@ -45,11 +45,33 @@ pub const fn quantised_stiffness(device: DeviceFriction, period: f32) -> f32 {
 }
 
 impl DeviceFriction {
+    /// The same with the position between counts ([`crate::device::VelocityMethod::BetweenCounts`]), whose error,
+    /// beyond the lag of [`between_counts_delay`], is that of a count `2 (1 + 2 e⁻²)` times as coarse.
+    ///
+    /// The observer sees what lies beyond its play, and so follows the true position and half a count of rounding and
+    /// half of play: an error of a whole count at most, where a count's middle has one of half. It passes that on by no
+    /// more than the integral of its impulse response's size, `∫ |ω (2 − ωt) e^{−ωt}| dt = 1 + 2 e⁻²`.
+    pub const fn between_counts(self) -> Self {
+        Self { resolution: BETWEEN_COUNTS * self.resolution, ..self }
+    }
+
     /// The greatest stiffness, N/m, that meets both conditions, with the wall's damping (N·s/m) and a delay (s).
     pub const fn passive_stiffness(self, damping: f32, period: f32, delay: f32) -> f32 {
         let sampled = passive_stiffness(self.viscous, damping, period, delay);
         lesser(sampled, 2.0 * self.coulomb / self.resolution)
     }
+}
+
+/// `2 (1 + 2 e⁻²)`.
+const BETWEEN_COUNTS: f32 = 2.541_341;
+
+/// The delay, s, that a spring on the position between counts has to be reckoned with, for a velocity corner (Hz) as
+/// [`crate::device::VelocityEstimator::new`] takes it: `1/(2ω)`.
+///
+/// The observer, `ω = 2π · 2 corner`, gives the position `P = 1 − s²/(s + ω)²`. A spring behind it asks for damping of
+/// `−K Im P(jw)/w = K/ω · 2x²/(1 + x²)²` with `x = w/ω`, which is greatest at `x = 1`.
+pub const fn between_counts_delay(corner: f32) -> f32 {
+    0.5 / (2.0 * core::f32::consts::TAU * corner)
 }
 
 const fn lesser(a: f32, b: f32) -> f32 {
@@ -79,6 +101,62 @@ mod tests {
         assert!(near(quantised_stiffness(device, 1e-3), 800.0));
         assert!(near(quantised_stiffness(DeviceFriction { coulomb: 1.0, ..device }, 1e-3), 1_000.0));
         assert!(near(device.passive_stiffness(0.0, 1e-3, 0.0), 800.0));
+    }
+
+    /// The observer's position for a true one, sampled: `P(z) = (α + (β − α) z⁻¹)/(1 − (2 − α − β) z⁻¹ + (1 − α) z⁻²)`
+    /// with `α = 2ωh` and `β = (ωh)²`, as numerator and denominator in powers of `z⁻¹`.
+    fn observer(omega_period: f32) -> ([f32; 3], [f32; 3]) {
+        let (alpha, beta) = (2.0 * omega_period, omega_period * omega_period);
+        ([alpha, beta - alpha, 0.0], [1.0, alpha + beta - 2.0, 1.0 - alpha])
+    }
+
+    #[test]
+    fn the_observer_asks_for_no_more_than_its_delay() {
+        const RATE: f32 = 4_000.0;
+        for corner in [20.0_f32, 50.0, 100.0, 159.0] {
+            let (above, below) = observer(core::f32::consts::TAU * 2.0 * corner / RATE);
+            let at = |powers: [f32; 3], theta: f32| {
+                let term = |n: usize| sin_cos(theta * n as f32);
+                let sum = |part: fn((f32, f32)) -> f32| (0..3).map(|n| powers[n] * part(term(n))).sum::<f32>();
+                (sum(|(_, cosine)| cosine), -sum(|(sine, _)| sine))
+            };
+            // As in `criterion`, of a spring of 1 N/m on P(z).
+            let asked = (1..=3_000).map(|step| step as f32 * core::f32::consts::PI / 3_000.0).map(|theta| {
+                let (up, down) = (at(above, theta), at(below, theta));
+                let held = at([1.0, -1.0, 0.0], theta);
+                let size = down.0 * down.0 + down.1 * down.1;
+                let p = ((up.0 * down.0 + up.1 * down.1) / size, (up.1 * down.0 - up.0 * down.1) / size);
+                0.5 / RATE * (held.0 * p.0 - held.1 * p.1) / (1.0 - sin_cos(theta).1)
+            });
+            let asked = asked.skip(20).fold(0.0, |worst, value| if value > worst { value } else { worst });
+            let closed = required_damping(1.0, 0.0, 1.0 / RATE, between_counts_delay(corner));
+            // Single precision in 1 − cos θ, as below. It is an upper bound: of a slow observer the sampling's own half
+            // period, which it smooths, is counted in full.
+            assert!(closed >= asked * 0.998, "{corner}: {closed} {asked}");
+            assert!(closed - asked < 1.05 / RATE, "{corner}: {closed} {asked}");
+        }
+    }
+
+    #[test]
+    fn the_observer_passes_rounding_on_by_no_more_than_is_counted() {
+        for omega_period in [0.02_f32, 0.1, 0.3, 0.5] {
+            let ([a, b, _], [_, c, d]) = observer(omega_period);
+            let (mut last, mut before, mut size) = (0.0_f32, 0.0_f32, 0.0_f32);
+            for step in 0..2_000 {
+                let driven = if step == 0 {
+                    a
+                } else if step == 1 {
+                    b
+                } else {
+                    0.0
+                };
+                (last, before) = (driven - c * last - d * before, last);
+                size += last.abs();
+            }
+            // Both bounds: not above what is counted, and for a slow observer not far below.
+            assert!(2.0 * size <= BETWEEN_COUNTS * 1.000_1, "{omega_period}: {size}");
+            assert!(omega_period > 0.05 || 2.0 * size > 0.98 * BETWEEN_COUNTS, "{omega_period}: {size}");
+        }
     }
 
     /// The criterion itself: `b > T/2 · Re{(1 − e^{−jθ}) H}/(1 − cos θ)` for `0 < θ ≤ π`, `H = (K + B/T (1 − z⁻¹))

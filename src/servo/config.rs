@@ -7,7 +7,7 @@ use super::{
 };
 use crate::device::{Device, Duty, Homing, HomingState, Kinematics, Protection, VelocityEstimator};
 use crate::math::Vec3;
-use crate::render::{Anchor, Energy, Penalty, Tool};
+use crate::render::{Anchor, Eased, Energy, Penalty, Tool};
 use crate::track::Controller;
 
 /// The loop's configuration: device, surface, controller and settings. Constant, in flash. `G` is what guards it beyond
@@ -27,6 +27,7 @@ pub struct Servo<'a, S, K, const JOINTS: usize, G = Unguarded> {
     pub(super) period: f32,
     pub(super) max_move: f32,
     pub(super) max_growth: f32,
+    pub(super) eased: Option<Eased>,
     pub(super) fade_step: f32,
     pub(super) link_ticks: u32,
     pub(super) contact_watch: ContactWatch,
@@ -80,6 +81,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             period,
             max_move: device.max_joint_rate * period,
             max_growth: f32::INFINITY,
+            eased: None,
             // A fade no longer than a tick is no fade.
             fade_step: if settings.soft_start > period { period / settings.soft_start } else { 1.0 },
             link_ticks: u32::MAX,
@@ -137,6 +139,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             period: self.period,
             max_move: self.max_move,
             max_growth: self.max_growth,
+            eased: self.eased,
             fade_step: self.fade_step,
             link_ticks: self.link_ticks,
             contact_watch: self.contact_watch,
@@ -188,6 +191,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             Err(RenderingError::Texture) => panic!("texture"),
             Err(RenderingError::Coupling) => panic!("coupling"),
             Err(RenderingError::Passivity) => panic!("passivity"),
+            Err(RenderingError::Ease) => panic!("ease"),
             Err(RenderingError::Slew) => panic!("max_slew"),
         }
     }
@@ -201,6 +205,10 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             joint += 1;
         }
         self.max_growth = rendering.max_slew * self.period;
+        self.eased = match rendering.ease {
+            Some(ease) => Some(Eased::new(ease, &self.penalty, self.period)),
+            None => None,
+        };
         self.rendering = rendering;
         self
     }

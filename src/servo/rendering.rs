@@ -1,7 +1,7 @@
 //! What a user chooses about the force beyond a spring and a damper.
 
 use crate::device::VelocityMethod;
-use crate::render::{Coupling, Friction, Passivity, Texture};
+use crate::render::{Coupling, Ease, Friction, Passivity, Texture};
 use thiserror::Error;
 
 /// How the surface feels. Begin with [`Rendering::PLAIN`].
@@ -17,6 +17,9 @@ pub struct Rendering {
     pub coupling: Option<Coupling>,
     /// Passivity control.
     pub passivity: Option<Passivity>,
+    /// What keeps the force from clicking at contact and over edges. In a scene the damping of its bodies is there at
+    /// once, and the settings' stiffness should be that of the stiffest: a spring that is stiffer is held back.
+    pub ease: Option<Ease>,
     /// How fast the force may grow, N/s. It may always fall at once.
     pub max_slew: f32,
     /// Whether the motors carry the weight of the device's own links, as far as its kinematics knows it.
@@ -45,6 +48,9 @@ pub enum RenderingError {
     /// A parameter of the passivity control is negative or not finite.
     #[error("passivity control's parameters must be finite and not negative")]
     Passivity,
+    /// A parameter of the easing is negative or not finite, or its rate zero.
+    #[error("easing's onset must be finite and not negative, its rate finite and positive")]
+    Ease,
     /// The slew limit is not positive.
     #[error("the slew limit must be positive")]
     Slew,
@@ -58,9 +64,19 @@ impl Rendering {
         texture: None,
         coupling: None,
         passivity: None,
+        ease: None,
         max_slew: f32::INFINITY,
         carries_weight: true,
     };
+
+    /// As little to feel as there can be of counts, ticks and edges: position between counts, and [`Ease::SMOOTH`].
+    /// Best with a velocity corner of 80 Hz and a wall of at most 500 N/m at 4 kHz ([`crate::render::Material`]): the
+    /// position's delay costs stiffness.
+    pub const SMOOTH: Self = Self { velocity: VelocityMethod::BetweenCounts, ..Self::EASED };
+
+    /// For stiff walls: nothing clicks at contact and over edges, but counts are felt as they are. It costs little
+    /// stiffness, for nothing lags.
+    pub const EASED: Self = Self { ease: Some(Ease::SMOOTH), ..Self::PLAIN };
 
     /// Checks the choices, for a surface's stiffness (N/m) and a period (s).
     ///
@@ -86,6 +102,11 @@ impl Rendering {
             && !passivity.is_valid()
         {
             return Err(RenderingError::Passivity);
+        }
+        if let Some(ease) = &self.ease
+            && !ease.is_valid()
+        {
+            return Err(RenderingError::Ease);
         }
         let grows = self.max_slew > 0.0;
         if grows { Ok(()) } else { Err(RenderingError::Slew) }
@@ -155,6 +176,9 @@ mod tests {
                 refused(Rendering { passivity: Some(passivity), ..all }, RenderingError::Passivity);
             }
         }
+        let hasty = Ease { change: 0.0, ..Ease::SMOOTH };
+        refused(Rendering { ease: Some(hasty), ..all }, RenderingError::Ease);
+        assert!([Rendering::SMOOTH, Rendering::EASED].iter().all(|kind| kind.check(STIFFNESS, PERIOD).is_ok()));
         // Slipping must not hold more than sticking.
         let sticky = Friction { dynamic_coefficient: 0.41, ..FRICTION };
         refused(Rendering { friction: Some(sticky), ..all }, RenderingError::Friction);

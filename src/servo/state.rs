@@ -104,7 +104,9 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         for velocity in &self.velocities {
             match velocity {
                 VelocityState::LowPass(velocity) => hash.floats([*velocity]),
-                VelocityState::Tracking { lag, velocity } => hash.floats([*lag, *velocity]),
+                VelocityState::Tracking { lag, velocity } | VelocityState::BetweenCounts { lag, velocity } => {
+                    hash.floats([*lag, *velocity])
+                }
                 VelocityState::AdaptiveWindow(window) => {
                     let (moves, places) = window.parts();
                     hash.floats(moves);
@@ -129,6 +131,18 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         }
         self.guard.for_each_word(|word| hash.words([word]));
         hash.0
+    }
+}
+
+impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
+    /// Joint angles, radians, as the estimators believe them: the middle of each count, or between counts.
+    #[inline]
+    pub(super) fn believed_angles(&self) -> [f32; JOINTS] {
+        let mut angles = self.angles;
+        for (angle, velocity) in angles.iter_mut().zip(&self.velocities) {
+            *angle -= velocity.lag();
+        }
+        angles
     }
 }
 

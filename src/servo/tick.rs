@@ -3,7 +3,7 @@
 use super::guard::Moving;
 use super::sense::sense;
 use super::{Event, Fault, Guard, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
-use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose};
+use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose, VelocityMethod};
 use crate::math::Vec3;
 use crate::render::{Motion, Tool, limit};
 use crate::track::{Contact, Probe};
@@ -153,10 +153,12 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         if let Some(homing) = homing {
             return self.home(homing, state, counts, enable);
         }
+        let between = matches!(self.rendering.velocity, VelocityMethod::BetweenCounts);
+        let angles = if between { state.believed_angles() } else { state.angles };
         let (pose, weight) = if self.rendering.carries_weight {
-            self.device.kinematics.held_pose(state.angles)
+            self.device.kinematics.held_pose(angles)
         } else {
-            (self.device.kinematics.pose(state.angles), [0.0; JOINTS])
+            (self.device.kinematics.pose(angles), [0.0; JOINTS])
         };
         let probe = pose.position - self.settings.body_origin;
         let moved = if first { Vec3::ZERO } else { probe - state.probe };
@@ -179,7 +181,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         let held = Tool { position: probe, velocity };
         let pulls = self.rendering.coupling.is_some() && state.phase == Phase::Running;
         let tool = if pulls { state.tool } else { held };
-        state.tool = tool;
+        state.tool.position = tool.position;
         let target = Probe { position: tool.position, velocity: tool.velocity };
         let touched = self.surface.follow(&self.controller, &mut state.witness, target, self.period);
         state.steps_undone = state.steps_undone.wrapping_add(u32::from(touched.undone));
@@ -193,11 +195,11 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         }
 
         // Gap → force → torques.
-        state.fade = self.next_fade(state);
         let motion = Motion { moved, velocity, rate: self.rate };
         if let Some(passivity) = &self.rendering.passivity {
             passivity.observe(&mut state.energy, state.force, &motion);
         }
+        state.fade = self.next_fade(state);
         state.force = self.force(state, tool, touched.normal, &motion);
         let mut felt = pose.torques(state.force);
         if let Some(limits) = self.safety.stuck

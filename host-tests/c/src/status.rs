@@ -228,6 +228,8 @@ impl From<RenderingError> for Status {
             RenderingError::Texture => Self::SettingsTexture,
             RenderingError::Coupling => Self::SettingsCoupling,
             RenderingError::Passivity => Self::SettingsPassivity,
+            // What a C caller cannot choose.
+            RenderingError::Ease => Self::OutOfRange,
         }
     }
 }

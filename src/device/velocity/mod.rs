@@ -1,4 +1,4 @@
-//! Velocity from encoder positions. None is best at all gains, so there are three and a default.
+//! Velocity from encoder positions. None is best at all gains, so there are four and a default.
 //!
 //! Measured on a simulated hand's motion at 4 kHz and 57.6 µm a count, slow (20 mm/s at most); the stiffest wall is
 //! that of the WoodenHaptics arm along one direction at 8 N·s/m (the servo test `velocity` of `host-tests` prints it):
@@ -11,12 +11,18 @@
 //!
 //! The default is the low-pass: delay is what limits the wall, it has as little of it as the observer, and it is the
 //! cheapest. Take the window where damping is heard as a hum in slow motion.
+//!
+//! [`BetweenCounts`] is the observer for a wall that is to feel smooth: its position is believed in the place of the
+//! counts', so that a spring on it does not buzz. That costs the wall the observer's delay: see
+//! [`crate::render::bounds`].
 
 mod adaptive_window;
+mod between;
 mod low_pass;
 mod tracking;
 
 pub use adaptive_window::{AdaptiveWindow, WINDOW, Window};
+pub use between::BetweenCounts;
 pub use low_pass::VelocityFilter;
 pub use tracking::TrackingObserver;
 
@@ -30,6 +36,8 @@ pub enum VelocityMethod {
     AdaptiveWindow,
     /// Tracking observer.
     Tracking,
+    /// Tracking observer with half a count of play, whose position is believed, too.
+    BetweenCounts,
 }
 
 /// One joint's velocity estimator, ready to run.
@@ -41,6 +49,8 @@ pub enum VelocityEstimator {
     AdaptiveWindow(AdaptiveWindow),
     /// Tracking observer.
     Tracking(TrackingObserver),
+    /// Tracking observer with half a count of play, whose position is believed, too.
+    BetweenCounts(BetweenCounts),
 }
 
 /// What an estimator remembers of one joint.
@@ -57,6 +67,24 @@ pub enum VelocityState {
         /// The last velocity.
         velocity: f32,
     },
+    /// How far the position that is believed lags behind the middle of the count, and the velocity.
+    BetweenCounts {
+        /// Middle of the count less the position.
+        lag: f32,
+        /// The last velocity.
+        velocity: f32,
+    },
+}
+
+impl VelocityState {
+    /// The middle of the count that was read, less the position that is believed; 0 where every count is believed.
+    #[inline]
+    pub const fn lag(&self) -> f32 {
+        match self {
+            Self::BetweenCounts { lag, .. } => *lag,
+            Self::LowPass(_) | Self::AdaptiveWindow(_) | Self::Tracking { .. } => 0.0,
+        }
+    }
 }
 
 impl VelocityEstimator {
@@ -68,6 +96,7 @@ impl VelocityEstimator {
             VelocityMethod::LowPass => Self::LowPass(VelocityFilter::new(corner, rate)),
             VelocityMethod::AdaptiveWindow => Self::AdaptiveWindow(AdaptiveWindow::new(count, rate)),
             VelocityMethod::Tracking => Self::Tracking(TrackingObserver::new(2.0 * corner, rate)),
+            VelocityMethod::BetweenCounts => Self::BetweenCounts(BetweenCounts::new(2.0 * corner, rate, count)),
         }
     }
 
@@ -77,6 +106,7 @@ impl VelocityEstimator {
             Self::LowPass(_) => VelocityState::LowPass(0.0),
             Self::AdaptiveWindow(_) => VelocityState::AdaptiveWindow(Window::EMPTY),
             Self::Tracking(_) => VelocityState::Tracking { lag: 0.0, velocity: 0.0 },
+            Self::BetweenCounts(_) => VelocityState::BetweenCounts { lag: 0.0, velocity: 0.0 },
         }
     }
 
@@ -93,10 +123,18 @@ impl VelocityEstimator {
                 (*lag, *velocity) = observer.next(*lag, *velocity, moved);
                 *velocity
             }
-            _ => {
-                *state = self.start();
-                0.0
+            (Self::BetweenCounts(observer), VelocityState::BetweenCounts { lag, velocity }) => {
+                (*lag, *velocity) = observer.next(*lag, *velocity, moved);
+                *velocity
             }
+            _ => self.start_afresh(state),
         }
+    }
+
+    /// Out of the way: no loop changes its method while it runs.
+    #[cold]
+    fn start_afresh(&self, state: &mut VelocityState) -> f32 {
+        *state = self.start();
+        0.0
     }
 }
