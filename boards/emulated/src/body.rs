@@ -3,7 +3,7 @@
 use palpate::body::{Body, Edge, Face, Spoke, Vertex};
 #[cfg(feature = "protected")]
 use palpate::device::{Protection, SignWatch, SupplyRange};
-use palpate::servo::{self, Guard, Input, Servo, ServoState};
+use palpate::servo::{self, Guard, Input, Rendering, Servo, ServoState};
 use palpate::track::Controller;
 
 use crate::planted;
@@ -41,13 +41,18 @@ pub type State = StateOf<Chosen>;
 const _: () = assert!(size_of::<Face>() == 228 && size_of::<Edge>() == 52 && size_of::<Vertex>() == 32);
 const _: () = assert!(size_of::<Spoke>() == 16 && size_of::<Body>() == 76);
 
+/// How the surface feels.
+const RENDERING: Rendering = if cfg!(feature = "smooth") { Rendering::SMOOTH } else { Rendering::PLAIN };
+
 /// Everything the servo knows, in flash.
 #[cfg(not(feature = "protected"))]
-pub static SERVO: Loop<Chosen> =
-    Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS).safety(settings::SAFETY);
+pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS)
+    .rendering(RENDERING)
+    .safety(settings::SAFETY);
 /// Everything the servo knows, in flash.
 #[cfg(feature = "protected")]
 pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS)
+    .rendering(RENDERING)
     .safety(settings::SAFETY)
     .protect(protection());
 

@@ -96,8 +96,12 @@ impl Verdict {
 /// If it does not run to its end, or says something else than figures.
 pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError> {
     let mut all = figures(&Program::prepare(board, "budget", &[], progress)?.run(Pace::Counting)?)?;
-    // The protected loop is an image of its own: two loops in one would share code that each alone has for itself.
-    let protected = figures(&Program::prepare(board, "budget", &["counted"], progress)?.run(Pace::Counting)?)?;
+    // Each other loop is an image of its own: two loops in one would share code that each alone has for itself.
+    let other = |feature, name: &str| -> Result<Vec<(String, u32)>, BudgetError> {
+        let counted = figures(&Program::prepare(board, "budget", &[feature], progress)?.run(Pace::Counting)?)?;
+        Ok(counted.0.into_iter().filter(|(of, _)| of.contains(name)).collect())
+    };
+    let (protected, smooth) = (other("counted", "tick, protected")?, other("smooth", "tick, smooth")?);
     let knob = figures(&Program::prepare(board, "knob_budget", &["knob"], progress)?.run(Pace::Counting)?)?;
     let file = figures(&Program::prepare(board, "file_budget", &[], progress)?.run(Pace::Counting)?)?;
     all.0.extend(knob.0);
@@ -105,7 +109,8 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
     for scene in ["scene", "scene-path", "scene-free", "scene-two", "scene-four", "scene-sixteen"] {
         all.0.extend(figures(&Program::prepare(board, "scene_budget", &[scene], progress)?.run(Pace::Counting)?)?.0);
     }
-    all.0.extend(protected.0.into_iter().filter(|(name, _)| name.contains("protected")));
+    all.0.extend(protected);
+    all.0.extend(smooth);
     Ok(all)
 }
 

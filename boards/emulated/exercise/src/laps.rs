@@ -85,15 +85,17 @@ pub static COUPLED: ServoOf<Delta> =
         ..Rendering::PLAIN
     });
 
-/// A five-bar on a turntable that watches for stuck sensors and bears some overruns. As on the body, nothing ends deep
-/// contact.
+/// A five-bar on a turntable whose force is smooth, that watches for stuck sensors and bears some overruns. As on the
+/// body, nothing ends deep contact.
 pub static WATCHFUL: ServoOf<LinkageArm> =
-    Servo::new(&POLHEM_V2, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT).safety(Safety {
-        max_overruns: 1,
-        stuck: Some(StuckLimits { load: 1.0, travel: 0.1 }),
-        contact: None,
-        ..Safety::DEFAULT
-    });
+    Servo::new(&POLHEM_V2, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT)
+        .rendering(Rendering::SMOOTH)
+        .safety(Safety {
+            max_overruns: 1,
+            stuck: Some(StuckLimits { load: 1.0, travel: 0.1 }),
+            contact: None,
+            ..Safety::DEFAULT
+        });
 
 const WEAK: Device<SerialArm, 3> = Device {
     // Next to nothing: the duty for any torque is infinite.

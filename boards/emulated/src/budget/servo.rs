@@ -17,6 +17,15 @@ const TICKS: u32 = 100_000;
 /// Newton steps to the start of the path.
 pub(super) const APPROACH: u32 = 20;
 
+/// What the figures are of.
+const NAME: &str = if cfg!(feature = "protected") {
+    "servo tick, protected"
+} else if cfg!(feature = "smooth") {
+    "servo tick, smooth"
+} else {
+    "servo tick"
+};
+
 #[inline(never)]
 fn tick(state: &mut State, input: Input<3>) {
     SERVO.tick(state, input);
@@ -74,7 +83,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         let feature = state.witness().feature();
         met[usize::from(feature >> 14)] |= 1 << (feature & 31);
     }
-    ticks.print(if cfg!(feature = "protected") { "servo tick, protected" } else { "servo tick" });
+    ticks.print(NAME);
     if state.fault().is_some() {
         return Err("the servo found a fault on its path");
     }

@@ -10,6 +10,8 @@ const EVALUATION_FLOOR: u32 = 94;
 const CURVED_FLOOR: u32 = 115;
 /// The most for a servo tick of three joints. The watch that ends contact which no motion explains is part of it.
 const SERVO_TICK: u32 = 1_700;
+/// The most that a smooth force costs a tick, over spring and damper alone.
+const SMOOTH: u32 = 120;
 /// The most for any tick of the closest point on the capped box with normal, gap and contact. What the second order
 /// costs beyond the 720 of the first buys a witness point that follows a probe at 1 m/s to a millionth of the size
 /// between two edges: a step at the border, or one that is certain only in part, has its model's minimiser over the
@@ -79,6 +81,10 @@ fn compare(board: Board) {
         let [rest, path] =
             ["at rest", "on a path"].map(|moves| of(&format!("servo tick, a scene of one body {moves}, {part}")));
         assert!(path <= rest + PATH, "{board:?}: a tick, {part}, takes {path} with a path, {rest} without");
+    }
+    for part in ["median", "worst"] {
+        let [plain, smooth] = ["", " smooth,"].map(|kind| of(&format!("servo tick,{kind} {part}")));
+        assert!(smooth <= plain + SMOOTH, "{board:?}: a tick, {part}, takes {smooth} smooth, {plain} plain");
     }
     let tick = of("servo tick, worst");
     assert!(tick <= SERVO_TICK, "{board:?}: a servo tick takes {tick} instructions");
