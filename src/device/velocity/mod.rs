@@ -5,9 +5,10 @@
 //!
 //! | method | delay | noise | stiffest wall | instructions a joint, about |
 //! |---|---|---|---|---|
-//! | [`VelocityFilter`], 200 Hz: difference and low-pass | 0.75 ms | 11 mm/s | 13.6 kN/m | 5 |
-//! | [`TrackingObserver`], same delay | 0.73 ms | 12 mm/s | 13.8 kN/m | 9 |
+//! | [`VelocityFilter`], 200 Hz: difference and low-pass | 0.75 ms | 11 mm/s | 15.1 kN/m | 5 |
+//! | [`TrackingObserver`], same delay | 0.73 ms | 12 mm/s | 15.1 kN/m | 9 |
 //! | [`AdaptiveWindow`]: longest line through the last counts | 1.85 ms | 5.7 mm/s | 10.4 kN/m | 15 to 130 |
+//! | [`BetweenCounts`], 80 Hz: the observer with play, position believed | 2.1 ms | 5.0 mm/s | 4.1 kN/m | 20 |
 //!
 //! The default is the low-pass: delay is what limits the wall, it has as little of it as the observer, and it is the
 //! cheapest. Take the window where damping is heard as a hum in slow motion.

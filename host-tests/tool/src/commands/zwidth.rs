@@ -11,6 +11,7 @@ use anyhow::Context;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use palpate::device::VelocityMethod;
+use palpate::render::Ease;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -29,6 +30,9 @@ pub struct Arguments {
     /// Corner frequency of the velocity estimator, Hz.
     #[arg(long, default_value_t = 200.0)]
     corner: f64,
+    /// Damping that begins with the push, and a bounded change of force, as the eased and smooth renderings have them.
+    #[arg(long)]
+    ease: bool,
     /// Where the plot goes; `--device all` draws none.
     #[arg(long, default_value = "palpate-report/zwidth.svg")]
     plot: PathBuf,
@@ -39,6 +43,7 @@ enum Velocity {
     LowPass,
     AdaptiveWindow,
     Tracking,
+    BetweenCounts,
 }
 
 impl Velocity {
@@ -47,6 +52,7 @@ impl Velocity {
             Self::LowPass => VelocityMethod::LowPass,
             Self::AdaptiveWindow => VelocityMethod::AdaptiveWindow,
             Self::Tracking => VelocityMethod::Tracking,
+            Self::BetweenCounts => VelocityMethod::BetweenCounts,
         }
     }
 }
@@ -63,7 +69,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     );
     anyhow::ensure!(positive(arguments.corner), "the corner must be above 0 Hz");
     let rates = arguments.rate.map_or(RATES.to_vec(), |rate| vec![rate]);
-    let like = Loop { rate: 0.0, delay_periods: 0.0, velocity: arguments.velocity.method(), corner: arguments.corner };
+    let like = Loop {
+        rate: 0.0,
+        delay_periods: 0.0,
+        velocity: arguments.velocity.method(),
+        corner: arguments.corner,
+        ease: arguments.ease.then_some(Ease::SMOOTH),
+    };
     let Some(device) = devices::named(&arguments.device) else {
         summary::print(&rates, like)?;
         return Ok(ExitCode::SUCCESS);

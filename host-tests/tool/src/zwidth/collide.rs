@@ -2,7 +2,9 @@
 
 use super::Slice;
 use palpate::device::{Counts, Duty, Encoder, VelocityEstimator, VelocityMethod};
-use palpate::render::Penalty;
+use palpate::math::Vec3;
+use palpate::render::bounds::between_counts_delay;
+use palpate::render::{Ease, Eased, Penalty, Reason};
 use std::collections::VecDeque;
 
 /// Integration steps in a servo period; half a period's delay is ten of them.
@@ -39,12 +41,29 @@ pub struct Loop {
     pub velocity: VelocityMethod,
     /// Its corner, Hz.
     pub corner: f64,
+    /// How the force comes and changes.
+    pub ease: Option<Ease>,
 }
 
 impl Loop {
-    /// The delay, s, that the passive bound has to count: transport, and the force source's lag.
+    /// The delay, s, that the passive bound has to count: transport, the force source's lag, and that of the position
+    /// between counts.
     pub fn delay(&self, slice: &Slice) -> f64 {
-        self.delay_periods / self.rate + slice.time_constant
+        let observer = match self.velocity {
+            VelocityMethod::BetweenCounts => f64::from(between_counts_delay(self.corner as f32)),
+            VelocityMethod::LowPass | VelocityMethod::AdaptiveWindow | VelocityMethod::Tracking => 0.0,
+        };
+        self.delay_periods / self.rate + slice.time_constant + observer
+    }
+
+    /// The greatest stiffness that is passive with a damping (N·s/m), N/m. It is of a spring and a damper: what an
+    /// easing adds is simulated alone.
+    pub fn passive_stiffness(&self, slice: &Slice, damping: f64) -> f64 {
+        let friction = match self.velocity {
+            VelocityMethod::BetweenCounts => slice.friction().between_counts(),
+            VelocityMethod::LowPass | VelocityMethod::AdaptiveWindow | VelocityMethod::Tracking => slice.friction(),
+        };
+        f64::from(friction.passive_stiffness(damping as f32, 1.0 / self.rate as f32, self.delay(slice) as f32))
     }
 }
 
@@ -89,6 +108,7 @@ pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) ->
         VelocityEstimator::new(servo.velocity, servo.corner as f32, servo.rate as f32, slice.resolution as f32);
     let penalty =
         Penalty { stiffness: wall.stiffness as f32, damping: wall.damping as f32, max_force: slice.max_force as f32 };
+    let eased = servo.ease.map(|ease| Eased::new(ease, &penalty, 1.0 / servo.rate as f32));
     let delay = (servo.delay_periods * SUB_STEPS as f64).round() as u64;
     let decay = (-step / slice.time_constant).exp();
 
@@ -97,6 +117,7 @@ pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) ->
     let read = |position: f64| encoder.angle(Counts((position / slice.resolution).floor() as i32));
     let mut memory = estimator.start();
     let mut last = read(position);
+    let (mut believed, mut rate, mut given) = (last, 0.0, 0.0);
     let (mut aim, mut force) = (0.0, 0.0);
     let mut under_way: VecDeque<(u64, f64)> = VecDeque::new();
     let periods = PERIODS * std::f64::consts::TAU * (slice.mass / wall.stiffness).sqrt();
@@ -107,10 +128,17 @@ pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) ->
     let mut swing = Swing { counts: f64::INFINITY, rest: 0.0 };
     for tick in 0..ticks {
         let now = read(position);
-        let rate = estimator.next(&mut memory, now - last);
+        let before = rate;
+        rate = estimator.next(&mut memory, now - last);
         last = now;
-        let push = penalty.push(now, rate);
-        let duty = Duty::from_fraction(push / penalty.max_force);
+        let moved = now - memory.lag() - believed;
+        believed += moved;
+        let push = eased.map_or(penalty, |eased| eased.wall(&penalty, believed)).push(believed, rate);
+        given = eased.map_or(push, |eased| {
+            let [push, given, moved, quickened] = [push, given, moved, rate - before].map(|along| Vec3::Z * along);
+            eased.next(push, given, &Reason { moved, quickened }).z
+        });
+        let duty = Duty::from_fraction(given / penalty.max_force);
         under_way.push_back((tick * SUB_STEPS + delay, f64::from(duty.fraction()) * slice.max_force));
         for sub_step in tick * SUB_STEPS..(tick + 1) * SUB_STEPS {
             while let Some(&(arrival, arrived)) = under_way.front()
@@ -146,7 +174,8 @@ mod tests {
     use super::*;
     use crate::devices::named;
 
-    const SERVO: Loop = Loop { rate: 4_000.0, delay_periods: 1.0, velocity: VelocityMethod::LowPass, corner: 200.0 };
+    const SERVO: Loop =
+        Loop { rate: 4_000.0, delay_periods: 1.0, velocity: VelocityMethod::LowPass, corner: 200.0, ease: None };
 
     #[test]
     fn a_soft_wall_stops_the_probe_where_the_push_is_balanced() {

@@ -105,11 +105,7 @@ pub fn sweep(slice: &Slice, rates: &[f64], delays: &[f64], like: Loop, done: imp
                         delay_periods: servo.delay_periods,
                         damping,
                         simulated: max_stiffness(slice, damping, &servo),
-                        passive: f64::from(slice.friction().passive_stiffness(
-                            damping as f32,
-                            1.0 / servo.rate as f32,
-                            servo.delay(slice) as f32,
-                        )),
+                        passive: servo.passive_stiffness(slice, damping),
                     };
                     if let Ok(mut found) = found.lock() {
                         found[index] = Some(limit);
@@ -128,7 +124,8 @@ mod tests {
     use crate::devices::{DEVICES, named};
     use palpate::device::VelocityMethod;
 
-    const LIKE: Loop = Loop { rate: 0.0, delay_periods: 0.0, velocity: VelocityMethod::LowPass, corner: 200.0 };
+    const LIKE: Loop =
+        Loop { rate: 0.0, delay_periods: 0.0, velocity: VelocityMethod::LowPass, corner: 200.0, ease: None };
 
     #[test]
     fn the_simulated_limit_is_never_below_the_passive_bound() {
@@ -139,8 +136,7 @@ mod tests {
             for (rate, delay_periods) in [(1_000.0, 0.5), (1_000.0, 2.0), (2_000.0, 1.0), (4_000.0, 1.0)] {
                 for damping in [0.0, 0.01, 0.1, 0.5, 1.0] {
                     let servo = Loop { rate, delay_periods, ..LIKE };
-                    let (period, delay) = (1.0 / rate as f32, servo.delay(&slice) as f32);
-                    let passive = f64::from(slice.friction().passive_stiffness(damping as f32, period, delay));
+                    let passive = servo.passive_stiffness(&slice, damping);
                     let simulated = max_stiffness(&slice, damping, &servo);
                     // The search stops within 1.8 % of the limit.
                     assert!(simulated >= passive * 0.98, "{} {servo:?} {damping}: {simulated} < {passive}", slice.name);

@@ -40,6 +40,7 @@ fn renderings() -> Vec<Rendering> {
             ..Rendering::PLAIN
         },
         Rendering { passivity: Some(passivity), ..Rendering::PLAIN },
+        Rendering { friction: Some(friction), passivity: Some(passivity), ..Rendering::SMOOTH },
     ]
 }
 

@@ -2,7 +2,7 @@
 
 use crate::surfaces::WALL;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Counts, Device, SerialArm};
+use palpate::device::{Counts, Device, SerialArm, VelocityMethod};
 use palpate::math::Vec3;
 use palpate::render::Passivity;
 use palpate::servo::{Input, Rendering, Servo, Settings};
@@ -26,17 +26,17 @@ struct Tally {
 }
 
 /// Touches the wall for 10 s.
-fn touch(stiffness: f32, damping: f32, viscous: f64, control: Passivity, seed: u64) -> Tally {
+fn touch(kind: Rendering, stiffness: f32, damping: f32, viscous: f64, control: Passivity, seed: u64) -> Tally {
     let settings = Settings {
         rate: RATE as f32,
         stiffness,
         damping,
         max_force: 5.0,
-        velocity_corner: 200.0,
+        velocity_corner: if matches!(kind.velocity, VelocityMethod::BetweenCounts) { 80.0 } else { 200.0 },
         soft_start: 0.05,
         body_origin: Vec3::ZERO,
     };
-    let rendering = Rendering { passivity: Some(control), ..Rendering::PLAIN };
+    let rendering = Rendering { passivity: Some(control), ..kind };
     let servo = Servo::new(&FREE, &WALL, Controller::SECOND_ORDER, settings).rendering(rendering);
     let level = |u: f64, v: f64| ([0.1 * (u - 0.5), 0.1 * (v - 0.5), 0.0], [0.0, 0.0, 1.0]);
     let touching = TouchingSettings { duration: 10.0, touches: 15, ..TouchingSettings::default() };
@@ -64,10 +64,14 @@ fn touch(stiffness: f32, damping: f32, viscous: f64, control: Passivity, seed: u
 fn in_passive_settings_it_is_idle() {
     // Bearings of 0.1 N·m·s on levers of at most 0.3 m: more than 1.1 N·s/m at the probe, in any direction.
     let control = Passivity { device_damping: 1.1, device_friction: 0.0, max_damping: 20.0, resolution: RESOLUTION };
-    // b > K (T/2 + t_d) + B, a period and 0.15 ms of delay: 0.9 > 300 · 0.525 ms + 0.3.
-    for seed in 0..3 {
-        let tally = touch(300.0, 0.3, 0.1, control, seed);
-        println!("passive: {tally:?}");
+    // b > K (T/2 + t_d) + B, a period and 0.15 ms of delay: 0.9 > 300 · 0.525 ms + 0.3; and where the position is that
+    // between counts, 0.5 ms more: 0.9 > 300 · 1.025 ms + 0.3.
+    for (kind, seed) in [Rendering::PLAIN, Rendering::EASED, Rendering::SMOOTH]
+        .into_iter()
+        .flat_map(|kind| (0..3).map(move |seed| (kind, seed)))
+    {
+        let tally = touch(kind, 300.0, 0.3, 0.1, control, seed);
+        println!("passive, {:?}, {:?}: {tally:?}", kind.velocity, kind.ease);
         assert!(tally.touching > 5_000, "{tally:?}");
         assert!(f64::from(tally.active) < 0.001 * f64::from(tally.ticks), "{tally:?}");
         assert!(tally.debt <= 1.0, "{tally:?}");
@@ -80,8 +84,8 @@ fn no_wall_ever_owes_more_than_a_quantum() {
     let control = Passivity { device_damping: 0.0, device_friction: 0.0, max_damping: 30.0, resolution: RESOLUTION };
     let mut active = 0;
     for (stiffness, damping) in [(600.0, 0.0), (1_000.0, 0.0), (1_000.0, 2.0), (3_000.0, 0.0), (6_000.0, 0.0)] {
-        for seed in 0..2 {
-            let tally = touch(stiffness, damping, 0.0, control, seed);
+        for (seed, kind) in [(0, Rendering::PLAIN), (1, Rendering::PLAIN), (2, Rendering::SMOOTH)] {
+            let tally = touch(kind, stiffness, damping, 0.0, control, seed);
             println!("{stiffness} N/m, {damping} N·s/m: {tally:?}");
             assert!(tally.debt <= 1.0, "{stiffness} {damping}: {tally:?}");
             active += tally.active;

@@ -56,9 +56,11 @@ fn the_default_is_chosen_by_what_is_printed_here() {
         (VelocityMethod::Tracking, 100.0),
         (VelocityMethod::Tracking, 200.0),
         (VelocityMethod::AdaptiveWindow, 200.0),
+        (VelocityMethod::BetweenCounts, 80.0),
+        (VelocityMethod::BetweenCounts, 200.0),
     ] {
         let (slow, fast) = (measure(method, corner, 0.02), measure(method, corner, 0.3));
-        let servo = Loop { rate: RATE, delay_periods: 1.0, velocity: method, corner };
+        let servo = Loop { rate: RATE, delay_periods: 1.0, velocity: method, corner, ease: None };
         let stiffest = max_stiffness(&Slice::of(named("woodenhaptics-2016").unwrap()), 8.0, &servo);
         let cell = |(delay, noise): (f64, f64)| format!("{:.2} ms, {noise:.1} mm/s", delay * 1e3);
         println!("{:<28}{:>22}{:>22}{:>10.0} N/m", format!("{method:?} {corner} Hz"), cell(slow), cell(fast), stiffest);
@@ -68,8 +70,13 @@ fn the_default_is_chosen_by_what_is_printed_here() {
     let low_pass = row(VelocityMethod::LowPass, 200.0);
     let window = row(VelocityMethod::AdaptiveWindow, 200.0);
     let tracking = row(VelocityMethod::Tracking, 200.0);
+    let between = row(VelocityMethod::BetweenCounts, 200.0);
     // The delay decides how stiff a wall may be: the long window costs a sixth of it or more, for half the noise.
     assert!(low_pass.4 > 1.15 * window.4 && window.2.1 < 0.6 * low_pass.2.1);
     // The observer of the same delay is a match, within what the search resolves; the low-pass costs half as much.
     assert!((low_pass.4 / tracking.4 - 1.0).abs() < 0.04 && (low_pass.2.0 - tracking.2.0).abs() < 1e-4);
+    // With play it is as quick as the observer without where counts come fast, and less than half as loud; slow motion
+    // it is later to see by its play, and that and the position's delay cost the wall.
+    assert!(between.3.0 < tracking.3.0 + 1e-4 && between.3.1 < 0.5 * tracking.3.1);
+    assert!(between.2.0 > tracking.2.0 && between.4 < tracking.4);
 }
