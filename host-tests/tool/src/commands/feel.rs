@@ -3,13 +3,14 @@
 use super::felt::Felt;
 use crate::devices::{self, DEVICES, ShippedDevice};
 use crate::feel::table::Worst;
-use crate::feel::{Row, Wish, plot, rows, table};
+use crate::feel::{Clean, RATES, Row, TRIED, Wish, clean_stiffness, plot, rows, table};
 use crate::models::ModelFile;
 use crate::report::write_sections;
-use crate::zwidth::Slice;
+use crate::zwidth::{Slice, in_words};
 use anyhow::{Context, ensure};
-use clap::Args;
 use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueEnum};
+use palpate::render::Material;
 use palpate::servo::Rendering;
 use palpate_feel::{BANDS, Threshold, recorded};
 use std::path::{Path, PathBuf};
@@ -28,14 +29,21 @@ pub struct Arguments {
     #[arg(long, default_value_t = 4_000.0)]
     rate: f32,
     /// Stiffness of the surface, N/m; no more than the device takes
-    #[arg(long, default_value_t = 1_000.0)]
+    #[arg(long, default_value_t = Material::WOOD.stiffness)]
     stiffness: f32,
     /// Damping of the surface, N·s/m; no more than the device takes
-    #[arg(long, default_value_t = 2.0)]
+    #[arg(long, default_value_t = Material::WOOD.damping)]
     damping: f32,
     /// Corner frequency of the velocity filter, Hz
-    #[arg(long, default_value_t = 150.0)]
+    #[arg(long, default_value_t = 80.0)]
     velocity_corner: f32,
+    /// What becomes of the force: all is done that counts, ticks and edges are not felt; all but counts; or nothing
+    #[arg(long, value_enum, default_value = "smooth")]
+    rendering: Kind,
+    /// Finds the stiffest wall that is clean to slide along instead, at 1, 2, 4, 8 and 10 kHz, beside the stiffest that
+    /// comes to rest
+    #[arg(long, conflicts_with_all = ["model", "rate", "stiffness", "recording", "out"])]
+    clean: bool,
     /// A threshold of one's own: a CSV file of frequency, Hz, and peak displacement, m, under a row of names
     #[arg(long, value_name = "FILE.csv")]
     threshold: Option<PathBuf>,
@@ -45,6 +53,24 @@ pub struct Arguments {
     /// The folder that figures (CSV) and report (HTML) go to
     #[arg(long, default_value = "palpate-report/feel")]
     out: PathBuf,
+}
+
+/// `Rendering`'s constants by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    Smooth,
+    Eased,
+    Plain,
+}
+
+impl Kind {
+    fn rendering(self) -> Rendering {
+        match self {
+            Self::Smooth => Rendering::SMOOTH,
+            Self::Eased => Rendering::EASED,
+            Self::Plain => Rendering::PLAIN,
+        }
+    }
 }
 
 /// Every device's name, and `all`.
@@ -69,8 +95,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         stiffness: arguments.stiffness,
         damping: arguments.damping,
         corner: arguments.velocity_corner,
-        rendering: Rendering::PLAIN,
+        rendering: arguments.rendering.rendering(),
     };
+    if arguments.clean {
+        return print_clean(&chosen.map_or_else(|| DEVICES.iter().collect(), |device| vec![device]), wish, &threshold);
+    }
     let file = ModelFile::read(&arguments.model)?;
     let felt = Felt::read(&file.model()?, &file, &arguments.model, None)?;
     let body = match &felt {
@@ -102,6 +131,24 @@ fn read_threshold(path: &Path) -> anyhow::Result<Threshold> {
     let points = reader.deserialize::<[f64; 2]>().collect::<Result<Vec<_>, _>>();
     let points = points.with_context(|| format!("{}: not rows of two numbers", path.display()))?;
     Threshold::try_new(points).with_context(|| path.display().to_string())
+}
+
+fn print_clean(devices: &[&ShippedDevice], wish: Wish, threshold: &Threshold) -> anyhow::Result<ExitCode> {
+    println!("greatest stiffness, N/m, that is clean to slide along (that comes to rest)");
+    print!("{:<20}", "device");
+    RATES.iter().for_each(|rate| print!("{:>18}", format!("{} kHz", rate / 1_000.0)));
+    println!();
+    // With one joint nothing slides.
+    for device in devices.iter().filter(|device| device.preset.feeds().len() > 1) {
+        print!("{:<20}", device.name);
+        for rate in RATES {
+            let Clean { clean, stable, .. } = clean_stiffness(device, &Wish { rate, ..wish }, threshold)?;
+            let more = if clean >= TRIED[1] * 0.99 { ">" } else { "" };
+            print!("{:>18}", format!("{more}{clean:.0} ({})", in_words(&Slice::of(device), stable)));
+        }
+        println!();
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 fn print_recording(path: &Path, device: &ShippedDevice, threshold: &Threshold) -> anyhow::Result<()> {

@@ -7,15 +7,14 @@ use anyhow::Context;
 use palpate::body::Body;
 use palpate::device::{Device, Encoder, Kinematics};
 use palpate::math::Vec3;
-use palpate::render::Friction;
+use palpate::render::{Friction, Material};
 use palpate::servo::{Rendering, Servo, Settings, Surface};
 use palpate::track::Controller;
-use palpate_feel::{Deed, Figures, Script, Stage, Threshold, over_edges, record, wall};
+use palpate_feel::{Deed, Figures, Script, Sensation, Stage, Threshold, over_edges, record, wall};
 use palpate_plant::{HandSettings, PlantSettings};
 
 /// Friction of the wall where the hand pulls on the verge of slipping.
-const FRICTION: Friction =
-    Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 };
+const FRICTION: Friction = Material::WOOD.friction;
 /// How much finer encoders are tried where a slide is felt.
 const FINER: [f64; 6] = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 
@@ -87,6 +86,23 @@ pub fn rows(
     rows.with_context(|| device.name.to_owned())
 }
 
+/// What is felt of a firm slide on a wall of the wished stiffness, even one that the device is not recommended for.
+/// With one joint there is no slide: nothing is felt of it.
+///
+/// # Errors
+/// Settings that are refused, a start out of reach, a fault of the loop.
+pub fn slide(device: &ShippedDevice, wish: &Wish, threshold: &Threshold) -> anyhow::Result<Sensation> {
+    let settings = Settings { stiffness: wish.stiffness, ..wish.settings(device) };
+    let bench = Bench { shipped: device, wish, threshold, settings };
+    match device.preset {
+        Preset::SerialArm(arm) => bench.slide(arm),
+        Preset::LinkageArm(arm) => bench.slide(arm),
+        Preset::Delta(delta) => bench.slide(delta),
+        Preset::FiveBar(five_bar) => bench.slide(five_bar),
+        Preset::Paddle(paddle) => bench.slide(paddle),
+    }
+}
+
 struct Bench<'a> {
     shipped: &'a ShippedDevice,
     wish: &'a Wish,
@@ -155,6 +171,19 @@ impl Bench<'_> {
             _ => None,
         };
         Ok(Row { force_error: steady.then(|| figures.force / asked - 1.0), turn, finer: None, figures, script })
+    }
+
+    fn slide<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
+        &self,
+        device: &Device<K, JOINTS>,
+    ) -> anyhow::Result<Sensation> {
+        let device = Device { max_stiffness: f32::MAX, ..*device };
+        let scripts = self.stage(JOINTS).on_the_wall();
+        let Some(script) = scripts.into_iter().rfind(|script| script.deed == Deed::Slide) else {
+            return Ok(Sensation::NONE);
+        };
+        let row = self.row(&device, &self.shipped.plant, wall(JOINTS), self.settings, script)?;
+        Ok(row.figures.sensation)
     }
 
     /// How much finer the encoders must be for a script not to be felt.
