@@ -7,6 +7,9 @@ use crate::math::{Vec3, saturate, sqrt_from_above};
 /// The least second derivative of `½ ‖ΔR‖²` at which its model is solved, as a part of `‖c'‖²`.
 const MIN_CURVATURE: f32 = 1.0e-3;
 
+/// Nearer to a focus, `1 + κ gap`, nothing is told from a border.
+pub(super) const LEAST_STRETCH: f32 = 0.25;
+
 /// Where a step along an edge starts from.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Along {
@@ -40,13 +43,13 @@ impl Inward {
     }
 
     /// Where the closest point lies on the face, as far as can be told from the border: the Gauss–Newton step across
-    /// it, shortened by `stretch`, and along it. The change of the parameter across, the parameter of the edge, and the
-    /// fall of `½ ‖ΔR‖²` to first order, m².
+    /// it, shortened by `stretch`, and Newton's along it, where `½ ‖ΔR‖²` has the second derivative `hessian`, m². The
+    /// change of the parameter across, the parameter of the edge, and the fall of `½ ‖ΔR‖²` to first order, m².
     #[inline]
-    pub(super) fn landing(&self, along: &Along, t: f32, stretch: f32) -> ([f32; 2], f32) {
+    pub(super) fn landing(&self, along: &Along, hessian: f32, t: f32, stretch: f32) -> ([f32; 2], f32) {
         let inside = saturate(self.product / (self.square * stretch), 0.0, 1.0);
-        let beside = if along.stretch > f32::MIN_POSITIVE {
-            saturate(t + (inside * self.skew - along.gradient) / along.stretch, 0.0, 1.0)
+        let beside = if hessian > LEAST_STRETCH * along.stretch {
+            saturate(t + (inside * self.skew - along.gradient) / hessian, 0.0, 1.0)
         } else {
             t
         };
@@ -62,6 +65,13 @@ impl Along {
         Self { difference, stretch, gradient }
     }
 
+    /// The second derivative of `½ ‖ΔR‖²` along the edge, m², by half of the edge's own.
+    #[inline]
+    pub(super) fn hessian(&self, half_second: Vec3) -> f32 {
+        let bend = self.difference.dot(half_second);
+        self.stretch + bend + bend
+    }
+
     /// Whether an end of the edge holds the witness point: nearer lies only what is beyond it.
     #[inline]
     pub(super) fn is_held(&self, t: f32) -> bool {
@@ -72,8 +82,7 @@ impl Along {
     /// parameter, with bounds alone.
     #[inline]
     pub(super) fn minimiser(&self, edge: &Edge, half_second: Vec3, t: f32) -> Option<f32> {
-        let bend = self.difference.dot(half_second);
-        let hessian = self.stretch + bend + bend;
+        let hessian = self.hessian(half_second);
         let is_convex = hessian > MIN_CURVATURE * self.stretch;
         if !is_convex {
             return None;
@@ -199,7 +208,7 @@ mod tests {
         // Across, w = 1/4. Along, 2 Δt − 3 w = 0.2 where the derivative slants, 2 Δt = 0.2 where it does not.
         for (separator, beside) in separators().iter().zip([0.6, 0.975]) {
             let inward = along.inward(separator, at.tangent, 0.5, probe);
-            let ([inside, t], slope) = inward.landing(&along, 0.5, 1.0);
+            let ([inside, t], slope) = inward.landing(&along, along.stretch, 0.5, 1.0);
             // A few roundings of numbers near 1.
             assert!((inside - 0.25).abs() < 4.0 * f32::EPSILON, "{inside}");
             assert!((t - beside).abs() < 4.0 * f32::EPSILON, "{t}");
@@ -208,7 +217,11 @@ mod tests {
         }
         let [plane, _] = separators();
         let inward = along.inward(&plane, at.tangent, 0.5, probe);
-        assert_eq!(inward.landing(&along, 0.5, f32::INFINITY).0[0], 0.0, "where nothing is known of the face");
-        assert_eq!(inward.landing(&along, 0.5, 0.125).0[0], 1.0, "not beyond the other side");
+        assert_eq!(
+            inward.landing(&along, along.stretch, 0.5, f32::INFINITY).0[0],
+            0.0,
+            "where nothing is known of the face"
+        );
+        assert_eq!(inward.landing(&along, along.stretch, 0.5, 0.125).0[0], 1.0, "not beyond the other side");
     }
 }

@@ -5,7 +5,7 @@
 //! every step. If it is not, the step is undone, and the next one enters at the border itself, where the distance is
 //! what it was.
 
-use super::along::{Along, Inward};
+use super::along::{Along, Inward, LEAST_STRETCH};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
@@ -15,9 +15,6 @@ use crate::track::{Aim, BoundaryMode, Outcome, mode_at};
 
 /// Of the fall of `½ ‖ΔR‖²` that a step without a certificate promises, the part that is asked for.
 pub(super) const LEAST_FALL: f32 = 1.0 / 16.0;
-
-/// Nearer to a focus, `1 + κ gap`, nothing is told from the border.
-const LEAST_STRETCH: f32 = 0.25;
 
 /// A point of an edge, seen from a probe.
 #[derive(Clone, Copy)]
@@ -58,15 +55,22 @@ impl Beyond<'_> {
         !self.inward.is_beyond()
     }
 
-    /// Where the face is entered. `known` is a curvature to go by where the face has no bound, 1/m.
+    /// Where the face is entered. `half_second` is half of the edge's second derivative, `known` a curvature to go by
+    /// where the face has no bound, 1/m.
     #[inline(always)]
-    pub(super) fn entry(&self, border: &Border, is_curved: bool, state: &BodyWitness, known: f32) -> Entry {
+    pub(super) fn entry(
+        &self,
+        border: &Border,
+        half_second: &Vec3,
+        is_curved: bool,
+        state: &BodyWitness,
+        known: f32,
+    ) -> Entry {
         let Self { face, of, is_reversed, inward } = self;
-        let Border { along, t, .. } = border;
         let ([inside, t], fall) = if is_curved && state.witness.halvings == 0 {
-            beyond_border(face, inward, along, *t, [state.gap, known])
+            beyond_border(face, inward, border, half_second, [state.gap, known])
         } else {
-            ([0.0, *t], 0.0)
+            ([0.0, border.t], 0.0)
         };
         Entry { face: of.face, parameters: on_side(of.side, *is_reversed, inside, t), fall }
     }
@@ -170,11 +174,14 @@ impl Body<'_> {
         // The border as it looks from the witness point.
         let step = [u - witness.parameters[0], v - witness.parameters[1]];
         let point = witness.surface.point + witness.surface.along(step) + witness.second.bend(step) * 0.5;
-        let tangent = if is_along_v { witness.surface.tangent_v } else { witness.surface.tangent_u };
+        let (surface, second) = (&witness.surface, &witness.second);
+        let (tangent, half_second) =
+            if is_along_v { (surface.tangent_v, second.half_vv) } else { (surface.tangent_u, second.half_uu) };
         let tangent = if *reversed { -tangent } else { tangent };
         let border = Border { along: Along::new(point, tangent, state.probe), tangent, t };
         let beyond = self.beyond(other, &border, state.probe)?;
-        Some((beyond.entry(&border, true, state, face.bend(state.gap)), other.side))
+        let entry = beyond.entry(&border, &half_second, true, state, face.bend(state.gap));
+        Some((entry, other.side))
     }
 }
 
@@ -186,11 +193,18 @@ impl Body<'_> {
 /// Where none is known that of the face before, `known`, is as good a guess as any; where there is none either it is
 /// the border.
 #[inline(never)]
-fn beyond_border(face: &Face, inward: &Inward, along: &Along, t: f32, [gap, known]: [f32; 2]) -> ([f32; 2], f32) {
+fn beyond_border(
+    face: &Face,
+    inward: &Inward,
+    border: &Border,
+    half_second: &Vec3,
+    [gap, known]: [f32; 2],
+) -> ([f32; 2], f32) {
     let bound = face.bend(gap);
     let stretch = 1.0 + if bound.is_finite() { bound } else { known } * gap;
     let stretch = if stretch > LEAST_STRETCH { stretch } else { f32::INFINITY };
-    let (landing, slope) = inward.landing(along, t, stretch);
+    let Border { along, t, .. } = border;
+    let (landing, slope) = inward.landing(along, along.hessian(*half_second), *t, stretch);
     (landing, 2.0 * LEAST_FALL * slope)
 }
 

@@ -115,7 +115,7 @@ impl Body<'_> {
         self.edges.get(usize::from(spoke.edge)).is_some_and(|edge| edge.kind == kind)
     }
 
-    fn spokes_of(&self, vertex: &Vertex) -> &[Spoke] {
+    pub(super) fn spokes_of(&self, vertex: &Vertex) -> &[Spoke] {
         let first = usize::from(vertex.first_spoke);
         self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[])
     }

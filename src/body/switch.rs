@@ -4,7 +4,7 @@
 use super::along::Along;
 use super::curve::CurvePoint;
 use super::enter::Border;
-use super::feature::{EdgeFace, EdgeKind, Face, Feature, Side};
+use super::feature::{EdgeFace, EdgeKind, Face, Feature, Side, Spoke, Vertex};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
@@ -90,8 +90,14 @@ impl Body<'_> {
                 && let Some(beyond) = self.beyond(of, &border, probe)
                 && (hands_over || beyond.takes_probe())
             {
-                let entry = beyond.entry(&border, is_curved && !hands_over, state, f32::INFINITY);
+                let half_second = &state.witness.second.half_uu;
+                let entry = beyond.entry(&border, half_second, is_curved && !hands_over, state, f32::INFINITY);
+                let halvings = state.witness.halvings;
                 self.enter(&entry, is_curved, state, step);
+                // A step over the edge that had to be undone is not tried again from the other side.
+                if hands_over {
+                    state.witness.halvings = halvings;
+                }
                 return;
             }
         }
@@ -107,27 +113,30 @@ impl Body<'_> {
     #[inline(never)]
     pub(super) fn leave_vertex(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
-        let first = usize::from(vertex.first_spoke);
-        let spokes = self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[]);
-        let towards = state.probe - vertex.point;
-        let mut steepest: Option<(f32, u16, bool)> = None;
-        for spoke in spokes {
-            let fall = towards.dot(spoke.direction);
-            if fall > 0.0 && steepest.is_none_or(|(most, ..)| fall > most) {
-                steepest = Some((fall, spoke.edge, spoke.at_upper_end));
-            }
-        }
-        if let Some((_, edge, at_upper_end)) = steepest
-            && let Some(curve) = self.edges.get(usize::from(edge)).map(|edge| &edge.curve)
+        if let Some((_, spoke)) = self.steepest(vertex, state.probe - vertex.point)
+            && let Some(curve) = self.edges.get(usize::from(spoke.edge)).map(|edge| &edge.curve)
         {
             step.switched = true;
-            let t = if at_upper_end { 1.0 } else { 0.0 };
-            state.rest_on_edge(edge, t, &curve.evaluate(t));
+            let t = if spoke.at_upper_end { 1.0 } else { 0.0 };
+            state.rest_on_edge(spoke.edge, t, &curve.evaluate(t));
         }
     }
 
+    /// The edge along which the distance to a probe `towards` there falls most steeply from a vertex, and how far
+    /// along its tangent the probe is, metres; `None` where no edge leads nearer.
+    pub(super) fn steepest(&self, vertex: &Vertex, towards: Vec3) -> Option<(f32, &Spoke)> {
+        let mut steepest: Option<(f32, &Spoke)> = None;
+        for spoke in self.spokes_of(vertex) {
+            let fall = towards.dot(spoke.direction);
+            if fall > 0.0 && steepest.is_none_or(|(most, _)| fall > most) {
+                steepest = Some((fall, spoke));
+            }
+        }
+        steepest
+    }
+
     #[inline(never)]
-    fn rest_on_vertex(&self, index: u16, state: &mut BodyWitness) -> bool {
+    pub(super) fn rest_on_vertex(&self, index: u16, state: &mut BodyWitness) -> bool {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return false };
         state.feature = Feature::Vertex(index);
         let surface = SurfacePoint { point: vertex.point, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
