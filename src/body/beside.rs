@@ -22,7 +22,9 @@ impl Body<'_> {
             return false;
         }
         let at = CurvedPoint { surface, second };
-        let Some(plan) = StepBeside::new(face.poles(), parameters, &at, state.probe, self.size) else { return false };
+        let Some(plan) = StepBeside::new(face, parameters, &at, state.probe, self.size) else {
+            return self.leave_pole(face, state, step);
+        };
         let reached = face.patch.evaluate_apart(plan.parameters);
         step.evaluations += 1;
         let before = (surface.point - state.probe).length_squared();
@@ -37,6 +39,30 @@ impl Body<'_> {
         }
         true
     }
+
+    /// From a pole where the face has nothing nearer to its vertex, where an edge does: it leads to the face that has.
+    /// Whether it has gone there.
+    #[inline(never)]
+    fn leave_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+        let Some(index) = self.pole_at(face, state.witness.parameters) else { return false };
+        let Some(vertex) = self.vertices.get(usize::from(index)) else { return false };
+        let (towards, before) = (state.probe - vertex.point, state.probe - state.witness.surface.point);
+        let [now, before] = [towards, before].map(Vec3::length_squared);
+        let Some((fall, _)) = self.steepest(vertex, towards) else { return false };
+        let is_worth_it = 0.5 * fall * fall > worth(before, self.size);
+        if !is_worth_it || !self.is_no_rise(now, before, vertex.point, state.probe) {
+            return false;
+        }
+        step.switched = self.rest_on_vertex(index, state);
+        step.switched
+    }
+}
+
+/// What `φ` has to fall by for a step not to be rounding, m², at a squared distance on a body of a size.
+#[inline]
+fn worth(squared: f32, size: f32) -> f32 {
+    let resolved = RESOLUTION * size;
+    resolved * (sqrt_from_above(squared) + resolved)
 }
 
 /// A step of second order on a face that has poles.
@@ -54,14 +80,13 @@ impl StepBeside {
     /// The step from a point, in the coordinates around the nearest pole. `None` where it would be rounding, or there
     /// is no pole.
     #[inline(never)]
-    fn new(poles: u8, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
-        let pole = Pole::nearest(poles, at)?;
+    fn new(face: &Face, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
+        let pole = Pole::nearest(face.poles(), at, &face.patch, size)?;
         let seen = Seen::new(curved, curved.surface.point - probe);
         let room = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
         let model = Model::new(seen.beside(pole));
         let (change, fall) = model.step(&seen, Some(pole), room);
-        let (distance, resolved) = (sqrt_from_above(2.0 * seen.half_squared), RESOLUTION * size);
-        let is_worth_it = -fall > resolved * (distance + resolved);
+        let is_worth_it = -fall > worth(2.0 * seen.half_squared, size);
         if !is_worth_it {
             return None;
         }

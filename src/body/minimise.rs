@@ -61,12 +61,16 @@ impl Descending {
     /// From the middle of a candidate's rectangle, for so many evaluations at most.
     pub fn new(candidate: Candidate, most: u8) -> Self {
         let [lower, upper] = candidate.rectangle();
-        let middle = [0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1])];
+        Self::from(candidate, [0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1])], most)
+    }
+
+    /// From a point of it.
+    pub(super) const fn from(candidate: Candidate, parameters: [f32; 2], most: u8) -> Self {
         Self {
             candidate,
-            parameters: middle,
+            parameters,
             half_squared: f32::INFINITY,
-            trial: middle,
+            trial: parameters,
             seen: None,
             halvings: 0,
             left: most,
@@ -128,7 +132,7 @@ impl Descending {
         let Some(seen) = self.seen.take() else { return Judgement::Falling };
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
-            let pole = Pole::nearest(poles, at);
+            let pole = Pole::nearest(poles, at, patch, size);
             let model = Model::new(pole.map_or(seen, |pole| seen.beside(pole)));
             let [lower, upper] = self.candidate.rectangle();
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
@@ -161,7 +165,7 @@ impl Descending {
             }
         } else {
             self.halvings += 1;
-            self.trial = match Pole::nearest(poles, self.parameters) {
+            self.trial = match Pole::nearest(poles, self.parameters, patch, size) {
                 None => [0, 1].map(|axis| 0.5 * (self.parameters[axis] + at[axis])),
                 Some(pole) => {
                     let half = pole.halved([0, 1].map(|axis| at[axis] - self.parameters[axis]));

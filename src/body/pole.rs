@@ -10,9 +10,32 @@
 //! falls.
 
 use super::feature::{Face, Side};
+use super::quadratic::bend_of;
+use super::table::Body;
+use crate::math::saturate;
+use crate::patch::{Patch as _, SplinePatch};
 
-/// So near a pole, in parameters, the tangent around it is rounding.
-const AT_POLE: f32 = 1.0e-6;
+/// So near a pole, in sizes of the body, the tangent around it may be rounding: coordinates of that size are rounded by
+/// `6e-8`, a hundredth of this and less with the tangents made of them.
+const AT_POLE: f32 = 1.0e-5;
+
+/// The same in parameters of a patch, for a body of a size, metres.
+#[inline]
+fn at_pole(patch: &SplinePatch, size: f32) -> f32 {
+    AT_POLE * size / patch.size()
+}
+
+impl Body<'_> {
+    /// The vertex that a pole of a face is, where parameters are at it.
+    #[inline]
+    pub(super) fn pole_at(&self, face: &Face, [u, v]: [f32; 2]) -> Option<u16> {
+        let near = at_pole(&face.patch, self.size);
+        face.sides.iter().zip([u, 1.0 - u, v, 1.0 - v]).find_map(|(side, away)| match side {
+            Side::Pole { vertex } if away <= near => Some(*vertex),
+            _ => None,
+        })
+    }
+}
 
 impl Face<'_> {
     /// Which of its sides are poles, as bits.
@@ -36,35 +59,44 @@ pub(super) struct Pole {
     inward: f32,
     /// How far the point is from the pole along it.
     away: f32,
+    /// So near it is at the pole, see [`at_pole`].
+    near: f32,
 }
 
 impl Pole {
-    /// The nearest of a face's poles.
+    /// The nearest of a face's poles, on a patch of a body of a size, metres.
     #[inline(always)]
-    pub(super) fn nearest(poles: u8, at: [f32; 2]) -> Option<Self> {
+    pub(super) fn nearest(poles: u8, at: [f32; 2], patch: &SplinePatch, size: f32) -> Option<Self> {
         if poles == 0 {
             return None;
         }
+        let near = at_pole(patch, size);
         let mut nearest: Option<Self> = None;
         for side in 0..4_usize {
             let axis = side >> 1;
             let (inward, away) = if side & 1 == 0 { (1.0, at[axis]) } else { (-1.0, 1.0 - at[axis]) };
             if poles >> side & 1 == 1 && nearest.is_none_or(|nearest| away < nearest.away) {
-                nearest = Some(Self { is_along_v: axis == 1, inward, away });
+                nearest = Some(Self { is_along_v: axis == 1, inward, away, near });
             }
         }
         nearest
     }
 
+    /// Whether nothing around it can be told apart from the point.
+    #[inline]
+    fn is_at_pole(&self) -> bool {
+        self.away <= self.near
+    }
+
     /// What the mixed second derivative of `φ` is more by, with the gradient of `φ`.
     pub(super) fn mixed(&self, gradient: [f32; 2]) -> f32 {
-        if self.away > AT_POLE { -self.inward * gradient[1 - self.axis()] / self.away } else { 0.0 }
+        if self.is_at_pole() { 0.0 } else { -self.inward * gradient[1 - self.axis()] / self.away }
     }
 
     /// By how much `η` may be more for a change of one across, for its room is the parameter's, and that is `η w / (w +
     /// ω)`: 0 at the pole, where nothing is told apart.
     pub(super) fn spread(&self) -> f32 {
-        if self.away > AT_POLE { self.inward / self.away } else { 0.0 }
+        if self.is_at_pole() { 0.0 } else { self.inward / self.away }
     }
 
     /// The index of the parameter that leads away from it.
@@ -77,7 +109,7 @@ impl Pole {
     pub(super) fn unrolled(&self, change: [f32; 2]) -> [f32; 2] {
         let left = self.away + self.inward * change[self.axis()];
         let mut unrolled = change;
-        if self.away > AT_POLE && left > AT_POLE {
+        if !self.is_at_pole() && left > self.near {
             unrolled[1 - self.axis()] *= self.away / left;
         }
         unrolled
@@ -87,35 +119,44 @@ impl Pole {
     pub(super) fn halved(&self, change: [f32; 2]) -> [f32; 2] {
         let left = self.away + self.inward * change[self.axis()];
         let mut half = change.map(|change| 0.5 * change);
-        if self.away > AT_POLE && left > AT_POLE {
+        if !self.is_at_pole() && left > self.near {
             half[1 - self.axis()] *= left / self.away;
         }
         self.unrolled(half)
     }
 
-    /// At the pole, where the slope into the face is not downhill here: the step to the end of the range where it
-    /// should be, and what it should gain. `bend` is `φ_uv`, `form` the first fundamental form's `[uu, uv, vv]`, `room`
-    /// how far the parameters may go.
-    pub(super) fn around(
+    /// From the pole: the step into the face, and what it should gain. `None` away from it, or where no slope into the
+    /// face is downhill. `newton` is the Hessian, `form` the first fundamental form, `[uu, uv, vv]`; `room` how far the
+    /// parameters may go.
+    ///
+    /// Here the slope is a function of `y` alone. Straight on, unless at the end of the range where it falls it should
+    /// be twice as steep: a straight line overshoots a cosine.
+    pub(super) fn out_of(
         &self,
         gradient: [f32; 2],
-        bend: f32,
+        newton: [f32; 3],
         form: [f32; 3],
         room: [[f32; 2]; 2],
     ) -> Option<([f32; 2], f32)> {
-        if self.away > AT_POLE {
+        if !self.is_at_pole() {
             return None;
         }
         let (across, along) = (self.axis(), 1 - self.axis());
-        let (slope, turn) = (self.inward * gradient[across], self.inward * bend);
+        let (slope, turn) = (self.inward * gradient[across], self.inward * (newton[1] - form[1]));
         let reach = room[usize::from(turn < 0.0)][along];
-        let (downhill, stretch) = (slope + turn * reach, form[2 * across]);
-        if !(slope >= 0.0 && downhill < 0.0 && stretch > f32::MIN_POSITIVE) {
+        let at_end = slope + turn * reach;
+        let mut change = [0.0; 2];
+        let mut downhill = slope;
+        if at_end < 0.0 && at_end < 2.0 * slope {
+            (change[along], downhill) = (reach, at_end);
+        }
+        let bend = bend_of(newton[2 * across], form[2 * across]);
+        if !(downhill < 0.0 && bend > f32::MIN_POSITIVE) {
             return None;
         }
-        let mut change = [0.0; 2];
-        change[along] = reach;
-        change[across] = -self.inward * downhill / stretch;
-        Some((change, 0.5 * downhill * downhill / -stretch))
+        let most = room[usize::from(self.inward > 0.0)][across].abs();
+        let way = saturate(-downhill / bend, 0.0, most);
+        change[across] = self.inward * way;
+        Some((change, way * (downhill + 0.5 * bend * way)))
     }
 }

@@ -63,7 +63,7 @@ impl Model {
     fn stand_in(form: [f32; 3], newton: [f32; 3]) -> [f32; 3] {
         // Along an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of
         // the other parameter still counts.
-        let mixed = [0, 2].map(|axis| saturate(newton[axis].abs(), FLAT * form[axis], f32::MAX));
+        let mixed = [0, 2].map(|axis| bend_of(newton[axis], form[axis]));
         let mixed = [mixed[0], newton[1], mixed[1]];
         if is_positive_definite(mixed) {
             mixed
@@ -80,8 +80,7 @@ impl Model {
     #[inline(always)]
     pub(super) fn step(&self, seen: &Seen, pole: Option<Pole>, room: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let Some(pole) = pole else { return self.minimiser(room) };
-        let bend = seen.newton[1] - seen.form[1];
-        pole.around(seen.gradient, bend, seen.form, room).unwrap_or_else(|| {
+        pole.out_of(seen.gradient, seen.newton, seen.form, room).unwrap_or_else(|| {
             let (change, fall) = self.minimiser_beside(&pole, room);
             (pole.unrolled(change), fall)
         })
@@ -185,6 +184,12 @@ impl Model {
         let [a, b, c] = self.hessian;
         self.gradient[0] * u + self.gradient[1] * v + 0.5 * (a * u * u + 2.0 * b * u * v + c * v * v)
     }
+}
+
+/// What stands in for a second derivative of `φ` along one parameter: the same without its sign, not close to 0 by
+/// what it is without curvature.
+pub(super) fn bend_of(newton: f32, form: f32) -> f32 {
+    saturate(newton.abs(), FLAT * form, f32::MAX)
 }
 
 /// The minimiser of `slope · x + ½ bend · x²` between two ends; the model's diagonal is not negative.
