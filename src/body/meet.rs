@@ -1,15 +1,15 @@
 //! What the loop asks of the closest point once it is known: normal, signed gap, and whether the body is touched.
 
-use super::feature::{EdgeKind, Face, Feature, Side};
+use super::feature::{EdgeKind, Face, Feature};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::{Vec3, inverse_sqrt, sqrt_from_above};
 use crate::patch::Patch as _;
 use crate::track::{BoundaryMode, Contact, is_inside};
 
-/// So near a pole, in sizes of the body, the tangent around it may be rounding: coordinates of that size are rounded by
-/// `6e-8`, a hundredth of this and less with the tangents made of them.
-const AT_POLE: f32 = 1.0e-5;
+/// Of the squared offset of a probe that is right below a point of a border, the part along the normal: off by 30° it
+/// cannot be in front of what bends away beyond, unless deeper than six of its radii.
+const BELOW: f32 = 0.75;
 
 impl Body<'_> {
     /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been
@@ -30,8 +30,13 @@ impl Body<'_> {
                 if gap < 0.0 {
                     let contact = state.contact;
                     match contact {
-                        // At a border the witness point is not where the probe goes in: what is beyond it will say.
-                        Contact::InFront if !is_inside(state.witness.parameters) => return,
+                        // At a border the witness point is not where the probe goes in, unless the probe is right
+                        // below it: what is beyond will say.
+                        Contact::InFront
+                            if !is_inside(state.witness.parameters) && gap * gap < BELOW * away.length_squared() =>
+                        {
+                            return;
+                        }
                         Contact::InFront | Contact::Touching
                             if !step.hands_over() && self.leaves_over_border(face, state, away) =>
                         {
@@ -103,17 +108,9 @@ impl Body<'_> {
     /// The normal at a pole, where tangents are rounding: that of its vertex. The last normal may be from across the
     /// face, for a step may end at a pole from anywhere.
     #[inline(never)]
-    fn normal_at_pole(&self, face: &Face, [u, v]: [f32; 2]) -> Option<Vec3> {
-        let near = AT_POLE * self.size / face.patch.size();
-        for (side, away) in face.sides.iter().zip([u, 1.0 - u, v, 1.0 - v]) {
-            if let Side::Pole { vertex } = side
-                && away <= near
-            {
-                let outward = self.vertices.get(usize::from(*vertex))?.outward;
-                return (outward != Vec3::ZERO).then_some(outward);
-            }
-        }
-        None
+    fn normal_at_pole(&self, face: &Face, parameters: [f32; 2]) -> Option<Vec3> {
+        let outward = self.vertices.get(usize::from(self.pole_at(face, parameters)?))?.outward;
+        (outward != Vec3::ZERO).then_some(outward)
     }
 
     /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe

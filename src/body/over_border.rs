@@ -6,6 +6,7 @@ use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::math::Vec3;
 use crate::patch::{Patch as _, SecondDerivativeBounds, SplinePatch};
+use crate::track::BoundaryMode;
 
 /// So near a border, in parameters, a witness point is asked for what is beyond: it may still be on its way there, and
 /// the probe past it.
@@ -23,6 +24,10 @@ fn is_apart(x: f32) -> bool {
 const fn is_upper(x: f32) -> usize {
     (x.to_bits().cast_signed() > 0.5_f32.to_bits().cast_signed()) as usize
 }
+
+/// What holds a witness point on a side.
+const SIDES: [BoundaryMode; 4] =
+    [BoundaryMode::LowerU, BoundaryMode::UpperU, BoundaryMode::LowerV, BoundaryMode::UpperV];
 
 /// So near its end, in parameters, an edge looks like what meets there.
 const AT_END: f32 = 1.0 / 16.0;
@@ -77,6 +82,10 @@ impl Body<'_> {
         let is_over = self.is_over_side(face, number, state, away);
         if is_over {
             self.meet_border(state, Some(true));
+            // What is beyond is nearer: behind this face it would not be looked for.
+            if self.kind_of_side(face, number) == Some(EdgeKind::Convex) {
+                (state.witness.mode, state.witness.is_free) = (SIDES[number & 3], false);
+            }
         }
         is_over
     }
