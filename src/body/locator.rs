@@ -45,6 +45,20 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// All of a face, alone in its list.
+    pub(super) const fn whole(face: u16) -> Self {
+        Self { face, lower: [0; 2], upper: [GRID as u8; 2], convex: false, more: false }
+    }
+
+    /// Whether parameters of the rectangle are on a border of it that is inside of the face.
+    pub(super) fn cuts(&self, parameters: [f32; 2]) -> bool {
+        let [lower, upper] = self.rectangle();
+        [0, 1].into_iter().any(|axis| {
+            let at = parameters[axis];
+            (at <= lower[axis] && at > 0.0) || (at >= upper[axis] && at < 1.0)
+        })
+    }
+
     /// As an entry: from the lowest bit 5 bits each of lower and upper `u`, lower and upper `v`, 10 of the face,
     /// convex, more.
     pub const fn pack(&self) -> u32 {

@@ -34,6 +34,8 @@ pub struct Search {
 /// The nearest so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Best {
+    /// Index of the entry that it was found in, and that one's face.
+    entry: u16,
     face: u16,
     parameters: [f32; 2],
     half_squared: f32,
@@ -85,7 +87,7 @@ impl Search {
             descending: body.descending(entry),
             entry: entry as u16,
             evaluations: 0,
-            best: Best { face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
+            best: Best { entry: entry as u16, face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
             asked: None,
             exhausted: false,
             ended: None,
@@ -133,7 +135,7 @@ impl Search {
                 && let Some((parameters, half_squared)) = self.descending.seen()
                 && half_squared < known
             {
-                self.best = Best { face, parameters, half_squared };
+                self.best = Best { entry: self.entry, face, parameters, half_squared };
                 self.ended = Some(true);
             }
             return;
@@ -150,7 +152,7 @@ impl Search {
         }
         let Descending { parameters, half_squared, .. } = self.descending;
         if half_squared < self.best.half_squared {
-            self.best = Best { face, parameters, half_squared };
+            self.best = Best { entry: self.entry, face, parameters, half_squared };
         }
         if asked.is_some() && half_squared < known {
             self.ended = Some(true);
@@ -188,14 +190,14 @@ impl Search {
 
     /// The nearest so far.
     fn located(&self, complete: bool) -> Located {
-        let Best { face, parameters, half_squared } = self.best;
+        let Best { face, parameters, half_squared, .. } = self.best;
         Located { face, parameters, half_squared, evaluations: self.evaluations, complete }
     }
 }
 
 impl Body<'_> {
     /// The closest point of the body from a standing start. At most [`MAX_EVALUATIONS`] of patches, on a convex body
-    /// [`MAX_EVALUATIONS_CONVEX`].
+    /// [`MAX_EVALUATIONS_CONVEX`], and [`MAX_EVALUATIONS_PER_CANDIDATE`] where the list turns out not to hold it.
     pub fn locate(&self, probe: Vec3) -> Located {
         let mut search = Search::new(self, probe);
         // Two halves an evaluation.
@@ -205,7 +207,30 @@ impl Body<'_> {
             }
             search.turn(self, probe);
         }
-        search.located(search.ended.unwrap_or(false))
+        let found = search.located(search.ended.unwrap_or(false));
+        let cut = self.candidate(usize::from(search.best.entry)).cuts(found.parameters);
+        if cut { self.beyond_rectangle(found, probe) } else { found }
+    }
+
+    /// A minimum on the border of a rectangle is none of its face: the list does not hold all, as it may not beyond the
+    /// root cube and where a cell is not proved. So on over the whole face.
+    #[inline(never)]
+    fn beyond_rectangle(&self, mut found: Located, probe: Vec3) -> Located {
+        let Some(Face { patch, .. }) = self.faces.get(usize::from(found.face)) else { return found };
+        let whole = Candidate::whole(found.face);
+        let mut descending = Descending::from(whole, found.parameters, MAX_EVALUATIONS_PER_CANDIDATE).to_the_end();
+        let poles = self.poles_of(found.face);
+        for _ in 0..MAX_EVALUATIONS_PER_CANDIDATE {
+            let progress = descending.step(patch, poles, probe, f32::INFINITY, self.size);
+            found.evaluations += 1;
+            if progress != Judgement::Falling {
+                break;
+            }
+        }
+        if descending.half_squared < found.half_squared {
+            (found.parameters, found.half_squared) = (descending.parameters, descending.half_squared);
+        }
+        found
     }
 
     /// A search from the middle of the candidate at an index.
@@ -225,12 +250,6 @@ impl Body<'_> {
 
     /// The candidate at an index; the constructor checked that lists end.
     fn candidate(&self, entry: usize) -> Candidate {
-        self.locator.candidate(entry).unwrap_or(Candidate {
-            face: 0,
-            lower: [0; 2],
-            upper: [super::locator::GRID as u8; 2],
-            convex: false,
-            more: false,
-        })
+        self.locator.candidate(entry).unwrap_or(Candidate::whole(0))
     }
 }
