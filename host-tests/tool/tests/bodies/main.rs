@@ -3,6 +3,7 @@
 //! `PALPATE_PROBES`, `PALPATE_TICKS` and `PALPATE_STARTS` set the numbers for long runs.
 
 mod anywhere;
+mod borders;
 mod brushes;
 mod cold;
 mod converging;
