@@ -1,9 +1,9 @@
 //! A step of second order on a face that has a pole.
 
 use super::enter::LEAST_FALL;
-use super::feature::Face;
+use super::feature::{Face, Side};
 use super::minimise::RESOLUTION;
-use super::pole::Pole;
+use super::pole::{Pole, at_pole};
 use super::quadratic::{Model, Seen};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
@@ -55,6 +55,16 @@ impl Body<'_> {
         }
         step.switched = self.rest_on_vertex(index, state);
         step.switched
+    }
+
+    /// The vertex that a pole of a face is, where parameters are at it.
+    #[inline]
+    pub(super) fn pole_at(&self, face: &Face, [u, v]: [f32; 2]) -> Option<u16> {
+        let near = at_pole(&face.patch, self.size);
+        face.sides.iter().zip([u, 1.0 - u, v, 1.0 - v]).find_map(|(side, away)| match side {
+            Side::Pole { vertex } if away <= near => Some(*vertex),
+            _ => None,
+        })
     }
 }
 

@@ -50,12 +50,13 @@ impl Candidate {
         Self { face, lower: [0; 2], upper: [GRID as u8; 2], convex: false, more: false }
     }
 
-    /// Whether parameters of the rectangle are on a border of it that is inside of the face.
-    pub(super) fn cuts(&self, parameters: [f32; 2]) -> bool {
+    /// Whether parameters are inside of the rectangle, seen from the face: not on a border unless it is the face's.
+    pub(super) fn surrounds(&self, parameters: [f32; 2]) -> bool {
         let [lower, upper] = self.rectangle();
-        [0, 1].into_iter().any(|axis| {
+        [0, 1].into_iter().all(|axis| {
             let at = parameters[axis];
-            (at <= lower[axis] && at > 0.0) || (at >= upper[axis] && at < 1.0)
+            (at > lower[axis] || at <= 0.0 && lower[axis] <= 0.0)
+                && (at < upper[axis] || at >= 1.0 && upper[axis] >= 1.0)
         })
     }
 

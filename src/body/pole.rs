@@ -10,8 +10,6 @@
 //! falls.
 
 use super::feature::{Face, Side};
-use super::quadratic::bend_of;
-use super::table::Body;
 use crate::math::saturate;
 use crate::patch::{Patch as _, SplinePatch};
 
@@ -21,20 +19,17 @@ const AT_POLE: f32 = 1.0e-5;
 
 /// The same in parameters of a patch, for a body of a size, metres.
 #[inline]
-fn at_pole(patch: &SplinePatch, size: f32) -> f32 {
+pub(super) fn at_pole(patch: &SplinePatch, size: f32) -> f32 {
     AT_POLE * size / patch.size()
 }
 
-impl Body<'_> {
-    /// The vertex that a pole of a face is, where parameters are at it.
-    #[inline]
-    pub(super) fn pole_at(&self, face: &Face, [u, v]: [f32; 2]) -> Option<u16> {
-        let near = at_pole(&face.patch, self.size);
-        face.sides.iter().zip([u, 1.0 - u, v, 1.0 - v]).find_map(|(side, away)| match side {
-            Side::Pole { vertex } if away <= near => Some(*vertex),
-            _ => None,
-        })
-    }
+/// A second derivative of `φ` closer to 0 than this part of that without curvature is taken for so much.
+const FLAT: f32 = 1.0e-2;
+
+/// What stands in for a second derivative of `φ` along one parameter: the same without its sign, not close to 0 by
+/// what it is without curvature.
+pub(super) fn bend_of(newton: f32, form: f32) -> f32 {
+    saturate(newton.abs(), FLAT * form, f32::MAX)
 }
 
 impl Face<'_> {

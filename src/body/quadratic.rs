@@ -5,14 +5,12 @@
 //! definite; where it is not, the absolute values of its diagonal stand in, which lead away from a saddle, or all of
 //! `I` (Gauss–Newton). Beside a pole the model is one in polar coordinates ([`super::pole`]).
 
-use super::pole::Pole;
+use super::pole::{Pole, bend_of};
 use crate::math::{Vec3, saturate};
 use crate::patch::CurvedPoint;
 
 /// A determinant below this part of the product of the diagonal is rounding.
 const MIN_DETERMINANT: f32 = 1.0e-4;
-/// A second derivative of `φ` closer to 0 than this part of that without curvature is taken for so much.
-const FLAT: f32 = 1.0e-2;
 /// `φ` and its derivatives at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Seen {
@@ -184,12 +182,6 @@ impl Model {
         let [a, b, c] = self.hessian;
         self.gradient[0] * u + self.gradient[1] * v + 0.5 * (a * u * u + 2.0 * b * u * v + c * v * v)
     }
-}
-
-/// What stands in for a second derivative of `φ` along one parameter: the same without its sign, not close to 0 by
-/// what it is without curvature.
-pub(super) fn bend_of(newton: f32, form: f32) -> f32 {
-    saturate(newton.abs(), FLAT * form, f32::MAX)
 }
 
 /// The minimiser of `slope · x + ½ bend · x²` between two ends; the model's diagonal is not negative.

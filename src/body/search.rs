@@ -4,7 +4,7 @@
 //! and begins anew in whatever cell the probe is then. The same search answers a query at one go ([`Body::locate`]).
 
 use super::feature::Face;
-use super::locator::Candidate;
+use super::locator::{Candidate, GRID};
 use super::minimise::{Descending, Judgement, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
 use super::table::Body;
 use crate::math::Vec3;
@@ -34,8 +34,6 @@ pub struct Search {
 /// The nearest so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Best {
-    /// Index of the entry that it was found in, and that one's face.
-    entry: u16,
     face: u16,
     parameters: [f32; 2],
     half_squared: f32,
@@ -87,7 +85,7 @@ impl Search {
             descending: body.descending(entry),
             entry: entry as u16,
             evaluations: 0,
-            best: Best { entry: entry as u16, face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
+            best: Best { face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
             asked: None,
             exhausted: false,
             ended: None,
@@ -135,7 +133,7 @@ impl Search {
                 && let Some((parameters, half_squared)) = self.descending.seen()
                 && half_squared < known
             {
-                self.best = Best { entry: self.entry, face, parameters, half_squared };
+                self.best = Best { face, parameters, half_squared };
                 self.ended = Some(true);
             }
             return;
@@ -152,7 +150,7 @@ impl Search {
         }
         let Descending { parameters, half_squared, .. } = self.descending;
         if half_squared < self.best.half_squared {
-            self.best = Best { entry: self.entry, face, parameters, half_squared };
+            self.best = Best { face, parameters, half_squared };
         }
         if asked.is_some() && half_squared < known {
             self.ended = Some(true);
@@ -190,9 +188,23 @@ impl Search {
 
     /// The nearest so far.
     fn located(&self, complete: bool) -> Located {
-        let Best { face, parameters, half_squared, .. } = self.best;
+        let Best { face, parameters, half_squared } = self.best;
         Located { face, parameters, half_squared, evaluations: self.evaluations, complete }
     }
+}
+
+/// Whether one of two parameters may be on a line of the grid of the rectangles: a quick look that most pass.
+#[inline(always)]
+fn is_on_grid(parameters: [f32; 2]) -> bool {
+    /// Added to a small number it rounds that to a whole one.
+    const WHOLE: f32 = 1.5 * (1 << 23) as f32;
+    /// Some roundings of a number of steps, times half a step, which the other may be off by.
+    const NEAR: f32 = 4.0 * GRID as f32 * f32::EPSILON;
+    let [u, v] = parameters.map(|parameter| {
+        let steps = parameter * GRID as f32;
+        steps - ((steps + WHOLE) - WHOLE)
+    });
+    (u * v).abs() < NEAR
 }
 
 impl Body<'_> {
@@ -202,35 +214,44 @@ impl Body<'_> {
         let mut search = Search::new(self, probe);
         // Two halves an evaluation.
         for _ in 0..2 * MAX_EVALUATIONS {
+            search.turn(self, probe);
             if search.ended.is_some() {
                 break;
             }
-            search.turn(self, probe);
         }
-        let found = search.located(search.ended.unwrap_or(false));
-        let cut = self.candidate(usize::from(search.best.entry)).cuts(found.parameters);
-        if cut { self.beyond_rectangle(found, probe) } else { found }
+        if is_on_grid(search.best.parameters) {
+            self.go_beyond_rectangle(&mut search, probe);
+        }
+        search.located(search.ended.unwrap_or(false))
     }
 
     /// A minimum on the border of a rectangle is none of its face: the list does not hold all, as it may not beyond the
     /// root cube and where a cell is not proved. So on over the whole face.
     #[inline(never)]
-    fn beyond_rectangle(&self, mut found: Located, probe: Vec3) -> Located {
-        let Some(Face { patch, .. }) = self.faces.get(usize::from(found.face)) else { return found };
-        let whole = Candidate::whole(found.face);
-        let mut descending = Descending::from(whole, found.parameters, MAX_EVALUATIONS_PER_CANDIDATE).to_the_end();
-        let poles = self.poles_of(found.face);
-        for _ in 0..MAX_EVALUATIONS_PER_CANDIDATE {
-            let progress = descending.step(patch, poles, probe, f32::INFINITY, self.size);
-            found.evaluations += 1;
-            if progress != Judgement::Falling {
+    fn go_beyond_rectangle(&self, search: &mut Search, probe: Vec3) {
+        let Best { face: index, parameters, half_squared } = search.best;
+        let list = self.locator.entries.get(self.locator.list(probe)..).unwrap_or(&[]);
+        for candidate in list.iter().map(|entry| Candidate::unpack(*entry)) {
+            if candidate.face == index && candidate.surrounds(parameters) {
+                return;
+            }
+            if !candidate.more {
                 break;
             }
         }
-        if descending.half_squared < found.half_squared {
-            (found.parameters, found.half_squared) = (descending.parameters, descending.half_squared);
+        let Some(Face { patch, .. }) = self.faces.get(usize::from(index)) else { return };
+        let most = MAX_EVALUATIONS_PER_CANDIDATE;
+        let mut descending = Descending::from(Candidate::whole(index), parameters, most).to_the_end();
+        for _ in 0..most {
+            search.evaluations += 1;
+            if descending.step(patch, self.poles_of(index), probe, f32::INFINITY, self.size) != Judgement::Falling {
+                break;
+            }
         }
-        found
+        if descending.half_squared < half_squared {
+            let Descending { parameters, half_squared, .. } = descending;
+            search.best = Best { face: index, parameters, half_squared };
+        }
     }
 
     /// A search from the middle of the candidate at an index.

@@ -1,6 +1,6 @@
-//! Probes right over a border, to the last bit: there the tangent plane of both faces is the same, or the tangent around
-//! a pole is rounding, and none of the faces may be sure that the probe is its own. The witness point still comes to
-//! rest where the body is nearest; and a probe that goes in through a seam is felt.
+//! Probes right over a border, to the last bit: there the tangent plane of both faces is the same, or the tangent
+//! around a pole is rounding, and none of the faces may be sure that the probe is its own. The witness point still
+//! comes to rest where the body is nearest; and a probe that goes in through a seam is felt.
 
 use crate::scene::Scene;
 use glam::DVec3;
