@@ -3,8 +3,8 @@
 
 use super::along::Along;
 use super::curve::CurvePoint;
-use super::enter::Border;
-use super::feature::{EdgeFace, EdgeKind, Face, Feature, Side, Spoke, Vertex};
+use super::enter::{Border, Entry};
+use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side, Spoke, Vertex};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
@@ -79,25 +79,22 @@ impl Body<'_> {
         let (t, probe) = (state.witness.parameters[0], state.probe);
         let tangent = state.witness.surface.tangent_u;
         let border = Border { along: Along::new(state.witness.surface.point, tangent, probe), tangent, t };
-        // No probe has a smooth edge for its own.
         let comes_from_face = from != EdgeFace::NONE.face;
-        let hands_over = comes_from_face && edge.kind == EdgeKind::Smooth;
         state.is_declined = false;
+        // No probe has a smooth edge for its own.
+        if comes_from_face && edge.kind == EdgeKind::Smooth && self.hand_over(edge, from, is_curved, state, step) {
+            return;
+        }
         // Come to from a vertex it asks in the next tick.
         let faces = if comes_from_face || !step.switched { &edge.faces[..] } else { &[] };
         for of in faces.iter().copied() {
             if of.face != from
                 && let Some(beyond) = self.beyond(of, &border, probe)
-                && (hands_over || beyond.takes_probe())
+                && beyond.takes_probe()
             {
                 let half_second = &state.witness.second.half_uu;
-                let entry = beyond.entry(&border, half_second, is_curved && !hands_over, state, f32::INFINITY);
-                let halvings = state.witness.halvings;
+                let entry = beyond.entry(&border, half_second, is_curved, state, f32::INFINITY);
                 self.enter(&entry, is_curved, state, step);
-                // A step over the edge that had to be undone is not tried again from the other side.
-                if hands_over {
-                    state.witness.halvings = halvings;
-                }
                 return;
             }
         }
@@ -107,6 +104,18 @@ impl Body<'_> {
         } else if state.is_declined {
             step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
         }
+    }
+
+    /// Over a smooth edge, from one of its faces to the other one at the border. Whether there is another.
+    #[inline(never)]
+    fn hand_over(&self, edge: &Edge, from: u16, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+        let Witness { parameters: [t, _], halvings, .. } = state.witness;
+        let Some(other) = edge.faces.iter().copied().find(|of| of.face != from) else { return false };
+        let Some((face, parameters)) = self.place_on(other, t) else { return false };
+        self.enter(&Entry { face, parameters, fall: 0.0 }, is_curved, state, step);
+        // A step over the edge that had to be undone is not tried again from the other side.
+        state.witness.halvings = halvings;
+        true
     }
 
     /// From a vertex along the edge that falls most steeply, if one does.
