@@ -151,8 +151,9 @@ mod tests {
     fn the_root_from_below_is_never_above_and_near() {
         for x in two_octaves() {
             let share = f64::from(inverse_sqrt_from_below(x)) * f64::from(x).sqrt();
-            // Rounding at the best place of the curve.
-            assert!(share > 0.998 && share < 1.0 + f64::from(f32::EPSILON), "{x}: {share}");
+            // At the best place of the curve nothing but rounding: half a unit each of the product and the difference,
+            // and three quarters of what is taken off, which is a half.
+            assert!(share > 0.998 && share < 1.0 + 1.75 * f64::from(f32::EPSILON), "{x}: {share}");
         }
     }
 
