@@ -107,7 +107,7 @@ impl Body<'_> {
     }
 
     /// Over a smooth edge, from one of its faces to the other one at the border. Whether there is another.
-    #[inline(never)]
+    #[inline]
     fn hand_over(&self, edge: &Edge, from: u16, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Witness { parameters: [t, _], halvings, .. } = state.witness;
         let Some(other) = edge.faces.iter().copied().find(|of| of.face != from) else { return false };
