@@ -55,20 +55,20 @@ impl Beyond<'_> {
         !self.inward.is_beyond()
     }
 
-    /// Where the face is entered. `half_second` is half of the edge's second derivative, `known` a curvature to go by
-    /// where the face has no bound, 1/m.
+    /// Where the face is entered. `hessian` is the second derivative of `½ ‖ΔR‖²` along the edge, m², `known` a
+    /// curvature to go by where the face has no bound, 1/m.
     #[inline(always)]
     pub(super) fn entry(
         &self,
         border: &Border,
-        half_second: &Vec3,
+        hessian: f32,
         is_curved: bool,
         state: &BodyWitness,
         known: f32,
     ) -> Entry {
         let Self { face, of, is_reversed, inward } = self;
         let ([inside, t], fall) = if is_curved && state.witness.halvings == 0 {
-            beyond_border(face, inward, border, half_second, [state.gap, known])
+            beyond_border(face, inward, border, hessian, [state.gap, known])
         } else {
             ([0.0, border.t], 0.0)
         };
@@ -180,7 +180,8 @@ impl Body<'_> {
         let tangent = if *reversed { -tangent } else { tangent };
         let border = Border { along: Along::new(point, tangent, state.probe), tangent, t };
         let beyond = self.beyond(other, &border, state.probe)?;
-        let entry = beyond.entry(&border, &half_second, true, state, face.bend(state.gap));
+        let hessian = border.along.hessian(half_second);
+        let entry = beyond.entry(&border, hessian, true, state, face.bend(state.gap));
         Some((entry, other.side))
     }
 }
@@ -197,14 +198,14 @@ fn beyond_border(
     face: &Face,
     inward: &Inward,
     border: &Border,
-    half_second: &Vec3,
+    hessian: f32,
     [gap, known]: [f32; 2],
 ) -> ([f32; 2], f32) {
     let bound = face.bend(gap);
     let stretch = 1.0 + if bound.is_finite() { bound } else { known } * gap;
     let stretch = if stretch > LEAST_STRETCH { stretch } else { f32::INFINITY };
     let Border { along, t, .. } = border;
-    let (landing, slope) = inward.landing(along, along.hessian(*half_second), *t, stretch);
+    let (landing, slope) = inward.landing(along, hessian, *t, stretch);
     (landing, 2.0 * LEAST_FALL * slope)
 }
 

@@ -92,8 +92,7 @@ impl Body<'_> {
                 && let Some(beyond) = self.beyond(of, &border, probe)
                 && beyond.takes_probe()
             {
-                let half_second = &state.witness.second.half_uu;
-                let entry = beyond.entry(&border, half_second, is_curved, state, f32::INFINITY);
+                let entry = beyond.entry(&border, border.along.stretch, is_curved, state, f32::INFINITY);
                 self.enter(&entry, is_curved, state, step);
                 return;
             }
