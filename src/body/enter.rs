@@ -68,7 +68,7 @@ impl Beyond<'_> {
     ) -> Entry {
         let Self { face, of, is_reversed, inward } = self;
         let ([inside, t], fall) = if is_curved && state.witness.halvings == 0 {
-            beyond_border(face, inward, border, hessian, [state.gap, known])
+            beyond_border(face, inward, &border.along, [border.t, hessian], [state.gap, known])
         } else {
             ([0.0, border.t], 0.0)
         };
@@ -197,15 +197,14 @@ impl Body<'_> {
 fn beyond_border(
     face: &Face,
     inward: &Inward,
-    border: &Border,
-    hessian: f32,
+    along: &Along,
+    [t, hessian]: [f32; 2],
     [gap, known]: [f32; 2],
 ) -> ([f32; 2], f32) {
     let bound = face.bend(gap);
     let stretch = 1.0 + if bound.is_finite() { bound } else { known } * gap;
     let stretch = if stretch > LEAST_STRETCH { stretch } else { f32::INFINITY };
-    let Border { along, t, .. } = border;
-    let (landing, slope) = inward.landing(along, hessian, *t, stretch);
+    let (landing, slope) = inward.landing(along, hessian, t, stretch);
     (landing, 2.0 * LEAST_FALL * slope)
 }
 
