@@ -50,14 +50,12 @@ impl Candidate {
         Self { face, lower: [0; 2], upper: [GRID as u8; 2], convex: false, more: false }
     }
 
-    /// Whether parameters are inside of the rectangle, seen from the face: not on a border unless it is the face's.
-    pub(super) fn surrounds(&self, parameters: [f32; 2]) -> bool {
+    /// Whether parameters are on a border of the rectangle that is inside of the face.
+    pub(super) fn cuts(&self, parameters: [f32; 2]) -> bool {
         let [lower, upper] = self.rectangle();
-        [0, 1].into_iter().all(|axis| {
-            let at = parameters[axis];
-            (at > lower[axis] || at <= 0.0 && lower[axis] <= 0.0)
-                && (at < upper[axis] || at >= 1.0 && upper[axis] >= 1.0)
-        })
+        let axes = || [0, 1].into_iter().map(|axis| (parameters[axis], lower[axis], upper[axis]));
+        axes().all(|(at, low, high)| at >= low && at <= high)
+            && axes().any(|(at, low, high)| (at <= low && at > 0.0) || (at >= high && at < 1.0))
     }
 
     /// As an entry: from the lowest bit 5 bits each of lower and upper `u`, lower and upper `v`, 10 of the face,

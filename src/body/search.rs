@@ -231,13 +231,15 @@ impl Body<'_> {
     fn go_beyond_rectangle(&self, search: &mut Search, probe: Vec3) {
         let Best { face: index, parameters, half_squared } = search.best;
         let list = self.locator.entries.get(self.locator.list(probe)..).unwrap_or(&[]);
+        let mut is_cut = false;
         for candidate in list.iter().map(|entry| Candidate::unpack(*entry)) {
-            if candidate.face == index && candidate.surrounds(parameters) {
-                return;
-            }
+            is_cut |= candidate.face == index && candidate.cuts(parameters);
             if !candidate.more {
                 break;
             }
+        }
+        if !is_cut {
+            return;
         }
         let Some(Face { patch, .. }) = self.faces.get(usize::from(index)) else { return };
         let most = MAX_EVALUATIONS_PER_CANDIDATE;
