@@ -107,4 +107,18 @@ impl ImportError {
     pub(crate) fn too_much(part: &Part, index: usize, reason: impl Into<String>) -> Self {
         Self::Face { face: part.faces[index].label(), reason: reason.into(), index: Some(index) }
     }
+
+    /// Where as much was tried as is worth it; `face` is what the most went into.
+    pub(crate) fn given_up(self, face: Option<String>) -> Self {
+        match (self, face) {
+            (Self::Face { face: last, .. }, Some(hardest)) if hardest != last => {
+                let reason = "with it the part was not divided into quads, and as much was tried as is worth it";
+                Self::face(hardest, reason)
+            }
+            (Self::Face { face, reason, .. }, _) => {
+                Self::face(face, format!("{reason}; as much was tried as is worth it"))
+            }
+            (other, _) => other,
+        }
+    }
 }

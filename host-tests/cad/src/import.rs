@@ -1,7 +1,7 @@
 //! The whole way: read, heal, outline, divide, fit, measure.
 
 use crate::bezier::Bezier;
-use crate::divide::{self, Turning};
+use crate::divide::{self, Manner, Turning};
 use crate::error::ImportError;
 use crate::measure::{self, Measured};
 use crate::mesh::Mesh;
@@ -74,46 +74,63 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     turn::turn(&mut part, options.tolerance)?;
     let whole = part.clone();
     if spheres::without_poles(&mut part, Hollow::Halved) == Hollow::Halved
-        && let Ok(done) = lightening(part, Hollow::Halved, options)
+        && let Ok(done) = lightening(part, Way { hollow: Hollow::Halved, triangles: false }, options)
     {
         return Ok(done);
     }
-    lightening(whole, Hollow::Whole, options)
+    whole.effort.renew();
+    let way = Way { hollow: Hollow::Whole, triangles: false };
+    lightening(whole.clone(), way, options).or_else(|error| {
+        whole.effort.renew();
+        lightening(whole, Way { triangles: true, ..way }, options).map_err(|_| error)
+    })
+}
+
+/// How a part is tried.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    hollow: Hollow,
+    /// Whether quads may have a side of no length.
+    triangles: bool,
 }
 
 /// Divides a part, and as often as it does not succeed makes the faces easier that were too much.
-fn lightening(mut part: Part, hollow: Hollow, options: &Options) -> Result<Imported, ImportError> {
-    spheres::without_poles(&mut part, hollow);
+fn lightening(mut part: Part, way: Way, options: &Options) -> Result<Imported, ImportError> {
+    spheres::without_poles(&mut part, way.hollow);
     split_the_large(&mut part, options.tolerance)?;
     let mut fine = Fine::new();
     for _ in 0..ROUNDS {
-        let errors = match divided(&part, &fine, options) {
+        let errors = match divided(&part, &fine, way.triangles, options) {
             Err(errors) => errors,
-            Ok(done) => return Ok(fewer(part, &fine, done, hollow, options)),
+            Ok(done) => return Ok(fewer(part, &fine, done, way, options)),
         };
         // From the last, so that the places of those before hold.
         for error in errors.into_iter().rev() {
             let ImportError::Face { index: Some(face), .. } = error else { return Err(error) };
+            if part.effort.is_spent() {
+                return Err(error.given_up(part.effort.hardest()));
+            }
             if !lightened(&mut part, face, &mut fine, options.tolerance)? {
                 return Err(error);
             }
         }
-        spheres::without_poles(&mut part, hollow);
+        spheres::without_poles(&mut part, way.hollow);
     }
-    divided(&part, &fine, options).map(|done| done.imported).map_err(first)
+    divided(&part, &fine, way.triangles, options).map(|done| done.imported).map_err(first)
 }
 
 /// Where far more patches were made than there were quads, because cuts go on through face after face, the face with
 /// the most is made easier, as if it had been too much; the fewest patches win.
-fn fewer(mut part: Part, fine: &Fine, done: Divided, hollow: Hollow, options: &Options) -> Imported {
+fn fewer(mut part: Part, fine: &Fine, done: Divided, way: Way, options: &Options) -> Imported {
     let (mut fine, mut best, mut busiest) = (fine.clone(), done.imported, done.busiest);
+    part.effort.for_better();
     for _ in 0..SECOND_THOUGHTS {
         let Some(face) = busiest else { break };
         if !lightened(&mut part, face, &mut fine, options.tolerance).is_ok_and(|is_lighter| is_lighter) {
             break;
         }
-        spheres::without_poles(&mut part, hollow);
-        let Ok(other) = divided(&part, &fine, options) else { break };
+        spheres::without_poles(&mut part, way.hollow);
+        let Ok(other) = divided(&part, &fine, way.triangles, options) else { break };
         busiest = other.busiest;
         if other.imported.patches.len() < best.patches.len() {
             best = other.imported;
@@ -172,8 +189,8 @@ struct Divided {
 }
 
 /// All that comes after the part is as it should be.
-fn divided(part: &Part, fine: &Fine, options: &Options) -> Result<Divided, Vec<ImportError>> {
-    let (quads, mesh, made) = fewest(part, fine, options.tolerance)?;
+fn divided(part: &Part, fine: &Fine, triangles: bool, options: &Options) -> Result<Divided, Vec<ImportError>> {
+    let (quads, mesh, made) = fewest(part, fine, triangles, options.tolerance)?;
     let mut counts = vec![0; part.faces.len()];
     made.iter().for_each(|made| counts[made.face] += 1);
     let busiest = (0..counts.len()).max_by_key(|face| counts[*face]).filter(|_| made.len() >= 2 * quads);
@@ -189,10 +206,17 @@ fn divided(part: &Part, fine: &Fine, options: &Options) -> Result<Divided, Vec<I
 
 /// The patches of a part. Where quads had to be halved for them, which goes on through all quads on the way, lines that
 /// turn far round a face are avoided in another try; the fewer patches win.
-fn fewest<'p>(part: &'p Part, fine: &Fine, tolerance: f64) -> Result<(usize, Mesh<'p>, Vec<Made>), Vec<ImportError>> {
-    let (quads, mesh, made) = patched(part, fine, tolerance, Turning::Free)?;
+fn fewest<'p>(
+    part: &'p Part,
+    fine: &Fine,
+    triangles: bool,
+    tolerance: f64,
+) -> Result<(usize, Mesh<'p>, Vec<Made>), Vec<ImportError>> {
+    let patched = |turning: Turning| patched(part, fine, tolerance, Manner { turning, triangles });
+    let (quads, mesh, made) = patched(Turning::Free)?;
     if made.len() > quads
-        && let Ok((quads, other, fewer)) = patched(part, fine, tolerance, Turning::Dear)
+        && !part.effort.is_spent()
+        && let Ok((quads, other, fewer)) = patched(Turning::Dear)
         && fewer.len() < made.len()
     {
         return Ok((quads, other, fewer));
@@ -205,12 +229,13 @@ fn patched<'p>(
     part: &'p Part,
     fine: &Fine,
     tolerance: f64,
-    turning: Turning,
+    manner: Manner,
 ) -> Result<(usize, Mesh<'p>, Vec<Made>), Vec<ImportError>> {
     let mut mesh = outlined(part, fine, tolerance).map_err(single)?;
     divide::balance::balance(&mut mesh);
-    divide::parity::even(&mut mesh).map_err(single)?;
-    divide::divide(&mut mesh, turning)?;
+    // An odd number of sides is no harm where one quad may have a side of no length.
+    divide::parity::even(&mut mesh).or_else(|error| if manner.triangles { Ok(()) } else { Err(single(error)) })?;
+    divide::divide(&mut mesh, manner)?;
     let quads = mesh.regions.iter().map(|region| region.quads.len()).sum();
     let made = patches::make(&mut mesh, tolerance)?;
     Ok((quads, mesh, made))

@@ -12,6 +12,7 @@
 mod bezier;
 mod circles;
 mod divide;
+mod effort;
 mod emit;
 mod error;
 mod fit;

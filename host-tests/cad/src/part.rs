@@ -1,5 +1,6 @@
 //! A part as the file has it: faces, loops, oriented edges and vertices, in millimetres, placements applied.
 
+use crate::effort::Effort;
 use crate::nurbs::{Curve, Surface};
 use glam::DVec3;
 
@@ -20,6 +21,8 @@ pub struct Part {
     pub precision: f64,
     /// Remarks for the person at the terminal.
     pub remarks: Vec<String>,
+    /// What may still be spent on it.
+    pub effort: Effort,
 }
 
 /// A solid, or a shell by itself.

@@ -13,6 +13,8 @@ pub const SHARE_OF_EDGES: f64 = 0.6;
 const ROUNDS: usize = 12;
 /// A curve that is off its chord by less than this share of the tolerance is a straight line.
 const STRAIGHT: f64 = 0.02;
+/// The effort of fitting a patch and measuring it.
+const FITTED: u64 = 10_000;
 /// The most patches a body can have.
 pub const MOST: usize = 1024;
 
@@ -55,6 +57,7 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, Vec<Import
                         cuts.insert(wire);
                     }
                 }
+                mesh.part.effort.spend(FITTED);
                 let (patch, off) = patch_of(mesh, face, quad, &curves, tolerance);
                 if off > tolerance {
                     let bent = |wire: &usize| curves[wire].points.len() == 4;
@@ -77,7 +80,7 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, Vec<Import
         if cuts.is_empty() && !raised {
             return check(mesh, made);
         }
-        if round + 1 == ROUNDS {
+        if round + 1 == ROUNDS || mesh.part.effort.is_spent() {
             break;
         }
         curves.retain(|wire, curve| least.get(wire).copied().unwrap_or(1) < curve.points.len());

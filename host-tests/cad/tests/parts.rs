@@ -7,8 +7,16 @@ use std::path::PathBuf;
 
 const PARTS: [&str; 6] = ["s02", "s05", "s06", "s09", "s11", "s12"];
 /// Parts with faces that are too much at once: these are split, or their edges cut finely.
-const HARD: [&str; 7] =
-    ["sphere_three_holes", "sphere_blind_hole", "torus_cut", "torus_drilled", "d_shaft", "half_ring", "bolt_circle"];
+const HARD: [&str; 8] = [
+    "sphere_three_holes",
+    "sphere_blind_hole",
+    "torus_cut",
+    "torus_drilled",
+    "d_shaft",
+    "half_ring",
+    "bolt_circle",
+    "elliptic_cuts",
+];
 /// The tolerance asked for, millimetres.
 const TOLERANCE: f64 = 0.01;
 

@@ -2,8 +2,11 @@
 
 use super::plane::{Edge, Plane};
 use super::quality;
+use crate::effort::Effort;
 use glam::DVec2;
+use std::cell::RefCell;
 use std::collections::HashMap;
+use std::f64::consts::PI;
 use std::rc::Rc;
 
 /// A quad: its corners, its sides from each corner to the next, and what it costs.
@@ -15,6 +18,8 @@ pub struct Candidate {
     pub edges: [Edge; 4],
     /// More for a bad one.
     pub cost: f64,
+    /// The points inside the region that it lies on.
+    pub covers: Rc<[usize]>,
 }
 
 /// Whether it matters how far the surface turns along a line.
@@ -24,6 +29,15 @@ pub enum Turning {
     Free,
     /// A line along which it turns far costs more.
     Dear,
+}
+
+/// What may be laid, and what is dear.
+#[derive(Clone, Copy, Debug)]
+pub struct Manner {
+    /// Whether it matters how far the surface turns along a line.
+    pub turning: Turning,
+    /// Whether quads may have a side of no length: a region that nothing else divides falls into such.
+    pub triangles: bool,
 }
 
 /// Finds quads, and remembers them.
@@ -36,7 +50,14 @@ pub struct Candidates<'p> {
     /// How far the surface turns along a straight line of the plane, radians.
     turn: &'p dyn Fn(DVec2, DVec2) -> f64,
     turns: HashMap<[usize; 2], f64>,
+    /// By a quad's sides from its least corner on.
+    known: RefCell<HashMap<[Edge; 4], Worth>>,
+    triangles: bool,
+    effort: &'p Effort,
 }
+
+/// What a quad costs, and what it covers.
+type Worth = Option<(f64, Rc<[usize]>)>;
 
 /// Lines from one vertex that are tried.
 const LINES: usize = 24;
@@ -44,10 +65,17 @@ const LINES: usize = 24;
 /// many patches do for each radian more.
 const EASY_TURN: f64 = 1.7;
 const TURNED: f64 = 2.0;
+/// What a side of no length costs more: about two patches.
+const TRIANGLE: f64 = 2.0;
+/// Where that side is, the other two may meet at this angle, radians, and elsewhere at no less than that.
+const SHARPEST: f64 = 0.01;
+const BLUNT: f64 = 0.12;
+/// The effort of weighing one.
+const WEIGHED: u64 = 16;
 
 impl<'p> Candidates<'p> {
     /// Looks which vertices see each other.
-    pub fn new(plane: &'p Plane, turn: &'p dyn Fn(DVec2, DVec2) -> f64) -> Self {
+    pub fn new(plane: &'p Plane, turn: &'p dyn Fn(DVec2, DVec2) -> f64, triangles: bool, effort: &'p Effort) -> Self {
         let count = plane.vertices.len();
         let mut seen = vec![Vec::new(); count];
         for a in 0..count {
@@ -68,7 +96,17 @@ impl<'p> Candidates<'p> {
         for (index, border) in plane.borders.iter().enumerate() {
             starting[border.ends[0]].push(index);
         }
-        Self { plane, seen, starting, found: HashMap::new(), turn, turns: HashMap::new() }
+        Self {
+            plane,
+            seen,
+            starting,
+            found: HashMap::new(),
+            turn,
+            turns: HashMap::new(),
+            known: RefCell::default(),
+            triangles,
+            effort,
+        }
     }
 
     /// Where an edge begins and ends.
@@ -85,6 +123,9 @@ impl<'p> Candidates<'p> {
             return Rc::clone(found);
         }
         let mut found = self.find(edge);
+        if self.triangles {
+            self.find_triangles(edge, &mut found);
+        }
         for quad in &mut found {
             quad.cost += quad.edges.map(|edge| self.turned(edge)).iter().sum::<f64>();
         }
@@ -121,15 +162,64 @@ impl<'p> Candidates<'p> {
                         continue;
                     }
                     let (corners, edges) = ([a, b, c, d], [edge, second, third, fourth]);
-                    let map = |s: f64, t: f64| self.plane.quad_at(&edges, &corners, s, t);
-                    let Some(cost) = quality::cost(&map) else { continue };
-                    if self.is_empty(&corners, &edges) {
-                        found.push(Candidate { corners, edges, cost });
+                    if let Some((cost, covers)) = self.worth(corners, edges) {
+                        found.push(Candidate { corners, edges, cost, covers });
                     }
                 }
             }
         }
         found
+    }
+
+    /// Quads of which one side is a point, at their sharpest corner.
+    fn find_triangles(&self, edge: Edge, found: &mut Vec<Candidate>) {
+        let [a, b] = self.ends(edge);
+        for second in self.from(b) {
+            let c = self.ends(second)[1];
+            if c == a || c == b {
+                continue;
+            }
+            for third in self.between(c, a) {
+                let sides = [edge, second, third];
+                let angles = [2, 0, 1].map(|before| self.angle(sides[before], sides[(before + 1) % 3]));
+                let Some(sharpest) = (0..3).min_by(|x, y| angles[*x].total_cmp(&angles[*y])) else { continue };
+                let is_sound =
+                    |k: usize| (if k == sharpest { SHARPEST } else { BLUNT }..PI - BLUNT).contains(&angles[k]);
+                if !(0..3).all(is_sound) {
+                    continue;
+                }
+                let corner = [a, b, c][sharpest];
+                let [p, q, r] = [0, 1, 2].map(|k| sides[(sharpest + k) % 3]);
+                let edges = [Edge::Line(corner, corner), p, q, r];
+                let corners = [corner, corner, self.ends(p)[1], self.ends(q)[1]];
+                if let Some((cost, covers)) = self.worth(corners, edges) {
+                    found.push(Candidate { corners, edges, cost: cost + TRIANGLE, covers });
+                }
+            }
+        }
+    }
+
+    /// The inner angle between two edges that follow each other, radians, below 0 where they turn right.
+    fn angle(&self, first: Edge, second: Edge) -> f64 {
+        let (into, out) = (self.slope(first, 1.0), self.slope(second, 0.0));
+        let turn = into.perp_dot(out).atan2(into.dot(out));
+        if turn < 0.0 { turn } else { PI - turn }
+    }
+
+    /// What a quad costs, and what it covers; none if it is not worth having, or a vertex of the outline lies in it. For
+    /// all four of its sides that is found once.
+    fn worth(&self, corners: [usize; 4], edges: [Edge; 4]) -> Worth {
+        let first = (0..4).min_by_key(|k| corners[*k]).unwrap_or(0);
+        let key = [0, 1, 2, 3].map(|k| edges[(first + k) % 4]);
+        if let Some(known) = self.known.borrow().get(&key) {
+            return known.clone();
+        }
+        self.effort.spend(WEIGHED);
+        let map = |s: f64, t: f64| self.plane.quad_at(&edges, &corners, s, t);
+        let has_point = edges.iter().any(|edge| edge.is_point());
+        let worth = quality::cost(&map, has_point).and_then(|cost| Some((cost, self.covered(&corners, &edges)?)));
+        self.known.borrow_mut().insert(key, worth.clone());
+        worth
     }
 
     fn from(&self, vertex: usize) -> impl Iterator<Item = Edge> + '_ {
@@ -153,13 +243,23 @@ impl<'p> Candidates<'p> {
         self.plane.point(edge, high) - self.plane.point(edge, low)
     }
 
-    /// Whether no vertex of the outline lies inside.
-    fn is_empty(&self, corners: &[usize; 4], edges: &[Edge; 4]) -> bool {
+    /// The points inside the region that lie in a quad; none if a vertex of the outline does.
+    fn covered(&self, corners: &[usize; 4], edges: &[Edge; 4]) -> Option<Rc<[usize]>> {
         let polygon: Vec<DVec2> =
             edges.iter().flat_map(|edge| (0..12).map(|k| self.plane.point(*edge, f64::from(k) / 12.0))).collect();
-        let outline = self.plane.vertices.iter().enumerate().filter(|(_, vertex)| vertex.node.is_some());
-        outline
-            .filter(|(index, _)| !corners.contains(index))
-            .all(|(_, vertex)| !crate::outline::contains(&polygon, vertex.point))
+        let low = polygon.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+        let high = polygon.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let is_in = |point: DVec2| {
+            point.cmpge(low).all() && point.cmple(high).all() && crate::outline::contains(&polygon, point)
+        };
+        let others = self.plane.vertices.iter().enumerate().filter(|(index, _)| !corners.contains(index));
+        let mut covered = Vec::new();
+        for (index, vertex) in others.filter(|(_, vertex)| is_in(vertex.point)) {
+            if vertex.node.is_some() {
+                return None;
+            }
+            covered.push(index);
+        }
+        Some(covered.into())
     }
 }

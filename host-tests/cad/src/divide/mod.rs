@@ -16,17 +16,17 @@ mod ring;
 mod steiner;
 pub mod tiling;
 
-pub use candidates::Turning;
+pub use candidates::{Manner, Turning};
 
 use crate::error::ImportError;
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{Mesh, Quad, Side};
 use corners::Shape;
 
 /// Divides every region.
 ///
 /// # Errors
 /// All faces that no quads were found for.
-pub fn divide(mesh: &mut Mesh<'_>, turning: Turning) -> Result<(), Vec<ImportError>> {
+pub fn divide(mesh: &mut Mesh<'_>, manner: Manner) -> Result<(), Vec<ImportError>> {
     let mut errors = Vec::new();
     for face in 0..mesh.regions.len() {
         close_triangle(mesh, face);
@@ -38,7 +38,7 @@ pub fn divide(mesh: &mut Mesh<'_>, turning: Turning) -> Result<(), Vec<ImportErr
         };
         let quads = match quads {
             Some(quads) => quads,
-            None => tiling::quads(mesh, face, turning).unwrap_or_else(|error| {
+            None => tiled(mesh, face, manner).unwrap_or_else(|error| {
                 errors.push(error);
                 Vec::new()
             }),
@@ -46,6 +46,11 @@ pub fn divide(mesh: &mut Mesh<'_>, turning: Turning) -> Result<(), Vec<ImportErr
         mesh.regions[face].quads = quads;
     }
     if errors.is_empty() { Ok(()) } else { Err(errors) }
+}
+
+fn tiled(mesh: &mut Mesh<'_>, face: usize, manner: Manner) -> Result<Vec<Quad>, ImportError> {
+    let (effort, label) = (&mesh.part.effort, mesh.part.faces[face].label());
+    effort.on(&label, || tiling::quads(mesh, face, manner))
 }
 
 /// A region of three sides, or two, gets a side of no length at its sharpest corners.

@@ -37,6 +37,13 @@ pub enum Edge {
     Line(usize, usize),
 }
 
+impl Edge {
+    /// Whether it has no length: the side of a quad that is a triangle.
+    pub const fn is_point(self) -> bool {
+        matches!(self, Self::Line(a, b) if a == b)
+    }
+}
+
 /// A vertex in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Vertex {

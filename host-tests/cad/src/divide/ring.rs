@@ -39,8 +39,8 @@ impl Ring {
                     Edge::Line(count + a, a),
                 ],
             );
-            let cost = quality::cost(&|s, t| plane.quad_at(&edges, &corners, s, t))?;
-            quads.push(Candidate { corners, edges, cost });
+            let cost = quality::cost(&|s, t| plane.quad_at(&edges, &corners, s, t), false)?;
+            quads.push(Candidate { corners, edges, cost, covers: Vec::new().into() });
         }
         let within = within(outline, &points);
         within.is_simple().then_some(Self { plane, quads, within })
@@ -64,6 +64,7 @@ impl Ring {
             corners: quad.corners.map(place),
             edges: quad.edges.each_ref().map(edge),
             cost: quad.cost,
+            covers: Vec::new().into(),
         });
         let quads = self.quads.iter().cloned().chain(moved).collect();
         (plane, quads)

@@ -5,10 +5,11 @@
 //! the fewest quads to choose from goes first, and what costs more than the best tiling so far is left. Without points
 //! inside there are `V/2 + h − 1` quads for `V` vertices and `h` holes; each point inside is one more.
 
-use super::candidates::{Candidate, Candidates, Turning};
+use super::candidates::{Candidate, Candidates, Manner, Turning};
 use super::plane::{Edge, Plane, scale};
 use super::ring::Ring;
 use super::steiner;
+use crate::effort::Effort;
 use crate::error::ImportError;
 use crate::mesh::{Mesh, Quad, Side};
 use crate::nurbs::Surface;
@@ -19,7 +20,7 @@ use std::rc::Rc;
 
 /// Quads tried in a search without points inside.
 const TRIES: usize = 40_000;
-/// Quads tried in a search with them, where there are far more to choose from.
+/// Quads tried in a search with them, or with triangles, where there are far more to choose from.
 const TRIES_INSIDE: usize = 2_500;
 /// With more vertices than this, points inside leave too much to choose from.
 const LARGE: usize = 22;
@@ -30,11 +31,11 @@ const GOOD: f64 = 1.6;
 ///
 /// # Errors
 /// If no tiling was found.
-pub fn quads(mesh: &mut Mesh<'_>, face: usize, turning: Turning) -> Result<Vec<Quad>, ImportError> {
+pub fn quads(mesh: &mut Mesh<'_>, face: usize, manner: Manner) -> Result<Vec<Quad>, ImportError> {
     let scale = scale(mesh, face);
     let plane = Plane::new(mesh, face, scale);
-    let surface = &mesh.part.faces[face].surface;
-    let turn = |from: DVec2, to: DVec2| match turning {
+    let (surface, effort) = (&mesh.part.faces[face].surface, &mesh.part.effort);
+    let turn = |from: DVec2, to: DVec2| match manner.turning {
         Turning::Free => 0.0,
         Turning::Dear => turn(surface, from / scale, to / scale),
     };
@@ -52,8 +53,9 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize, turning: Turning) -> Result<Vec<Q
             _ => [steiner::inward(&plane, 0.15), steiner::middles(&plane, 4)].concat(),
         };
         trial.vertices.extend(steiner::vertices(points));
-        let most = if round == 0 || round > 3 { TRIES } else { TRIES_INSIDE };
-        let found = Search::new(&trial, most, &turn).run(best.as_ref().map_or(f64::INFINITY, |(cost, ..)| *cost));
+        let most = if manner.triangles || (1..4).contains(&round) { TRIES_INSIDE } else { TRIES };
+        let found = Search::new(&trial, most, &turn, manner.triangles, effort)
+            .run(best.as_ref().map_or(f64::INFINITY, |(cost, ..)| *cost));
         if let Some((cost, quads)) = found {
             let good = cost <= GOOD * quads.len() as f64;
             best = Some((cost, trial, quads));
@@ -65,7 +67,8 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize, turning: Turning) -> Result<Vec<Q
             break;
         }
     }
-    let found = best.map(|(_, plane, found)| (plane, found)).or_else(|| behind_a_ring(&plane, &turn));
+    let found =
+        best.map(|(_, plane, found)| (plane, found)).or_else(|| behind_a_ring(&plane, &turn, manner.triangles, effort));
     let Some((mut plane, found)) = found else {
         let count = mesh.regions[face].loops.iter().map(Vec::len).sum::<usize>();
         let reason = format!(
@@ -87,7 +90,12 @@ fn turn(surface: &Surface, from: DVec2, to: DVec2) -> f64 {
 }
 
 /// A ring along the outline, and what is left tiled by itself.
-fn behind_a_ring(outline: &Plane, turn: &dyn Fn(DVec2, DVec2) -> f64) -> Option<(Plane, Vec<Candidate>)> {
+fn behind_a_ring(
+    outline: &Plane,
+    turn: &dyn Fn(DVec2, DVec2) -> f64,
+    triangles: bool,
+    effort: &Effort,
+) -> Option<(Plane, Vec<Candidate>)> {
     for depth in [0.3, 0.2, 0.4, 0.12] {
         let Some(mut ring) = Ring::new(outline, depth) else { continue };
         let bare = ring.within.clone();
@@ -95,7 +103,7 @@ fn behind_a_ring(outline: &Plane, turn: &dyn Fn(DVec2, DVec2) -> f64) -> Option<
             let points = steiner::middles(&bare, inside);
             ring.within = bare.clone();
             ring.within.vertices.extend(steiner::vertices(points));
-            if let Some((_, found)) = Search::new(&ring.within, TRIES, turn).run(f64::INFINITY) {
+            if let Some((_, found)) = Search::new(&ring.within, TRIES, turn, triangles, effort).run(f64::INFINITY) {
                 return Some(ring.joined(&found));
             }
         }
@@ -105,23 +113,32 @@ fn behind_a_ring(outline: &Plane, turn: &dyn Fn(DVec2, DVec2) -> f64) -> Option<
 
 struct Search<'p> {
     candidates: Candidates<'p>,
+    effort: &'p Effort,
     tries: usize,
     most: usize,
     best: f64,
     quads: Option<Vec<Candidate>>,
+    /// On the way: the quads so far, as places in lists.
+    laid: Vec<(Rc<[Candidate]>, usize)>,
 }
 
 #[derive(Clone, Default)]
 struct State {
     front: Vec<Edge>,
     lines: Vec<[usize; 2]>,
-    quads: Vec<Candidate>,
     cost: f64,
 }
 
 impl<'p> Search<'p> {
-    fn new(plane: &'p Plane, most: usize, turn: &'p dyn Fn(DVec2, DVec2) -> f64) -> Self {
-        Self { candidates: Candidates::new(plane, turn), tries: 0, most, best: f64::INFINITY, quads: None }
+    fn new(
+        plane: &'p Plane,
+        most: usize,
+        turn: &'p dyn Fn(DVec2, DVec2) -> f64,
+        triangles: bool,
+        effort: &'p Effort,
+    ) -> Self {
+        let candidates = Candidates::new(plane, turn, triangles, effort);
+        Self { candidates, effort, tries: 0, most, best: f64::INFINITY, quads: None, laid: Vec::new() }
     }
 
     fn run(mut self, bound: f64) -> Option<(f64, Vec<Candidate>)> {
@@ -135,12 +152,13 @@ impl<'p> Search<'p> {
         if state.front.is_empty() {
             if state.cost < self.best {
                 self.best = state.cost;
-                self.quads = Some(state.quads.clone());
+                self.quads = Some(self.laid.iter().map(|(all, index)| all[*index].clone()).collect());
             }
             return;
         }
         // A quad takes four sides out of the front at most.
-        if state.cost + 0.25 * state.front.len() as f64 >= self.best || self.tries > self.most {
+        if state.cost + 0.25 * state.front.len() as f64 >= self.best || self.tries > self.most || self.effort.is_spent()
+        {
             return;
         }
         let used = self.used_inside(state);
@@ -148,6 +166,7 @@ impl<'p> Search<'p> {
         for edge in &state.front {
             let most = fewest.as_ref().map_or(usize::MAX, |(_, fitting)| fitting.len());
             let all = self.candidates.on(*edge);
+            self.effort.spend(all.len() as u64);
             let fitting: Vec<usize> =
                 (0..all.len()).filter(|index| self.fits(state, &used, &all[*index])).take(most).collect();
             if fitting.len() < most {
@@ -159,10 +178,11 @@ impl<'p> Search<'p> {
             }
         }
         let Some((all, fitting)) = fewest else { return };
-        for candidate in fitting.into_iter().map(|index| all[index].clone()) {
+        for index in fitting {
+            let candidate = &all[index];
             self.tries += 1;
             let mut next = state.clone();
-            for edge in candidate.edges {
+            for edge in candidate.edges.into_iter().filter(|edge| !edge.is_point()) {
                 if let Some(place) = next.front.iter().position(|waiting| *waiting == edge) {
                     next.front.swap_remove(place);
                 } else if let Edge::Line(a, b) = edge {
@@ -171,18 +191,16 @@ impl<'p> Search<'p> {
                 }
             }
             next.cost += candidate.cost;
-            next.quads.push(candidate);
+            self.laid.push((Rc::clone(&all), index));
             self.step(&next);
+            self.laid.pop();
         }
     }
 
-    /// Whether a quad's sides wait, or are new lines that cross none.
+    /// Whether a quad's sides wait, or are new lines that cross none, and it lies on no point that others use.
     fn fits(&self, state: &State, used: &[usize], candidate: &Candidate) -> bool {
         let point = |k: usize| self.candidates.plane.vertices[k].point;
-        candidate.edges.iter().all(|edge| {
-            if state.front.contains(edge) {
-                return true;
-            }
+        let is_free = |edge: &Edge| {
             let Edge::Line(a, b) = *edge else { return false };
             state.lines.iter().all(|[c, d]| {
                 let shared = [a, b].iter().filter(|end| **end == *c || **end == *d).count();
@@ -192,7 +210,9 @@ impl<'p> Search<'p> {
                     _ => false,
                 }
             })
-        }) && !self.covers(used, candidate)
+        };
+        !candidate.covers.iter().any(|point| used.contains(point))
+            && candidate.edges.iter().all(|edge| edge.is_point() || state.front.contains(edge) || is_free(edge))
     }
 
     /// The points inside that quads use already.
@@ -202,20 +222,6 @@ impl<'p> Search<'p> {
         used.sort_unstable();
         used.dedup();
         used
-    }
-
-    /// Whether a quad lies on a point inside that others use already.
-    fn covers(&self, used: &[usize], candidate: &Candidate) -> bool {
-        let mut others = used.iter().filter(|k| !candidate.corners.contains(k)).peekable();
-        if others.peek().is_none() {
-            return false;
-        }
-        let polygon: Vec<DVec2> = candidate
-            .edges
-            .iter()
-            .flat_map(|edge| (0..6).map(|k| self.candidates.plane.point(*edge, f64::from(k) / 6.0)))
-            .collect();
-        others.any(|k| crate::outline::contains(&polygon, self.candidates.plane.vertices[*k].point))
     }
 }
 
@@ -248,7 +254,8 @@ fn smooth(plane: &mut Plane, quads: &[Candidate]) {
 }
 
 fn cost_of(plane: &Plane, quad: &Candidate) -> f64 {
-    super::quality::cost(&|s, t| plane.quad_at(&quad.edges, &quad.corners, s, t)).unwrap_or(100.0)
+    let has_point = quad.edges.iter().any(|edge| edge.is_point());
+    super::quality::cost(&|s, t| plane.quad_at(&quad.edges, &quad.corners, s, t), has_point).unwrap_or(100.0)
 }
 
 /// Nodes, wires and sides of the quads that were found.
@@ -277,9 +284,13 @@ fn build(mesh: &mut Mesh<'_>, face: usize, scale: DVec2, plane: &Plane, found: &
                     };
                     let ends = [node(mesh, a), node(mesh, b)];
                     let [from, to] = [a, b].map(|k| plane.vertices[k].point / scale);
-                    let side = mesh.add_inside(face, ends, Path::line(from, to));
-                    lines.insert([b, a], side.reversed());
-                    side
+                    if a == b {
+                        Side::pole(ends[0], from, to)
+                    } else {
+                        let side = mesh.add_inside(face, ends, Path::line(from, to));
+                        lines.insert([b, a], side.reversed());
+                        side
+                    }
                 }
             });
         }
