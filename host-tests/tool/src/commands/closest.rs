@@ -2,9 +2,10 @@
 
 use super::output::{print, write_whole};
 use super::progress;
-use crate::closest::{Solver, Status};
+use crate::closest::Status;
 use crate::models::ModelFile;
 use crate::queries;
+use crate::reach::Reach;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -61,27 +62,27 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let per_metre = model.unit.per_metre();
     let queries = queries::read(&arguments.queries, &model)?;
     let baked = file.body(&model)?;
-    // The tables reach as far as the queries do, and are baked where there are some.
-    let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
-    let options = baked.locator_options().reaching(baked.sizes_beyond(&probes));
+    let probes: Vec<_> = queries.iter().map(|query| query.probe).collect();
     let bar = progress::work();
     let progress = |done, all| bar.tell("cells of space", done, all);
-    let baked = file.located(baked, &options, Some(&probes), &progress)?;
+    let options = baked.locator_options();
+    let shipped = file.located(baked, &options, None, &progress)?;
+    let far = |body, options: &_, probes: &_| file.located(body, options, Some(probes), &progress);
+    let reach = Reach::new(shipped, &probes, far)?;
     drop(bar);
-    let body = baked.to_body()?;
-    let solver = Solver::new(&body, &baked);
+    let solvers = reach.solvers();
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status"])?;
     let mut state = None;
     for query in queries {
         let found = match (arguments.mode, &mut state) {
-            (Mode::Track, Some(state)) => solver.track(state, query.probe, arguments.ticks),
+            (Mode::Track, Some(state)) => solvers.of_all().track(state, query.probe, arguments.ticks),
             (Mode::Track, None) => {
-                let (found, start) = solver.cold(query.probe);
+                let (found, start) = solvers.of_all().cold(query.probe);
                 state = Some(start);
                 found
             }
-            (Mode::Cold, _) => solver.cold(query.probe).0,
+            (Mode::Cold, _) => solvers.of(query.probe).cold(query.probe).0,
         };
         let point = (found.point.as_dvec3() + model.centre) * per_metre;
         let [u, v] = found.parameters;

@@ -3,10 +3,12 @@
 use super::check::Loaded;
 use super::output::print;
 use super::progress;
-use crate::closest::Solver;
+use crate::processor;
 use crate::queries;
+use crate::reach::Reach;
 use anyhow::{Context as _, ensure};
 use clap::Args;
+use palpate_bake::BakedBody;
 use palpate_bake::body::BodyBytes;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -15,8 +17,8 @@ use std::time::Instant;
 
 /// Imports and bakes CAD parts, and prints a table with a row for each.
 ///
-/// faces and patches; the largest deviation of the patches from the part or the other way; bytes of flash; seconds that
-/// the bake of the locator took; the share of the locator's leaves with a proof of the way down (what the others have,
+/// faces and patches; the largest deviation of the patches from the part or the other way; bytes of flash; what the bake
+/// of the locator took, in seconds of the processor, all cores together, and of the clock; the share of the locator's leaves with a proof of the way down (what the others have,
 /// `bake --table-report` says). Where PART.csv lies beside PART.step, with columns qx,qy,qz,dist,inside, the greatest
 /// error of a cold query's distance and how many rows are told to lie on the wrong side; where PART_track.csv does, the
 /// greatest error of the distance at one tick a row.
@@ -29,8 +31,8 @@ pub struct Arguments {
 
 /// What the columns are called.
 const HEADER: &str = "\
-| part | faces | patches | deviation, mm | flash, bytes | bake, s | proved, % | cold, mm | wrong side | track, mm |
-|---|---|---|---|---|---|---|---|---|---|
+| part | faces | patches | deviation, mm | flash, bytes | bake, processor s | clock s | proved, % | cold, mm | wrong side | track, mm |
+|---|---|---|---|---|---|---|---|---|---|---|
 ";
 
 /// Runs the command.
@@ -49,10 +51,11 @@ fn row(part: &Path) -> anyhow::Result<String> {
     let mut loaded = Loaded::read(part)?;
     let options = loaded.body.locator_options();
     let bar = progress::work();
-    let begun = Instant::now();
+    let (begun, spent) = (Instant::now(), processor::seconds());
     let (body, report) =
         loaded.body.located(&options, &|done, all| bar.tell("cells of space", done, all)).context("no locator")?;
     let seconds = begun.elapsed().as_secs_f64();
+    let spent = processor::seconds().zip(spent).map(|(now, before)| now - before);
     drop(bar);
     loaded.body = body;
     let name = part.file_stem().unwrap_or(part.as_os_str()).to_string_lossy();
@@ -61,10 +64,11 @@ fn row(part: &Path) -> anyhow::Result<String> {
     let deviation = deviations.into_iter().flatten().reduce(f64::max);
     let proved = 100.0 * report.leaves_by.proved as f64 / report.leaves as f64;
     let mut row = format!(
-        "| {name} | {faces} | {} | {} | {} | {seconds:.1} | {proved:.0} |",
+        "| {name} | {faces} | {} | {} | {} | {} | {seconds:.1} | {proved:.0} |",
         loaded.model.patches.len(),
         deviation.map_or_else(|| "–".to_owned(), |deviation| format!("{deviation:.4}")),
         BodyBytes::of(&loaded.body).total(),
+        spent.map_or_else(|| "–".to_owned(), |spent| format!("{spent:.1}")),
     );
     let cold = errors(&loaded, &part.with_extension("csv"), Mode::Cold)?;
     let track = errors(&loaded, &part.with_file_name(format!("{name}_track.csv")), Mode::Track)?;
@@ -113,24 +117,24 @@ fn errors(loaded: &Loaded, path: &Path, mode: Mode) -> anyhow::Result<Option<Err
     let queries = queries::read(path, &loaded.model)?;
     let known = known(path)?;
     ensure!(queries.len() == known.len(), "{}: rows without a distance", path.display());
-    // As `closest` does it: the tables reach as far as the queries do.
-    let probes: Vec<_> = queries.iter().map(|query| query.probe.as_dvec3()).collect();
-    let options = loaded.body.locator_options().reaching(loaded.body.sizes_beyond(&probes));
-    let baked = loaded.body.clone().located_for(&probes, &options, &|_, _| ())?;
-    let body = baked.to_body()?;
-    let solver = Solver::new(&body, &baked);
+    // As `closest` does it: the tables that ship, and others for what lies beyond their reach.
+    let probes: Vec<_> = queries.iter().map(|query| query.probe).collect();
+    let far = |body: BakedBody, options: &_, probes: &_| Ok(body.located_for(probes, options, &|_, _| ())?);
+    let reach = Reach::new(loaded.body.clone(), &probes, far)?;
+    let solvers = reach.solvers();
     let per_metre = loaded.model.unit.per_metre();
     let mut state = None;
     let mut greatest: f64 = 0.0;
     let mut sides = Vec::new();
     for (query, (distance, inside)) in queries.iter().zip(known) {
         let found = match (mode, &mut state) {
-            (Mode::Track, Some(state)) => solver.track(state, query.probe, 1),
-            _ => {
-                let (found, start) = solver.cold(query.probe);
+            (Mode::Track, Some(state)) => solvers.of_all().track(state, query.probe, 1),
+            (Mode::Track, None) => {
+                let (found, start) = solvers.of_all().cold(query.probe);
                 state = Some(start);
                 found
             }
+            (Mode::Cold, _) => solvers.of(query.probe).cold(query.probe).0,
         };
         let point = (found.point.as_dvec3() + loaded.model.centre) * per_metre;
         greatest = greatest.max((point.distance(query.given) - distance).abs());

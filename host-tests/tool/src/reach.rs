@@ -1,0 +1,84 @@
+//! Tables for queries: those that ship, and others for queries beyond their reach.
+
+use crate::closest::Solver;
+use glam::DVec3;
+use palpate::body::Body;
+use palpate::math::Vec3;
+use palpate_bake::BakedBody;
+use palpate_bake::body::TableFault;
+use palpate_bake::locator::LocatorOptions;
+
+/// A body's tables, and what the firmware has of them.
+#[derive(Debug)]
+struct Tables {
+    baked: BakedBody,
+    body: Body<'static>,
+}
+
+impl Tables {
+    fn new(baked: BakedBody) -> Result<Self, TableFault> {
+        Ok(Self { body: baked.to_body()?, baked })
+    }
+
+    fn solver(&self) -> Solver<'_> {
+        Solver::new(&self.body, &self.baked)
+    }
+}
+
+/// The tables that ship, and where some queries lie beyond their reach, others that reach so far.
+#[derive(Debug)]
+pub struct Reach {
+    shipped: Tables,
+    far: Option<Tables>,
+}
+
+impl Reach {
+    /// For these probes, metres. `shipped` has its locator; `bake_far` bakes one by other options that is good for the
+    /// probes it is given.
+    ///
+    /// # Errors
+    /// Tables that would not fit their indices.
+    pub fn new(
+        shipped: BakedBody,
+        probes: &[Vec3],
+        bake_far: impl FnOnce(BakedBody, &LocatorOptions, &[DVec3]) -> anyhow::Result<BakedBody>,
+    ) -> anyhow::Result<Self> {
+        let shipped = Tables::new(shipped)?;
+        let probes: Vec<DVec3> = probes.iter().map(|probe| probe.as_dvec3()).collect();
+        let is_far = |probe: &DVec3| !shipped.body.locator().holds(probe.as_vec3());
+        let far = if probes.iter().any(is_far) {
+            let options = shipped.baked.locator_options().reaching(shipped.baked.sizes_beyond(&probes));
+            Some(Tables::new(bake_far(shipped.baked.clone(), &options, &probes)?)?)
+        } else {
+            None
+        };
+        Ok(Self { shipped, far })
+    }
+
+    /// What answers.
+    pub fn solvers(&self) -> Solvers<'_> {
+        let far = self.far.as_ref().map(Tables::solver);
+        Solvers { reach: self, shipped: self.shipped.solver(), far }
+    }
+}
+
+/// What answers queries.
+#[derive(Debug)]
+pub struct Solvers<'a> {
+    reach: &'a Reach,
+    shipped: Solver<'a>,
+    far: Option<Solver<'a>>,
+}
+
+impl<'a> Solvers<'a> {
+    /// For a probe by itself, metres: the tables that ship, unless it lies beyond their reach.
+    pub fn of(&self, probe: Vec3) -> &Solver<'a> {
+        let far = self.far.as_ref().filter(|_| !self.reach.shipped.body.locator().holds(probe));
+        far.unwrap_or(&self.shipped)
+    }
+
+    /// For a track: the same all the way.
+    pub fn of_all(&self) -> &Solver<'a> {
+        self.far.as_ref().unwrap_or(&self.shipped)
+    }
+}
