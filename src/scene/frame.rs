@@ -1,5 +1,6 @@
 //! Where a body's frame is in the scene, in the form that is cheapest to move and to ask.
 
+use super::quaternion::{quaternion, turned_by};
 use crate::math::{Vec3, vec3};
 use crate::track::Placement;
 
@@ -56,6 +57,14 @@ impl Frame {
     #[inline]
     pub fn point_to_body(&self, point: Vec3) -> Vec3 {
         self.to_body(point - self.pivot) - self.offset
+    }
+
+    /// Where it is after so many seconds of moving as it does: its origin on a straight line, turned about it.
+    pub fn go_along(&mut self, elapsed: f32) {
+        let Placement { origin, velocity, angular_velocity, .. } = self.placement();
+        let turned = axes(&turned_by(angular_velocity * (0.5 * elapsed), &quaternion(&self.axes)));
+        let placement = Placement { axes: turned, origin: origin + velocity * elapsed, velocity, angular_velocity };
+        *self = Self::new(&placement);
     }
 
     /// The velocity, in the scene, of the point of the body that is at `point` of the scene.

@@ -9,17 +9,26 @@
 //! then both press, and a free one is pushed in turn. Whatever was switched since the last tick, the force is that of
 //! the last tick, and goes over to the new one at a bounded rate ([`Limits::let_go`]).
 
+mod change;
 mod frame;
+mod host_force;
+mod limits;
+mod order;
 mod part;
 mod path;
 mod quaternion;
 mod rigid;
 #[expect(clippy::module_inception, reason = "the scene is what the layer is named after")]
 mod scene;
+mod slot;
 mod state;
 
+pub use host_force::HOLD;
+pub use limits::{Limits, SceneError};
+pub use order::{Order, Pose};
 pub use part::{Material, Motion, Part, PartState, Sphere};
 pub use path::Path;
 pub use rigid::{Joint, Moving, RigidBody, Tether, Wrench};
-pub use scene::{Limits, Scene, SceneError};
+pub use scene::Scene;
+pub use slot::{Shelf, Slot, SlotWitness};
 pub use state::SceneState;

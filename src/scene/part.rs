@@ -129,6 +129,9 @@ pub struct PartState<W> {
     pub(super) force: Vec3,
     pub(super) stiffness: f32,
     pub(super) damping: f32,
+    pub(super) friction: Option<Friction>,
+    /// For how many ticks more a resting body moves along.
+    pub(super) way: u32,
     /// The tick at which it was looked at last.
     pub(super) seen: u32,
     /// No look is due for so many ticks from then.
@@ -158,6 +161,8 @@ impl<W: Tracked> PartState<W> {
             force: Vec3::ZERO,
             stiffness: part.material.stiffness,
             damping: part.material.damping,
+            friction: part.material.friction,
+            way: 0,
             seen: 0,
             rests: 0,
             unexplained: false,
@@ -194,6 +199,23 @@ impl<W: Tracked> PartState<W> {
         self.force
     }
 
+    /// Moves a resting body along for so many ticks, of so many seconds together, and says whether it has arrived.
+    #[inline(never)]
+    pub(super) fn go_along(&mut self, ticks: u32, elapsed: f32) -> bool {
+        let share = if ticks > self.way { self.way as f32 / ticks as f32 } else { 1.0 };
+        self.frame.go_along(elapsed * share);
+        self.way = self.way.saturating_sub(ticks);
+        if self.way == 0 {
+            self.rest_here();
+        }
+        self.way == 0
+    }
+
+    /// No longer moves.
+    pub(super) fn rest_here(&mut self) {
+        (self.frame.velocity, self.frame.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
+    }
+
     pub(super) fn for_each_word(&self, mut take: impl FnMut(u32)) {
         self.witness.for_each_word(&mut take);
         self.moving.for_each_word(&mut take);
@@ -208,6 +230,13 @@ impl<W: Tracked> PartState<W> {
         for number in [self.gap, self.stiffness, self.damping] {
             take(number.to_bits());
         }
+        let slippery = Friction { stiffness: 0.0, damping: 0.0, static_coefficient: 0.0, dynamic_coefficient: 0.0 };
+        let Friction { stiffness, damping, static_coefficient, dynamic_coefficient } =
+            self.friction.unwrap_or(slippery);
+        for number in [stiffness, damping, static_coefficient, dynamic_coefficient] {
+            take(number.to_bits());
+        }
+        take(self.way);
         take(self.contact as u32 | u32::from(self.anchor.slips) << 8 | u32::from(self.unexplained) << 9);
         take(self.seen);
         take(self.rests);

@@ -1,22 +1,19 @@
 //! The scene: bodies, the checks of what was chosen of them, and the tick.
 
-use super::frame::Frame;
-use super::part::{Material, Motion, Part, PartState};
+use super::host_force::HostForce;
+use super::limits::{Limits, SceneError};
+use super::order::Order;
+use super::part::{Motion, Part, PartState};
 use super::rigid::Wrench;
 use super::state::SceneState;
 use crate::body::TableCursor;
-use crate::device::Device;
-use crate::math::{Vec3, saturate, sqrt};
-use crate::render::{Penalty, Press, limit};
+use crate::math::{Vec3, saturate};
+use crate::render::{Friction, Penalty, Press, limit};
 use crate::servo::{Surface, Touched, Tracked};
-use crate::track::{Contact, Controller, Placement, Probe};
-use thiserror::Error;
+use crate::track::{Contact, Controller, Probe};
 
 /// No body.
 pub(super) const NOBODY: u8 = u8::MAX;
-
-/// Ticks that a placement from outside may be late: as far as a body comes in these it is led, not put.
-const LATE: f32 = 4.0;
 
 /// What a step of the CRC (its register, and a word of 0) takes to all ones, which is how a CRC begins.
 const TO_ALL_ONES: u32 = 0x9226_f562;
@@ -28,99 +25,8 @@ const TO_ALL_ONES: u32 = 0x9226_f562;
 /// are nearest are tracked at each tick, touched ones first; of the others one a tick is looked at.
 #[derive(Debug)]
 pub struct Scene<'a, S, const N: usize> {
-    parts: [Part<'a, S>; N],
-    limits: Limits,
-}
-
-/// What the parts share.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// The greatest stiffness that a body may be given, N/m.
-    pub max_stiffness: f32,
-    /// The greatest damping, N·s/m.
-    pub max_damping: f32,
-    /// The greatest force of a body, N.
-    pub max_force: f32,
-    /// How much of a force that is no longer backed by a body is let go of in a second, N/s; a force that a switch
-    /// brings comes up as fast.
-    pub let_go: f32,
-    /// Ticks a second.
-    pub rate: f32,
-    /// No body is met faster than this, m/s: by the tool's speed and its own. It says how long a body that is far off
-    /// need not be looked at.
-    pub max_speed: f32,
-}
-
-/// Which choice is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum SceneError {
-    /// No body, or more than 32.
-    #[error("a scene has 1 to 32 bodies")]
-    Bodies,
-    /// A shared limit is not positive, or not finite.
-    #[error("the scene's limits must be positive and finite")]
-    Limits,
-    /// A stiffness is out of range. Where several bodies may be touched, two of them must be within it together.
-    #[error("body {0}: the stiffness must be between 0 and the greatest, with that of the stiffest other body")]
-    Stiffness(u8),
-    /// A damping is out of range.
-    #[error("body {0}: the damping must be between 0 and the greatest")]
-    Damping(u8),
-    /// Friction is negative, not finite, or holds more slipping than sticking.
-    #[error("body {0}: friction must be finite and not negative, its dynamic coefficient not above the static one")]
-    Friction(u8),
-    /// A texture's share is not between 0 and 1.
-    #[error("body {0}: a texture's share must be between 0 and 1")]
-    Texture(u8),
-    /// Axes that are not orthonormal, a number that is not finite, no mass.
-    #[error("body {0}: its motion has axes that are not orthonormal, a number that is not finite, or no mass")]
-    Motion(u8),
-    /// A free body is lighter than its stiffness, damping and friction allow at this rate.
-    #[error("body {0}: it is too light for its stiffness, damping and friction at this rate")]
-    Light(u8),
-    /// The damping along a free body's surface is less than its stiffness there times half a tick.
-    #[error("body {0}: friction on a free body needs a damping of at least its stiffness times half a tick")]
-    Slack(u8),
-    /// A sphere that is not finite.
-    #[error("body {0}: its sphere must have a finite centre and a radius")]
-    Sphere(u8),
-    /// A group of 32 and more.
-    #[error("body {0}: groups are 0 to 31")]
-    Group(u8),
-    /// There is no such body.
-    #[error("there is no body {0}")]
-    Missing(u8),
-    /// A placement that is no rigid motion, or of a body that does not rest.
-    #[error("body {0}: only a resting body is placed, with orthonormal axes and finite numbers")]
-    Placement(u8),
-    /// The radius of a tool's tip is negative or not finite.
-    #[error("the radius of the tip must be finite and not negative")]
-    TipRadius,
-}
-
-impl Limits {
-    /// Those of a device, at a servo rate: no more force than it has, let go of in 50 ms; bodies met at up to 2 m/s.
-    pub const fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>, rate: f32) -> Self {
-        let Device { max_stiffness, max_damping, max_force, .. } = *device;
-        Self { max_stiffness, max_damping, max_force, let_go: 20.0 * max_force, rate, max_speed: 2.0 }
-    }
-
-    const fn is_valid(&self) -> bool {
-        let Self { max_stiffness, max_damping, max_force, let_go, rate, max_speed } = *self;
-        max_stiffness > 0.0
-            && max_damping >= 0.0
-            && max_force > 0.0
-            && let_go > 0.0
-            && rate >= 1.0
-            && max_speed > 0.0
-            && max_stiffness < f32::INFINITY
-            && max_damping < f32::INFINITY
-            && max_force < f32::INFINITY
-            && let_go < f32::INFINITY
-            && rate < f32::INFINITY
-            && max_speed < f32::INFINITY
-    }
+    pub(super) parts: [Part<'a, S>; N],
+    pub(super) limits: Limits,
 }
 
 impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
@@ -142,15 +48,11 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         let mut index = 0;
         while index < N {
             let Part { material, group, .. } = &scene.parts[index];
-            if let Err(error) = scene.check(index, material.stiffness, material.damping) {
+            let stiffness = [material.stiffness, scene.stiffest_beside(index)];
+            if let Err(error) = scene.check(index, stiffness, material.damping, material.friction.as_ref()) {
                 return Err(error);
             }
             let number = index as u8;
-            if let Some(friction) = &material.friction
-                && !friction.is_valid()
-            {
-                return Err(SceneError::Friction(number));
-            }
             if let Some(texture) = &material.texture
                 && !(texture.max_share >= 0.0 && texture.max_share <= 1.0)
             {
@@ -199,25 +101,41 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         &self.limits
     }
 
-    /// Whether a body may have this stiffness and damping.
-    const fn check(&self, index: usize, stiffness: f32, damping: f32) -> Result<(), SceneError> {
-        let number = index as u8;
-        let Part { motion, material, sphere, .. } = &self.parts[index];
-        // Two bodies at once push with the sum of both.
-        let mut other = 0.0;
+    /// The stiffness of the stiffest body beside this one, as configured, N/m.
+    const fn stiffest_beside(&self, index: usize) -> f32 {
+        let mut stiffest = 0.0;
         let mut beside = 0;
         while beside < N {
             let its = self.parts[beside].material.stiffness;
-            if beside != index && its > other {
-                other = its;
+            if beside != index && its > stiffest {
+                stiffest = its;
             }
             beside += 1;
         }
-        if !(stiffness >= 0.0 && stiffness + other <= self.limits.max_stiffness) {
+        stiffest
+    }
+
+    /// Whether a body may have this stiffness, damping and friction, beside one of that stiffness: two bodies at once
+    /// push with the sum of both.
+    pub(super) const fn check(
+        &self,
+        index: usize,
+        [stiffness, beside]: [f32; 2],
+        damping: f32,
+        friction: Option<&Friction>,
+    ) -> Result<(), SceneError> {
+        let number = index as u8;
+        let Part { motion, sphere, .. } = &self.parts[index];
+        if !(stiffness >= 0.0 && stiffness + beside <= self.limits.max_stiffness) {
             return Err(SceneError::Stiffness(number));
         }
         if !(damping >= 0.0 && damping <= self.limits.max_damping) {
             return Err(SceneError::Damping(number));
+        }
+        if let Some(friction) = friction
+            && !friction.is_valid()
+        {
+            return Err(SceneError::Friction(number));
         }
         if !self.parts[index].moves_well() {
             return Err(SceneError::Motion(number));
@@ -225,7 +143,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         if let Motion::Free(body) = motion {
             let period = 1.0 / self.limits.rate;
             let (mut hold, mut drag) = (stiffness, damping);
-            if let Some(friction) = &material.friction {
+            if let Some(friction) = friction {
                 if friction.damping < 0.5 * period * friction.stiffness {
                     return Err(SceneError::Slack(number));
                 }
@@ -241,115 +159,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         Ok(())
     }
 
-    /// Another stiffness (N/m) and damping (N·s/m) for a body. The force goes over to the new one without a step.
-    ///
-    /// # Errors
-    /// What is out of range; nothing changes then.
-    pub fn harden(
-        &self,
-        state: &mut SceneState<S::Witness, N>,
-        index: usize,
-        stiffness: f32,
-        damping: f32,
-    ) -> Result<(), SceneError> {
-        if index >= N {
-            return Err(SceneError::Missing(saturated(index)));
-        }
-        self.check(index, stiffness, damping)?;
-        (state.parts[index].stiffness, state.parts[index].damping) = (stiffness, damping);
-        state.switched = true;
-        Ok(())
-    }
-
-    /// Puts a resting body somewhere else: what was felt of it fades, and it is felt anew once the tool has been in
-    /// front of it.
-    ///
-    /// # Errors
-    /// A placement that is none, or a body that moves by itself; nothing changes then.
-    pub fn place(
-        &self,
-        state: &mut SceneState<S::Witness, N>,
-        index: usize,
-        placement: Placement,
-    ) -> Result<(), SceneError> {
-        let Some(part) = self.parts.get(index) else { return Err(SceneError::Missing(saturated(index))) };
-        if !matches!(part.motion, Motion::Resting(_)) || !super::path::is_rigid(&placement) {
-            return Err(SceneError::Placement(saturated(index)));
-        }
-        state.parts[index].frame = Frame::new(&placement);
-        self.forget(state, index);
-        Ok(())
-    }
-
-    /// Leads a resting body on: this is where it is in the next tick, and how it moves. For a motion that is given from
-    /// outside tick by tick: one that its velocity explains. One that is farther off than it can have come at the
-    /// greatest speed in four ticks is somewhere else, as [`Self::place`] has it: no hand is pushed by a body that
-    /// jumps into it.
-    ///
-    /// # Errors
-    /// As [`Self::place`].
-    pub fn lead(
-        &self,
-        state: &mut SceneState<S::Witness, N>,
-        index: usize,
-        placement: Placement,
-    ) -> Result<(), SceneError> {
-        let Some(Part { motion: Motion::Resting(_), sphere, .. }) = self.parts.get(index) else {
-            return self.place(state, index, placement);
-        };
-        let (before, after) = (state.parts[index].frame, Frame::new(&placement));
-        let radius = if sphere.radius < f32::INFINITY { sphere.radius } else { 0.0 };
-        let turned = [0, 1, 2].map(|axis| (after.axes[axis] - before.axes[axis]).length_squared());
-        let moved = after.point_to_scene(sphere.centre) - before.point_to_scene(sphere.centre);
-        // A turn takes the axes together no less far than any unit vector.
-        let way = moved.length() + radius * sqrt(turned[0] + turned[1] + turned[2]);
-        if way <= LATE * self.limits.max_speed / self.limits.rate && super::path::is_rigid(&placement) {
-            state.parts[index].frame = after;
-            return Ok(());
-        }
-        self.place(state, index, placement)
-    }
-
-    /// Switches groups on and off: those of these bits, group 0 the lowest. What was felt of a body that is now off
-    /// fades; one that is now on is felt once the tool has been in front of it.
-    pub fn switch(&self, state: &mut SceneState<S::Witness, N>, groups: u32) {
-        let changed = groups ^ state.groups;
-        state.groups = groups;
-        for index in 0..N {
-            if changed & self.bit(index) != 0 {
-                self.forget(state, index);
-            }
-        }
-    }
-
-    /// A tool with a tip of another radius, metres. A body that only the larger tip would touch is felt once the tip
-    /// has been in front of it.
-    ///
-    /// # Errors
-    /// A radius that is none; nothing changes then.
-    pub fn set_tip_radius(&self, state: &mut SceneState<S::Witness, N>, radius: f32) -> Result<(), SceneError> {
-        if !(0.0..f32::INFINITY).contains(&radius) {
-            return Err(SceneError::TipRadius);
-        }
-        state.tip_radius = radius;
-        for part in &mut state.parts {
-            part.gap = part.witness.gap() - radius;
-            if part.contact == Contact::InFront && part.gap < 0.0 {
-                part.contact = Contact::Behind;
-            }
-        }
-        state.switched = true;
-        Ok(())
-    }
-
-    fn forget(&self, state: &mut SceneState<S::Witness, N>, index: usize) {
-        let part = &mut state.parts[index];
-        self.parts[index].surface.lose(&mut part.witness);
-        (part.contact, part.rests) = (Contact::Behind, 0);
-        state.switched = true;
-    }
-
-    const fn bit(&self, index: usize) -> u32 {
+    pub(super) const fn bit(&self, index: usize) -> u32 {
         1 << (self.parts[index].group & 31)
     }
 
@@ -375,7 +185,11 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         part.seen = ticks;
         let elapsed = if passed == 1 { period } else { period * passed as f32 };
         match motion {
-            Motion::Resting(_) => {}
+            Motion::Resting(_) => {
+                if part.way > 0 && part.go_along(passed, elapsed) {
+                    state.switched = true;
+                }
+            }
             Motion::Prescribed(path) => path.go_on(ticks, &mut part.frame),
             Motion::Free(body) => {
                 body.step(&mut part.moving, &part.push, elapsed);
@@ -469,9 +283,8 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         }
         let witness = part.witness.witness();
         let place = || (witness.parameters, witness.surface.tangent_u);
-        let Material { friction, texture, .. } = material;
         let press = Press { point, normal: part.normal, velocity: part.velocity, push };
-        let force = press.force(friction.as_ref(), texture.as_ref(), &mut part.anchor, place);
+        let force = press.force(part.friction.as_ref(), material.texture.as_ref(), &mut part.anchor, place);
         part.force = part.frame.to_scene(force);
         if let Motion::Free(_) = motion {
             let arm = part.frame.point_to_scene(point) - part.moving.position();
@@ -497,10 +310,6 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
     }
 }
 
-fn saturated(index: usize) -> u8 {
-    u8::try_from(index).unwrap_or(u8::MAX)
-}
-
 impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
     const FEELS_ITSELF: bool = true;
 
@@ -515,9 +324,11 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
             felt: 0,
             groups: u32::MAX,
             tip_radius: 0.0,
-            force: Vec3::ZERO,
+            backed: Vec3::ZERO,
             left_over: Vec3::ZERO,
             switched: false,
+            host: HostForce::NONE,
+            force: Vec3::ZERO,
         }
     }
 
@@ -542,12 +353,14 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
             }
         }
         if state.switched {
-            (state.left_over, state.switched) = (state.force - force, false);
+            (state.left_over, state.switched) = (state.backed - force, false);
         }
+        let let_go = self.limits.let_go * period;
         if state.left_over != Vec3::ZERO {
-            state.left_over -= limit::saturated(state.left_over, self.limits.let_go * period);
+            state.left_over -= limit::saturated(state.left_over, let_go);
         }
-        state.force = force + state.left_over;
+        state.backed = force + state.left_over;
+        state.force = state.host.step(state.backed, let_go);
         state.felt = self.foremost(state);
         let part = &state.parts[usize::from(state.felt)];
         Touched {
@@ -591,6 +404,10 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
         if group < 32 {
             self.switch(state, 1 << group);
         }
+    }
+
+    fn obey(&self, state: &mut Self::Witness, order: &Order) -> Result<(), SceneError> {
+        self.obey(state, order)
     }
 
     /// The tables of all bodies that carry a CRC, one after the other. After those of each comes a record of one word:

@@ -1,5 +1,6 @@
 //! What a scene keeps between two ticks, and what may be changed there while it is felt.
 
+use super::host_force::HostForce;
 use super::part::PartState;
 use crate::math::Vec3;
 use crate::servo::Tracked;
@@ -22,12 +23,16 @@ pub struct SceneState<W, const N: usize> {
     pub(super) groups: u32,
     /// Of the tool's spherical tip, metres.
     pub(super) tip_radius: f32,
-    /// The force of all of it on the tool, N.
-    pub(super) force: Vec3,
+    /// The force of all bodies on the tool, N.
+    pub(super) backed: Vec3,
     /// Of it what is left over from before a switch.
     pub(super) left_over: Vec3,
     /// Whether something was switched since the last tick.
     pub(super) switched: bool,
+    /// What a host adds, and to what it limits all.
+    pub(super) host: HostForce,
+    /// The force of all of it on the tool, N.
+    pub(super) force: Vec3,
 }
 
 impl<W: Tracked, const N: usize> SceneState<W, N> {
@@ -96,6 +101,10 @@ impl<W: Tracked, const N: usize> Tracked for SceneState<W, N> {
         self.primary().witness.feature()
     }
 
+    fn body(&self) -> u8 {
+        self.felt
+    }
+
     fn for_each_word(&self, mut take: impl FnMut(u32)) {
         for part in &self.parts {
             part.for_each_word(&mut take);
@@ -103,9 +112,12 @@ impl<W: Tracked, const N: usize> Tracked for SceneState<W, N> {
         take(self.ticks);
         take(u32::from_le_bytes([self.tracked[0], self.tracked[1], self.turn, self.felt]));
         take(self.groups);
-        for number in self.force.to_array().into_iter().chain(self.left_over.to_array()) {
-            take(number.to_bits());
+        for vector in [self.backed, self.left_over, self.force] {
+            for number in vector.to_array() {
+                take(number.to_bits());
+            }
         }
+        self.host.for_each_word(&mut take);
         take(self.tip_radius.to_bits());
         take(u32::from(self.switched));
     }

@@ -6,6 +6,7 @@ use crate::device::{Device, Dial};
 use crate::math::{Vec3, saturate};
 use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::render::{Feel, FeelError};
+use crate::scene::{Order, SceneError};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 use thiserror::Error;
 
@@ -207,6 +208,16 @@ impl Surface for Knob {
     }
 
     /// An entry that is not there changes nothing.
+    fn obey(&self, state: &mut KnobWitness, order: &Order) -> Result<(), SceneError> {
+        match order {
+            Order::Choose { index } => {
+                self.choose(state, *index);
+                Ok(())
+            }
+            _ => Err(SceneError::NotOffered),
+        }
+    }
+
     fn choose(&self, state: &mut KnobWitness, index: u8) {
         if usize::from(index) < self.feels.len() && index != state.feel {
             (state.feel, state.switched) = (index, true);

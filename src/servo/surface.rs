@@ -2,6 +2,7 @@
 
 use crate::body::{Body, BodyWitness, Feature, TableCursor};
 use crate::math::Vec3;
+use crate::scene::{Order, SceneError};
 use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 use core::fmt::Debug;
 
@@ -39,6 +40,15 @@ pub trait Surface {
     /// Somebody has chosen another of what it can feel like ([`super::Event::Chosen`]).
     fn choose(&self, _: &mut Self::Witness, _: u8) {}
 
+    /// Does what a host asks for between two ticks, or nothing. Bounded work.
+    ///
+    /// # Errors
+    /// What is out of range, or not offered.
+    fn obey(&self, witness: &mut Self::Witness, order: &Order) -> Result<(), SceneError> {
+        let _ = (witness, order);
+        Err(SceneError::NotOffered)
+    }
+
     /// A word of the tables, for the check that flash still holds what was baked; `None` past the end of the cursor's
     /// record, and of the tables. Bounded work.
     fn table_word(&self, cursor: TableCursor) -> Option<u32>;
@@ -65,6 +75,11 @@ pub trait Tracked: Copy + Debug + PartialEq {
 
     /// The feature it lies on, see [`Feature::code`]; 0 for a surface of one patch.
     fn feature(&self) -> u16 {
+        0
+    }
+
+    /// The index of the body that is felt, of several.
+    fn body(&self) -> u8 {
         0
     }
 

@@ -6,6 +6,7 @@ use super::{Event, Fault, Guard, Phase, SafeOutput, Servo, ServoState, Surface, 
 use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose, VelocityMethod};
 use crate::math::Vec3;
 use crate::render::{Motion, Tool, limit};
+use crate::scene::{Order, SceneError};
 use crate::track::{Contact, Probe};
 
 /// What a tick starts from.
@@ -77,6 +78,15 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
                 }
             }
         }
+    }
+
+    /// Does what a host asks for between two ticks, or nothing. It neither drives a motor nor ends a fault: what is felt
+    /// of it is felt in the ticks that follow, as far as there is force at all.
+    ///
+    /// # Errors
+    /// What is out of range, or not offered by what is felt.
+    pub fn obey(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, order: &Order) -> Result<(), SceneError> {
+        self.surface.obey(&mut state.witness, order)
     }
 
     /// One tick. What the motors get is in the state when it returns: [`ServoState::output`].

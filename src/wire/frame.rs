@@ -137,7 +137,7 @@ impl<M: DeserializeOwned> Default for Receiver<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wire::{Record, Report, Sensors};
+    use crate::wire::{Record, Report, Sensors, Told};
 
     const SENSORS: Sensors = Sensors { tick: 70_000, counts: [-1, 0, i32::MAX], enable: true };
 
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn the_longest_record_fits() {
-        let longest = Record {
+        let longest = Told::Record(Record {
             tick: u32::MAX,
             number: u32::MAX,
             clock: u32::MAX,
@@ -226,7 +226,7 @@ mod tests {
             probe: [-1.5; 3],
             force: [-1.5; 3],
             duties: [i16::MIN; 3],
-        };
+        });
         let mut buffer = [0; MAX_FRAME];
         let frame = pack(&longest, &mut buffer).unwrap();
         assert!(frame.len() <= MAX_FRAME - 16, "{} bytes", frame.len());
@@ -253,6 +253,23 @@ mod tests {
         let frame = pack(&longest, &mut buffer).unwrap();
         assert!(frame.len() <= MAX_FRAME - 32, "{} bytes", frame.len());
         assert_eq!(feed(&mut Receiver::new(), frame), (1, Some(Received::Message(longest))));
+    }
+
+    #[test]
+    fn the_longest_order_and_upload_fit() {
+        use crate::scene::{Order, Pose};
+        use crate::wire::{CHUNK, Command, Upload};
+        let pose = Pose { position: [-1.5; 3], orientation: [-1.5; 4] };
+        let (velocity, angular_velocity) = ([-1.5; 3], [-1.5; 3]);
+        let order = Order::Lead { body: u8::MAX, pose, velocity, angular_velocity, seconds: -1.5 };
+        let part = Upload::Bytes { at: u32::MAX, bytes: [[u8::MAX; 16]; CHUNK / 16] };
+        let number = u16::MAX;
+        for longest in [Command::Order { number, order }, Command::Upload { number, part }] {
+            let mut buffer = [0; MAX_FRAME];
+            let frame = pack(&longest, &mut buffer).unwrap();
+            assert!(frame.len() <= MAX_FRAME - 32, "{} bytes", frame.len());
+            assert_eq!(feed(&mut Receiver::new(), frame), (1, Some(Received::Message(longest))));
+        }
     }
 
     #[test]

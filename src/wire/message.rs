@@ -124,7 +124,7 @@ pub mod hold {
 }
 
 /// To a device that runs by itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Command {
     /// The host is there: [`crate::servo::Event::LinkAlive`].
@@ -138,6 +138,26 @@ pub enum Command {
     SetUp,
     /// One motor, while a key is held; taken only by a device that is being set up.
     Jog(crate::commission::Jog),
+    /// A host begins to speak, in this version ([`super::PROTOCOL`]). The device says [`super::Hello`]; it takes orders
+    /// and uploads only from a host of its own version.
+    Hello {
+        /// The host's.
+        protocol: u16,
+    },
+    /// What is felt is to be changed between two ticks. Answered by its number ([`super::Answer`]).
+    Order {
+        /// The next higher one, wrapping.
+        number: u16,
+        /// What.
+        order: crate::scene::Order,
+    },
+    /// A part of a body on its way into the device's memory. Answered by its number ([`super::Answer`]).
+    Upload {
+        /// As an order's.
+        number: u16,
+        /// Which part.
+        part: super::Upload,
+    },
 }
 
 /// From a device that is being set up: what it reads and what it gives its motors.

@@ -8,7 +8,7 @@ use crate::{Board, Hold, Interlock, Mailbox, Panel, Settings, Verdict};
 use palpate::device::Kinematics;
 use palpate::servo::{Deadline, Event, FrameBridge, Guard, Input, Output, ResetReason, Servo, ServoState, Surface};
 use palpate::wire::telemetry::{Producer, Recorder};
-use palpate::wire::{Record, hold};
+use palpate::wire::{Answer, Record, Refused, View, hold};
 
 /// What is felt on which device: where the loop finds its servo.
 ///
@@ -176,6 +176,14 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         if let Some(index) = commands.chosen() {
             self.felt.servo().note(&mut self.state, Event::Chosen { index });
         }
+        if let Some((number, order)) = self.mailbox.take_order() {
+            let refused = if self.is_set_up {
+                Some(Refused::SetUp)
+            } else {
+                self.felt.servo().obey(&mut self.state, &order).err().map(Refused::Order)
+            };
+            self.mailbox.put_answer(Answer { number, refused });
+        }
         let by_hand = self.acknowledging == Acknowledging::Pressed && !panel.stop && !panel.enable;
         if by_hand || commands.has(Plain::Acknowledge) {
             let was_fault = self.state.fault().is_some();
@@ -259,6 +267,11 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         let holds = verdict.hold | release_first;
         let drives = self.drives(verdict);
         self.board.show(is_lit(self.ticks, self.rate, drives, self.state.fault().is_some(), holds != 0));
+        if self.mailbox.is_looked_at() {
+            let (angles, rates) = (self.state.angles(), self.state.rates());
+            let velocity = self.felt.servo().device().kinematics.pose(angles).velocity(rates);
+            self.mailbox.tell_view(&View::new(&self.state, velocity, holds));
+        }
         self.recorder.set_board(self.bridge.total(), holds);
         self.recorder.note(&self.state, began, self.board.now());
         self.ticks = self.ticks.wrapping_add(1);

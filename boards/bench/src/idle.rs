@@ -1,11 +1,12 @@
 //! What runs below the tick: main's loop.
 
-use crate::Mailbox;
+use crate::mailbox::Plain;
 use crate::outbox::Outbox;
+use crate::{Mailbox, Uploads};
 use palpate::servo::Heartbeat;
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::telemetry::Consumer;
-use palpate::wire::{Command, Record};
+use palpate::wire::{Answer, Command, Hello, PROTOCOL, Record, Refused, Told, UploadError};
 
 /// A serial port that is never waited for.
 pub trait Port {
@@ -22,19 +23,57 @@ pub trait Watchdog {
     fn feed(&mut self);
 }
 
-/// Feeds the watchdog while ticks go on, sends records or readings, takes commands.
+/// Feeds the watchdog while ticks go on, sends what there is to tell, takes commands.
 pub struct Idle<'a> {
     mailbox: &'a Mailbox,
     records: Consumer<'a, Record>,
     heartbeat: Heartbeat,
     receiver: Receiver<Command>,
     outbox: Outbox,
+    uploads: Option<&'a dyn Uploads>,
+    /// What the device says of itself.
+    hello: Hello,
+    /// Whether that is still to be said.
+    greets: bool,
+    /// Whether a host of this version has said hello.
+    is_greeted: bool,
+    /// Whether an order is on its way through the tick, which answers it.
+    awaits: bool,
+    /// An answer that is still to be given. A host that does not wait for it loses it to the next.
+    answer: Option<Answer>,
 }
 
 impl<'a> Idle<'a> {
     /// The other end of the loop's queue and mailbox.
     pub const fn new(mailbox: &'a Mailbox, records: Consumer<'a, Record>, heartbeat: Heartbeat) -> Self {
-        Self { mailbox, records, heartbeat, receiver: Receiver::new(), outbox: Outbox::new() }
+        Self {
+            mailbox,
+            records,
+            heartbeat,
+            receiver: Receiver::new(),
+            outbox: Outbox::new(),
+            uploads: None,
+            hello: Hello { protocol: PROTOCOL, rate: 0.0, max_force: 0.0, room: 0, faces: 0, edges: 0 },
+            greets: true,
+            is_greeted: false,
+            awaits: false,
+            answer: None,
+        }
+    }
+
+    /// Says of itself the loop's rate (Hz) and its greatest force (N).
+    #[must_use]
+    pub const fn saying(mut self, rate: f32, max_force: f32) -> Self {
+        (self.hello.rate, self.hello.max_force) = (rate, max_force);
+        self
+    }
+
+    /// Takes bodies that come over the line.
+    #[must_use]
+    pub fn taking(mut self, uploads: &'a dyn Uploads) -> Self {
+        (self.hello.room, self.hello.faces, self.hello.edges) = uploads.room();
+        self.uploads = Some(uploads);
+        self
     }
 
     /// A moment of it: at most a byte each way. Call it for ever.
@@ -42,21 +81,71 @@ impl<'a> Idle<'a> {
         if self.heartbeat.may_feed(self.mailbox.ticks()) {
             watchdog.feed();
         }
+        if self.awaits
+            && let Some(answer) = self.mailbox.take_answer()
+        {
+            (self.awaits, self.answer) = (false, Some(answer));
+        }
         if let Some(byte) = port.receive()
             && let Some(Received::Message(command)) = self.receiver.feed(byte)
         {
-            self.mailbox.put(command);
+            self.take(command);
         }
         if self.outbox.is_empty() {
-            // Records in their order, then the newest reading.
-            if let Some(record) = self.records.dequeue() {
-                self.outbox.put(&record);
-            } else if let Some(reading) = self.mailbox.take_reading() {
-                self.outbox.put(&reading);
-            } else {
-                return;
+            match self.next() {
+                Some(told) => self.outbox.put(&told),
+                None => return,
             }
         }
         self.outbox.step(port);
+    }
+
+    fn take(&mut self, command: Command) {
+        match command {
+            Command::Alive => self.mailbox.put(Plain::Alive),
+            Command::Stop => self.mailbox.put(Plain::Stop),
+            Command::Acknowledge => self.mailbox.put(Plain::Acknowledge),
+            Command::SetUp => self.mailbox.put(Plain::SetUp),
+            Command::Jog(jog) => self.mailbox.put_jog(jog),
+            Command::Hello { protocol } => (self.greets, self.is_greeted) = (true, protocol == PROTOCOL),
+            Command::Order { number, .. } | Command::Upload { number, .. } if !self.is_greeted => {
+                self.answer = Some(Answer { number, refused: Some(Refused::Hello) });
+            }
+            Command::Order { number, .. } if self.awaits => {
+                self.answer = Some(Answer { number, refused: Some(Refused::Busy) });
+            }
+            Command::Order { number, order } => {
+                self.mailbox.put(Plain::Alive);
+                self.mailbox.put_order(number, &order);
+                self.awaits = true;
+            }
+            Command::Upload { number, part } => {
+                self.mailbox.put(Plain::Alive);
+                let put = self.uploads.map_or(Err(UploadError::NoRoom), |uploads| uploads.put(&part));
+                self.answer = Some(Answer { number, refused: put.err().map(Refused::Upload) });
+            }
+        }
+    }
+
+    /// What is said next: answers first, records in their order, then the newest reading or view.
+    fn next(&mut self) -> Option<Told> {
+        if self.greets {
+            self.greets = false;
+            return Some(Told::Hello(self.hello));
+        }
+        if let Some(answer) = self.answer.take() {
+            return Some(Told::Answer(answer));
+        }
+        if let Some(record) = self.records.dequeue() {
+            return Some(Told::Record(record));
+        }
+        if let Some(reading) = self.mailbox.take_reading() {
+            return Some(Told::Reading(reading));
+        }
+        let view = self.mailbox.take_view();
+        if self.is_greeted {
+            self.mailbox.look();
+        }
+        view.map(Told::View)
     }
 }

@@ -1,6 +1,8 @@
 //! A few words that pass between the interrupt and main, whole or not at all.
 
 use core::sync::atomic::{AtomicU32, Ordering, fence};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// A place for the newest letter; one that nobody took is lost to the next.
 ///
@@ -47,5 +49,19 @@ impl<const WORDS: usize> Letter<WORDS> {
         }
         self.taken.store(stamp, Ordering::Relaxed);
         Some(words)
+    }
+
+    /// Writes a message that fits; one that does not is lost.
+    pub fn put_message(&self, message: &impl Serialize) {
+        let mut bytes = [[0; 4]; WORDS];
+        if postcard::to_slice(message, bytes.as_flattened_mut()).is_ok() {
+            self.put(bytes.map(u32::from_le_bytes));
+        }
+    }
+
+    /// The newest message, as [`Self::take`] has it.
+    pub fn take_message<M: DeserializeOwned>(&self) -> Option<M> {
+        let bytes = self.take()?.map(u32::to_le_bytes);
+        postcard::from_bytes(bytes.as_flattened()).ok()
     }
 }

@@ -10,7 +10,7 @@
 //!  Board::panel ── Hold ── Interlock ── enable ──┐
 //!  Board::read ─── FrameBridge ─────── counts ── Servo::tick ── state.output() ── Board::drive or Board::release
 //!                                                │                                Deadline, once more
-//!        Mailbox: commands ◄─────────────────────┼── ticks ──► Idle: watchdog, records out, commands in
+//!        Mailbox: commands, orders ◄─────────────┼── ticks ──► Idle: watchdog, records out, commands in
 //! ```
 //!
 //! | type | is |
@@ -24,6 +24,7 @@
 //! | [`Bench`] | the tick |
 //! | [`Idle`] | what runs below it |
 //! | [`accept`] | another image: a board shows what it can, and drives no motor |
+//! | [`Uploads`] | memory for bodies that come over the line |
 //! | [`JogSettings`] | what may be jogged once a host sets the device up, in the servo's place |
 //!
 //! # What keeps a thumb safe
@@ -60,6 +61,7 @@ mod reset;
 pub mod sensors;
 mod set_up;
 mod settings;
+mod uploads;
 
 pub(crate) use bench_loop::State;
 pub use bench_loop::{Bench, Felt};
@@ -75,3 +77,4 @@ pub use parts::{Parts, Timer};
 pub use reset::{Cause, Memo, ResetFlags};
 pub use set_up::JogSettings;
 pub use settings::Settings;
+pub use uploads::Uploads;

@@ -3,7 +3,8 @@
 use crate::letter::Letter;
 use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::commission::Jog;
-use palpate::wire::{Command, Reading};
+use palpate::scene::Order;
+use palpate::wire::{Answer, Reading, View};
 
 /// A `static` of the board: the ticks done, for the watchdog; the commands that came; what a device that is being set
 /// up reads.
@@ -13,6 +14,14 @@ pub struct Mailbox {
     commands: AtomicU32,
     jog: Letter<3>,
     reading: Letter<8>,
+    /// An order and its number, in 64 bytes: the longest takes 61.
+    order: Letter<16>,
+    /// What became of it: the longest takes 7 bytes.
+    answer: Letter<2>,
+    /// The longest takes 53 bytes.
+    view: Letter<14>,
+    /// Whether a view is asked for.
+    looks: AtomicU32,
 }
 
 /// Commands that came since they were looked at last. Each means the same once or twice.
@@ -32,7 +41,16 @@ pub(crate) enum Plain {
 impl Mailbox {
     /// Empty.
     pub const fn new() -> Self {
-        Self { ticks: AtomicU32::new(0), commands: AtomicU32::new(0), jog: Letter::new(), reading: Letter::new() }
+        Self {
+            ticks: AtomicU32::new(0),
+            commands: AtomicU32::new(0),
+            jog: Letter::new(),
+            reading: Letter::new(),
+            order: Letter::new(),
+            answer: Letter::new(),
+            view: Letter::new(),
+            looks: AtomicU32::new(0),
+        }
     }
 
     pub(crate) fn tell_ticks(&self, ticks: u32) {
@@ -43,18 +61,48 @@ impl Mailbox {
         self.ticks.load(Ordering::Relaxed)
     }
 
-    pub(crate) fn put(&self, command: Command) {
-        let plain = match command {
-            Command::Alive => Plain::Alive,
-            Command::Stop => Plain::Stop,
-            Command::Acknowledge => Plain::Acknowledge,
-            Command::SetUp => Plain::SetUp,
-            Command::Jog(Jog { number, key, motor, duty }) => {
-                let push = u32::from(motor) | u32::from(duty as u16) << 16;
-                return self.jog.put([number, key, push]);
-            }
-        };
+    pub(crate) fn put(&self, plain: Plain) {
         self.commands.fetch_or(plain as u32, Ordering::Relaxed);
+    }
+
+    pub(crate) fn put_jog(&self, jog: Jog) {
+        let Jog { number, key, motor, duty } = jog;
+        self.jog.put([number, key, u32::from(motor) | u32::from(duty as u16) << 16]);
+    }
+
+    /// An order on its way to the tick, which answers it.
+    pub(crate) fn put_order(&self, number: u16, order: &Order) {
+        self.order.put_message(&(number, order));
+    }
+
+    pub(crate) fn take_order(&self) -> Option<(u16, Order)> {
+        self.order.take_message()
+    }
+
+    pub(crate) fn put_answer(&self, answer: Answer) {
+        self.answer.put_message(&answer);
+    }
+
+    pub(crate) fn take_answer(&self) -> Option<Answer> {
+        self.answer.take_message()
+    }
+
+    /// Asks for a view of the loop as it is after the next tick.
+    pub(crate) fn look(&self) {
+        self.looks.store(1, Ordering::Relaxed);
+    }
+
+    /// Whether a view is asked for; asked once, it is not any more.
+    pub(crate) fn is_looked_at(&self) -> bool {
+        self.looks.load(Ordering::Relaxed) != 0 && self.looks.swap(0, Ordering::Relaxed) != 0
+    }
+
+    pub(crate) fn tell_view(&self, view: &View) {
+        self.view.put_message(view);
+    }
+
+    pub(crate) fn take_view(&self) -> Option<View> {
+        self.view.take_message()
     }
 
     /// Somebody has chosen what is felt, of a table of at most 256 ([`palpate::servo::Event::Chosen`]). Call it from

@@ -4,9 +4,9 @@
 #![no_main]
 
 use cortex_m_rt::entry;
-use palpate::wire::Record;
 use palpate::wire::frame::{self, MAX_FRAME};
 use palpate::wire::telemetry::Queue;
+use palpate::wire::{Record, Told};
 use palpate_emulated::board::BOARD;
 use palpate_emulated::body::SETTINGS;
 use palpate_emulated::link::Link;
@@ -30,7 +30,7 @@ fn main() -> ! {
     loop {
         // No sleep: the emulator, left asleep, lets every other tick of the timer pass.
         let Some(record) = records.dequeue() else { continue };
-        if let Ok(frame) = frame::pack(&record, &mut buffer) {
+        if let Ok(frame) = frame::pack(&Told::Record(record), &mut buffer) {
             line.send(frame);
         }
     }

@@ -1,12 +1,12 @@
 //! A device's own telemetry, frame by frame, as `palpate monitor` reads it.
 
 use alloc::vec::Vec;
-use palpate::wire::Record;
+use palpate::wire::{Record, Told};
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
 
 /// What has come so far.
 pub struct Monitor {
-    receiver: Receiver<Record>,
+    receiver: Receiver<Told>,
     /// Whether a frame has ended on the line: what comes before may be the rest of one.
     in_step: bool,
     /// Whole records.
@@ -30,12 +30,12 @@ impl Monitor {
                 continue;
             }
             match self.receiver.feed(*byte) {
-                Some(Received::Message(record)) => {
+                Some(Received::Message(Told::Record(record))) => {
                     self.records += 1;
                     self.last = Some(record);
                 }
                 Some(Received::Damaged) => self.damaged += 1,
-                Some(Received::Empty) | None => {}
+                Some(Received::Empty | Received::Message(_)) | None => {}
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::arrays::{line, table};
 use crate::refusal::Refusal;
-use palpate::wire::Record;
+use palpate::wire::{Record, Told};
 use palpate::wire::frame::{Received, Receiver};
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt as _;
@@ -17,7 +17,7 @@ const LOOK: Duration = Duration::from_millis(20);
 /// A serial port, and what came in parts.
 struct Open {
     port: Box<dyn serialport::SerialPort>,
-    receiver: Receiver<Record>,
+    receiver: Receiver<Told>,
     damaged: u32,
 }
 
@@ -40,9 +40,9 @@ impl Open {
         let mut records = Vec::new();
         for byte in &bytes[..read] {
             match self.receiver.feed(*byte) {
-                Some(Received::Message(record)) => records.push(record),
+                Some(Received::Message(Told::Record(record))) => records.push(record),
                 Some(Received::Damaged) => self.damaged += 1,
-                Some(Received::Empty) | None => {}
+                Some(Received::Empty | Received::Message(_)) | None => {}
             }
         }
         Ok(records)

@@ -3,7 +3,7 @@
 use anyhow::{Context, bail};
 use palpate::commission::{Jog, JogRefusal, KEY};
 use palpate::wire::frame::{self, MAX_FRAME, Received, Receiver};
-use palpate::wire::{Command, Reading, hold};
+use palpate::wire::{Command, Reading, Told, hold};
 use std::collections::VecDeque;
 
 /// Ticks of a step: a fiftieth of a second at 4 kHz.
@@ -59,7 +59,7 @@ impl Key for NoKey {
 pub struct Device {
     line: Box<dyn Line>,
     key: Box<dyn Key>,
-    receiver: Receiver<Reading>,
+    receiver: Receiver<Told>,
     /// What came and was not looked at yet.
     bytes: VecDeque<u8>,
     /// Of the last jog sent.
@@ -152,7 +152,7 @@ impl Device {
         let mut newest = None;
         for byte in self.bytes.drain(..) {
             // Records of before are no readings, and are passed over as damaged.
-            if let Some(Received::Message(reading)) = self.receiver.feed(byte) {
+            if let Some(Received::Message(Told::Reading(reading))) = self.receiver.feed(byte) {
                 newest = Some(reading);
             }
         }

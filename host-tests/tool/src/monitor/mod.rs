@@ -6,13 +6,13 @@ mod table;
 pub use figures::Figures;
 pub use table::Table;
 
-use palpate::wire::Record;
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
+use palpate::wire::{Record, Told};
 
 /// Takes the bytes of a line as they come and gives the records in them. Damaged and lost ones are counted.
 #[derive(Debug, Default)]
 pub struct Monitor {
-    receiver: Receiver<Record>,
+    receiver: Receiver<Told>,
     /// Whether a delimiter was seen: what comes before it is the rest of a frame that began without us.
     in_step: bool,
     last: Option<Record>,
@@ -34,7 +34,8 @@ impl Monitor {
             return None;
         }
         match self.receiver.feed(byte)? {
-            Received::Message(record) => Some(self.take(record)),
+            Received::Message(Told::Record(record)) => Some(self.take(record)),
+            Received::Message(_) => None,
             Received::Damaged => {
                 self.damaged += 1;
                 None

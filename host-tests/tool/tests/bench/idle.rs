@@ -4,8 +4,8 @@ use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{Heartbeat, ResetReason, Servo};
 use palpate::track::Controller;
-use palpate::wire::Record;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver};
+use palpate::wire::{PROTOCOL, Told};
 use palpate_bench::{Idle, Port, Watchdog};
 
 #[derive(Default)]
@@ -76,11 +76,13 @@ fn records_go_out_whole_over_a_line_that_takes_a_byte_now_and_then() {
     for _ in 0..200 * MAX_FRAME {
         idle.step(&mut line, &mut Counted::default());
     }
-    let mut receiver = Receiver::<Record>::new();
+    let mut receiver = Receiver::<Told>::new();
     let received: Vec<_> = line.sent.iter().filter_map(|byte| receiver.feed(*byte)).collect();
     assert!(received.len() >= 10);
-    for (number, record) in received.into_iter().enumerate() {
-        let Received::Message(record) = record else { panic!("{record:?}") };
+    let hello = received.first();
+    assert!(matches!(hello, Some(Received::Message(Told::Hello(hello))) if hello.protocol == PROTOCOL), "{hello:?}");
+    for (number, told) in received.into_iter().skip(1).enumerate() {
+        let Received::Message(Told::Record(record)) = told else { panic!("{told:?}") };
         assert_eq!(record.number, number as u32);
     }
 }

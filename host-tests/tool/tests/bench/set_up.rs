@@ -8,7 +8,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{Command, Reading, hold};
+use palpate::wire::{Command, Reading, Told, hold};
 use palpate_bench::{Idle, Port, Settings, Watchdog};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -43,7 +43,7 @@ struct Device {
     rig: Rig<SerialArm>,
     idle: Idle<'static>,
     wire: Wire,
-    receiver: Receiver<Reading>,
+    receiver: Receiver<Told>,
     last: Option<Reading>,
     number: u32,
 }
@@ -80,7 +80,7 @@ impl Device {
             self.idle.step(&mut self.wire, &mut NoWatchdog);
         }
         for byte in self.wire.from_device.drain(..) {
-            if let Some(Received::Message(reading)) = self.receiver.feed(byte) {
+            if let Some(Received::Message(Told::Reading(reading))) = self.receiver.feed(byte) {
                 self.last = Some(reading);
             }
         }

@@ -1,0 +1,216 @@
+//! What may be changed of a scene between two ticks while it is felt. Nothing of it steps the force.
+
+use super::frame::Frame;
+use super::limits::SceneError;
+use super::order::Order;
+use super::part::{Motion, Part, PartState};
+use super::path::{finite, is_rigid};
+use super::scene::Scene;
+use super::state::SceneState;
+use crate::math::{Vec3, sqrt};
+use crate::render::Friction;
+use crate::servo::{Surface, Tracked as _};
+use crate::track::{Contact, Placement};
+
+/// Ticks that a placement from outside may be late: as far as a body comes in these it is led, not put.
+const LATE: f32 = 4.0;
+
+impl<S: Surface, const N: usize> Scene<'_, S, N> {
+    /// Another stiffness (N/m) and damping (N·s/m) for a body. The force goes over to the new one without a step.
+    ///
+    /// # Errors
+    /// What is out of range; nothing changes then.
+    pub fn harden(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        stiffness: f32,
+        damping: f32,
+    ) -> Result<(), SceneError> {
+        let Some(part) = state.parts.get(index) else { return Err(SceneError::Missing(saturated(index))) };
+        let friction = part.friction;
+        self.check(index, [stiffness, stiffest_beside(state, index)], damping, friction.as_ref())?;
+        (state.parts[index].stiffness, state.parts[index].damping) = (stiffness, damping);
+        state.switched = true;
+        Ok(())
+    }
+
+    /// Other friction for a body, or none. The force goes over to the new one without a step.
+    ///
+    /// # Errors
+    /// What is out of range; nothing changes then.
+    pub fn rub(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        friction: Option<Friction>,
+    ) -> Result<(), SceneError> {
+        let Some(part) = state.parts.get(index) else { return Err(SceneError::Missing(saturated(index))) };
+        let (stiffness, damping) = (part.stiffness, part.damping);
+        self.check(index, [stiffness, stiffest_beside(state, index)], damping, friction.as_ref())?;
+        state.parts[index].friction = friction;
+        state.switched = true;
+        Ok(())
+    }
+
+    /// Puts a resting body somewhere else: what was felt of it fades, and it is felt anew once the tool has been in
+    /// front of it.
+    ///
+    /// # Errors
+    /// A placement that is none, or a body that moves by itself; nothing changes then.
+    pub fn place(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        placement: Placement,
+    ) -> Result<(), SceneError> {
+        let Some(part) = self.parts.get(index) else { return Err(SceneError::Missing(saturated(index))) };
+        if !matches!(part.motion, Motion::Resting(_)) || !is_rigid(&placement) {
+            return Err(SceneError::Placement(saturated(index)));
+        }
+        state.parts[index].frame = Frame::new(&placement);
+        state.parts[index].way = 0;
+        self.forget(state, index);
+        Ok(())
+    }
+
+    /// Leads a resting body on: this is where it is in the next tick, and how it moves. For a motion that is given from
+    /// outside tick by tick: one that its velocity explains. One that is farther off than it can have come at the
+    /// greatest speed in four ticks is somewhere else, as [`Self::place`] has it: no hand is pushed by a body that
+    /// jumps into it.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    pub fn lead(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        placement: Placement,
+    ) -> Result<(), SceneError> {
+        let Some(Part { motion: Motion::Resting(_), sphere, .. }) = self.parts.get(index) else {
+            return self.place(state, index, placement);
+        };
+        let (before, after) = (state.parts[index].frame, Frame::new(&placement));
+        let radius = if sphere.radius < f32::INFINITY { sphere.radius } else { 0.0 };
+        let turned = [0, 1, 2].map(|axis| (after.axes[axis] - before.axes[axis]).length_squared());
+        let moved = after.point_to_scene(sphere.centre) - before.point_to_scene(sphere.centre);
+        // A turn takes the axes together no less far than any unit vector.
+        let way = moved.length() + radius * sqrt(turned[0] + turned[1] + turned[2]);
+        if way <= LATE * self.limits.max_speed / self.limits.rate && is_rigid(&placement) {
+            (state.parts[index].frame, state.parts[index].way) = (after, 0);
+            return Ok(());
+        }
+        self.place(state, index, placement)
+    }
+
+    /// Lets a resting body move on from where it is, at these velocities of its origin (m/s) and about it (rad/s), for
+    /// so many seconds; then it rests there.
+    ///
+    /// # Errors
+    /// A body that moves by itself, numbers that are not finite, or faster than the scene's bodies are met at most;
+    /// nothing changes then.
+    pub fn move_along(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        [velocity, angular_velocity]: [Vec3; 2],
+        seconds: f32,
+    ) -> Result<(), SceneError> {
+        let Some(PartState { frame, .. }) = state.parts.get(index) else {
+            return Err(SceneError::Missing(saturated(index)));
+        };
+        let frame = self.may_move(index, &frame.placement(), [velocity, angular_velocity], seconds)?;
+        // Saturates: some days at 100 kHz.
+        (state.parts[index].frame, state.parts[index].way) = (frame, (seconds * self.limits.rate) as u32);
+        if state.parts[index].way == 0 {
+            state.parts[index].rest_here();
+        }
+        state.switched = true;
+        Ok(())
+    }
+
+    /// The frame of a resting body that is there and moves so.
+    pub(super) fn may_move(
+        &self,
+        index: usize,
+        here: &Placement,
+        [velocity, angular_velocity]: [Vec3; 2],
+        seconds: f32,
+    ) -> Result<Frame, SceneError> {
+        let number = saturated(index);
+        let Some(part) = self.parts.get(index) else { return Err(SceneError::Missing(number)) };
+        let is_finite = finite(velocity) && finite(angular_velocity) && (0.0..f32::INFINITY).contains(&seconds);
+        if !matches!(part.motion, Motion::Resting(_)) || !is_finite || !is_rigid(here) {
+            return Err(SceneError::Placement(number));
+        }
+        let frame = Frame::new(&Placement { velocity, angular_velocity, ..*here });
+        let radius = if part.sphere.radius < f32::INFINITY { part.sphere.radius } else { 0.0 };
+        let middle = frame.velocity_at(frame.point_to_scene(part.sphere.centre));
+        let fastest = middle.length() + radius * angular_velocity.length();
+        if fastest <= self.limits.max_speed { Ok(frame) } else { Err(SceneError::TooFast(number)) }
+    }
+
+    /// Switches groups on and off: those of these bits, group 0 the lowest. What was felt of a body that is now off
+    /// fades; one that is now on is felt once the tool has been in front of it.
+    pub fn switch(&self, state: &mut SceneState<S::Witness, N>, groups: u32) {
+        let changed = groups ^ state.groups;
+        state.groups = groups;
+        for index in 0..N {
+            if changed & self.bit(index) != 0 {
+                self.forget(state, index);
+            }
+        }
+    }
+
+    /// A tool with a tip of another radius, metres. A body that only the larger tip would touch is felt once the tip
+    /// has been in front of it.
+    ///
+    /// # Errors
+    /// A radius that is none; nothing changes then.
+    pub fn set_tip_radius(&self, state: &mut SceneState<S::Witness, N>, radius: f32) -> Result<(), SceneError> {
+        if !(0.0..f32::INFINITY).contains(&radius) {
+            return Err(SceneError::TipRadius);
+        }
+        state.tip_radius = radius;
+        for part in &mut state.parts {
+            part.gap = part.witness.gap() - radius;
+            if part.contact == Contact::InFront && part.gap < 0.0 {
+                part.contact = Contact::Behind;
+            }
+        }
+        state.switched = true;
+        Ok(())
+    }
+
+    /// The body that was uploaded last takes the place of this one: what was felt of that fades, and the new one is felt
+    /// once the tool has been in front of it.
+    ///
+    /// # Errors
+    /// Nothing was uploaded, or not for this body; nothing changes then.
+    pub fn take(&self, state: &mut SceneState<S::Witness, N>, index: usize) -> Result<(), SceneError> {
+        let body = saturated(index);
+        let (Some(part), Some(kept)) = (self.parts.get(index), state.parts.get_mut(index)) else {
+            return Err(SceneError::Missing(body));
+        };
+        part.surface.obey(&mut kept.witness, &Order::Take { body })?;
+        self.forget(state, index);
+        Ok(())
+    }
+
+    pub(super) fn forget(&self, state: &mut SceneState<S::Witness, N>, index: usize) {
+        let part = &mut state.parts[index];
+        self.parts[index].surface.lose(&mut part.witness);
+        (part.contact, part.rests) = (Contact::Behind, 0);
+        state.switched = true;
+    }
+}
+
+/// The stiffness of the stiffest body beside this one, as it is now, N/m.
+fn stiffest_beside<W, const N: usize>(state: &SceneState<W, N>, index: usize) -> f32 {
+    let beside = state.parts.iter().enumerate().filter(|(other, _)| *other != index);
+    beside.fold(0.0, |stiffest, (_, part)| if part.stiffness > stiffest { part.stiffness } else { stiffest })
+}
+
+pub(super) fn saturated(index: usize) -> u8 {
+    u8::try_from(index).unwrap_or(u8::MAX)
+}

@@ -1,0 +1,137 @@
+//! What a host adds to the force of a scene, and to what it limits all of it.
+
+use super::limits::{Limits, SceneError};
+use crate::math::Vec3;
+use crate::render::limit;
+
+/// Seconds for which a force of the host's stands. One that is not asked for anew by then is let go of, as any other
+/// that is no longer backed.
+pub const HOLD: f32 = 0.1;
+
+/// A force from outside, which no body backs. It comes and goes at the rate at which all is let go of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct HostForce {
+    /// What was asked for, N, and for how many ticks more.
+    asked: Vec3,
+    stands: u32,
+    /// What is given of it, N.
+    given: Vec3,
+    /// The greatest force of all of the scene that was asked for, N, and the greatest now; infinite where none was.
+    limit: f32,
+    most: f32,
+}
+
+impl HostForce {
+    /// Neither force nor limit.
+    pub const NONE: Self =
+        Self { asked: Vec3::ZERO, stands: 0, given: Vec3::ZERO, limit: f32::INFINITY, most: f32::INFINITY };
+
+    /// Asks for a force, for [`HOLD`] seconds.
+    pub fn push(&mut self, limits: &Limits, force: Vec3) -> Result<(), SceneError> {
+        if !(force.length() <= limits.max_force) {
+            return Err(SceneError::Force);
+        }
+        // At most 10,000, at 100 kHz.
+        (self.asked, self.stands) = (force, (HOLD * limits.rate) as u32);
+        Ok(())
+    }
+
+    /// Asks for another limit of all force.
+    pub fn set_limit(&mut self, limits: &Limits, force: f32) -> Result<(), SceneError> {
+        if !(force >= 0.0 && force <= limits.max_force) {
+            return Err(SceneError::Force);
+        }
+        self.limit = force;
+        // Two bodies and the host: more there never is.
+        self.most = if self.most < f32::INFINITY { self.most } else { 3.0 * limits.max_force };
+        Ok(())
+    }
+
+    /// What the tool gets of the bodies' force and the host's, where neither the host's nor the limit moves by more
+    /// than `step` newtons.
+    #[inline]
+    pub fn step(&mut self, backed: Vec3, step: f32) -> Vec3 {
+        if self.stands == 0 && self.given == Vec3::ZERO && self.most == f32::INFINITY {
+            return backed;
+        }
+        self.add(backed, step)
+    }
+
+    #[inline(never)]
+    fn add(&mut self, backed: Vec3, step: f32) -> Vec3 {
+        let asked = if self.stands > 0 { self.asked } else { Vec3::ZERO };
+        self.stands = self.stands.saturating_sub(1);
+        self.given += limit::saturated(asked - self.given, step);
+        if self.most == f32::INFINITY {
+            return backed + self.given;
+        }
+        let rest = self.limit - self.most;
+        self.most = if rest.abs() <= step { self.limit } else { self.most + step.copysign(rest) };
+        limit::saturated(backed + self.given, self.most)
+    }
+
+    pub fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        let Self { asked, stands, given, limit, most } = *self;
+        for number in asked.to_array().into_iter().chain(given.to_array()).chain([limit, most]) {
+            take(number.to_bits());
+        }
+        take(stands);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec3;
+
+    const LIMITS: Limits =
+        Limits { max_stiffness: 1e3, max_damping: 5.0, max_force: 4.0, let_go: 80.0, rate: 4_000.0, max_speed: 2.0 };
+    /// What may change in a tick, N.
+    const STEP: f32 = LIMITS.let_go / LIMITS.rate;
+
+    #[test]
+    fn a_force_comes_stands_and_goes_without_a_step() {
+        let mut host = HostForce::NONE;
+        let backed = vec3(0.0, 0.0, 1.0);
+        assert_eq!(host.step(backed, STEP), backed);
+        host.push(&LIMITS, vec3(3.0, 0.0, 0.0)).unwrap();
+        let (mut last, mut stood) = (backed, 0);
+        for tick in 0..1_000 {
+            let force = host.step(backed, STEP);
+            // Rounding of some 3 N.
+            assert!((force - last).length() <= STEP + 1e-6, "{tick}");
+            stood += u32::from(force == backed + vec3(3.0, 0.0, 0.0));
+            last = force;
+        }
+        // 3 N at 0.02 N a tick, both ways; what was asked for stands for 400 ticks.
+        assert!((249..=252).contains(&stood), "{stood}");
+        assert_eq!(last, backed);
+    }
+
+    #[test]
+    fn a_limit_holds_all_of_it_and_comes_without_a_step() {
+        let mut host = HostForce::NONE;
+        let backed = vec3(0.0, 3.0, 0.0);
+        host.set_limit(&LIMITS, 1.0).unwrap();
+        let mut last = backed;
+        for _ in 0..1_000 {
+            host.push(&LIMITS, vec3(0.0, 4.0, 0.0)).unwrap();
+            let force = host.step(backed, STEP);
+            assert!((force - last).length() <= STEP + 1e-5, "{force} after {last}");
+            last = force;
+        }
+        assert!((last.length() - 1.0).abs() < 1e-6, "{last}");
+    }
+
+    #[test]
+    fn what_no_device_has_is_refused_and_changes_nothing() {
+        let mut host = HostForce::NONE;
+        for bad in [f32::NAN, f32::INFINITY, 4.1, -4.1] {
+            assert_eq!(host.push(&LIMITS, vec3(0.0, bad, 0.0)), Err(SceneError::Force));
+        }
+        for bad in [f32::NAN, f32::INFINITY, 4.1, -0.1] {
+            assert_eq!(host.set_limit(&LIMITS, bad), Err(SceneError::Force));
+        }
+        assert_eq!(host, HostForce::NONE);
+    }
+}

@@ -1,0 +1,149 @@
+//! A place in a scene whose body may be exchanged while the scene is felt.
+
+use super::limits::SceneError;
+use super::order::Order;
+use super::part::{Material, Motion, Part, Sphere};
+use crate::body::{Body, BodyWitness, TableCursor};
+use crate::math::Vec3;
+use crate::servo::{Surface, Touched, Tracked};
+use crate::track::{Contact, Controller, Probe, Witness};
+
+/// Where uploaded bodies lie: two banks of memory, so that one can be written while the other is felt.
+///
+/// A bank that was taken does not change until it is left. Nothing here waits: it is asked from the servo's interrupt.
+pub trait Shelf {
+    /// Takes the body that was uploaded and checked last, if nobody has taken it yet; gives the bank it lies in.
+    fn take(&self) -> Option<u8>;
+
+    /// The body of a bank that was taken.
+    fn body(&self, bank: u8) -> Option<&Body<'_>>;
+
+    /// A bank that was taken is no longer looked at.
+    fn leave(&self, bank: u8);
+}
+
+/// A body, and where another may come from in its place ([`Order::Take`]).
+pub struct Slot<'a, H> {
+    baked: &'a Body<'a>,
+    shelf: Option<&'a H>,
+}
+
+/// What a slot keeps between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlotWitness {
+    /// The bank of the body, while it is not the one baked.
+    bank: Option<u8>,
+    witness: BodyWitness,
+}
+
+impl<'a, H> Slot<'a, H> {
+    /// A body that stays.
+    pub const fn fixed(body: &'a Body<'a>) -> Self {
+        Self { baked: body, shelf: None }
+    }
+
+    /// A body that stands there until another is uploaded. A shelf is for one slot of one scene.
+    pub const fn exchangeable(body: &'a Body<'a>, shelf: &'a H) -> Self {
+        Self { baked: body, shelf: Some(shelf) }
+    }
+
+    /// Whether its body can be exchanged.
+    pub const fn is_exchangeable(&self) -> bool {
+        self.shelf.is_some()
+    }
+}
+
+impl<H> core::fmt::Debug for Slot<'_, H> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.debug_struct("Slot").field("baked", self.baked).finish_non_exhaustive()
+    }
+}
+
+impl<'a, H> Part<'a, Slot<'a, H>> {
+    /// A body of group 0 in a slot. Nothing is known of how large a body may be that comes into it: if its body can be
+    /// exchanged, it is looked at whenever it is its turn.
+    pub const fn in_slot(slot: &'a Slot<'a, H>, motion: Motion, material: Material) -> Self {
+        let sphere = match slot.shelf {
+            None => Part::new(slot.baked, motion, material).sphere,
+            Some(_) => Sphere { centre: Vec3::ZERO, radius: f32::INFINITY },
+        };
+        Self { surface: slot, motion, material, sphere, group: 0 }
+    }
+}
+
+impl<H: Shelf> Slot<'_, H> {
+    #[inline]
+    fn body(&self, bank: Option<u8>) -> &Body<'_> {
+        match (bank, self.shelf) {
+            (Some(bank), Some(shelf)) => shelf.body(bank).unwrap_or(self.baked),
+            _ => self.baked,
+        }
+    }
+}
+
+impl<H: Shelf> Surface for Slot<'_, H> {
+    type Witness = SlotWitness;
+
+    fn rest(&self) -> SlotWitness {
+        SlotWitness { bank: None, witness: self.baked.start() }
+    }
+
+    #[inline]
+    fn follow(&self, controller: &Controller, state: &mut SlotWitness, probe: Probe, period: f32) -> Touched {
+        self.body(state.bank).follow(controller, &mut state.witness, probe, period)
+    }
+
+    fn lose(&self, state: &mut SlotWitness) {
+        state.witness.forget();
+    }
+
+    fn is_too_deep(&self, state: &SlotWitness) -> bool {
+        Body::is_too_deep(self.body(state.bank), &state.witness)
+    }
+
+    fn obey(&self, state: &mut SlotWitness, order: &Order) -> Result<(), SceneError> {
+        let (Order::Take { body }, Some(shelf)) = (order, self.shelf) else { return Err(SceneError::NotOffered) };
+        let Some(bank) = shelf.take() else { return Err(SceneError::NotUploaded(*body)) };
+        if let Some(left) = state.bank {
+            shelf.leave(left);
+        }
+        *state = SlotWitness { bank: Some(bank), witness: self.body(Some(bank)).start() };
+        Ok(())
+    }
+
+    /// Of the body that was baked; one that was uploaded was checked when it came.
+    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+        self.baked.table_word(cursor)
+    }
+
+    fn table_records(&self) -> u32 {
+        self.baked.table_records()
+    }
+
+    fn baked_crc(&self) -> Option<u32> {
+        self.baked.baked_crc()
+    }
+}
+
+impl Tracked for SlotWitness {
+    fn witness(&self) -> &Witness {
+        self.witness.witness()
+    }
+
+    fn gap(&self) -> f32 {
+        self.witness.gap()
+    }
+
+    fn contact(&self) -> Contact {
+        self.witness.contact()
+    }
+
+    fn feature(&self) -> u16 {
+        self.witness.feature()
+    }
+
+    fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        take(self.bank.map_or(u32::MAX, u32::from));
+        self.witness.for_each_word(take);
+    }
+}
