@@ -147,6 +147,7 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
                 self.switch(state, groups);
                 Ok(())
             }
+            Order::Choose { index } if index > 31 => Err(SceneError::Group(index)),
             Order::Choose { index } => {
                 self.choose(state, index);
                 Ok(())

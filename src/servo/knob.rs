@@ -210,10 +210,11 @@ impl Surface for Knob {
     /// An entry that is not there changes nothing.
     fn obey(&self, state: &mut KnobWitness, order: &Order) -> Result<(), SceneError> {
         match order {
-            Order::Choose { index } => {
+            Order::Choose { index } if usize::from(*index) < self.feels.len() => {
                 self.choose(state, *index);
                 Ok(())
             }
+            Order::Choose { index } => Err(SceneError::Missing(*index)),
             _ => Err(SceneError::NotOffered),
         }
     }

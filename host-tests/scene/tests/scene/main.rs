@@ -5,5 +5,6 @@ mod common;
 mod files;
 mod loops;
 mod motion;
+mod orders;
 mod several;
 mod switching;
