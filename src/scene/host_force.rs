@@ -28,12 +28,13 @@ impl HostForce {
 
     /// Asks for a force, for [`HOLD`] seconds.
     pub fn push(&mut self, limits: &Limits, force: Vec3) -> Result<(), SceneError> {
-        if !(force.length() <= limits.max_force) {
-            return Err(SceneError::Force);
+        // Not finite is not within either.
+        let is_within = force.length() <= limits.max_force;
+        if is_within {
+            // At most 10,000, at 100 kHz.
+            (self.asked, self.stands) = (force, (HOLD * limits.rate) as u32);
         }
-        // At most 10,000, at 100 kHz.
-        (self.asked, self.stands) = (force, (HOLD * limits.rate) as u32);
-        Ok(())
+        if is_within { Ok(()) } else { Err(SceneError::Force) }
     }
 
     /// Asks for another limit of all force.

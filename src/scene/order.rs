@@ -111,7 +111,8 @@ impl Pose {
     pub fn placement(&self) -> Option<Placement> {
         let [x, y, z, w] = self.orientation;
         let squared = x * x + y * y + z * z + w * w;
-        if !((squared - 1.0).abs() < 2e-3) {
+        // What is not a number is neither.
+        if !squared.is_finite() || (squared - 1.0).abs() > 2e-3 {
             return None;
         }
         let scale = inverse_sqrt(squared);

@@ -37,8 +37,10 @@ pub struct Idle<'a> {
     greets: bool,
     /// Whether a host of this version has said hello.
     is_greeted: bool,
-    /// Whether an order is on its way through the tick, which answers it.
-    awaits: bool,
+    /// The number of an order that is on its way through the tick, which answers it.
+    awaits: Option<u16>,
+    /// The answer to the last order: one that comes again, because this was lost, is not done again.
+    last: Option<Answer>,
     /// An answer that is still to be given. A host that does not wait for it loses it to the next.
     answer: Option<Answer>,
 }
@@ -56,7 +58,8 @@ impl<'a> Idle<'a> {
             hello: Hello { protocol: PROTOCOL, rate: 0.0, max_force: 0.0, room: 0, faces: 0, edges: 0 },
             greets: true,
             is_greeted: false,
-            awaits: false,
+            awaits: None,
+            last: None,
             answer: None,
         }
     }
@@ -81,10 +84,10 @@ impl<'a> Idle<'a> {
         if self.heartbeat.may_feed(self.mailbox.ticks()) {
             watchdog.feed();
         }
-        if self.awaits
+        if self.awaits.is_some()
             && let Some(answer) = self.mailbox.take_answer()
         {
-            (self.awaits, self.answer) = (false, Some(answer));
+            (self.awaits, self.last, self.answer) = (None, Some(answer), Some(answer));
         }
         if let Some(byte) = port.receive()
             && let Some(Received::Message(command)) = self.receiver.feed(byte)
@@ -107,21 +110,30 @@ impl<'a> Idle<'a> {
             Command::Acknowledge => self.mailbox.put(Plain::Acknowledge),
             Command::SetUp => self.mailbox.put(Plain::SetUp),
             Command::Jog(jog) => self.mailbox.put_jog(jog),
-            Command::Hello { protocol } => (self.greets, self.is_greeted) = (true, protocol == PROTOCOL),
+            Command::Hello { protocol } => {
+                // Another host begins to count anew.
+                (self.greets, self.is_greeted, self.last) = (true, protocol == PROTOCOL, None);
+            }
             Command::Order { number, .. } | Command::Upload { number, .. } if !self.is_greeted => {
                 self.answer = Some(Answer { number, refused: Some(Refused::Hello) });
             }
-            Command::Order { number, .. } if self.awaits => {
+            Command::Order { number, .. } if self.awaits == Some(number) => {}
+            Command::Order { number, .. } if self.awaits.is_some() => {
                 self.answer = Some(Answer { number, refused: Some(Refused::Busy) });
+            }
+            Command::Order { number, .. } if self.last.is_some_and(|last| last.number == number) => {
+                self.answer = self.last;
             }
             Command::Order { number, order } => {
                 self.mailbox.put(Plain::Alive);
                 self.mailbox.put_order(number, &order);
-                self.awaits = true;
+                self.awaits = Some(number);
             }
             Command::Upload { number, part } => {
                 self.mailbox.put(Plain::Alive);
                 let put = self.uploads.map_or(Err(UploadError::NoRoom), |uploads| uploads.put(&part));
+                // A check may have taken long: the host was heard all the same.
+                self.mailbox.put(Plain::Alive);
                 self.answer = Some(Answer { number, refused: put.err().map(Refused::Upload) });
             }
         }

@@ -7,6 +7,7 @@ mod guarded;
 mod homing;
 mod idle;
 mod knob;
+mod orders;
 mod panel;
 mod phases;
 mod pins;

@@ -5,9 +5,12 @@
 //! tables anew.
 
 use palpate::commission::{Jog, KEY};
+use palpate::scene::{Order, Pose, SceneError};
 use palpate::wire::acceptance::{Counted, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{MAX_FRAME, pack};
-use palpate::wire::{Command, Reading, Record, Report, Sensors};
+use palpate::wire::{
+    Answer, CHUNK, Command, Hello, PROTOCOL, Reading, Record, Refused, Report, Sensors, Told, Upload, View,
+};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -51,7 +54,8 @@ fn floats(name: &'static str, numbers: &[f32]) -> Field {
     let kind = match numbers.len() {
         1 => "f32",
         2 => "two f32",
-        _ => "three f32",
+        3 => "three f32",
+        _ => "four f32",
     };
     let value: Vec<String> = numbers.iter().map(f32::to_string).collect();
     field(name, kind, value.join(", "), numbers.iter().flat_map(|number| number.to_le_bytes()).collect())
@@ -114,6 +118,105 @@ fn documented<M: Serialize>(message: &M, fields: &[Field]) -> String {
     let mut buffer = [0; MAX_FRAME];
     assert_eq!(hexadecimal(pack(message, &mut buffer).expect("it fits")), hexadecimal(&frame(&bytes)));
     section(fields)
+}
+
+/// Frames of a device and a host that speak with it.
+fn dialogue() -> [(&'static str, String); 7] {
+    let hello = Hello { protocol: PROTOCOL, rate: 4_000.0, max_force: 5.0, room: 66_560, faces: 240, edges: 600 };
+    let hello = documented(
+        &Told::Hello(hello),
+        &[
+            vars("told", 0),
+            vars("protocol", hello.protocol.into()),
+            floats("rate", &[hello.rate]),
+            floats("max_force", &[hello.max_force]),
+            vars("room", hello.room),
+            vars("faces", hello.faces.into()),
+            vars("edges", hello.edges.into()),
+        ],
+    );
+    let refused = Some(Refused::Order(SceneError::Stiffness(1)));
+    let answer = documented(
+        &Told::Answer(Answer { number: 300, refused }),
+        &[
+            vars("told", 3),
+            vars("number", 300),
+            field("is_refused", "flag", 1, vec![1]),
+            vars("refused", 1),
+            vars("order", 2),
+            byte("body", 1),
+        ],
+    );
+    let view = View {
+        tick: 70_000,
+        phase: 3,
+        fault: 0,
+        hold: 0,
+        body: 1,
+        contact: 2,
+        feature: 0x4003,
+        gap: -0.0015,
+        position: [0.05, 0.06, 0.0725],
+        velocity: [0.0, -0.1, 0.02],
+        force: [0.0, 0.25, 0.875],
+    };
+    let view = documented(
+        &Told::View(view),
+        &[
+            vars("told", 4),
+            vars("tick", view.tick),
+            byte("phase", view.phase),
+            byte("fault", view.fault),
+            byte("hold", view.hold),
+            byte("body", view.body),
+            byte("contact", view.contact),
+            vars("feature", view.feature.into()),
+            floats("gap", &[view.gap]),
+            floats("position", &view.position),
+            floats("velocity", &view.velocity),
+            floats("force", &view.force),
+        ],
+    );
+    let begin =
+        documented(&Command::Hello { protocol: PROTOCOL }, &[vars("command", 5), vars("protocol", PROTOCOL.into())]);
+    let pose = Pose { position: [0.01, 0.0, -0.02], orientation: [0.0, 0.0, 0.6, 0.8] };
+    let place = documented(
+        &Command::Order { number: 300, order: Order::Place { body: 1, pose } },
+        &[
+            vars("command", 6),
+            vars("number", 300),
+            vars("order", 0),
+            byte("body", 1),
+            floats("position", &pose.position),
+            floats("orientation", &pose.orientation),
+        ],
+    );
+    let force = [0.0, 0.5, -1.0];
+    let push = documented(
+        &Command::Order { number: 301, order: Order::Push { force } },
+        &[vars("command", 6), vars("number", 301), vars("order", 9), floats("force", &force)],
+    );
+    let mut bytes = [[0; 16]; CHUNK / 16];
+    bytes[0][..4].copy_from_slice(b"\x01\x02\x03\x04");
+    let part = documented(
+        &Command::Upload { number: 302, part: Upload::Bytes { at: 128, bytes } },
+        &[
+            vars("command", 7),
+            vars("number", 302),
+            vars("part", 1),
+            vars("at", 128),
+            field("bytes", "64 bytes", "1, 2, 3, 4, 0, …", bytes.as_flattened().to_vec()),
+        ],
+    );
+    [
+        ("Hello", hello),
+        ("Command: hello", begin),
+        ("Command: order", place),
+        ("Command: order, a force", push),
+        ("Answer", answer),
+        ("View", view),
+        ("Command: upload", part),
+    ]
 }
 
 /// Frames of a device that is being accepted.
@@ -281,8 +384,9 @@ fn every_byte_of_a_frame_is_documented() {
         duties: [-1_200, 0, 64],
     };
     let record = documented(
-        &record,
+        &Told::Record(record),
         &[
+            vars("told", 1),
             vars("tick", record.tick),
             vars("number", record.number),
             vars("clock", record.clock),
@@ -333,8 +437,9 @@ fn every_byte_of_a_frame_is_documented() {
         hold: 0,
     };
     let reading = documented(
-        &reading,
+        &Told::Reading(reading),
         &[
+            vars("told", 2),
             vars("tick", reading.tick),
             vars("number", reading.number),
             zig_zags("counts", reading.counts.map(i64::from)),
@@ -353,6 +458,7 @@ fn every_byte_of_a_frame_is_documented() {
         ("Command: jog", jog),
         ("Reading", reading),
     ];
+    sections.extend(dialogue());
     sections.extend(acceptance());
     let wanted = sections.iter().fold(page.clone(), |page, (title, section)| with_section(&page, title, section));
     if env::var_os("PALPATE_WRITE").is_some() {

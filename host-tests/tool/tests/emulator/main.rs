@@ -10,6 +10,7 @@ mod demo;
 mod faults;
 mod image;
 mod knob;
+mod link;
 mod log;
 mod parity;
 mod path;
