@@ -1,13 +1,12 @@
 //! What may be changed of a scene between two ticks while it is felt. Nothing of it steps the force.
 
 use super::frame::Frame;
-use super::limits::SceneError;
-use super::order::Order;
 use super::part::{Motion, Part, PartState};
 use super::path::{finite, is_rigid};
 use super::scene::Scene;
 use super::state::SceneState;
 use crate::math::{Vec3, sqrt};
+use crate::order::{Order, SceneError};
 use crate::render::Friction;
 use crate::servo::{Surface, Tracked as _};
 use crate::track::{Contact, Placement};
@@ -182,8 +181,8 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         Ok(())
     }
 
-    /// The body that was uploaded last takes the place of this one: what was felt of that fades, and the new one is felt
-    /// once the tool has been in front of it.
+    /// The body that was uploaded last takes the place of this one: what was felt of that fades, and the new one is
+    /// felt once the tool has been in front of it.
     ///
     /// # Errors
     /// Nothing was uploaded, or not for this body; nothing changes then.

@@ -1,13 +1,13 @@
 //! The scene: bodies, the checks of what was chosen of them, and the tick.
 
 use super::host_force::HostForce;
-use super::limits::{Limits, SceneError};
-use super::order::Order;
+use super::limits::Limits;
 use super::part::{Motion, Part, PartState};
 use super::rigid::Wrench;
 use super::state::SceneState;
 use crate::body::TableCursor;
 use crate::math::{Vec3, saturate};
+use crate::order::{Order, SceneError};
 use crate::render::{Friction, Penalty, Press, limit};
 use crate::servo::{Surface, Touched, Tracked};
 use crate::track::{Contact, Controller, Probe};

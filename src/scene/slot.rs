@@ -1,10 +1,9 @@
 //! A place in a scene whose body may be exchanged while the scene is felt.
 
-use super::limits::SceneError;
-use super::order::Order;
 use super::part::{Material, Motion, Part, Sphere};
 use crate::body::{Body, BodyWitness, TableCursor};
 use crate::math::Vec3;
+use crate::order::{Order, SceneError};
 use crate::servo::{Surface, Touched, Tracked};
 use crate::track::{Contact, Controller, Probe, Witness};
 

@@ -4,9 +4,9 @@ use super::surface::{Surface, Touched, Tracked, witness_words};
 use crate::body::TableCursor;
 use crate::device::{Device, Dial};
 use crate::math::{Vec3, saturate};
+use crate::order::{Order, SceneError};
 use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::render::{Feel, FeelError};
-use crate::scene::{Order, SceneError};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 use thiserror::Error;
 

@@ -2,7 +2,7 @@
 
 use crate::body::{Body, BodyWitness, Feature, TableCursor};
 use crate::math::Vec3;
-use crate::scene::{Order, SceneError};
+use crate::order::{Order, SceneError};
 use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 use core::fmt::Debug;
 

@@ -5,8 +5,8 @@ use super::sense::sense;
 use super::{Event, Fault, Guard, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
 use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose, VelocityMethod};
 use crate::math::Vec3;
+use crate::order::{Order, SceneError};
 use crate::render::{Motion, Tool, limit};
-use crate::scene::{Order, SceneError};
 use crate::track::{Contact, Probe};
 
 /// What a tick starts from.
@@ -80,8 +80,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         }
     }
 
-    /// Does what a host asks for between two ticks, or nothing. It neither drives a motor nor ends a fault: what is felt
-    /// of it is felt in the ticks that follow, as far as there is force at all.
+    /// Does what a host asks for between two ticks, or nothing. It neither drives a motor nor ends a fault: what is
+    /// felt of it is felt in the ticks that follow, as far as there is force at all.
     ///
     /// # Errors
     /// What is out of range, or not offered by what is felt.

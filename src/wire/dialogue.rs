@@ -1,17 +1,15 @@
 //! What a device that runs by itself says, and what it makes of what it is told.
 
-use super::{Reading, Record};
+use super::message::{Reading, Record};
+use super::upload::UploadError;
 use crate::math::Vec3;
-use crate::scene::SceneError;
+use crate::order::SceneError;
 use crate::servo::{Remembered, ServoState, Tracked};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// The version of these messages: another one may mean something else by them.
 pub const PROTOCOL: u16 = 1;
-
-/// Bytes of a body in one frame.
-pub const CHUNK: usize = 64;
 
 /// From a device that runs by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -76,59 +74,6 @@ pub enum Refused {
     /// The device is being set up: nothing is felt.
     #[error("the device is being set up")]
     SetUp,
-}
-
-/// Part of a body file ([`crate::body::Body::from_bytes`]), in this order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Upload {
-    /// A file of so many bytes begins; what was uploaded before and not taken is forgotten.
-    Begin {
-        /// Its length.
-        bytes: u32,
-    },
-    /// Bytes from this one on, a multiple of [`CHUNK`]; those beyond the file's end are zero. The same may come twice.
-    Bytes {
-        /// The first one's place.
-        at: u32,
-        /// Sixteen at a time.
-        bytes: [[u8; 16]; CHUNK / 16],
-    },
-    /// All of it has come: it is checked, and ready to be taken ([`crate::scene::Order::Take`]).
-    End,
-}
-
-/// Why a part of an upload is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum UploadError {
-    /// No memory was set aside for bodies.
-    #[error("this device has no memory set aside for bodies")]
-    NoRoom,
-    /// More bytes than there is memory for.
-    #[error("the body takes more than the {room} bytes set aside for it")]
-    TooLong {
-        /// What is there.
-        room: u32,
-    },
-    /// More faces or edges than there is memory for.
-    #[error("the body has more faces or edges than memory is set aside for")]
-    TooMany,
-    /// Both banks are in use: the body uploaded last has just been taken, and the one before is still felt.
-    #[error("both banks are in use; try again in a moment")]
-    Busy,
-    /// A part that does not follow on the one before: the next byte wanted is this.
-    #[error("the upload goes on at byte {at}")]
-    Order {
-        /// The next byte's place.
-        at: u32,
-    },
-    /// Nothing was begun.
-    #[error("no upload was begun")]
-    NotBegun,
-    /// What came is no body: changed on the way, or of another version. The host's own check says what is wrong.
-    #[error("what came is no body of this version")]
-    NoBody,
 }
 
 /// What a host sees of the loop.

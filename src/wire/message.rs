@@ -149,14 +149,14 @@ pub enum Command {
         /// The next higher one, wrapping.
         number: u16,
         /// What.
-        order: crate::scene::Order,
+        order: crate::order::Order,
     },
     /// A part of a body on its way into the device's memory. Answered by its number ([`super::Answer`]).
     Upload {
         /// As an order's.
         number: u16,
         /// Which part.
-        part: super::Upload,
+        part: super::upload::Upload,
     },
 }
 

@@ -19,5 +19,7 @@ pub mod log;
 mod message;
 mod report;
 pub mod telemetry;
-pub use dialogue::{Answer, CHUNK, Hello, PROTOCOL, Refused, Told, Upload, UploadError, View};
+mod upload;
+pub use dialogue::{Answer, Hello, PROTOCOL, Refused, Told, View};
 pub use message::{Command, Reading, Record, Report, Sensors, hold};
+pub use upload::{CHUNK, Upload, UploadError};

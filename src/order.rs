@@ -1,0 +1,163 @@
+//! What a host may ask of what is felt between two ticks, and what of a scene is refused.
+
+use thiserror::Error;
+
+/// Where a body is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Pose {
+    /// Its origin, metres, in the scene.
+    pub position: [f32; 3],
+    /// Its orientation as a unit quaternion: x, y, z, w.
+    pub orientation: [f32; 4],
+}
+
+/// An order, applied whole between two ticks or not at all. Bodies go by their index in the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Order {
+    /// A resting body is somewhere else: [`crate::scene::Scene::place`].
+    Place {
+        /// Which.
+        body: u8,
+        /// Where.
+        pose: Pose,
+    },
+    /// A resting body is there by now, and moves on as [`Self::Move`] has it: [`crate::scene::Scene::lead`]. For a
+    /// motion that the host gives, pose by pose.
+    Lead {
+        /// Which.
+        body: u8,
+        /// Where.
+        pose: Pose,
+        /// Of its origin, m/s.
+        velocity: [f32; 3],
+        /// rad/s.
+        angular_velocity: [f32; 3],
+        /// For how long, unless another order comes, seconds.
+        seconds: f32,
+    },
+    /// A resting body moves on from where it is: [`crate::scene::Scene::move_along`].
+    Move {
+        /// Which.
+        body: u8,
+        /// Of its origin, m/s.
+        velocity: [f32; 3],
+        /// rad/s.
+        angular_velocity: [f32; 3],
+        /// For how long; then it rests, seconds.
+        seconds: f32,
+    },
+    /// Bodies of these groups are on, all others off, group 0 the lowest bit: [`crate::scene::Scene::switch`].
+    Switch {
+        /// The groups.
+        groups: u32,
+    },
+    /// Group `index` alone is on; of a knob, this feel: [`crate::servo::Event::Chosen`].
+    Choose {
+        /// Which.
+        index: u8,
+    },
+    /// Another stiffness and damping: [`crate::scene::Scene::harden`].
+    Harden {
+        /// Which.
+        body: u8,
+        /// N/m.
+        stiffness: f32,
+        /// N·s/m.
+        damping: f32,
+    },
+    /// Other friction, by [`crate::render::Friction`]'s four numbers in their order, or none:
+    /// [`crate::scene::Scene::rub`].
+    Rub {
+        /// Which.
+        body: u8,
+        /// The numbers.
+        friction: Option<[f32; 4]>,
+    },
+    /// A tool with a tip of another radius: [`crate::scene::Scene::set_tip_radius`].
+    Tip {
+        /// Metres.
+        radius: f32,
+    },
+    /// The greatest force of all of the scene, at most [`crate::scene::Limits::max_force`]. It comes without a step.
+    Limit {
+        /// N.
+        force: f32,
+    },
+    /// A force of the host's own, added to that of the bodies, in the scene's frame; at most
+    /// [`crate::scene::Limits::max_force`]. It stands for [`crate::scene::HOLD`] seconds, unless it is asked for anew.
+    Push {
+        /// N.
+        force: [f32; 3],
+    },
+    /// The body that was uploaded last takes the place of this one: [`crate::scene::Slot`].
+    Take {
+        /// Which.
+        body: u8,
+    },
+}
+
+/// Which choice is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum SceneError {
+    /// No body, or more than 32.
+    #[error("a scene has 1 to 32 bodies")]
+    Bodies,
+    /// A shared limit is not positive, or not finite.
+    #[error("the scene's limits must be positive and finite")]
+    Limits,
+    /// A stiffness is out of range. Where several bodies may be touched, two of them must be within it together.
+    #[error("body {0}: the stiffness must be between 0 and the greatest, with that of the stiffest other body")]
+    Stiffness(u8),
+    /// A damping is out of range.
+    #[error("body {0}: the damping must be between 0 and the greatest")]
+    Damping(u8),
+    /// Friction is negative, not finite, or holds more slipping than sticking.
+    #[error("body {0}: friction must be finite and not negative, its dynamic coefficient not above the static one")]
+    Friction(u8),
+    /// A texture's share is not between 0 and 1.
+    #[error("body {0}: a texture's share must be between 0 and 1")]
+    Texture(u8),
+    /// Axes that are not orthonormal, a number that is not finite, no mass.
+    #[error("body {0}: its motion has axes that are not orthonormal, a number that is not finite, or no mass")]
+    Motion(u8),
+    /// A free body is lighter than its stiffness, damping and friction allow at this rate.
+    #[error("body {0}: it is too light for its stiffness, damping and friction at this rate")]
+    Light(u8),
+    /// The damping along a free body's surface is less than its stiffness there times half a tick.
+    #[error("body {0}: friction on a free body needs a damping of at least its stiffness times half a tick")]
+    Slack(u8),
+    /// A sphere that is not finite.
+    #[error("body {0}: its sphere must have a finite centre and a radius")]
+    Sphere(u8),
+    /// A group of 32 and more.
+    #[error("body {0}: groups are 0 to 31")]
+    Group(u8),
+    /// There is no such body.
+    #[error("there is no body {0}")]
+    Missing(u8),
+    /// A placement that is no rigid motion, or of a body that does not rest.
+    #[error("body {0}: only a resting body is placed, with orthonormal axes and finite numbers")]
+    Placement(u8),
+    /// The radius of a tool's tip is negative or not finite.
+    #[error("the radius of the tip must be finite and not negative")]
+    TipRadius,
+    /// A body is to move faster than [`crate::scene::Limits::max_speed`].
+    #[error("body {0}: it may not be moved faster than the scene's bodies are met at most")]
+    TooFast(u8),
+    /// A force of the host's, or a limit of the force, that is negative, not finite or above
+    /// [`crate::scene::Limits::max_force`].
+    #[error("a force must be finite, and at most the scene's greatest")]
+    Force,
+    /// What is touched does not offer this.
+    #[error("what is felt here does not offer this")]
+    NotOffered,
+    /// There is no body that was uploaded, or it does not go there.
+    #[error("body {0}: nothing was uploaded for it")]
+    NotUploaded(u8),
+}
