@@ -206,8 +206,8 @@ impl<'p> Candidates<'p> {
         if turn < 0.0 { turn } else { PI - turn }
     }
 
-    /// What a quad costs, and what it covers; none if it is not worth having, or a vertex of the outline lies in it. For
-    /// all four of its sides that is found once.
+    /// What a quad costs, and what it covers; none if it is not worth having, or a vertex of the outline lies in it.
+    /// For all four of its sides that is found once.
     fn worth(&self, corners: [usize; 4], edges: [Edge; 4]) -> Worth {
         let first = (0..4).min_by_key(|k| corners[*k]).unwrap_or(0);
         let key = [0, 1, 2, 3].map(|k| edges[(first + k) % 4]);

@@ -17,11 +17,12 @@ use std::time::Instant;
 
 /// Imports and bakes CAD parts, and prints a table with a row for each.
 ///
-/// faces and patches; the largest deviation of the patches from the part or the other way; bytes of flash; what the bake
-/// of the locator took, in seconds of the processor, all cores together, and of the clock; the share of the locator's leaves with a proof of the way down (what the others have,
-/// `bake --table-report` says). Where PART.csv lies beside PART.step, with columns qx,qy,qz,dist,inside, the greatest
-/// error of a cold query's distance and how many rows are told to lie on the wrong side; where PART_track.csv does, the
-/// greatest error of the distance at one tick a row.
+/// faces and patches; the largest deviation of the patches from the part or the other way; bytes of flash; what the
+/// bake of the locator took, in seconds of the processor, all cores together, and of the clock; the share of the
+/// locator's leaves with a proof of the way down (what the others have, `bake --table-report` says). Where PART.csv
+/// lies beside PART.step, with columns qx,qy,qz,dist,inside, the greatest error of a cold query's distance and how many
+/// rows are told to lie on the wrong side; where PART_track.csv does, the greatest error of the distance at one tick a
+/// row.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The parts: .step or .stp files; models go too
