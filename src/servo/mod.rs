@@ -45,6 +45,7 @@ mod output;
 mod patch_witness;
 mod phase;
 mod reading;
+pub mod recommended;
 mod rendering;
 mod safety;
 mod sense;

@@ -4,6 +4,7 @@ use crate::own::{self, DeviceFile, OwnDevice};
 pub use crate::preset::{Limits, Preset};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use palpate::device::{Protection, presets};
+use palpate::servo::recommended::{self, Recommended};
 use palpate_plant::PlantSettings;
 use std::ffi::OsStr;
 use std::path::Path;
@@ -33,6 +34,20 @@ impl ShippedDevice {
     /// Its device file, where one's own begins; `None` with less than three joints.
     pub fn file(&self) -> Option<DeviceFile> {
         own::file_of(self.name, self.preset, &self.plant)
+    }
+
+    /// What it is recommended to be driven with, so that the loop is not felt; `None` for one's own.
+    pub fn recommended(&self) -> Option<Recommended> {
+        Some(match self.name {
+            "woodenhaptics-2016" => recommended::WOODEN_HAPTICS_2016,
+            "polhem-v2" => recommended::POLHEM_V2,
+            "phantom-premium" => recommended::PHANTOM_PREMIUM,
+            "falcon" => recommended::NOVINT_FALCON,
+            "haply-2diy-v3" => recommended::HAPLY_2DIY_V3,
+            "haply-kit-v1" => recommended::HAPLY_KIT_V1,
+            "hapkit" => recommended::HAPKIT,
+            _ => return None,
+        })
     }
 
     /// What protects it.
@@ -199,6 +214,7 @@ mod tests {
             let joints = device.preset.feeds().len();
             assert_eq!(joints, device.plant.mechanism(0.0).joints(), "{device:?}");
             assert_eq!(device.source.is_some(), joints == 3, "{device:?}");
+            assert!(device.recommended().is_some(), "{device:?}");
         }
     }
 }

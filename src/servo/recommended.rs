@@ -1,0 +1,88 @@
+//! What each device that ships is recommended to be driven with at 4 kHz, so that a hand feels the surface and not the
+//! loop. Found by `palpate feel`, which takes them unless told otherwise; simulated.
+//!
+//! All have [`Rendering::SMOOTH`]: counts of 23 to 146 µm are felt through a spring of 500 N/m on any device whose own
+//! friction does not hide them. The corner of 80 Hz is as fast as a count that a resting probe leaves does not make a
+//! damper of 2 N·s/m step by more than 50 mN on WoodenHaptics; at other rates take a fiftieth of the rate. What differs
+//! is the stiffness: 500 N/m, whose spring alone steps by 38 mN in a tick at 0.3 m/s, unless said otherwise below.
+
+use super::{Rendering, Settings};
+use crate::device::presets;
+
+/// Settings and rendering that go together.
+///
+/// ```
+/// use palpate::device::presets::PHANTOM_PREMIUM as DEVICE;
+/// use palpate::servo::recommended;
+///
+/// const TOUCH: recommended::Recommended = recommended::PHANTOM_PREMIUM;
+/// assert!(TOUCH.settings.check(DEVICE.max_stiffness, DEVICE.max_damping).is_ok());
+/// assert!(TOUCH.rendering.check(TOUCH.settings.stiffness, 1.0 / TOUCH.settings.rate).is_ok());
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Recommended {
+    /// Rate, wall, greatest force and velocity corner; the body's origin is yours to set.
+    pub settings: Settings,
+    /// What becomes of the force.
+    pub rendering: Rendering,
+}
+
+/// A wall of so many N/m and N·s/m for a device that gives so much force, N.
+const fn wall(stiffness: f32, damping: f32, max_force: f32) -> Recommended {
+    Recommended {
+        settings: Settings {
+            rate: 4_000.0,
+            stiffness,
+            damping,
+            max_force,
+            velocity_corner: 80.0,
+            soft_start: 0.1,
+            ..Settings::DEFAULT
+        },
+        rendering: Rendering::SMOOTH,
+    }
+}
+
+/// For [`presets::WOODEN_HAPTICS_2016`]. Its counts are felt even at 200 N/m if they are taken as they are.
+pub const WOODEN_HAPTICS_2016: Recommended = wall(500.0, 2.0, presets::WOODEN_HAPTICS_2016.max_force);
+
+/// For [`presets::POLHEM_V2`]. Its friction hides its counts: the smooth rendering is for contact and edges.
+pub const POLHEM_V2: Recommended = wall(500.0, 2.0, presets::POLHEM_V2.max_force);
+
+/// For [`presets::PHANTOM_PREMIUM`]: softer, for its friction is too little to hide that a believed position lags behind
+/// by a count where a joint turns back: at 500 N/m that is felt, if barely.
+pub const PHANTOM_PREMIUM: Recommended = wall(400.0, 2.0, presets::PHANTOM_PREMIUM.max_force);
+
+/// For [`presets::NOVINT_FALCON`]: softer, for its third of a kilogram swings ahead of a hand that draws it at 0.3 m/s
+/// and comes to the wall at 0.41, where a spring of 500 N/m steps by 51 mN in a tick.
+pub const NOVINT_FALCON: Recommended = wall(400.0, 2.0, presets::NOVINT_FALCON.max_force);
+
+/// For [`presets::HAPLY_2DIY_V3`]: as stiff and as damped as the device is recommended for.
+pub const HAPLY_2DIY_V3: Recommended =
+    wall(presets::HAPLY_2DIY_V3.max_stiffness, presets::HAPLY_2DIY_V3.max_damping, presets::HAPLY_2DIY_V3.max_force);
+
+/// For [`presets::HAPLY_KIT_V1`]: as stiff and as damped as the device is recommended for.
+pub const HAPLY_KIT_V1: Recommended =
+    wall(presets::HAPLY_KIT_V1.max_stiffness, presets::HAPLY_KIT_V1.max_damping, presets::HAPLY_KIT_V1.max_force);
+
+/// For [`presets::HAPKIT`].
+pub const HAPKIT: Recommended = wall(500.0, 2.0, presets::HAPKIT.max_force);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_device_takes_what_is_recommended_for_it_and_no_spring_alone_steps_by_fifty_millinewtons() {
+        macro_rules! taken {
+            ($($name:ident),*) => { $({
+                let (Recommended { settings, rendering }, device) = ($name, presets::$name);
+                assert_eq!(settings.check(device.max_stiffness, device.max_damping), Ok(()));
+                assert_eq!(rendering.check(settings.stiffness, 1.0 / settings.rate), Ok(()));
+                assert!(settings.max_force <= device.max_force);
+                assert!(settings.stiffness * 0.3 / settings.rate < 0.05);
+            })* };
+        }
+        taken!(WOODEN_HAPTICS_2016, POLHEM_V2, PHANTOM_PREMIUM, NOVINT_FALCON, HAPLY_2DIY_V3, HAPLY_KIT_V1, HAPKIT);
+    }
+}
