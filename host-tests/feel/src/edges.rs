@@ -16,7 +16,9 @@ const POINTS: usize = 24;
 /// With how much force the hand presses, N.
 const PUSH: f64 = 0.7;
 /// How fast it goes round an edge, m/s.
-const ROUND: f64 = 0.03;
+const ROUNDING: f64 = 0.03;
+/// What the way round a convex edge is called.
+pub const ROUND: &str = "round a convex edge";
 /// Normals that differ by less than this at the middle of an edge, rad, make a smooth seam.
 const SMOOTH: f64 = 0.02;
 
@@ -46,7 +48,7 @@ pub fn over_edges(body: &Body<'_>, origin: Vec3, stage: &Stage) -> Vec<Script> {
         for speed in [0.05, 0.1, 0.3] {
             scripts.push(off(format!("off an edge {speed} m/s"), &ways[0], speed, stage));
         }
-        scripts.push(across("round a convex edge", &ways, stage));
+        scripts.push(across(ROUND, &ways, stage));
     }
     if let Some(ways) = longest(&[EdgeKind::Reflex], false) {
         scripts.push(across("into a concave edge", &ways, stage));
@@ -136,9 +138,9 @@ fn off(name: String, way: &Way, speed: f64, stage: &Stage) -> Script {
 
 /// Along one way and on along the other, back to front.
 fn across(name: &str, ways: &[Way; 2], stage: &Stage) -> Script {
-    let (legs, begin) = pressed(&ways[0], ROUND, stage);
+    let (legs, begin) = pressed(&ways[0], ROUNDING, stage);
     let depth = -stage.aim(PUSH);
-    let path = ways[1].iter().rev().fold(legs, |legs, place| legs.at_speed(lifted(place, depth), ROUND));
+    let path = ways[1].iter().rev().fold(legs, |legs, place| legs.at_speed(lifted(place, depth), ROUNDING));
     let until = path.end();
     let normals = [&ways[0], &ways[1]].map(|way| way.last().map_or([0.0; 3], |place| place.1));
     let turned = (turn(ways) > SMOOTH).then_some(normals);

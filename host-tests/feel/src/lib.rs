@@ -15,7 +15,7 @@ mod spectrum;
 mod threshold;
 mod wall;
 
-pub use edges::over_edges;
+pub use edges::{ROUND, over_edges};
 pub use figures::{Figures, Steps, angle};
 pub use hand::Legs;
 pub use record::{Recording, RunError, Tick, record};

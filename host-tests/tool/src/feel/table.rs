@@ -1,7 +1,7 @@
 //! Rows as text and as CSV, and a device on a line.
 
 use super::rows::Row;
-use palpate_feel::{BANDS, Deed};
+use palpate_feel::{BANDS, Deed, ROUND};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -151,7 +151,7 @@ impl Worst {
             error: zero(of(|deed| *deed == Deed::Rest, |row| row.force_error.map_or(0.0, f64::abs))),
             hover: zero(of(|deed| matches!(deed, Deed::Hover | Deed::Air), |row| row.figures.force)),
             drag: zero(of(|deed| *deed == Deed::Air, |row| row.figures.drag)),
-            turn: most(&mut rows.iter().filter_map(|row| row.turn)),
+            turn: most(&mut rows.iter().filter(|row| row.script.name == ROUND).filter_map(|row| row.turn)),
         }
     }
 
