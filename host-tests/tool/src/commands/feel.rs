@@ -1,17 +1,18 @@
 //! `palpate feel`: what a hand feels of the loop on a device, against what people can feel.
 
+use super::feel_clean;
 use super::felt::Felt;
 use crate::devices::{self, DEVICES, ShippedDevice};
 use crate::feel::table::Worst;
-use crate::feel::{Clean, RATES, Row, TRIED, Wish, clean_stiffness, plot, rows, table};
+use crate::feel::{Row, Wish, plot, rows, table};
 use crate::models::ModelFile;
 use crate::report::write_sections;
-use crate::zwidth::{Slice, in_words};
+use crate::zwidth::Slice;
 use anyhow::{Context, ensure};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
-use palpate::render::Material;
 use palpate::servo::Rendering;
+use palpate::servo::recommended::{self, Recommended};
 use palpate_feel::{BANDS, Threshold, recorded};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -28,21 +29,22 @@ pub struct Arguments {
     /// Servo rate, Hz
     #[arg(long, default_value_t = 4_000.0)]
     rate: f32,
-    /// Stiffness of the surface, N/m; no more than the device takes
-    #[arg(long, default_value_t = Material::WOOD.stiffness)]
-    stiffness: f32,
-    /// Damping of the surface, N·s/m; no more than the device takes
-    #[arg(long, default_value_t = Material::WOOD.damping)]
-    damping: f32,
-    /// Corner frequency of the velocity filter, Hz
-    #[arg(long, default_value_t = 80.0)]
-    velocity_corner: f32,
-    /// What becomes of the force: all is done that counts, ticks and edges are not felt; all but counts; or nothing
-    #[arg(long, value_enum, default_value = "smooth")]
-    rendering: Kind,
-    /// Finds the stiffest wall that is clean to slide along instead, at 1, 2, 4, 8 and 10 kHz, beside the stiffest that
-    /// comes to rest
-    #[arg(long, conflicts_with_all = ["model", "rate", "stiffness", "recording", "out"])]
+    /// Stiffness of the surface, N/m, no more than the device takes; what is recommended for it unless said
+    #[arg(long)]
+    stiffness: Option<f32>,
+    /// Damping of the surface, N·s/m, no more than the device takes; what is recommended for it unless said
+    #[arg(long)]
+    damping: Option<f32>,
+    /// Corner frequency of the velocity filter, Hz; what is recommended for the device unless said
+    #[arg(long)]
+    velocity_corner: Option<f32>,
+    /// What becomes of the force: all is done that counts, ticks and edges are not felt; all but counts; or nothing;
+    /// what is recommended for the device unless said
+    #[arg(long, value_enum)]
+    rendering: Option<Kind>,
+    /// Finds the stiffest wall that is clean to slide along instead, at 1, 2, 4, 8 and 10 kHz, with the device's encoders
+    /// and finer ones and the estimator that suits them, beside the stiffest that comes to rest
+    #[arg(long, conflicts_with_all = ["model", "rate", "stiffness", "recording", "velocity_corner"])]
     clean: bool,
     /// A threshold of one's own: a CSV file of frequency, Hz, and peak displacement, m, under a row of names
     #[arg(long, value_name = "FILE.csv")]
@@ -90,15 +92,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         print_recording(path, device, &threshold)?;
         return Ok(ExitCode::SUCCESS);
     }
-    let wish = Wish {
-        rate: arguments.rate,
-        stiffness: arguments.stiffness,
-        damping: arguments.damping,
-        corner: arguments.velocity_corner,
-        rendering: arguments.rendering.rendering(),
-    };
     if arguments.clean {
-        return print_clean(&chosen.map_or_else(|| DEVICES.iter().collect(), |device| vec![device]), wish, &threshold);
+        let devices: Vec<&ShippedDevice> = chosen.map_or_else(|| DEVICES.iter().collect(), |device| vec![device]);
+        return feel_clean::run(&devices, |device| wish(arguments, device), &threshold, &arguments.out);
     }
     let file = ModelFile::read(&arguments.model)?;
     let felt = Felt::read(&file.model()?, &file, &arguments.model, None)?;
@@ -108,6 +104,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     };
     let mut all: Vec<(&str, Vec<Row>)> = Vec::new();
     for device in chosen.map_or_else(|| DEVICES.iter().collect(), |device| vec![device]) {
+        let wish = wish(arguments, device);
         let settings = wish.settings(device);
         println!(
             "{}: {} N/m, {} N·s/m, {} kHz; steps and ripple in mN",
@@ -125,30 +122,25 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     write(&all, &threshold, arguments)
 }
 
+/// What is recommended for a device, but for what was asked for.
+fn wish(arguments: &Arguments, device: &ShippedDevice) -> Wish {
+    let recommended = device.recommended().unwrap_or(recommended::WOODEN_HAPTICS_2016);
+    let Recommended { settings, rendering } = recommended;
+    Wish {
+        rate: arguments.rate,
+        stiffness: arguments.stiffness.unwrap_or(settings.stiffness),
+        damping: arguments.damping.unwrap_or(settings.damping),
+        corner: arguments.velocity_corner.unwrap_or(settings.velocity_corner),
+        rendering: arguments.rendering.map_or(rendering, Kind::rendering),
+    }
+}
+
 /// A table of frequency, Hz, and displacement, m.
 fn read_threshold(path: &Path) -> anyhow::Result<Threshold> {
     let mut reader = csv::Reader::from_path(path).with_context(|| format!("{}: cannot be read", path.display()))?;
     let points = reader.deserialize::<[f64; 2]>().collect::<Result<Vec<_>, _>>();
     let points = points.with_context(|| format!("{}: not rows of two numbers", path.display()))?;
     Threshold::try_new(points).with_context(|| path.display().to_string())
-}
-
-fn print_clean(devices: &[&ShippedDevice], wish: Wish, threshold: &Threshold) -> anyhow::Result<ExitCode> {
-    println!("greatest stiffness, N/m, that is clean to slide along (that comes to rest)");
-    print!("{:<20}", "device");
-    RATES.iter().for_each(|rate| print!("{:>18}", format!("{} kHz", rate / 1_000.0)));
-    println!();
-    // With one joint nothing slides.
-    for device in devices.iter().filter(|device| device.preset.feeds().len() > 1) {
-        print!("{:<20}", device.name);
-        for rate in RATES {
-            let Clean { clean, stable, .. } = clean_stiffness(device, &Wish { rate, ..wish }, threshold)?;
-            let more = if clean >= TRIED[1] * 0.99 { ">" } else { "" };
-            print!("{:>18}", format!("{more}{clean:.0} ({})", in_words(&Slice::of(device), stable)));
-        }
-        println!();
-    }
-    Ok(ExitCode::SUCCESS)
 }
 
 fn print_recording(path: &Path, device: &ShippedDevice, threshold: &Threshold) -> anyhow::Result<()> {
@@ -188,7 +180,7 @@ fn write(all: &[(&str, Vec<Row>)], threshold: &Threshold, arguments: &Arguments)
     let lines = all.iter().map(|(name, rows)| Worst::of(rows).line(name)).collect::<Vec<_>>().join("\n");
     let worst = [("worst", format!("{}\n{lines}", Worst::heading()))];
     let figures: Vec<(&str, String)> = worst.into_iter().chain(figures).collect();
-    let subtitle = format!("{} Hz, {} N/m, {} N·s/m", arguments.rate, arguments.stiffness, arguments.damping);
+    let subtitle = format!("{} Hz", arguments.rate);
     let report = out.join("report.html");
     write_sections(["What the hand feels", &subtitle], &figures, &sections, &report)?;
     println!("figures: {}\nreport: {}", csv.display(), report.display());

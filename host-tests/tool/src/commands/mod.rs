@@ -12,6 +12,7 @@ pub mod demo;
 pub mod demo_knob;
 pub mod device;
 pub mod feel;
+pub mod feel_clean;
 pub mod felt;
 mod felt_scene;
 pub mod figures;

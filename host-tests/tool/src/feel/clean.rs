@@ -1,12 +1,20 @@
 //! The greatest clean stiffness: the stiffest wall along which a hand slides without feeling the loop.
+//!
+//! How position and velocity are estimated decides it as much as the rate: an observer that believes positions between
+//! counts lags by a time of its own, and on a stiff wall its lag rings, however often it is asked; a faster one lets
+//! counts through. So the estimator is chosen anew for each device, encoder and rate.
 
 use super::rows::{Wish, slide};
 use crate::devices::ShippedDevice;
 use crate::zwidth::{Loop, Slice, max_stiffness};
-use palpate_feel::Threshold;
+use palpate::device::VelocityMethod;
+use palpate::servo::Rendering;
+use palpate_feel::{RunError, Threshold};
 
 /// Servo rates, Hz.
 pub const RATES: [f32; 5] = [1_000.0, 2_000.0, 4_000.0, 8_000.0, 10_000.0];
+/// Encoders: the device's own, and so many times as fine.
+pub const ENCODERS: [f64; 3] = [1.0, 4.0, 16.0];
 /// The softest and the stiffest wall that is tried, N/m.
 pub const TRIED: [f64; 2] = [100.0, 10_000.0];
 /// Steps a decade from one stiffness to the next; then halvings between the last clean one and the first that is not:
@@ -15,27 +23,92 @@ const STEPS_PER_DECADE: f64 = 4.0;
 const HALVINGS: usize = 3;
 /// A tick's duty takes effect at the next.
 const DELAY: f64 = 1.0;
+/// Corners that are tried, Hz: from the slowest whose damper still brakes to as fast as the observer goes at 10 kHz. Of
+/// counts as they are one slow and one fast: their noise is the counts', not the corner's.
+const BETWEEN: [f32; 6] = [40.0, 60.0, 80.0, 120.0, 160.0, 320.0];
+const COUNTED: [f32; 2] = [80.0, 320.0];
+/// The observer's corner as a share of the rate, at most: faster it is held back ([`palpate::device::BetweenCounts`]).
+const FASTEST: f32 = 0.5 / (2.0 * core::f32::consts::TAU);
 
 /// What a device gives at a rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clean {
     /// Servo rate, Hz.
     pub rate: f32,
+    /// How many times as fine as the device's own its encoders are.
+    pub finer: f64,
     /// The stiffest wall below which each that was tried is clean, N/m; 0 if the softest is not.
     pub clean: f64,
-    /// The stiffest wall of the same damping that comes to rest, N/m: the Z-width.
+    /// With this estimator,
+    pub method: VelocityMethod,
+    /// and corner, Hz.
+    pub corner: f32,
+    /// The stiffest wall of the same damping and estimator that comes to rest, N/m: the Z-width.
     pub stable: f64,
 }
 
-/// The greatest clean stiffness at a rate, whatever the device is recommended for; beside it the Z-width's.
+/// The estimators that are tried at a rate, Hz.
+fn estimators(rate: f32) -> Vec<(VelocityMethod, f32)> {
+    let fastest = FASTEST * rate;
+    let mut corners: Vec<f32> = BETWEEN.into_iter().filter(|corner| *corner < fastest).collect();
+    corners.push(fastest.min(2.0 * BETWEEN[BETWEEN.len() - 1]));
+    let between = corners.into_iter().map(|corner| (VelocityMethod::BetweenCounts, corner));
+    between.chain(COUNTED.map(|corner| (VelocityMethod::LowPass, corner))).collect()
+}
+
+/// The greatest clean stiffness at a rate with the best estimator, whatever the device is recommended for; beside it the
+/// Z-width's.
 ///
 /// # Errors
-/// Settings that are refused, a start out of reach, a fault of the loop.
-pub fn clean_stiffness(device: &ShippedDevice, wish: &Wish, threshold: &Threshold) -> anyhow::Result<Clean> {
-    let is_clean = |stiffness: f64| -> anyhow::Result<bool> {
-        let wish = Wish { stiffness: stiffness as f32, ..*wish };
-        Ok(slide(device, &wish, threshold)?.is_below())
+/// Settings that are refused, a start out of reach.
+pub fn clean_stiffness(
+    device: &ShippedDevice,
+    wish: &Wish,
+    finer: f64,
+    threshold: &Threshold,
+) -> anyhow::Result<Clean> {
+    let mut best = (0.0, VelocityMethod::BetweenCounts, BETWEEN[0]);
+    for (velocity, corner) in estimators(wish.rate) {
+        let wish = Wish { corner, rendering: Rendering { velocity, ..wish.rendering }, ..*wish };
+        let is_clean = |stiffness: f64| -> anyhow::Result<bool> {
+            let wish = Wish { stiffness: stiffness as f32, ..wish };
+            match slide(device, &wish, finer, threshold) {
+                Ok(sensation) => Ok(sensation.is_below()),
+                // A wall that shakes the device until its loop stops.
+                Err(error) if matches!(error.downcast_ref(), Some(RunError::Fault { .. })) => Ok(false),
+                Err(error) => Err(error),
+            }
+        };
+        // What is not clean where another is need not be looked at.
+        if best.0 > 0.0 && !is_clean(best.0)? {
+            continue;
+        }
+        let stiffest = stiffest(&is_clean)?;
+        if stiffest > best.0 {
+            best = (stiffest, velocity, corner);
+        }
+    }
+    let (clean, method, corner) = best;
+    let servo = Loop {
+        rate: f64::from(wish.rate),
+        delay_periods: DELAY,
+        velocity: method,
+        corner: f64::from(corner),
+        ease: wish.rendering.ease,
     };
+    let damping = f64::from(wish.settings(device).damping);
+    let slice = slice(device, finer);
+    Ok(Clean { rate: wish.rate, finer, clean, method, corner, stable: max_stiffness(&slice, damping, &servo) })
+}
+
+/// A device along the wall's normal, with encoders so many times as fine.
+pub fn slice(device: &ShippedDevice, finer: f64) -> Slice {
+    let own = Slice::of(device);
+    Slice { resolution: own.resolution / finer, ..own }
+}
+
+/// The stiffest wall below which each that was tried is clean, N/m.
+fn stiffest(is_clean: &impl Fn(f64) -> anyhow::Result<bool>) -> anyhow::Result<f64> {
     let ratio = 10_f64.powf(1.0 / STEPS_PER_DECADE);
     let (mut below, mut stiffness) = (0.0, TRIED[0]);
     while stiffness <= TRIED[1] * 1.001 && is_clean(stiffness)? {
@@ -53,13 +126,42 @@ pub fn clean_stiffness(device: &ShippedDevice, wish: &Wish, threshold: &Threshol
             }
         }
     }
-    let servo = Loop {
-        rate: f64::from(wish.rate),
-        delay_periods: DELAY,
-        velocity: wish.rendering.velocity,
-        corner: f64::from(wish.corner),
-        ease: wish.rendering.ease,
-    };
-    let damping = f64::from(wish.settings(device).damping);
-    Ok(Clean { rate: wish.rate, clean: below, stable: max_stiffness(&Slice::of(device), damping, &servo) })
+    Ok(below)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::devices::named;
+    use palpate::render::Material;
+
+    fn clean(device: &str, rate: f32, finer: f64) -> f64 {
+        let device = named(device).unwrap();
+        let Material { stiffness, damping, .. } = Material::WOOD;
+        let wish = Wish { rate, stiffness, damping, corner: 80.0, rendering: Rendering::SMOOTH };
+        clean_stiffness(device, &wish, finer, &Threshold::approximate()).unwrap().clean
+    }
+
+    #[test]
+    fn no_estimator_is_tried_that_the_rate_holds_back() {
+        for rate in RATES {
+            let between = estimators(rate).into_iter().filter(|entry| entry.0 == VelocityMethod::BetweenCounts);
+            assert!(between.clone().count() >= 1 && between.into_iter().all(|(_, corner)| corner <= FASTEST * rate));
+        }
+    }
+
+    /// Half as stiff again or more is seen beyond the search's 8 %.
+    #[test]
+    fn a_clean_wall_is_stiffer_at_a_higher_rate_where_counts_are_fine() {
+        let walls = [1_000.0, 2_000.0, 4_000.0].map(|rate| clean("polhem-v2", rate, 1.0));
+        assert!(walls.windows(2).all(|pair| pair[1] > 1.5 * pair[0]), "{walls:?}");
+    }
+
+    #[test]
+    fn where_counts_are_coarse_they_are_what_is_felt_and_finer_ones_help_as_no_rate_does() {
+        let device = "woodenhaptics-2016";
+        let [slow, fast] = [4_000.0, 8_000.0].map(|rate| clean(device, rate, 1.0));
+        assert!(fast < 1.3 * slow, "{slow} {fast}");
+        assert!(clean(device, 4_000.0, 16.0) > 3.0 * slow);
+    }
 }

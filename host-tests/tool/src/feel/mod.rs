@@ -8,5 +8,5 @@ pub mod plot;
 mod rows;
 pub mod table;
 
-pub use clean::{Clean, RATES, TRIED, clean_stiffness};
+pub use clean::{Clean, ENCODERS, RATES, TRIED, clean_stiffness, slice};
 pub use rows::{Row, Wish, rows};

@@ -1,5 +1,6 @@
 //! What the probe does under a hand that rests or slides, by frequency, beside what people feel.
 
+use super::clean::{Clean, ENCODERS, TRIED};
 use super::rows::Row;
 use crate::drawing::{BLUE_INK, GREEN_INK, RED_INK, SURFACE_INK, TEXT_INK, draw};
 use palpate_feel::{Deed, Spectrum, Threshold, thirds};
@@ -63,6 +64,49 @@ pub fn of_curves(curves: &[(&str, &Spectrum)], threshold: &Threshold) -> anyhow:
             .background_style(WHITE.mix(0.8))
             .border_style(BLACK.mix(0.3))
             .draw()?;
+        Ok(())
+    })
+}
+
+/// The greatest clean stiffness by rate, a panel a device and a curve an encoder, as SVG text.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn clean(all: &[(&str, Vec<Clean>)]) -> anyhow::Result<String> {
+    let lines = all.len().div_ceil(3) as u32;
+    draw((1_080, 300 * lines.max(1)), |area| {
+        area.fill(&WHITE)?;
+        for (panel, (name, points)) in area.split_evenly((lines as usize, all.len().clamp(1, 3))).iter().zip(all) {
+            let mut chart = ChartBuilder::on(panel)
+                .caption(name, ("sans-serif", 16))
+                .margin(8)
+                .x_label_area_size(38)
+                .y_label_area_size(64)
+                .build_cartesian_2d((0.9..11.0).log_scale(), (TRIED[0] * 0.9..TRIED[1] * 1.1).log_scale())?;
+            chart
+                .configure_mesh()
+                .x_desc("servo rate, kHz")
+                .y_desc("clean stiffness, N/m")
+                .light_line_style(WHITE)
+                .draw()?;
+            for ((finer, ink), width) in ENCODERS.into_iter().zip([RED_INK, BLUE_INK, GREEN_INK]).zip([3, 2, 1]) {
+                // A wall of which not even the softest is clean is drawn on the lower edge.
+                let curve = points.iter().filter(|point| point.finer == finer);
+                let curve = curve.map(|point| (f64::from(point.rate) / 1e3, point.clean.max(TRIED[0] * 0.9)));
+                let curve: Vec<(f64, f64)> = curve.collect();
+                chart
+                    .draw_series(LineSeries::new(curve.clone(), ink.stroke_width(width)))?
+                    .label(format!("counts 1/{finer} as wide"))
+                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], ink.stroke_width(width)));
+                chart.draw_series(curve.into_iter().map(|point| Circle::new(point, 3, ink.filled())))?;
+            }
+            chart
+                .configure_series_labels()
+                .position(SeriesLabelPosition::LowerRight)
+                .background_style(WHITE.mix(0.8))
+                .border_style(BLACK.mix(0.3))
+                .draw()?;
+        }
         Ok(())
     })
 }

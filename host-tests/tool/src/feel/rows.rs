@@ -18,6 +18,10 @@ const FRICTION: Friction = Material::WOOD.friction;
 /// How much finer encoders are tried where a slide is felt.
 const FINER: [f64; 6] = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 
+/// Steps of integration in a second, and at least in a period: the simulated device is the same at every rate.
+const SUB_STEPS_A_SECOND: f64 = 80_000.0;
+const LEAST_SUB_STEPS: u32 = 8;
+
 /// What the surface is to be.
 #[derive(Clone, Copy, Debug)]
 pub struct Wish {
@@ -86,21 +90,35 @@ pub fn rows(
     rows.with_context(|| device.name.to_owned())
 }
 
-/// What is felt of a firm slide on a wall of the wished stiffness, even one that the device is not recommended for.
-/// With one joint there is no slide: nothing is felt of it.
+/// What is felt of a firm slide on a wall of the wished stiffness, even one that the device is not recommended for, with
+/// encoders so many times as fine as its own. With one joint there is no slide: nothing is felt of it.
 ///
 /// # Errors
 /// Settings that are refused, a start out of reach, a fault of the loop.
-pub fn slide(device: &ShippedDevice, wish: &Wish, threshold: &Threshold) -> anyhow::Result<Sensation> {
+pub fn slide(device: &ShippedDevice, wish: &Wish, finer: f64, threshold: &Threshold) -> anyhow::Result<Sensation> {
     let settings = Settings { stiffness: wish.stiffness, ..wish.settings(device) };
     let bench = Bench { shipped: device, wish, threshold, settings };
     match device.preset {
-        Preset::SerialArm(arm) => bench.slide(arm),
-        Preset::LinkageArm(arm) => bench.slide(arm),
-        Preset::Delta(delta) => bench.slide(delta),
-        Preset::FiveBar(five_bar) => bench.slide(five_bar),
-        Preset::Paddle(paddle) => bench.slide(paddle),
+        Preset::SerialArm(arm) => bench.slide(arm, finer),
+        Preset::LinkageArm(arm) => bench.slide(arm, finer),
+        Preset::Delta(delta) => bench.slide(delta, finer),
+        Preset::FiveBar(five_bar) => bench.slide(five_bar, finer),
+        Preset::Paddle(paddle) => bench.slide(paddle, finer),
     }
+}
+
+/// A device and its simulated other half with encoders so many times as fine.
+fn with_finer<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
+    device: &Device<K, JOINTS>,
+    plant: &PlantSettings,
+    factor: f64,
+) -> (Device<K, JOINTS>, PlantSettings) {
+    let mut plant = *plant;
+    plant.joints.iter_mut().for_each(|joint| joint.counts_per_turn *= factor);
+    let encoders = device.encoders.map(|Encoder { radians_per_count, angle_at_zero }| {
+        Encoder::new(radians_per_count / factor as f32, angle_at_zero - 0.5 * radians_per_count)
+    });
+    (Device { encoders, ..*device }, plant)
 }
 
 struct Bench<'a> {
@@ -162,7 +180,9 @@ impl Bench<'_> {
         let friction = (script.deed == Deed::Verge).then_some(FRICTION);
         let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, settings)?
             .try_rendering(Rendering { friction, ..self.wish.rendering })?;
-        let recording = record(&servo, plant, HandSettings::default(), &script)?;
+        let sub_steps = (SUB_STEPS_A_SECOND / f64::from(settings.rate)).round() as u32;
+        let plant = PlantSettings { sub_steps: sub_steps.max(LEAST_SUB_STEPS), ..*plant };
+        let recording = record(&servo, &plant, HandSettings::default(), &script)?;
         let figures = recording.figures(script.looked_at, self.threshold);
         let steady = matches!(script.deed, Deed::Rest | Deed::Slide | Deed::Approach(_)) && figures.depth > 0.0;
         let asked = f64::from(settings.stiffness) * figures.depth;
@@ -176,13 +196,15 @@ impl Bench<'_> {
     fn slide<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
         &self,
         device: &Device<K, JOINTS>,
+        finer: f64,
     ) -> anyhow::Result<Sensation> {
-        let device = Device { max_stiffness: f32::MAX, ..*device };
+        let (device, plant) = with_finer(device, &self.shipped.plant, finer);
+        let device = Device { max_stiffness: f32::MAX, ..device };
         let scripts = self.stage(JOINTS).on_the_wall();
         let Some(script) = scripts.into_iter().rfind(|script| script.deed == Deed::Slide) else {
             return Ok(Sensation::NONE);
         };
-        let row = self.row(&device, &self.shipped.plant, wall(JOINTS), self.settings, script)?;
+        let row = self.row(&device, &plant, wall(JOINTS), self.settings, script)?;
         Ok(row.figures.sensation)
     }
 
@@ -193,12 +215,7 @@ impl Bench<'_> {
         script: &Script,
     ) -> anyhow::Result<f64> {
         for factor in FINER {
-            let mut plant = self.shipped.plant;
-            plant.joints.iter_mut().for_each(|joint| joint.counts_per_turn *= factor);
-            let encoders = device.encoders.map(|Encoder { radians_per_count, angle_at_zero }| {
-                Encoder::new(radians_per_count / factor as f32, angle_at_zero - 0.5 * radians_per_count)
-            });
-            let device = Device { encoders, ..*device };
+            let (device, plant) = with_finer(device, &self.shipped.plant, factor);
             let row = self.row(&device, &plant, wall(JOINTS), self.settings, script.clone())?;
             if row.figures.sensation.is_below() {
                 return Ok(factor);
