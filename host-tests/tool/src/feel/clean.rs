@@ -132,15 +132,6 @@ fn stiffest(is_clean: &impl Fn(f64) -> anyhow::Result<bool>) -> anyhow::Result<f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::devices::named;
-    use palpate::render::Material;
-
-    fn clean(device: &str, rate: f32, finer: f64) -> f64 {
-        let device = named(device).unwrap();
-        let Material { stiffness, damping, .. } = Material::WOOD;
-        let wish = Wish { rate, stiffness, damping, corner: 80.0, rendering: Rendering::SMOOTH };
-        clean_stiffness(device, &wish, finer, &Threshold::approximate()).unwrap().clean
-    }
 
     #[test]
     fn no_estimator_is_tried_that_the_rate_holds_back() {
@@ -148,20 +139,5 @@ mod tests {
             let between = estimators(rate).into_iter().filter(|entry| entry.0 == VelocityMethod::BetweenCounts);
             assert!(between.clone().count() >= 1 && between.into_iter().all(|(_, corner)| corner <= FASTEST * rate));
         }
-    }
-
-    /// Half as stiff again or more is seen beyond the search's 8 %.
-    #[test]
-    fn a_clean_wall_is_stiffer_at_a_higher_rate_where_counts_are_fine() {
-        let walls = [1_000.0, 2_000.0, 4_000.0].map(|rate| clean("polhem-v2", rate, 1.0));
-        assert!(walls.windows(2).all(|pair| pair[1] > 1.5 * pair[0]), "{walls:?}");
-    }
-
-    #[test]
-    fn where_counts_are_coarse_they_are_what_is_felt_and_finer_ones_help_as_no_rate_does() {
-        let device = "woodenhaptics-2016";
-        let [slow, fast] = [4_000.0, 8_000.0].map(|rate| clean(device, rate, 1.0));
-        assert!(fast < 1.3 * slow, "{slow} {fast}");
-        assert!(clean(device, 4_000.0, 16.0) > 3.0 * slow);
     }
 }
