@@ -1,13 +1,14 @@
 //! What a hard thing gives back when it is struck: a pulse that rings, as strong as the blow.
 
-/// A pulse on top of the wall's own force: `A e^(−t/τ) (1 − cos ωt)/2`, with `A` in proportion to the speed of the blow.
+/// A pulse on top of the wall's own force: `A e^(−t/τ) (1 − cos ωt)/2`, with `A` in proportion to the speed of the
+/// blow.
 ///
 /// Sinusoids that decay, scaled by the speed of impact, are what a tapped material gives (A. M. Okamura, M. R.
 /// Cutkosky, J. T. Dennerlein, *Reality-based models for vibration feedback in virtual environments*, IEEE/ASME Trans.
-/// Mechatronics 6(3), 2001), and make a virtual wall feel as hard (J. P. Fiene, K. J. Kuchenbecker, *Shaping event-based
-/// haptic transients via an improved understanding of real contact dynamics*, World Haptics 2007). Here it is raised so
-/// that it only ever pushes: from the front, as the wall does. It begins with 0 and without a slope, so that it makes no
-/// step of its own: `A (π f + 1/τ)` is its steepest, N/s.
+/// Mechatronics 6(3), 2001), and make a virtual wall feel as hard (J. P. Fiene, K. J. Kuchenbecker, *Shaping
+/// event-based haptic transients via an improved understanding of real contact dynamics*, World Haptics 2007). Here it
+/// is raised so that it only ever pushes: from the front, as the wall does. It begins with 0 and without a slope, so
+/// that it makes no step of its own: `A (π f + 1/τ)` is its steepest, N/s.
 ///
 /// It is active: what it gives to a probe that is on its way out by then is at most `A τ` times the fastest speed out,
 /// for `∫ e^(−t/τ) = τ`. A passivity controller sees it as it sees any force.
@@ -126,7 +127,8 @@ mod tests {
                 // e^(−t/τ) as (1 + t/(τ n))^(−n).
                 let left = (0..10).fold(1.0 + time / transient.decay / 1_024.0, |power, _| power * power).recip();
                 let closed = 0.5 * height * left * (1.0 - cosine);
-                // It rings 0.5 % low at 150 Hz: 0.13 rad after a decay of 30 ms, of half of what is left then; n is finite.
+                // It rings 0.5 % low at 150 Hz: 0.13 rad after a decay of 30 ms, of half of what is left then; n is
+                // finite.
                 assert!((push - closed).abs() < 0.03 * height, "{tick}: {push} {closed}");
                 assert!((0.0..=height).contains(&push) && (push - last).abs() <= steepest, "{tick}: {push}");
                 (last, sum) = (push, sum + push / RATE);

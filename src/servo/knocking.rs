@@ -6,9 +6,9 @@ use crate::math::Vec3;
 use crate::render::{Ring, Struck, Transient};
 use crate::track::{Contact, Controller, Probe, Witness};
 
-/// Any surface, which answers each blow with a [`Transient`]: a part of the surface, so that a loop without one has none
-/// of it. The transient acts along the normal as long as the surface is touched, passes easing, limits and passivity
-/// control as any force of a surface does, and ends with the contact.
+/// Any surface, which answers each blow with a [`Transient`]: a part of the surface, so that a loop without one has
+/// none of it. The transient acts along the normal as long as the surface is touched, passes easing, limits and
+/// passivity control as any force of a surface does, and ends with the contact.
 ///
 /// ```
 /// use palpate::render::Transient;

@@ -49,8 +49,8 @@ pub const WOODEN_HAPTICS_2016: Recommended = wall(500.0, 2.0, presets::WOODEN_HA
 /// For [`presets::POLHEM_V2`]. Its friction hides its counts: the smooth rendering is for contact and edges.
 pub const POLHEM_V2: Recommended = wall(500.0, 2.0, presets::POLHEM_V2.max_force);
 
-/// For [`presets::PHANTOM_PREMIUM`]: softer, for its friction is too little to hide that a believed position lags behind
-/// by a count where a joint turns back: at 500 N/m that is felt, if barely.
+/// For [`presets::PHANTOM_PREMIUM`]: softer, for its friction is too little to hide that a believed position lags
+/// behind by a count where a joint turns back: at 500 N/m that is felt, if barely.
 pub const PHANTOM_PREMIUM: Recommended = wall(400.0, 2.0, presets::PHANTOM_PREMIUM.max_force);
 
 /// For [`presets::NOVINT_FALCON`]: softer, for its third of a kilogram swings ahead of a hand that draws it at 0.3 m/s

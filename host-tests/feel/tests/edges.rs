@@ -57,9 +57,9 @@ fn no_edge_of_a_stepped_block_makes_a_step_and_its_seams_are_not_felt() {
     }
 }
 
-/// What an edge lets go of late. The force on a probe that touches nothing falls by `R` a second from the `F` that there
-/// was: it gives at most `v F²/(2R)`. The spring that the edge threw away held `F²/(2K)`, so that up to `v = R/K` no more
-/// comes back than was put in.
+/// What an edge lets go of late. The force on a probe that touches nothing falls by `R` a second from the `F` that
+/// there was: it gives at most `v F²/(2R)`. The spring that the edge threw away held `F²/(2K)`, so that up to `v = R/K`
+/// no more comes back than was put in.
 fn late(script: &Script, recording: &Recording) {
     let change = f64::from(Ease::SMOOTH.change);
     let (mut held, mut given, mut fastest) = (0.0, 0.0, 0.0_f64);

@@ -1,5 +1,5 @@
-//! What a higher rate is good for: a stiffer wall that is clean, as far as counts let it. Of WoodenHaptics; `palpate feel
-//! --clean` looks for the stiffest of every device.
+//! What a higher rate is good for: a stiffer wall that is clean, as far as counts let it. Of WoodenHaptics; `palpate
+//! feel --clean` looks for the stiffest of every device.
 
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Device, Encoder, VelocityMethod};

@@ -42,8 +42,8 @@ pub struct Arguments {
     /// what is recommended for the device unless said
     #[arg(long, value_enum)]
     rendering: Option<Kind>,
-    /// Finds the stiffest wall that is clean to slide along instead, at 1, 2, 4, 8 and 10 kHz, with the device's encoders
-    /// and finer ones and the estimator that suits them, beside the stiffest that comes to rest
+    /// Finds the stiffest wall that is clean to slide along instead, at 1, 2, 4, 8 and 10 kHz, with the device's
+    /// encoders and finer ones and the estimator that suits them, beside the stiffest that comes to rest
     #[arg(long, conflicts_with_all = ["model", "rate", "stiffness", "recording", "velocity_corner"])]
     clean: bool,
     /// A threshold of one's own: a CSV file of frequency, Hz, and peak displacement, m, under a row of names

@@ -56,8 +56,8 @@ fn estimators(rate: f32) -> Vec<(VelocityMethod, f32)> {
     between.chain(COUNTED.map(|corner| (VelocityMethod::LowPass, corner))).collect()
 }
 
-/// The greatest clean stiffness at a rate with the best estimator, whatever the device is recommended for; beside it the
-/// Z-width's.
+/// The greatest clean stiffness at a rate with the best estimator, whatever the device is recommended for; beside it
+/// the Z-width's.
 ///
 /// # Errors
 /// Settings that are refused, a start out of reach.

@@ -90,8 +90,8 @@ pub fn rows(
     rows.with_context(|| device.name.to_owned())
 }
 
-/// What is felt of a firm slide on a wall of the wished stiffness, even one that the device is not recommended for, with
-/// encoders so many times as fine as its own. With one joint there is no slide: nothing is felt of it.
+/// What is felt of a firm slide on a wall of the wished stiffness, even one that the device is not recommended for,
+/// with encoders so many times as fine as its own. With one joint there is no slide: nothing is felt of it.
 ///
 /// # Errors
 /// Settings that are refused, a start out of reach, a fault of the loop.
