@@ -14,9 +14,9 @@ use crate::math::{Vec3, inverse_sqrt_from_below};
 /// nothing is held back on a flat wall but how the damping comes in; and nothing but the bound holds at an edge, where
 /// the probe moves along the surface, or on into the space where the body ends.
 ///
-/// What an edge throws away is given back late, and that feeds nothing as long as the probe is slow: a spring's push `F`
-/// that falls by `change` a second does work of at most `v F²/(2 change)` on a probe that moves away at `v`, and the
-/// spring that let go held `F²/(2K)`. Up to `v = change/K`, 0.4 m/s at 500 N/m, no more comes back than was put in.
+/// What an edge throws away is given back late, and that feeds nothing as long as the probe is slow: a spring's push
+/// `F` that falls by `change` a second does work of at most `v F²/(2 change)` on a probe that moves away at `v`, and
+/// the spring that let go held `F²/(2K)`. Up to `v = change/K`, 0.4 m/s at 500 N/m, no more comes back than was put in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ease {
     /// The spring's push over which the damping comes in, N. A force and not a depth, so that a stiff wall, which is
