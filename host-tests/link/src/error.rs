@@ -1,0 +1,120 @@
+//! What can go wrong between a host and a device, each with its culprit.
+
+use palpate::body::FileError;
+use palpate::servo::Fault;
+use palpate::wire::Refused;
+use std::io;
+use std::time::Duration;
+use thiserror::Error;
+
+/// Why a call failed.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// The port is not there, or another program's.
+    #[error("cannot open the serial port {port}")]
+    Open {
+        /// Its name.
+        port: String,
+        /// What the system says.
+        #[source]
+        cause: serialport::Error,
+    },
+    /// The line broke: unplugged, closed at the other end.
+    #[error("{line}: the line broke")]
+    Line {
+        /// Which.
+        line: String,
+        /// What the system says.
+        #[source]
+        cause: io::Error,
+    },
+    /// The device says nothing, or nothing any more.
+    #[error("{line}: the device has been silent for {:.2} s: is it on, and on this line?", waited.as_secs_f64())]
+    Silent {
+        /// Which line.
+        line: String,
+        /// For how long.
+        waited: Duration,
+    },
+    /// Something speaks there, but no frame of it can be read.
+    #[error("{line}: {bytes} bytes came and no frame among them: another baud rate, or no such device")]
+    Garbled {
+        /// Which line.
+        line: String,
+        /// What came.
+        bytes: u64,
+    },
+    /// The device speaks another version.
+    #[error("{line}: the device speaks version {device} of the protocol, this program version {host}")]
+    Protocol {
+        /// Which line.
+        line: String,
+        /// The device's version.
+        device: u16,
+        /// This crate's.
+        host: u16,
+    },
+    /// The device has been reset: it feels what it was built with, where that was. [`crate::Device::greet`] goes on.
+    #[error("{line}: the device has begun anew, and knows nothing of what it was told before: greet it")]
+    BeganAnew {
+        /// Which line.
+        line: String,
+    },
+    /// The device is being set up (`palpate commission`): nothing is felt until it is reset.
+    #[error("{line}: the device is being set up, and feels nothing until it is reset")]
+    SetUp {
+        /// Which line.
+        line: String,
+    },
+    /// The device has refused it; nothing has changed.
+    #[error("{asked} was refused by the device: {reason}")]
+    Refused {
+        /// What was asked for.
+        asked: &'static str,
+        /// The device's reason.
+        reason: Refused,
+    },
+    /// No answer came. It may have been done or not.
+    #[error("{asked}, number {number}: no answer in {tries} tries; whether it was done is not known")]
+    Lost {
+        /// What was asked for.
+        asked: &'static str,
+        /// The order's number.
+        number: u16,
+        /// How often it was sent.
+        tries: u32,
+    },
+    /// What was to be uploaded is no body; nothing was sent.
+    #[error("what is to be uploaded is no body")]
+    Body(#[from] FileError),
+    /// The body does not fit into the device's memory; nothing was sent.
+    #[error(
+        "the body takes {bytes} bytes, {faces} faces and {edges} edges, and the device has room for {room} bytes, \
+         {most_faces} faces and {most_edges} edges"
+    )]
+    TooLarge {
+        /// Of the body.
+        bytes: usize,
+        /// Of the body.
+        faces: usize,
+        /// Of the body.
+        edges: usize,
+        /// Bytes, as the device says.
+        room: u32,
+        /// Faces, as the device says.
+        most_faces: u16,
+        /// Edges, as the device says.
+        most_edges: u16,
+    },
+    /// The device does not say that it has stopped. Take its supply away.
+    #[error("{line}: stop was sent {tries} times, and the device does not say that it has stopped: press its own stop")]
+    NotStopped {
+        /// Which line.
+        line: String,
+        /// How often.
+        tries: u32,
+    },
+    /// The device is stopped by a fault that no word of a host's takes back.
+    #[error("the device stays stopped: {0}")]
+    Fault(Fault),
+}

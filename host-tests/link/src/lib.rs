@@ -1,0 +1,22 @@
+#![doc = include_str!("../README.md")]
+
+mod device;
+mod error;
+mod line;
+mod orders;
+mod port;
+mod read;
+mod stopping;
+mod upload;
+
+pub use device::{ALIVE, Device};
+pub use error::Error;
+pub use line::Line;
+pub use orders::{ANSWER, TRIES};
+pub use palpate::render::Friction;
+pub use palpate::scene::{Order, Pose, SceneError};
+pub use palpate::servo::{Fault, Phase};
+pub use palpate::track::Contact;
+pub use palpate::wire::{Hello, PROTOCOL, Record, Refused, UploadError, View};
+pub use port::Port;
+pub use read::SILENCE;

@@ -1,0 +1,172 @@
+//! What a host asks for.
+
+use crate::{Device, Error, Line};
+use palpate::render::Friction;
+use palpate::scene::{Order, Pose};
+use palpate::wire::{Command, Refused};
+use std::time::Duration;
+
+/// How long an answer is waited for before what was asked for is asked for anew, under the same number. An adapter may
+/// hold bytes back for 16 ms each way, and at 115,200 baud the frame on its way takes 8 ms more.
+pub const ANSWER: Duration = Duration::from_millis(100);
+/// How often something is asked for in all.
+pub const TRIES: u32 = 5;
+/// How often, and how long each time, a device is waited for that is busy with something else.
+pub(crate) const BUSY: (u32, Duration) = (50, Duration::from_millis(10));
+
+impl<L: Line> Device<L> {
+    /// Asks for an order, and waits for the answer.
+    ///
+    /// # Errors
+    /// The device's refusal, or that no answer came; a line that broke, a device that has begun anew or is being set up.
+    pub fn order(&mut self, order: Order) -> Result<(), Error> {
+        self.usable()?;
+        let asked = name(&order);
+        let tries = if is_repeatable(&order) { TRIES } else { 1 };
+        let refused = self.ask(asked, (tries, ANSWER), |number| Command::Order { number, order })?;
+        refused.map_or(Ok(()), |reason| Err(Error::Refused { asked, reason }))
+    }
+
+    /// Asks for something that is answered by its number, anew where no answer comes; what it was refused for, if it was.
+    pub(crate) fn ask(
+        &mut self,
+        asked: &'static str,
+        (tries, patience): (u32, Duration),
+        command: impl Fn(u16) -> Command,
+    ) -> Result<Option<Refused>, Error> {
+        // The same however often it is sent: a device that has done it already need not do it again.
+        self.number = self.number.wrapping_add(1);
+        let (number, mut busy) = (self.number, BUSY.0);
+        let mut left = tries;
+        while left > 0 {
+            (self.answer, self.repeated) = (None, left < tries);
+            self.send(&command(number))?;
+            let sent = self.line.now();
+            while self.answer.is_none() && self.since(sent) < patience {
+                self.hear(patience.saturating_sub(self.since(sent)))?;
+                self.usable()?;
+            }
+            match self.answer.take().map(|answer| answer.refused) {
+                None => left -= 1,
+                Some(Some(Refused::Busy)) if busy > 0 => {
+                    busy -= 1;
+                    self.pause(BUSY.1)?;
+                }
+                Some(Some(Refused::Hello)) => return Err(self.has_begun_anew()),
+                Some(refused) => return Ok(refused),
+            }
+        }
+        Err(Error::Lost { asked, number, tries })
+    }
+
+    /// A force of this program's own, N, in the scene's frame, added to that of the bodies. It stands for a tenth of a
+    /// second ([`palpate::scene::HOLD`]) and fades unless it is asked for anew: call this at 20 Hz and more.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn push(&mut self, force: [f32; 3]) -> Result<(), Error> {
+        self.order(Order::Push { force })
+    }
+
+    /// Puts a resting body somewhere else. What was felt of it fades, and it is felt anew from its front.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn place(&mut self, body: u8, pose: Pose) -> Result<(), Error> {
+        self.order(Order::Place { body, pose })
+    }
+
+    /// Leads a resting body along: it is there by now, and moves on at these velocities of its origin (m/s) and about it
+    /// (rad/s) for so many seconds, unless the next call comes. For a motion that this program gives pose by pose.
+    /// It is asked for once only: a pose of before is no use later.
+    ///
+    /// # Errors
+    /// As [`Self::order`]; after [`Error::Lost`] the next call puts it right.
+    pub fn lead(&mut self, body: u8, pose: Pose, motion: [[f32; 3]; 2], seconds: f32) -> Result<(), Error> {
+        let [velocity, angular_velocity] = motion;
+        self.order(Order::Lead { body, pose, velocity, angular_velocity, seconds })
+    }
+
+    /// Lets a resting body move on from where it is, at these velocities of its origin (m/s) and about it (rad/s), for so
+    /// many seconds. It is asked for once only: asked twice, it would move for longer.
+    ///
+    /// # Errors
+    /// As [`Self::order`]; after [`Error::Lost`] only [`Self::place`] says where it is.
+    pub fn move_along(&mut self, body: u8, motion: [[f32; 3]; 2], seconds: f32) -> Result<(), Error> {
+        let [velocity, angular_velocity] = motion;
+        self.order(Order::Move { body, velocity, angular_velocity, seconds })
+    }
+
+    /// Bodies of these groups are on, all others off; group 0 is the lowest bit.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn switch(&mut self, groups: u32) -> Result<(), Error> {
+        self.order(Order::Switch { groups })
+    }
+
+    /// This group alone is on; of a knob, this feel.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn choose(&mut self, index: u8) -> Result<(), Error> {
+        self.order(Order::Choose { index })
+    }
+
+    /// Another stiffness (N/m) and damping (N·s/m) for a body.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn harden(&mut self, body: u8, stiffness: f32, damping: f32) -> Result<(), Error> {
+        self.order(Order::Harden { body, stiffness, damping })
+    }
+
+    /// Other friction for a body, or none.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn rub(&mut self, body: u8, friction: Option<Friction>) -> Result<(), Error> {
+        let friction = friction.map(|Friction { stiffness, damping, static_coefficient, dynamic_coefficient }| {
+            [stiffness, damping, static_coefficient, dynamic_coefficient]
+        });
+        self.order(Order::Rub { body, friction })
+    }
+
+    /// The tool has a ball of this radius, metres, at its tip.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn tip(&mut self, radius: f32) -> Result<(), Error> {
+        self.order(Order::Tip { radius })
+    }
+
+    /// The greatest force of all of the scene, N; at most what the device's settings have ([`Self::hello`]).
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn limit(&mut self, newtons: f32) -> Result<(), Error> {
+        self.order(Order::Limit { force: newtons })
+    }
+}
+
+/// What messages call it.
+const fn name(order: &Order) -> &'static str {
+    match order {
+        Order::Place { .. } => "place",
+        Order::Lead { .. } => "lead",
+        Order::Move { .. } => "move",
+        Order::Switch { .. } => "switch",
+        Order::Choose { .. } => "choose",
+        Order::Harden { .. } => "harden",
+        Order::Rub { .. } => "rub",
+        Order::Tip { .. } => "tip",
+        Order::Limit { .. } => "limit",
+        Order::Push { .. } => "push",
+        Order::Take { .. } => "take",
+    }
+}
+
+/// Whether it means the same once or twice, for an answer that is lost leaves open whether it was done.
+const fn is_repeatable(order: &Order) -> bool {
+    !matches!(order, Order::Lead { .. } | Order::Move { .. })
+}

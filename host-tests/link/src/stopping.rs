@@ -1,0 +1,73 @@
+//! Stopping, and going on.
+
+use crate::{ALIVE, Device, Error, Line};
+use palpate::servo::Fault;
+use palpate::wire::Command;
+use std::time::Duration;
+
+/// For how long a device is told to stop until it says that it has.
+const STOPS: Duration = Duration::from_millis(500);
+
+impl<L: Line> Device<L> {
+    /// Stops the device, whatever it does, until it is reset: said again and again until the device says that it is
+    /// stopped. A device of this version says so in its views and records, also one that was not greeted.
+    ///
+    /// # Errors
+    /// A line that broke, or a device that does not say that it has stopped: then take its supply away.
+    pub fn stop(&mut self) -> Result<(), Error> {
+        // What was heard before is from before.
+        (self.view, self.record, self.reading) = (None, None, None);
+        let (began, mut tries) = (self.line.now(), 0);
+        while self.since(began) < STOPS {
+            self.send(&Command::Stop)?;
+            tries += 1;
+            let sent = self.line.now();
+            while self.since(sent) < ALIVE {
+                self.hear(ALIVE)?;
+                if self.viewed_fault().is_some() || self.reading.is_some_and(|reading| !reading.live) {
+                    return Ok(());
+                }
+            }
+            // One that was not greeted sends no views; a view of before may still come after a record.
+            if self.view.is_none() && self.recorded_fault().is_some() {
+                return Ok(());
+            }
+        }
+        Err(Error::NotStopped { line: self.line.name(), tries })
+    }
+
+    /// Goes on after a reset by the watchdog or a brown-out, once somebody has looked at the device. Its enable button
+    /// has to be released and pressed anew before there is force.
+    ///
+    /// # Errors
+    /// A line that broke, a device that is silent, or [`Error::Fault`] where something else has stopped it.
+    pub fn acknowledge(&mut self) -> Result<(), Error> {
+        self.usable()?;
+        self.view = None;
+        let began = self.line.now();
+        while self.since(began) < STOPS {
+            self.send(&Command::Acknowledge)?;
+            self.view = None;
+            self.pause(ALIVE)?;
+            if let Some((view, _)) = self.view
+                && view.fault == 0
+            {
+                return Ok(());
+            }
+        }
+        match self.viewed_fault().or(self.recorded_fault()) {
+            Some(fault) => Err(Error::Fault(fault)),
+            None => Err(Error::Silent { line: self.line.name(), waited: STOPS }),
+        }
+    }
+
+    /// The fault of the newest view.
+    fn viewed_fault(&self) -> Option<Fault> {
+        self.view.and_then(|(view, _)| Fault::from_code(view.fault))
+    }
+
+    /// The fault of the newest record.
+    fn recorded_fault(&self) -> Option<Fault> {
+        self.record.and_then(|record| Fault::from_code(record.fault))
+    }
+}

@@ -1,0 +1,119 @@
+//! A body on its way into a device.
+
+use crate::orders::{ANSWER, BUSY, TRIES};
+use crate::{Device, Error, Line};
+use palpate::body::{Body, Edge, Face, FileError, FileHead, Room};
+use palpate::scene::{Order, SceneError};
+use palpate::wire::{CHUNK, Command, Refused, Upload, UploadError};
+use std::time::Duration;
+
+/// How long the device may take to check a whole body, which it does below its ticks.
+const CHECKS: Duration = Duration::from_secs(2);
+/// How often the device may ask for a part that it has been sent.
+const RESUMES: u32 = 100;
+/// How often a part is sent in all: it is longer than an order, there are many, and it may come twice.
+const PART_TRIES: u32 = 20;
+
+impl<L: Line> Device<L> {
+    /// Puts a body's file (`palpate bake --out part.palp`) in the place of a body of the scene. The file is checked here
+    /// first, with the device's own code; then it is sent while the old body is felt, checked there, and taken. Parts
+    /// that are lost are sent anew. `progress` is told the bytes that have come, and all; nothing else can be asked of
+    /// the device meanwhile.
+    ///
+    /// # Errors
+    /// What is wrong with the file; a body too large for the device; the device's refusal; a line or device that is gone.
+    /// The old body is felt on then.
+    pub fn upload(&mut self, body: u8, file: &[u8], mut progress: impl FnMut(usize, usize)) -> Result<(), Error> {
+        self.usable()?;
+        let head = check(file)?;
+        self.fits(file, &head)?;
+        self.part(Upload::Begin { bytes: file.len() as u32 }, ANSWER)?;
+        let (mut at, mut resumes) = (0, RESUMES);
+        loop {
+            let part = part(file, at);
+            let patience = if part == Upload::End { CHECKS } else { ANSWER };
+            match self.part(part, patience) {
+                Ok(()) if part == Upload::End => break,
+                Ok(()) => at = (at + CHUNK).min(file.len()),
+                // Where the device says that it is.
+                Err(Error::Refused { reason: Refused::Upload(UploadError::Order { at: wanted }), .. })
+                    if resumes > 0 =>
+                {
+                    (at, resumes) = ((wanted as usize).min(file.len()), resumes - 1);
+                }
+                Err(error) => return Err(error),
+            }
+            progress(at, file.len());
+        }
+        self.take_uploaded(body)
+    }
+
+    /// The body that has just come and was checked takes its place.
+    fn take_uploaded(&mut self, body: u8) -> Result<(), Error> {
+        let asked = "take";
+        let order = Order::Take { body };
+        match self.ask(asked, (TRIES, ANSWER), |number| Command::Order { number, order })? {
+            None => Ok(()),
+            // It was there a moment ago: the answer that it was taken was lost.
+            Some(Refused::Order(SceneError::NotUploaded(_))) if self.repeated => Ok(()),
+            Some(reason) => Err(Error::Refused { asked, reason }),
+        }
+    }
+
+    /// Sends a part, and waits for as long as the device has no bank free.
+    fn part(&mut self, part: Upload, patience: Duration) -> Result<(), Error> {
+        let (times, pause) = BUSY;
+        for _ in 0..times {
+            match self.ask("upload", (PART_TRIES, patience), |number| Command::Upload { number, part })? {
+                None => return Ok(()),
+                Some(Refused::Upload(UploadError::Busy)) => self.pause(pause)?,
+                Some(reason) => return Err(Error::Refused { asked: "upload", reason }),
+            }
+        }
+        Err(Error::Refused { asked: "upload", reason: Refused::Upload(UploadError::Busy) })
+    }
+
+    /// Whether there is memory for it. A device without any says so itself.
+    fn fits(&self, file: &[u8], head: &FileHead) -> Result<(), Error> {
+        let hello = self.hello();
+        let fits = file.len() <= hello.room as usize
+            && head.faces <= usize::from(hello.faces)
+            && head.edges <= usize::from(hello.edges);
+        if fits || hello.room == 0 {
+            return Ok(());
+        }
+        Err(Error::TooLarge {
+            bytes: file.len(),
+            faces: head.faces,
+            edges: head.edges,
+            room: hello.room,
+            most_faces: hello.faces,
+            most_edges: hello.edges,
+        })
+    }
+}
+
+/// The part of a file that begins here; its end beyond it.
+fn part(file: &[u8], at: usize) -> Upload {
+    let Some(rest) = file.get(at..).filter(|rest| !rest.is_empty()) else { return Upload::End };
+    let mut bytes = [[0; 16]; CHUNK / 16];
+    for (place, byte) in bytes.as_flattened_mut().iter_mut().zip(rest) {
+        *place = *byte;
+    }
+    Upload::Bytes { at: at as u32, bytes }
+}
+
+/// Checks a body's file as a device does.
+fn check(file: &[u8]) -> Result<FileHead, FileError> {
+    // At a multiple of four, wherever the caller's bytes are.
+    let mut words = vec![0_u32; file.len().div_ceil(4)];
+    let bytes = bytemuck::cast_slice_mut::<u32, u8>(&mut words);
+    for (place, byte) in bytes.iter_mut().zip(file) {
+        *place = *byte;
+    }
+    let bytes = bytes.get(..file.len()).unwrap_or_default();
+    let head = FileHead::of(bytes)?;
+    let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
+    Body::from_bytes(bytes, Room { faces: &mut faces, edges: &mut edges })?;
+    Ok(head)
+}

@@ -1,0 +1,153 @@
+//! A line to the simulated device that loses frames and spoils bytes.
+
+use palpate::wire::frame::{DELIMITER, Received, Receiver};
+use palpate::wire::{Command, Told};
+use palpate_link::{Device, Line, View};
+use palpate_simulated::{Hand, Kind, Simulated};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+use std::io;
+use std::time::{Duration, Instant};
+
+/// What is between a host and the simulated device.
+pub struct Bad {
+    pub device: Simulated,
+    /// Answers to come that are lost, and orders and parts of uploads.
+    pub lose_answers: u32,
+    pub lose_orders: u32,
+    /// After so many answers one is lost.
+    pub lose_after: Option<u32>,
+    /// Stops to come that are lost.
+    pub lose_stops: u32,
+    /// Of a million bytes, either way, so many are lost, and so many have a bit flipped.
+    pub spoils: u32,
+    /// Every order and part that was said, lost or not, by its number.
+    pub numbers: Vec<u16>,
+    random: Pcg64,
+    told: Receiver<Told>,
+    /// A frame on its way to the host.
+    frame: Vec<u8>,
+}
+
+/// Greets a simulated device over such a line.
+pub fn device(kind: Kind) -> Device<Bad> {
+    Device::over(Bad::new(kind, 1)).unwrap()
+}
+
+/// The same, felt: enabled, and the hand where it was.
+pub fn running() -> (Device<Bad>, Hand) {
+    let mut device = device(Kind::default());
+    let hand = device.line().device.hand();
+    for_seconds(&mut device, 0.1);
+    hand.enables(true);
+    for_seconds(&mut device, 0.5);
+    (device, hand)
+}
+
+/// Lets time go by, and gives the view at its end.
+pub fn for_seconds(device: &mut Device<Bad>, seconds: f32) -> View {
+    let until = device.now() + Duration::from_secs_f32(seconds);
+    while device.now() < until {
+        device.view(Duration::from_millis(5)).unwrap();
+    }
+    device.view(Duration::from_millis(20)).unwrap()
+}
+
+impl Bad {
+    pub fn new(kind: Kind, seed: u64) -> Self {
+        Self {
+            device: Simulated::new(kind).unwrap(),
+            lose_answers: 0,
+            lose_orders: 0,
+            lose_after: None,
+            lose_stops: 0,
+            spoils: 0,
+            numbers: Vec::new(),
+            random: Pcg64::seed_from_u64(seed),
+            told: Receiver::new(),
+            frame: Vec::new(),
+        }
+    }
+
+    /// What becomes of bytes on the way.
+    fn spoil(&mut self, bytes: &[u8]) -> Vec<u8> {
+        let mut left = Vec::new();
+        for byte in bytes {
+            let dice = self.random.next_u32() % 1_000_000;
+            if dice < self.spoils {
+                left.push(byte ^ 1 << (dice % 8));
+            } else if dice >= 2 * self.spoils {
+                left.push(*byte);
+            }
+        }
+        left
+    }
+
+    /// Whether an answer is lost.
+    fn loses_answer(&mut self) -> bool {
+        if self.lose_after == Some(0) {
+            self.lose_after = None;
+            return true;
+        }
+        self.lose_after = self.lose_after.map(|left| left - 1);
+        let is_lost = self.lose_answers > 0;
+        self.lose_answers = self.lose_answers.saturating_sub(1);
+        is_lost
+    }
+
+    /// Whether a frame of the host's is lost.
+    fn loses(&mut self, bytes: &[u8]) -> bool {
+        let mut receiver = Receiver::<Command>::new();
+        let heard = bytes.iter().find_map(|byte| receiver.feed(*byte));
+        let left = match heard {
+            Some(Received::Message(Command::Order { number, .. } | Command::Upload { number, .. })) => {
+                self.numbers.push(number);
+                &mut self.lose_orders
+            }
+            Some(Received::Message(Command::Stop)) => &mut self.lose_stops,
+            _ => return false,
+        };
+        let is_lost = *left > 0;
+        *left = left.saturating_sub(1);
+        is_lost
+    }
+}
+
+impl Line for Bad {
+    fn name(&self) -> String {
+        "a bad line".to_owned()
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        if self.loses(bytes) {
+            return Ok(());
+        }
+        let bytes = self.spoil(bytes);
+        self.device.send(&bytes)
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
+        let came = self.device.receive(buffer, wait)?;
+        let mut left = Vec::new();
+        for byte in &buffer[..came] {
+            self.frame.push(*byte);
+            let told = self.told.feed(*byte);
+            if *byte != DELIMITER {
+                continue;
+            }
+            let frame = std::mem::take(&mut self.frame);
+            if matches!(told, Some(Received::Message(Told::Answer(_)))) && self.loses_answer() {
+                continue;
+            }
+            left.extend(self.spoil(&frame));
+        }
+        // A frame is in the buffer once its end has come, and no longer than what the buffer held before and now.
+        let fits = left.len().min(buffer.len());
+        buffer[..fits].copy_from_slice(&left[..fits]);
+        Ok(fits)
+    }
+
+    fn now(&self) -> Instant {
+        self.device.now()
+    }
+}

@@ -1,0 +1,8 @@
+//! The host's end of the line against the boards' own loop, over a line that loses and spoils what it is told to.
+
+mod alive;
+mod line;
+mod lost;
+mod orders;
+mod strangers;
+mod uploads;

@@ -1,0 +1,272 @@
+//! The device.
+
+use crate::hand::Hand;
+use anyhow::Context as _;
+use palpate::body::{Aligned, Body, Edge, Face, FileHead, Room};
+use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::device::{Counts, Duty, SerialArm};
+use palpate::math::{Vec3, vec3};
+use palpate::scene::{Limits, Material, Motion, Part, Scene, Slot};
+use palpate::servo::{Heartbeat, ResetReason, Safety, Servo, Settings, Unguarded};
+use palpate::track::{Controller, Placement};
+use palpate::wire::Record;
+use palpate::wire::telemetry::Queue;
+use palpate_bench::sensors::BadFrame;
+use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Uploads, Watchdog};
+use palpate_link::Line;
+use palpate_plant::{HandSettings, Plant, PlantSettings};
+use palpate_shelf::Bodies;
+use std::collections::VecDeque;
+use std::io;
+use std::time::{Duration, Instant};
+
+/// Ticks a second.
+const RATE: u32 = 4_000;
+/// Of the simulated board's counter, Hz.
+const CLOCK: u32 = 100_000_000;
+/// Bytes that a line of 500,000 baud carries in a tick, either way.
+const BYTES: u32 = 12;
+/// The second box is so far to the side of the first, metres: 20 mm are between them.
+const BESIDE: f32 = 0.06;
+/// Where the middle of the workspace is in the scene, metres: just over the dome of the first box.
+const MIDDLE: [f32; 3] = [0.03, 0.02, 0.04];
+/// Where the hand is at first, metres, in the scene.
+const ABOVE: [f64; 3] = [0.03, 0.02, 0.05];
+
+/// The capped box, as the tool bakes it.
+static BOX: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../boards/bodies/capped_box.palp"));
+
+/// Two banks of 64 KB, and faces and edges of some 200 patches.
+type Shelf = Bodies<16_640, 240, 600>;
+type Surface = Scene<'static, Slot<'static, Shelf>, 2>;
+
+struct Made(Servo<'static, Surface, SerialArm, 3>);
+
+impl Felt<3> for Made {
+    type Surface = Surface;
+    type Mechanism = SerialArm;
+    type Guard = Unguarded;
+
+    fn servo(&self) -> &Servo<'static, Surface, SerialArm, 3> {
+        &self.0
+    }
+}
+
+/// A board whose pins are the simulated device's.
+struct Pins {
+    plant: Plant,
+    hand: Hand,
+    duties: [i16; 3],
+}
+
+impl Board<3> for Pins {
+    fn drive(&mut self, duties: [Duty; 3]) -> Result<(), NotObeyed> {
+        self.duties = duties.map(|duty| duty.0);
+        Ok(())
+    }
+}
+
+impl Passive<3> for Pins {
+    fn now(&self) -> u32 {
+        0
+    }
+
+    fn acknowledge(&mut self) {}
+
+    fn panel(&mut self) -> Panel {
+        Panel { enable: self.hand.is_enabling(), stop: false, ready: true, supply: None }
+    }
+
+    fn read(&mut self) -> Result<[Counts; 3], BadFrame> {
+        Ok(self.plant.counts().map(Counts))
+    }
+
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        self.duties = [0; 3];
+        Ok(())
+    }
+
+    fn show(&mut self, _: bool) {}
+}
+
+/// The serial port, both ends.
+#[derive(Default)]
+struct Wire {
+    to_device: VecDeque<u8>,
+    from_device: Vec<u8>,
+}
+
+impl Port for Wire {
+    fn send(&mut self, byte: u8) -> bool {
+        self.from_device.push(byte);
+        true
+    }
+
+    fn receive(&mut self) -> Option<u8> {
+        self.to_device.pop_front()
+    }
+}
+
+struct NoWatchdog;
+
+impl Watchdog for NoWatchdog {
+    fn feed(&mut self) {}
+}
+
+/// A line to the boards' loop in this very program. The device lives while it is listened to; its time is its own.
+pub struct Simulated {
+    bench: Bench<'static, Made, Pins, 3>,
+    idle: Idle<'static>,
+    wire: Wire,
+    hand: Hand,
+    ticks: u32,
+    began: Instant,
+    is_paced: bool,
+}
+
+/// What may be chosen of the simulated device.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// Whether it has memory for bodies that come over the line.
+    pub takes_bodies: bool,
+    /// Seconds of silence after which it stops.
+    pub link_timeout: f32,
+    /// Why it was reset.
+    pub reset: ResetReason,
+}
+
+impl Default for Kind {
+    /// With memory, half a second, just switched on.
+    fn default() -> Self {
+        Self { takes_bodies: true, link_timeout: 0.5, reset: ResetReason::PowerOn }
+    }
+}
+
+/// What lives as long as the program, as a board's statics do.
+fn kept<T>(what: T) -> &'static T {
+    Box::leak(Box::new(what))
+}
+
+fn capped_box() -> anyhow::Result<&'static Body<'static>> {
+    let head = FileHead::of(&BOX.0)?;
+    let faces = Box::leak(vec![Face::VACANT; head.faces].into_boxed_slice());
+    let edges = Box::leak(vec![Edge::VACANT; head.edges].into_boxed_slice());
+    Ok(kept(Body::from_bytes(&BOX.0, Room { faces, edges })?))
+}
+
+impl Simulated {
+    /// A device that was just switched on, held some 16 mm above the dome of the first box; enable is released.
+    ///
+    /// # Errors
+    /// A bug of this program.
+    pub fn new(kind: Kind) -> anyhow::Result<Self> {
+        let body = capped_box()?;
+        let shelf: &'static Shelf = kept(Bodies::new());
+        let slots = kept([Slot::fixed(body), Slot::exchangeable(body, shelf)]);
+        let place = |y: f32| Motion::Resting(Placement { origin: vec3(0.0, y, 0.0), ..Placement::IDENTITY });
+        let material = Material::new(400.0, 1.5);
+        let parts = [Part::in_slot(&slots[0], place(0.0), material), Part::in_slot(&slots[1], place(BESIDE), material)];
+        let scene = kept(Scene::try_new(Limits::of(&WOODEN_HAPTICS_2016, RATE as f32), parts)?);
+        let settings = Settings {
+            rate: RATE as f32,
+            stiffness: 400.0,
+            damping: 1.5,
+            max_force: 5.0,
+            velocity_corner: 200.0,
+            soft_start: 0.1,
+            body_origin: -Vec3::from_array(MIDDLE),
+        };
+        let servo = Servo::try_new(&WOODEN_HAPTICS_2016, scene, Controller::SECOND_ORDER, settings)?
+            .try_safety(Safety { link_timeout: kind.link_timeout, ..Safety::DEFAULT })?;
+        let hand = Hand::at(ABOVE, MIDDLE.map(f64::from));
+        let grip = HandSettings::default();
+        let path = Box::new(hand.clone());
+        let plant = Plant::new(&PlantSettings::wooden_haptics_2016(), grip, path, f64::from(RATE))?;
+        let mailbox: &'static Mailbox = kept(Mailbox::new());
+        let queue: &'static mut Queue<Record, 16> = Box::leak(Box::new(Queue::new()));
+        let (producer, records) = queue.split();
+        let pins = Pins { plant, hand: hand.clone(), duties: [0; 3] };
+        let loop_settings = palpate_bench::Settings::new(CLOCK);
+        let bench = Bench::new(Made(servo), pins, &loop_settings, kind.reset, producer, mailbox);
+        let mut idle = Idle::new(mailbox, records, Heartbeat::default()).saying(settings.rate, settings.max_force);
+        if kind.takes_bodies {
+            let main: &'static dyn Uploads = kept(shelf.main().context("its memory is handed out once")?);
+            idle = idle.taking(main);
+        }
+        let wire = Wire::default();
+        Ok(Self { bench, idle, wire, hand, ticks: 0, began: Instant::now(), is_paced: false })
+    }
+
+    /// No faster than the clock on the wall.
+    #[must_use]
+    pub fn paced(self) -> Self {
+        Self { is_paced: true, ..self }
+    }
+
+    /// Whoever stands at it.
+    pub fn hand(&self) -> Hand {
+        self.hand.clone()
+    }
+
+    /// Runs the device although nobody listens.
+    pub fn run(&mut self, ticks: u32) {
+        for _ in 0..ticks {
+            self.tick();
+        }
+    }
+
+    /// What the motors are told.
+    pub fn duties(&mut self) -> [i16; 3] {
+        self.bench.board().duties
+    }
+
+    fn tick(&mut self) {
+        self.bench.tick();
+        let pins = self.bench.board();
+        pins.plant.advance(pins.duties);
+        for _ in 0..BYTES {
+            self.idle.step(&mut self.wire, &mut NoWatchdog);
+        }
+        self.ticks += 1;
+    }
+
+    /// Since it was switched on.
+    fn passed(&self) -> Duration {
+        Duration::from_secs(1) * self.ticks / RATE
+    }
+}
+
+impl Line for Simulated {
+    fn name(&self) -> String {
+        "the simulated device".to_owned()
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.wire.to_device.extend(bytes);
+        Ok(())
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
+        let began = self.passed();
+        // What comes in the tick after it was asked for in vain is there the next time.
+        if wait.is_zero() && self.wire.from_device.is_empty() {
+            self.tick();
+            return Ok(0);
+        }
+        while self.wire.from_device.is_empty() && self.passed() - began < wait {
+            self.tick();
+        }
+        if self.is_paced {
+            std::thread::sleep((self.began + self.passed()).saturating_duration_since(Instant::now()));
+        }
+        let came = self.wire.from_device.len().min(buffer.len());
+        for (place, byte) in buffer.iter_mut().zip(self.wire.from_device.drain(..came)) {
+            *place = byte;
+        }
+        Ok(came)
+    }
+
+    fn now(&self) -> Instant {
+        self.began + self.passed()
+    }
+}

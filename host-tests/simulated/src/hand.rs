@@ -1,0 +1,55 @@
+//! Whoever stands at the device.
+
+use palpate_plant::{HandPath, Vector};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The hand at the device, and the button beside it.
+#[derive(Clone, Debug)]
+pub struct Hand {
+    wants: Arc<Mutex<Wants>>,
+    /// The middle of the workspace, in the scene.
+    middle: Vector,
+}
+
+#[derive(Debug)]
+struct Wants {
+    /// Where the tip is to be, metres, in the scene.
+    place: Vector,
+    /// The enable button is pressed.
+    enable: bool,
+}
+
+impl Hand {
+    pub(crate) fn at(place: Vector, middle: Vector) -> Self {
+        Self { wants: Arc::new(Mutex::new(Wants { place, enable: false })), middle }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Wants> {
+        self.wants.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Wants the tip to be here, metres, in the scene's frame. It pulls there as a light grip does.
+    pub fn goes_to(&self, place: [f64; 3]) {
+        self.lock().place = place;
+    }
+
+    /// Presses the enable button, or lets go of it.
+    pub fn enables(&self, pressed: bool) {
+        self.lock().enable = pressed;
+    }
+
+    pub(crate) fn is_enabling(&self) -> bool {
+        self.lock().enable
+    }
+}
+
+impl HandPath for Hand {
+    fn target(&self, _time: f64) -> Vector {
+        let (place, middle) = (self.lock().place, self.middle);
+        std::array::from_fn(|axis| place[axis] - middle[axis])
+    }
+
+    fn velocity(&self, _time: f64) -> Vector {
+        [0.0; 3]
+    }
+}
