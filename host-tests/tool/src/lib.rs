@@ -29,6 +29,7 @@ pub mod report;
 pub mod repository;
 pub mod rides;
 pub mod simulation;
+pub mod talk;
 pub mod wall;
 pub mod zwidth;
 

@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
     accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, feel, figures, firmware, image,
-    import, monitor, page, parts, race, sim, test, zwidth,
+    import, monitor, page, parts, race, sim, talk, test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -36,6 +36,7 @@ enum Command {
     Monitor(monitor::Arguments),
     Page(page::Arguments),
     Parts(parts::Arguments),
+    Talk(talk::Arguments),
     Zwidth(zwidth::Arguments),
     Race(race::Arguments),
     View(page::ViewArguments),
@@ -63,6 +64,7 @@ fn main() -> ExitCode {
         Command::Monitor(arguments) => monitor::run(&arguments),
         Command::Page(arguments) => page::run(&arguments),
         Command::Parts(arguments) => parts::run(&arguments),
+        Command::Talk(arguments) => talk::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
         Command::Race(arguments) => race::run(&arguments),
         Command::View(arguments) => page::view(&arguments),

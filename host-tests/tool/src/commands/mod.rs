@@ -29,5 +29,6 @@ pub mod race;
 pub mod rate;
 pub mod sim;
 mod table_report;
+pub mod talk;
 pub mod test;
 pub mod zwidth;

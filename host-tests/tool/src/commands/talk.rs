@@ -1,0 +1,104 @@
+//! `palpate talk`: a device, by hand.
+
+use super::bake;
+use crate::models::is_baked;
+use crate::talk::{Console, Misunderstood, Step};
+use anyhow::{Context as _, bail};
+use clap::Args;
+use palpate_link::{Device, Error, Line, Port};
+use palpate_simulated::{Kind, Simulated};
+use std::io::{IsTerminal as _, Write, stdin, stdout};
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+
+/// Speaks with a running device: reads it, moves and switches what it feels, uploads bodies, adds a force.
+///
+/// A line is a command, in millimetres, degrees and newtons; `help` lists them. What is not understood or refused says
+/// why. Where lines come from a file, the first that fails ends it with exit status 2. While it runs the device hears
+/// from it; a device that watches its link stops once it ends.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The serial port the device is on, such as /dev/ttyACM0
+    #[arg(long, group = "where")]
+    port: Option<String>,
+    /// The port's speed
+    #[arg(long, default_value_t = 500_000)]
+    baud: u32,
+    /// The boards' loop compiled for the host, with a simulated arm over two boxes, instead of a device
+    #[arg(long, group = "where")]
+    host: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What went wrong, for the person at the terminal.
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let line: Box<dyn Line> = match (&arguments.port, arguments.host) {
+        (Some(port), _) => Box::new(Port::open(port, arguments.baud)?),
+        (None, true) => {
+            let device = Simulated::new(Kind::default())?.paced();
+            // The button is pressed once the device has seen it released.
+            let hand = device.hand();
+            std::thread::spawn(move || {
+                std::thread::sleep(std::time::Duration::from_millis(100));
+                hand.enables(true);
+            });
+            Box::new(device)
+        }
+        (None, false) => bail!("either --port or --host"),
+    };
+    talk(line)
+}
+
+fn talk(line: Box<dyn Line>) -> anyhow::Result<ExitCode> {
+    let mut console = Console::new(Device::over(line)?, &file_of);
+    let (lines, by_hand) = (lines(), stdin().is_terminal());
+    let mut output = stdout().lock();
+    writeln!(output, "{}", console.who())?;
+    loop {
+        if by_hand || !console.is_busy() {
+            match lines.try_recv() {
+                Ok(line) => match console.obey(&line?, &mut output) {
+                    Ok(Step::GoesOn) => {}
+                    Ok(Step::Ends) => return Ok(ExitCode::SUCCESS),
+                    Err(error) if by_hand && is_passing(&error) => writeln!(output, "{error:#}")?,
+                    Err(error) => return Err(error),
+                },
+                Err(TryRecvError::Disconnected) => return Ok(ExitCode::SUCCESS),
+                Err(TryRecvError::Empty) => {}
+            }
+        }
+        console.tend(&mut output)?;
+        output.flush()?;
+    }
+}
+
+/// Whether the conversation can go on after it.
+fn is_passing(error: &anyhow::Error) -> bool {
+    let gone =
+        matches!(error.downcast_ref(), Some(Error::Line { .. } | Error::Silent { .. } | Error::NotStopped { .. }));
+    error.is::<Misunderstood>() || !gone
+}
+
+/// What somebody types, without waiting for it.
+fn lines() -> Receiver<std::io::Result<String>> {
+    let (sender, lines) = sync_channel(1);
+    std::thread::spawn(move || {
+        for line in stdin().lines() {
+            if sender.send(line).is_err() {
+                return;
+            }
+        }
+    });
+    lines
+}
+
+/// A body's file as it is, or made of a model.
+fn file_of(path: &Path) -> anyhow::Result<Vec<u8>> {
+    if is_baked(path) {
+        return std::fs::read(path).with_context(|| path.display().to_string());
+    }
+    bake::file_of(path)
+}

@@ -1,0 +1,338 @@
+//! A line of the console, understood: millimetres and degrees to metres and radians.
+
+use std::f32::consts::TAU;
+use std::path::PathBuf;
+use std::str::{FromStr, SplitWhitespace};
+use thiserror::Error;
+
+/// What somebody asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Asked {
+    /// An empty line.
+    Nothing,
+    /// What can be asked for.
+    Help,
+    /// The end.
+    Quit,
+    /// What the device is.
+    Who,
+    /// The loop as it is now.
+    Where,
+    /// The same again and again, for so many seconds.
+    Watch(f32),
+    /// For so many seconds the next line is not looked at, where lines come from a file.
+    Wait(f32),
+    /// A force, N, for so many seconds.
+    Push([f32; 3], f32),
+    /// A body's origin, metres, and its orientation, if that is to be another.
+    Place(u8, [f32; 3], Option<[f32; 4]>),
+    /// A body's orientation.
+    Turn(u8, [f32; 4]),
+    /// Velocity (m/s) and angular velocity (rad/s) of a body, for so many seconds.
+    Move(u8, [[f32; 3]; 2], f32),
+    /// Groups, as bits.
+    Switch(u32),
+    /// One group, or feel.
+    Choose(u8),
+    /// Stiffness, N/m, and damping, N·s/m, of a body.
+    Harden(u8, f32, f32),
+    /// Friction of a body, by its four numbers.
+    Rub(u8, Option<[f32; 4]>),
+    /// Radius of the tip, metres.
+    Tip(f32),
+    /// The greatest force, N.
+    Limit(f32),
+    /// A body's file, or a model, in the place of a body.
+    Upload(u8, PathBuf),
+    /// Stop.
+    Stop,
+    /// Go on after a reset.
+    Acknowledge,
+}
+
+/// Why a line is not understood.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum Misunderstood {
+    /// There is no such word.
+    #[error("there is no command {0:?}; help says what there is")]
+    Word(String),
+    /// Something is missing.
+    #[error("{form}: {what} is missing")]
+    Missing {
+        /// How it is said.
+        form: &'static str,
+        /// What is missing.
+        what: &'static str,
+    },
+    /// Something is not what it should be.
+    #[error("{form}: {word:?} is no {what}")]
+    Wrong {
+        /// How it is said.
+        form: &'static str,
+        /// What was said.
+        word: String,
+        /// What it should be.
+        what: &'static str,
+    },
+    /// Something is left over.
+    #[error("{form}: {word:?} is too much")]
+    TooMuch {
+        /// How it is said.
+        form: &'static str,
+        /// What was said.
+        word: String,
+    },
+}
+
+/// Every command: how it is said, and what it does.
+pub const FORMS: [(&str, &str); 19] = [
+    ("who", "what the device says of itself"),
+    ("where", "tip, velocity, body, gap, force, phase and fault as they are now"),
+    ("watch [SECONDS]", "the same ten times a second, for 5 s"),
+    ("push X Y Z [SECONDS]", "a force in N beside that of the bodies, for 1 s; `push 0 0 0` ends it"),
+    ("place BODY X Y Z [AX AY AZ DEGREES]", "puts a body's origin there, in mm, turned about this axis"),
+    ("turn BODY AX AY AZ DEGREES", "turns a body that was placed here, where it is"),
+    ("move BODY X Y Z SECONDS", "lets a body move on from where it is, in mm/s"),
+    ("spin BODY X Y Z SECONDS", "lets a body turn about its origin, in degrees/s"),
+    ("switch GROUP…", "these groups are on, all others off; `switch all`, `switch none`"),
+    ("choose INDEX", "this group alone is on; of a knob, this feel"),
+    ("harden BODY STIFFNESS DAMPING", "another stiffness in N/m and damping in N·s/m"),
+    ("rub BODY STIFFNESS DAMPING STATIC DYNAMIC", "other friction: N/m, N·s/m, two coefficients; `rub BODY off`"),
+    ("tip MM", "a ball of this radius at the tip"),
+    ("limit N", "the greatest force of all of the scene"),
+    ("upload BODY FILE", "a body's file (.palp), or a model, in the place of a body"),
+    ("wait SECONDS", "the next line of a file waits"),
+    ("stop", "stops the device until it is reset"),
+    ("ack", "goes on after a reset by the watchdog or a brown-out"),
+    ("quit", "ends; the device hears nothing more from here"),
+];
+
+/// The words after a command's name.
+struct Words<'a> {
+    form: &'static str,
+    rest: SplitWhitespace<'a>,
+}
+
+impl<'a> Words<'a> {
+    fn of(name: &str, rest: SplitWhitespace<'a>) -> Self {
+        let form = FORMS.iter().find(|(form, _)| form.split(' ').next() == Some(name));
+        Self { form: form.map_or("", |(form, _)| form), rest }
+    }
+
+    fn optional(&mut self) -> Option<&'a str> {
+        self.rest.next()
+    }
+
+    fn word(&mut self, what: &'static str) -> Result<&'a str, Misunderstood> {
+        self.rest.next().ok_or(Misunderstood::Missing { form: self.form, what })
+    }
+
+    fn parsed<T: FromStr>(&self, word: &str, what: &'static str) -> Result<T, Misunderstood> {
+        word.parse().map_err(|_| Misunderstood::Wrong { form: self.form, word: word.to_owned(), what })
+    }
+
+    fn body(&mut self) -> Result<u8, Misunderstood> {
+        let word = self.word("a body's index")?;
+        self.parsed(word, "body's index")
+    }
+
+    fn is_number(&self, word: &str, what: &'static str) -> Result<f32, Misunderstood> {
+        let number: f32 = self.parsed(word, what)?;
+        let wrong = || Misunderstood::Wrong { form: self.form, word: word.to_owned(), what };
+        number.is_finite().then_some(number).ok_or_else(wrong)
+    }
+
+    fn number(&mut self, what: &'static str) -> Result<f32, Misunderstood> {
+        let word = self.word(what)?;
+        self.is_number(word, "number")
+    }
+
+    fn vector(&mut self, scale: f32) -> Result<[f32; 3], Misunderstood> {
+        Ok([self.number("X")? * scale, self.number("Y")? * scale, self.number("Z")? * scale])
+    }
+
+    fn seconds(&self, word: Option<&str>, default: f32) -> Result<f32, Misunderstood> {
+        let Some(word) = word else { return Ok(default) };
+        let seconds = self.is_number(word, "number of seconds")?;
+        let is_time = (0.0..=86_400.0).contains(&seconds);
+        if is_time {
+            return Ok(seconds);
+        }
+        Err(Misunderstood::Wrong { form: self.form, word: word.to_owned(), what: "time of at most a day" })
+    }
+
+    fn needed_seconds(&mut self) -> Result<f32, Misunderstood> {
+        let word = self.word("SECONDS")?;
+        self.seconds(Some(word), 0.0)
+    }
+
+    /// A quaternion from an axis and degrees about it.
+    fn orientation(&mut self) -> Result<[f32; 4], Misunderstood> {
+        let [x, y, z] = self.vector(1.0)?;
+        let degrees = self.number("DEGREES")?;
+        let length = (x * x + y * y + z * z).sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(Misunderstood::Wrong { form: self.form, word: format!("{x} {y} {z}"), what: "axis" });
+        }
+        let (sine, cosine) = (degrees / 360.0 * TAU / 2.0).sin_cos();
+        let share = sine / length;
+        Ok([x * share, y * share, z * share, cosine])
+    }
+
+    fn groups(&mut self) -> Result<u32, Misunderstood> {
+        let mut groups = 0;
+        let mut word = self.word("a group, all or none")?;
+        match word {
+            "all" => return Ok(u32::MAX),
+            "none" => return Ok(0),
+            _ => {}
+        }
+        loop {
+            let group: u32 = self.parsed(word, "group from 0 to 31")?;
+            groups |= 1_u32.checked_shl(group).ok_or_else(|| Misunderstood::Wrong {
+                form: self.form,
+                word: word.to_owned(),
+                what: "group from 0 to 31",
+            })?;
+            match self.optional() {
+                Some(next) => word = next,
+                None => return Ok(groups),
+            }
+        }
+    }
+
+    fn friction(&mut self) -> Result<Option<[f32; 4]>, Misunderstood> {
+        let word = self.word("STIFFNESS or off")?;
+        if word == "off" {
+            return Ok(None);
+        }
+        let stiffness = self.is_number(word, "number")?;
+        Ok(Some([stiffness, self.number("DAMPING")?, self.number("STATIC")?, self.number("DYNAMIC")?]))
+    }
+}
+
+impl FromStr for Asked {
+    type Err = Misunderstood;
+
+    fn from_str(line: &str) -> Result<Self, Misunderstood> {
+        const MM: f32 = 1e-3;
+        const DEGREE: f32 = TAU / 360.0;
+        let mut rest = line.split_whitespace();
+        let Some(name) = rest.next() else { return Ok(Self::Nothing) };
+        // A file's remark.
+        if name.starts_with('#') {
+            return Ok(Self::Nothing);
+        }
+        let mut words = Words::of(name, rest);
+        let asked = match name {
+            "help" => Self::Help,
+            "quit" => Self::Quit,
+            "who" => Self::Who,
+            "where" => Self::Where,
+            "watch" => {
+                let word = words.optional();
+                Self::Watch(words.seconds(word, 5.0)?)
+            }
+            "wait" => Self::Wait(words.needed_seconds()?),
+            "push" => {
+                let force = words.vector(1.0)?;
+                let word = words.optional();
+                Self::Push(force, words.seconds(word, 1.0)?)
+            }
+            "place" => {
+                let (body, position) = (words.body()?, words.vector(MM)?);
+                let is_turned = words.rest.clone().next().is_some();
+                Self::Place(body, position, if is_turned { Some(words.orientation()?) } else { None })
+            }
+            "turn" => Self::Turn(words.body()?, words.orientation()?),
+            "move" => Self::Move(words.body()?, [words.vector(MM)?, [0.0; 3]], words.needed_seconds()?),
+            "spin" => Self::Move(words.body()?, [[0.0; 3], words.vector(DEGREE)?], words.needed_seconds()?),
+            "switch" => Self::Switch(words.groups()?),
+            "choose" => {
+                let word = words.word("INDEX")?;
+                Self::Choose(words.parsed(word, "index from 0 to 255")?)
+            }
+            "harden" => Self::Harden(words.body()?, words.number("STIFFNESS")?, words.number("DAMPING")?),
+            "rub" => Self::Rub(words.body()?, words.friction()?),
+            "tip" => Self::Tip(words.number("MM")? * MM),
+            "limit" => Self::Limit(words.number("N")?),
+            "upload" => Self::Upload(words.body()?, PathBuf::from(words.word("FILE")?)),
+            "stop" => Self::Stop,
+            "ack" => Self::Acknowledge,
+            _ => return Err(Misunderstood::Word(name.to_owned())),
+        };
+        match words.optional() {
+            Some(word) => Err(Misunderstood::TooMuch { form: words.form, word: word.to_owned() }),
+            None => Ok(asked),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn millimetres_and_degrees_become_metres_and_radians() {
+        assert_eq!("place 1 0 0 20".parse(), Ok(Asked::Place(1, [0.0, 0.0, 0.02], None)));
+        assert_eq!("move 0 10 0 -5 2".parse(), Ok(Asked::Move(0, [[0.01, 0.0, -0.005], [0.0; 3]], 2.0)));
+        assert_eq!("push 0 0 1".parse(), Ok(Asked::Push([0.0, 0.0, 1.0], 1.0)));
+        assert_eq!("tip 1.5".parse(), Ok(Asked::Tip(0.0015)));
+        let Ok(Asked::Move(3, [[0.0, 0.0, 0.0], [0.0, 0.0, rate]], 0.5)) = "spin 3 0 0 90 0.5".parse() else {
+            panic!("a spin")
+        };
+        // A rounding of a quarter turn.
+        assert!((rate - TAU / 4.0).abs() < 1e-6, "{rate}");
+    }
+
+    #[test]
+    fn an_axis_of_any_length_makes_a_quaternion_of_length_1() {
+        for line in ["turn 0 0 0 1 90", "turn 0 0 0 250 90", "place 0 1 2 3 0 0 0.001 90"] {
+            let (Ok(Asked::Turn(0, found)) | Ok(Asked::Place(0, _, Some(found)))) = line.parse() else {
+                panic!("{line}")
+            };
+            let wanted = [0.0, 0.0, 0.5_f32.sqrt(), 0.5_f32.sqrt()];
+            // Roundings of numbers of 1.
+            assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-6), "{line}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn groups_are_bits() {
+        assert_eq!("switch 0 2 31".parse(), Ok(Asked::Switch(1 | 1 << 2 | 1 << 31)));
+        assert_eq!("switch all".parse(), Ok(Asked::Switch(u32::MAX)));
+        assert_eq!("switch none".parse(), Ok(Asked::Switch(0)));
+        assert_eq!("".parse(), Ok(Asked::Nothing));
+        assert_eq!("# a remark".parse(), Ok(Asked::Nothing));
+    }
+
+    #[test]
+    fn what_is_not_understood_is_refused_with_a_sentence() {
+        for (line, sentence) in [
+            ("jump", "there is no command \"jump\"; help says what there is"),
+            ("place 1 0 0", "place BODY X Y Z [AX AY AZ DEGREES]: Z is missing"),
+            ("place 1 0 0 high", "place BODY X Y Z [AX AY AZ DEGREES]: \"high\" is no number"),
+            ("place 256 0 0 0", "place BODY X Y Z [AX AY AZ DEGREES]: \"256\" is no body's index"),
+            ("place 1 0 0 0 0 0 0 90", "place BODY X Y Z [AX AY AZ DEGREES]: \"0 0 0\" is no axis"),
+            ("turn 1 0 0 1", "turn BODY AX AY AZ DEGREES: DEGREES is missing"),
+            ("push 0 0 1 -1", "push X Y Z [SECONDS]: \"-1\" is no time of at most a day"),
+            ("switch 32", "switch GROUP…: \"32\" is no group from 0 to 31"),
+            ("switch", "switch GROUP…: a group, all or none is missing"),
+            ("rub 0 1 2", "rub BODY STIFFNESS DAMPING STATIC DYNAMIC: STATIC is missing"),
+            ("limit NaN", "limit N: \"NaN\" is no number"),
+            ("push inf 0 0", "push X Y Z [SECONDS]: \"inf\" is no number"),
+            ("stop now", "stop: \"now\" is too much"),
+            ("upload 1", "upload BODY FILE: FILE is missing"),
+        ] {
+            assert_eq!(line.parse::<Asked>().expect_err(line).to_string(), sentence);
+        }
+    }
+
+    #[test]
+    fn every_form_that_help_lists_is_a_command() {
+        for (form, _) in FORMS {
+            let name = form.split(' ').next().unwrap_or_default();
+            assert!(!matches!(name.parse::<Asked>(), Err(Misunderstood::Word(_))), "{form}");
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! A device, and whoever speaks with it a line at a time.
+
+use super::asked::{Asked, FORMS};
+use palpate::servo::{Fault, Phase};
+use palpate::track::Contact;
+use palpate::wire::hold;
+use palpate_bake::file::BakedFile;
+use palpate_link::{Device, Error, Line, Order, Pose, View};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// How often a force is asked for anew, and the loop shown.
+const PUSHES: Duration = Duration::from_millis(30);
+const SHOWS: Duration = Duration::from_millis(100);
+/// How long one look at the device takes at most.
+const LOOK: Duration = Duration::from_millis(10);
+
+/// Whether the conversation goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// It does.
+    GoesOn,
+    /// Somebody has said quit.
+    Ends,
+}
+
+/// Makes a body's file of what somebody names.
+pub type Bake = dyn Fn(&Path) -> anyhow::Result<Vec<u8>> + Sync;
+
+/// A conversation with a device. Nothing in it waits for a person: call [`Self::tend`] while nothing is said.
+pub struct Console<'a, L> {
+    device: Device<L>,
+    bake: &'a Bake,
+    /// Where bodies were put from here; one that moves is nowhere known.
+    poses: BTreeMap<u8, Pose>,
+    /// A force, when it ends, and when it was asked for last.
+    pushes: Option<([f32; 3], Instant, Option<Instant>)>,
+    /// Until when the loop is shown, and when it was last.
+    watches: Option<(Instant, Option<Instant>)>,
+    waits: Option<Instant>,
+}
+
+impl<'a, L: Line> Console<'a, L> {
+    /// With this device; bodies that are uploaded come from `bake`.
+    pub fn new(device: Device<L>, bake: &'a Bake) -> Self {
+        Self { device, bake, poses: BTreeMap::new(), pushes: None, watches: None, waits: None }
+    }
+
+    /// Whether the next line of a file should wait.
+    pub fn is_busy(&self) -> bool {
+        self.watches.is_some() || self.waits.is_some()
+    }
+
+    /// Keeps the conversation alive: for a moment, again and again.
+    ///
+    /// # Errors
+    /// A device that is gone, or output that cannot be written.
+    pub fn tend(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {
+        let view = match self.device.view(LOOK) {
+            Ok(view) => view,
+            Err(Error::BeganAnew { .. }) => return self.begin_anew(output),
+            Err(error) => return Err(error.into()),
+        };
+        let now = self.device.now();
+        self.waits = self.waits.filter(|until| now < *until);
+        if let Some((force, until, last)) = self.pushes {
+            self.pushes = Some((force, until, last)).filter(|_| now < until);
+            let is_due = last.is_none_or(|last| now.saturating_duration_since(last) >= PUSHES);
+            if is_due && self.pushes.is_some() {
+                self.pushes = Some((force, until, Some(now)));
+                self.device.push(force)?;
+            }
+        }
+        if let Some((until, last)) = self.watches {
+            if last.is_none_or(|last| now.saturating_duration_since(last) >= SHOWS) {
+                self.watches = Some((until, Some(now)));
+                writeln!(output, "{}", said(&view))?;
+            }
+            self.watches = self.watches.filter(|_| now < until);
+        }
+        Ok(())
+    }
+
+    /// Does what a line asks for.
+    ///
+    /// # Errors
+    /// A line that is not understood, what the device refuses, or a device that is gone.
+    pub fn obey(&mut self, line: &str, output: &mut dyn Write) -> anyhow::Result<Step> {
+        let asked: Asked = line.parse()?;
+        let later = |seconds: f32, now: Instant| now + Duration::from_secs_f32(seconds);
+        let now = self.device.now();
+        match asked {
+            Asked::Nothing => return Ok(Step::GoesOn),
+            Asked::Quit => return Ok(Step::Ends),
+            Asked::Help => {
+                let width = FORMS.iter().map(|(form, _)| form.chars().count()).max().unwrap_or(0);
+                for (form, meaning) in FORMS {
+                    writeln!(output, "{form:<width$}  {meaning}")?;
+                }
+                return Ok(Step::GoesOn);
+            }
+            Asked::Who => {
+                writeln!(output, "{}", self.who())?;
+                return Ok(Step::GoesOn);
+            }
+            Asked::Where => {
+                let view = self.device.view(SHOWS)?;
+                writeln!(output, "{}", said(&view))?;
+                return Ok(Step::GoesOn);
+            }
+            Asked::Watch(seconds) => {
+                self.watches = Some((later(seconds, now), None));
+                return Ok(Step::GoesOn);
+            }
+            Asked::Wait(seconds) => {
+                self.waits = Some(later(seconds, now));
+                return Ok(Step::GoesOn);
+            }
+            Asked::Push(force, seconds) => {
+                // A force that is refused is refused before anything is promised.
+                self.device.push(force)?;
+                self.pushes = Some((force, later(seconds, now), Some(now))).filter(|_| force != [0.0; 3]);
+            }
+            Asked::Place(body, position, orientation) => {
+                let upright = self.poses.get(&body).map_or([0.0, 0.0, 0.0, 1.0], |pose| pose.orientation);
+                self.place(body, Pose { position, orientation: orientation.unwrap_or(upright) })?;
+            }
+            Asked::Turn(body, orientation) => {
+                let Some(Pose { position, .. }) = self.poses.get(&body).copied() else {
+                    anyhow::bail!("where body {body} is is not known here: place it first");
+                };
+                self.place(body, Pose { position, orientation })?;
+            }
+            Asked::Move(body, motion, seconds) => {
+                self.poses.remove(&body);
+                self.device.move_along(body, motion, seconds)?;
+            }
+            Asked::Switch(groups) => self.device.switch(groups)?,
+            Asked::Choose(index) => self.device.choose(index)?,
+            Asked::Harden(body, stiffness, damping) => self.device.harden(body, stiffness, damping)?,
+            Asked::Rub(body, friction) => self.device.order(Order::Rub { body, friction })?,
+            Asked::Tip(radius) => self.device.tip(radius)?,
+            Asked::Limit(newtons) => self.device.limit(newtons)?,
+            Asked::Upload(body, path) => self.upload(body, &path, output)?,
+            Asked::Stop => {
+                self.pushes = None;
+                self.device.stop()?;
+            }
+            Asked::Acknowledge => self.device.acknowledge()?,
+        }
+        writeln!(output, "done")?;
+        Ok(Step::GoesOn)
+    }
+
+    /// What the device says of itself.
+    pub fn who(&self) -> String {
+        let hello = self.device.hello();
+        let memory = match hello.room {
+            0 => "no memory for bodies".to_owned(),
+            room => format!("room for a body of {room} bytes, {} faces and {} edges", hello.faces, hello.edges),
+        };
+        format!("a device of {} Hz, {} N at most, {memory}; protocol {}", hello.rate, hello.max_force, hello.protocol)
+    }
+
+    fn begin_anew(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {
+        (self.pushes, self.poses) = (None, BTreeMap::new());
+        self.device.greet()?;
+        writeln!(output, "the device has begun anew: it feels what it was built with, where that was")?;
+        Ok(())
+    }
+
+    fn place(&mut self, body: u8, pose: Pose) -> Result<(), Error> {
+        self.device.place(body, pose)?;
+        self.poses.insert(body, pose);
+        Ok(())
+    }
+
+    fn upload(&mut self, body: u8, path: &Path, output: &mut dyn Write) -> anyhow::Result<()> {
+        let bake = self.bake;
+        // A model may take long to bake, and the device hears from here meanwhile.
+        let file = std::thread::scope(|scope| {
+            let baking = scope.spawn(|| bake(path));
+            while !baking.is_finished() {
+                self.tend(output)?;
+            }
+            baking.join().map_err(|_| anyhow::anyhow!("the bake panicked"))?
+        })?;
+        let mut shown = 0;
+        self.device.upload(body, &file, |came, all| {
+            let tenth = came * 10 / all.max(1);
+            if tenth > shown {
+                shown = tenth;
+                // What cannot be shown is no reason to leave a body half sent.
+                let _ = writeln!(output, "{came} of {all} bytes");
+            }
+        })?;
+        let [x, y, z] = (BakedFile::read(&file)?.model.centre * 1e3).to_array();
+        writeln!(output, "its origin is at {x:.3} {y:.3} {z:.3} mm of the model")?;
+        Ok(())
+    }
+}
+
+/// A view in a line.
+fn said(view: &View) -> String {
+    let millimetres = |vector: [f32; 3]| vector.map(|part| format!("{:.2}", part * 1e3)).join(" ");
+    let force = view.force.map(|part| format!("{part:.2}")).join(" ");
+    let contact = match Contact::ALL.into_iter().find(|contact| *contact as u8 == view.contact) {
+        Some(Contact::Touching) => "touching",
+        Some(Contact::InFront) => "in front",
+        Some(Contact::Behind) | None => "behind",
+    };
+    let phase = match Phase::ALL.into_iter().find(|phase| *phase as u8 == view.phase) {
+        Some(Phase::Running) => "running",
+        Some(Phase::Armed) => "armed",
+        Some(Phase::Calibrate) => "calibrating",
+        Some(Phase::Fault) => "stopped",
+        Some(Phase::Reset) | None => "reset",
+    };
+    let fault = Fault::from_code(view.fault).map_or_else(String::new, |fault| format!(": {fault}"));
+    let holds = [
+        (hold::STOP, "stop is pressed"),
+        (hold::NOT_READY, "an amplifier is not ready"),
+        (hold::SUPPLY, "the supply is out of its range"),
+        (hold::RELEASE_FIRST, "enable has to be released first"),
+    ];
+    let holds: String =
+        holds.iter().filter(|(bit, _)| view.hold & bit != 0).map(|(_, why)| format!("; {why}")).collect();
+    format!(
+        "at {} mm, {} mm/s; body {}, {contact}, gap {:.2} mm; force {force} N; {phase}{fault}{holds}",
+        millimetres(view.position),
+        millimetres(view.velocity),
+        view.body,
+        view.gap * 1e3,
+    )
+}

@@ -1,0 +1,11 @@
+//! Talking with a device: a console over [`palpate_link`], with a device at a port or a simulated one.
+//!
+//! ```text
+//!  Console ── Asked: a line, understood ── palpate_link::Device ── Line: a serial port │ palpate_simulated::Simulated
+//! ```
+
+mod asked;
+mod console;
+
+pub use asked::{Asked, Misunderstood};
+pub use console::{Console, Step};
