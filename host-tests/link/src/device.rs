@@ -96,7 +96,7 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// A line that broke, a device that is silent or not understood, or one of another version.
     pub fn greet(&mut self) -> Result<Hello, Error> {
-        (self.heard, self.view, self.answer) = (None, None, None);
+        (self.heard, self.view, self.answer, self.record) = (None, None, None, None);
         let (began, bytes, frames) = (self.line.now(), self.bytes, self.frames);
         // What was cut off before ends here.
         self.send_bytes(&[DELIMITER])?;
@@ -225,7 +225,11 @@ impl<L: Line> Device<L> {
                 self.views += 1;
                 self.reading = None;
             }
-            Told::Record(record) => (self.record, self.reading) = (Some(record), None),
+            Told::Record(record) => {
+                // The hello of one that was reset in the middle of a frame is lost in it; its ticks begin anew too.
+                self.is_anew |= self.record.is_some_and(|last| (record.tick.wrapping_sub(last.tick) as i32) < 0);
+                (self.record, self.reading) = (Some(record), None);
+            }
             Told::Reading(reading) => self.reading = Some(reading),
         }
     }

@@ -20,7 +20,9 @@ struct Wants {
 }
 
 impl Hand {
-    pub(crate) fn at(place: Vector, middle: Vector) -> Self {
+    /// One that holds the tip at a place, metres, in a scene in which the middle of the workspace is there; it presses
+    /// nothing.
+    pub fn at(place: Vector, middle: Vector) -> Self {
         Self { wants: Arc::new(Mutex::new(Wants { place, enable: false })), middle }
     }
 
@@ -38,7 +40,8 @@ impl Hand {
         self.lock().enable = pressed;
     }
 
-    pub(crate) fn is_enabling(&self) -> bool {
+    /// Whether the enable button is pressed.
+    pub fn is_enabling(&self) -> bool {
         self.lock().enable
     }
 }

@@ -6,3 +6,10 @@ mod hand;
 
 pub use device::{Kind, Simulated};
 pub use hand::Hand;
+
+/// The code in the documents: compiled with the doctests.
+#[cfg(doctest)]
+mod documents {
+    #[doc = include_str!("../../../docs/link.md")]
+    struct Link;
+}

@@ -71,18 +71,25 @@ fn a_view_is_not_waited_for_longer_than_asked() {
 
 #[test]
 fn a_device_that_was_reset_says_so_until_it_is_greeted() {
-    for after in [0.05, 1.0] {
+    // It is found out by the refusal of an order, by the hello of one that begins, or, where that is lost, by its ticks.
+    for (found_by_order, between, ticks) in [(true, true, 0), (false, true, 8), (false, false, 60)] {
         let (mut device, _) = running();
-        for_seconds(&mut device, after);
-        // One that was just greeted may have said hello to that: then its refusal says what happened.
-        if after < 0.3 {
+        for_seconds(&mut device, 0.5);
+        if found_by_order {
+            // A hello that comes now may be the answer to this.
             device.greet().unwrap();
         }
         device.place(0, at([0.0, 0.0, -0.01])).unwrap();
-        device.line().device = palpate_simulated::Simulated::new(Kind::default()).unwrap();
-        let error = device.limit(3.0).unwrap_err();
-        assert!(matches!(error, Error::BeganAnew { .. }), "{error}");
-        assert!(matches!(device.tend(), Err(Error::BeganAnew { .. })));
+        device.line().restart(between);
+        if found_by_order {
+            let error = device.limit(3.0).unwrap_err();
+            assert!(matches!(error, Error::BeganAnew { .. }), "{error}");
+        }
+        device.line().device.run(ticks);
+        for _ in 0..2 {
+            let _ = device.tend();
+        }
+        assert!(matches!(device.tend(), Err(Error::BeganAnew { .. })), "{found_by_order} {between}");
         assert!(matches!(device.view(Duration::ZERO), Err(Error::BeganAnew { .. })));
         let said = device.line().numbers.len();
         assert!(matches!(device.limit(3.0), Err(Error::BeganAnew { .. })));

@@ -1,7 +1,7 @@
 //! A line to the simulated device that loses frames and spoils bytes.
 
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
-use palpate::wire::{Command, Told};
+use palpate::wire::{Command, Told, Upload};
 use palpate_link::{Device, Line, View};
 use palpate_simulated::{Hand, Kind, Simulated};
 use rand::{Rng, SeedableRng};
@@ -12,11 +12,19 @@ use std::time::{Duration, Instant};
 /// What is between a host and the simulated device.
 pub struct Bad {
     pub device: Simulated,
+    /// When it was switched on, by its own clock, and by that of the line.
+    began: [Instant; 2],
     /// Answers to come that are lost, and orders and parts of uploads.
     pub lose_answers: u32,
     pub lose_orders: u32,
     /// After so many answers one is lost.
     pub lose_after: Option<u32>,
+    /// Answers are kept for now, and come later.
+    pub holds_answers: bool,
+    held: Vec<u8>,
+    /// After so many parts of uploads the first of them comes once more.
+    pub stray_after: Option<u32>,
+    begun: Vec<u8>,
     /// Stops to come that are lost.
     pub lose_stops: u32,
     /// Of a million bytes, either way, so many are lost, and so many have a bit flipped.
@@ -55,11 +63,17 @@ pub fn for_seconds(device: &mut Device<Bad>, seconds: f32) -> View {
 
 impl Bad {
     pub fn new(kind: Kind, seed: u64) -> Self {
+        let device = Simulated::new(kind).unwrap();
         Self {
-            device: Simulated::new(kind).unwrap(),
+            began: [device.now(); 2],
+            device,
             lose_answers: 0,
             lose_orders: 0,
             lose_after: None,
+            holds_answers: false,
+            held: Vec::new(),
+            stray_after: None,
+            begun: Vec::new(),
             lose_stops: 0,
             spoils: 0,
             numbers: Vec::new(),
@@ -67,6 +81,18 @@ impl Bad {
             told: Receiver::new(),
             frame: Vec::new(),
         }
+    }
+
+    /// The device is switched off and on, between two frames or in the middle of one.
+    pub fn restart(&mut self, between: bool) {
+        if between {
+            (self.frame, self.told) = (Vec::new(), Receiver::new());
+        } else {
+            self.frame.push(1);
+        }
+        let now = self.now();
+        self.device = Simulated::new(Kind::default()).unwrap();
+        self.began = [self.device.now(), now];
     }
 
     /// What becomes of bytes on the way.
@@ -81,6 +107,21 @@ impl Bad {
             }
         }
         left
+    }
+
+    /// A part of an upload that comes once more, much later.
+    fn stray(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let mut receiver = Receiver::<Command>::new();
+        let heard = bytes.iter().find_map(|byte| receiver.feed(*byte));
+        let Some(Received::Message(Command::Upload { part, .. })) = heard else { return Ok(()) };
+        if matches!(part, Upload::Begin { .. }) {
+            self.begun = bytes.to_vec();
+        }
+        if self.stray_after == Some(0) {
+            self.device.send(&self.begun)?;
+        }
+        self.stray_after = self.stray_after.and_then(|left| left.checked_sub(1));
+        Ok(())
     }
 
     /// Whether an answer is lost.
@@ -122,13 +163,14 @@ impl Line for Bad {
         if self.loses(bytes) {
             return Ok(());
         }
+        self.stray(bytes)?;
         let bytes = self.spoil(bytes);
         self.device.send(&bytes)
     }
 
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
         let came = self.device.receive(buffer, wait)?;
-        let mut left = Vec::new();
+        let mut left = if self.holds_answers { Vec::new() } else { std::mem::take(&mut self.held) };
         for byte in &buffer[..came] {
             self.frame.push(*byte);
             let told = self.told.feed(*byte);
@@ -136,8 +178,14 @@ impl Line for Bad {
                 continue;
             }
             let frame = std::mem::take(&mut self.frame);
-            if matches!(told, Some(Received::Message(Told::Answer(_)))) && self.loses_answer() {
-                continue;
+            if matches!(told, Some(Received::Message(Told::Answer(_)))) {
+                if self.holds_answers {
+                    self.held.extend(&frame);
+                    continue;
+                }
+                if self.loses_answer() {
+                    continue;
+                }
             }
             left.extend(self.spoil(&frame));
         }
@@ -148,6 +196,6 @@ impl Line for Bad {
     }
 
     fn now(&self) -> Instant {
-        self.device.now()
+        self.began[1] + (self.device.now() - self.began[0])
     }
 }

@@ -39,6 +39,16 @@ fn an_order_without_an_answer_is_said_to_be_lost_and_the_next_one_is_not() {
 }
 
 #[test]
+fn an_answer_that_comes_late_is_taken_for_no_other_order() {
+    let mut device = device(Kind::default());
+    device.line().holds_answers = true;
+    assert!(matches!(device.place(5, at([0.0; 3])), Err(Error::Lost { .. })));
+    device.line().holds_answers = false;
+    // Five refusals come first.
+    device.limit(3.0).unwrap();
+}
+
+#[test]
 fn what_may_not_be_done_twice_is_asked_for_once() {
     let mut device = device(Kind::default());
     let motion = [[0.0, 0.0, 0.01], [0.0; 3]];

@@ -4,5 +4,6 @@ mod alive;
 mod line;
 mod lost;
 mod orders;
+mod page;
 mod strangers;
 mod uploads;

@@ -68,6 +68,23 @@ fn an_upload_whose_parts_and_answers_are_lost_goes_on_where_it_was() {
 }
 
 #[test]
+fn an_upload_goes_on_where_the_device_says_that_it_is() {
+    let mut device = device(Kind::default());
+    // The word that an upload begins comes once more in the middle of it: the device is at its start again.
+    device.line().stray_after = Some(50);
+    let mut least = usize::MAX;
+    let mut parts = 0;
+    device
+        .upload(1, BOX, |came, _| {
+            parts += 1;
+            least = if parts > 40 { least.min(came) } else { usize::MAX };
+        })
+        .unwrap();
+    assert_eq!(device.line().stray_after, None);
+    assert_eq!(least, 0);
+}
+
+#[test]
 fn the_answer_that_it_was_taken_may_be_lost_too() {
     let mut device = device(Kind::default());
     // Begin, the parts, End.

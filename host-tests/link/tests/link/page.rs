@@ -1,0 +1,69 @@
+//! The frames that `docs/link.md` shows are those that are sent.
+
+use palpate::scene::{Order, Pose};
+use palpate::wire::frame::{MAX_FRAME, pack};
+use palpate::wire::{Command, PROTOCOL, Upload};
+use std::path::Path;
+
+/// What the page says a frame says, and the message.
+const SHOWN: [(&str, Command); 7] = [
+    ("hello, in version 1", Command::Hello { protocol: PROTOCOL }),
+    ("the host is there", Command::Alive),
+    ("stop", Command::Stop),
+    ("order 1: a push of 0, 0, 0.5 N", Command::Order { number: 1, order: Order::Push { force: [0.0, 0.0, 0.5] } }),
+    ("order 2: at most 2 N", Command::Order { number: 2, order: Order::Limit { force: 2.0 } }),
+    (
+        "order 3: body 1 at 0, 0.06, 0 m, upright",
+        Command::Order {
+            number: 3,
+            order: Order::Place {
+                body: 1,
+                pose: Pose { position: [0.0, 0.06, 0.0], orientation: [0.0, 0.0, 0.0, 1.0] },
+            },
+        },
+    ),
+    ("part 4: a body of 6,896 bytes begins", Command::Upload { number: 4, part: Upload::Begin { bytes: 6_896 } }),
+];
+
+#[test]
+fn the_frames_of_the_page_are_those_that_are_sent() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/link.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    for (says, command) in SHOWN {
+        let mut buffer = [0; MAX_FRAME];
+        let frame = pack(&command, &mut buffer).unwrap();
+        let bytes: Vec<String> = frame.iter().map(|byte| format!("{byte:02x}")).collect();
+        let row = format!("| `{}` | {says} |", bytes.join(" "));
+        println!("{row}");
+        assert!(page.contains(&row), "docs/link.md has not the row\n{row}");
+    }
+}
+
+/// The first block of Python on the page packs the same frames.
+#[test]
+fn the_python_of_the_page_packs_the_same_frames() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/link.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    let block = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let code = format!(
+        "{block}\nfor told in HELLO, ALIVE, STOP, push(1, 0, 0, 0.5), push(300, 1.5, -2, 0.1): print(told.hex())"
+    );
+    let Ok(run) = std::process::Command::new("python3").args(["-c", &code]).output() else {
+        println!("left out: there is no python3");
+        return;
+    };
+    let push = |number, force| Command::Order { number, order: Order::Push { force } };
+    let wanted = [
+        Command::Hello { protocol: PROTOCOL },
+        Command::Alive,
+        Command::Stop,
+        push(1, [0.0, 0.0, 0.5]),
+        push(300, [1.5, -2.0, 0.1]),
+    ];
+    let hex = |command: &Command| {
+        let mut buffer = [0; MAX_FRAME];
+        pack(command, &mut buffer).unwrap().iter().map(|byte| format!("{byte:02x}")).collect::<String>() + "\n"
+    };
+    let (said, complained) = (String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
+    assert_eq!(said, wanted.iter().map(hex).collect::<String>(), "{complained}");
+}
