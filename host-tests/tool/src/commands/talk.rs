@@ -1,12 +1,13 @@
 //! `palpate talk`: a device, by hand.
 
 use super::bake;
+use crate::firmware::Board;
 use crate::models::is_baked;
-use crate::talk::{Console, Misunderstood, Step};
+use crate::talk::{Console, Emulated, Misunderstood, Step};
 use anyhow::{Context as _, bail};
 use clap::Args;
-use palpate_link::{Device, Error, Line, Port};
-use palpate_simulated::{Kind, Simulated};
+use palpate_link::{Device, Error, Line, Port, SILENCE};
+use palpate_simulated::{Hand, Kind, Simulated};
 use std::io::{IsTerminal as _, Write, stdin, stdout};
 use std::path::Path;
 use std::process::ExitCode;
@@ -25,7 +26,10 @@ pub struct Arguments {
     /// The port's speed
     #[arg(long, default_value_t = 500_000)]
     baud: u32,
-    /// The boards' loop compiled for the host, with a simulated arm over two boxes, instead of a device
+    /// An emulated board with a simulated arm over two capped boxes, instead of a device
+    #[arg(long, value_enum, group = "where")]
+    emulator: Option<Board>,
+    /// The same without an emulator: the boards' loop compiled for the host
     #[arg(long, group = "where")]
     host: bool,
 }
@@ -35,25 +39,31 @@ pub struct Arguments {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let line: Box<dyn Line> = match (&arguments.port, arguments.host) {
-        (Some(port), _) => Box::new(Port::open(port, arguments.baud)?),
-        (None, true) => {
-            let device = Simulated::new(Kind::default())?.paced();
-            // The button is pressed once the device has seen it released.
+    let (line, hand): (Box<dyn Line>, _) = match (&arguments.port, arguments.emulator, arguments.host) {
+        (Some(port), ..) => (Box::new(Port::open(port, arguments.baud)?), None),
+        (None, Some(board), _) => {
+            let device = Emulated::start(board)?;
             let hand = device.hand();
-            std::thread::spawn(move || {
-                std::thread::sleep(std::time::Duration::from_millis(100));
-                hand.enables(true);
-            });
-            Box::new(device)
+            (Box::new(device), Some(hand))
         }
-        (None, false) => bail!("either --port or --host"),
+        (None, None, true) => {
+            let device = Simulated::new(Kind::default())?.paced();
+            let hand = device.hand();
+            (Box::new(device), Some(hand))
+        }
+        (None, None, false) => bail!("either --port, --emulator or --host"),
     };
-    talk(line)
+    talk(line, hand.as_ref())
 }
 
-fn talk(line: Box<dyn Line>) -> anyhow::Result<ExitCode> {
-    let mut console = Console::new(Device::over(line)?, &file_of);
+fn talk(line: Box<dyn Line>, hand: Option<&Hand>) -> anyhow::Result<ExitCode> {
+    let mut device = Device::over(line)?;
+    if let Some(hand) = hand {
+        // A button is asked for once the device has seen it released.
+        device.view(SILENCE)?;
+        hand.enables(true);
+    }
+    let mut console = Console::new(device, &file_of);
     let (lines, by_hand) = (lines(), stdin().is_terminal());
     let mut output = stdout().lock();
     writeln!(output, "{}", console.who())?;

@@ -6,3 +6,4 @@ mod installed;
 mod outside;
 mod queries;
 mod race;
+mod talking;

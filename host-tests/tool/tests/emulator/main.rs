@@ -17,6 +17,7 @@ mod path;
 mod proofs;
 mod round_trip;
 mod running;
+mod talking;
 // Its serial port is a pseudo terminal.
 #[cfg(unix)]
 mod telemetry;

@@ -1,0 +1,82 @@
+//! `talk`, with a simulated device: lines in, sentences out.
+
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+
+/// The exit status, what is printed, and what is complained of.
+fn talk(arguments: &[&str], lines: &str) -> (Option<i32>, String, String) {
+    let mut run = Command::new(env!("CARGO_BIN_EXE_palpate"))
+        .arg("talk")
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    // One that refuses its options reads nothing.
+    let _ = run.stdin.take().expect("a pipe").write_all(lines.as_bytes());
+    let run = run.wait_with_output().expect("it ends");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (run.status.code(), text(&run.stdout), text(&run.stderr))
+}
+
+#[test]
+fn a_session_is_done_line_by_line() {
+    let session = "# two boxes\n\nwho\nwait 0.5\nwhere\nplace 0 0 0 -10\nwait 0.1\nwhere\nturn 0 0 0 1 5\n\
+                   place 0 0 0 0 0 0 1 0\nmove 1 0 0 -10 0.2\nspin 1 0 0 10 0.1\nharden 0 300 1\n\
+                   rub 0 800 1 0.6 0.4\nrub 0 off\ntip 1\nlimit 4\nupload 1 capped_box\npush 0 0 1\nwait 0.4\nwhere\n\
+                   push 0 0 0\nwatch 0.25\nswitch none\nswitch all\nchoose 0\nstop\nwhere\nquit\nnot read any more\n";
+    let (status, said, complained) = talk(&["--host"], session);
+    println!("{said}{complained}");
+    assert_eq!(status, Some(0), "{complained}");
+    let views: Vec<_> = said.lines().filter(|line| line.starts_with("at ")).collect();
+    let gap = |view: &str| -> f64 {
+        let rest = view.split("gap ").nth(1).and_then(|rest| rest.split(' ').next());
+        rest.and_then(|gap| gap.parse().ok()).expect("a gap")
+    };
+    assert!(views[0].ends_with("running"), "{}", views[0]);
+    // A body 10 mm lower, less what the tip swings.
+    assert!((gap(views[1]) - gap(views[0]) - 10.0).abs() < 0.5, "{} {}", views[0], views[1]);
+    assert!(views[2].contains("force 0.00 0.00 1.00 N"), "{}", views[2]);
+    // Ten times a second for a quarter of one.
+    assert_eq!(views.len(), 3 + 3 + 1);
+    assert!(views[6].ends_with("stopped: stopped by hand"), "{}", views[6]);
+    assert!(said.contains("6896 of 6896 bytes") && said.contains("its origin is at 0.000 0.000 0.000 mm of the model"));
+    // All but who, where, wait, watch and quit.
+    assert_eq!(said.lines().filter(|line| *line == "done").count(), 17);
+}
+
+#[test]
+fn a_line_that_is_refused_or_not_understood_ends_a_file_with_a_sentence() {
+    for (line, sentence) in [
+        ("place 5 0 0 0", "place was refused by the device: there is no body 5"),
+        ("limit 9", "limit was refused by the device: a force must be finite, and at most the scene's greatest"),
+        ("turn 1 0 0 1 90", "where body 1 is is not known here: place it first"),
+        ("jump", "there is no command \"jump\"; help says what there is"),
+        ("place 1 0 0", "place BODY X Y Z [AX AY AZ DEGREES]: Z is missing"),
+        ("upload 0 capped_box", "take was refused by the device: what is felt here does not offer this"),
+        ("upload 1 no-such.palp", "no-such.palp: No such file or directory (os error 2)"),
+    ] {
+        let (status, said, complained) = talk(&["--host"], &format!("{line}\nwho\n"));
+        assert_eq!((status, complained.trim()), (Some(2), &*format!("error: {sentence}")), "{line}");
+        assert_eq!(said.matches("a device of 4000 Hz").count(), 1, "{line}: {said}");
+    }
+}
+
+#[test]
+fn a_device_has_to_be_somewhere() {
+    assert_eq!(talk(&[], "").2.trim(), "error: either --port, --emulator or --host");
+    let (status, _, complained) = talk(&["--port", "/dev/no-such-port"], "");
+    assert_eq!(status, Some(2));
+    assert!(complained.starts_with("error: cannot open the serial port /dev/no-such-port: "), "{complained}");
+}
+
+#[test]
+fn help_lists_every_command() {
+    let (status, said, _) = talk(&["--host"], "help\n");
+    assert_eq!(status, Some(0));
+    for word in ["who", "where", "watch", "push", "place", "turn", "move", "spin", "switch", "choose", "harden", "rub"]
+    {
+        assert!(said.lines().any(|line| line.starts_with(word)), "{word}: {said}");
+    }
+}
