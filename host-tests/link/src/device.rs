@@ -36,8 +36,6 @@ pub struct Device<L = Port> {
     pub(crate) record: Option<Record>,
     /// Of a device that is being set up.
     pub(crate) reading: Option<Reading>,
-    /// Whether the last thing asked for was sent more than once.
-    pub(crate) repeated: bool,
     /// When something was said last, and when the device was greeted last.
     said: Instant,
     greeted: Instant,
@@ -78,7 +76,6 @@ impl<L: Line> Device<L> {
             views: 0,
             record: None,
             reading: None,
-            repeated: false,
             said: now,
             greeted: now,
             heard: None,

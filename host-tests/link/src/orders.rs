@@ -22,8 +22,7 @@ impl<L: Line> Device<L> {
     pub fn order(&mut self, order: Order) -> Result<(), Error> {
         self.usable()?;
         let asked = name(&order);
-        let tries = if is_repeatable(&order) { TRIES } else { 1 };
-        let refused = self.ask(asked, (tries, ANSWER), |number| Command::Order { number, order })?;
+        let refused = self.ask(asked, (TRIES, ANSWER), |number| Command::Order { number, order })?;
         refused.map_or(Ok(()), |reason| Err(Error::Refused { asked, reason }))
     }
 
@@ -34,12 +33,12 @@ impl<L: Line> Device<L> {
         (tries, patience): (u32, Duration),
         command: impl Fn(u16) -> Command,
     ) -> Result<Option<Refused>, Error> {
-        // The same however often it is sent: a device that has done it already need not do it again.
+        // The same however often it is sent: a device that has done it already answers again, and does not do it again.
         self.number = self.number.wrapping_add(1);
         let (number, mut busy) = (self.number, BUSY.0);
         let mut left = tries;
         while left > 0 {
-            (self.answer, self.repeated) = (None, left < tries);
+            self.answer = None;
             self.send(&command(number))?;
             let sent = self.line.now();
             while self.answer.is_none() && self.since(sent) < patience {
@@ -78,17 +77,16 @@ impl<L: Line> Device<L> {
 
     /// Leads a resting body along: it is there by now, and moves on at these velocities of its origin (m/s) and about it
     /// (rad/s) for so many seconds, unless the next call comes. For a motion that this program gives pose by pose.
-    /// It is asked for once only: a pose of before is no use later.
     ///
     /// # Errors
-    /// As [`Self::order`]; after [`Error::Lost`] the next call puts it right.
+    /// As [`Self::order`].
     pub fn lead(&mut self, body: u8, pose: Pose, motion: [[f32; 3]; 2], seconds: f32) -> Result<(), Error> {
         let [velocity, angular_velocity] = motion;
         self.order(Order::Lead { body, pose, velocity, angular_velocity, seconds })
     }
 
     /// Lets a resting body move on from where it is, at these velocities of its origin (m/s) and about it (rad/s), for so
-    /// many seconds. It is asked for once only: asked twice, it would move for longer.
+    /// many seconds.
     ///
     /// # Errors
     /// As [`Self::order`]; after [`Error::Lost`] only [`Self::place`] says where it is.
@@ -164,9 +162,4 @@ const fn name(order: &Order) -> &'static str {
         Order::Push { .. } => "push",
         Order::Take { .. } => "take",
     }
-}
-
-/// Whether it means the same once or twice, for an answer that is lost leaves open whether it was done.
-const fn is_repeatable(order: &Order) -> bool {
-    !matches!(order, Order::Lead { .. } | Order::Move { .. })
 }

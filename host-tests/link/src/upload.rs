@@ -1,9 +1,9 @@
 //! A body on its way into a device.
 
-use crate::orders::{ANSWER, BUSY, TRIES};
+use crate::orders::{ANSWER, BUSY};
 use crate::{Device, Error, Line};
 use palpate::body::{Body, Edge, Face, FileError, FileHead, Room};
-use palpate::scene::{Order, SceneError};
+use palpate::scene::Order;
 use palpate::wire::{CHUNK, Command, Refused, Upload, UploadError};
 use std::time::Duration;
 
@@ -45,19 +45,7 @@ impl<L: Line> Device<L> {
             }
             progress(at, file.len());
         }
-        self.take_uploaded(body)
-    }
-
-    /// The body that has just come and was checked takes its place.
-    fn take_uploaded(&mut self, body: u8) -> Result<(), Error> {
-        let asked = "take";
-        let order = Order::Take { body };
-        match self.ask(asked, (TRIES, ANSWER), |number| Command::Order { number, order })? {
-            None => Ok(()),
-            // It was there a moment ago: the answer that it was taken was lost.
-            Some(Refused::Order(SceneError::NotUploaded(_))) if self.repeated => Ok(()),
-            Some(reason) => Err(Error::Refused { asked, reason }),
-        }
+        self.order(Order::Take { body })
     }
 
     /// Sends a part, and waits for as long as the device has no bank free.
