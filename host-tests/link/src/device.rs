@@ -20,7 +20,8 @@ const MOST: usize = 1 << 16;
 ///
 /// Nothing here runs behind your back. A device that watches its link ([`palpate::servo::Safety::link_timeout`]) goes
 /// on only while this program calls: each call sends [`Command::Alive`] if nothing was said for [`ALIVE`]. Call
-/// something, [`Self::view`] or [`Self::tend`], at least every third of that timeout. There is no thread that would keep
+/// something, [`Self::view`] or [`Self::tend`], at least every third of that timeout. There is no thread that would
+/// keep
 /// a device alive whose program hangs: whoever holds its handle could not let go of what hangs.
 #[derive(Debug)]
 pub struct Device<L = Port> {

@@ -18,7 +18,8 @@ impl<L: Line> Device<L> {
     /// Asks for an order, and waits for the answer.
     ///
     /// # Errors
-    /// The device's refusal, or that no answer came; a line that broke, a device that has begun anew or is being set up.
+    /// The device's refusal, or that no answer came; a line that broke, a device that has begun anew or is being set
+    /// up.
     pub fn order(&mut self, order: Order) -> Result<(), Error> {
         self.usable()?;
         let asked = name(&order);
@@ -26,7 +27,8 @@ impl<L: Line> Device<L> {
         refused.map_or(Ok(()), |reason| Err(Error::Refused { asked, reason }))
     }
 
-    /// Asks for something that is answered by its number, anew where no answer comes; what it was refused for, if it was.
+    /// Asks for something that is answered by its number, anew where no answer comes; what it was refused for, if it
+    /// was.
     pub(crate) fn ask(
         &mut self,
         asked: &'static str,
@@ -75,7 +77,8 @@ impl<L: Line> Device<L> {
         self.order(Order::Place { body, pose })
     }
 
-    /// Leads a resting body along: it is there by now, and moves on at these velocities of its origin (m/s) and about it
+    /// Leads a resting body along: it is there by now, and moves on at these velocities of its origin (m/s) and about
+    /// it
     /// (rad/s) for so many seconds, unless the next call comes. For a motion that this program gives pose by pose.
     ///
     /// # Errors
@@ -85,7 +88,8 @@ impl<L: Line> Device<L> {
         self.order(Order::Lead { body, pose, velocity, angular_velocity, seconds })
     }
 
-    /// Lets a resting body move on from where it is, at these velocities of its origin (m/s) and about it (rad/s), for so
+    /// Lets a resting body move on from where it is, at these velocities of its origin (m/s) and about it (rad/s), for
+    /// so
     /// many seconds.
     ///
     /// # Errors

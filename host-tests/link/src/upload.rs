@@ -15,13 +15,15 @@ const RESUMES: u32 = 100;
 const PART_TRIES: u32 = 20;
 
 impl<L: Line> Device<L> {
-    /// Puts a body's file (`palpate bake --out part.palp`) in the place of a body of the scene. The file is checked here
+    /// Puts a body's file (`palpate bake --out part.palp`) in the place of a body of the scene. The file is checked
+    /// here
     /// first, with the device's own code; then it is sent while the old body is felt, checked there, and taken. Parts
     /// that are lost are sent anew. `progress` is told the bytes that have come, and all; nothing else can be asked of
     /// the device meanwhile.
     ///
     /// # Errors
-    /// What is wrong with the file; a body too large for the device; the device's refusal; a line or device that is gone.
+    /// What is wrong with the file; a body too large for the device; the device's refusal; a line or device that is
+    /// gone.
     /// The old body is felt on then.
     pub fn upload(&mut self, body: u8, file: &[u8], mut progress: impl FnMut(usize, usize)) -> Result<(), Error> {
         self.usable()?;

@@ -71,7 +71,8 @@ fn a_view_is_not_waited_for_longer_than_asked() {
 
 #[test]
 fn a_device_that_was_reset_says_so_until_it_is_greeted() {
-    // It is found out by the refusal of an order, by the hello of one that begins, or, where that is lost, by its ticks.
+    // It is found out by the refusal of an order, by the hello of one that begins, or, where that is lost, by its
+    // ticks.
     for (found_by_order, between, ticks) in [(true, true, 0), (false, true, 8), (false, false, 60)] {
         let (mut device, _) = running();
         for_seconds(&mut device, 0.5);

@@ -1,4 +1,5 @@
-//! An emulated board with the boards' loop over a scene in it: the simulated arm is at its pins, this program at its port.
+//! An emulated board with the boards' loop over a scene in it: the simulated arm is at its pins, this program at its
+//! port.
 
 use crate::firmware::{Board, Emulator, Link as _, Program, Progress};
 use palpate::wire::Sensors;

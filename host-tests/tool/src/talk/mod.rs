@@ -1,7 +1,8 @@
 //! Talking with a device: a console over [`palpate_link`], with a device at a port or a simulated one.
 //!
 //! ```text
-//!  Console ── Asked: a line, understood ── palpate_link::Device ── Line: a serial port │ Emulated │ palpate_simulated::Simulated
+//!  Console ── Asked: a line, understood ── palpate_link::Device ── Line: a serial port │ Emulated │
+//! palpate_simulated::Simulated
 //! ```
 
 mod asked;
