@@ -13,8 +13,8 @@ pub const SHARE_OF_EDGES: f64 = 0.6;
 const ROUNDS: usize = 12;
 /// A curve that is off its chord by less than this share of the tolerance is a straight line.
 const STRAIGHT: f64 = 0.02;
-/// The effort of fitting a patch and measuring it.
-const FITTED: u64 = 10_000;
+/// The effort of fitting a patch of some degrees and measuring it.
+const FITTED: u64 = 12_000;
 /// The most patches a body can have.
 pub const MOST: usize = 1024;
 
@@ -57,7 +57,6 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, Vec<Import
                         cuts.insert(wire);
                     }
                 }
-                mesh.part.effort.spend(FITTED);
                 let (patch, off) = patch_of(mesh, face, quad, &curves, tolerance);
                 if off > tolerance {
                     let bent = |wire: &usize| curves[wire].points.len() == 4;
@@ -148,6 +147,7 @@ fn patch_of(
     let sides = [side(0, false), side(1, false), side(2, true), side(3, true)];
     let mut best: Option<(Bezier, f64)> = None;
     for least in [[1, 1], [3, 3], [5, 5]] {
+        mesh.part.effort.spend(FITTED);
         let patch = fit_patch(surface, quad, &sides, least);
         if best.as_ref().is_some_and(|(other, _)| other.degree == patch.degree) {
             continue;

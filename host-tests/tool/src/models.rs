@@ -64,7 +64,7 @@ impl ModelFile {
         }
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
         if cad::is_part(path) {
-            return Ok(Self { label, name, text: Cow::Owned(cad::model_of(path)?), tables: None });
+            return Ok(Self::imported(path, cad::model_of(path)?));
         }
         if is_baked(path) {
             let bytes = std::fs::read(path).map_err(|cause| ModelError::Read { file: label.clone(), cause })?;
@@ -75,6 +75,12 @@ impl ModelFile {
             Ok(text) => Ok(Self { label, name, text: Cow::Owned(text), tables: None }),
             Err(cause) => Err(ModelError::Read { file: label, cause }.into()),
         }
+    }
+
+    /// What was made of a CAD part; messages name the part.
+    pub fn imported(part: &Path, text: String) -> Self {
+        let name = part.file_name().unwrap_or(part.as_os_str()).to_string_lossy().into_owned();
+        Self { label: part.display().to_string(), name, text: Cow::Owned(text), tables: None }
     }
 
     /// The model, checked.

@@ -60,7 +60,11 @@ pub(super) struct Loaded {
 impl Loaded {
     /// Reads, validates and bakes a model file.
     pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
-        let file = ModelFile::read(path)?;
+        Self::of(ModelFile::read(path)?)
+    }
+
+    /// Validates and bakes what was read.
+    pub(super) fn of(file: ModelFile) -> anyhow::Result<Self> {
         let model = file.model()?;
         let body = file.body(&model)?;
         Ok(Self { file, model, body })

@@ -1,8 +1,12 @@
 //! `palpate import`: a CAD part as a model file.
 
+use super::check::Loaded;
+use super::output::write_whole;
 use crate::cad::{Importer, TOLERANCE, Wishes};
 use crate::firmware::Progress;
+use crate::models::ModelFile;
 use clap::Args;
+use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -13,8 +17,9 @@ use std::process::ExitCode;
 /// result is compared with the part on dense points, both ways, and refused where it is farther off than the tolerance.
 /// Patches go by the names of their faces, with a number where a face has more than one.
 ///
-/// All solids and shells of the file, where the assembly places them, become one model. Exit status 2, a sentence and
-/// no file if something is wrong.
+/// All solids and shells of the file, where the assembly places them, become one model. What cuts itself or another,
+/// lies in another, or is open, is said to. Exit status 2, a sentence and no file if something is wrong: also where
+/// three faces meet at an edge, as of solids that share a face.
 ///
 /// The first run compiles the reader, which takes some minutes.
 #[derive(Args, Debug)]
@@ -42,9 +47,22 @@ pub struct Arguments {
 /// What is wrong with the part, or that the importer does not build.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let importer = Importer::build(&Progress::new())?;
-    let wishes =
-        Wishes { tolerance: arguments.tolerance, solid: arguments.solid.clone(), picture: arguments.picture.clone() };
-    print!("{}", importer.import(&arguments.part, &arguments.out, &wishes)?);
+    // Nothing is written before all is right.
+    let folder = tempfile::tempdir()?;
+    let (model, drawn) = (folder.path().join("model.toml"), folder.path().join("picture.svg"));
+    let picture = arguments.picture.as_ref().map(|_| drawn.clone());
+    let wishes = Wishes { tolerance: arguments.tolerance, solid: arguments.solid.clone(), picture };
+    let said = importer.import(&arguments.part, &model, &wishes)?;
+    let text = fs::read_to_string(&model)?;
+    let loaded = Loaded::of(ModelFile::imported(&arguments.part, text.clone()))?;
+    if let Some(picture) = &arguments.picture {
+        write_whole(picture, &fs::read(&drawn)?)?;
+    }
+    write_whole(&arguments.out, text.as_bytes())?;
+    print!("{said}");
+    for flaw in loaded.flaws() {
+        println!("{}", loaded.describe(&flaw));
+    }
     println!("{}", arguments.out.display());
     Ok(ExitCode::SUCCESS)
 }
