@@ -75,7 +75,7 @@ mod tests {
     }
 
     fn frame(record: &Record) -> Vec<u8> {
-        pack(record, &mut [0; MAX_FRAME]).unwrap().to_vec()
+        pack(&Told::Record(*record), &mut [0; MAX_FRAME]).unwrap().to_vec()
     }
 
     #[test]
