@@ -147,8 +147,9 @@ impl<'a> Words<'a> {
         self.is_number(word, "number")
     }
 
-    fn vector(&mut self, scale: f32) -> Result<[f32; 3], Misunderstood> {
-        Ok([self.number("X")? * scale, self.number("Y")? * scale, self.number("Z")? * scale])
+    /// Three numbers of what goes so often into the unit: divided, 20 mm are the very number 0.02.
+    fn vector(&mut self, in_one: f32) -> Result<[f32; 3], Misunderstood> {
+        Ok([self.number("X")? / in_one, self.number("Y")? / in_one, self.number("Z")? / in_one])
     }
 
     fn seconds(&self, word: Option<&str>, default: f32) -> Result<f32, Misunderstood> {
@@ -215,8 +216,8 @@ impl FromStr for Asked {
     type Err = Misunderstood;
 
     fn from_str(line: &str) -> Result<Self, Misunderstood> {
-        const MM: f32 = 1e-3;
-        const DEGREE: f32 = TAU / 360.0;
+        const MILLIMETRES: f32 = 1e3;
+        const DEGREES: f32 = 360.0 / TAU;
         let mut rest = line.split_whitespace();
         let Some(name) = rest.next() else { return Ok(Self::Nothing) };
         // A file's remark.
@@ -240,13 +241,13 @@ impl FromStr for Asked {
                 Self::Push(force, words.seconds(word, 1.0)?)
             }
             "place" => {
-                let (body, position) = (words.body()?, words.vector(MM)?);
+                let (body, position) = (words.body()?, words.vector(MILLIMETRES)?);
                 let is_turned = words.rest.clone().next().is_some();
                 Self::Place(body, position, if is_turned { Some(words.orientation()?) } else { None })
             }
             "turn" => Self::Turn(words.body()?, words.orientation()?),
-            "move" => Self::Move(words.body()?, [words.vector(MM)?, [0.0; 3]], words.needed_seconds()?),
-            "spin" => Self::Move(words.body()?, [[0.0; 3], words.vector(DEGREE)?], words.needed_seconds()?),
+            "move" => Self::Move(words.body()?, [words.vector(MILLIMETRES)?, [0.0; 3]], words.needed_seconds()?),
+            "spin" => Self::Move(words.body()?, [[0.0; 3], words.vector(DEGREES)?], words.needed_seconds()?),
             "switch" => Self::Switch(words.groups()?),
             "choose" => {
                 let word = words.word("INDEX")?;
@@ -254,7 +255,7 @@ impl FromStr for Asked {
             }
             "harden" => Self::Harden(words.body()?, words.number("STIFFNESS")?, words.number("DAMPING")?),
             "rub" => Self::Rub(words.body()?, words.friction()?),
-            "tip" => Self::Tip(words.number("MM")? * MM),
+            "tip" => Self::Tip(words.number("MM")? / MILLIMETRES),
             "limit" => Self::Limit(words.number("N")?),
             "upload" => Self::Upload(words.body()?, PathBuf::from(words.word("FILE")?)),
             "stop" => Self::Stop,
