@@ -1,6 +1,6 @@
 //! How a loop finds out where its joints are, as numbers.
 
-use crate::pointers::{Plain, finite};
+use crate::pointers::Plain;
 use crate::status::Status;
 use palpate_core::device::{Encoder, Homing, Reference, StopSearch};
 
@@ -38,10 +38,6 @@ impl HomingNumbers {
         // No device has more than three joints: the numbers reach.
         for ((angle, stop), given) in angles.iter_mut().zip(&mut stops).zip(&self.joints) {
             let ReferenceNumbers { angle: at, speed, torque, clearance, travel } = *given;
-            if self.by == 3 {
-                // The library would take them.
-                finite(&[clearance, travel])?;
-            }
             *angle = at;
             *stop = StopSearch { angle: at, speed, torque, clearance, travel };
         }

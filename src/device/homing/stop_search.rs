@@ -73,7 +73,9 @@ pub(super) struct Joint {
 impl StopSearch {
     pub(super) const fn is_valid(&self) -> bool {
         let finite = self.angle.is_finite() && self.speed.is_finite() && self.torque.is_finite();
-        finite && self.speed != 0.0 && self.torque > 0.0 && self.clearance > 0.0 && self.travel > 0.0
+        // A way without an end would be searched until the time is over.
+        let ends = self.clearance.is_finite() && self.travel.is_finite();
+        finite && ends && self.speed != 0.0 && self.torque > 0.0 && self.clearance > 0.0 && self.travel > 0.0
     }
 
     /// One tick. Still is: within `still_counts` of one reading for `still_ticks` ticks under full torque.
@@ -182,5 +184,14 @@ mod tests {
         let no_stop =
             ends(|tick| if tick < 101 { -tick } else { tick - 202 }, |tick| if tick < 101 { -1.0 } else { 1.0 });
         assert_eq!(no_stop.map(|(_, end)| end), Some(Err(Refusal::NoStop)));
+    }
+
+    #[test]
+    fn a_search_without_an_end_is_none() {
+        assert!(SEARCH.is_valid());
+        for endless in [f32::INFINITY, f32::NAN] {
+            assert!(!StopSearch { clearance: endless, ..SEARCH }.is_valid());
+            assert!(!StopSearch { travel: endless, ..SEARCH }.is_valid());
+        }
     }
 }
