@@ -1,8 +1,8 @@
 //! A device's own telemetry, frame by frame, as `palpate monitor` reads it.
 
 use alloc::vec::Vec;
-use palpate::wire::{Record, Told};
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
+use palpate::wire::{Record, Told};
 
 /// What has come so far.
 pub struct Monitor {

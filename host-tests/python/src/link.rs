@@ -2,8 +2,8 @@
 
 use crate::arrays::{line, table};
 use crate::refusal::Refusal;
-use palpate::wire::{Record, Told};
 use palpate::wire::frame::{Received, Receiver};
+use palpate::wire::{Record, Told};
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt as _;
 use pyo3::types::PyDict;
