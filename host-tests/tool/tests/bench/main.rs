@@ -14,3 +14,5 @@ mod pins;
 mod reset;
 mod rig;
 mod set_up;
+mod usb;
+mod usb_bus;
