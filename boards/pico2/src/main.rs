@@ -1,7 +1,7 @@
 //! palpate on a Raspberry Pi Pico 2: three magnetic angle sensors, three bridges, a button that asks for force.
 //!
-//! The servo runs in the interrupt of a PWM slice that is used as a timer; nothing can delay it. Below it `main` sends
-//! telemetry and feeds the watchdog. What both do is the loop of every board (`boards/bench`); here are this one's
+//! The servo runs in the interrupt of a PWM slice that is used as a timer; nothing delays it but the moments for which
+//! the USB driver masks interrupts ([`usb`]). Below it `main` sends telemetry and feeds the watchdog. What both do is the loop of every board (`boards/bench`); here are this one's
 //! clocks, pins and memory. The README has the wiring; [`body`] is what to change first.
 
 #![no_std]
@@ -17,6 +17,7 @@ mod port;
 mod program;
 mod supply;
 mod ticks;
+mod usb;
 
 use cortex_m::peripheral::NVIC;
 use palpate::device::SupplyRange;
@@ -25,6 +26,7 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Angles, greatest_step};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Settings, Switched};
 use palpate_cortex::Cycles;
+use palpate_usb::{Cdc, Either, Plain};
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock, init_clocks_and_plls};
 use rp235x_hal::fugit::{ExtU32, RateExtU32};
@@ -127,10 +129,13 @@ fn main() -> ! {
         },
         light: pins.gpio25.into_push_pull_output().into_dyn_pin(),
     };
+    let bus = usb::bus(chip.USB, chip.USB_DPRAM, clocks.usb_clock, &mut chip.RESETS);
+    let Ok(plug) = Cdc::try_new(&bus, Plain) else { panic!("it is a device that USB allows") };
+    let port = Either::new(plug, port::Uart(uart));
     let (producer, messages) = QUEUE.split();
     program::HANDED_OVER.give(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX));
     chip::remember(Cause::Running);
-    program::below(messages, cycles, reset, port::Uart(uart), || {
+    program::below(messages, cycles, reset, port, || {
         watchdog.start(20.millis());
         // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
         unsafe {
