@@ -17,6 +17,7 @@ mod program;
 mod pulse_width;
 mod supply;
 mod ticks;
+mod usb;
 mod watchdog;
 
 use cortex_m::peripheral::NVIC;
@@ -27,6 +28,7 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{Angles, greatest_step};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Settings};
 use palpate_cortex::Cycles;
+use palpate_usb::{Cdc, Either};
 use teensy4_bsp::board::{self, ARM_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
 use teensy4_bsp::hal::gpio::{Input, Output};
@@ -65,7 +67,7 @@ fn main() -> ! {
     chip::motors_off();
     let (flags, memo) = chip::reset();
     let reset = flags.reason(memo);
-    let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, .. } =
+    let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, usb, .. } =
         board::t41(board::instances());
     // Motors first: not enabled.
     let enables = [gpio1.output(pins.p16).ok(), gpio1.output(pins.p17).ok(), gpio1.output(pins.p18).ok()];
@@ -117,7 +119,9 @@ fn main() -> ! {
     let (Ok(light), Ok(supply)) = (gpio1.output(pins.p22), adc1.input::<_, 1>(pins.p23)) else {
         panic!("they are as wired")
     };
-    let port = port::Uart(lpuart(lpuart6, pins.p1, pins.p0, port::BAUD));
+    let bus = usb::bus(usb);
+    let Ok(plug) = Cdc::try_new(&bus, usb::Plug) else { panic!("it is a device that USB allows") };
+    let port = Either::new(plug, port::Uart(lpuart(lpuart6, pins.p1, pins.p0, port::BAUD)));
 
     let lines = Lines {
         enable,

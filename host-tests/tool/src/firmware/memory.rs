@@ -68,8 +68,8 @@ impl BenchBoard {
             Self::Stm32g4 => [56 * KB, 352 * KB],
             // 64 KB for code.
             Self::Pico2 => [384 * KB, (3 * KB - 64) * KB],
-            // 32 KB of stack, 16 KB of variables and constants.
-            Self::Teensy41 => [272 * KB, (7_936 - 256) * KB],
+            // 32 KB of stack, 32 KB of variables and constants, the USB controller's lists among them.
+            Self::Teensy41 => [256 * KB, (7_936 - 256) * KB],
         }
     }
 
