@@ -23,7 +23,9 @@ impl Port {
     pub fn open(name: &str, baud: u32) -> Result<Self, Error> {
         let opened = serialport::new(name, baud).timeout(SENDS).open();
         let opened = opened.and_then(|port| port.clear(ClearBuffer::Input).map(|()| port));
-        let port = opened.map_err(|cause| Error::Open { port: name.to_owned(), cause })?;
+        let mut port = opened.map_err(|cause| Error::Open { port: name.to_owned(), cause })?;
+        // A device at its own USB plug listens while this is up. Not every system raises it; not every port has it.
+        let _ = port.write_data_terminal_ready(true);
         Ok(Self { port, name: name.to_owned() })
     }
 }

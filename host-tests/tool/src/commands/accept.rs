@@ -69,6 +69,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     } else if let Some(path) = &arguments.port {
         let port = serialport::new(path, arguments.baud).timeout(PATIENCE).open();
         let mut port = port.with_context(|| format!("cannot open the serial port {path}"))?;
+        // A device at its own USB plug tells while this is up. Not every system raises it; not every port has it.
+        let _ = port.write_data_terminal_ready(true);
         let found = examine(&mut port, &plan).with_context(|| format!("serial port {path}"))?;
         let counted = counted(arguments, &plan, &found)?;
         (format!("serial port {path}"), found, counted)

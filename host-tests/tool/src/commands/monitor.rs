@@ -81,6 +81,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     } else if let Some(path) = &arguments.port {
         let port = serialport::new(path, arguments.baud).timeout(PATIENCE).open();
         let mut port = port.with_context(|| format!("cannot open the serial port {path}"))?;
+        // A device at its own USB plug tells while this is up. Not every system raises it; not every port has it.
+        let _ = port.write_data_terminal_ready(true);
         if let Some(sent) = arguments.send {
             let mut buffer = [0; MAX_FRAME];
             let frame = frame::pack(&sent.command(), &mut buffer)?;

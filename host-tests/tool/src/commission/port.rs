@@ -22,7 +22,9 @@ impl PortLine {
     /// A port that is not there, or another program's.
     pub fn open(path: &str, baud: u32) -> anyhow::Result<Self> {
         let port = serialport::new(path, baud).timeout(WAIT).open();
-        let port = port.with_context(|| format!("cannot open the serial port {path}"))?;
+        let mut port = port.with_context(|| format!("cannot open the serial port {path}"))?;
+        // A device at its own USB plug listens while this is up. Not every system raises it; not every port has it.
+        let _ = port.write_data_terminal_ready(true);
         Ok(Self { port, path: path.to_owned() })
     }
 }
