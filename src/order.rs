@@ -98,6 +98,11 @@ pub enum Order {
         /// Which.
         body: u8,
     },
+    /// The body that was built in takes this one's place again: [`crate::scene::Scene::put_back`].
+    PutBack {
+        /// Which.
+        body: u8,
+    },
 }
 
 /// Which choice is refused.

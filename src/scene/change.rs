@@ -187,11 +187,22 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
     /// # Errors
     /// Nothing was uploaded, or not for this body; nothing changes then.
     pub fn take(&self, state: &mut SceneState<S::Witness, N>, index: usize) -> Result<(), SceneError> {
-        let body = saturated(index);
+        self.exchange(state, index, &Order::Take { body: saturated(index) })
+    }
+
+    /// The body that was built in takes the place of this one again, as [`Self::take`] has it.
+    ///
+    /// # Errors
+    /// A body that is always the one built in; nothing changes then.
+    pub fn put_back(&self, state: &mut SceneState<S::Witness, N>, index: usize) -> Result<(), SceneError> {
+        self.exchange(state, index, &Order::PutBack { body: saturated(index) })
+    }
+
+    fn exchange(&self, state: &mut SceneState<S::Witness, N>, index: usize, order: &Order) -> Result<(), SceneError> {
         let (Some(part), Some(kept)) = (self.parts.get(index), state.parts.get_mut(index)) else {
-            return Err(SceneError::Missing(body));
+            return Err(SceneError::Missing(saturated(index)));
         };
-        part.surface.obey(&mut kept.witness, &Order::Take { body })?;
+        part.surface.obey(&mut kept.witness, order)?;
         self.forget(state, index);
         Ok(())
     }

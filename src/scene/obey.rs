@@ -70,6 +70,7 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
             Order::Limit { force } => state.host.set_limit(self.limits(), force),
             Order::Push { force: [x, y, z] } => state.host.push(self.limits(), vec3(x, y, z)),
             Order::Take { body } => self.take(state, usize::from(body)),
+            Order::PutBack { body } => self.put_back(state, usize::from(body)),
         }
     }
 }

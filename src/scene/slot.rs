@@ -7,7 +7,7 @@ use crate::order::{Order, SceneError};
 use crate::servo::{Surface, Touched, Tracked};
 use crate::track::{Contact, Controller, Probe, Witness};
 
-/// Where uploaded bodies lie: two banks of memory, so that one can be written while the other is felt.
+/// Where uploaded bodies lie: banks of memory, so that one can be written while another is felt.
 ///
 /// A bank that was taken does not change until it is left. Nothing here waits: it is asked from the servo's interrupt.
 pub trait Shelf {
@@ -78,13 +78,18 @@ impl<H: Shelf> Slot<'_, H> {
             _ => self.baked,
         }
     }
+
+    fn with(&self, bank: Option<u8>) -> SlotWitness {
+        SlotWitness { bank, witness: self.body(bank).start() }
+    }
 }
 
 impl<H: Shelf> Surface for Slot<'_, H> {
     type Witness = SlotWitness;
 
+    /// A body that is there before the first tick, as one kept in flash is, stands in the slot from the start.
     fn rest(&self) -> SlotWitness {
-        SlotWitness { bank: None, witness: self.baked.start() }
+        self.with(self.shelf.and_then(Shelf::take))
     }
 
     #[inline]
@@ -101,12 +106,16 @@ impl<H: Shelf> Surface for Slot<'_, H> {
     }
 
     fn obey(&self, state: &mut SlotWitness, order: &Order) -> Result<(), SceneError> {
-        let (Order::Take { body }, Some(shelf)) = (order, self.shelf) else { return Err(SceneError::NotOffered) };
-        let Some(bank) = shelf.take() else { return Err(SceneError::NotUploaded(*body)) };
+        let Some(shelf) = self.shelf else { return Err(SceneError::NotOffered) };
+        let bank = match order {
+            Order::Take { body } => Some(shelf.take().ok_or(SceneError::NotUploaded(*body))?),
+            Order::PutBack { .. } => None,
+            _ => return Err(SceneError::NotOffered),
+        };
         if let Some(left) = state.bank {
             shelf.leave(left);
         }
-        *state = SlotWitness { bank: Some(bank), witness: self.body(Some(bank)).start() };
+        *state = self.with(bank);
         Ok(())
     }
 

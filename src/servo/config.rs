@@ -245,6 +245,11 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         }
     }
 
+    /// Whether it is a fault that the host falls silent ([`Safety::link_timeout`]).
+    pub const fn watches_link(&self) -> bool {
+        self.link_ticks < u32::MAX
+    }
+
     /// The same loop, which finds out in [`Phase::Calibrate`] where the joints are.
     ///
     /// Until that is done no angle is believed: ranges are not looked at, there is no pose, and only homing itself

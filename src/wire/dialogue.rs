@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// The version of these messages: another one may mean something else by them.
-pub const PROTOCOL: u16 = 1;
+pub const PROTOCOL: u16 = 2;
 
 /// From a device that runs by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,6 +43,10 @@ pub struct Hello {
     pub faces: u16,
     /// Edges.
     pub edges: u16,
+    /// Bytes of a body that can be kept in flash; 0 where none can.
+    pub flash: u32,
+    /// The CRC-32 at the end of the file of the body that is kept there; 0 where none is.
+    pub kept: u32,
 }
 
 /// What became of an order or of a part of an upload.

@@ -121,6 +121,10 @@ pub mod hold {
     pub const SUPPLY: u8 = 1 << 2;
     /// The enable input has to be seen released first.
     pub const RELEASE_FIRST: u8 = 1 << 3;
+    /// A body is being written into flash.
+    pub const WRITING: u8 = 1 << 4;
+    /// The loop watches its link ([`crate::servo::Safety::link_timeout`]), and no host was heard yet.
+    pub const NO_HOST: u8 = 1 << 5;
 }
 
 /// To a device that runs by itself.

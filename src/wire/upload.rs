@@ -24,6 +24,13 @@ pub enum Upload {
     },
     /// All of it has come: it is checked, and ready to be taken ([`crate::scene::Order::Take`]).
     End,
+    /// As [`Self::Begin`], but into the device's flash, where it stays without power and is felt from the next reset
+    /// on. From this word to [`Self::End`] the device keeps its motors off; it refuses while they are driven, or
+    /// somebody asks for force. What was kept before is gone. A file of no bytes forgets it, and ends with this.
+    Keep {
+        /// Its length.
+        bytes: u32,
+    },
 }
 
 /// Why a part of an upload is refused.
@@ -54,6 +61,21 @@ pub enum UploadError {
     /// Nothing was begun.
     #[error("no upload was begun")]
     NotBegun,
+    /// No flash was set aside for bodies.
+    #[error("this device has no flash set aside for bodies")]
+    NoFlash,
+    /// The motors are driven, or somebody holds the enable input: flash is written only while they are off.
+    #[error("flash is written only while the motors are off: let go of the enable input first")]
+    Driven,
+    /// The kept body is felt: another is to take its place first ([`crate::scene::Order::PutBack`]).
+    #[error("the body that is kept in flash is felt: put the one that was built in back first")]
+    Felt,
+    /// The flash did not take what was written.
+    #[error("the flash did not take what was written at byte {at}")]
+    Flash {
+        /// Where.
+        at: u32,
+    },
     /// What came is no body: changed on the way, or of another version. The host's own check says what is wrong.
     #[error("what came is no body of this version")]
     NoBody,

@@ -55,6 +55,8 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     /// What takes the servo's place once the host asks for it; `None` where jogging is not offered.
     set_up: Option<SetUp<JOINTS>>,
     is_set_up: bool,
+    /// Whether a host has said anything, or need not.
+    is_host_heard: bool,
 }
 
 /// How far somebody has come with pressing stop and letting go of it, which acknowledges a reset that is a fault.
@@ -97,6 +99,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             // Limits that make no sense jog nothing.
             set_up: settings.jog.and_then(|jog| SetUp::try_new(&jog, felt.servo().device(), rate).ok()),
             is_set_up: false,
+            is_host_heard: !felt.servo().watches_link(),
             felt,
         }
     }
@@ -111,7 +114,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         if self.is_set_up {
             return self.jog(began, &panel);
         }
-        let verdict = self.hold.next(&panel, matches!(self.state.output(), Output::Drive(_)));
+        let mut verdict = self.hold.next(&panel, matches!(self.state.output(), Output::Drive(_)));
+        verdict.hold |= self.holds_for_host(&panel);
         if verdict.is_drive_fault {
             self.felt.servo().note(&mut self.state, Event::DriveFault);
         }
@@ -162,6 +166,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     fn listen(&mut self, panel: &Panel) {
         let commands = self.mailbox.take();
         if commands.has(Plain::Alive) {
+            self.is_host_heard = true;
             self.felt.servo().note(&mut self.state, Event::LinkAlive);
         }
         if commands.has(Plain::Stop) {
@@ -211,7 +216,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// holds the enable button, nor before a reset that is a fault has been acknowledged. The servo is stopped first,
     /// and that is latched, whatever else goes wrong.
     fn begin_to_set_up(&mut self, panel: &Panel) {
-        let is_quiet = matches!(self.state.output(), Output::Off) && !panel.enable && !self.is_reset_pending();
+        let is_quiet = self.is_quiet(panel) && !self.is_reset_pending();
         if self.set_up.is_none() || self.is_set_up || !is_quiet {
             return;
         }
@@ -222,8 +227,31 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         let _ = self.mailbox.take_jog();
     }
 
+    /// Nothing is driven, and nobody asks for it.
+    fn is_quiet(&self, panel: &Panel) -> bool {
+        matches!(self.state.output(), Output::Off) && !panel.enable
+    }
+
+    /// What keeps the motors off for the host's sake: one that is to be there and was never heard, flash that is being
+    /// written.
+    #[inline]
+    fn holds_for_host(&mut self, panel: &Panel) -> u8 {
+        let mut holds = 0;
+        if !self.is_host_heard {
+            // Nothing was lost that was never there.
+            self.felt.servo().note(&mut self.state, Event::LinkAlive);
+            holds |= hold::NO_HOST;
+        }
+        if self.mailbox.writing().answer(self.is_quiet(panel)) {
+            holds |= hold::WRITING;
+        }
+        holds
+    }
+
     /// A tick of a device that is being set up.
     fn jog(&mut self, began: u32, panel: &Panel) {
+        // Not beside that.
+        let _ = self.mailbox.writing().answer(false);
         let Some(set_up) = &mut self.set_up else { return };
         set_up.tick(&mut self.board, (&mut self.hold, &mut self.interlock), panel, self.mailbox);
         if self.deadline.overrun(began, self.board.now()) {

@@ -2,11 +2,12 @@
 
 use crate::mailbox::Plain;
 use crate::outbox::Outbox;
+use crate::taking::Taking;
 use crate::{Mailbox, Uploads};
 use palpate::servo::Heartbeat;
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::telemetry::Consumer;
-use palpate::wire::{Answer, Command, Hello, PROTOCOL, Record, Refused, Told, UploadError};
+use palpate::wire::{Answer, Command, Hello, PROTOCOL, Record, Refused, Told};
 
 /// A serial port that is never waited for.
 pub trait Port {
@@ -30,7 +31,7 @@ pub struct Idle<'a> {
     heartbeat: Heartbeat,
     receiver: Receiver<Command>,
     outbox: Outbox,
-    uploads: Option<&'a dyn Uploads>,
+    taking: Taking<'a>,
     /// What the device says of itself.
     hello: Hello,
     /// Whether that is still to be said.
@@ -54,8 +55,17 @@ impl<'a> Idle<'a> {
             heartbeat,
             receiver: Receiver::new(),
             outbox: Outbox::new(),
-            uploads: None,
-            hello: Hello { protocol: PROTOCOL, rate: 0.0, max_force: 0.0, room: 0, faces: 0, edges: 0 },
+            taking: Taking::nothing(),
+            hello: Hello {
+                protocol: PROTOCOL,
+                rate: 0.0,
+                max_force: 0.0,
+                room: 0,
+                faces: 0,
+                edges: 0,
+                flash: 0,
+                kept: 0,
+            },
             greets: true,
             is_greeted: false,
             awaits: None,
@@ -75,24 +85,40 @@ impl<'a> Idle<'a> {
     #[must_use]
     pub fn taking(mut self, uploads: &'a dyn Uploads) -> Self {
         (self.hello.room, self.hello.faces, self.hello.edges) = uploads.room();
-        self.uploads = Some(uploads);
+        self.taking.memory = Some(uploads);
+        self
+    }
+
+    /// Keeps bodies in flash. What it says of faces and edges is the least of this and of [`Self::taking`]'s.
+    #[must_use]
+    pub fn keeping(mut self, flash: &'a dyn Uploads) -> Self {
+        let (bytes, faces, edges) = flash.room();
+        self.hello.flash = bytes;
+        if self.hello.room == 0 {
+            (self.hello.faces, self.hello.edges) = (faces, edges);
+        } else {
+            (self.hello.faces, self.hello.edges) = (self.hello.faces.min(faces), self.hello.edges.min(edges));
+        }
+        self.taking.flash = Some(flash);
         self
     }
 
     /// A moment of it: at most a byte each way. Call it for ever.
     pub fn step(&mut self, port: &mut impl Port, watchdog: &mut impl Watchdog) {
-        if self.heartbeat.may_feed(self.mailbox.ticks()) {
-            watchdog.feed();
-        }
+        feed(&mut self.heartbeat, self.mailbox, watchdog);
         if self.awaits.is_some()
             && let Some(answer) = self.mailbox.take_answer()
         {
             (self.awaits, self.last, self.answer) = (None, Some(answer), Some(answer));
         }
+        if let Some(answer) = self.taking.wait(self.mailbox, &mut || feed(&mut self.heartbeat, self.mailbox, watchdog))
+        {
+            self.answer = Some(answer);
+        }
         if let Some(byte) = port.receive()
             && let Some(Received::Message(command)) = self.receiver.feed(byte)
         {
-            self.take(command);
+            self.take(command, watchdog);
         }
         if self.outbox.is_empty() {
             match self.next() {
@@ -103,7 +129,7 @@ impl<'a> Idle<'a> {
         self.outbox.step(port);
     }
 
-    fn take(&mut self, command: Command) {
+    fn take(&mut self, command: Command, watchdog: &mut impl Watchdog) {
         match command {
             Command::Alive => self.mailbox.put(Plain::Alive),
             Command::Stop => self.mailbox.put(Plain::Stop),
@@ -113,6 +139,9 @@ impl<'a> Idle<'a> {
             Command::Hello { protocol } => {
                 // Another host begins to count anew.
                 (self.greets, self.is_greeted, self.last) = (true, protocol == PROTOCOL, None);
+                if self.is_greeted {
+                    self.mailbox.put(Plain::Alive);
+                }
             }
             Command::Order { number, .. } | Command::Upload { number, .. } if !self.is_greeted => {
                 self.answer = Some(Answer { number, refused: Some(Refused::Hello) });
@@ -131,10 +160,13 @@ impl<'a> Idle<'a> {
             }
             Command::Upload { number, part } => {
                 self.mailbox.put(Plain::Alive);
-                let put = self.uploads.map_or(Err(UploadError::NoRoom), |uploads| uploads.put(&part));
+                let mut pause = || feed(&mut self.heartbeat, self.mailbox, watchdog);
+                let answer = self.taking.take(number, &part, self.mailbox, &mut pause);
                 // A check may have taken long: the host was heard all the same.
                 self.mailbox.put(Plain::Alive);
-                self.answer = Some(Answer { number, refused: put.err().map(Refused::Upload) });
+                if answer.is_some() {
+                    self.answer = answer;
+                }
             }
         }
     }
@@ -143,6 +175,7 @@ impl<'a> Idle<'a> {
     fn next(&mut self) -> Option<Told> {
         if self.greets {
             self.greets = false;
+            self.hello.kept = self.taking.kept();
             return Some(Told::Hello(self.hello));
         }
         if let Some(answer) = self.answer.take() {
@@ -159,5 +192,12 @@ impl<'a> Idle<'a> {
             self.mailbox.look();
         }
         view.map(Told::View)
+    }
+}
+
+/// Feeds the watchdog while ticks go on.
+fn feed(heartbeat: &mut Heartbeat, mailbox: &Mailbox, watchdog: &mut impl Watchdog) {
+    if heartbeat.may_feed(mailbox.ticks()) {
+        watchdog.feed();
     }
 }

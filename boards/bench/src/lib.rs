@@ -24,7 +24,7 @@
 //! | [`Bench`] | the tick |
 //! | [`Idle`] | what runs below it |
 //! | [`accept`] | another image: a board shows what it can, and drives no motor |
-//! | [`Uploads`] | memory for bodies that come over the line |
+//! | [`Uploads`] | memory for bodies that come over the line: RAM, and flash |
 //! | [`JogSettings`] | what may be jogged once a host sets the device up, in the servo's place |
 //!
 //! # What keeps a thumb safe
@@ -38,6 +38,9 @@
 //! - A host sets the device up only while nothing is driven and enable is released. The servo is then stopped for good,
 //!   and a motor moves only while enable is held, after it was seen released, *and* the host's key is held, as frames
 //!   that must keep coming say. Only a reset leads back.
+//! - Flash is written only while nothing is driven and enable is released, and the motors are held off until it is
+//!   done, or no part of it has come for a while.
+//! - A loop that watches its link holds the motors off until a host was heard; one that falls silent then is a fault.
 //! - A reset by the watchdog or a brown-out stays a fault until somebody acknowledges it: stop pressed and let go, with
 //!   enable released, or the host's command.
 
@@ -61,7 +64,9 @@ mod reset;
 pub mod sensors;
 mod set_up;
 mod settings;
+mod taking;
 mod uploads;
+mod writing;
 
 pub(crate) use bench_loop::State;
 pub use bench_loop::{Bench, Felt};

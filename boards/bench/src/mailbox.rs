@@ -1,6 +1,7 @@
 //! What passes between the interrupt and main.
 
 use crate::letter::Letter;
+use crate::writing::Writing;
 use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::commission::Jog;
 use palpate::scene::Order;
@@ -22,6 +23,8 @@ pub struct Mailbox {
     view: Letter<14>,
     /// Whether a view is asked for.
     looks: AtomicU32,
+    /// Whether flash may be written.
+    writing: Writing,
 }
 
 /// Commands that came since they were looked at last. Each means the same once or twice.
@@ -50,6 +53,7 @@ impl Mailbox {
             answer: Letter::new(),
             view: Letter::new(),
             looks: AtomicU32::new(0),
+            writing: Writing::new(),
         }
     }
 
@@ -95,6 +99,10 @@ impl Mailbox {
     /// Whether a view is asked for; asked once, it is not any more.
     pub(crate) fn is_looked_at(&self) -> bool {
         self.looks.load(Ordering::Relaxed) != 0 && self.looks.swap(0, Ordering::Relaxed) != 0
+    }
+
+    pub(crate) const fn writing(&self) -> &Writing {
+        &self.writing
     }
 
     pub(crate) fn tell_view(&self, view: &View) {

@@ -2,16 +2,22 @@
 
 use palpate::wire::{Upload, UploadError};
 
-/// Memory for a body that comes over the line while another is felt. Main writes it, and checks what came, which takes
-/// as long as it takes; the tick goes on meanwhile.
+/// Memory for a body that comes over the line: RAM, while another is felt, or flash, while the motors are off. Main
+/// writes it, and checks what came, which takes as long as it takes; the tick goes on meanwhile.
 pub trait Uploads {
     /// Bytes of a body's file, and its faces and edges, at most.
     fn room(&self) -> (u32, u16, u16);
 
-    /// Takes a part of a file. The last part has it checked, which takes some 130 instructions a word of it in one go:
-    /// a watchdog and a link's timeout have to be longer than that, beside the ticks that go on meanwhile.
+    /// Takes a part of a file; [`Upload::Keep`] is not for here, but comes as [`Upload::Begin`] to the memory that is
+    /// flash. The last part has it checked, which takes some 130 instructions a word of it; `pause` is called
+    /// meanwhile, each time a third of that is done: it feeds the watchdog.
     ///
     /// # Errors
     /// What is wrong with it. What was uploaded before stands, until another is begun.
-    fn put(&self, part: &Upload) -> Result<(), UploadError>;
+    fn put(&self, part: &Upload, pause: &mut dyn FnMut()) -> Result<(), UploadError>;
+
+    /// The CRC-32 at the end of the file that is kept here without power; 0 where none is.
+    fn kept(&self) -> u32 {
+        0
+    }
 }

@@ -22,18 +22,24 @@ use palpate_emulated::link_semihosting::FifoLink;
 use palpate_emulated::link_uart::Uart;
 use palpate_emulated::pins::{NoWatchdog, Pins};
 use palpate_emulated::vectors::interrupt;
-use palpate_shelf::Bodies;
+use palpate_shelf::{Bodies, Both, Kept, PretendedFlash};
 
 mod tables {
     include!(env!("PALPATE_BODY_FILE"));
 }
 
 /// 64 KB a bank, and faces and edges of some 200 patches.
-type Shelf = Bodies<16_640, 240, 600>;
+type Memory = Bodies<16_640, 240, 600>;
+type Flash = Kept<240, 600>;
+type Shelf = Both<'static, Memory, Flash>;
 type Surface = Scene<'static, Slot<'static, Shelf>, 2>;
 
-static BODIES: Shelf = Bodies::new();
-static SLOTS: [Slot<Shelf>; 2] = [Slot::fixed(tables::SURFACE), Slot::exchangeable(tables::SURFACE, &BODIES)];
+static BODIES: Memory = Bodies::new();
+/// No emulator here has flash that a program can write: RAM with its rules, which a reset empties.
+static FLASH: PretendedFlash<16_384> = PretendedFlash::new();
+static KEPT: Flash = Kept::new(FLASH.region());
+static SHELF: Shelf = Both(&BODIES, &KEPT);
+static SLOTS: [Slot<Shelf>; 2] = [Slot::fixed(tables::SURFACE), Slot::exchangeable(tables::SURFACE, &SHELF)];
 /// Side by side, the second to the right of the first.
 static SCENE: Surface = Scene::new(
     Limits::of(&DEVICE, SETTINGS.rate),
@@ -84,6 +90,10 @@ fn main() -> ! {
     let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate, SETTINGS.max_force);
     if let Some(uploads) = &uploads {
         idle = idle.taking(uploads);
+    }
+    let keeping = FLASH.writer().and_then(|flash| KEPT.main(flash, &mut || ())).map(|(keeping, _)| keeping);
+    if let Some(keeping) = &keeping {
+        idle = idle.keeping(keeping);
     }
     let mut port = Uart::new(&BOARD);
     BOARD.start_timer(SETTINGS.rate);

@@ -1,4 +1,4 @@
-//! A bank: the bytes of a body, and what must be structs in memory.
+//! A bank: a body, and who holds it.
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -16,34 +16,29 @@ enum Holder {
     Tick = 2,
 }
 
-/// Memory for one body.
-pub(crate) struct Bank<const WORDS: usize, const FACES: usize, const EDGES: usize> {
+/// A body in a file that lies elsewhere, and what must be structs in RAM of it.
+pub(crate) struct Bank<const FACES: usize, const EDGES: usize> {
     holder: AtomicU32,
-    inside: UnsafeCell<Inside<WORDS, FACES, EDGES>>,
+    built: UnsafeCell<Built<FACES, EDGES>>,
 }
 
-struct Inside<const WORDS: usize, const FACES: usize, const EDGES: usize> {
-    words: [u32; WORDS],
+struct Built<const FACES: usize, const EDGES: usize> {
     faces: [Face<'static>; FACES],
     edges: [Edge<'static>; EDGES],
-    /// Borrows from the three above while the bank is not main's.
+    /// Borrows from the two above, and from the file, while the bank is not main's.
     body: Option<Body<'static>>,
 }
 
-// SAFETY: what is inside is written only while main holds the bank, and there is one main (`Shelf::main`); it is read
-// only while nobody or the tick holds it. The holder changes with release and is looked at with acquire.
-unsafe impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Sync for Bank<WORDS, FACES, EDGES> {}
+// SAFETY: what is inside is written only while main holds the bank, and there is one main, as the callers of `check`
+// say; it is read only while nobody or the tick holds it. The holder changes with release and is looked at with
+// acquire.
+unsafe impl<const FACES: usize, const EDGES: usize> Sync for Bank<FACES, EDGES> {}
 
-impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Bank<WORDS, FACES, EDGES> {
+impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
     pub const fn new() -> Self {
         Self {
             holder: AtomicU32::new(Holder::Main as u32),
-            inside: UnsafeCell::new(Inside {
-                words: [0; WORDS],
-                faces: [Face::VACANT; FACES],
-                edges: [Edge::VACANT; EDGES],
-                body: None,
-            }),
+            built: UnsafeCell::new(Built { faces: [Face::VACANT; FACES], edges: [Edge::VACANT; EDGES], body: None }),
         }
     }
 
@@ -56,43 +51,32 @@ impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Bank<WORDS, FAC
         self.holder.compare_exchange(from as u32, to as u32, Ordering::AcqRel, Ordering::Acquire).is_ok()
     }
 
+    /// Whether main may write the file.
+    pub fn is_mains(&self) -> bool {
+        self.is_held_by(Holder::Main)
+    }
+
     /// Takes back a body that nobody has taken, and says whether the bank is main's.
     pub fn reclaim(&self) -> bool {
-        self.pass(Holder::Waiting, Holder::Main) || self.is_held_by(Holder::Main)
+        self.pass(Holder::Waiting, Holder::Main) || self.is_mains()
     }
 
-    /// Writes bytes at a place; false where they do not fit, or the bank is not main's.
+    /// Checks a file; its body waits to be taken from then on. `pause` is called meanwhile.
     ///
     /// # Safety
-    /// Only from main, of which there is one, and not while [`Self::check`] runs.
-    pub unsafe fn write(&self, at: usize, bytes: &[u8]) -> bool {
-        if !self.is_held_by(Holder::Main) {
-            return false;
-        }
-        // SAFETY: main holds the bank and is here once, as the caller says: nobody else looks at the words.
-        let words = unsafe { &mut (*self.inside.get()).words };
-        let room = bytemuck::cast_slice_mut::<u32, u8>(words);
-        let Some(place) = at.checked_add(bytes.len()).and_then(|end| room.get_mut(at..end)) else { return false };
-        place.copy_from_slice(bytes);
-        true
-    }
-
-    /// Checks what was written; a body waits to be taken from then on.
-    ///
-    /// # Safety
-    /// As [`Self::write`].
-    pub unsafe fn check(&self, bytes: usize) -> Result<(), FileError> {
-        if !self.is_held_by(Holder::Main) {
+    /// Only from main, of which there is one, and not from within `pause`. The file does not change until the bank is
+    /// main's again, and the bank is a `static`.
+    pub unsafe fn check(&self, file: &'static [u8], pause: &mut dyn FnMut()) -> Result<(), FileError> {
+        if !self.is_mains() {
             return Err(FileError::Magic);
         }
-        // SAFETY: as above. The references live as long as the bank, which is 'static by `Shelf`'s bound, and nobody
-        // writes behind them until the bank is main's again; by then the tick has let go of all of them.
-        let inside: &'static mut Inside<WORDS, FACES, EDGES> = unsafe { &mut *self.inside.get() };
-        let Inside { words, faces, edges, body } = inside;
+        // SAFETY: main holds the bank and is here once, as the caller says: nobody else looks at what is built. The
+        // references live as long as the bank, which is a `static`, and nobody writes behind them until the bank is
+        // main's again; by then the tick has let go of all of them.
+        let built: &'static mut Built<FACES, EDGES> = unsafe { &mut *self.built.get() };
+        let Built { faces, edges, body } = built;
         *body = None;
-        let all: &'static [u8] = bytemuck::cast_slice::<u32, u8>(words);
-        let Some(file) = all.get(..bytes) else { return Err(FileError::Magic) };
-        *body = Some(Body::from_bytes(file, Room { faces, edges })?);
+        *body = Some(Body::from_bytes_with(file, Room { faces, edges }, pause)?);
         self.pass(Holder::Main, Holder::Waiting);
         Ok(())
     }
@@ -114,6 +98,6 @@ impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Bank<WORDS, FAC
         }
         // SAFETY: the tick holds the bank: nobody writes it until the tick itself lets go of it, and it keeps no
         // reference beyond a call.
-        unsafe { (*self.inside.get()).body.as_ref() }
+        unsafe { (*self.built.get()).body.as_ref() }
     }
 }

@@ -127,6 +127,11 @@ impl<L: Line> Device<L> {
         self.hello
     }
 
+    /// What is kept in its flash by now.
+    pub(crate) const fn set_kept(&mut self, crc: u32) {
+        self.hello.kept = crc;
+    }
+
     /// The line.
     pub const fn line(&mut self) -> &mut L {
         &mut self.line

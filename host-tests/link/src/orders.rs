@@ -142,6 +142,14 @@ impl<L: Line> Device<L> {
         self.order(Order::Tip { radius })
     }
 
+    /// The body that the device was built with takes the place of one that was uploaded or kept.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn put_back(&mut self, body: u8) -> Result<(), Error> {
+        self.order(Order::PutBack { body })
+    }
+
     /// The greatest force of all of the scene, N; at most what the device's settings have ([`Self::hello`]).
     ///
     /// # Errors
@@ -165,5 +173,6 @@ const fn name(order: &Order) -> &'static str {
         Order::Limit { .. } => "limit",
         Order::Push { .. } => "push",
         Order::Take { .. } => "take",
+        Order::PutBack { .. } => "put back",
     }
 }

@@ -16,26 +16,71 @@ const PART_TRIES: u32 = 20;
 
 impl<L: Line> Device<L> {
     /// Puts a body's file (`palpate bake --out part.palp`) in the place of a body of the scene. The file is checked
-    /// here
-    /// first, with the device's own code; then it is sent while the old body is felt, checked there, and taken. Parts
-    /// that are lost are sent anew. `progress` is told the bytes that have come, and all; nothing else can be asked of
-    /// the device meanwhile.
+    /// here first, with the device's own code; then it is sent while the old body is felt, checked there, and taken.
+    /// Parts that are lost are sent anew. `progress` is told the bytes that have come, and all; nothing else can be
+    /// asked of the device meanwhile.
     ///
     /// # Errors
     /// What is wrong with the file; a body too large for the device; the device's refusal; a line or device that is
-    /// gone.
-    /// The old body is felt on then.
-    pub fn upload(&mut self, body: u8, file: &[u8], mut progress: impl FnMut(usize, usize)) -> Result<(), Error> {
+    /// gone. The old body is felt on then.
+    pub fn upload(&mut self, body: u8, file: &[u8], progress: impl FnMut(usize, usize)) -> Result<(), Error> {
         self.usable()?;
         let head = check(file)?;
-        self.fits(file, &head)?;
+        self.fits(file, &head, self.hello().room)?;
         self.part(Upload::Begin { bytes: file.len() as u32 }, ANSWER)?;
+        self.send_file(file, progress)?;
+        self.order(Order::Take { body })
+    }
+
+    /// Puts a body's file into the device's flash, and in the place of a body of the scene: it is felt from now on, and
+    /// after every reset, with or without a host. The motors are held off until it is written. What was kept before is
+    /// gone as soon as this begins.
+    ///
+    /// # Errors
+    /// As [`Self::upload`]; motors that are driven, or an enable input that is held; flash that does not take it. Once
+    /// it has begun nothing is kept until it succeeds.
+    pub fn keep(&mut self, body: u8, file: &[u8], progress: impl FnMut(usize, usize)) -> Result<(), Error> {
+        self.usable()?;
+        let head = check(file)?;
+        self.fits(file, &head, self.hello().flash)?;
+        self.begin_to_keep(body, file.len() as u32)?;
+        self.send_file(file, progress)?;
+        self.set_kept(file.last_chunk().map_or(0, |crc| u32::from_le_bytes(*crc)));
+        self.order(Order::Take { body })
+    }
+
+    /// Forgets what is kept in flash; the body that was built in takes this one's place again. The motors must be off.
+    ///
+    /// # Errors
+    /// As [`Self::keep`].
+    pub fn forget_kept(&mut self, body: u8) -> Result<(), Error> {
+        self.usable()?;
+        self.begin_to_keep(body, 0)?;
+        self.put_back(body)
+    }
+
+    /// Flash is not written while what lies there is felt: then the built-in body is put back first.
+    fn begin_to_keep(&mut self, body: u8, bytes: u32) -> Result<(), Error> {
+        let begin = Upload::Keep { bytes };
+        match self.part(begin, ANSWER) {
+            Err(Error::Refused { reason: Refused::Upload(UploadError::Felt), .. }) => {
+                self.put_back(body)?;
+                self.part(begin, ANSWER)?;
+            }
+            begun => begun?,
+        }
+        self.set_kept(0);
+        Ok(())
+    }
+
+    /// Sends a file that has been begun.
+    fn send_file(&mut self, file: &[u8], mut progress: impl FnMut(usize, usize)) -> Result<(), Error> {
         let (mut at, mut resumes) = (0, RESUMES);
         loop {
             let part = part(file, at);
             let patience = if part == Upload::End { CHECKS } else { ANSWER };
             match self.part(part, patience) {
-                Ok(()) if part == Upload::End => break,
+                Ok(()) if part == Upload::End => return Ok(()),
                 Ok(()) => at = (at + CHUNK).min(file.len()),
                 // Where the device says that it is.
                 Err(Error::Refused { reason: Refused::Upload(UploadError::Order { at: wanted }), .. })
@@ -47,7 +92,6 @@ impl<L: Line> Device<L> {
             }
             progress(at, file.len());
         }
-        self.order(Order::Take { body })
     }
 
     /// Sends a part, and waits for as long as the device has no bank free.
@@ -63,20 +107,20 @@ impl<L: Line> Device<L> {
         Err(Error::Refused { asked: "upload", reason: Refused::Upload(UploadError::Busy) })
     }
 
-    /// Whether there is memory for it. A device without any says so itself.
-    fn fits(&self, file: &[u8], head: &FileHead) -> Result<(), Error> {
+    /// Whether there is memory for it, RAM or flash. A device without any says so itself.
+    fn fits(&self, file: &[u8], head: &FileHead, room: u32) -> Result<(), Error> {
         let hello = self.hello();
-        let fits = file.len() <= hello.room as usize
+        let fits = file.len() <= room as usize
             && head.faces <= usize::from(hello.faces)
             && head.edges <= usize::from(hello.edges);
-        if fits || hello.room == 0 {
+        if fits || room == 0 {
             return Ok(());
         }
         Err(Error::TooLarge {
             bytes: file.len(),
             faces: head.faces,
             edges: head.edges,
-            room: hello.room,
+            room,
             most_faces: hello.faces,
             most_edges: hello.edges,
         })

@@ -15,7 +15,7 @@ use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Uploads, Watchdog};
 use palpate_link::Line;
 use palpate_plant::{HandSettings, Plant, PlantSettings};
-use palpate_shelf::Bodies;
+use palpate_shelf::{Bodies, Both, Kept, PretendedFlash};
 use std::collections::VecDeque;
 use std::io;
 use std::time::{Duration, Instant};
@@ -37,7 +37,9 @@ const ABOVE: [f64; 3] = [0.03, 0.02, 0.05];
 static BOX: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../boards/bodies/capped_box.palp"));
 
 /// Two banks of 64 KB, and faces and edges of some 200 patches.
-type Shelf = Bodies<16_640, 240, 600>;
+type Memory = Bodies<16_640, 240, 600>;
+type Flash = Kept<240, 600>;
+type Shelf = Both<'static, Memory, Flash>;
 type Surface = Scene<'static, Slot<'static, Shelf>, 2>;
 
 struct Made(Servo<'static, Surface, SerialArm, 3>);
@@ -119,6 +121,7 @@ pub struct Simulated {
     idle: Idle<'static>,
     wire: Wire,
     hand: Hand,
+    flash: &'static InFlash,
     ticks: u32,
     began: Instant,
     is_paced: bool,
@@ -133,12 +136,16 @@ pub struct Kind {
     pub link_timeout: f32,
     /// Why it was reset.
     pub reset: ResetReason,
+    /// Whether it has flash to keep a body in: 64 KB.
+    pub keeps_bodies: bool,
 }
 
+type InFlash = PretendedFlash<16_384>;
+
 impl Default for Kind {
-    /// With memory, half a second, just switched on.
+    /// With memory of both kinds, half a second, just switched on.
     fn default() -> Self {
-        Self { takes_bodies: true, link_timeout: 0.5, reset: ResetReason::PowerOn }
+        Self { takes_bodies: true, link_timeout: 0.5, reset: ResetReason::PowerOn, keeps_bodies: true }
     }
 }
 
@@ -160,8 +167,25 @@ impl Simulated {
     /// # Errors
     /// A bug of this program.
     pub fn new(kind: Kind) -> anyhow::Result<Self> {
+        Self::with(kind, kept(InFlash::new()))
+    }
+
+    /// Another that is what this one is after a reset: what was kept in its flash is there still.
+    ///
+    /// # Errors
+    /// A bug of this program.
+    pub fn reset(&self, kind: Kind) -> anyhow::Result<Self> {
+        Self::with(kind, kept(self.flash.after_reset()))
+    }
+
+    fn with(kind: Kind, flash: &'static InFlash) -> anyhow::Result<Self> {
         let body = capped_box()?;
-        let shelf: &'static Shelf = kept(Bodies::new());
+        let memory: &'static Memory = kept(Bodies::new());
+        let in_flash: &'static Flash = kept(Kept::new(flash.region()));
+        let shelf: &'static Shelf = kept(Both(memory, in_flash));
+        // Before the loop is made, which feels what is found.
+        let writer = flash.writer().context("another device has this flash")?;
+        let (keeping, _) = in_flash.main(writer, &mut || ()).context("its flash is handed out once")?;
         let slots = kept([Slot::fixed(body), Slot::exchangeable(body, shelf)]);
         let place = |y: f32| Motion::Resting(Placement { origin: vec3(0.0, y, 0.0), ..Placement::IDENTITY });
         let material = Material::new(400.0, 1.5);
@@ -190,11 +214,15 @@ impl Simulated {
         let bench = Bench::new(Made(servo), pins, &loop_settings, kind.reset, producer, mailbox);
         let mut idle = Idle::new(mailbox, records, Heartbeat::default()).saying(settings.rate, settings.max_force);
         if kind.takes_bodies {
-            let main: &'static dyn Uploads = kept(shelf.main().context("its memory is handed out once")?);
+            let main: &'static dyn Uploads = kept(memory.main().context("its memory is handed out once")?);
             idle = idle.taking(main);
         }
+        let keeping: &'static dyn Uploads = kept(keeping);
+        if kind.keeps_bodies {
+            idle = idle.keeping(keeping);
+        }
         let wire = Wire::default();
-        Ok(Self { bench, idle, wire, hand, ticks: 0, began: Instant::now(), is_paced: false })
+        Ok(Self { bench, idle, wire, hand, flash, ticks: 0, began: Instant::now(), is_paced: false })
     }
 
     /// No faster than the clock on the wall.

@@ -123,10 +123,21 @@ impl<'a> Body<'a> {
     /// # Errors
     /// The first thing wrong with the file.
     pub fn from_bytes(bytes: &'a [u8], room: Room<'a>) -> Result<Self, FileError> {
+        Self::from_bytes_with(bytes, room, &mut || ())
+    }
+
+    /// [`Self::from_bytes`] that calls `pause` between its stages: for whoever has a watchdog to feed meanwhile. A stage
+    /// takes a third of the whole at most.
+    ///
+    /// # Errors
+    /// As [`Self::from_bytes`].
+    pub fn from_bytes_with(bytes: &'a [u8], room: Room<'a>, pause: &mut dyn FnMut()) -> Result<Self, FileError> {
         let sections = Sections::of(bytes)?;
+        pause();
         let Whole { table_crc: stated, is_convex, size, corner, side, .. } = Whole::of(sections.body)?;
         finite(sections.borders, Section::Borders)?;
         finite(sections.coefficients, Section::Coefficients)?;
+        pause();
         let (faces, edges) = (sections.faces.len(), sections.edges.len());
         let small = FileError::Room { faces: faces as u32, edges: edges as u32 };
         let in_faces = room.faces.get_mut(..faces).ok_or(small)?;
@@ -141,8 +152,10 @@ impl<'a> Body<'a> {
         if !numbers.coefficients.is_empty() {
             return Err(FileError::LeftOver { numbers: numbers.coefficients.len() as u32 });
         }
+        pause();
         let locator = Locator { corner, side, nodes: sections.nodes, entries: sections.entries };
         let body = Self::try_new(in_faces, in_edges, sections.vertices, sections.spokes, locator, size, is_convex)?;
+        pause();
         // The very words that statics of this body have: what was read is what was baked.
         match body.table_crc() {
             found if found == stated => Ok(body.with_crc(stated)),

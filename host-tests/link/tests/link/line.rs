@@ -25,6 +25,8 @@ pub struct Bad {
     /// After so many parts of uploads the first of them comes once more.
     pub stray_after: Option<u32>,
     begun: Vec<u8>,
+    /// After so many parts of uploads all that follow are lost.
+    pub dies_after: Option<u32>,
     /// Stops to come that are lost.
     pub lose_stops: u32,
     /// Of a million bytes, either way, so many are lost, and so many have a bit flipped.
@@ -74,6 +76,7 @@ impl Bad {
             held: Vec::new(),
             stray_after: None,
             begun: Vec::new(),
+            dies_after: None,
             lose_stops: 0,
             spoils: 0,
             numbers: Vec::new(),
@@ -91,7 +94,7 @@ impl Bad {
             self.frame.push(1);
         }
         let now = self.now();
-        self.device = Simulated::new(Kind::default()).unwrap();
+        self.device = self.device.reset(Kind::default()).unwrap();
         self.began = [self.device.now(), now];
     }
 
@@ -143,6 +146,13 @@ impl Bad {
         let left = match heard {
             Some(Received::Message(Command::Order { number, .. } | Command::Upload { number, .. })) => {
                 self.numbers.push(number);
+                if matches!(heard, Some(Received::Message(Command::Upload { .. })))
+                    && let Some(left) = &mut self.dies_after
+                {
+                    let is_dead = *left == 0;
+                    *left = left.saturating_sub(1);
+                    return is_dead;
+                }
                 &mut self.lose_orders
             }
             Some(Received::Message(Command::Stop)) => &mut self.lose_stops,

@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// What the page says a frame says, and the message.
 const SHOWN: [(&str, Command); 7] = [
-    ("hello, in version 1", Command::Hello { protocol: PROTOCOL }),
+    ("hello, in version 2", Command::Hello { protocol: PROTOCOL }),
     ("the host is there", Command::Alive),
     ("stop", Command::Stop),
     ("order 1: a push of 0, 0, 0.5 N", Command::Order { number: 1, order: Order::Push { force: [0.0, 0.0, 0.5] } }),

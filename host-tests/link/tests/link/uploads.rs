@@ -7,7 +7,7 @@ use palpate_simulated::Kind;
 
 /// A capped box of 6,896 bytes and a sphere of 31,380, as `palpate bake` makes them.
 pub const BOX: &[u8] = include_bytes!("../../../../boards/bodies/capped_box.palp");
-const SPHERE: &[u8] = include_bytes!("../../../../boards/bodies/sphere_body.palp");
+pub const SPHERE: &[u8] = include_bytes!("../../../../boards/bodies/sphere_body.palp");
 
 #[test]
 fn a_body_comes_while_another_is_felt_and_takes_its_place() {

@@ -173,6 +173,8 @@ pub(super) fn said(reading: &Reading) -> String {
         (hold::NOT_READY, "an amplifier is not ready"),
         (hold::SUPPLY, "the supply is out of its range"),
         (hold::RELEASE_FIRST, "enable has to be released first"),
+        (hold::WRITING, "flash is being written"),
+        (hold::NO_HOST, "no host was heard yet"),
     ];
     let mut reasons: Vec<String> =
         holds.iter().filter(|(bit, _)| reading.hold & bit != 0).map(|(_, reason)| (*reason).to_owned()).collect();

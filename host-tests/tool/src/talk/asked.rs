@@ -44,6 +44,12 @@ pub enum Asked {
     Limit(f32),
     /// A body's file, or a model, in the place of a body.
     Upload(u8, PathBuf),
+    /// The same, into flash.
+    Keep(u8, PathBuf),
+    /// The body that was built in, in the place of a body.
+    PutBack(u8),
+    /// The same, and what is kept in flash is forgotten.
+    Forget(u8),
     /// Stop.
     Stop,
     /// Go on after a reset.
@@ -85,7 +91,7 @@ pub enum Misunderstood {
 }
 
 /// Every command: how it is said, and what it does.
-pub const FORMS: [(&str, &str); 19] = [
+pub const FORMS: [(&str, &str); 22] = [
     ("who", "what the device says of itself"),
     ("where", "tip, velocity, body, gap, force, phase and fault as they are now"),
     ("watch [SECONDS]", "the same ten times a second, for 5 s"),
@@ -101,6 +107,9 @@ pub const FORMS: [(&str, &str); 19] = [
     ("tip MM", "a ball of this radius at the tip"),
     ("limit N", "the greatest force of all of the scene"),
     ("upload BODY FILE", "a body's file (.palp), or a model, in the place of a body"),
+    ("keep BODY FILE", "the same, and it stays without power; the motors must be off, and stay off meanwhile"),
+    ("back BODY", "the body that the device was built with takes the place of an uploaded or kept one"),
+    ("forget BODY", "the same, and what is kept is forgotten; the motors must be off"),
     ("wait SECONDS", "the next line of a file waits"),
     ("stop", "stops the device until it is reset"),
     ("ack", "goes on after a reset by the watchdog or a brown-out"),
@@ -258,6 +267,9 @@ impl FromStr for Asked {
             "tip" => Self::Tip(words.number("MM")? / MILLIMETRES),
             "limit" => Self::Limit(words.number("N")?),
             "upload" => Self::Upload(words.body()?, PathBuf::from(words.word("FILE")?)),
+            "keep" => Self::Keep(words.body()?, PathBuf::from(words.word("FILE")?)),
+            "back" => Self::PutBack(words.body()?),
+            "forget" => Self::Forget(words.body()?),
             "stop" => Self::Stop,
             "ack" => Self::Acknowledge,
             _ => return Err(Misunderstood::Word(name.to_owned())),

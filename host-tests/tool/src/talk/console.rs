@@ -143,7 +143,10 @@ impl<'a, L: Line> Console<'a, L> {
             Asked::Rub(body, friction) => self.device.order(Order::Rub { body, friction })?,
             Asked::Tip(radius) => self.device.tip(radius)?,
             Asked::Limit(newtons) => self.device.limit(newtons)?,
-            Asked::Upload(body, path) => self.upload(body, &path, output)?,
+            Asked::Upload(body, path) => self.upload(body, &path, Memory::Ram, output)?,
+            Asked::Keep(body, path) => self.upload(body, &path, Memory::Flash, output)?,
+            Asked::PutBack(body) => self.device.put_back(body)?,
+            Asked::Forget(body) => self.device.forget_kept(body)?,
             Asked::Stop => {
                 self.pushes = None;
                 self.device.stop()?;
@@ -161,7 +164,13 @@ impl<'a, L: Line> Console<'a, L> {
             0 => "no memory for bodies".to_owned(),
             room => format!("room for a body of {room} bytes, {} faces and {} edges", hello.faces, hello.edges),
         };
-        format!("a device of {} Hz, {} N at most, {memory}; protocol {}", hello.rate, hello.max_force, hello.protocol)
+        let flash = match (hello.flash, hello.kept) {
+            (0, _) => String::new(),
+            (flash, 0) => format!(", and {flash} bytes of flash to keep one in"),
+            (flash, kept) => format!(", and {flash} bytes of flash, which keep the body with the CRC {kept:08x}"),
+        };
+        let [rate, force] = [hello.rate, hello.max_force];
+        format!("a device of {rate} Hz, {force} N at most, {memory}{flash}; protocol {}", hello.protocol)
     }
 
     fn begin_anew(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {
@@ -177,7 +186,7 @@ impl<'a, L: Line> Console<'a, L> {
         Ok(())
     }
 
-    fn upload(&mut self, body: u8, path: &Path, output: &mut dyn Write) -> anyhow::Result<()> {
+    fn upload(&mut self, body: u8, path: &Path, into: Memory, output: &mut dyn Write) -> anyhow::Result<()> {
         let bake = self.bake;
         // A model may take long to bake, and the device hears from here meanwhile.
         let file = std::thread::scope(|scope| {
@@ -188,18 +197,29 @@ impl<'a, L: Line> Console<'a, L> {
             baking.join().map_err(|_| anyhow::anyhow!("the bake panicked"))?
         })?;
         let mut shown = 0;
-        self.device.upload(body, &file, |came, all| {
+        let progress = |came: usize, all: usize| {
             let tenth = came * 10 / all.max(1);
             if tenth > shown {
                 shown = tenth;
                 // What cannot be shown is no reason to leave a body half sent.
                 let _ = writeln!(output, "{came} of {all} bytes");
             }
-        })?;
+        };
+        match into {
+            Memory::Ram => self.device.upload(body, &file, progress)?,
+            Memory::Flash => self.device.keep(body, &file, progress)?,
+        }
         let [x, y, z] = (BakedFile::read(&file)?.model.centre * 1e3).to_array();
         writeln!(output, "its origin is at {x:.3} {y:.3} {z:.3} mm of the model")?;
         Ok(())
     }
+}
+
+/// Where a body is put.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Memory {
+    Ram,
+    Flash,
 }
 
 /// A view in a line.
@@ -224,6 +244,8 @@ fn said(view: &View) -> String {
         (hold::NOT_READY, "an amplifier is not ready"),
         (hold::SUPPLY, "the supply is out of its range"),
         (hold::RELEASE_FIRST, "enable has to be released first"),
+        (hold::WRITING, "flash is being written"),
+        (hold::NO_HOST, "no host was heard yet"),
     ];
     let holds: String =
         holds.iter().filter(|(bit, _)| view.hold & bit != 0).map(|(_, why)| format!("; {why}")).collect();

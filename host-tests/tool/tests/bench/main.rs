@@ -2,6 +2,7 @@
 
 mod acceptance;
 mod angles;
+mod flash;
 mod frames;
 mod guarded;
 mod homing;

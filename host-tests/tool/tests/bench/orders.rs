@@ -13,9 +13,9 @@ use palpate_shelf::Bodies;
 use std::collections::VecDeque;
 
 #[derive(Default)]
-struct Wire {
-    to_device: VecDeque<u8>,
-    from_device: Vec<u8>,
+pub struct Wire {
+    pub to_device: VecDeque<u8>,
+    pub from_device: Vec<u8>,
 }
 
 impl Port for Wire {
@@ -29,7 +29,7 @@ impl Port for Wire {
     }
 }
 
-struct NoWatchdog;
+pub struct NoWatchdog;
 
 impl Watchdog for NoWatchdog {
     fn feed(&mut self) {}
@@ -125,7 +125,7 @@ fn an_order_is_answered_once_the_tick_has_had_it_and_again_where_it_comes_again(
 static BODIES: Bodies<8_192, 8, 16> = Bodies::new();
 
 /// The parts of a file, as they come.
-fn parts(file: &[u8]) -> Vec<Upload> {
+pub fn parts(file: &[u8]) -> Vec<Upload> {
     let chunk = |at: usize| {
         let mut bytes = [[0; 16]; CHUNK / 16];
         let rest = &file[at..file.len().min(at + CHUNK)];
@@ -146,13 +146,15 @@ fn a_body_is_written_beside_the_one_that_is_felt_and_never_over_it() {
     let writing = BODIES.main().unwrap();
     assert!(BODIES.main().is_none(), "one main");
     assert_eq!(writing.room(), (32_768, 8, 16));
-    let put = |file: &[u8]| parts(file).iter().map(|part| writing.put(part)).find(Result::is_err).unwrap_or(Ok(()));
+    let put = |file: &[u8]| {
+        parts(file).iter().map(|part| writing.put(part, &mut || ())).find(Result::is_err).unwrap_or(Ok(()))
+    };
 
     assert_eq!(BODIES.take(), None);
-    assert_eq!(writing.put(&Upload::End), Err(UploadError::NotBegun));
+    assert_eq!(writing.put(&Upload::End, &mut || ()), Err(UploadError::NotBegun));
     put(&capped_box).unwrap();
     // Said again, for its answer was lost.
-    assert_eq!(writing.put(&Upload::End), Ok(()));
+    assert_eq!(writing.put(&Upload::End, &mut || ()), Ok(()));
     let first = BODIES.take().unwrap();
     let crc = |bank| BODIES.body(bank).map(|body| (body.faces().len(), body.table_crc()));
     let felt = crc(first).unwrap();
@@ -181,15 +183,15 @@ fn a_body_is_written_beside_the_one_that_is_felt_and_never_over_it() {
     // Parts that do not follow, and files that do not fit.
     BODIES.leave(second);
     let parts = parts(&sphere);
-    writing.put(&parts[0]).unwrap();
-    assert_eq!(writing.put(&parts[2]), Err(UploadError::Order { at: 0 }));
-    writing.put(&parts[1]).unwrap();
-    writing.put(&parts[1]).unwrap();
-    assert_eq!(writing.put(&Upload::End), Err(UploadError::Order { at: CHUNK as u32 }));
+    writing.put(&parts[0], &mut || ()).unwrap();
+    assert_eq!(writing.put(&parts[2], &mut || ()), Err(UploadError::Order { at: 0 }));
+    writing.put(&parts[1], &mut || ()).unwrap();
+    writing.put(&parts[1], &mut || ()).unwrap();
+    assert_eq!(writing.put(&Upload::End, &mut || ()), Err(UploadError::Order { at: CHUNK as u32 }));
     assert_eq!(
-        writing.put(&Upload::Bytes { at: u32::MAX, bytes: [[0; 16]; CHUNK / 16] }),
+        writing.put(&Upload::Bytes { at: u32::MAX, bytes: [[0; 16]; CHUNK / 16] }, &mut || ()),
         Err(UploadError::Order { at: CHUNK as u32 })
     );
-    assert_eq!(writing.put(&Upload::Begin { bytes: 32_769 }), Err(UploadError::TooLong { room: 32_768 }));
-    assert_eq!(writing.put(&Upload::End), Err(UploadError::NotBegun));
+    assert_eq!(writing.put(&Upload::Begin { bytes: 32_769 }, &mut || ()), Err(UploadError::TooLong { room: 32_768 }));
+    assert_eq!(writing.put(&Upload::End, &mut || ()), Err(UploadError::NotBegun));
 }

@@ -122,7 +122,16 @@ fn documented<M: Serialize>(message: &M, fields: &[Field]) -> String {
 
 /// Frames of a device and a host that speak with it.
 fn dialogue() -> [(&'static str, String); 7] {
-    let hello = Hello { protocol: PROTOCOL, rate: 4_000.0, max_force: 5.0, room: 66_560, faces: 240, edges: 600 };
+    let hello = Hello {
+        protocol: PROTOCOL,
+        rate: 4_000.0,
+        max_force: 5.0,
+        room: 66_560,
+        faces: 240,
+        edges: 600,
+        flash: 65_536,
+        kept: 0x1234_5678,
+    };
     let hello = documented(
         &Told::Hello(hello),
         &[

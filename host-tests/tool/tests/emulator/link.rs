@@ -6,7 +6,7 @@ use palpate::scene::{Order, Pose};
 use palpate::servo::{Fault, Phase};
 use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{
-    Answer, CHUNK, Command, Hello, PROTOCOL, Record, Refused, Sensors, Told, Upload, UploadError, View,
+    Answer, CHUNK, Command, Hello, PROTOCOL, Record, Refused, Sensors, Told, Upload, UploadError, View, hold,
 };
 use palpate_bake::{BakedBody, Model, file};
 use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
@@ -169,6 +169,8 @@ impl Desk {
         let heard = self.hellos.len();
         self.send(&Command::Hello { protocol: PROTOCOL });
         self.until("a hello", |desk| desk.hellos.len() > heard);
+        // Force only once the button was let go of since a host was heard.
+        self.tick(false);
         self.hellos[heard]
     }
 
@@ -297,7 +299,13 @@ fn whatever_comes_over_the_line_moves_nothing_that_nobody_asked_for() {
                         _ => Order::Place { body: 1, pose: Pose { position: [wrong; 3], orientation: [wrong; 4] } },
                     };
                 }
-                let command = Command::Order { number: sent as u16, order };
+                let command = match desk.random.random_range(0..12) {
+                    // What is begun in flash holds the motors off until it ends, or nobody goes on with it.
+                    0 => Command::Upload { number: sent as u16, part: Upload::Keep { bytes: desk.random.random() } },
+                    1 => Command::Upload { number: sent as u16, part: Upload::Begin { bytes: desk.random.random() } },
+                    2 => Command::Upload { number: sent as u16, part: Upload::End },
+                    _ => Command::Order { number: sent as u16, order },
+                };
                 let length = pack(&command, &mut frame).expect("it fits").len();
                 if kind == 1 {
                     let at = desk.random.random_range(0..length);
@@ -325,15 +333,27 @@ fn whatever_comes_over_the_line_moves_nothing_that_nobody_asked_for() {
     desk.until("the stop", |desk| desk.record.fault == Fault::Stopped.code());
 }
 
+/// A plate with dunes, of 96 patches, nearly as large as the room for bodies.
+fn dunes_file() -> Vec<u8> {
+    let model = Model::parse(&dunes(6), "dunes").expect("a model");
+    let body = BakedBody::new(&model, "dunes").expect("it bakes");
+    file::write([0; 32], &model, &body).expect("a file")
+}
+
+/// The part of a file that begins here.
+fn chunk(file: &[u8], at: usize) -> Upload {
+    let mut bytes = [[0; 16]; CHUNK / 16];
+    let rest = &file[at..file.len().min(at + CHUNK)];
+    bytes.as_flattened_mut()[..rest.len()].copy_from_slice(rest);
+    Upload::Bytes { at: at as u32, bytes }
+}
+
 #[test]
 fn a_body_comes_over_the_line_while_another_is_felt() {
     if !is_wanted("a_body_comes_over_the_line_while_another_is_felt") {
         return;
     }
-    // A plate with dunes, of 96 patches, nearly as large as the room.
-    let model = Model::parse(&dunes(6), "dunes").expect("a model");
-    let body = BakedBody::new(&model, "dunes").expect("it bakes");
-    let file = file::write([0; 32], &model, &body).expect("a file");
+    let file = dunes_file();
     let mut desk = Desk::new();
     let room = desk.hello().room;
     println!("a body of {} bytes, into {room}", file.len());
@@ -346,20 +366,12 @@ fn a_body_comes_over_the_line_while_another_is_felt() {
     let wrong = |error| Some(Refused::Upload(error));
     assert_eq!(ask(&mut desk, Upload::End), wrong(UploadError::NotBegun));
     assert_eq!(ask(&mut desk, Upload::Begin { bytes: room + 1 }), wrong(UploadError::TooLong { room }));
-    let chunk = |at: usize| {
-        let mut bytes = [0; CHUNK];
-        let rest = &file[at..file.len().min(at + CHUNK)];
-        bytes[..rest.len()].copy_from_slice(rest);
-        let mut parts = [[0; 16]; CHUNK / 16];
-        parts.as_flattened_mut().copy_from_slice(&bytes);
-        Upload::Bytes { at: at as u32, bytes: parts }
-    };
     for is_spoiled in [true, false] {
         let (began, driven) = (desk.tick, desk.driven);
         assert_eq!(ask(&mut desk, Upload::Begin { bytes: file.len() as u32 }), None);
-        assert_eq!(ask(&mut desk, chunk(2 * CHUNK)), wrong(UploadError::Order { at: 0 }));
+        assert_eq!(ask(&mut desk, chunk(&file, 2 * CHUNK)), wrong(UploadError::Order { at: 0 }));
         for at in (0..file.len()).step_by(CHUNK) {
-            let mut part = chunk(at);
+            let mut part = chunk(&file, at);
             if let Upload::Bytes { bytes, .. } = &mut part
                 && is_spoiled
                 && at == 100 * CHUNK
@@ -395,4 +407,56 @@ fn a_body_comes_over_the_line_while_another_is_felt() {
         desk.tick(true);
     }
     desk.is_well("an upload");
+}
+
+#[test]
+fn a_body_is_kept_only_while_no_motor_is_driven_and_none_is_driven_until_it_is() {
+    if !is_wanted("a_body_is_kept_only_while_no_motor_is_driven_and_none_is_driven_until_it_is") {
+        return;
+    }
+    let file = dunes_file();
+    let mut desk = Desk::new();
+    let hello = desk.hello();
+    println!("a body of {} bytes, into {} of flash", file.len(), hello.flash);
+    assert!(file.len() as u32 <= hello.flash);
+    assert_eq!(hello.kept, 0);
+    let keep = Upload::Keep { bytes: file.len() as u32 };
+    desk.until("force", |desk| desk.driven > 0);
+    let refused = Some(Refused::Upload(UploadError::Driven));
+    assert_eq!(desk.ask(1, &Command::Upload { number: 1, part: keep }), refused);
+    // Let go of, and pressed again as soon as it has begun: nothing is driven until the last part, and not after it.
+    for _ in 0..400 {
+        desk.tick(false);
+    }
+    desk.send(&Command::Upload { number: 2, part: keep });
+    while desk.answers.last().is_none_or(|answer| answer.number != 2) {
+        desk.tick(false);
+    }
+    assert_eq!(desk.answers.last(), Some(&Answer { number: 2, refused: None }));
+    let driven = desk.driven;
+    for (number, at) in (3..).zip((0..file.len()).step_by(CHUNK)) {
+        let answer = desk.ask(number, &Command::Upload { number, part: chunk(&file, at) });
+        assert_eq!(answer, None, "{at}");
+        assert_ne!(desk.view.hold & hold::WRITING, 0);
+    }
+    assert_eq!(desk.ask(60_000, &Command::Upload { number: 60_000, part: Upload::End }), None);
+    assert_eq!(desk.ask(60_001, &Command::Order { number: 60_001, order: Order::Take { body: 1 } }), None);
+    for tick in 0..4_000 {
+        if tick % 1_000 == 0 {
+            desk.send(&Command::Alive);
+        }
+        desk.tick(true);
+    }
+    assert_eq!(desk.driven, driven);
+    assert_eq!(desk.view.hold, hold::RELEASE_FIRST);
+    let kept = desk.hello().kept;
+    assert_eq!(Some(&kept.to_le_bytes()), file.last_chunk());
+    desk.tick(false);
+    // Now it is felt, where it is put: a face that the one before has not.
+    let pose = Pose { position: [0.03, 0.08, 0.028], orientation: [0.0, 0.0, 0.0, 1.0] };
+    assert_eq!(desk.ask(60_002, &Command::Order { number: 60_002, order: Order::Place { body: 1, pose } }), None);
+    desk.until("a face of the new body", |Desk { view, .. }| {
+        view.body == 1 && view.contact == 2 && view.force != [0.0; 3] && (6..1 << 14).contains(&view.feature)
+    });
+    desk.is_well("a body kept");
 }
