@@ -30,7 +30,7 @@ mod chosen {
     use palpate::servo::{Heartbeat, ResetReason};
     use palpate::wire::Record;
     use palpate::wire::telemetry::Consumer;
-    use palpate_bench::{Bench, Idle, Port, Watchdog};
+    use palpate_bench::{Bench, Felt as _, Idle, Port, Watchdog};
     use palpate_cortex::Cycles;
 
     /// The loop.
@@ -46,7 +46,13 @@ mod chosen {
         mut port: impl Port,
         start: impl FnOnce() -> W,
     ) -> ! {
-        let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default());
+        let settings = This.servo().settings();
+        let idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(settings.rate, settings.max_force);
+        #[cfg(feature = "host")]
+        let ends = crate::host::ends();
+        #[cfg(feature = "host")]
+        let idle = ends.offer(idle);
+        let mut idle = idle;
         let mut watchdog = start();
         loop {
             idle.step(&mut port, &mut watchdog);

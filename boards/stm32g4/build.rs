@@ -1,6 +1,7 @@
 //! Lays the memory map where the linker finds it, and says which body goes into the image.
 
 fn main() {
+    palpate_board_build::regions();
     palpate_board_build::memory_map("memory.x");
-    palpate_board_build::body("../bodies/table1c.rs");
+    palpate_board_build::body(palpate_board_build::own_body());
 }

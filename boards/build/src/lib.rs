@@ -19,6 +19,28 @@ pub fn memory_map(file: &str) {
     println!("cargo::rerun-if-changed=build.rs");
 }
 
+/// Lays the regions of a memory map beside it, as `regions.x`: those of an image that a host may order about, with the
+/// feature `host`, else the others.
+///
+/// # Panics
+/// As [`memory_map`].
+pub fn regions() {
+    let file = if is_hosted() { "regions/hosted.x" } else { "regions/alone.x" };
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::copy(file, out.join("regions.x")).unwrap_or_else(|error| panic!("{file}: {error}"));
+    println!("cargo::rerun-if-changed={file}");
+}
+
+/// The board's own body: one patch, or with the feature `host`, which wants a whole body, the capped box.
+#[must_use]
+pub fn own_body() -> &'static str {
+    if is_hosted() { "../bodies/capped_box.rs" } else { "../bodies/table1c.rs" }
+}
+
+fn is_hosted() -> bool {
+    env::var_os("CARGO_FEATURE_HOST").is_some()
+}
+
 /// Says where the body's tables lie: `fast`, in the fastest memory, or `flash`.
 const TABLES: &str = "PALPATE_TABLES";
 

@@ -1,5 +1,6 @@
 //! Image, reset and stop of the RP2350.
 
+use palpate::servo::ResetReason;
 use palpate_bench::{Cause, Memo, ResetFlags};
 use rp235x_hal::block::ImageDef;
 use rp235x_hal::pac::{POWMAN, SIO, WATCHDOG};
@@ -31,8 +32,8 @@ pub fn remember(cause: Cause) {
     }
 }
 
-/// Why the chip was reset, and the memo.
-pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> (ResetFlags, Memo) {
+/// Why the chip was reset, as its flags and the memo say.
+pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> ResetReason {
     let memo = Memo([watchdog.scratch0().read().bits(), watchdog.scratch1().read().bits()]);
     let reason = watchdog.reason().read();
     let chip = power.chip_reset().read();
@@ -49,7 +50,7 @@ pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> (ResetFlags, Memo) {
     };
     // Power-on clears the memo: what is left of it says nothing about a brown-out here.
     let of_this_reset = if timer { memo } else { Memo::EMPTY };
-    (flags, of_this_reset)
+    flags.reason(of_this_reset)
 }
 
 /// Takes the motors' power away, by the register. Before anything else too: a reset of the core alone leaves the level

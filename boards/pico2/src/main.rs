@@ -12,6 +12,9 @@ mod body;
 mod chip;
 #[path = "../../felt.rs"]
 mod felt;
+#[cfg(feature = "host")]
+#[path = "../../host_memory.rs"]
+mod host;
 mod pins;
 mod port;
 #[path = "../../program.rs"]
@@ -62,8 +65,7 @@ fn main() -> ! {
         panic!("the peripherals are taken here and nowhere else")
     };
     chip::motors_off();
-    let (flags, memo) = chip::reset(&chip.WATCHDOG, &chip.POWMAN);
-    let reset = flags.reason(memo);
+    let reset = chip::reset(&chip.WATCHDOG, &chip.POWMAN);
     let sio = Sio::new(chip.SIO);
     let pins = Pins::new(chip.IO_BANK0, chip.PADS_BANK0, sio.gpio_bank0, &mut chip.RESETS);
     // Motors first: off.

@@ -56,6 +56,9 @@ pub struct Keeping<F, const FACES: usize, const EDGES: usize> {
     kept: &'static Kept<FACES, EDGES>,
     flash: RefCell<F>,
     begun: Cell<Option<Incoming>>,
+    /// The file's first part, which is written last: until then there is no body, and a word that the power went in the
+    /// middle of is never read.
+    head: Cell<[u8; CHUNK]>,
     /// So many bytes of the region are erased, or written since.
     erased: Cell<u32>,
     /// The CRC-32 of the file that is kept.
@@ -82,6 +85,7 @@ impl<const FACES: usize, const EDGES: usize> Kept<FACES, EDGES> {
                 kept: self,
                 flash: RefCell::new(flash),
                 begun: Cell::new(None),
+                head: Cell::new([0; CHUNK]),
                 erased: Cell::new(0),
                 crc: Cell::new(0),
             };
@@ -141,7 +145,7 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Keeping<F, FACES, EDGE
 
     /// Whether the bytes lie there.
     fn lies(&self, at: u32, bytes: &[u8]) -> bool {
-        // SAFETY: this is main's end: nobody writes them now.
+        // SAFETY: this is main's end: nobody writes them meanwhile.
         let all = unsafe { self.kept.region.first(self.kept.region.bytes) };
         all.get(at as usize..).and_then(|rest| rest.get(..bytes.len())) == Some(bytes)
     }
@@ -156,15 +160,33 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Keeping<F, FACES, EDGE
         // What was kept is no body from here on, whenever the power goes.
         self.crc.set(0);
         self.erased.set(0);
+        self.erase_first()?;
+        if bytes > 0 {
+            self.begun.set(Some(incoming));
+        }
+        Ok(())
+    }
+
+    /// All of a file of so many bytes has come.
+    fn end(&self, bytes: u32, pause: &mut dyn FnMut()) -> Result<(), UploadError> {
+        let head = self.head.get();
+        if self.write(0, &head).is_none() || !self.lies(0, &head) {
+            return Err(UploadError::Flash { at: 0 });
+        }
+        self.check(bytes, pause).map_err(|wrong| {
+            // No body stays none. Where it cannot be erased it is refused at every start.
+            let _ = self.erase_first();
+            refusal(&wrong)
+        })
+    }
+
+    fn erase_first(&self) -> Result<(), UploadError> {
         let flash = self.flash.try_borrow_mut();
         let is_erased = flash.is_ok_and(|mut flash| flash.erase(0, F::ERASE_SIZE as u32).is_ok());
         if !is_erased {
             return Err(UploadError::Flash { at: 0 });
         }
-        self.erased.set(F::ERASE_SIZE as u32);
-        if bytes > 0 {
-            self.begun.set(Some(incoming));
-        }
+        self.erased.set(self.erased.get().max(F::ERASE_SIZE as u32));
         Ok(())
     }
 }
@@ -181,12 +203,15 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Uploads for Keeping<F,
             Upload::Bytes { at, bytes } => {
                 let incoming = self.begun.get().ok_or(UploadError::NotBegun)?;
                 let length = incoming.length(at)?;
-                // Flash takes a word once: a part that comes twice is compared.
-                if !incoming.has(at) && self.write(at, bytes.as_flattened()).is_none() {
-                    return Err(UploadError::Flash { at });
-                }
-                if !self.lies(at, bytes.as_flattened().get(..length).unwrap_or(&[])) {
-                    return Err(UploadError::Flash { at });
+                let bytes = bytes.as_flattened();
+                if at == 0 {
+                    self.head.set(bytes.try_into().unwrap_or([0; CHUNK]));
+                } else {
+                    // Flash takes a word once: a part that comes twice is compared.
+                    let is_there = incoming.has(at) || self.write(at, bytes).is_some();
+                    if !is_there || !self.lies(at, bytes) {
+                        return Err(UploadError::Flash { at });
+                    }
                 }
                 self.begun.set(Some(incoming.came(at, length)));
                 Ok(())
@@ -195,7 +220,7 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Uploads for Keeping<F,
                 let incoming = self.begun.get().ok_or(UploadError::NotBegun)?;
                 incoming.whole()?;
                 if !incoming.is_checked {
-                    self.check(incoming.bytes, pause).map_err(|wrong| refusal(&wrong))?;
+                    self.end(incoming.bytes, pause)?;
                     self.begun.set(Some(incoming.checked()));
                 }
                 Ok(())

@@ -13,6 +13,10 @@ mod chip;
 mod encoders;
 #[path = "../../felt.rs"]
 mod felt;
+#[cfg(feature = "host")]
+mod flash;
+#[cfg(feature = "host")]
+mod host;
 mod port;
 #[path = "../../program.rs"]
 mod program;
@@ -49,6 +53,8 @@ use crate::ticks::Ticks;
 
 const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
 
+/// When the watchdog bites, ms: with a host after the 25 ms that a page of flash takes to be erased, motors held off.
+const BITES: u32 = if cfg!(feature = "host") { 40 } else { 20 };
 type Pin = AnyPin<Input>;
 type Board = Parts<Cycles, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
 
@@ -126,12 +132,14 @@ fn main() -> ! {
         },
         light,
     };
+    #[cfg(feature = "host")]
+    host::find(chip.FLASH);
     let (producer, messages) = QUEUE.split();
     program::HANDED_OVER.give(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX));
     MEMO.write(Memo::new(Cause::Running));
     program::below(messages, cycles, reset, port, || {
         let mut watchdog = IndependentWatchdog::new(chip.IWDG);
-        watchdog.start(20.millis());
+        watchdog.start(BITES.millis());
         // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
         unsafe {
             core.NVIC.set_priority(Interrupt::TIM7, 0);

@@ -11,6 +11,9 @@ mod body;
 mod chip;
 #[path = "../../felt.rs"]
 mod felt;
+#[cfg(feature = "host")]
+#[path = "../../host_memory.rs"]
+mod host;
 mod port;
 #[path = "../../program.rs"]
 mod program;

@@ -2,7 +2,7 @@
 
 use super::bake;
 use super::output::write_whole;
-use crate::firmware::{self, AnyBoard, Place, Progress, SetUpError, Toolchain, choose_body};
+use crate::firmware::{self, AnyBoard, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
 use crate::repository;
 use anyhow::Context;
 use clap::Args;
@@ -38,7 +38,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
     let chosen = match &arguments.body {
         None => None,
-        Some(model) => Some(chosen(arguments.board, model)?),
+        Some(model) => Some(chosen(arguments.board, arguments.kind(), model)?),
     };
     if let Some(Chosen { place: None, says, .. }) = &chosen {
         eprintln!("{says}");
@@ -63,7 +63,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let is_built = arguments.cargo.iter().any(|argument| argument == "build" || argument == "run");
     if let (AnyBoard::Bench(board), true) = (arguments.board, is_built && chosen.is_some()) {
         let image = toolchain.target_folder()?.join(board.target()).join("release").join(board.name());
-        print!("{}", firmware::report(board, &image)?);
+        print!("{}", firmware::report(board, arguments.kind(), &image)?);
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -72,6 +72,15 @@ impl Arguments {
     /// Whether the image for `palpate accept` is asked for.
     fn accepts(&self) -> bool {
         self.cargo == ["accept"]
+    }
+
+    /// Which image of a board for the bench is built.
+    fn kind(&self) -> Kind {
+        let after = self.cargo.iter().zip(self.cargo.iter().skip(1)).filter(|(flag, _)| *flag == "--features");
+        let joined = self.cargo.iter().filter_map(|argument| argument.strip_prefix("--features="));
+        let mut features = after.map(|(_, features)| features.as_str()).chain(joined);
+        let is_hosted = features.any(|features| features.split([',', ' ']).any(|feature| feature == "host"));
+        if is_hosted { Kind::Hosted } else { Kind::Alone }
     }
 }
 
@@ -82,7 +91,7 @@ fn accepted(toolchain: &Toolchain, board: AnyBoard) -> anyhow::Result<PathBuf> {
     let AnyBoard::Bench(board) = board else { return Ok(folder.join("accept")) };
     let (built, image) = (folder.join(board.name()), folder.join(format!("{}-accept", board.name())));
     fs::rename(&built, &image).with_context(|| built.display().to_string())?;
-    print!("{}", firmware::report(board, &image)?);
+    print!("{}", firmware::report(board, Kind::Alone, &image)?);
     Ok(image)
 }
 
@@ -97,7 +106,7 @@ struct Chosen {
 }
 
 /// Bakes a model for a board.
-fn chosen(board: AnyBoard, model: &Path) -> anyhow::Result<Chosen> {
+fn chosen(board: AnyBoard, kind: Kind, model: &Path) -> anyhow::Result<Chosen> {
     let name = model.file_stem().map_or_else(|| "body".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let out_file = format!("{name}.rs");
     let baked = bake::baked(model, &out_file)?;
@@ -111,7 +120,7 @@ fn chosen(board: AnyBoard, model: &Path) -> anyhow::Result<Chosen> {
     let (place, lies) = match board {
         // Emulated boards have 4 MB of flash, and no memory that is faster.
         AnyBoard::Emulated(_) => (Some(Place::Fast), "in flash".to_owned()),
-        AnyBoard::Bench(board) => (board.place(baked.bytes), board.says(baked.bytes)),
+        AnyBoard::Bench(board) => (board.place(kind, baked.bytes), board.says(kind, baked.bytes)),
     };
     Ok(Chosen { file, place, says: format!("{name} on {}: {} bytes of tables {lies}", board.name(), baked.bytes) })
 }

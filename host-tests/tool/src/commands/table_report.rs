@@ -1,6 +1,6 @@
 //! What baked tables take in flash, and what is known of their locator.
 
-use crate::firmware::BenchBoard;
+use crate::firmware::{BenchBoard, Kind};
 use palpate::body::{
     MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
 };
@@ -57,7 +57,7 @@ pub(super) fn as_file(bytes: usize, body: &BakedBody) -> Result<String, Error> {
 pub(super) fn on_boards(bytes: u64) -> Result<String, Error> {
     let mut report = String::new();
     for board in BenchBoard::ALL {
-        writeln!(report, "{:<16} {}", format!("on {}", board.name()), board.says(bytes))?;
+        writeln!(report, "{:<16} {}", format!("on {}", board.name()), board.says(Kind::Alone, bytes))?;
     }
     Ok(report)
 }

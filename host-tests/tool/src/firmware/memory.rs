@@ -28,6 +28,15 @@ pub enum Place {
     Flash,
 }
 
+/// Which image of a board it is: each has a memory map of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// It feels what it was built with.
+    Alone,
+    /// A host may order about what is felt (feature `host`).
+    Hosted,
+}
+
 const KB: u64 = 1_024;
 
 const fn memory(name: &'static str, start: u64, bytes: u64, kind: &'static str) -> Memory {
@@ -36,7 +45,7 @@ const fn memory(name: &'static str, start: u64, bytes: u64, kind: &'static str) 
 
 impl BenchBoard {
     /// Its memories. A test compares them with the board's memory map.
-    pub const fn memories(self) -> &'static [Memory] {
+    pub const fn memories(self, kind: Kind) -> &'static [Memory] {
         const STM32G4: &[Memory] = &[
             memory("CCM", 0x1000_0000, 32 * KB, "core-coupled RAM"),
             memory("RAM", 0x2000_0000, 24 * KB, "RAM"),
@@ -53,29 +62,47 @@ impl BenchBoard {
             memory("DTCM", 0x2000_0000, 320 * KB, "core-coupled RAM for data"),
             memory("FLASH", 0x6000_0000, 7_936 * KB, "flash"),
         ];
-        match self {
-            Self::Stm32g4 => STM32G4,
-            Self::Pico2 => PICO2,
-            Self::Teensy41 => TEENSY41,
+        const STM32G4_HOSTED: &[Memory] = &[
+            memory("CCM", 0x1000_0000, 32 * KB, "core-coupled RAM"),
+            memory("RAM", 0x2000_0000, 36 * KB, "RAM"),
+            memory("TABLES", 0x2000_9000, 60 * KB, "RAM"),
+            memory("FLASH", 0x0800_0000, 128 * KB, "flash"),
+        ];
+        const PICO2_HOSTED: &[Memory] = &[
+            memory("RAM", 0x2000_0000, 256 * KB, "RAM"),
+            memory("FAST", 0x2004_0000, 256 * KB, "RAM"),
+            memory("FLASH", 0x1000_0000, 3 * KB * KB, "flash"),
+        ];
+        match (self, kind) {
+            (Self::Stm32g4, Kind::Alone) => STM32G4,
+            (Self::Stm32g4, Kind::Hosted) => STM32G4_HOSTED,
+            (Self::Pico2, Kind::Alone) => PICO2,
+            (Self::Pico2, Kind::Hosted) => PICO2_HOSTED,
+            (Self::Teensy41, _) => TEENSY41,
         }
     }
 
     /// Bytes of tables that its fastest memory has room for, and its flash: what the loop and its largest body's code
     /// need is left out.
-    const fn room(self) -> [u64; 2] {
-        match self {
+    const fn room(self, kind: Kind) -> [u64; 2] {
+        match (self, kind) {
             // 16 KB of TABLES for code that CCM does not take and for constants; 32 KB of flash for the program.
-            Self::Stm32g4 => [56 * KB, 352 * KB],
+            (Self::Stm32g4, Kind::Alone) => [56 * KB, 352 * KB],
             // 96 KB for code: that of the largest kind of body and of the plug, and constants.
-            Self::Pico2 => [352 * KB, (3 * KB - 64) * KB],
+            (Self::Pico2, Kind::Alone) => [352 * KB, (3 * KB - 64) * KB],
             // 32 KB of stack, 32 KB of variables and constants, the USB controller's lists among them.
-            Self::Teensy41 => [256 * KB, (7_936 - 256) * KB],
+            (Self::Teensy41, Kind::Alone) => [256 * KB, (7_936 - 256) * KB],
+            // A scene's code takes most of CCM and TABLES.
+            (Self::Stm32g4, Kind::Hosted) => [4 * KB, 64 * KB],
+            (Self::Pico2, Kind::Hosted) => [160 * KB, (3 * KB - 64) * KB],
+            // Two banks for bodies of a host take 182 KB.
+            (Self::Teensy41, Kind::Hosted) => [64 * KB, (7_936 - 256) * KB],
         }
     }
 
     /// Where so many bytes of tables lie on this board; `None` if they do not fit.
-    pub const fn place(self, tables: u64) -> Option<Place> {
-        let [fast, flash] = self.room();
+    pub const fn place(self, kind: Kind, tables: u64) -> Option<Place> {
+        let [fast, flash] = self.room(kind);
         if tables <= fast {
             Some(Place::Fast)
         } else if tables <= flash {
@@ -86,10 +113,10 @@ impl BenchBoard {
     }
 
     /// [`Self::place`], in a sentence.
-    pub fn says(self, tables: u64) -> String {
-        let [fast, flash] = self.room();
+    pub fn says(self, kind: Kind, tables: u64) -> String {
+        let [fast, flash] = self.room(kind);
         let kb = |bytes: u64| format!("{:.1} KB", bytes as f64 / KB as f64);
-        match self.place(tables) {
+        match self.place(kind, tables) {
             Some(Place::Fast) => format!("in the fastest memory, which has room for {}", kb(fast)),
             Some(Place::Flash) => {
                 format!("in flash, behind its cache: the fastest memory has room for {} of {}", kb(fast), kb(tables))
@@ -103,7 +130,7 @@ impl BenchBoard {
 ///
 /// # Errors
 /// If the file cannot be read.
-pub fn report(board: BenchBoard, image: &Path) -> Result<String, SetUpError> {
+pub fn report(board: BenchBoard, kind: Kind, image: &Path) -> Result<String, SetUpError> {
     let content = fs::read(image).map_err(SetUpError::io(image.display()))?;
     let refused = |reason: &str| SetUpError::Image { path: image.to_path_buf(), reason: reason.to_owned() };
     let file = object::File::parse(content.as_slice()).map_err(|error| refused(&error.to_string()))?;
@@ -117,13 +144,13 @@ pub fn report(board: BenchBoard, image: &Path) -> Result<String, SetUpError> {
         .sections()
         .filter(|section| is_loaded(&section.flags()) && section.kind() != SectionKind::UninitializedData)
         .filter(|section| {
-            board.memories().iter().all(|memory| memory.kind != "flash" || !memory.holds(section.address()))
+            board.memories(kind).iter().all(|memory| memory.kind != "flash" || !memory.holds(section.address()))
         })
         .filter(|section| section.name().is_ok_and(|name| name != ".stack"))
         .map(|section| section.size())
         .sum();
     let mut text = String::new();
-    for memory in board.memories() {
+    for memory in board.memories(kind) {
         let copies = if memory.kind == "flash" { format!(", and {images} of images for RAM") } else { String::new() };
         let _ = writeln!(
             text,
@@ -137,11 +164,13 @@ pub fn report(board: BenchBoard, image: &Path) -> Result<String, SetUpError> {
     let tables: Vec<(u64, u64)> = file
         .symbols()
         .filter(|symbol| {
-            symbol.name().is_ok_and(|name| rustc_demangle::demangle(name).to_string().contains("felt::tables::"))
+            symbol
+                .name()
+                .is_ok_and(|name| rustc_demangle::demangle(name).to_string().contains("felt::chosen::tables::"))
         })
         .map(|symbol| (symbol.address(), symbol.size()))
         .collect();
-    for memory in board.memories() {
+    for memory in board.memories(kind) {
         let bytes: u64 = tables.iter().filter(|(address, _)| memory.holds(*address)).map(|(_, bytes)| bytes).sum();
         if bytes > 0 {
             let _ = writeln!(text, "  tables  {bytes:>8} bytes in {} ({})", memory.name, memory.kind);

@@ -35,7 +35,7 @@ pub use emulator::{Emulator, Running};
 pub(crate) use image::choose_body;
 pub use image::{BenchBody, Choice, Image, Images, build_all, build_bench};
 pub use link::{Link, LinkError};
-pub use memory::{Memory, Place, report};
+pub use memory::{Kind, Memory, Place, report};
 pub use process::{SetUpError, without_outer_cargo};
 pub(crate) use process::{apt_install, on_path, output};
 pub use program::Program;

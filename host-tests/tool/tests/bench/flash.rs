@@ -337,10 +337,10 @@ fn whenever_the_power_goes_there_is_the_whole_body_or_none() {
         let after: &'static Kept<8, 16> = kept_for_good(Kept::new(left.region()));
         let (keeping, found) = after.main(left.writer().unwrap(), &mut || ()).unwrap();
         let is_there = found.is_ok();
-        // Begin erases; the last but one part is the file's end.
+        // The first part erases; with the last the body is there.
         let wanted = if parts == 0 {
             crc(&sphere)
-        } else if parts >= all - 1 {
+        } else if parts == all {
             crc(&capped_box)
         } else {
             0
@@ -448,8 +448,10 @@ impl Broken {
 #[test]
 fn flash_that_does_not_take_it_is_said_with_the_place() {
     let capped_box = file("capped_box.palp");
-    // Nothing at all; the first page erased; two parts more; the second page, which the 33rd part is the first of.
-    for (left, at, is_silent) in [(0, 0, false), (1, 0, false), (3, 128, false), (33, 2_048, false), (3, 128, true)] {
+    // Nothing at all; the first page erased; two parts more; the second page, after the 31 parts that follow the head; the
+    // head itself, after 107 parts and four pages.
+    let breaks = [(0, 0, false), (1, 64, false), (3, 192, false), (32, 2_048, false), (3, 192, true), (111, 0, false)];
+    for (left, at, is_silent) in breaks {
         let flash: &'static Flash = kept_for_good(Flash::new());
         let kept: &'static Kept<8, 16> = kept_for_good(Kept::new(flash.region()));
         let broken = Broken { within: flash.writer(), left: Cell::new(left), is_silent };
@@ -469,5 +471,18 @@ fn flash_that_does_not_take_it_is_said_with_the_place() {
         keeping.put(part, &mut || ()).unwrap();
         keeping.put(part, &mut || ()).unwrap();
     }
-    assert_eq!(keeping.put(&PART, &mut || ()), Err(UploadError::Flash { at: 0 }));
+    let Upload::Bytes { at, mut bytes } = parts[2] else { panic!("a part") };
+    bytes[0][0] ^= 1;
+    assert_eq!(keeping.put(&Upload::Bytes { at, bytes }, &mut || ()), Err(UploadError::Flash { at: 64 }));
+    // What is no body is not found at the next start either.
+    put(&keeping, &spoiled(&capped_box), usize::MAX).unwrap_err();
+    let left: &'static Flash = kept_for_good(flash.after_reset());
+    let kept: &'static Kept<8, 16> = kept_for_good(Kept::new(left.region()));
+    assert_eq!(kept.main(left.writer().unwrap(), &mut || ()).unwrap().1, Err(FileError::Magic));
+}
+
+fn spoiled(file: &[u8]) -> Vec<u8> {
+    let mut file = file.to_vec();
+    file[3_000] ^= 1;
+    file
 }

@@ -3,7 +3,7 @@
 use crate::running::is_wanted;
 use object::{Object, ObjectSection, ObjectSymbol};
 use palpate_tool::cache;
-use palpate_tool::firmware::{BenchBoard, Place, Progress, build_bench, report};
+use palpate_tool::firmware::{BenchBoard, Kind, Place, Progress, build_bench, report};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -104,10 +104,13 @@ fn region(line: &str) -> Option<(&str, u64, u64)> {
 
 #[test]
 fn the_memories_of_a_board_are_those_of_its_memory_map() {
-    for board in [BenchBoard::Stm32g4, BenchBoard::Pico2] {
-        let map = fs::read_to_string(board.folder().unwrap().join("memory.x")).unwrap();
+    let images = [(Kind::Alone, "alone"), (Kind::Hosted, "hosted")];
+    for (board, (kind, name)) in
+        [BenchBoard::Stm32g4, BenchBoard::Pico2].into_iter().flat_map(|board| images.map(|image| (board, image)))
+    {
+        let map = fs::read_to_string(board.folder().unwrap().join(format!("regions/{name}.x"))).unwrap();
         let regions: Vec<_> = map.lines().filter_map(region).collect();
-        for memory in board.memories() {
+        for memory in board.memories(kind) {
             assert!(regions.contains(&(memory.name, memory.start, memory.bytes)), "{board:?}: {memory:?} {regions:?}");
         }
         // What is copied from flash needs its image there.
@@ -117,12 +120,12 @@ fn the_memories_of_a_board_are_those_of_its_memory_map() {
 
 #[test]
 fn a_body_lies_in_the_fastest_memory_while_it_fits_then_in_flash_and_is_refused_beyond() {
-    let places = |bytes: u64| BenchBoard::ALL.map(|board| board.place(bytes));
+    let places = |bytes: u64| BenchBoard::ALL.map(|board| board.place(Kind::Alone, bytes));
     assert_eq!(places(7_160), [Some(Place::Fast); 3]);
     // A part of 250 KB.
     assert_eq!(places(250 << 10), [Some(Place::Flash), Some(Place::Fast), Some(Place::Fast)]);
     assert_eq!(places(400 << 10), [None, Some(Place::Flash), Some(Place::Flash)]);
-    let says = BenchBoard::Stm32g4.says(400 << 10);
+    let says = BenchBoard::Stm32g4.says(Kind::Alone, 400 << 10);
     assert_eq!(says, "do not fit: 400.0 KB of tables, and room for 352.0 KB in flash");
 }
 
@@ -137,9 +140,9 @@ fn every_board_takes_a_small_body_and_a_large_one_and_the_tables_lie_where_it_sa
         let (file, tables) = baked(name, folder.path());
         assert!(tables >= least, "{tables} bytes of tables");
         for board in BenchBoard::ALL {
-            let place = board.place(tables).unwrap();
+            let place = board.place(Kind::Alone, tables).unwrap();
             let elf = build_bench(board, Some((&file, place)), &Progress::new()).unwrap();
-            let said = report(board, &elf).unwrap();
+            let said = report(board, Kind::Alone, &elf).unwrap();
             println!("{} {}\n{said}", board.name(), name.display());
             let lines: Vec<&str> = said.lines().filter(|line| line.contains("  tables")).collect();
             let in_flash = lines.iter().any(|line| line.contains("FLASH"));

@@ -1,0 +1,156 @@
+//! The second bank of the chip's flash, as the reference manual (RM0440, 3.3) wants it written: while the program, in the
+//! first, goes on.
+
+use core::ptr;
+use cortex_m::interrupt;
+use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
+use stm32g4xx_hal::stm32::FLASH;
+
+/// Where the second of two banks begins, and what it holds.
+pub const START: usize = 0x0804_0000;
+/// Its bytes.
+pub const BANK_BYTES: usize = 256 * 1024;
+
+const PAGE: usize = 2_048;
+const DOUBLE_WORD: usize = 8;
+
+/// What opens the control register.
+const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
+/// Every flag of the status register that says what became of the last operation; written, it is cleared.
+const FLAGS: u32 = 0xC3FB;
+/// Those that say that it failed: all but the first, the end of an operation.
+const ERRORS: u32 = FLAGS & !1;
+/// So often the status is looked at: a page takes 25 ms at most, 4.2 million cycles, and a look some ten.
+const LOOKS: u32 = 1_000_000;
+
+/// The bank.
+pub struct Bank2(FLASH);
+
+/// Flash did not take it, or what was asked of it makes no sense.
+#[derive(Clone, Copy, Debug)]
+pub struct Refused(NorFlashErrorKind);
+
+impl NorFlashError for Refused {
+    fn kind(&self) -> NorFlashErrorKind {
+        self.0
+    }
+}
+
+const OTHER: Refused = Refused(NorFlashErrorKind::Other);
+
+impl Bank2 {
+    /// The bank, if the chip's option bytes have two.
+    pub fn try_new(flash: FLASH) -> Option<Self> {
+        let is_dual = flash.optr().read().dbank().is_dual_bank_mode();
+        is_dual.then_some(Self(flash))
+    }
+
+    /// Waits until nothing is under way.
+    fn wait(&self) -> Result<(), Refused> {
+        let is_done = (0..LOOKS).any(|_| self.0.sr().read().bsy().bit_is_clear());
+        if is_done { Ok(()) } else { Err(OTHER) }
+    }
+
+    /// What became of an operation.
+    fn outcome(&self) -> Result<(), Refused> {
+        self.wait()?;
+        if self.0.sr().read().bits() & ERRORS == 0 { Ok(()) } else { Err(OTHER) }
+    }
+
+    /// Does something with the control register open, and the data cache empty afterwards.
+    fn with(&self, work: impl FnOnce(&Self) -> Result<(), Refused>) -> Result<(), Refused> {
+        self.wait()?;
+        // SAFETY: ones clear flags, the keys are the manual's.
+        unsafe {
+            self.0.sr().write(|w| w.bits(FLAGS));
+            for key in KEYS {
+                self.0.keyr().write(|w| w.bits(key));
+            }
+        }
+        let done = work(self);
+        self.0.cr().modify(|_, w| w.pg().clear_bit().per().clear_bit().lock().set_bit());
+        // It is emptied only while it is off; the tick waits for flash meanwhile, with its motors off.
+        self.0.acr().modify(|_, w| w.dcen().clear_bit());
+        self.0.acr().modify(|_, w| w.dcrst().set_bit());
+        self.0.acr().modify(|_, w| w.dcrst().clear_bit());
+        self.0.acr().modify(|_, w| w.dcen().set_bit());
+        done
+    }
+
+    fn erase_page(&self, page: u8) -> Result<(), Refused> {
+        self.with(|bank| {
+            // SAFETY: a page of 128.
+            bank.0.cr().modify(|_, w| unsafe { w.per().set_bit().bker().set_bit().pnb().bits(page) });
+            bank.0.cr().modify(|_, w| w.strt().set_bit());
+            bank.outcome()
+        })
+    }
+
+    fn write_all(&self, offset: usize, bytes: &[u8]) -> Result<(), Refused> {
+        self.with(|bank| {
+            bank.0.cr().modify(|_, w| w.pg().set_bit());
+            for (number, [low, high]) in bytes.as_chunks::<4>().0.as_chunks::<2>().0.iter().enumerate() {
+                let place = (START + offset + number * DOUBLE_WORD) as *mut u32;
+                // Both words of a double word, one right after the other.
+                interrupt::free(|_| {
+                    // SAFETY: within the second bank, where nothing else lies, at a multiple of eight.
+                    unsafe {
+                        ptr::write_volatile(place, u32::from_le_bytes(*low));
+                        ptr::write_volatile(place.add(1), u32::from_le_bytes(*high));
+                    }
+                });
+                bank.outcome()?;
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Whether a part of the bank begins and ends where it may.
+fn check(offset: usize, bytes: usize, size: usize) -> Result<(), Refused> {
+    if !offset.is_multiple_of(size) || !bytes.is_multiple_of(size) {
+        return Err(Refused(NorFlashErrorKind::NotAligned));
+    }
+    match offset.checked_add(bytes) {
+        Some(end) if end <= BANK_BYTES => Ok(()),
+        _ => Err(Refused(NorFlashErrorKind::OutOfBounds)),
+    }
+}
+
+impl ErrorType for Bank2 {
+    type Error = Refused;
+}
+
+impl ReadNorFlash for Bank2 {
+    const READ_SIZE: usize = 1;
+
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Refused> {
+        check(offset as usize, bytes.len(), Self::READ_SIZE)?;
+        for (number, byte) in bytes.iter_mut().enumerate() {
+            // SAFETY: within the second bank.
+            *byte = unsafe { ptr::read_volatile((START + offset as usize + number) as *const u8) };
+        }
+        Ok(())
+    }
+
+    fn capacity(&self) -> usize {
+        BANK_BYTES
+    }
+}
+
+impl NorFlash for Bank2 {
+    const WRITE_SIZE: usize = DOUBLE_WORD;
+    const ERASE_SIZE: usize = PAGE;
+
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), Refused> {
+        let [from, to] = [from, to].map(|offset| offset as usize);
+        check(from, to.saturating_sub(from), PAGE)?;
+        // The cast is right: there are 128.
+        (from / PAGE..to / PAGE).try_for_each(|page| self.erase_page(page as u8))
+    }
+
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Refused> {
+        check(offset as usize, bytes.len(), DOUBLE_WORD)?;
+        self.write_all(offset as usize, bytes)
+    }
+}
