@@ -88,13 +88,23 @@ impl Body<'_> {
 
     /// CRC-32 of all words as they are now; as they were baked it is [`Self::baked_crc`].
     pub fn table_crc(&self) -> u32 {
+        self.table_crc_with(&mut || ())
+    }
+
+    /// The same; calls `pause` every so often.
+    pub(super) fn table_crc_with(&self, pause: &mut dyn FnMut()) -> u32 {
         let (mut crc, mut place) = (0, Some(TableCursor::default()));
+        let mut passed = 0_u32;
         while let Some(cursor) = place {
             let found = self.table_word(cursor);
             if let Some(word) = found {
                 crc = crate::patch::crc32(crc, word);
             }
             place = cursor.after(found);
+            passed = passed.wrapping_add(1);
+            if passed.is_multiple_of(PAUSE) {
+                pause();
+            }
         }
         crc
     }
@@ -116,6 +126,9 @@ impl Body<'_> {
         })
     }
 }
+
+/// Words from one pause to the next.
+pub(super) const PAUSE: u32 = 1_024;
 
 /// Entries of the locator in a record.
 const ENTRIES: usize = 16;

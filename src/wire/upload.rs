@@ -61,6 +61,9 @@ pub enum UploadError {
     /// Nothing was begun.
     #[error("no upload was begun")]
     NotBegun,
+    /// What came is no body: changed on the way, or of another version. The host's own check says what is wrong.
+    #[error("what came is no body of this version")]
+    NoBody,
     /// No flash was set aside for bodies.
     #[error("this device has no flash set aside for bodies")]
     NoFlash,
@@ -76,7 +79,4 @@ pub enum UploadError {
         /// Where.
         at: u32,
     },
-    /// What came is no body: changed on the way, or of another version. The host's own check says what is wrong.
-    #[error("what came is no body of this version")]
-    NoBody,
 }

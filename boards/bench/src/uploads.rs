@@ -9,8 +9,8 @@ pub trait Uploads {
     fn room(&self) -> (u32, u16, u16);
 
     /// Takes a part of a file; [`Upload::Keep`] is not for here, but comes as [`Upload::Begin`] to the memory that is
-    /// flash. The last part has it checked, which takes some 130 instructions a word of it; `pause` is called
-    /// meanwhile, each time a third of that is done: it feeds the watchdog.
+    /// flash. The last part has it checked, which takes some 125 instructions a word of it; `pause` is called
+    /// every so often meanwhile: it feeds the watchdog.
     ///
     /// # Errors
     /// What is wrong with it. What was uploaded before stands, until another is begun.

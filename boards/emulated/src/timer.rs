@@ -110,16 +110,27 @@ impl InstructionCounter {
         counter
     }
 
+    /// Where the counter stands, for [`Self::since`].
+    #[inline(always)]
+    pub fn started(&self) -> u32 {
+        SYST::get_current()
+    }
+
+    /// Instructions since then, those of the reading among them.
+    #[inline(always)]
+    pub fn since(&self, before: u32) -> u32 {
+        // SysTick counts down, 24 bits wide: right as long as the work is shorter than 0.67 s.
+        let ticks = before.wrapping_sub(SYST::get_current()) & MASK;
+        let [instructions, of_ticks] = self.instructions_per_tick;
+        ticks * instructions / of_ticks
+    }
+
     /// Runs `work` and gives how many instructions it took, the reading of the counter subtracted.
     #[inline]
     pub fn count<T>(&mut self, work: impl FnOnce() -> T) -> (T, u32) {
-        let before = SYST::get_current();
+        let before = self.started();
         let result = work();
-        let after = SYST::get_current();
-        // SysTick counts down, 24 bits wide: right as long as the work is shorter than 0.67 s.
-        let ticks = before.wrapping_sub(after) & MASK;
-        let [instructions, of_ticks] = self.instructions_per_tick;
-        (result, (ticks * instructions / of_ticks).saturating_sub(self.overhead))
+        (result, self.since(before).saturating_sub(self.overhead))
     }
 }
 

@@ -1,5 +1,5 @@
-//! The second bank of the chip's flash, as the reference manual (RM0440, 3.3) wants it written: while the program, in the
-//! first, goes on.
+//! The second bank of the chip's flash, as the reference manual (RM0440, 3.3) wants it written: while the program, in
+//! the first, goes on.
 
 use core::ptr;
 use cortex_m::interrupt;

@@ -126,13 +126,13 @@ impl<'a> Body<'a> {
         Self::from_bytes_with(bytes, room, &mut || ())
     }
 
-    /// [`Self::from_bytes`] that calls `pause` between its stages: for whoever has a watchdog to feed meanwhile. A stage
-    /// takes a third of the whole at most.
+    /// [`Self::from_bytes`] that calls `pause` every so often, for whoever has a watchdog to feed meanwhile: after each
+    /// 1,024 words of a CRC, and between the other checks, which together take a seventh of the whole.
     ///
     /// # Errors
     /// As [`Self::from_bytes`].
     pub fn from_bytes_with(bytes: &'a [u8], room: Room<'a>, pause: &mut dyn FnMut()) -> Result<Self, FileError> {
-        let sections = Sections::of(bytes)?;
+        let sections = Sections::of_with(bytes, pause)?;
         pause();
         let Whole { table_crc: stated, is_convex, size, corner, side, .. } = Whole::of(sections.body)?;
         finite(sections.borders, Section::Borders)?;
@@ -157,7 +157,7 @@ impl<'a> Body<'a> {
         let body = Self::try_new(in_faces, in_edges, sections.vertices, sections.spokes, locator, size, is_convex)?;
         pause();
         // The very words that statics of this body have: what was read is what was baked.
-        match body.table_crc() {
+        match body.table_crc_with(pause) {
             found if found == stated => Ok(body.with_crc(stated)),
             found => Err(FileError::Tables { stated, found }),
         }

@@ -1,6 +1,7 @@
 //! A file cut into its sections: where each lies, and nothing yet of what it says.
 
 use super::super::feature::{Spoke, Vertex};
+use super::super::words::PAUSE;
 use super::error::{FileError, Section};
 use crate::patch::crc32;
 use bytemuck::PodCastError;
@@ -39,8 +40,13 @@ pub(super) struct Sections<'a> {
 impl<'a> Sections<'a> {
     /// Cuts a file, once its CRC is right.
     pub fn of(bytes: &'a [u8]) -> Result<Self, FileError> {
+        Self::of_with(bytes, &mut || ())
+    }
+
+    /// The same; calls `pause` every so often.
+    pub fn of_with(bytes: &'a [u8], pause: &mut dyn FnMut()) -> Result<Self, FileError> {
         const { assert!(cfg!(target_endian = "little"), "a body's file is read in place: little-endian targets only") };
-        let mut rest = Rest(checked(bytes)?);
+        let mut rest = Rest(checked(bytes, pause)?);
         Ok(Self {
             source: rest.only(Section::Source)?,
             body: rest.only(Section::Body)?,
@@ -58,7 +64,7 @@ impl<'a> Sections<'a> {
 }
 
 /// The words between the head and the CRC, of a file that is whole.
-fn checked(bytes: &[u8]) -> Result<&[u32], FileError> {
+fn checked<'a>(bytes: &'a [u8], pause: &mut dyn FnMut()) -> Result<&'a [u32], FileError> {
     // A file of more than 4 GB is none.
     let given = u32::try_from(bytes.len()).unwrap_or(u32::MAX);
     // The head is looked at by bytes: a file that was cut short still says what it is, and how long it was.
@@ -79,7 +85,10 @@ fn checked(bytes: &[u8]) -> Result<&[u32], FileError> {
         _ => FileError::Length { stated, given },
     })?;
     let [_, _, _, sections @ .., stated_crc] = words else { return Err(FileError::Length { stated, given }) };
-    let found = words[..words.len() - 1].iter().fold(0, |crc, word| crc32(crc, *word));
+    let found = words[..words.len() - 1].chunks(PAUSE as usize).fold(0, |crc, words| {
+        pause();
+        words.iter().fold(crc, |crc, word| crc32(crc, *word))
+    });
     if found != *stated_crc {
         return Err(FileError::Damaged { stated: *stated_crc, found });
     }

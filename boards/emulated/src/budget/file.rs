@@ -13,8 +13,8 @@ static CAPPED_BOX: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../bodies/ca
 static SPHERE: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../bodies/sphere_body.palp"));
 
 #[inline(never)]
-fn load<'a>(bytes: &'a [u8], room: Room<'a>) -> Result<Body<'a>, FileError> {
-    Body::from_bytes(bytes, room)
+fn load<'a>(bytes: &'a [u8], room: Room<'a>, pause: &mut dyn FnMut()) -> Result<Body<'a>, FileError> {
+    Body::from_bytes_with(bytes, room, pause)
 }
 
 /// Loads the files, and walks around the capped box.
@@ -22,6 +22,9 @@ fn load<'a>(bytes: &'a [u8], room: Room<'a>) -> Result<Body<'a>, FileError> {
 /// # Errors
 /// That a file is refused, or what the walk ran into.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
+    let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
+    let room = Room { faces: &mut faces, edges: &mut edges };
+    longest_stage(counter, "sphere_body", &SPHERE.0, room);
     let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
     let room = Room { faces: &mut faces, edges: &mut edges };
     let sphere = counted(counter, "sphere_body", &SPHERE.0, room)?;
@@ -39,7 +42,22 @@ fn counted<'a>(
     room: Room<'a>,
 ) -> Result<Body<'a>, &'static str> {
     let bytes = black_box(bytes);
-    let (body, instructions) = counter.count(|| load(bytes, room));
+    let (body, instructions) = counter.count(|| load(bytes, room, &mut || ()));
     println!("\"loading {name}, {} bytes\" = {instructions}", bytes.len());
     body.map_err(|_| "a body's file was refused")
+}
+
+/// The longest that a watchdog waits while a file is loaded.
+#[inline(never)]
+fn longest_stage<'a>(counter: &InstructionCounter, name: &str, bytes: &'a [u8], room: Room<'a>) {
+    let (mut last, mut longest) = (0, 0);
+    let begun = counter.started();
+    let mut pause = || {
+        let now = counter.since(begun);
+        (longest, last) = (longest.max(now - last), now);
+    };
+    let body = load(black_box(bytes), room, &mut pause);
+    pause();
+    black_box(&body);
+    println!("\"loading {name}, the longest stage\" = {longest}");
 }

@@ -142,6 +142,8 @@ fn dialogue() -> [(&'static str, String); 7] {
             vars("room", hello.room),
             vars("faces", hello.faces.into()),
             vars("edges", hello.edges.into()),
+            vars("flash", hello.flash),
+            vars("kept", hello.kept),
         ],
     );
     let refused = Some(Refused::Order(SceneError::Stiffness(1)));
