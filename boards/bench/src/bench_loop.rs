@@ -216,7 +216,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// holds the enable button, nor before a reset that is a fault has been acknowledged. The servo is stopped first,
     /// and that is latched, whatever else goes wrong.
     fn begin_to_set_up(&mut self, panel: &Panel) {
-        let is_quiet = self.is_quiet(panel) && !self.is_reset_pending();
+        let is_quiet = self.is_quiet(panel) && !self.is_reset_pending() && !self.mailbox.writing().is_granted();
         if self.set_up.is_none() || self.is_set_up || !is_quiet {
             return;
         }

@@ -28,11 +28,13 @@ pub(crate) struct Taking<'a> {
     asked: Option<(u16, u32)>,
     /// The tick of the last part while the motors are held off.
     held: Option<u32>,
+    /// What became of the last end in flash, which may be asked for again: its answer may have been lost.
+    ended: Option<Result<(), UploadError>>,
 }
 
 impl<'a> Taking<'a> {
     pub const fn nothing() -> Self {
-        Self { memory: None, flash: None, into: Into::Memory, asked: None, held: None }
+        Self { memory: None, flash: None, into: Into::Memory, asked: None, held: None, ended: None }
     }
 
     pub fn kept(&self) -> u32 {
@@ -60,6 +62,9 @@ impl<'a> Taking<'a> {
             Upload::Bytes { .. } => self.put(part, pause),
             Upload::End => {
                 let put = self.put(part, pause);
+                if self.held.is_some() {
+                    self.ended = Some(put);
+                }
                 // Whatever came of it, unless some of it is still to come.
                 if !matches!(put, Err(UploadError::Order { .. })) {
                     self.let_go(mailbox);
@@ -98,7 +103,7 @@ impl<'a> Taking<'a> {
     }
 
     fn begin_to_keep(&mut self, bytes: u32, mailbox: &Mailbox, pause: &mut dyn FnMut()) -> Result<(), UploadError> {
-        self.into = Into::Flash;
+        (self.into, self.ended) = (Into::Flash, None);
         // What was uploaded and not taken is not to be taken in its place.
         if let Some(memory) = self.memory {
             let _ = memory.put(&Upload::Begin { bytes: 0 }, pause);
@@ -113,9 +118,11 @@ impl<'a> Taking<'a> {
     fn put(&self, part: &Upload, pause: &mut dyn FnMut()) -> Result<(), UploadError> {
         match self.into {
             Into::Memory => self.memory.map_or(Err(UploadError::NoRoom), |memory| memory.put(part, pause)),
-            Into::Flash if self.held.is_some() || *part == Upload::End => {
+            // Never but while the tick holds the motors off.
+            Into::Flash if self.held.is_some() => {
                 self.flash.map_or(Err(UploadError::NoFlash), |flash| flash.put(part, pause))
             }
+            Into::Flash if *part == Upload::End => self.ended.unwrap_or(Err(UploadError::NotBegun)),
             Into::Flash | Into::Nowhere => Err(UploadError::NotBegun),
         }
     }

@@ -36,6 +36,11 @@ impl Writing {
         }
     }
 
+    /// Whether main may be writing.
+    pub fn is_granted(&self) -> bool {
+        self.word() == Word::Granted
+    }
+
     /// Main wants to write.
     pub fn ask(&self) {
         self.0.store(Word::Asked as u32, Ordering::Relaxed);

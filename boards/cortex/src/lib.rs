@@ -15,3 +15,4 @@ pub use accept::{core_id, fail};
 pub use cycles::Cycles;
 pub use hand_over::HandOver;
 pub use memo::MemoCell;
+pub use stop::bearing_nmi;

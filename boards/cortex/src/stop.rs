@@ -2,6 +2,8 @@
 //! motors' power away, leaves a memo and a light, and waits for the watchdog.
 
 use core::panic::PanicInfo;
+use core::sync::atomic::{AtomicPtr, Ordering};
+use core::{mem, ptr};
 use cortex_m_rt::{ExceptionFrame, exception};
 use palpate_bench::Cause;
 
@@ -9,6 +11,18 @@ unsafe extern "Rust" {
     /// The board's: by the registers, trusting nothing that ran before, it disables every drive, then lights its light
     /// and leaves the memo of the cause.
     safe fn palpate_motors_off(cause: Cause);
+}
+
+/// What says of an NMI that it is one that is waited for; null while none is.
+static BEARS: AtomicPtr<()> = AtomicPtr::new(ptr::null_mut());
+
+/// Does something during which an NMI may come that is no stop: `is_borne` says so of it, and has dealt with it. For
+/// main, before there are ticks.
+pub fn bearing_nmi<T>(is_borne: fn() -> bool, work: impl FnOnce() -> T) -> T {
+    BEARS.store(is_borne as *mut (), Ordering::SeqCst);
+    let done = work();
+    BEARS.store(ptr::null_mut(), Ordering::SeqCst);
+    done
 }
 
 fn stop(cause: Cause) -> ! {
@@ -33,7 +47,15 @@ unsafe fn HardFault(_: &ExceptionFrame) -> ! {
 
 // SAFETY: as above.
 #[exception]
-unsafe fn NonMaskableInt() -> ! {
+unsafe fn NonMaskableInt() {
+    let bears = BEARS.load(Ordering::SeqCst);
+    if !bears.is_null() {
+        // SAFETY: `bearing_nmi` made it of such a function.
+        let is_borne = unsafe { mem::transmute::<*mut (), fn() -> bool>(bears) };
+        if is_borne() {
+            return;
+        }
+    }
     stop(Cause::Exception)
 }
 

@@ -86,7 +86,12 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
         self.pass(Holder::Waiting, Holder::Tick)
     }
 
-    /// The tick lets go of it.
+    /// The tick lets go of it, and may take it again while main does not want it.
+    pub fn put_down(&self) {
+        self.pass(Holder::Tick, Holder::Waiting);
+    }
+
+    /// The tick lets go of it, for main.
     pub fn leave(&self) {
         self.pass(Holder::Tick, Holder::Main);
     }

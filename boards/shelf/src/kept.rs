@@ -56,8 +56,7 @@ pub struct Keeping<F, const FACES: usize, const EDGES: usize> {
     kept: &'static Kept<FACES, EDGES>,
     flash: RefCell<F>,
     begun: Cell<Option<Incoming>>,
-    /// The file's first part, which is written last: until then there is no body, and a word that the power went in the
-    /// middle of is never read.
+    /// The file's first part, which is written last: until then there is no body, and of the rest nothing is read.
     head: Cell<[u8; CHUNK]>,
     /// So many bytes of the region are erased, or written since.
     erased: Cell<u32>,
@@ -105,8 +104,9 @@ impl<const FACES: usize, const EDGES: usize> Shelf for Kept<FACES, EDGES> {
         self.bank.body()
     }
 
+    /// What is kept stays there, to be taken again.
     fn leave(&self, _: u8) {
-        self.bank.leave();
+        self.bank.put_down();
     }
 }
 
@@ -220,6 +220,8 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Uploads for Keeping<F,
                 let incoming = self.begun.get().ok_or(UploadError::NotBegun)?;
                 incoming.whole()?;
                 if !incoming.is_checked {
+                    // What ends badly is over: nothing is written for an end that is said again.
+                    self.begun.set(None);
                     self.end(incoming.bytes, pause)?;
                     self.begun.set(Some(incoming.checked()));
                 }

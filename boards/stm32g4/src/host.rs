@@ -1,12 +1,16 @@
 //! Flash for a body from a host: the second bank, which can be written while the program is read from the first. There
 //! is no RAM to spare for two more.
 
-use palpate_bench::Idle;
+mod damage;
+mod flash;
+
+use palpate::wire::Upload;
+use palpate_bench::{Idle, Uploads as _};
 use palpate_cortex::HandOver;
 use palpate_shelf::{Keeping, Kept, Region};
 use stm32g4xx_hal::stm32::FLASH;
 
-use crate::flash::{BANK_BYTES, Bank2, START};
+use self::flash::{BANK_BYTES, Bank2, START};
 
 /// Faces and edges of some 60 patches: more RAM for them would be less for the code of the tick.
 const FACES: usize = 64;
@@ -25,13 +29,17 @@ type End = Keeping<Bank2, FACES, EDGES>;
 static FOUND: HandOver<End> = HandOver::new();
 
 /// Looks for a body that was kept: before the loop is made, which feels it from the first tick on. A chip that was set
-/// to one bank keeps none.
+/// to one bank keeps none. Words that the power went in the middle of are no body, and are erased.
 pub fn find(flash: FLASH) {
+    let Some(bank) = Bank2::try_new(flash) else { return };
+    let (found, is_damaged) = damage::watched(|| SHELF.main(bank, &mut || ()));
     // What was found wrong is said by what is kept: nothing.
-    let found = Bank2::try_new(flash).and_then(|bank| SHELF.main(bank, &mut || ()));
-    if let Some((end, _)) = found {
-        FOUND.give(end);
+    let Some((end, _)) = found else { return };
+    if is_damaged && end.put(&Upload::Begin { bytes: 0 }, &mut || ()).is_err() {
+        // What cannot be erased is not looked at again.
+        return;
     }
+    FOUND.give(end);
 }
 
 /// Main's end of it.

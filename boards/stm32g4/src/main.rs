@@ -14,8 +14,6 @@ mod encoders;
 #[path = "../../felt.rs"]
 mod felt;
 #[cfg(feature = "host")]
-mod flash;
-#[cfg(feature = "host")]
 mod host;
 mod port;
 #[path = "../../program.rs"]

@@ -65,7 +65,11 @@ impl<L: Line> Device<L> {
         match self.part(begin, ANSWER) {
             Err(Error::Refused { reason: Refused::Upload(UploadError::Felt), .. }) => {
                 self.put_back(body)?;
-                self.part(begin, ANSWER)?;
+                if let Err(refused) = self.part(begin, ANSWER) {
+                    // Somebody has asked for force meanwhile: it is felt again.
+                    self.order(Order::Take { body })?;
+                    return Err(refused);
+                }
             }
             begun => begun?,
         }

@@ -221,6 +221,34 @@ fn what_ends_badly_or_is_left_lets_go() {
 }
 
 #[test]
+fn an_end_that_failed_writes_nothing_when_it_is_said_again_later() {
+    let mut device = Device::new(Safety::DEFAULT);
+    device.hello();
+    assert_eq!(device.part(KEEP), None);
+    device.flash.refuses.set(Some(UploadError::NoBody));
+    assert_eq!(device.part(Upload::End), refused(UploadError::NoBody));
+    device.rig.press_until_it_runs();
+    device.flash.came.borrow_mut().clear();
+    device.flash.refuses.set(None);
+    // Its answer was lost, or somebody says it hours later: the same answer, and flash is not touched.
+    assert_eq!(device.part(Upload::End), refused(UploadError::NoBody));
+    assert_eq!(*device.flash.came.borrow(), []);
+    assert_eq!(device.rig.state().phase(), Phase::Running);
+}
+
+#[test]
+fn a_device_is_not_set_up_while_flash_is_written() {
+    let mut device = Device::new(Safety::DEFAULT);
+    device.hello();
+    assert_eq!(device.part(KEEP), None);
+    device.send(&Command::SetUp);
+    device.ticks_off(10);
+    assert_eq!(device.rig.fault(), None, "being set up stops the servo for good");
+    assert_eq!(device.part(Upload::End), None);
+    device.rig.press_until_it_runs();
+}
+
+#[test]
 fn a_device_that_is_set_up_writes_no_flash() {
     let mut device = Device::new(Safety::DEFAULT);
     device.hello();
@@ -355,6 +383,9 @@ fn whenever_the_power_goes_there_is_the_whole_body_or_none() {
     let (keeping, _) = kept.main(flash.writer().unwrap(), &mut || ()).unwrap();
     assert_eq!(kept.take(), Some(0));
     assert_eq!(keeping.put(&Upload::Begin { bytes: 0 }, &mut || ()), Err(UploadError::Felt));
+    // Left, and taken again, for it is there still.
+    kept.leave(0);
+    assert_eq!((kept.body(0).is_none(), kept.take()), (true, Some(0)));
     kept.leave(0);
     keeping.put(&Upload::Begin { bytes: 0 }, &mut || ()).unwrap();
     assert_eq!(keeping.put(&Upload::End, &mut || ()), Err(UploadError::NotBegun));
@@ -474,8 +505,9 @@ fn flash_that_does_not_take_it_is_said_with_the_place() {
     let Upload::Bytes { at, mut bytes } = parts[2] else { panic!("a part") };
     bytes[0][0] ^= 1;
     assert_eq!(keeping.put(&Upload::Bytes { at, bytes }, &mut || ()), Err(UploadError::Flash { at: 64 }));
-    // What is no body is not found at the next start either.
-    put(&keeping, &spoiled(&capped_box), usize::MAX).unwrap_err();
+    // What is no body is not found at the next start either, and its end is over.
+    assert_eq!(put(&keeping, &spoiled(&capped_box), usize::MAX), Err(UploadError::NoBody));
+    assert_eq!(keeping.put(&Upload::End, &mut || ()), Err(UploadError::NotBegun));
     let left: &'static Flash = kept_for_good(flash.after_reset());
     let kept: &'static Kept<8, 16> = kept_for_good(Kept::new(left.region()));
     assert_eq!(kept.main(left.writer().unwrap(), &mut || ()).unwrap().1, Err(FileError::Magic));

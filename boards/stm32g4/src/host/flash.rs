@@ -60,6 +60,9 @@ impl Bank2 {
     /// Does something with the control register open, and the data cache empty afterwards.
     fn with(&self, work: impl FnOnce(&Self) -> Result<(), Refused>) -> Result<(), Refused> {
         self.wait()?;
+        // Off meanwhile: what it fetches while flash is written may be wrong. The tick waits for flash, with its motors
+        // off.
+        self.0.acr().modify(|_, w| w.dcen().clear_bit());
         // SAFETY: ones clear flags, the keys are the manual's.
         unsafe {
             self.0.sr().write(|w| w.bits(FLAGS));
@@ -69,8 +72,7 @@ impl Bank2 {
         }
         let done = work(self);
         self.0.cr().modify(|_, w| w.pg().clear_bit().per().clear_bit().lock().set_bit());
-        // It is emptied only while it is off; the tick waits for flash meanwhile, with its motors off.
-        self.0.acr().modify(|_, w| w.dcen().clear_bit());
+        // It is emptied only while it is off.
         self.0.acr().modify(|_, w| w.dcrst().set_bit());
         self.0.acr().modify(|_, w| w.dcrst().clear_bit());
         self.0.acr().modify(|_, w| w.dcen().set_bit());
