@@ -1,0 +1,112 @@
+"""The Nucleo-G474RE as its README wires it."""
+
+from __future__ import annotations
+
+import struct
+
+from stm32g4 import FEEDS, GPIO, IWDG, LSI, RCC, STARTS, TIM1, TIM2, TIM3, TIM4, TIM7, USART2, Stm32g4, peripheral
+
+BUTTON, STOP, READY, LIGHT = ("C", 13), ("B", 0), (("C", 3), ("C", 4), ("C", 5)), ("A", 5)
+ENABLES = (("C", 0), ("C", 1), ("C", 2))
+# Ports of set-points, directions and enables.
+PORTS = "ABC"
+
+
+class Nucleo(Stm32g4):
+    """The board."""
+
+    # TIM7 ("STM32G4 series vector table").
+    TICK = 55
+    # Cycles of a tick.
+    PERIOD = 170_000_000 // 4_000
+    # Memory has not faded when the flag of power-on goes up.
+    BROWN_OUT = {"power": True}
+    # Before any clock is there only power is taken away, which counts after a reset of the core alone.
+    LOST = {"GPIOC_BSRR", "TIM1_BDTR"}
+    # What breaks, and how many ticks it may take: four for the supply, for a single reading may be noise.
+    BREAKS = {"stop": 1, "ready 1": 1, "ready 2": 1, "ready 3": 1, "supply": 4, "button": 1}
+
+    def reset(self, machine, **reasons: bool) -> None:
+        super().reset(machine, **reasons)
+        # V, and levels from outside: nothing is pressed, stop's contact is closed, amplifiers are ready.
+        self.volts = 24.0
+        self.levels = {BUTTON: 0, STOP: 0, **{line: 1 for line in READY}}
+        self.counts = {TIM2.CNT: 0, TIM3.CNT: 0, TIM4.CNT: 0}
+
+    def level_outside(self, port: str, pin: int) -> int | None:
+        return self.levels.get((port, pin))
+
+    def reading(self) -> int:
+        """12 bits of 3.3 V, behind 100 kΩ and 10 kΩ."""
+        return round(self.volts / 11 / 3.3 * 4_095)
+
+    def count(self, address: int) -> int:
+        return self.counts[address]
+
+    def press(self, enable: bool | None = None, stop: bool | None = None) -> None:
+        """The buttons: the blue one gives a high level; stop's contact opens, and the pin is left to its pull."""
+        if enable is not None:
+            self.levels[BUTTON] = int(enable)
+        if stop:
+            del self.levels[STOP]
+        elif stop is not None:
+            self.levels[STOP] = 0
+
+    def break_line(self, what: str) -> None:
+        """Breaks a wire, or takes the supply away."""
+        if what == "supply":
+            self.volts = 0.0
+        elif what == "button":
+            self.press(enable=False)
+        else:
+            del self.levels[{"stop": STOP, "ready 1": READY[0], "ready 2": READY[1], "ready 3": READY[2]}[what]]
+
+    def enable_lines(self) -> list:
+        """What each enable line is: a level, or None while the chip leaves it to the resistor on the board."""
+        return [self.level(*pin) if self.mode(*pin) == 1 else None for pin in ENABLES]
+
+    def light(self) -> bool:
+        return self.mode(*LIGHT) == 1 and bool(self.level(*LIGHT))
+
+    def is_of_motors(self, entry) -> bool:
+        """A write that makes something of the motors' pins, or to the timer of the set-points."""
+        registers = "MODER", "AFRL", "AFRH", "ODR", "BSRR", "BRR"
+        outputs = {getattr(GPIO[port], register) for port in PORTS for register in registers}
+        return entry.is_write and (entry.address in outputs or peripheral(entry.address) == TIM1.base)
+
+    def is_of_enables(self, entry) -> bool:
+        return entry.address in (GPIO["C"].MODER, GPIO["C"].BSRR)
+
+    def memo(self) -> tuple[int, ...]:
+        """The memo of the cause, in memory that a reset leaves alone."""
+        return struct.unpack("<2I", self.machine.memory(self.machine.image.symbol("4chip4MEMO"), 8))
+
+    def tick_is_due(self) -> bool:
+        """TIM7 has come round: UIF goes up if it counts, and asks for its interrupt ("TIMx_DIER")."""
+        if not self.word(TIM7.CR1) & 1:
+            return False
+        self.keep(TIM7.SR, self.word(TIM7.SR) | 1)
+        return bool(self.word(TIM7.DIER) & 1)
+
+    def is_acknowledged(self, entry) -> bool:
+        return entry.is_write and entry.address == TIM7.SR and not entry.value & 1
+
+    def tick_rate(self) -> float:
+        return self.timer_clock() / ((self.word(TIM7.PSC) + 1) * (self.word(TIM7.ARR) + 1))
+
+    def feeds(self) -> int:
+        return sum(entry.written == FEEDS for entry in self.machine.log.writes(IWDG.KR))
+
+    def watchdog_started(self) -> int:
+        return self.machine.log.first(IWDG.KR, lambda value: value == STARTS)
+
+    def watchdog_seconds(self) -> float:
+        """Its clock, divided by 4, 8, 16 and so on, counts down from RLR ("IWDG_PR", "IWDG_RLR")."""
+        return (self.word(IWDG.RLR) & 0xFFF) * (4 << (self.word(IWDG.PR) & 7)) / LSI
+
+    def baud(self) -> float:
+        """Of the bus's clock, with sixteen samples a bit ("USART baud rate generation")."""
+        assert self.word(RCC.CCIPR) >> 2 & 3 == 0 and not self.word(USART2.CR1) >> 15 & 1
+        return self.timer_clock() / self.word(USART2.BRR)
+
+

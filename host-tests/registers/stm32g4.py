@@ -1,0 +1,197 @@
+"""What the registers of an STM32G474 answer: our reading of its reference manual, RM0440. No silicon was asked.
+
+A register remembers what was written, if its peripheral has a clock. What answers otherwise is here, with the section
+of the manual that says so; a register's own is named like the register.
+"""
+
+from __future__ import annotations
+
+from unicorn import arm_const
+
+from chip import Block, Chip
+
+RCC = Block(
+    "RCC", 0x4002_1000, CR=0, CFGR=8, PLLCFGR=0xC, AHB1ENR=0x48, AHB2ENR=0x4C, APB1ENR1=0x58, APB2ENR=0x60, CCIPR=0x88,
+    CSR=0x94,
+)  # fmt: skip
+FLASH = Block("FLASH", 0x4002_2000, ACR=0)
+PWR = Block("PWR", 0x4000_7000, CR1=0, CR3=8, SR2=0x14, CR5=0x80)
+GPIO = {
+    port: Block(
+        f"GPIO{port}", 0x4800_0000 + 0x400 * number,
+        MODER=0, OTYPER=4, PUPDR=0xC, IDR=0x10, ODR=0x14, BSRR=0x18, AFRL=0x20, AFRH=0x24, BRR=0x28,
+    )
+    for number, port in enumerate("ABCDEFG")
+}  # fmt: skip
+TIM1, TIM2, TIM3, TIM4, TIM7 = (
+    Block(
+        f"TIM{number}", base, CR1=0, SMCR=8, DIER=0xC, SR=0x10, CCMR1=0x18, CCER=0x20, CNT=0x24, PSC=0x28, ARR=0x2C,
+        CCR1=0x34, CCR2=0x38, CCR3=0x3C, BDTR=0x44,
+    )
+    for number, base in ((1, 0x4001_2C00), (2, 0x4000_0000), (3, 0x4000_0400), (4, 0x4000_0800), (7, 0x4000_1400))
+)  # fmt: skip
+TIMERS = (TIM1, TIM2, TIM3, TIM4, TIM7)
+USART2 = Block("USART2", 0x4000_4400, CR1=0, BRR=0xC, ISR=0x1C, RDR=0x24, TDR=0x28)
+IWDG = Block("IWDG", 0x4000_3000, KR=0, PR=4, RLR=8, SR=0xC, WINR=0x10)
+ADC1 = Block("ADC1", 0x5000_0000, ISR=0, CR=8, DR=0x40, CCR=0x308)
+# Hz; what starts the watchdog, opens its registers and feeds it ("IWDG key register").
+HSI, LSI, STARTS, OPENS, FEEDS = 16e6, 32_000, 0xCCCC, 0x5555, 0xAAAA
+# Bits of a converter's orders ("ADC control register").
+ADEN, ADDIS, ADSTART, ADCAL, ADVREGEN = 0, 1, 2, 31, 28
+
+# Which bit gives which peripheral its clock ("RCC peripheral clock enable registers").
+CLOCKS = {
+    FLASH.base: (RCC.AHB1ENR, 8),
+    PWR.base: (RCC.APB1ENR1, 28),
+    TIM1.base: (RCC.APB2ENR, 11),
+    TIM2.base: (RCC.APB1ENR1, 0),
+    TIM3.base: (RCC.APB1ENR1, 1),
+    TIM4.base: (RCC.APB1ENR1, 2),
+    TIM7.base: (RCC.APB1ENR1, 5),
+    USART2.base: (RCC.APB1ENR1, 17),
+    ADC1.base: (RCC.AHB2ENR, 13),
+    **{port.base: (RCC.AHB2ENR, number) for number, port in enumerate(GPIO.values())},
+}
+
+
+def peripheral(address: int) -> int:
+    """The base of the peripheral that a register belongs to."""
+    return ADC1.base if ADC1.base <= address < ADC1.base + 0x400 else address & ~0x3FF
+
+
+class Stm32g4(Chip):
+    """The chip. What is around it answers `level_outside`, `reading` and `count`."""
+
+    CORE = arm_const.UC_CPU_ARM_CORTEX_M4
+    MEMORY = ((0x0800_0000, 0x8_0000), (0x1000_0000, 0x8000), (0x2000_0000, 0x2_0000))
+    REGISTERS = ((0x4000_0000, 0x3_0000), (0x4200_0000, 0x60_0000), (0x4800_0000, 0x2000), (0x5000_0000, 0x10_0000))
+    VECTORS = 0x0800_0000
+    RESET = {
+        RCC.CR: 0x500,
+        RCC.CFGR: 0x5,
+        RCC.PLLCFGR: 0x1000,
+        RCC.AHB1ENR: 0x100,
+        RCC.APB1ENR1: 0x400,
+        FLASH.ACR: 0x4_0600,
+        PWR.CR1: 0x200,
+        PWR.CR3: 0x8000,
+        PWR.CR5: 0x100,
+        IWDG.RLR: 0xFFF,
+        IWDG.WINR: 0xFFF,
+        ADC1.CR: 0x2000_0000,
+        **{port.MODER: 0xFFFF_FFFF for port in GPIO.values()},
+        GPIO["A"].MODER: 0xABFF_FFFF,
+        GPIO["B"].MODER: 0xFFFF_FEBF,
+        GPIO["A"].PUPDR: 0x6400_0000,
+        GPIO["B"].PUPDR: 0x100,
+        **{timer.ARR: 0xFFFF for timer in TIMERS},
+        TIM2.ARR: 0xFFFF_FFFF,
+    }
+
+    def reset(self, machine, power: bool = False, watchdog: bool = False) -> None:
+        """Every reset pulls the pin too ("System reset"); power-on raises the flag of a brown-out ("RCC_CSR")."""
+        self.machine = machine
+        self.keep(RCC.CSR, 1 << 26 | power << 27 | watchdog << 29)
+        self.received, self.sent = bytearray(), bytearray()
+
+    def is_lost(self, address: int) -> bool:
+        """A peripheral without its clock takes nothing and gives nothing ("Peripheral clock enable registers")."""
+        gate = CLOCKS.get(peripheral(address))
+        return gate is not None and not self.word(gate[0]) >> gate[1] & 1
+
+    def alias(self, address: int, value: int, mask: int) -> tuple[int, int, int]:
+        """A word of the bit band is a bit of the peripherals (ARM DDI 0439, "Bit-banding")."""
+        if not 0x4200_0000 <= address < 0x4400_0000:
+            return address, value, mask
+        offset, bit = divmod((address - 0x4200_0000) // 4, 32)
+        return 0x4000_0000 + 4 * offset, (value & 1) << bit, 1 << bit
+
+    def read(self, address: int) -> int:
+        value = self.word(address)
+        if address == RCC.CR:
+            # HSIRDY, HSERDY and PLLRDY follow HSION, HSEON and PLLON.
+            for on in (8, 16, 24):
+                ready = {8: 10, 16: 17, 24: 25}[on]
+                value = value & ~(1 << ready) | (value >> on & 1) << ready
+        elif address == RCC.CFGR:
+            # SWS follows SW.
+            value = value & ~0xC | (value & 3) << 2
+        elif address == ADC1.DR:
+            # Reading it takes EOC down.
+            self.keep(ADC1.ISR, self.word(ADC1.ISR) & ~4)
+            value = self.reading()
+        elif address == USART2.ISR:
+            # TXE and TC; RXNE while something waits; TEACK and REACK.
+            value = 0xC0 | bool(self.received) << 5 | 0b11 << 21
+        elif address == USART2.RDR and self.received:
+            value = self.received.pop(0)
+        elif address in (IWDG.SR, PWR.SR2):
+            # What was written has been taken; the voltage is there.
+            value = 0
+        elif address in (TIM2.CNT, TIM3.CNT, TIM4.CNT):
+            value = self.count(address)
+        else:
+            for port, block in GPIO.items():
+                if address == block.IDR:
+                    value = sum(self.level(port, pin) << pin for pin in range(16))
+        return value
+
+    def write(self, address: int, value: int) -> int:
+        """Writes, and says what the register holds then."""
+        for port in GPIO.values():
+            if address in (port.BSRR, port.BRR):
+                # Setting wins over clearing.
+                sets, clears = (value & 0xFFFF, value >> 16) if address == port.BSRR else (0, value)
+                self.keep(port.ODR, self.word(port.ODR) & ~clears | sets)
+                return value
+        if address in (timer.SR for timer in TIMERS):
+            # Flags are cleared by writing 0.
+            value &= self.word(address)
+        elif address == ADC1.CR:
+            # Writing 0 takes back no order, and each is carried out at once: ADDIS ends ADEN, ADSTART brings EOC and
+            # EOS, ADSTP and ADCAL are over. ADRDY follows ADEN.
+            is_on = not value >> ADDIS & 1 and (value | self.word(address)) & 1
+            self.keep(ADC1.ISR, self.word(ADC1.ISR) & ~1 | is_on | (0b1100 if value >> ADSTART & 1 else 0))
+            value = value & 0x7FFF_FFC0 | is_on
+        elif address == ADC1.ISR:
+            # Flags are cleared by writing 1.
+            value = self.word(address) & ~value
+        elif address in (IWDG.PR, IWDG.RLR, IWDG.WINR) and self.word(IWDG.KR) & 0xFFFF != OPENS:
+            # Any key but that one closes its registers ("Register access protection").
+            value = self.word(address)
+        elif address == RCC.CR and self.word(RCC.CFGR) & 3 == 3:
+            # PLLON stays while the PLL is the system clock.
+            value |= 1 << 24
+        elif address == RCC.CSR and value & 1 << 23:
+            # RMVF clears the reasons.
+            value &= ~(0x1FF << 23)
+        elif address == USART2.TDR:
+            self.sent.append(value & 0xFF)
+        return self.keep(address, value)
+
+    def mode(self, port: str, pin: int) -> int:
+        """0 input, 1 output, 2 alternate function, 3 analog."""
+        return self.word(GPIO[port].MODER) >> 2 * pin & 3
+
+    def level(self, port: str, pin: int) -> int:
+        """What is on a pin: its own output, the level from outside, or its pull."""
+        if self.mode(port, pin) == 1:
+            return self.word(GPIO[port].ODR) >> pin & 1
+        outside = self.level_outside(port, pin)
+        return outside if outside is not None else self.word(GPIO[port].PUPDR) >> 2 * pin & 3 == 1
+
+    def core_clock(self, before: int | None = None) -> float:
+        """HCLK, Hz ("PLL", "RCC_PLLCFGR", "RCC_CFGR"), as set before an entry of the log, or now."""
+        before = len(self.machine.log.entries) if before is None else before
+        configuration, pll, switches = (self.machine.log.value(at, before) for at in (RCC.CFGR, RCC.PLLCFGR, RCC.CR))
+        system = HSI
+        if configuration & 3 == 3:
+            assert switches >> 24 & 1 and pll >> 24 & 1 and pll & 3 == 2, "the PLL runs, of HSI, and gives R"
+            system = HSI / ((pll >> 4 & 0xF) + 1) * (pll >> 8 & 0x7F) / (2 * (pll >> 25 & 3) + 2)
+        divider = configuration >> 4 & 0xF
+        return system / (1 if divider < 8 else (2, 4, 8, 16, 64, 128, 256, 512)[divider - 8])
+
+    def timer_clock(self) -> float:
+        """Of both buses, which are not divided, and so of their timers ("Clock tree")."""
+        assert self.word(RCC.CFGR) >> 8 & 0x3F == 0
+        return self.core_clock()

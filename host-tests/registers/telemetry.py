@@ -1,0 +1,77 @@
+"""What the loop says of itself over its serial port: records, as docs/wire.md has them."""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+
+HELLO, RECORD = 0, 1
+POWER_ON, PIN, SOFTWARE, WATCHDOG, BROWN_OUT, PANIC, EXCEPTION, TOOL = 0, 1, 2, 3, 4, 6, 7, 8
+ARMED, RUNNING, FAULT = 2, 3, 4
+STOP, NOT_READY, SUPPLY, RELEASE_FIRST = 1, 2, 4, 8
+VARIABLE = ("tick", "number", "clock", "began", "shortest", "longest", "took", "dropped")
+
+
+@dataclass(frozen=True)
+class Record:
+    """A record as far as the tests ask for it."""
+
+    tick: int
+    number: int
+    clock: int
+    began: int
+    shortest: int
+    longest: int
+    took: int
+    dropped: int
+    phase: int
+    fault: int
+    reset: int
+    hold: int
+
+
+def unstuffed(frame: bytes) -> bytes:
+    """A frame without its COBS."""
+    message, at = bytearray(), 0
+    while at < len(frame):
+        length = frame[at]
+        message += frame[at + 1 : at + length]
+        at += length
+        if length < 0xFF and at < len(frame):
+            message.append(0)
+    return bytes(message)
+
+
+def records(line: bytes) -> list[Record]:
+    """The records of a line; what comes after the last whole frame is left."""
+    found = []
+    for frame in line.split(b"\0")[:-1]:
+        message = unstuffed(frame)
+        body, checksum = message[:-4], int.from_bytes(message[-4:], "little")
+        assert zlib.crc32(body) == checksum, "a frame of the image is damaged"
+        if body[0] == RECORD:
+            found.append(record(body[1:]))
+    return found
+
+
+def record(body: bytes) -> Record:
+    """A record's message."""
+    at = 0
+
+    def variable() -> int:
+        nonlocal at
+        value = shift = 0
+        while True:
+            value |= (body[at] & 0x7F) << shift
+            at, shift = at + 1, shift + 7
+            if not body[at - 1] & 0x80:
+                return value
+
+    fields = {name: variable() for name in VARIABLE}
+    fields["phase"], fields["fault"] = body[at], body[at + 1]
+    at += 2
+    variable()
+    fields["reset"] = body[at]
+    at += 1
+    variable(), variable()
+    return Record(**fields, hold=body[at])

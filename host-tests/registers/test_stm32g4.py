@@ -1,0 +1,80 @@
+"""The Nucleo-G474RE, beyond what every board must do."""
+
+from __future__ import annotations
+
+import unittest
+
+from bench import Bench
+from nucleo import Nucleo
+from stm32g4 import ADC1, ADCAL, ADEN, ADVREGEN, FLASH, GPIO, PWR, RCC, TIM1, TIM2, TIM3, TIM4
+
+
+class Stm32g4(Bench, unittest.TestCase):
+    BOARD, NAME = Nucleo, "stm32g4"
+
+    def test_power_interface_has_its_clock_before_the_boost_is_set(self) -> None:
+        log = self.after_set_up().log
+        boost = log.first(PWR.CR5, lambda value: not value & 1 << 8)
+        set_at = log.first(RCC.APB1ENR1, lambda value: value & 1 << 28)
+        read_back = log.first(RCC.APB1ENR1, lambda value: value & 1 << 28, write=False)
+        self.assertLess(set_at, read_back)
+        # Nothing of it is touched before: "after the enable bit is set, there is a delay of two clock cycles".
+        touched = [entry.index for entry in log.entries if PWR.base <= entry.address < PWR.base + 0x400]
+        self.assertLess(read_back, touched[0])
+        self.assertIn(boost, touched)
+
+    def test_boost_and_wait_states_come_before_170_megahertz(self) -> None:
+        machine = self.after_set_up()
+        log, clock = machine.log, machine.chip.core_clock
+        switch = log.first(RCC.CFGR, lambda value: value & 3 == 3)
+        # RM0440, "Dynamic voltage scaling management": the boost, half the clock at first.
+        self.assertFalse(log.value(PWR.CR5, switch) & 1 << 8)
+        # "Number of wait states according to CPU clock": in boost mode four reach 170 MHz.
+        self.assertEqual(log.value(FLASH.ACR, switch) & 0xF, 4)
+        self.assertEqual(clock(switch + 1), 85e6)
+        whole = log.first(RCC.CFGR, lambda value: value & 0xF3 == 3)
+        # A microsecond at half the clock; a half-word of code takes a cycle or more.
+        self.assertGreater(log.entries[whole].time - log.entries[switch].time, 85)
+        self.assertEqual(clock(), 170e6)
+
+    def test_dead_battery_pull_downs_are_off_before_the_pins_are_used(self) -> None:
+        log = self.after_set_up().log
+        off = log.first(PWR.CR3, lambda value: value & 1 << 14)
+        # What is on PA9 and PA10 pulls at PB6 and PB4.
+        used = log.first(GPIO["B"].MODER, lambda value: value >> 12 & 3 == 2)
+        set_points = log.first(GPIO["A"].MODER, lambda value: value >> 18 & 3 == 2)
+        self.assertLess(off, min(used, set_points))
+
+    def test_set_points_rest_until_they_are_driven(self) -> None:
+        machine = self.after_set_up()
+        chip, widths = machine.chip, (TIM1.CCR1, TIM1.CCR2, TIM1.CCR3)
+        self.assertEqual([chip.word(width) for width in widths], [0, 0, 0])
+        machine.ticks(1)
+        most = chip.word(TIM1.ARR)
+        self.assertEqual(chip.timer_clock() / (chip.word(TIM1.PSC) + 1) / (most + 1), 2_000)
+        for width in widths:
+            # 10 % is no current, as the amplifiers are configured; to a count.
+            self.assertAlmostEqual(chip.word(width), 0.1 * most, delta=1)
+
+    def test_encoders_are_filtered_and_count_every_edge(self) -> None:
+        machine = self.after_set_up()
+        for timer in (TIM2, TIM3, TIM4):
+            # Both channels: mapped to their own inputs, and eight samples at an eighth of the clock have to agree.
+            self.assertEqual(machine.chip.word(timer.CCMR1), 0b1001_00_01_1001_00_01)
+            self.assertEqual(machine.chip.word(timer.SMCR) & 7, 3)
+            self.assertEqual(machine.chip.word(timer.CR1) & 1, 1)
+            self.assertLess(machine.log.first(timer.CCMR1), machine.log.first(timer.CR1))
+
+    def test_converter_has_a_clock_that_it_takes_and_is_calibrated(self) -> None:
+        machine = self.after_set_up()
+        mode = machine.chip.word(ADC1.CCR) >> 16 & 3
+        self.assertNotEqual(mode, 0, "the clock is the bus's, divided by 1, 2 or 4")
+        # Data sheet DS12288, "ADC characteristics": 60 MHz, of a converter that works alone.
+        self.assertLessEqual(machine.chip.core_clock() / (1, 2, 4)[mode - 1], 60e6)
+        writes = machine.log.writes(ADC1.CR)
+        regulator, calibrates, on = (
+            next(entry.time for entry in writes if entry.written >> bit & 1) for bit in (ADVREGEN, ADCAL, ADEN)
+        )
+        # 20 µs for the regulator ("ADC voltage regulator"); calibrated before it is on ("Calibration").
+        self.assertGreater(calibrates - regulator, 20e-6 * machine.chip.core_clock())
+        self.assertLess(calibrates, on)
