@@ -17,7 +17,7 @@ pub struct Ticks {
 impl Ticks {
     /// Starts the timer; its interrupt is still masked.
     pub fn start(mut timer: Pit) -> Self {
-        timer.set_load_timer_value(Chan0, PERIOD - 1);
+        timer.set_load_timer_value(Chan0, PERIOD);
         timer.set_interrupt_enable(Chan0, true);
         timer.enable(Chan0);
         Self { timer }
