@@ -12,7 +12,7 @@ from machine import HARD_FAULT, INTERRUPTS, NMI, SYSTEM_TICK, USAGE_FAULT, Machi
 # What the boards' settings and READMEs say.
 RATE, WATCHDOG, BAUD = 4_000, 0.020, 500_000
 # More ticks than homing by hand takes (a tenth of a second), and so many that a record has surely come.
-HOMING, A_WHILE = 800, 60
+HOMING, A_WHILE = 500, 60
 # Memo::new in boards/bench/src/reset.rs.
 MARK, OF_RUNNING, OF_PANIC, OF_EXCEPTION = 0x70A1_9A00, 1, 2, 3
 # An interrupt of the chip that no board uses.
@@ -24,6 +24,7 @@ class Bench:
 
     BOARD: type
     NAME: str
+    OF_PANIC, A_WHILE, LONG = OF_PANIC, A_WHILE, 60_000_000
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -47,6 +48,10 @@ class Bench:
         machine.chip.press(enable=False)
         machine.ticks(A_WHILE)
 
+    def new_machine(self) -> Machine:
+        """A board with new memory."""
+        return Machine(self.image, self.BOARD())
+
     def after_set_up(self) -> Machine:
         """Just before the first tick after power-on, with nothing pressed."""
         self.shared.restore(self.set_up)
@@ -59,7 +64,7 @@ class Bench:
 
     def started(self, pressed: bool = False, memory: Machine | None = None, **reset: bool) -> Machine:
         """A board that was reset for these reasons, at its first tick; in new memory, or in that of another run."""
-        machine = memory or Machine(self.image, self.BOARD())
+        machine = memory or self.new_machine()
         machine.reset(**reset)
         machine.chip.press(enable=pressed)
         machine.set_up()
@@ -159,6 +164,22 @@ class Bench:
                 machine.chip.break_line(what)
                 machine.ticks(self.BOARD.BREAKS[what])
                 self.assertFalse(self.drives(machine))
+
+    def test_force_comes_back_only_once_enable_was_let_go_of(self) -> None:
+        machine = self.while_driving()
+        machine.chip.press(stop=True)
+        machine.ticks(1)
+        self.assertFalse(self.drives(machine))
+        since = len(machine.log.entries)
+        machine.chip.press(stop=False)
+        machine.ticks(A_WHILE)
+        self.assert_never_high(machine, since)
+        self.assertTrue(self.last(machine).hold & telemetry.RELEASE_FIRST)
+        machine.chip.press(enable=False)
+        machine.ticks(1)
+        machine.chip.press(enable=True)
+        machine.ticks(A_WHILE)
+        self.assertTrue(self.drives(machine))
 
     def test_late_tick_takes_the_enable_lines_down(self) -> None:
         machine = self.while_driving()

@@ -1,0 +1,257 @@
+"""What the registers of an i.MX RT1062 answer: our reading of its reference manual, IMXRT1060RM. No silicon was asked.
+
+A register remembers what was written, if its peripheral has a clock. What answers otherwise is here, with the chapter
+of the manual that says so; a register's own is named like the register.
+"""
+
+from __future__ import annotations
+
+import struct
+
+from unicorn import arm_const
+
+from chip import Block, Chip
+
+DCDC = Block("DCDC", 0x4008_0000, REG0=0)
+PIT = Block("PIT", 0x4008_4000, MCR=0, LDVAL0=0x100, TCTRL0=0x108, TFLG0=0x10C)
+WDOG3 = Block("WDOG3", 0x400B_C000, CS=0, CNT=4, TOVAL=8)
+ADC1 = Block("ADC1", 0x400C_4000, HC0=0, HS=0x20, R0=0x24, CFG=0x44, GC=0x48, GS=0x4C, CAL=0x58)
+SNVS = Block("SNVS", 0x400D_4000, LPGPR0=0x100, LPGPR1=0x104)
+ANALOG = Block("CCM_ANALOG", 0x400D_8000, PLL_ARM=0, PLL_SYS=0x30)
+SRC = Block("SRC", 0x400F_8000, SRSR=8)
+CCM = Block("CCM", 0x400F_C000, CACRR=0x10, CBCDR=0x14, CBCMR=0x18, CSCMR1=0x1C, CSCDR1=0x24, CDHIPR=0x48)
+CCGR = [0x400F_C068 + 4 * number for number in range(8)]
+LPUART6 = Block("LPUART6", 0x4019_8000, BAUD=0x10, STAT=0x14, CTRL=0x18, DATA=0x1C, FIFO=0x28)
+GPIO = {
+    number: Block(f"GPIO{number}", base, DR=0, GDIR=4, PSR=8, DR_SET=0x84, DR_CLEAR=0x88, DR_TOGGLE=0x8C)
+    for number, base in ((1, 0x401B_8000), (2, 0x401B_C000), (3, 0x401C_0000), (4, 0x401C_4000))
+}
+IOMUXC = 0x401F_8000
+OCOTP = Block("OCOTP", 0x401F_4000, ANA1=0x4E0)
+GPT = [Block(f"GPT{number}", base, CR=0) for number, base in ((1, 0x401E_C000), (2, 0x401F_0000))]
+USB1 = Block("USB1", 0x402E_0000, USBCMD=0x140, ENDPTPRIME=0x1B0, ENDPTFLUSH=0x1B4)
+LPSPI4 = Block(
+    "LPSPI4", 0x403A_0000, PARAM=4, CR=0x10, SR=0x14, CCR=0x40, FSR=0x5C, TCR=0x60, TDR=0x64, RSR=0x70, RDR=0x74
+)
+# Registers of 16 bits, two a word: CTRL2 and CTRL, VAL1 in the upper half, VAL3 too; FCTRL0 and FSTS0.
+PWM2 = Block(
+    "PWM2", 0x403E_0000, OUTEN=0x180, MCTRL=0x188, FCTRL0=0x18C,
+    **{f"SM{n}_{name}": 0x60 * n + at for n in range(3) for name, at in (("CTRL", 4), ("VAL1", 0xC), ("VAL3", 0x14))},
+)  # fmt: skip
+# Hz; what opens the watchdog and feeds it ("RTWDOG").
+CRYSTAL, LOW_POWER, SYSTEM_PLL, UNLOCK, FEED = 24e6, 32_768, 528e6, 0xD928_C520, 0xB480_A602
+# Bits of the watchdog's CS.
+UPDATE, EN, RCS, ULK = 5, 7, 10, 11
+# Core cycles for which an opened watchdog takes a configuration: 255 of a bus at a quarter of the core's clock.
+OPEN = 255 * 4
+# Core cycles of a calibration. It takes milliseconds; what does not wait does not wait for this either.
+CALIBRATION = 20_000
+# Where a write to the register next to it sets, clears or toggles bits.
+SET_CLEAR_TOGGLE = ((0x400D_8000, 0x400D_8200), (0x400D_9000, 0x400D_9100))
+# Which two bits of which CCGR give which peripheral its clock ("System clocks, gating, and override").
+CLOCKS = {
+    PIT.base: (1, 6), LPUART6.base: (3, 3), LPSPI4.base: (1, 3), PWM2.base: (4, 9), ADC1.base: (1, 8),
+    WDOG3.base: (5, 2), GPIO[1].base: (1, 13), GPIO[2].base: (0, 15), GPIO[3].base: (2, 13), GPIO[4].base: (3, 6),
+    USB1.base: (6, 0),
+}  # fmt: skip
+# The bit of SRC_SRSR for each reason.
+REASONS = {"power": 0, "lockup": 1, "pin": 3, "watchdog": 7, "heat": 8}
+
+
+class Imxrt1062(Chip):
+    """The chip. What is around it answers `level_outside`, `reading` and `exchange`."""
+
+    CORE = arm_const.UC_CPU_ARM_CORTEX_M7
+    # ITCM, DTCM, OCRAM, and flash behind FlexSPI.
+    MEMORY = ((0, 0x8_0000), (0x2000_0000, 0x8_0000), (0x2020_0000, 0x8_0000), (0x6000_0000, 0x20_0000))
+    REGISTERS = ((0x4000_0000, 0x40_0000),)
+    VECTORS = 0x6000_0000
+    RESET = {
+        **{register: 0xFFFF_FFFF for register in CCGR},
+        # As the boot ROM leaves them: it runs at 396 MHz, and its watchdog may be updated, which is what NXP's own
+        # start-up code (SystemInit) builds on.
+        CCM.CBCDR: 0x000A_8200,
+        CCM.CSCMR1: 0x0490_0000,
+        WDOG3.CS: 0x2980 | 1 << UPDATE,
+        WDOG3.TOVAL: 0x400,
+        PIT.MCR: 6,
+        # The temperature sensor's calibration, which every chip has; the numbers are made up.
+        OCOTP.ANA1: 0x58B4_E05F,
+        # Every pad is a pin of its port, with a keeper ("SW_MUX_CTL_PAD", "SW_PAD_CTL_PAD").
+        **{IOMUXC + at: 5 for at in range(0x14, 0x204, 4)},
+        **{IOMUXC + at: 0x10B0 for at in range(0x204, 0x3F4, 4)},
+    }
+
+    def reset(self, machine, **reasons: bool) -> None:
+        self.machine = machine
+        self.keep(SRC.SRSR, sum(1 << REASONS[reason] for reason, is_so in reasons.items() if is_so))
+        # The always-on domain keeps what it holds over every reset ("SNVS_LP general purpose registers").
+        self.always_on = getattr(self, "always_on", {})
+        machine.words.update(self.always_on)
+        self.open_until = self.calibrated_at = None
+        self.is_calibrated = False
+        self.received, self.sent, self.answers = bytearray(), bytearray(), []
+
+    def entry(self) -> tuple[int, int]:
+        """Where the boot ROM goes: the vector table that the image vector table names ("Program image")."""
+        (table,) = struct.unpack("<I", self.machine.memory(0x6000_1004, 4))
+        return struct.unpack("<II", self.machine.memory(table, 8))
+
+    def is_lost(self, address: int) -> bool:
+        """A peripheral without its clock takes nothing and gives nothing."""
+        gate = CLOCKS.get(address & ~0x3FFF)
+        return gate is not None and not self.word(CCGR[gate[0]]) >> 2 * gate[1] & 3
+
+    def read(self, address: int) -> int:
+        value = self.word(address)
+        if address == DCDC.REG0 or ANALOG.base <= address < ANALOG.base + 0x100:
+            # STS_DC_OK; LOCK of every PLL.
+            value |= 1 << 31
+        elif address == CCM.CDHIPR:
+            value = 0
+        elif address == ADC1.GC:
+            self.calibrate()
+            value = self.word(address)
+        elif address == ADC1.HS:
+            # COCO0: converted at once.
+            value = 1
+        elif address == ADC1.R0:
+            value = self.reading()
+        elif address == LPUART6.STAT:
+            # TDRE and TC; RDRF while something waits.
+            value = 1 << 23 | 1 << 22 | bool(self.received) << 21
+        elif address == LPUART6.DATA:
+            value = self.received.pop(0) if self.received else 1 << 12
+        elif address == LPSPI4.PARAM:
+            value = 0x0404
+        elif address == LPSPI4.FSR:
+            value = len(self.answers) << 16
+        elif address == LPSPI4.RSR:
+            value = 0 if self.answers else 2
+        elif address == LPSPI4.RDR:
+            value = self.answers.pop(0) if self.answers else 0
+        else:
+            for port, block in GPIO.items():
+                if address == block.PSR:
+                    value = sum(self.level(port, pin) << pin for pin in range(32))
+        return value
+
+    def alias(self, address: int, value: int, mask: int) -> tuple[int, int, int]:
+        """SET, CLR and TOG of the analog registers."""
+        if any(start <= address < end for start, end in SET_CLEAR_TOGGLE) and address & 0xC:
+            base = address & ~0xF
+            old = self.word(base)
+            return base, {4: old | value, 8: old & ~value, 0xC: old ^ value}[address & 0xC], 0xFFFF_FFFF
+        return address, value, mask
+
+    def write(self, address: int, value: int) -> int:
+        """Writes, and says what the register holds then."""
+        for port in GPIO.values():
+            if address in (port.DR_SET, port.DR_CLEAR, port.DR_TOGGLE):
+                old = self.word(port.DR)
+                new = {port.DR_SET: old | value, port.DR_CLEAR: old & ~value, port.DR_TOGGLE: old ^ value}
+                self.keep(port.DR, new[address])
+                return value
+        if WDOG3.base <= address < WDOG3.base + 0x10:
+            return self.write_watchdog(address, value)
+        if ADC1.base <= address < ADC1.base + 0x60:
+            return self.write_converter(address, value)
+        if address in (SRC.SRSR, PIT.TFLG0):
+            # Flags are cleared by writing 1.
+            value = self.word(address) & ~value
+        elif address in (SNVS.LPGPR0, SNVS.LPGPR1):
+            self.always_on[address] = value
+        elif address in (block.CR for block in GPT):
+            # SWR is over at once.
+            value &= ~(1 << 15)
+        elif address == USB1.USBCMD:
+            # So is RST.
+            value &= ~2
+        elif address in (USB1.ENDPTPRIME, USB1.ENDPTFLUSH):
+            value = 0
+        elif address == PWM2.MCTRL:
+            # LDOK goes down when the new values are loaded.
+            value &= ~0xF
+        elif address == LPUART6.FIFO:
+            # The flushes are over at once; TXOF and RXUF are cleared by writing 1.
+            value &= ~(1 << 14 | 1 << 15 | 1 << 16 | 1 << 17)
+        elif address == LPUART6.DATA:
+            self.sent.append(value & 0xFF)
+        elif address == LPSPI4.TDR:
+            # As many bits as the transmit command says; it is over at once.
+            assert self.word(LPSPI4.TCR) & 0xFFF == 15, "a sensor takes 16 bits"
+            self.answers.append(self.exchange(value & 0xFFFF))
+        return self.keep(address, value)
+
+    def write_watchdog(self, address: int, value: int) -> int:
+        """It is opened for a moment, if updates are allowed, and takes one configuration ("RTWDOG, configuring")."""
+        status = self.word(WDOG3.CS)
+        is_open = self.open_until is not None and self.machine.cycles <= self.open_until
+        if address == WDOG3.CNT:
+            if value == UNLOCK and status >> UPDATE & 1:
+                self.open_until = self.machine.cycles + OPEN
+                self.keep(WDOG3.CS, status & ~(1 << RCS) | 1 << ULK)
+            return value
+        if not is_open:
+            return self.word(address)
+        if address == WDOG3.CS:
+            self.open_until = None
+            value = value & ~(1 << ULK) | 1 << RCS
+        return self.keep(address, value)
+
+    def write_converter(self, address: int, value: int) -> int:
+        """Whatever is written while it calibrates ends that, without a result ("Calibration function")."""
+        if self.calibrated_at is not None:
+            self.calibrate()
+        if self.calibrated_at is not None:
+            self.calibrated_at = None
+            self.keep(ADC1.GS, self.word(ADC1.GS) | 2)
+            value &= ~(1 << 7) if address == ADC1.GC else 0xFFFF_FFFF
+        elif address == ADC1.GC and value >> 7 & 1:
+            self.calibrated_at, self.is_calibrated = self.machine.cycles + CALIBRATION, False
+        elif address == ADC1.GS:
+            # CALF is cleared by writing 1.
+            value = self.word(address) & ~value
+        return self.keep(address, value)
+
+    def calibrate(self) -> None:
+        """CAL goes down when it is done."""
+        if self.calibrated_at is not None and self.machine.cycles >= self.calibrated_at:
+            self.calibrated_at, self.is_calibrated = None, True
+            self.keep(ADC1.GC, self.word(ADC1.GC) & ~(1 << 7))
+
+    def core_clock(self) -> float:
+        """The core's clock, Hz ("CCM clock tree"): PLL1, which makes half of `DIV_SELECT` crystals, divided twice."""
+        bus, multiplexer = self.word(CCM.CBCDR), self.word(CCM.CBCMR)
+        assert not bus >> 25 & 1 and multiplexer >> 18 & 3 == 3, "of the divided PLL1"
+        pll = CRYSTAL * (self.word(ANALOG.PLL_ARM) & 0x7F) / 2
+        return pll / ((self.word(CCM.CACRR) & 7) + 1) / ((bus >> 10 & 7) + 1)
+
+    def bus_clock(self) -> float:
+        """IPG, Hz."""
+        return self.core_clock() / ((self.word(CCM.CBCDR) >> 8 & 3) + 1)
+
+    def timer_clock(self) -> float:
+        """PERCLK, Hz, which the periodic timer counts."""
+        choice = self.word(CCM.CSCMR1)
+        return (CRYSTAL if choice >> 6 & 1 else self.bus_clock()) / ((choice & 0x3F) + 1)
+
+    def tick_rate(self) -> float:
+        """The timer counts down from LDVAL to 0."""
+        return self.timer_clock() / (self.word(PIT.LDVAL0) + 1)
+
+    def baud(self) -> float:
+        """Of the crystal, divided; `OSR + 1` samples a bit ("LPUART baud rate generation")."""
+        choice, baud = self.word(CCM.CSCDR1), self.word(LPUART6.BAUD)
+        samples = (baud >> 24 & 0x1F) + 1
+        assert choice >> 6 & 1, "of the crystal"
+        # With 4 to 7 samples both edges have to be used.
+        assert samples > 7 or baud >> 17 & 1
+        return CRYSTAL / ((choice & 0x3F) + 1) / samples / (baud & 0x1FFF)
+
+    def sensor_clock(self) -> float:
+        """The clock of the sensors' bus, Hz ("LPSPI_CCR", "LPSPI_TCR")."""
+        choice = self.word(CCM.CBCMR)
+        assert choice >> 4 & 3 == 2, "of PLL2"
+        clock = SYSTEM_PLL / ((choice >> 26 & 7) + 1)
+        return clock / (1 << (self.word(LPSPI4.TCR) >> 27 & 7)) / ((self.word(LPSPI4.CCR) & 0xFF) + 2)

@@ -1,0 +1,141 @@
+"""The Teensy 4.1 as its README wires it."""
+
+from __future__ import annotations
+
+from angle_sensor import AngleSensor
+from imxrt1062 import EN, FEED, GPIO, IOMUXC, LOW_POWER, PIT, PWM2, SNVS, WDOG3, Imxrt1062
+
+# Pins: port, bit, and the place of their pad among all of them (EMC, AD_B0, AD_B1, B0, B1 and so on).
+AD_B1, EMC, B0, B1 = 0xFC, 0x14, 0x13C, 0x17C
+ENABLES = ((1, 23, AD_B1 + 4 * 7), (1, 22, AD_B1 + 4 * 6), (1, 17, AD_B1 + 4 * 1))
+DIRECTIONS = ((4, 4, EMC + 4 * 4), (4, 5, EMC + 4 * 5), (2, 17, B1 + 4 * 1))
+SET_POINTS = (EMC + 4 * 6, EMC + 4 * 8, B0 + 4 * 10)
+SELECTS = ((2, 16, B1), (2, 11, B0 + 4 * 11), (2, 0, B0))
+BUTTON, STOP = (1, 18, AD_B1 + 4 * 2), (1, 27, AD_B1 + 4 * 11)
+READY = ((1, 19, AD_B1 + 4 * 3), (1, 16, AD_B1), (1, 26, AD_B1 + 4 * 10))
+LIGHT = (1, 24, AD_B1 + 4 * 8)
+PADS = {pin[:2]: pin[2] for pin in (*ENABLES, *DIRECTIONS, *SELECTS, BUTTON, STOP, *READY, LIGHT)}
+# From a pad's multiplexer to its pulls.
+TO_PULLS = 0x1F0
+
+
+class Teensy41(Imxrt1062):
+    """The board."""
+
+    # PIT ("CM7 interrupts").
+    TICK = 122
+    # Cycles of a tick.
+    PERIOD = 600_000_000 // 4_000
+    # The memo has not faded when the flag of power-on goes up.
+    BROWN_OUT = {"power": True}
+    LOST: set[str] = set()
+    # What breaks, and how many ticks it may take: four for the supply, for a single reading may be noise; two bad
+    # frames of a sensor are bridged.
+    BREAKS = {
+        "stop": 1, "ready 1": 1, "ready 2": 1, "ready 3": 1, "supply": 4, "button": 1, "sensor 1": 3, "sensor 2": 3,
+        "sensor 3": 3,
+    }  # fmt: skip
+
+    def reset(self, machine, **reasons: bool) -> None:
+        super().reset(machine, **reasons)
+        # V, and levels from outside: stop's contact is closed, amplifiers are ready. The button is open.
+        self.volts = 24.0
+        self.levels = {STOP: 0, **{line: 1 for line in READY}}
+        self.sensors = [AngleSensor() for _ in SELECTS]
+
+    def level(self, port: int, bit: int) -> int:
+        """What is on a pin: its own output, the level from outside, its pull; or whatever was last there (keeper)."""
+        if self.word(GPIO[port].GDIR) >> bit & 1:
+            return self.word(GPIO[port].DR) >> bit & 1
+        pad = PADS.get((port, bit))
+        if pad is None:
+            return 0
+        if (port, bit, pad) in self.levels:
+            return self.levels[port, bit, pad]
+        pulls = self.word(IOMUXC + pad + TO_PULLS)
+        # PKE and PUE; PUS is 0 for down.
+        is_pulled = pulls >> 12 & 1 and pulls >> 13 & 1
+        return int(pulls >> 14 & 3 != 0) if is_pulled else 1
+
+    def reading(self) -> int:
+        """12 bits of 3.3 V, behind 100 kΩ and 10 kΩ."""
+        return round(self.volts / 11 / 3.3 * 4_095)
+
+    def exchange(self, frame: int) -> int:
+        """The answer of the sensor whose select line is low; of none, the line's own level."""
+        selected = [sensor for sensor, (port, bit, _) in zip(self.sensors, SELECTS) if not self.level(port, bit)]
+        answers = [sensor.exchange(frame) for sensor in selected]
+        assert len(answers) < 2, "one at a time"
+        return answers[0] if answers else 0xFFFF
+
+    def press(self, enable: bool | None = None, stop: bool | None = None) -> None:
+        """The buttons: enable's contact closes to ground, stop's opens; the pins are pulled up."""
+        for line, is_closed in ((BUTTON, enable), (STOP, None if stop is None else not stop)):
+            if is_closed:
+                self.levels[line] = 0
+            elif is_closed is not None:
+                self.levels.pop(line, None)
+
+    def break_line(self, what: str) -> None:
+        """Breaks a wire, or takes the supply away."""
+        line, _, number = what.partition(" ")
+        if line == "supply":
+            self.volts = 0.0
+        elif line == "sensor":
+            self.sensors[int(number) - 1].answers = False
+        else:
+            del self.levels[{"stop": STOP, "button": BUTTON}.get(line) or READY[int(number) - 1]]
+
+    def enable_lines(self) -> list:
+        """What each enable line is: a level, or None while the chip leaves it to the resistor on the board."""
+        return [self.level(*pin[:2]) if self.is_output(*pin) else None for pin in ENABLES]
+
+    def is_output(self, port: int, bit: int, pad: int) -> bool:
+        return bool(self.word(GPIO[port].GDIR) >> bit & 1) and self.word(IOMUXC + pad) & 0xF == 5
+
+    def light(self) -> bool:
+        return bool(self.word(GPIO[1].GDIR) >> LIGHT[1] & self.word(GPIO[1].DR) >> LIGHT[1] & 1)
+
+    def is_of_motors(self, entry) -> bool:
+        """A write that makes something of the motors' pins, or to the timer of the set-points. Which level is a fault
+        is no output: the board's package says so of every timer, first of all."""
+        if not entry.is_write or entry.address == PWM2.FCTRL0:
+            return False
+        bits = {port: sum(1 << bit for at, bit, _ in (*ENABLES, *DIRECTIONS) if at == port) for port in GPIO}
+        of_port = any(
+            entry.written & bits[port] and entry.address in (block.DR, block.GDIR, block.DR_SET, block.DR_CLEAR)
+            for port, block in GPIO.items()
+        )
+        pads = {IOMUXC + pad for pad in (*SET_POINTS, *(pin[2] for pin in (*ENABLES, *DIRECTIONS)))}
+        return of_port or entry.address in pads or PWM2.base <= entry.address < PWM2.base + 0x200
+
+    def is_of_enables(self, entry) -> bool:
+        port = GPIO[1]
+        return entry.address in (port.GDIR, port.DR_CLEAR, *(IOMUXC + pad for *_, pad in ENABLES))
+
+    def memo(self) -> tuple[int, ...]:
+        """The memo of the cause, in the always-on domain."""
+        return self.word(SNVS.LPGPR0), self.word(SNVS.LPGPR1)
+
+    def tick_is_due(self) -> bool:
+        """The timer has come round: TIF goes up if it counts, and asks for its interrupt."""
+        control = self.word(PIT.TCTRL0)
+        if self.word(PIT.MCR) >> 1 & 1 or not control & 1:
+            return False
+        self.keep(PIT.TFLG0, 1)
+        return bool(control >> 1 & 1)
+
+    def is_acknowledged(self, entry) -> bool:
+        return entry.is_write and entry.address == PIT.TFLG0 and not entry.value & 1
+
+    def feeds(self) -> int:
+        return sum(entry.written == FEED for entry in self.machine.log.writes(WDOG3.CNT))
+
+    def watchdog_started(self) -> int:
+        return self.machine.log.first(WDOG3.CS, lambda value: value >> EN & 1)
+
+    def watchdog_seconds(self) -> float:
+        """Its low-power clock, not divided, counts up to TOVAL ("RTWDOG_CS", "RTWDOG_TOVAL")."""
+        status = self.word(WDOG3.CS)
+        assert status >> EN & 1 and status >> 8 & 3 == 1 and not status >> 12 & 1, "it runs, of LPO_CLK"
+        return (self.word(WDOG3.TOVAL) & 0xFFFF) / LOW_POWER
