@@ -113,7 +113,7 @@ fn main() -> ! {
     let uart =
         UartPeripheral::new(chip.UART0, (pins.gpio0.into_function(), pins.gpio1.into_function()), &mut chip.RESETS);
     let Ok(uart) = uart.enable(settings, speed) else { panic!("150 MHz make 500,000 baud") };
-    let Ok(supply_pin) = AdcPin::new(pins.gpio26.reconfigure()) else { panic!("GP26 is a pin of the converter") };
+    let Ok(supply_pin) = AdcPin::new(supply::pin(pins.gpio26)) else { panic!("GP26 is a pin of the converter") };
     let board = Parts {
         counter: cycles,
         timer: Ticks::start(slices.pwm0),
