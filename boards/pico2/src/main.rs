@@ -33,7 +33,7 @@ use palpate_cortex::Cycles;
 use palpate_usb::{Cdc, Either, Plain};
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock, init_clocks_and_plls};
-use rp235x_hal::fugit::{ExtU32, RateExtU32};
+use rp235x_hal::fugit::RateExtU32;
 use rp235x_hal::gpio::Pins;
 use rp235x_hal::pac::{Interrupt, Peripherals, interrupt};
 use rp235x_hal::pwm::Slices;
@@ -139,12 +139,12 @@ fn main() -> ! {
     program::HANDED_OVER.give(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX));
     chip::remember(Cause::Running);
     program::below(messages, cycles, reset, port, || {
-        watchdog.start(20.millis());
+        let watchdog = port::Bowl::start(watchdog);
         // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
         unsafe {
             core.NVIC.set_priority(Interrupt::PWM_IRQ_WRAP_0, 0);
             NVIC::unmask(Interrupt::PWM_IRQ_WRAP_0);
         }
-        port::Bowl(watchdog)
+        watchdog
     })
 }

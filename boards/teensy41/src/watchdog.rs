@@ -24,7 +24,8 @@ impl Bowl {
         cortex_m::interrupt::free(|_| {
             write_reg!(imxrt_ral::rtwdog, registers, CNT, UNLOCK);
             write_reg!(imxrt_ral::rtwdog, registers, TOVAL, PATIENCE);
-            write_reg!(imxrt_ral::rtwdog, registers, CS, EN: 1, CLK: 1, CMD32EN: 1, UPDATE: 0);
+            // With DBG, for a breakpoint is a program that hangs while its motors turn.
+            write_reg!(imxrt_ral::rtwdog, registers, CS, EN: 1, CLK: 1, CMD32EN: 1, UPDATE: 0, DBG: 1);
         });
         let took = (0..LOOKS).any(|_| read_reg!(imxrt_ral::rtwdog, registers, CS, RCS == 1));
         let runs = read_reg!(imxrt_ral::rtwdog, registers, CS, EN == 1);
