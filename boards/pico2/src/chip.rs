@@ -37,16 +37,19 @@ pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> ResetReason {
     let memo = Memo([watchdog.scratch0().read().bits(), watchdog.scratch1().read().bits()]);
     let reason = watchdog.reason().read();
     let chip = power.chip_reset().read();
-    let timer = reason.timer().bit_is_set();
+    let (timer, forced) = (reason.timer().bit_is_set(), reason.force().bit_is_set());
+    // What reset the chip last stays there over a reset by the watchdog.
+    let of_chip = !timer && !forced;
     let flags = ResetFlags {
         watchdog: timer,
         // The boot ROM reboots by the watchdog too, as `picotool` asks it to; it comes from a reset that left no memo.
         tool: timer && memo.cause().is_none(),
-        // A flag of its own, which power-on does not raise.
-        brown_out: chip.had_bor().bit_is_set(),
-        power: chip.had_por().bit_is_set(),
-        software: reason.force().bit_is_set(),
-        pin: chip.had_run_low().bit_is_set(),
+        // A flag of its own, which power-on does not raise; or a glitch of the core's supply, where it is watched for.
+        brown_out: chip.had_bor().bit_is_set() || chip.had_glitch_detect().bit_is_set(),
+        power: of_chip && chip.had_por().bit_is_set(),
+        // A program, or a debugger by its port. One that resets a core alone leaves the reason that was there.
+        software: forced || chip.had_dp_reset_req().bit_is_set() || chip.had_rescue().bit_is_set(),
+        pin: of_chip && chip.had_run_low().bit_is_set(),
     };
     // Power-on clears the memo: what is left of it says nothing about a brown-out here.
     let of_this_reset = if timer { memo } else { Memo::EMPTY };

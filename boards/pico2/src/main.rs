@@ -86,10 +86,10 @@ fn main() -> ! {
     let cycles = Cycles::start(&mut core.DCB, core.DWT);
 
     let mut slices = Slices::new(chip.PWM, &mut chip.RESETS);
+    pins::start(&mut slices.pwm5, &mut slices.pwm6, &mut slices.pwm7);
     slices.pwm5.channel_a.output_to(pins.gpio10);
     slices.pwm6.channel_a.output_to(pins.gpio12);
     slices.pwm7.channel_a.output_to(pins.gpio14);
-    pins::start(&mut slices.pwm5, &mut slices.pwm6, &mut slices.pwm7);
     let bridges = (
         HBridge::new(slices.pwm5.channel_a, pins.gpio11.into_push_pull_output().into_dyn_pin()),
         HBridge::new(slices.pwm6.channel_a, pins.gpio13.into_push_pull_output().into_dyn_pin()),

@@ -1,5 +1,6 @@
 //! What hangs on which pin.
 
+use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::HBridge;
 use palpate_bench::sensors::Angles;
 use palpate_bench::{CycleDelay, Parts, Switched};
@@ -8,7 +9,7 @@ use rp235x_hal::gpio::{
     DynPinId, FunctionSio, FunctionSpi, Pin, PullDown, PullNone, PullUp, SioInput, SioOutput, bank0,
 };
 use rp235x_hal::pac::SPI0;
-use rp235x_hal::pwm::{A, Channel, FreeRunning, Pwm5, Pwm6, Pwm7, Slice};
+use rp235x_hal::pwm::{A, Channel, FreeRunning, Pwm5, Pwm6, Pwm7, Slice, SliceId};
 use rp235x_hal::spi::{Enabled, Spi};
 
 use crate::chip::CLOCK;
@@ -35,12 +36,16 @@ pub type Board = Parts<Cycles, Ticks, Sensors, Drives, Switch, Switch, Ready, Vo
 /// A slice that runs.
 type Running<S> = Slice<S, FreeRunning>;
 
-/// Starts the motors' pulse widths, at no width.
+/// Starts the motors' pulse widths, at no width. Their pins are given to them after: a reset of the core alone leaves
+/// the slices as they were.
 pub fn start(a: &mut Running<Pwm5>, b: &mut Running<Pwm6>, c: &mut Running<Pwm7>) {
-    a.set_top(MOTOR_PERIOD);
-    b.set_top(MOTOR_PERIOD);
-    c.set_top(MOTOR_PERIOD);
-    a.enable();
-    b.enable();
-    c.enable();
+    start_one(a);
+    start_one(b);
+    start_one(c);
+}
+
+fn start_one<S: SliceId>(slice: &mut Running<S>) {
+    let Ok(()) = slice.channel_a.set_duty_cycle_fully_off();
+    slice.set_top(MOTOR_PERIOD);
+    slice.enable();
 }
