@@ -18,6 +18,8 @@ class AngleSensor:
     def __init__(self) -> None:
         self.angle, self.answers = 1_000, True
         self.next = 0
+        # The first half of a frame, where a bus sends bytes.
+        self.half: int | None = None
 
     def exchange(self, frame: int) -> int:
         """A frame each way."""
@@ -27,3 +29,11 @@ class AngleSensor:
         answer = self.next
         self.next = with_parity({ANGLE: self.angle, DIAGNOSTICS: WELL}.get(frame & 0x3FFF, 0))
         return answer
+
+    def exchange_byte(self, byte: int) -> int:
+        """Half a frame each way. What is answered does not depend on what is asked meanwhile."""
+        if self.half is None:
+            self.half = byte
+            return self.next >> 8 if self.answers else 0xFF
+        frame, self.half = self.half << 8 | byte, None
+        return self.exchange(frame) & 0xFF

@@ -18,8 +18,8 @@ NMI, HARD_FAULT, USAGE_FAULT, SYSTEM_TICK = 2, 3, 6, 15
 # The first interrupt of the chip among all exceptions.
 INTERRUPTS = 16
 EXC_RETURN = 0xFFFF_FFF9
-# A run of so many half-words of code is taken for one that hangs.
-TOO_LONG = 60_000_000
+# A run of so many half-words of code is taken for one that hangs; so many are more than a stop takes.
+TOO_LONG, STOPS = 60_000_000, 40_000
 
 
 class Machine(Core):
@@ -56,7 +56,7 @@ class Machine(Core):
             raise Stuck(f"nothing of the kind came; the last was {self.log.show(self.log.entries[-1])}")
         return self.log.entries[-1]
 
-    def ticks(self, count: int, between: int = 4_000) -> None:
+    def ticks(self, count: int, between: int = 1_000) -> None:
         """Runs so many periods of the timer: main for a while, then the tick."""
         for _ in range(count):
             began = self.cycles
@@ -66,7 +66,7 @@ class Machine(Core):
             # Whatever of the period is left goes by.
             self.ahead += max(0, self.chip.PERIOD - (self.cycles - began))
 
-    def exception(self, number: int, returns: bool | None = True, half_words: int = 400_000) -> None:
+    def exception(self, number: int, returns: bool | None = True, half_words: int = STOPS) -> None:
         """Takes an exception, and runs its handler until it returns; one that must not is run for so long. Where nobody
         says whether it does (`None`), it runs until the event of `stop_when`."""
         context, was = self.unicorn.context_save(), self.during
@@ -86,7 +86,7 @@ class Machine(Core):
     def panic(self) -> None:
         """Makes the program panic: main finds that its peripherals have been taken."""
         self.set_registers(PC=self.image.symbols["main"] | 1)
-        self.run(400_000)
+        self.run(STOPS)
 
     def snapshot(self) -> tuple:
         """All that there is."""

@@ -20,11 +20,11 @@ class Nucleo(Stm32g4):
     # Cycles of a tick.
     PERIOD = 170_000_000 // 4_000
     # Memory has not faded when the flag of power-on goes up.
-    BROWN_OUT = {"power": True}
+    BROWN_OUT, BY_PIN = {"power": True}, {}
+    # The share of a width that is no current, as the amplifiers are configured.
+    REST = 0.1
     # Before any clock is there only power is taken away, which counts after a reset of the core alone.
     LOST = {"GPIOC_BSRR", "TIM1_BDTR"}
-    # What breaks, and how many ticks it may take: four for the supply, for a single reading may be noise.
-    BREAKS = {"stop": 1, "ready 1": 1, "ready 2": 1, "ready 3": 1, "supply": 4, "button": 1}
 
     def reset(self, machine, **reasons: bool) -> None:
         super().reset(machine, **reasons)
@@ -64,6 +64,19 @@ class Nucleo(Stm32g4):
     def enable_lines(self) -> list:
         """What each enable line is: a level, or None while the chip leaves it to the resistor on the board."""
         return [self.level(*pin) if self.mode(*pin) == 1 else None for pin in ENABLES]
+
+    def widths(self) -> list[float]:
+        """The set-points, as shares."""
+        return [self.word(width) / self.word(TIM1.ARR) for width in (TIM1.CCR1, TIM1.CCR2, TIM1.CCR3)]
+
+    def spoil_widths(self) -> None:
+        """Leaves others there."""
+        for width in (TIM1.CCR1, TIM1.CCR2, TIM1.CCR3):
+            self.keep(width, self.word(TIM1.ARR) // 2)
+
+    def waits_for_debugger(self) -> bool:
+        """Whether a core that a debugger halts stops the watchdog ("DBGMCU APB1 freeze register 1")."""
+        return bool(self.word(0xE004_2008) >> 12 & 1)
 
     def light(self) -> bool:
         return self.mode(*LIGHT) == 1 and bool(self.level(*LIGHT))

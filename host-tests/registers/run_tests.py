@@ -18,7 +18,7 @@ ROOT = FOLDER.parent.parent
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 ENVIRONMENT = ROOT / "target/registers"
 UNICORN = "unicorn>=2.1.4,<2.2"
-BOARDS = ("stm32g4", "teensy41")
+BOARDS = ("stm32g4", "pico2", "teensy41")
 
 
 def say(text: str) -> None:

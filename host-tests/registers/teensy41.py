@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from angle_sensor import AngleSensor
-from imxrt1062 import EN, FEED, GPIO, IOMUXC, LOW_POWER, PIT, PWM2, SNVS, WDOG3, Imxrt1062
+from imxrt1062 import EN, FEED, GPIO, IOMUXC, LOW_POWER, LPSPI4, PIT, PWM2, SNVS, WDOG3, Imxrt1062
 
 # Pins: port, bit, and the place of their pad among all of them (EMC, AD_B0, AD_B1, B0, B1 and so on).
 AD_B1, EMC, B0, B1 = 0xFC, 0x14, 0x13C, 0x17C
@@ -15,6 +15,8 @@ BUTTON, STOP = (1, 18, AD_B1 + 4 * 2), (1, 27, AD_B1 + 4 * 11)
 READY = ((1, 19, AD_B1 + 4 * 3), (1, 16, AD_B1), (1, 26, AD_B1 + 4 * 10))
 LIGHT = (1, 24, AD_B1 + 4 * 8)
 PADS = {pin[:2]: pin[2] for pin in (*ENABLES, *DIRECTIONS, *SELECTS, BUTTON, STOP, *READY, LIGHT)}
+WIDTHS = ((PWM2.SM0_VAL3, PWM2.SM0_VAL1), (PWM2.SM1_VAL3, PWM2.SM1_VAL1), (PWM2.SM2_VAL3, PWM2.SM2_VAL1))
+EDGES = {GPIO[2].DR_CLEAR: "falls", GPIO[2].DR_SET: "rises"}
 # From a pad's multiplexer to its pulls.
 TO_PULLS = 0x1F0
 
@@ -27,14 +29,10 @@ class Teensy41(Imxrt1062):
     # Cycles of a tick.
     PERIOD = 600_000_000 // 4_000
     # The memo has not faded when the flag of power-on goes up.
-    BROWN_OUT = {"power": True}
+    BROWN_OUT, BY_PIN = {"power": True}, {"pin": True}
+    # The share of a width that is no current, as the amplifiers are configured.
+    REST = 0.1
     LOST: set[str] = set()
-    # What breaks, and how many ticks it may take: four for the supply, for a single reading may be noise; two bad
-    # frames of a sensor are bridged.
-    BREAKS = {
-        "stop": 1, "ready 1": 1, "ready 2": 1, "ready 3": 1, "supply": 4, "button": 1, "sensor 1": 3, "sensor 2": 3,
-        "sensor 3": 3,
-    }  # fmt: skip
 
     def reset(self, machine, **reasons: bool) -> None:
         super().reset(machine, **reasons)
@@ -92,6 +90,26 @@ class Teensy41(Imxrt1062):
 
     def is_output(self, port: int, bit: int, pad: int) -> bool:
         return bool(self.word(GPIO[port].GDIR) >> bit & 1) and self.word(IOMUXC + pad) & 0xF == 5
+
+    def widths(self) -> list[float]:
+        """The set-points, as shares: a submodule counts from 0 to VAL1."""
+        return [(self.word(width) >> 16) / ((self.word(most) >> 16) + 1) for width, most in WIDTHS]
+
+    def spoil_widths(self) -> None:
+        """Leaves others there."""
+        for width, most in WIDTHS:
+            self.keep(width, self.word(width) & 0xFFFF | self.word(most) >> 17 << 16)
+
+    def waits_for_debugger(self) -> bool:
+        """Whether a core that a debugger halts stops the watchdog: it does not with DBG ("RTWDOG_CS")."""
+        return not self.word(WDOG3.CS) >> 2 & 1
+
+    def of_sensors(self, entry) -> str | None:
+        """What a write does on the sensors' bus."""
+        bits = {1 << bit for _, bit, _ in SELECTS}
+        if entry.is_write and entry.address in EDGES and entry.written in bits:
+            return EDGES[entry.address]
+        return "byte" if entry.is_write and entry.address == LPSPI4.TDR else None
 
     def light(self) -> bool:
         return bool(self.word(GPIO[1].GDIR) >> LIGHT[1] & self.word(GPIO[1].DR) >> LIGHT[1] & 1)

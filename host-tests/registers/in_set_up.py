@@ -1,0 +1,76 @@
+"""Before the first tick: what a board's set-up must have done, whichever chip it is."""
+
+from __future__ import annotations
+
+from bench import A_WHILE, Bench
+
+# What the boards' settings and READMEs say.
+RATE, WATCHDOG, BAUD = 4_000, 0.020, 500_000
+
+
+class InSetUp(Bench):
+    """Set-up."""
+
+    def test_enable_lines_are_low_outputs_before_anything_else_of_the_motors(self) -> None:
+        machine = self.after_set_up()
+        log, chip = machine.log, machine.chip
+        self.assertEqual(set(log.enables[0][1]), {None}, "reset leaves them to the board")
+        low = next(index for index, levels in log.enables if set(levels) == {0})
+        of_motors = [entry for entry in log.entries if chip.is_of_motors(entry)]
+        self.assertTrue(of_motors)
+        early = [entry for entry in of_motors if entry.index < low and not chip.is_of_enables(entry)]
+        self.assertEqual([log.show(entry) for entry in early if not entry.is_lost], [])
+
+    def test_no_enable_line_rises_in_set_up(self) -> None:
+        for pressed in (False, True):
+            machine = self.started(pressed, power=True)
+            self.assert_never_high(machine)
+            self.assertEqual(set(machine.chip.enable_lines()), {0})
+
+    def test_watchdog_runs_before_the_first_tick_can_come(self) -> None:
+        machine = self.after_set_up()
+        self.assertAlmostEqual(machine.chip.watchdog_seconds(), WATCHDOG, delta=0.01 * WATCHDOG)
+        self.assertLess(machine.chip.watchdog_started(), len(machine.log.entries) - 1)
+
+    def test_watchdog_is_fed_only_while_ticks_go_on(self) -> None:
+        machine = self.after_set_up()
+        machine.ticks(A_WHILE)
+        fed = machine.chip.feeds()
+        machine.ticks(A_WHILE)
+        self.assertGreater(machine.chip.feeds() - fed, A_WHILE // 8)
+        machine.run(20_000)
+        fed = machine.chip.feeds()
+        machine.run(200_000)
+        self.assertEqual(machine.chip.feeds(), fed)
+
+    def test_nothing_can_delay_the_tick(self) -> None:
+        machine = self.after_set_up()
+        self.assertEqual(machine.priority(machine.chip.TICK), 0)
+        self.assertEqual(machine.unmasked(), [machine.chip.TICK])
+        self.assertFalse(machine.is_masked())
+
+    def test_rate_comes_of_the_clock_as_it_was_set(self) -> None:
+        machine = self.after_set_up()
+        # A timer may count one more: the rate is then a cycle in some ten thousand off, and crystals are no better.
+        self.assertAlmostEqual(machine.chip.tick_rate(), RATE, delta=1e-4 * RATE)
+        machine.ticks(A_WHILE)
+        self.assertEqual(self.last(machine).clock, machine.chip.core_clock(), "what the records call its cycles")
+
+    def test_serial_port_has_its_rate(self) -> None:
+        # A frame of ten bits is understood while its last bit is met: both ends together may be off by 5 %.
+        self.assertAlmostEqual(self.after_set_up().chip.baud(), BAUD, delta=0.02 * BAUD)
+
+    def test_no_peripheral_is_touched_before_it_has_its_clock(self) -> None:
+        machine = self.while_driving()
+        lost = {machine.chip.name(entry.address) for entry in machine.log.entries if entry.is_lost}
+        self.assertEqual(lost, self.BOARD.LOST)
+
+    def test_set_points_rest_until_they_are_driven(self) -> None:
+        machine = self.after_set_up()
+        self.assertEqual(machine.chip.widths(), [0, 0, 0])
+        machine.ticks(1)
+        self.assert_set_points_rest(machine)
+
+    def test_watchdog_bites_at_a_breakpoint_too(self) -> None:
+        # The motors would go on as they were driven last.
+        self.assertFalse(self.after_set_up().chip.waits_for_debugger())

@@ -1,0 +1,64 @@
+"""Boards with AS5047P sensors: how they are asked, and what happens when one does not answer."""
+
+from __future__ import annotations
+
+import telemetry
+from in_force import InForce
+
+# The sensor's data sheet, "SPI timing", s: from the select line's fall to the first clock, and high between two
+# frames; half a clock of the slowest rate that one would choose from the last clock to its rise. Its greatest clock,
+# Hz, and how long it takes to power up, s ("System parameters").
+SET_UP, HIGH, HOLD, CLOCK, POWER_UP = 350e-9, 350e-9, 50e-9, 10e6, 10e-3
+# Two bad frames in a row are bridged.
+BRIDGED = 2
+
+
+class WithAngleSensors(InForce):
+    """Sensors."""
+
+    def edges(self) -> list[tuple[str, float]]:
+        """What happens on the sensors' bus in set-up and some ticks, with its time in s."""
+        machine = self.after_set_up()
+        machine.ticks(2)
+        clock = machine.chip.core_clock()
+        found = ((machine.chip.of_sensors(entry), entry.time / clock) for entry in machine.log.entries)
+        return [(what, time) for what, time in found if what is not None]
+
+    def assert_times(self, first: str, then: str, least: float) -> None:
+        edges = self.edges()
+        times = [end - start for (a, start), (b, end) in zip(edges, edges[1:]) if (a, b) == (first, then)]
+        self.assertGreater(len(times), 12)
+        self.assertGreaterEqual(min(times), least)
+
+    def test_sensors_are_not_asked_before_they_have_powered_up(self) -> None:
+        self.assertGreaterEqual(next(time for what, time in self.edges() if what == "byte"), POWER_UP)
+
+    def test_sensors_bus_is_no_faster_than_they_are(self) -> None:
+        self.assertLessEqual(self.after_set_up().chip.sensor_clock(), CLOCK)
+
+    def test_select_line_is_low_for_350_ns_before_the_first_clock(self) -> None:
+        self.assert_times("falls", "byte", SET_UP)
+
+    def test_select_line_is_high_for_350_ns_between_two_frames(self) -> None:
+        self.assert_times("rises", "falls", HIGH)
+
+    def test_select_line_is_low_for_half_a_clock_after_the_last(self) -> None:
+        self.assert_times("byte", "rises", HOLD)
+
+    def test_every_frame_has_a_select_line_of_its_own(self) -> None:
+        order = [what for what, _ in self.edges() if what != "byte"]
+        frames = order[order.index("falls") :]
+        self.assertEqual(set(order[: order.index("falls")]), {"rises"}, "set-up leaves all high")
+        self.assertEqual(frames, ["falls", "rises"] * (len(frames) // 2))
+
+    def test_silent_sensor_stops_in_the_third_tick(self) -> None:
+        self.assert_broken_line_stops_within(BRIDGED + 1, "sensor 1", "sensor 2", "sensor 3")
+
+    def test_silent_sensor_at_power_on_keeps_force_away(self) -> None:
+        machine = self.new_machine()
+        machine.reset(power=True)
+        machine.chip.break_line("sensor 2")
+        machine.set_up()
+        self.assertFalse(self.drive_again(machine))
+        self.assert_never_high(machine)
+        self.assertEqual(self.last(machine).phase, telemetry.FAULT)
