@@ -2,19 +2,24 @@
 //! change first.
 
 use palpate::device::drive::{Field, Modulation};
-use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION};
+use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION, GIMBAL_KNOB_PROTECTION};
 use palpate::device::sensor::Frozen;
-use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Reference};
+use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Protection, Reference, SupplyRange};
 use palpate::math::Vec3;
 use palpate::render::{Detents, Ends, Feel, Spring, Wave};
-use palpate::servo::{Knob, KnobWitness, Output, Servo, ServoState, Settings};
+use palpate::servo::{GuardState, Guarded, Knob, KnobWitness, Output, Servo, ServoState, Settings};
 use palpate::track::Controller;
 use palpate::wire::Report;
 
 /// The loop of a knob.
-pub type KnobServo = Servo<'static, Knob, Dial, 1>;
+pub type KnobServo = Servo<'static, Knob, Dial, 1, Guarded<1>>;
 /// What it keeps between two ticks.
-pub type KnobState = ServoState<1, KnobWitness>;
+pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
+
+/// What its motor bears; the supply is for whoever measures it to add.
+pub const PROTECTION: Protection<1> = GIMBAL_KNOB_PROTECTION;
+/// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
+pub const SUPPLY: SupplyRange = SupplyRange { least: 10_000, most: 14_000 };
 
 /// 4 kHz; stiffness and damping are the feels' own.
 pub const SETTINGS: Settings = Settings {
@@ -77,12 +82,16 @@ pub const fn homing(search: FieldSearch) -> Homing<1> {
     Homing::new(GIMBAL_KNOB.encoders, Reference::Fields([search]), 1, 0, 8 * search.ticks())
 }
 
-/// The loop of a device, aligned by a search.
-pub const fn servo(device: &'static Device<Dial, 1>, search: FieldSearch) -> KnobServo {
+/// The loop of a device with this protection, aligned by a search.
+pub const fn servo(device: &'static Device<Dial, 1>, search: FieldSearch, protection: Protection<1>) -> KnobServo {
     // It lives as long as the loop: a constant of its own.
     static KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, LET_GO);
-    Servo::new(device, &KNOB, Controller::SECOND_ORDER, SETTINGS).homing(homing(search))
+    Servo::new(device, &KNOB, Controller::SECOND_ORDER, SETTINGS).protect(protection).homing(homing(search))
 }
+
+/// The protection of a loop that is told of its supply ([`SUPPLY`]).
+#[allow(dead_code)]
+pub const TOLD_OF_SUPPLY: Protection<1> = Protection { supply: Some(SUPPLY), ..PROTECTION };
 
 /// The pulse widths that a state asks for; `None` disables the stage.
 #[inline]

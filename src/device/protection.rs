@@ -8,7 +8,24 @@ pub struct Endurance {
     pub continuous: f32,
     /// Thermal time constant of the winding, s. The housing's is left out: it is minutes, and counting on it would burn
     /// a motor that was warm before the loop began.
+    ///
+    /// Where nobody states it, take one that is too short: what the model then lets through never warms the winding
+    /// beyond what `continuous` does, while one that is too long would.
     pub time_constant: f32,
+}
+
+impl Endurance {
+    /// Of a motor with three phases, each of which bears `phase_current` for ever, A, effective, as data sheets have
+    /// it. `current_at_full` is in the scale that keeps the power ([`super::drive::VoltageFeed::three_phase`]).
+    ///
+    /// A rotor that is held has a field that stands: one phase then carries the whole amplitude, as direct current, and
+    /// has twice the heat of a rotor that turns. So the amplitude may be as large as the effective current: no phase is
+    /// then warmer than on its data sheet, however little of its heat the other two take over. While the rotor turns,
+    /// the model has it warmer than it is.
+    pub const fn three_phase(phase_current: f32, current_at_full: f32, time_constant: f32) -> Self {
+        // The amplitude of a phase is √(2/3) of that scale's current.
+        Self { continuous: phase_current * 1.224_744_9 / current_at_full, time_constant }
+    }
 }
 
 /// The supply voltages within which force is given.

@@ -19,14 +19,14 @@ use crate::board::Board;
 use crate::link::Link;
 use crate::timer::{INSTRUCTIONS_PER_SECOND, InstructionCounter};
 pub use shared::SETTINGS;
-use shared::{FROZEN, KnobServo, KnobState, MODULATION, SEARCH, device, report, servo, widths};
+use shared::{FROZEN, KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, device, report, servo, widths};
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends.
 const SILENT_TICKS: u32 = 5;
 
 static DEVICE: Device<Dial, 1> = device(if cfg!(feature = "uncompensated") { None } else { Some(cogging::COGGING) });
 /// Everything the loop knows, in flash.
-pub static SERVO: KnobServo = servo(&DEVICE, SEARCH);
+pub static SERVO: KnobServo = servo(&DEVICE, SEARCH, TOLD_OF_SUPPLY);
 
 const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate);
 
@@ -76,15 +76,17 @@ impl<L: Link> KnobLoop<L> {
         }
     }
 
-    /// What the host says in this tick: the first count is the dial's, the second which feel is chosen.
+    /// What the host says in this tick: the first count is the dial's, the second which feel is chosen, the third the
+    /// supply's millivolts.
     fn input(&mut self) -> Input<1> {
         let received = self.link.receive();
         self.silent_ticks = if received.is_none() { self.silent_ticks + 1 } else { 0 };
         match received {
-            Some(Received::Message(Sensors { tick, counts: [counts, feel, _], enable }))
+            Some(Received::Message(Sensors { tick, counts: [counts, feel, supply], enable }))
                 if tick == self.state.ticks() =>
             {
                 SERVO.note(&mut self.state, Event::Chosen { index: feel as u8 });
+                SERVO.note(&mut self.state, Event::Supply { millivolts: supply as u32 });
                 if self.frozen.is_frozen(counts as u32) {
                     return Input::Damaged;
                 }

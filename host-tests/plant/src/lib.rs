@@ -29,7 +29,9 @@ mod within;
 
 pub use arm::{Arm, Link};
 pub use delta::DeltaSettings;
-pub use dial::{Cogging, Dial, DialSettings, Fingers, Inverter, MagneticFault, MagneticSensor, ThreePhaseMotor};
+pub use dial::{
+    Cogging, Dial, DialSettings, Fingers, Inverter, MagneticFault, MagneticSensor, PhaseHeat, ThreePhaseMotor,
+};
 pub use encoder::{Encoder, EncoderFault};
 pub use five_bar::{FiveBarSettings, LinkLump, LinkageArmSettings};
 pub use hand::{HandPath, HandSettings, StillHand};

@@ -43,7 +43,7 @@ impl ThermalSettings {
         (power / self.resistance_at(self.greatest)).sqrt()
     }
 
-    fn resistance_at(&self, temperature: f64) -> f64 {
+    pub(crate) fn resistance_at(&self, temperature: f64) -> f64 {
         self.resistance * (1.0 + COPPER * (temperature - 25.0))
     }
 }

@@ -32,13 +32,19 @@ pub const GIMBAL_KNOB: Device<Dial, 1> = Device {
 /// How the sensor of [`GIMBAL_KNOB`] goes with the motor's poles.
 pub const GIMBAL_KNOB_COMMUTATION: Commutation = Commutation { counts_per_turn: 16_384, pole_pairs: 11 };
 
-/// What protects [`GIMBAL_KNOB`]: 0.47 A for ever, as its seller has it, in 20 s, which is assumed as of a winding of
-/// its weight; faster than six turns a second under force is a knob that was let go. No watch over signs: the alignment
-/// sees at every start which way the counts go when the motor turns.
+/// What protects [`GIMBAL_KNOB`].
+///
+/// Users of the motor cite one point at which a seller has it hold, 0.47 A at 5 V, and not for how long; 0.4 A of it
+/// are counted on, in whichever phase has the most ([`Endurance::three_phase`]): 41 of the 63 mN·m for ever. 20 s are
+/// assumed, short for a winding of its weight. Faster than nine and a half turns a second under force is a motor that
+/// runs away, or a spring that was wound up by far and let go.
+///
+/// No watch over signs: it would look for contacts that begin in free air, which a knob has none of, and the alignment
+/// sees at every start which way the counts go when the motor turns. The supply is for whoever measures it to add.
 pub const GIMBAL_KNOB_PROTECTION: Protection<1> = Protection {
-    motors: [Endurance { continuous: 0.63, time_constant: 20.0 }],
-    max_joint_rates: [40.0],
-    max_probe_speed: 0.8,
+    motors: [Endurance::three_phase(0.4, CURRENT_AT_FULL, 20.0)],
+    max_joint_rates: [60.0],
+    max_probe_speed: 1.2,
     supply: None,
     signs: None,
 };
@@ -58,5 +64,14 @@ mod tests {
         assert!((FEED.torque_constant - 0.084_4).abs() < 1e-4, "{}", FEED.torque_constant);
         const { assert!(FEED.resistance * CURRENT_AT_FULL < FEED.supply) };
         assert!(GIMBAL_KNOB_COMMUTATION.is_valid());
+    }
+
+    #[test]
+    fn it_bears_for_ever_what_its_strongest_detents_hold_and_the_amplitude_of_a_phase_is_what_counts() {
+        let [Endurance { continuous, .. }] = GIMBAL_KNOB_PROTECTION.motors;
+        // 0.75 A, √(2/3) of which is the amplitude.
+        let squared = 2.0 / 3.0 * (continuous * CURRENT_AT_FULL) * (continuous * CURRENT_AT_FULL);
+        assert!((squared - 0.4 * 0.4).abs() < 1e-6, "{squared}");
+        assert!(continuous * GIMBAL_KNOB.motors[0].torque_at_full > 0.04);
     }
 }

@@ -15,6 +15,11 @@
 //! old as that turn, a tick less than there are joints: `x` passes `c²` by what it moves in that time, below `2/(θ
 //! rate)` of full scale, which the settings' least `θ rate` of 100 keeps small and any real motor's makes nothing (16 s
 //! at 4 kHz: 3·10⁻⁵).
+//!
+//! A motor with three phases has one `x`, that of a phase which has the whole amplitude all the time: no phase ever has
+//! more, wherever the rotor stands ([`Endurance::three_phase`]). And where the winding's own constant is `ϑ ≥ θ`, its
+//! warmth is `(θ/ϑ) x + (1 − θ/ϑ) LP(x)`, with a low-pass `LP` of `ϑ`: not above `c²` either. So a `θ` that is too
+//! short is safe.
 
 use crate::device::Endurance;
 

@@ -29,6 +29,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         let along = if led < 6_000 - 2_000 { led } else { 8_000 - led };
         let counts = Counts((along as f32 * COUNTS_PER_TICK) as i32);
         let input = black_box(Input::Sensors { counts: [counts], enable: true });
+        SERVO.note(&mut state, Event::Supply { millivolts: 12_000 });
         let (_, instructions) = counter.count(|| tick(&mut state, input));
         aligning.add(instructions);
         if state.ticks() > 801 {
@@ -45,6 +46,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
             let way = if index < TICKS / 2 { index } else { TICKS - index } as i32;
             let counts = Counts(way * 5_200 / (TICKS as i32 / 2) - (index as i32 % 7));
             let input = black_box(Input::Sensors { counts: [counts], enable: true });
+            SERVO.note(&mut state, Event::Supply { millivolts: 12_000 });
             let (_, instructions) = counter.count(|| tick(&mut state, input));
             if state.phase() == Phase::Running {
                 running.add(instructions);

@@ -1,14 +1,14 @@
 //! The servo of the knob.
 
 use palpate::device::{Device, Dial};
-use palpate::servo::{Knob, Servo, Unguarded};
+use palpate::servo::{Guarded, Knob};
 use palpate_bench::Felt;
 
-use crate::body::{KnobServo, SEARCH, device, servo};
+use crate::body::{KnobServo, PROTECTION, SEARCH, device, servo};
 
 /// Its motor's cogging is its own: `None` until it has been recorded.
 pub static DEVICE: Device<Dial, 1> = device(None);
-static SERVO: KnobServo = servo(&DEVICE, SEARCH);
+static SERVO: KnobServo = servo(&DEVICE, SEARCH, PROTECTION);
 
 /// What the loop feels.
 pub struct This;
@@ -16,10 +16,10 @@ pub struct This;
 impl Felt<1> for This {
     type Surface = Knob;
     type Mechanism = Dial;
-    type Guard = Unguarded;
+    type Guard = Guarded<1>;
 
     #[inline(always)]
-    fn servo(&self) -> &Servo<'static, Knob, Dial, 1> {
+    fn servo(&self) -> &KnobServo {
         &SERVO
     }
 }

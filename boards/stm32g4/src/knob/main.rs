@@ -25,7 +25,6 @@ mod ticks;
 use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
 use embedded_hal::spi::MODE_1;
-use palpate::device::SupplyRange;
 use palpate::device::drive::NoPin;
 use palpate::servo::Heartbeat;
 use palpate::wire::Record;
@@ -40,7 +39,7 @@ use stm32g4xx_hal::spi::Spi;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, SPI1, interrupt};
 use stm32g4xx_hal::time::{ExtU32, RateExtU32};
 
-use crate::body::{FROZEN, SETTINGS};
+use crate::body::{FROZEN, SETTINGS, SUPPLY};
 use crate::chip::{CLOCK, MEMO};
 use crate::choice::Choice;
 use crate::felt::{DEVICE, This};
@@ -48,8 +47,6 @@ use crate::stage::Stage;
 use crate::supply::Volts;
 use crate::ticks::Ticks;
 
-/// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
-const SUPPLY: SupplyRange = SupplyRange { least: 10_000, most: 14_000 };
 const BENCH: Settings = Settings { supply: Some(SUPPLY), ..Settings::new(CLOCK) };
 
 type Pin = AnyPin<Input>;

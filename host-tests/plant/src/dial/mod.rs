@@ -1,8 +1,10 @@
 //! The simulated dial: a motor with three phases on an inverter, a magnetic sensor behind it, a hand on its rim.
 
+mod heat;
 mod magnetic;
 mod winding;
 
+pub use heat::PhaseHeat;
 pub use magnetic::{MagneticFault, MagneticSensor};
 pub use winding::{Inverter, ThreePhaseMotor};
 
@@ -209,6 +211,11 @@ impl Dial {
     /// From now on the supply has this voltage, V.
     pub fn supply(&mut self, volts: f64) {
         self.settings.inverter.supply = volts;
+    }
+
+    /// The voltage of the supply, V.
+    pub fn supply_volts(&self) -> f64 {
+        self.settings.inverter.supply
     }
 
     /// The angle, rad.

@@ -4,7 +4,7 @@ use super::progress;
 use crate::drawing::{BLUE_INK, Drawing, DrawingResult, GREEN_INK, RED_INK, draw, thinned};
 use crate::firmware::{Board, Image, Link as _, LinkError, Program, Progress, SetUpError};
 use crate::knob::turning::{HostEnd, TICKS, Turned, curve, size, turn, worst_detent};
-use crate::knob::{DIAL_ZERO, FEELS, NAMES, SEARCH, device, recorded, servo};
+use crate::knob::{DIAL_ZERO, FEELS, NAMES, SEARCH, TOLD_OF_SUPPLY, device, recorded, servo};
 use crate::report::{Section, write_sections};
 use anyhow::Context;
 use palpate::servo::{Fault, Phase};
@@ -54,7 +54,7 @@ pub fn run(board: Board, host: bool, file: &Path, picture: Option<&Path>) -> any
 /// None.
 pub fn on_host(compensated: bool) -> anyhow::Result<Run> {
     let cogging = compensated.then_some(recorded::COGGING);
-    let mut end = HostEnd::new(servo(Box::leak(Box::new(device(cogging))), SEARCH));
+    let mut end = HostEnd::new(servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY));
     let turned = turn(DialSettings::gimbal_knob(), |sensors| Ok(end.exchange(sensors)), |_| ())?;
     Ok(Run { turned, image: None })
 }

@@ -1,6 +1,7 @@
 //! A motor's cogging, recorded while its field is led round.
 
-use super::{HostKnob, SEARCH, device, servo};
+use super::{HostKnob, PROTECTION, SEARCH, TOLD_OF_SUPPLY, device, servo};
+use palpate::device::presets::GIMBAL_KNOB;
 use palpate::device::{Commutation, Counts, ElectricalAngle, FieldSearch};
 use palpate_plant::Dial;
 use std::f64::consts::TAU;
@@ -12,10 +13,11 @@ pub const ENTRIES: usize = 2_048;
 const SLOW: usize = 4;
 
 /// The search that goes round the whole motor, slowly, and an electrical turn more: where the way begins, friction has
-/// yet to come round. Its torque is most of what the motor has: the field must hold the rotor more stiffly than the
-/// finest cogging pulls it on, or it jumps from tooth to tooth.
+/// yet to come round. Its torque is all that the motor bears for ever, so that its heat never takes any of it away: the
+/// field must hold the rotor more stiffly than the finest cogging pulls it on, or it jumps from tooth to tooth.
 pub const AROUND: FieldSearch =
-    FieldSearch { turns: SEARCH.commutation.pole_pairs + 1, turn_ticks: 16_000, torque: 0.055, ..SEARCH };
+    FieldSearch { turns: SEARCH.commutation.pole_pairs + 1, turn_ticks: 16_000, torque: 0.04, ..SEARCH };
+const _: () = assert!(AROUND.torque <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full);
 /// Ticks at the beginning of each way in which it comes round: three quarters of an electrical turn.
 const COMING_ROUND: u32 = AROUND.turn_ticks / 4 * 3;
 
@@ -38,7 +40,7 @@ struct Place {
 /// # Errors
 /// The alignment is refused.
 pub fn record(dial: Dial) -> anyhow::Result<Recording> {
-    let mut knob = HostKnob::new(servo(Box::leak(Box::new(device(None))), AROUND), dial);
+    let mut knob = HostKnob::new(servo(Box::leak(Box::new(device(None))), AROUND, TOLD_OF_SUPPLY), dial);
     let mut seen = Vec::new();
     let mut fields = vec![ElectricalAngle(0)];
     while !knob.state().homing().is_done() {

@@ -3,7 +3,7 @@
 use super::{FROZEN, KnobServo, KnobState, MODULATION, widths};
 use palpate::device::Counts;
 use palpate::device::sensor::Frozen;
-use palpate::servo::{Event, Input};
+use palpate::servo::{Event, Input, ResetReason};
 use palpate_plant::Dial;
 
 /// The loop and the dial that it turns.
@@ -16,18 +16,33 @@ pub struct HostKnob {
     pub dial: Dial,
     /// Whether force is asked for.
     pub enable: bool,
+    /// Whether the sensor's frames come damaged.
+    pub damaged: bool,
+    /// Whether the host that watches, if the loop has one, is silent.
+    pub silent: bool,
 }
 
 impl HostKnob {
     /// A loop before its first tick.
     pub fn new(servo: KnobServo, dial: Dial) -> Self {
         let state = servo.start();
-        Self { servo, state, frozen: FROZEN, dial, enable: true }
+        Self { servo, state, frozen: FROZEN, dial, enable: true, damaged: false, silent: false }
+    }
+
+    /// The same after another reset than power-on.
+    pub fn reset_by(mut self, reason: ResetReason) -> Self {
+        self.state = self.servo.start_after(reason);
+        self
     }
 
     /// A tick of the loop, and a period of the dial.
     pub fn tick(&mut self) {
+        self.note(Event::Supply { millivolts: (self.dial.supply_volts() * 1e3) as u32 });
+        if !self.silent {
+            self.note(Event::LinkAlive);
+        }
         let input = match self.dial.counts() {
+            Some(_) if self.damaged => Input::Damaged,
             Some(counts) if self.frozen.is_frozen(counts as u32) => Input::Damaged,
             Some(counts) => Input::Sensors { counts: [Counts(counts)], enable: self.enable },
             None => Input::Lost,

@@ -57,7 +57,7 @@ pub fn turn(
     for tick in 0..TICKS {
         let (feel, way) = grip(&mut dial, tick);
         // A sensor that does not answer is one that says what cannot be.
-        let counts = [dial.counts().unwrap_or(i32::MIN), i32::from(feel), 0];
+        let counts = [dial.counts().unwrap_or(i32::MIN), i32::from(feel), (dial.supply_volts() * 1e3) as i32];
         let report = exchange(&Sensors { tick, counts, enable: true })?;
         dial.advance(given(&report));
         turned.push(Turned {
@@ -121,8 +121,9 @@ impl HostEnd {
 
     /// One tick: sensors in, report out, as the board's loop does it.
     pub fn exchange(&mut self, sensors: &Sensors) -> Report {
-        let [counts, feel, _] = sensors.counts;
+        let [counts, feel, supply] = sensors.counts;
         self.servo.note(&mut self.state, Event::Chosen { index: feel as u8 });
+        self.servo.note(&mut self.state, Event::Supply { millivolts: supply as u32 });
         let input = if self.frozen.is_frozen(counts as u32) {
             Input::Damaged
         } else {

@@ -3,14 +3,14 @@
 use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
 use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
 use palpate::device::drive::ThreePhase;
-use palpate::device::{Counts, Device, Dial, SupplyRange};
-use palpate::servo::{Fault, Knob, Phase, ResetReason, Servo};
+use palpate::device::{Counts, Device, Dial};
+use palpate::servo::{Fault, Guarded, Knob, Phase, ResetReason};
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::{BadFrame, Sensors, Watched};
 use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
 use palpate_plant::{DialSettings, MagneticFault};
-use palpate_tool::knob::{FROZEN, KnobServo, MODULATION, SEARCH, SETTINGS, device, servo};
+use palpate_tool::knob::{FROZEN, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
 use std::cell::RefCell;
 use std::convert::Infallible;
 use std::rc::Rc;
@@ -19,16 +19,16 @@ const CLOCK: u32 = 170_000_000;
 const STEPS: u16 = 6_800;
 
 static DEVICE: Device<Dial, 1> = device(None);
-static SERVO: KnobServo = servo(&DEVICE, SEARCH);
+static SERVO: KnobServo = servo(&DEVICE, SEARCH, PROTECTION);
 
 struct This;
 
 impl Felt<1> for This {
     type Surface = Knob;
     type Mechanism = Dial;
-    type Guard = palpate::servo::Unguarded;
+    type Guard = Guarded<1>;
 
-    fn servo(&self) -> &Servo<'static, Knob, Dial, 1> {
+    fn servo(&self) -> &KnobServo {
         &SERVO
     }
 }
@@ -169,7 +169,7 @@ impl Rig {
         let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
         let queue: &'static mut Queue<Record, 64> = Box::leak(Box::new(Queue::new()));
         let (producer, _) = queue.split();
-        let settings = Settings { supply: Some(SupplyRange { least: 10_000, most: 14_000 }), ..Settings::new(CLOCK) };
+        let settings = Settings { supply: Some(SUPPLY), ..Settings::new(CLOCK) };
         let bench = Bench::new(This, board, &settings, reset, producer, mailbox);
         Self { world, bench, mailbox }
     }

@@ -1,10 +1,13 @@
 //! A dial on a motor with three phases, through the same loop as every device.
 
+mod faults;
+mod heat;
+
 use palpate::device::{CoggingMap, Refusal};
-use palpate::servo::{Event, Fault, Output, Phase};
+use palpate::servo::{Fault, Output, Phase};
 use palpate_plant::{Dial, DialSettings, Fingers, MagneticFault};
 use palpate_tool::commands::demo_knob::recorded_source;
-use palpate_tool::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, device, record, servo};
+use palpate_tool::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, record, servo};
 use palpate_truth::measured::measured;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -21,7 +24,7 @@ fn recorded(settings: DialSettings) -> CoggingMap {
 }
 
 fn knob(settings: DialSettings, cogging: Option<CoggingMap>) -> HostKnob {
-    HostKnob::new(servo(Box::leak(Box::new(device(cogging))), SEARCH), dial(settings))
+    HostKnob::new(servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY), dial(settings))
 }
 
 /// Aligned, and force asked for long enough.
@@ -156,59 +159,6 @@ fn any_angle_and_either_way_of_the_sensor_is_aligned_to_three_percent_of_the_tor
             let off = (f64::from(aligned.at_zero.radians()) - 11.0 * 0.7).sin().asin();
             // cos 14° = 0.97.
             assert!(off.abs() < 0.244, "{angle} {reversed}: {off}");
-        }
-    }
-}
-
-/// What is done to a knob, and which fault that is.
-type Spoil = (&'static str, fn(&mut HostKnob), Fault);
-
-const SPOILT: [Spoil; 6] = [
-    ("sensor absent", |knob| knob.dial.spoil(Some(MagneticFault::Absent)), Fault::FrameLost),
-    ("magnet slipped", |knob| knob.dial.spoil(Some(MagneticFault::Slipped(900))), Fault::JointJumped),
-    ("stop", |knob| knob.note(Event::Stop), Fault::Stopped),
-    ("stage's fault line", |knob| knob.note(Event::DriveFault), Fault::Drive),
-    ("late tick", |knob| (0..64).for_each(|_| knob.note(Event::Overrun)), Fault::Overrun),
-    ("homing refused elsewhere", |knob| knob.note(Event::HomingRefused), Fault::Homing),
-];
-
-/// Does it, and demands that the motor has no current from the next period on, and never again.
-#[track_caller]
-fn lets_go(mut knob: HostKnob, (what, spoil, fault): Spoil, when: &str) {
-    assert!(knob.widths().is_some(), "{when}: it drives");
-    spoil(&mut knob);
-    knob.tick();
-    assert_eq!(knob.state().fault().map(|(fault, _)| fault), Some(fault), "{what}, {when}");
-    assert_eq!((knob.state().output(), knob.widths()), (Output::Off, None), "{what}, {when}");
-    // The widths come into force within the period.
-    for _ in 0..2_000 {
-        knob.tick();
-        assert_eq!((knob.widths(), knob.dial.currents()), (None, [0.0; 3]), "{what}, {when}");
-    }
-}
-
-#[test]
-fn whatever_goes_wrong_in_whatever_phase_lets_go_in_the_same_tick() {
-    let settings = DialSettings::gimbal_knob();
-    let mut aligning = knob(settings, None);
-    let mut phases = Vec::new();
-    for (when, ticks) in [("the field comes up", 400), ("catching", 1_500), ("there", 2_000), ("back", 2_000)] {
-        aligning.ticks(ticks);
-        phases.push((when, aligning.clone()));
-    }
-    let mut felt = running(settings, None);
-    for (index, name) in NAMES.into_iter().enumerate() {
-        felt.choose(index as u8);
-        felt.dial.hold(Fingers::turning(0.7 + 1.3, 0.0));
-        // In the middle of letting go of the last, and after it.
-        felt.ticks(20);
-        phases.push(("switching", felt.clone()));
-        felt.ticks(1_000);
-        phases.push((name, felt.clone()));
-    }
-    for (when, knob) in &phases {
-        for spoil in SPOILT {
-            lets_go(knob.clone(), spoil, when);
         }
     }
 }
