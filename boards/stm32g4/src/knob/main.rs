@@ -128,7 +128,7 @@ fn main() -> ! {
         core.NVIC.set_priority(Interrupt::TIM7, 0);
         NVIC::unmask(Interrupt::TIM7);
     }
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default());
+    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate, SETTINGS.max_force);
     loop {
         idle.step(&mut port, &mut watchdog);
         choice.look(&MAILBOX);

@@ -6,7 +6,7 @@ use palpate::device::drive::ThreePhase;
 use palpate::device::{Counts, Device, Dial};
 use palpate::servo::{Fault, Guarded, Knob, Phase, ResetReason};
 use palpate::wire::Record;
-use palpate::wire::telemetry::Queue;
+use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Sensors, Watched};
 use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
 use palpate_plant::{DialSettings, MagneticFault};
@@ -21,7 +21,7 @@ const STEPS: u16 = 6_800;
 static DEVICE: Device<Dial, 1> = device(None);
 static SERVO: KnobServo = servo(&DEVICE, SEARCH, PROTECTION);
 
-struct This;
+pub struct This;
 
 impl Felt<1> for This {
     type Surface = Knob;
@@ -34,21 +34,21 @@ impl Felt<1> for This {
 }
 
 /// What the pins are wired to.
-struct World {
-    dial: palpate_plant::Dial,
-    button: bool,
+pub struct World {
+    pub dial: palpate_plant::Dial,
+    pub button: bool,
     stop_open: bool,
     ready: [bool; 2],
     volts: f32,
     widths: [u16; 3],
-    enabled: bool,
+    pub enabled: bool,
     cycles: u32,
     reading: u32,
 }
 
-type Shared = Rc<RefCell<World>>;
+pub type Shared = Rc<RefCell<World>>;
 
-struct In(Shared, fn(&World) -> bool);
+pub struct In(Shared, fn(&World) -> bool);
 
 impl PinErrorType for In {
     type Error = Infallible;
@@ -64,7 +64,7 @@ impl InputPin for In {
     }
 }
 
-struct Enable(Shared);
+pub struct Enable(Shared);
 
 impl PinErrorType for Enable {
     type Error = Infallible;
@@ -82,7 +82,7 @@ impl OutputPin for Enable {
     }
 }
 
-struct Width(Shared, usize);
+pub struct Width(Shared, usize);
 
 impl WidthErrorType for Width {
     type Error = Infallible;
@@ -99,7 +99,7 @@ impl SetDutyCycle for Width {
     }
 }
 
-struct Clock(Shared);
+pub struct Clock(Shared);
 
 impl Counter for Clock {
     fn now(&self) -> u32 {
@@ -127,19 +127,26 @@ impl Sensors<1> for Clock {
     }
 }
 
-type Stage = ThreePhase<Width, Width, Width, Enable>;
-type Board = Parts<Clock, Clock, Watched<Clock, 1>, [Stage; 1], In, In, In, Clock, palpate::device::drive::NoPin, 2>;
+pub type Stage = ThreePhase<Width, Width, Width, Enable>;
+pub type Board =
+    Parts<Clock, Clock, Watched<Clock, 1>, [Stage; 1], In, In, In, Clock, palpate::device::drive::NoPin, 2>;
 
-struct Rig {
-    world: Shared,
-    bench: Bench<'static, This, Board, 1>,
-    mailbox: &'static Mailbox,
+pub struct Rig {
+    pub world: Shared,
+    pub bench: Bench<'static, This, Board, 1>,
+    pub mailbox: &'static Mailbox,
+    records: Option<Consumer<'static, Record>>,
 }
 
 impl Rig {
-    fn new(reset: ResetReason) -> Self {
+    pub fn new(reset: ResetReason) -> Self {
+        Self::with(DialSettings::gimbal_knob(), reset)
+    }
+
+    /// Of this dial.
+    pub fn with(dial: DialSettings, reset: ResetReason) -> Self {
         let world = World {
-            dial: palpate_plant::Dial::new(DialSettings::gimbal_knob(), f64::from(SETTINGS.rate)),
+            dial: palpate_plant::Dial::new(dial, f64::from(SETTINGS.rate)),
             button: false,
             stop_open: false,
             ready: [true; 2],
@@ -168,13 +175,13 @@ impl Rig {
         };
         let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
         let queue: &'static mut Queue<Record, 64> = Box::leak(Box::new(Queue::new()));
-        let (producer, _) = queue.split();
+        let (producer, records) = queue.split();
         let settings = Settings { supply: Some(SUPPLY), ..Settings::new(CLOCK) };
         let bench = Bench::new(This, board, &settings, reset, producer, mailbox);
-        Self { world, bench, mailbox }
+        Self { world, bench, mailbox, records: Some(records) }
     }
 
-    fn tick(&mut self) {
+    pub fn tick(&mut self) {
         self.bench.tick();
         let mut world = self.world.borrow_mut();
         let widths = world.enabled.then(|| world.widths.map(|width| f64::from(width) / f64::from(STEPS)));
@@ -182,40 +189,60 @@ impl Rig {
         world.cycles = world.cycles.wrapping_add(CLOCK / SETTINGS.rate as u32 / 2);
     }
 
-    fn ticks(&mut self, ticks: u32) {
+    pub fn ticks(&mut self, ticks: u32) {
         (0..ticks).for_each(|_| self.tick());
     }
 
-    fn set(&self, change: impl FnOnce(&mut World)) {
+    pub fn set(&self, change: impl FnOnce(&mut World)) {
         change(&mut self.world.borrow_mut());
     }
 
-    fn enabled(&self) -> bool {
+    pub fn enabled(&self) -> bool {
         self.world.borrow().enabled
     }
 
-    fn fault(&self) -> Option<Fault> {
+    pub fn fault(&self) -> Option<Fault> {
         self.bench.state().fault().map(|(fault, _)| fault)
     }
 
+    /// Main's end of the queue, once.
+    pub fn take_records(&mut self) -> Consumer<'static, Record> {
+        self.records.take().expect("asked once")
+    }
+
     /// Presses the button that was released.
-    fn press(&mut self) {
+    pub fn press(&mut self) {
         self.set(|world| world.button = false);
         self.ticks(10);
         self.set(|world| world.button = true);
     }
 
     /// Halfway through the alignment.
-    fn aligning() -> Self {
-        let mut rig = Self::new(ResetReason::PowerOn);
+    pub fn aligning() -> Self {
+        Self::new(ResetReason::PowerOn).align()
+    }
+
+    fn align(self) -> Self {
+        let mut rig = self;
         rig.press();
         rig.ticks(SEARCH.ticks() / 2);
         assert!(rig.enabled() && rig.bench.state().phase() == Phase::Calibrate);
         rig
     }
 
-    fn running() -> Self {
-        let mut rig = Self::aligning();
+    pub fn running() -> Self {
+        Self::aligning().run()
+    }
+
+    /// Running, with a sensor so quiet that what is felt of a feel is hardly its noise.
+    pub fn running_quietly() -> Self {
+        let mut dial = DialSettings::gimbal_knob();
+        dial.sensor.noise /= 8.0;
+        Self::with(dial, ResetReason::PowerOn).align().run()
+    }
+
+    fn run(self) -> Self {
+        let mut rig = self;
         rig.ticks(SEARCH.ticks());
         assert_eq!((rig.bench.state().homed(), rig.enabled()), (true, false), "that press asked for the alignment");
         rig.press();

@@ -8,6 +8,7 @@ mod guarded;
 mod homing;
 mod idle;
 mod knob;
+mod knob_orders;
 mod orders;
 mod panel;
 mod phases;
