@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 import telemetry
-from bench import A_WHILE, Bench
+from bench import A_WHILE, OF_RUNNING, Bench
 from machine import HARD_FAULT, Machine
-
-# Memo::new in boards/bench/src/reset.rs.
-MARK, OF_RUNNING, OF_PANIC, OF_EXCEPTION = 0x70A1_9A00, 1, 2, 3
 
 
 class AtResets(Bench):
     """Resets."""
-
-    def assert_memo(self, machine: Machine, cause: int) -> None:
-        word, complement = machine.chip.memo()
-        self.assertEqual((word, complement), (MARK | cause, ~(MARK | cause) & 0xFFFF_FFFF))
 
     def assert_stays_safe(self, machine: Machine, reason: int) -> None:
         """A reset that is a fault: nothing is driven until stop was pressed and let go of."""

@@ -3,21 +3,20 @@ watchdog."""
 
 from __future__ import annotations
 
-from at_resets import OF_EXCEPTION, OF_PANIC, AtResets
-from bench import A_WHILE
+from bench import A_WHILE, OF_EXCEPTION, OF_PANIC, Bench
 from machine import HARD_FAULT, INTERRUPTS, NMI, SYSTEM_TICK, USAGE_FAULT, Machine
 
 # An interrupt of the chip that no board uses.
 STRAY = 3
 
 
-class AtStops(AtResets):
+class AtStops(Bench):
     """Stops."""
 
     def assert_stops(self, machine: Machine, cause: int) -> None:
         """The motors are off, the light is on, the memo is there, and so it stays until the watchdog bites."""
         self.assertEqual(set(machine.chip.enable_lines()), {0})
-        self.assertTrue(machine.chip.light())
+        self.assertEqual(machine.chip.light(), self.HAS_LIGHT)
         self.assert_memo(machine, cause)
         length, fed = len(machine.log.entries), machine.chip.feeds()
         machine.ticks(A_WHILE)

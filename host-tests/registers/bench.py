@@ -11,6 +11,8 @@ from machine import Machine
 
 # More ticks than homing by hand takes (a tenth of a second), and so many that a record has surely come.
 HOMING, A_WHILE = 500, 60
+# Memo::new in boards/bench/src/reset.rs.
+MARK, OF_RUNNING, OF_PANIC, OF_EXCEPTION = 0x70A1_9A00, 1, 2, 3
 
 
 class Bench:
@@ -19,10 +21,12 @@ class Bench:
     BOARD: type
     NAME: str
     A_WHILE, LONG = A_WHILE, 60_000_000
+    # The phase while it is driven, and whether a light says of a stop.
+    DRIVING, HAS_LIGHT = telemetry.RUNNING, True
 
     @classmethod
     def setUpClass(cls) -> None:
-        cls.image = Image(Path(os.environ[f"PALPATE_IMAGE_{cls.NAME.upper()}"]))
+        cls.image = Image(Path(os.environ["PALPATE_IMAGES"]) / cls.NAME)
         machine = Machine(cls.image, cls.BOARD())
         machine.reset(power=True)
         machine.set_up()
@@ -98,3 +102,7 @@ class Bench:
         for width in machine.chip.widths():
             # To a count of a timer that has a thousand or more.
             self.assertAlmostEqual(width, self.BOARD.REST, delta=1e-3)
+
+    def assert_memo(self, machine: Machine, cause: int) -> None:
+        word, complement = machine.chip.memo()
+        self.assertEqual((word, complement), (MARK | cause, ~(MARK | cause) & 0xFFFF_FFFF))

@@ -40,8 +40,11 @@ class Core:
         self.time = self.ahead = 0
         # The exception that is being handled.
         self.during = 0
-        # Looks at the clock since anything else was touched; cycles that go by after a handler's first.
-        self.looks = self.late = 0
+        # Bytes of the access that is being answered.
+        self.width = 4
+        # Looks at the clock since anything else was touched, what the first and the last of them saw; cycles that go by
+        # after a handler's first.
+        self.looks = self.late = self.first_look = self.last_look = 0
         self.until, self.left = 0, False
         self.error: Exception | None = None
         self.stop_when: Callable[[Access], bool] | None = None
@@ -123,6 +126,7 @@ class Core:
 
     def _read_word(self, address: int, size: int) -> int:
         word, shift = address & ~3, (address & 3) * 8
+        self.width = size
         lost = word < CORE and self.chip.is_lost(word)
         if word >= CORE:
             value = self._core(word)
@@ -134,6 +138,7 @@ class Core:
 
     def _write_word(self, address: int, size: int, value: int) -> None:
         word, shift = address & ~3, (address & 3) * 8
+        self.width = size
         value, mask = value << shift, (1 << 8 * size) - 1 << shift
         if word >= CORE:
             old = self.words.get(word, 0)
@@ -155,6 +160,9 @@ class Core:
             return self.words.get(word, 0)
         now = self.cycles & 0xFFFF_FFFF
         self.looks += 1
+        self.last_look = self.cycles
+        if self.looks == 1:
+            self.first_look = self.last_look
         if self.looks > PATIENT_LOOKS:
             self.ahead += HURRY
         if self.during and self.late:
@@ -162,8 +170,9 @@ class Core:
         return now
 
     def _note(self, is_write: bool, word: int, value: int, written: int, lost: bool) -> None:
+        waited = self.last_look - self.first_look if self.looks else 0
         self.looks = 0
-        entry = Access(len(self.log.entries), is_write, word, value, written, self.cycles, self.during, lost)
+        entry = Access(len(self.log.entries), is_write, word, value, written, self.cycles, self.during, waited, lost)
         self.log.entries.append(entry)
         if self.stop_when is not None and self.stop_when(entry):
             self.stop_when = None

@@ -6,14 +6,16 @@ import telemetry
 from bench import A_WHILE, HOMING, Bench
 from machine import Machine
 
-# Out of the range of the supply that the boards' settings name, 20 V to 30 V; and a supply that is on again.
-TOO_LOW, TOO_HIGH, ON = 19.0, 31.0, 24.0
 # A supply is out of its range once it was so for four ticks: one reading may be noise.
 SUPPLY_TICKS = 4
 
 
 class InForce(Bench):
     """Force."""
+
+    def ready(self) -> list[str]:
+        """All ready lines."""
+        return [f"ready {number + 1}" for number in range(self.BOARD.AMPLIFIERS)]
 
     # Nothing moves by itself.
 
@@ -24,7 +26,7 @@ class InForce(Bench):
         machine.chip.press(enable=False)
         machine.ticks(A_WHILE)
         self.assertTrue(self.drive_again(machine))
-        self.assertEqual(self.last(machine).phase, telemetry.RUNNING)
+        self.assertEqual(self.last(machine).phase, self.DRIVING)
 
     def test_enable_held_at_power_on_moves_nothing_until_released_and_pressed(self) -> None:
         self.assert_no_force_until_released_and_pressed(power=True)
@@ -78,7 +80,7 @@ class InForce(Bench):
         self.assert_broken_line_stops_within(1, "stop")
 
     def test_broken_ready_wire_of_any_amplifier_stops_in_the_same_tick(self) -> None:
-        self.assert_broken_line_stops_within(1, "ready 1", "ready 2", "ready 3")
+        self.assert_broken_line_stops_within(1, *self.ready())
 
     def assert_supply_stops(self, volts: float) -> None:
         machine = self.while_driving()
@@ -87,7 +89,7 @@ class InForce(Bench):
         self.assertTrue(self.drives_again_with_supply(machine), "it is a hold, no fault")
 
     def drives_again_with_supply(self, machine: Machine) -> bool:
-        machine.chip.volts = ON
+        _, machine.chip.volts, _ = self.BOARD.SUPPLY_RANGE
         machine.chip.press(enable=False)
         machine.ticks(A_WHILE)
         machine.chip.press(enable=True)
@@ -95,10 +97,10 @@ class InForce(Bench):
         return self.drives(machine)
 
     def test_supply_below_its_range_stops_within_four_ticks(self) -> None:
-        self.assert_supply_stops(TOO_LOW)
+        self.assert_supply_stops(self.BOARD.SUPPLY_RANGE[0])
 
     def test_supply_above_its_range_stops_within_four_ticks(self) -> None:
-        self.assert_supply_stops(TOO_HIGH)
+        self.assert_supply_stops(self.BOARD.SUPPLY_RANGE[2])
 
     def test_late_tick_takes_the_enable_lines_down(self) -> None:
         machine = self.while_driving()
@@ -127,10 +129,11 @@ class InForce(Bench):
         self.assert_is_never_driven_without(telemetry.STOP, "stop")
 
     def test_broken_ready_wire_of_any_amplifier_keeps_force_away(self) -> None:
-        self.assert_is_never_driven_without(telemetry.NOT_READY, "ready 1", "ready 2", "ready 3")
+        self.assert_is_never_driven_without(telemetry.NOT_READY, *self.ready())
 
     def test_supply_out_of_its_range_keeps_force_away(self) -> None:
-        for volts in (TOO_LOW, TOO_HIGH):
+        too_low, _, too_high = self.BOARD.SUPPLY_RANGE
+        for volts in (too_low, too_high):
             with self.subTest(volts):
                 machine = self.once_homed()
                 machine.chip.volts = volts

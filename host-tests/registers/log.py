@@ -20,6 +20,8 @@ class Access:
     time: int
     # The exception it was made in; 0 is main.
     during: int
+    # Cycles that the program saw go by on the core's own counter since the access before.
+    waited: int
     # Whether the peripheral took no notice, for it had no clock or was held in reset.
     is_lost: bool
 

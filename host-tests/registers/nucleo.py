@@ -6,15 +6,17 @@ import struct
 
 from stm32g4 import FEEDS, GPIO, IWDG, LSI, RCC, STARTS, TIM1, TIM2, TIM3, TIM4, TIM7, USART2, Stm32g4, peripheral
 
-BUTTON, STOP, READY, LIGHT = ("C", 13), ("B", 0), (("C", 3), ("C", 4), ("C", 5)), ("A", 5)
-ENABLES = (("C", 0), ("C", 1), ("C", 2))
-# Ports of set-points, directions and enables.
-PORTS = "ABC"
 
 
 class Nucleo(Stm32g4):
     """The board."""
 
+    BUTTON, STOP, READY, LIGHT = ("C", 13), ("B", 0), (("C", 3), ("C", 4), ("C", 5)), ("A", 5)
+    ENABLES = (("C", 0), ("C", 1), ("C", 2))
+    # Timer, its registers for widths.
+    WIDTHS = ((TIM1, TIM1.CCR1), (TIM1, TIM1.CCR2), (TIM1, TIM1.CCR3))
+    # Ports of set-points, directions and enables.
+    PORTS = "ABC"
     # TIM7 ("STM32G4 series vector table").
     TICK = 55
     # Cycles of a tick.
@@ -25,12 +27,15 @@ class Nucleo(Stm32g4):
     REST = 0.1
     # Before any clock is there only power is taken away, which counts after a reset of the core alone.
     LOST = {"GPIOC_BSRR", "TIM1_BDTR"}
+    AMPLIFIERS = 3
+    # V: too low, on, too high.
+    SUPPLY_RANGE = (19.0, 24.0, 31.0)
 
     def reset(self, machine, **reasons: bool) -> None:
         super().reset(machine, **reasons)
         # V, and levels from outside: nothing is pressed, stop's contact is closed, amplifiers are ready.
-        self.volts = 24.0
-        self.levels = {BUTTON: 0, STOP: 0, **{line: 1 for line in READY}}
+        _, self.volts, _ = self.SUPPLY_RANGE
+        self.levels = {self.BUTTON: 0, self.STOP: 0, **{line: 1 for line in self.READY}}
         self.counts = {TIM2.CNT: 0, TIM3.CNT: 0, TIM4.CNT: 0}
 
     def level_outside(self, port: str, pin: int) -> int | None:
@@ -46,49 +51,50 @@ class Nucleo(Stm32g4):
     def press(self, enable: bool | None = None, stop: bool | None = None) -> None:
         """The buttons: the blue one gives a high level; stop's contact opens, and the pin is left to its pull."""
         if enable is not None:
-            self.levels[BUTTON] = int(enable)
+            self.levels[self.BUTTON] = int(enable)
         if stop:
-            del self.levels[STOP]
+            del self.levels[self.STOP]
         elif stop is not None:
-            self.levels[STOP] = 0
+            self.levels[self.STOP] = 0
 
     def break_line(self, what: str) -> None:
-        """Breaks a wire, or takes the supply away."""
-        if what == "supply":
-            self.volts = 0.0
-        elif what == "button":
+        """Breaks a wire."""
+        line, _, number = what.partition(" ")
+        if line == "button":
             self.press(enable=False)
         else:
-            del self.levels[{"stop": STOP, "ready 1": READY[0], "ready 2": READY[1], "ready 3": READY[2]}[what]]
+            del self.levels[self.STOP if line == "stop" else self.READY[int(number) - 1]]
 
     def enable_lines(self) -> list:
         """What each enable line is: a level, or None while the chip leaves it to the resistor on the board."""
-        return [self.level(*pin) if self.mode(*pin) == 1 else None for pin in ENABLES]
+        return [self.level(*pin) if self.mode(*pin) == 1 else None for pin in self.ENABLES]
 
     def widths(self) -> list[float]:
-        """The set-points, as shares."""
-        return [self.word(width) / self.word(TIM1.ARR) for width in (TIM1.CCR1, TIM1.CCR2, TIM1.CCR3)]
+        """The pulse widths, as shares."""
+        return [self.word(width) / self.word(timer.ARR) for timer, width in self.WIDTHS]
 
     def spoil_widths(self) -> None:
         """Leaves others there."""
-        for width in (TIM1.CCR1, TIM1.CCR2, TIM1.CCR3):
-            self.keep(width, self.word(TIM1.ARR) // 2)
+        for timer, width in self.WIDTHS:
+            self.keep(width, self.word(timer.ARR) // 2)
 
     def waits_for_debugger(self) -> bool:
         """Whether a core that a debugger halts stops the watchdog ("DBGMCU APB1 freeze register 1")."""
         return bool(self.word(0xE004_2008) >> 12 & 1)
 
     def light(self) -> bool:
-        return self.mode(*LIGHT) == 1 and bool(self.level(*LIGHT))
+        return self.mode(*self.LIGHT) == 1 and bool(self.level(*self.LIGHT))
 
     def is_of_motors(self, entry) -> bool:
         """A write that makes something of the motors' pins, or to the timer of the set-points."""
         registers = "MODER", "AFRL", "AFRH", "ODR", "BSRR", "BRR"
-        outputs = {getattr(GPIO[port], register) for port in PORTS for register in registers}
-        return entry.is_write and (entry.address in outputs or peripheral(entry.address) == TIM1.base)
+        outputs = {getattr(GPIO[port], register) for port in self.PORTS for register in registers}
+        timers = {timer.base for timer, _ in self.WIDTHS}
+        return entry.is_write and (entry.address in outputs or peripheral(entry.address) in timers)
 
     def is_of_enables(self, entry) -> bool:
-        return entry.address in (GPIO["C"].MODER, GPIO["C"].BSRR)
+        port, _ = self.ENABLES[0]
+        return entry.address in (GPIO[port].MODER, GPIO[port].BSRR)
 
     def memo(self) -> tuple[int, ...]:
         """The memo of the cause, in memory that a reset leaves alone."""

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Runs the images of the boards on the bench among modelled registers: `run_tests.py [BOARD]...`.
+"""Runs the images of the boards on the bench among modelled registers: `run_tests.py [IMAGE]...`.
 
 What runs their instructions (Unicorn) goes into a virtual environment in target/registers, which is said; nothing else
-on the machine is touched. The images are built first; the tool is the one in PALPATE_TOOL, or cargo builds it.
+on the machine is touched. The images are built first, unless PALPATE_IMAGES names a folder that has them; the tool is
+the one in PALPATE_TOOL, or cargo builds it.
 """
 
 from __future__ import annotations
 
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -18,7 +20,16 @@ ROOT = FOLDER.parent.parent
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 ENVIRONMENT = ROOT / "target/registers"
 UNICORN = "unicorn>=2.1.4,<2.2"
-BOARDS = ("stm32g4", "pico2", "teensy41")
+# Each image's board, its program there, and its features.
+IMAGES = {
+    "stm32g4": ("stm32g4", "stm32g4", ""),
+    "pico2": ("pico2", "pico2", ""),
+    "teensy41": ("teensy41", "teensy41", ""),
+    "knob": ("stm32g4", "knob", ""),
+    "stm32g4_host": ("stm32g4", "stm32g4", "host"),
+    "pico2_host": ("pico2", "pico2", "host"),
+    "teensy41_host": ("teensy41", "teensy41", "host"),
+}
 
 
 def say(text: str) -> None:
@@ -40,18 +51,22 @@ def python() -> Path:
     return found
 
 
-def image(board: str) -> Path:
-    """The image of a board, built: the newest, for there is more than one way to a compiler."""
+def build(names: list[str], folder: Path) -> None:
+    """Builds these images into a folder; of each the newest, for there is more than one way to a compiler."""
     tool = [ROOT / os.environ["PALPATE_TOOL"]] if "PALPATE_TOOL" in os.environ else ["cargo", "palpate"]
-    run(*tool, "firmware", "--board", board, "--body", "capped_box", "build", "--release", cwd=ROOT)
-    made = list(TARGET.glob(f"firmware/*/thumb*/release/{board}"))
-    return max(made, key=lambda file: file.stat().st_mtime)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in names:
+        board, program, features = IMAGES[name]
+        chosen = ["--features", features] if features else []
+        run(*tool, "firmware", "--board", board, "--body", "capped_box", "build", "--release", *chosen, cwd=ROOT)
+        made = TARGET.glob(f"firmware/*/thumb*/release/{program}")
+        shutil.copy(max(made, key=lambda file: file.stat().st_mtime), folder / name)
 
 
 def main() -> int:
-    boards = sys.argv[1:] or BOARDS
-    if not set(boards) <= set(BOARDS):
-        say(f"the boards are {', '.join(BOARDS)}")
+    names = sys.argv[1:] or list(IMAGES)
+    if not set(names) <= set(IMAGES):
+        say(f"the images are {', '.join(IMAGES)}")
         return 2
     if sys.version_info < (3, 10):
         say(f"the tests of the boards need Python 3.10, and {sys.executable} is {sys.version.split()[0]}")
@@ -60,11 +75,15 @@ def main() -> int:
         say(f"{sys.executable} makes no virtual environments: install python3-venv, or another Python")
         return 2
     with_unicorn = python()
-    images = {f"PALPATE_IMAGE_{board.upper()}": str(image(board)) for board in boards}
+    if "PALPATE_IMAGES" in os.environ:
+        images = ROOT / os.environ["PALPATE_IMAGES"]
+    else:
+        images = ENVIRONMENT / "images"
+        build(names, images)
     tests = subprocess.run(
-        [with_unicorn, "-m", "unittest", *(f"test_{board}" for board in boards)],
+        [with_unicorn, "-m", "unittest", *(f"test_{name}" for name in names)],
         cwd=FOLDER,
-        env=dict(os.environ, PYTHONDONTWRITEBYTECODE="1", **images),
+        env=dict(os.environ, PYTHONDONTWRITEBYTECODE="1", PALPATE_IMAGES=str(images)),
     )
     return tests.returncode
 

@@ -32,6 +32,7 @@ TIM1, TIM2, TIM3, TIM4, TIM7 = (
 )  # fmt: skip
 TIMERS = (TIM1, TIM2, TIM3, TIM4, TIM7)
 USART2 = Block("USART2", 0x4000_4400, CR1=0, BRR=0xC, ISR=0x1C, RDR=0x24, TDR=0x28)
+SPI1 = Block("SPI1", 0x4001_3000, CR1=0, CR2=4, SR=8, DR=0xC)
 IWDG = Block("IWDG", 0x4000_3000, KR=0, PR=4, RLR=8, SR=0xC, WINR=0x10)
 ADC1 = Block("ADC1", 0x5000_0000, ISR=0, CR=8, DR=0x40, CCR=0x308)
 # Hz; what starts the watchdog, opens its registers and feeds it ("IWDG key register").
@@ -44,6 +45,7 @@ CLOCKS = {
     FLASH.base: (RCC.AHB1ENR, 8),
     PWR.base: (RCC.APB1ENR1, 28),
     TIM1.base: (RCC.APB2ENR, 11),
+    SPI1.base: (RCC.APB2ENR, 12),
     TIM2.base: (RCC.APB1ENR1, 0),
     TIM3.base: (RCC.APB1ENR1, 1),
     TIM4.base: (RCC.APB1ENR1, 2),
@@ -60,7 +62,7 @@ def peripheral(address: int) -> int:
 
 
 class Stm32g4(Chip):
-    """The chip. What is around it answers `level_outside`, `reading` and `count`."""
+    """The chip. What is around it answers `level_outside`, `reading`, `count` and `exchange`."""
 
     CORE = arm_const.UC_CPU_ARM_CORTEX_M4
     MEMORY = ((0x0800_0000, 0x8_0000), (0x1000_0000, 0x8000), (0x2000_0000, 0x2_0000))
@@ -76,6 +78,7 @@ class Stm32g4(Chip):
         PWR.CR1: 0x200,
         PWR.CR3: 0x8000,
         PWR.CR5: 0x100,
+        SPI1.CR2: 0x700,
         IWDG.RLR: 0xFFF,
         IWDG.WINR: 0xFFF,
         ADC1.CR: 0x2000_0000,
@@ -92,7 +95,7 @@ class Stm32g4(Chip):
         """Every reset pulls the pin too ("System reset"); power-on raises the flag of a brown-out ("RCC_CSR")."""
         self.machine = machine
         self.keep(RCC.CSR, 1 << 26 | power << 27 | watchdog << 29)
-        self.received, self.sent = bytearray(), bytearray()
+        self.received, self.sent, self.answers = bytearray(), bytearray(), bytearray()
 
     def is_lost(self, address: int) -> bool:
         """A peripheral without its clock takes nothing and gives nothing ("Peripheral clock enable registers")."""
@@ -125,6 +128,11 @@ class Stm32g4(Chip):
             value = 0xC0 | bool(self.received) << 5 | 0b11 << 21
         elif address == USART2.RDR and self.received:
             value = self.received.pop(0)
+        elif address == SPI1.SR:
+            # TXE; RXNE while an answer waits; how many wait, two bits. It is never busy: a byte goes at once.
+            value = 2 | bool(self.answers) | min(len(self.answers), 3) << 9
+        elif address == SPI1.DR:
+            value = int.from_bytes(bytes(self.take_answer() for _ in range(self.machine.width)), "little")
         elif address in (IWDG.SR, PWR.SR2):
             # What was written has been taken; the voltage is there.
             value = 0
@@ -147,6 +155,9 @@ class Stm32g4(Chip):
         if address in (timer.SR for timer in TIMERS):
             # Flags are cleared by writing 0.
             value &= self.word(address)
+        elif address in (timer.ARR for timer in TIMERS if timer is not TIM2):
+            # 16 bits, and four of a fraction that is not used.
+            value &= 0xF_FFFF
         elif address == ADC1.CR:
             # Writing 0 takes back no order, and each is carried out at once: ADDIS ends ADEN, ADSTART brings EOC and
             # EOS, ADSTP and ADCAL are over. ADRDY follows ADEN.
@@ -167,7 +178,16 @@ class Stm32g4(Chip):
             value &= ~(0x1FF << 23)
         elif address == USART2.TDR:
             self.sent.append(value & 0xFF)
+        elif address == SPI1.DR:
+            # Of two bytes at once the lower goes first ("Data packing").
+            assert self.word(SPI1.CR2) >> 8 & 0xF == 7 and self.word(SPI1.CR1) >> 6 & 1, "it runs, with 8 bits"
+            for at in range(self.machine.width):
+                self.answers.append(self.exchange(value >> 8 * at & 0xFF))
         return self.keep(address, value)
+
+    def take_answer(self) -> int:
+        """What came over SPI, in its order."""
+        return self.answers.pop(0) if self.answers else 0
 
     def mode(self, port: str, pin: int) -> int:
         """0 input, 1 output, 2 alternate function, 3 analog."""

@@ -33,11 +33,14 @@ class Teensy41(Imxrt1062):
     # The share of a width that is no current, as the amplifiers are configured.
     REST = 0.1
     LOST: set[str] = set()
+    AMPLIFIERS = SENSORS = 3
+    # V: too low, on, too high.
+    SUPPLY_RANGE = (19.0, 24.0, 31.0)
 
     def reset(self, machine, **reasons: bool) -> None:
         super().reset(machine, **reasons)
         # V, and levels from outside: stop's contact is closed, amplifiers are ready. The button is open.
-        self.volts = 24.0
+        _, self.volts, _ = self.SUPPLY_RANGE
         self.levels = {STOP: 0, **{line: 1 for line in READY}}
         self.sensors = [AngleSensor() for _ in SELECTS]
 
@@ -75,11 +78,9 @@ class Teensy41(Imxrt1062):
                 self.levels.pop(line, None)
 
     def break_line(self, what: str) -> None:
-        """Breaks a wire, or takes the supply away."""
+        """Breaks a wire."""
         line, _, number = what.partition(" ")
-        if line == "supply":
-            self.volts = 0.0
-        elif line == "sensor":
+        if line == "sensor":
             self.sensors[int(number) - 1].answers = False
         else:
             del self.levels[{"stop": STOP, "button": BUTTON}.get(line) or READY[int(number) - 1]]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 HELLO, RECORD = 0, 1
 POWER_ON, PIN, SOFTWARE, WATCHDOG, BROWN_OUT, PANIC, EXCEPTION, TOOL = 0, 1, 2, 3, 4, 6, 7, 8
-ARMED, RUNNING, FAULT = 2, 3, 4
+CALIBRATE, ARMED, RUNNING, FAULT = 1, 2, 3, 4
 STOP, NOT_READY, SUPPLY, RELEASE_FIRST = 1, 2, 4, 8
 VARIABLE = ("tick", "number", "clock", "began", "shortest", "longest", "took", "dropped")
 

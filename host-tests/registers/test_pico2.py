@@ -5,6 +5,7 @@ from __future__ import annotations
 import unittest
 
 import telemetry
+from at_resets import AtResets
 from at_stops import AtStops
 from in_set_up import InSetUp
 from pico2 import BUTTON, ENABLES, MOTORS, READY, SELECTS, SET_POINTS, SLICES, STOP, SUPPLY, Pico2
@@ -15,7 +16,7 @@ from rp2350 import (
 from with_angle_sensors import WithAngleSensors
 
 
-class Pico(InSetUp, WithAngleSensors, AtStops, unittest.TestCase):
+class Pico(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
     BOARD, NAME = Pico2, "pico2"
 
     # Pins.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unittest
 
+from at_resets import AtResets
 from at_stops import AtStops
 from in_force import InForce
 from in_set_up import InSetUp
@@ -11,7 +12,7 @@ from nucleo import Nucleo
 from stm32g4 import ADC1, ADCAL, ADEN, ADVREGEN, FLASH, GPIO, PWR, RCC, TIM1, TIM2, TIM3, TIM4
 
 
-class Stm32g4(InSetUp, InForce, AtStops, unittest.TestCase):
+class Stm32g4(InSetUp, InForce, AtResets, AtStops, unittest.TestCase):
     BOARD, NAME = Nucleo, "stm32g4"
 
     def test_power_interface_has_its_clock_before_the_boost_is_set(self) -> None:

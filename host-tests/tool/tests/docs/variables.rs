@@ -1,6 +1,6 @@
 //! `CONTRIBUTING.md` has every environment variable, and no other.
 
-use crate::pages::{cells, sources, text};
+use crate::pages::{cells, files, sources, text};
 use std::collections::BTreeSet;
 
 const MARK: &str = "PALPATE_";
@@ -14,8 +14,9 @@ fn named(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_environment_variable_is_in_the_table() {
-    let files = ["src", "host-tests", "boards", "examples"].iter().flat_map(|folder| sources(folder));
-    let used: BTreeSet<String> = files.flat_map(|file| named(&text(&file))).collect();
+    let rust = ["src", "host-tests", "boards", "examples"].iter().flat_map(|folder| sources(folder));
+    let python = files("host-tests/registers", "py");
+    let used: BTreeSet<String> = rust.chain(python).flat_map(|file| named(&text(&file))).collect();
     let page = text("CONTRIBUTING.md");
     let listed: BTreeSet<String> = page
         .lines()

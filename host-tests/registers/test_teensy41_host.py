@@ -1,0 +1,13 @@
+"""The Teensy 4.1's image that a host may order about: it sets the chip up and stops like the other."""
+
+from __future__ import annotations
+
+import unittest
+
+from at_stops import AtStops
+from in_set_up import InSetUp
+from teensy41 import Teensy41
+
+
+class TeensyWithHost(InSetUp, AtStops, unittest.TestCase):
+    BOARD, NAME = Teensy41, "teensy41_host"
