@@ -25,8 +25,13 @@ class Bench:
     DRIVING, HAS_LIGHT = telemetry.RUNNING, True
 
     @classmethod
-    def setUpClass(cls) -> None:
+    def load(cls) -> None:
+        """Loads the image."""
         cls.image = Image(Path(os.environ["PALPATE_IMAGES"]) / cls.NAME)
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.load()
         machine = Machine(cls.image, cls.BOARD())
         machine.reset(power=True)
         machine.set_up()

@@ -20,15 +20,17 @@ ROOT = FOLDER.parent.parent
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 ENVIRONMENT = ROOT / "target/registers"
 UNICORN = "unicorn>=2.1.4,<2.2"
-# Each image's board, its program there, and its features.
+# What builds an image of the loop; with more words, that for a host.
+LOOP = ("--body", "capped_box", "build", "--release")
+HOST = (*LOOP, "--features", "host")
+# Each image's board, its file among what is built, and what builds it.
 IMAGES = {
-    "stm32g4": ("stm32g4", "stm32g4", ""),
-    "pico2": ("pico2", "pico2", ""),
-    "teensy41": ("teensy41", "teensy41", ""),
-    "knob": ("stm32g4", "knob", ""),
-    "stm32g4_host": ("stm32g4", "stm32g4", "host"),
-    "pico2_host": ("pico2", "pico2", "host"),
-    "teensy41_host": ("teensy41", "teensy41", "host"),
+    "stm32g4": ("stm32g4", "stm32g4", LOOP),
+    "knob": ("stm32g4", "knob", LOOP),
+    "pico2": ("pico2", "pico2", LOOP),
+    "teensy41": ("teensy41", "teensy41", LOOP),
+    **{f"{board}_host": (board, board, HOST) for board in ("stm32g4", "pico2", "teensy41")},
+    **{f"{board}_accept": (board, f"{board}-accept", ("accept",)) for board in ("stm32g4", "pico2", "teensy41")},
 }
 
 
@@ -56,10 +58,9 @@ def build(names: list[str], folder: Path) -> None:
     tool = [ROOT / os.environ["PALPATE_TOOL"]] if "PALPATE_TOOL" in os.environ else ["cargo", "palpate"]
     folder.mkdir(parents=True, exist_ok=True)
     for name in names:
-        board, program, features = IMAGES[name]
-        chosen = ["--features", features] if features else []
-        run(*tool, "firmware", "--board", board, "--body", "capped_box", "build", "--release", *chosen, cwd=ROOT)
-        made = TARGET.glob(f"firmware/*/thumb*/release/{program}")
+        board, file_name, words = IMAGES[name]
+        run(*tool, "firmware", "--board", board, *words, cwd=ROOT)
+        made = TARGET.glob(f"firmware/*/thumb*/release/{file_name}")
         shutil.copy(max(made, key=lambda file: file.stat().st_mtime), folder / name)
 
 

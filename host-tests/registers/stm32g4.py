@@ -40,6 +40,8 @@ HSI, LSI, STARTS, OPENS, FEEDS = 16e6, 32_000, 0xCCCC, 0x5555, 0xAAAA
 # Bits of a converter's orders ("ADC control register").
 ADEN, ADDIS, ADSTART, ADCAL, ADVREGEN = 0, 1, 2, 31, 28
 
+# The bit of RCC_CSR for each reason; the pin's own is always up.
+REASONS = {"power": 27, "software": 28, "watchdog": 29, "window": 30}
 # Which bit gives which peripheral its clock ("RCC peripheral clock enable registers").
 CLOCKS = {
     FLASH.base: (RCC.AHB1ENR, 8),
@@ -91,10 +93,10 @@ class Stm32g4(Chip):
         TIM2.ARR: 0xFFFF_FFFF,
     }
 
-    def reset(self, machine, power: bool = False, watchdog: bool = False) -> None:
+    def reset(self, machine, **reasons: bool) -> None:
         """Every reset pulls the pin too ("System reset"); power-on raises the flag of a brown-out ("RCC_CSR")."""
         self.machine = machine
-        self.keep(RCC.CSR, 1 << 26 | power << 27 | watchdog << 29)
+        self.keep(RCC.CSR, 1 << 26 | sum(1 << REASONS[reason] for reason, is_so in reasons.items() if is_so))
         self.received, self.sent, self.answers = bytearray(), bytearray(), bytearray()
 
     def is_lost(self, address: int) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unittest
 
+import telemetry
 from at_resets import AtResets
 from at_stops import AtStops
 from in_force import InForce
@@ -74,3 +75,9 @@ class Stm32g4(InSetUp, InForce, AtResets, AtStops, unittest.TestCase):
         # 20 µs for the regulator ("ADC voltage regulator"); calibrated before it is on ("Calibration").
         self.assertGreater(calibrates - regulator, 20e-6 * machine.chip.core_clock())
         self.assertLess(calibrates, on)
+
+    def test_reset_that_was_asked_for_is_told(self) -> None:
+        self.assert_is_told(telemetry.SOFTWARE, software=True)
+
+    def test_window_watchdog_is_a_program_that_hung(self) -> None:
+        self.assert_is_told(telemetry.WATCHDOG, window=True)
