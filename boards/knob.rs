@@ -1,7 +1,7 @@
 //! The knob of the boards: its device, how its rotor is aligned, and the table of what it feels like. The file to
 //! change first.
 
-use palpate::device::drive::{Field, Modulation};
+use palpate::device::drive::{Feed, Field, Modulation};
 use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION, GIMBAL_KNOB_PROTECTION};
 use palpate::device::sensor::Frozen;
 use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Protection, Reference, SupplyRange};
@@ -10,6 +10,7 @@ use palpate::render::{Detents, Ends, Feel, Spring, Wave};
 use palpate::servo::{GuardState, Guarded, Knob, KnobWitness, Output, Servo, ServoState, Settings};
 use palpate::track::Controller;
 use palpate::wire::Report;
+use palpate_bench::JogSettings;
 
 /// The loop of a knob.
 pub type KnobServo = Servo<'static, Knob, Dial, 1, Guarded<1>>;
@@ -40,6 +41,23 @@ pub const fn device(cogging: Option<CoggingMap>) -> Device<Dial, 1> {
 /// The field comes up within a fifth of a second and is led round three electrical turns, half a second each.
 pub const SEARCH: FieldSearch =
     FieldSearch { commutation: GIMBAL_KNOB_COMMUTATION, torque: 0.03, ramp_ticks: 800, turn_ticks: 2_000, turns: 1 };
+
+/// How the rotor is led round while button and key are held, to record its cogging: 6 s for an electrical turn, with 40
+/// mN·m. Faster, its inertia would count as cogging. It snaps to the field at first, so it may be faster for a moment.
+#[allow(dead_code)]
+pub const JOG: JogSettings =
+    JogSettings { share: 0.42, rate: 20.0, travel: 9.0, patience: 0.1, turn_ticks: Some(24_000) };
+
+/// The torque of a field that is led with this duty of voltage on a rotor a quarter turn behind it, N·m.
+#[allow(dead_code)]
+pub const fn led_torque(share: f32) -> f32 {
+    match GIMBAL_KNOB.feeds[0] {
+        Feed::Voltage(feed) => feed.torque_constant * share * feed.supply / feed.resistance,
+        Feed::Current => 0.0,
+    }
+}
+// No heat is counted meanwhile: what may be given is what the motor bears for ever.
+const _: () = assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full);
 
 /// A sensor that says the very same for a quarter of a second has frozen.
 pub const FROZEN: Frozen = Frozen::after(1_000);

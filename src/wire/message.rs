@@ -172,7 +172,9 @@ pub struct Reading {
     pub tick: u32,
     /// The number of the last [`crate::commission::Jog`] that was taken.
     pub number: u32,
-    /// Encoder counts, by the board's inputs; those of the last tick whose sensors answered.
+    /// Encoder counts, by the board's inputs; those of the last tick whose sensors answered. Where the field of a motor
+    /// with three phases is led round, the last is how far, 65,536ths of an electrical turn: such a device has no third
+    /// joint.
     pub counts: [i32; 3],
     /// Motor duties now applied, by the board's outputs, full scale ±32 767.
     pub duties: [i16; 3],

@@ -54,6 +54,7 @@ mod drives;
 mod hold;
 mod idle;
 mod interlock;
+mod led;
 mod letter;
 mod light;
 mod lines;

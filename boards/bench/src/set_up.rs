@@ -1,6 +1,7 @@
 //! A device that is being set up: one motor at a time, gently, while somebody holds a key.
 
-use crate::{Board, Hold, Interlock, Mailbox, Panel};
+use crate::led::Led;
+use crate::{Board, Hold, Interlock, Mailbox, NotObeyed, Panel};
 use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging};
 use palpate::device::{Counts, Device, Duty, Encoder};
 use palpate::wire::{Reading, hold};
@@ -16,12 +17,15 @@ pub struct JogSettings {
     pub travel: f32,
     /// Seconds without a frame after which the key counts as let go; half a second at most.
     pub patience: f32,
+    /// Ticks in which the field of a motor with three phases is led round an electrical turn, 64 at least: on for a
+    /// duty above zero, back for one below. `None` for motors without phases; one that has them is then not driven.
+    pub turn_ticks: Option<u32>,
 }
 
 impl JogSettings {
     /// Four tenths of full duty, for a third is what it takes to lift the plate of a Novint Falcon with one leg: 2 N at
     /// the probe of a WoodenHaptics; 4 rad/s; 1 rad; a tenth of a second.
-    pub const DEFAULT: Self = Self { share: 0.4, rate: 4.0, travel: 1.0, patience: 0.1 };
+    pub const DEFAULT: Self = Self { share: 0.4, rate: 4.0, travel: 1.0, patience: 0.1, turn_ticks: None };
 
     /// The limits in counts and duties.
     fn limits<const JOINTS: usize>(&self, encoders: &[Encoder; JOINTS]) -> JogLimits<JOINTS> {
@@ -42,6 +46,8 @@ impl JogSettings {
 pub(crate) struct SetUp<const JOINTS: usize> {
     jogging: Jogging<JOINTS>,
     state: JogState<JOINTS>,
+    /// The field, of motors that have one.
+    led: Option<Led>,
     counts: [Counts; JOINTS],
     /// Whether the enable input asks for it.
     enable: bool,
@@ -57,8 +63,13 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
     /// The limit that is refused: nothing will be jogged.
     pub fn try_new<K>(settings: &JogSettings, device: &Device<K, JOINTS>, rate: f32) -> Result<Self, JogLimitsError> {
         let jogging = Jogging::try_new(settings.limits(&device.encoders), rate)?;
+        let led = match settings.turn_ticks.map(Led::try_new) {
+            Some(None) => return Err(JogLimitsError::Speed),
+            Some(led) => led,
+            None => None,
+        };
         let (state, counts) = (JogState::default(), [Counts(0); JOINTS]);
-        Ok(Self { jogging, state, counts, enable: false, hold: 0, is_stopped: false })
+        Ok(Self { jogging, state, led, counts, enable: false, hold: 0, is_stopped: false })
     }
 
     /// A tick up to the motors, whose duties this leaves with the board.
@@ -125,11 +136,26 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         for (told, Duty(duty)) in reading.duties.iter_mut().zip(self.state.duties()) {
             *told = duty;
         }
+        if let (Some(led), 1 | 2) = (&self.led, JOINTS) {
+            reading.counts[2] = led.gone();
+        }
         reading
     }
 
+    fn drive<B: Board<JOINTS>>(&mut self, board: &mut B) -> Result<(), NotObeyed> {
+        let mut duties = self.state.duties();
+        if let Some(led) = &mut self.led {
+            // One motor at a time: the others have no duty, wherever their fields are.
+            duties.into_iter().for_each(|duty| led.on(duty));
+            board.aim([led.angle(); JOINTS]);
+            // The sign says which way the field goes, not which way it points.
+            duties = duties.map(|Duty(duty)| Duty(duty.saturating_abs()));
+        }
+        board.drive(duties)
+    }
+
     fn output<B: Board<JOINTS>>(&mut self, board: &mut B) {
-        let obeyed = if self.state.is_live() { board.drive(self.state.duties()) } else { board.release() };
+        let obeyed = if self.state.is_live() { self.drive(board) } else { board.release() };
         if obeyed.is_err() {
             self.jogging.refuse(&mut self.state, JogRefusal::Drive);
             // Whatever of it still obeys.

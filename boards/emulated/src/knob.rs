@@ -24,7 +24,7 @@ use shared::{FROZEN, KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, d
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends.
 const SILENT_TICKS: u32 = 5;
 
-static DEVICE: Device<Dial, 1> = device(if cfg!(feature = "uncompensated") { None } else { Some(cogging::COGGING) });
+static DEVICE: Device<Dial, 1> = device(if cfg!(feature = "uncompensated") { None } else { cogging::COGGING });
 /// Everything the loop knows, in flash.
 pub static SERVO: KnobServo = servo(&DEVICE, SEARCH, TOLD_OF_SUPPLY);
 

@@ -6,8 +6,12 @@ use palpate_bench::Felt;
 
 use crate::body::{KnobServo, PROTECTION, SEARCH, device, servo};
 
-/// Its motor's cogging is its own: `None` until it has been recorded.
-pub static DEVICE: Device<Dial, 1> = device(None);
+/// Its motor's cogging is its own, and recorded over the line: `docs/knob.md`.
+mod cogging {
+    include!("cogging.rs");
+}
+
+pub static DEVICE: Device<Dial, 1> = device(cogging::COGGING);
 static SERVO: KnobServo = servo(&DEVICE, SEARCH, PROTECTION);
 
 /// What the loop feels.

@@ -39,7 +39,7 @@ use stm32g4xx_hal::spi::Spi;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, SPI1, interrupt};
 use stm32g4xx_hal::time::{ExtU32, RateExtU32};
 
-use crate::body::{FROZEN, SETTINGS, SUPPLY};
+use crate::body::{FROZEN, JOG, SETTINGS, SUPPLY};
 use crate::chip::{CLOCK, MEMO};
 use crate::choice::Choice;
 use crate::felt::{DEVICE, This};
@@ -47,7 +47,7 @@ use crate::stage::Stage;
 use crate::supply::Volts;
 use crate::ticks::Ticks;
 
-const BENCH: Settings = Settings { supply: Some(SUPPLY), ..Settings::new(CLOCK) };
+const BENCH: Settings = Settings { supply: Some(SUPPLY), jog: Some(JOG), ..Settings::new(CLOCK) };
 
 type Pin = AnyPin<Input>;
 type Bus = Spi<SPI1, (PA5<AF5>, PA6<AF5>, PA7<AF5>)>;

@@ -1,5 +1,6 @@
 //! `palpate commission`: a device on the bench, measured into its file.
 
+use super::demo_knob::recorded_of;
 use super::device::toml_of;
 use crate::commission::{
     Device, EmulatedLine, Finding, HostLine, Key, KeyHeld, Keyboard, Lab, Line, NoKey, Person, Planted, PlantedFault,
@@ -7,11 +8,13 @@ use crate::commission::{
 };
 use crate::devices;
 use crate::firmware::{Board, Choice, Program, Progress};
+use crate::knob;
 use crate::own::{self, DeviceFile, OwnDevice};
 use anyhow::{Context, bail};
 use clap::Args;
 use palpate::commission::JogRefusal;
 use palpate::wire::Reading;
+use palpate_plant::DialSettings;
 use std::io::{IsTerminal, Write as _, stdout};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -22,6 +25,9 @@ use std::time::{Duration, Instant};
 /// A motor moves only while the enable button of the device and the space bar are both held, with four tenths of its
 /// full torque at most; a line that falls silent counts as a key let go after 0.1 s. With --emulator or --host the
 /// device, its hands and what is wrong with it (--plant) are simulated, and nothing is asked.
+///
+/// Of a knob (--device knob) the cogging of its motor is recorded: the field is led round it, there and back, for as
+/// long as both are held, and --out is the file that its image is built from.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The serial port the device is on, such as /dev/ttyACM0
@@ -36,11 +42,11 @@ pub struct Arguments {
     /// The same without an emulator: the boards' loop compiled for the host
     #[arg(long, group = "where")]
     host: bool,
-    /// What the device is believed to be: the file of one's own (my.toml), or a device that ships
+    /// What the device is believed to be: the file of one's own (my.toml), or a device that ships, or knob
     #[arg(long, value_name = "DEVICE", default_value = "woodenhaptics-2016")]
     device: PathBuf,
-    /// Where the measured file goes (device.toml); nothing is measured without it
-    #[arg(long, value_name = "FILE.toml", required_unless_present_any = ["jog", "watch"])]
+    /// Where the measured file goes (device.toml; of a knob FILE.rs); nothing is measured without it
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["jog", "watch"])]
     out: Option<PathBuf>,
     /// By which known angles encoders are found
     #[arg(long, value_enum, default_value_t)]
@@ -78,6 +84,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         bail!("either --port, --emulator or --host");
     }
     let name = arguments.device.to_string_lossy();
+    if name == "knob" {
+        return record_cogging(arguments);
+    }
     let own = match devices::named(&name) {
         Some(shipped) => {
             OwnDevice::new(shipped.file().with_context(|| format!("{name} has less than three joints"))?, &name)?
@@ -91,7 +100,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(output) = arguments.jog {
         return jog(&mut lab, &own.file, (output, arguments.duty), arguments.seconds);
     }
-    let Some(out) = &arguments.out else { bail!("--out FILE.toml says where the measured file goes") };
+    let Some(out) = &arguments.out else { bail!("--out FILE says where the measured file goes") };
     let measured = if arguments.weigh { find } else { find_mounting };
     let (file, findings) = measured(&mut lab, &own, arguments.zero)?;
     let found = OwnDevice::new(file, "what was measured")?;
@@ -99,6 +108,28 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     std::fs::write(out, toml_of(&found, &head)?).with_context(|| format!("cannot write {}", out.display()))?;
     report(&own, &findings);
     println!("written to {}", out.display());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Records the cogging of a knob's motor.
+fn record_cogging(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    let Some(out) = arguments.out.as_ref().filter(|_| !arguments.weigh && arguments.plant.is_empty()) else {
+        bail!("of a knob the cogging alone is recorded: --out FILE.rs, without --watch, --jog, --weigh and --plant");
+    };
+    let (recording, from) = if let Some(path) = &arguments.port {
+        let mut device = Device::connect(Box::new(PortLine::open(path, arguments.baud)?), Box::new(Keyboard::new()?))?;
+        println!(
+            "The field leads the dial round once and a quarter, there and back, in three minutes. Let go of the dial."
+        );
+        (knob::record(&mut device, &mut Person::new(Vec::new())?)?, "this board's motor")
+    } else if arguments.host {
+        (recorded_of(DialSettings::gimbal_knob())?, "the simulated gimbal motor")
+    } else {
+        bail!("a knob is at a --port, or simulated on the --host");
+    };
+    std::fs::write(out, recording.source(from)).with_context(|| format!("cannot write {}", out.display()))?;
+    println!("cogging of {:.2} mN·m, root mean square", 1e3 * recording.size());
+    println!("written to {}: build the image anew", out.display());
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,14 +1,17 @@
 //! `palpate demo --device knob`: the knob's image on an emulated board, a hand that turns the simulated dial.
 
 use super::progress;
+use crate::commission::{Device, KeyHeld};
 use crate::drawing::{BLUE_INK, Drawing, DrawingResult, GREEN_INK, RED_INK, draw, thinned};
 use crate::firmware::{Board, Image, Link as _, LinkError, Program, Progress, SetUpError};
 use crate::knob::turning::{HostEnd, TICKS, Turned, curve, size, turn, worst_detent};
-use crate::knob::{DIAL_ZERO, FEELS, NAMES, SEARCH, TOLD_OF_SUPPLY, device, recorded, servo};
+use crate::knob::{
+    DIAL_ZERO, FEELS, KnobLine, NAMES, Recording, SEARCH, SharedKnob, TOLD_OF_SUPPLY, device, record, recorded, servo,
+};
 use crate::report::{Section, write_sections};
 use anyhow::Context;
 use palpate::servo::{Fault, Phase};
-use palpate_plant::{Dial, DialSettings};
+use palpate_plant::DialSettings;
 use plotters::prelude::*;
 use std::fs;
 use std::path::Path;
@@ -53,7 +56,7 @@ pub fn run(board: Board, host: bool, file: &Path, picture: Option<&Path>) -> any
 /// # Errors
 /// None.
 pub fn on_host(compensated: bool) -> anyhow::Result<Run> {
-    let cogging = compensated.then_some(recorded::COGGING);
+    let cogging = recorded::COGGING.filter(|_| compensated);
     let mut end = HostEnd::new(servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY));
     let turned = turn(DialSettings::gimbal_knob(), |sensors| Ok(end.exchange(sensors)), |_| ())?;
     Ok(Run { turned, image: None })
@@ -227,13 +230,23 @@ fn chart(area: &Drawing<'_>, [x, y]: [&str; 2], lines: &[(Line, RGBColor)]) -> D
     Ok(())
 }
 
-/// The cogging of the simulated dial, recorded anew, as the source that the image is built with.
+/// The cogging of the simulated dial, recorded anew over the line of the boards' loop, as the source that the image is
+/// built with.
 ///
 /// # Errors
-/// The alignment is refused.
+/// A rotor that does not follow its field.
 pub fn recorded_source() -> anyhow::Result<String> {
     let settings = DialSettings::gimbal_knob();
     debug_assert!((settings.sensor.angle_at_zero - DIAL_ZERO).abs() < 1e-12);
-    let dial = Dial::new(settings, f64::from(crate::knob::SETTINGS.rate));
-    Ok(crate::knob::record(dial)?.source("the simulated gimbal motor"))
+    Ok(recorded_of(settings)?.source("the simulated gimbal motor"))
+}
+
+/// The cogging of a simulated dial, recorded so.
+///
+/// # Errors
+/// As [`recorded_source`]'s.
+pub fn recorded_of(settings: DialSettings) -> anyhow::Result<Recording> {
+    let mut knob = SharedKnob::new(settings);
+    let mut device = Device::connect(Box::new(KnobLine::new(&knob)), Box::new(KeyHeld))?;
+    record(&mut device, &mut knob)
 }

@@ -103,6 +103,14 @@ impl Device {
     /// # Errors
     /// A line that broke or fell silent.
     pub fn step(&mut self, jog: Option<(u8, i16)>) -> anyhow::Result<Reading> {
+        self.step_telling(jog, |_| ())
+    }
+
+    /// As [`Self::step`], and every reading of it is told as it comes.
+    ///
+    /// # Errors
+    /// As [`Self::step`]'s.
+    pub fn step_telling(&mut self, jog: Option<(u8, i16)>, mut tell: impl FnMut(&Reading)) -> anyhow::Result<Reading> {
         let began = self.last.tick;
         let mut first = None;
         loop {
@@ -114,6 +122,7 @@ impl Device {
             self.send(Command::Jog(Jog { number: self.number, key, motor, duty }))?;
             let first = *first.get_or_insert(self.number);
             let reading = self.next()?;
+            tell(&reading);
             let is_heard = reading.number.wrapping_sub(first) as i32 >= 0;
             if is_heard && (reading.tick.wrapping_sub(began) >= STEP || held.is_some() != jog.is_some()) {
                 return Ok(reading);
@@ -167,7 +176,7 @@ impl Device {
 }
 
 /// What a reading says that keeps the motors off, as the rest of a sentence.
-pub(super) fn said(reading: &Reading) -> String {
+pub(crate) fn said(reading: &Reading) -> String {
     let holds = [
         (hold::STOP, "stop is pressed"),
         (hold::NOT_READY, "an amplifier is not ready"),

@@ -8,7 +8,7 @@
 //! The device's side is the loop of every board (`boards/bench`), wherever it runs. [`find`] asks the [`Lab`] for what
 //! it needs and writes what it finds into the file. A motor moves only while the [`Key`] is held.
 
-mod device;
+pub(crate) mod device;
 mod emulated;
 mod encoders;
 mod find;

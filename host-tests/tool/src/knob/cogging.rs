@@ -1,108 +1,142 @@
-//! A motor's cogging, recorded while its field is led round.
+//! A motor's cogging, from how far its rotor is behind a field that is led round.
+//!
+//! The field's torque on the rotor is `T sin(lag)`; at the speed of a creep it is what cancels the cogging and the
+//! friction. That is as much on the way there as against it on the way back: the mean of both ways is without it.
 
-use super::{HostKnob, PROTECTION, SEARCH, TOLD_OF_SUPPLY, device, servo};
-use palpate::device::presets::GIMBAL_KNOB;
-use palpate::device::{Commutation, Counts, ElectricalAngle, FieldSearch};
-use palpate_plant::Dial;
+use super::SEARCH;
+use palpate::device::{Aligned, Commutation, Counts, ElectricalAngle};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
+use thiserror::Error;
 
 /// Entries of a map: eight to the finest cogging of 264 a turn.
 pub const ENTRIES: usize = 2_048;
 /// Parts that come so seldom a turn are no cogging, which comes with every pole or tooth, but a magnet off its centre.
 const SLOW: usize = 4;
+/// Parts that come more often than this are the sensor's noise, for the entries could not follow them.
+const FAST: usize = ENTRIES / 6;
+/// An electrical turn of the field.
+const TURN: i32 = 65_536;
+/// Where the measured part of both ways begins: friction has come round, and the rotor was caught before.
+const BEGIN: i32 = TURN + TURN / 4 * 3;
+/// How far the field is led, 65,536ths of an electrical turn: all of a turn of the motor is measured, and on the way
+/// back friction comes round before that.
+pub const LED: i32 = BEGIN + SEARCH.commutation.pole_pairs as i32 * TURN + TURN / 4 * 3;
+/// How far the rotor may be from where it is on average, radians: a sixth of an electrical turn. Farther, it slips.
+const ASTRAY: f64 = TAU / 6.0;
 
-/// The search that goes round the whole motor, slowly, and an electrical turn more: where the way begins, friction has
-/// yet to come round. Its torque is all that the motor bears for ever, so that its heat never takes any of it away: the
-/// field must hold the rotor more stiffly than the finest cogging pulls it on, or it jumps from tooth to tooth.
-pub const AROUND: FieldSearch =
-    FieldSearch { turns: SEARCH.commutation.pole_pairs + 1, turn_ticks: 16_000, torque: 0.04, ..SEARCH };
-const _: () = assert!(AROUND.torque <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full);
-/// Ticks at the beginning of each way in which it comes round: three quarters of an electrical turn.
-const COMING_ROUND: u32 = AROUND.turn_ticks / 4 * 3;
+const COMMUTATION: Commutation = SEARCH.commutation;
+
+/// What is seen at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sample {
+    /// How far the field has been led, 65,536ths of an electrical turn.
+    pub field: i32,
+    /// The sensor's counts.
+    pub counts: i32,
+}
+
+/// Why no map comes of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum Unbelievable {
+    /// A way without samples.
+    #[error("the field was not led all the way there and back")]
+    Incomplete,
+    /// It was held, or the field was too weak.
+    #[error("the rotor did not follow its field: let go of the dial; or its cogging is stronger than the field")]
+    NotFollowed,
+}
 
 /// Torques that cancel the cogging, N·m, evenly spaced from joint angle zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording(Vec<f64>);
 
-/// What is seen of a place.
+/// What is seen of a place on the way there and back.
 #[derive(Clone, Copy, Default)]
 struct Place {
     sum: [f64; 2],
     seen: [u32; 2],
 }
 
-/// Leads a dial's field round the whole motor, there and back, and records how far its rotor is behind.
-///
-/// The field's torque on the rotor is `T sin(lag)`; at the speed of a creep it is what cancels the cogging and the
-/// friction. That is as much on the way there as against it on the way back: the mean of both ways is without it.
+/// The cogging, from what was seen on the way there, from field 0 to [`LED`], and back. `torque` is the field's on a
+/// rotor a quarter turn behind it, N·m.
 ///
 /// # Errors
-/// The alignment is refused.
-pub fn record(dial: Dial) -> anyhow::Result<Recording> {
-    let mut knob = HostKnob::new(servo(Box::leak(Box::new(device(None))), AROUND, TOLD_OF_SUPPLY), dial);
-    let mut seen = Vec::new();
-    let mut fields = vec![ElectricalAngle(0)];
-    while !knob.state().homing().is_done() {
-        knob.tick();
-        if let Some((fault, _)) = knob.state().fault() {
-            anyhow::bail!("{fault}: {:?}", knob.state().homing().refusal());
+/// A rotor that did not follow, all the way.
+pub fn analyse(ways: [&[Sample]; 2], torque: f64) -> Result<Recording, Unbelievable> {
+    let end = BEGIN + i32::from(COMMUTATION.pole_pairs) * TURN;
+    let measured = |way: usize| ways[way].iter().copied().filter(move |sample| (BEGIN..end).contains(&sample.field));
+    let mut there = measured(0);
+    let (Some(first), Some(last)) = (there.next(), there.last()) else { return Err(Unbelievable::Incomplete) };
+    let reversed = last.counts < first.counts;
+    let unaligned = Aligned { at_zero: ElectricalAngle(0), reversed };
+    let ahead_of = |sample: &Sample, at_zero: ElectricalAngle| {
+        let ElectricalAngle(rotor) = COMMUTATION.rotor(Aligned { at_zero, ..unaligned }, Counts(sample.counts));
+        f64::from(ElectricalAngle((sample.field as u16).wrapping_sub(rotor)).radians())
+    };
+    // How far the field is ahead on average over whole turns there and back; friction and cogging leave that.
+    let ElectricalAngle(rotor) = COMMUTATION.rotor(unaligned, Counts(first.counts));
+    let near = (first.field as u16).wrapping_sub(rotor);
+    let mut mean = 0.0;
+    for way in 0..2 {
+        let (sum, count) = measured(way)
+            .fold((0.0, 0_u32), |(sum, count), sample| (sum + ahead_of(&sample, ElectricalAngle(near)), count + 1));
+        if count < ENTRIES as u32 {
+            return Err(Unbelievable::Incomplete);
         }
-        let [Counts(counts)] = knob.state().counts().unwrap_or_default();
-        seen.push(counts);
-        let [field] = knob.servo().fields(knob.state()).unwrap_or_default();
-        fields.push(field);
+        mean += 0.5 * sum / f64::from(count);
     }
-    let Commutation { counts_per_turn, .. } = AROUND.commutation;
-    let [aligned] = knob.state().homing().aligned();
+    let at_zero = ElectricalAngle(near.wrapping_add((mean / TAU * f64::from(TURN)).round() as i32 as u16));
     let mut places = vec![Place::default(); ENTRIES];
-    // The first tick of the loop senses, and the second begins the search.
-    let begin = seen.len() as u32 - AROUND.ticks() - 1;
-    for (tick, counts) in seen.iter().enumerate() {
-        let Some(led) = (tick as u32).checked_sub(begin) else { continue };
-        if !AROUND.plan(led).2 {
-            continue;
+    for way in 0..2 {
+        for sample in measured(way) {
+            let lag = ahead_of(&sample, at_zero);
+            if lag.abs() > ASTRAY {
+                return Err(Unbelievable::NotFollowed);
+            }
+            let turn = f64::from(sample.counts.rem_euclid(COMMUTATION.counts_per_turn as i32)) + 0.5;
+            let place = (turn / f64::from(COMMUTATION.counts_per_turn) * ENTRIES as f64 + 0.5) as usize % ENTRIES;
+            places[place].sum[way] += torque * lag.sin() * if reversed { -1.0 } else { 1.0 };
+            places[place].seen[way] += 1;
         }
-        let there = AROUND.turn_ticks * u32::from(AROUND.turns);
-        let gone = led - AROUND.ramp_ticks - AROUND.turn_ticks;
-        let way = usize::from(gone >= there);
-        if gone % there < COMING_ROUND {
-            continue;
-        }
-        // What the rotor follows is the field of the tick before.
-        let ahead = fields[tick].0.wrapping_sub(AROUND.commutation.rotor(aligned, Counts(*counts)).0);
-        let lag = f64::from(ElectricalAngle(ahead).radians()) * if aligned.reversed { -1.0 } else { 1.0 };
-        let turn = f64::from(counts.rem_euclid(counts_per_turn as i32)) + 0.5;
-        let place = (turn / f64::from(counts_per_turn) * ENTRIES as f64 + 0.5) as usize % ENTRIES;
-        places[place].sum[way] += f64::from(AROUND.torque) * lag.sin();
-        places[place].seen[way] += 1;
     }
+    let went = f64::from((last.counts - first.counts).abs()) / f64::from(COMMUTATION.counts_per_turn);
+    // What cogging at both ends leaves of a whole turn: as the alignment has it.
+    if (went - 1.0).abs() > 0.07 {
+        return Err(Unbelievable::NotFollowed);
+    }
+    Ok(Recording(smooth(&filled(&places))))
+}
+
+/// The mean of both ways at each place; where the rotor jumped over one, what is on its left.
+fn filled(places: &[Place]) -> Vec<f64> {
     let mean = |place: &Place, way: usize| (place.seen[way] > 0).then(|| place.sum[way] / f64::from(place.seen[way]));
     let mut torques: Vec<Option<f64>> =
         places.iter().map(|place| Some(0.5 * (mean(place, 0)? + mean(place, 1)?))).collect();
-    // Where it jumped over a place, what is on its left.
     for index in 0..2 * ENTRIES {
         let left = torques[(index + ENTRIES - 1) % ENTRIES];
         let here = &mut torques[index % ENTRIES];
         *here = here.or(left);
     }
-    let mut torques: Vec<f64> = torques.into_iter().map(Option::unwrap_or_default).collect();
-    for order in 0..=SLOW {
-        remove(&mut torques, order);
-    }
-    Ok(Recording(torques))
+    torques.into_iter().map(Option::unwrap_or_default).collect()
 }
 
-/// Takes a part out that comes so often a turn.
-fn remove(torques: &mut [f64], order: usize) {
-    let count = torques.len() as f64;
-    let angle = |index: usize| order as f64 * index as f64 / count * TAU;
-    let part = |of: fn(f64) -> f64| torques.iter().enumerate().map(|(i, torque)| torque * of(angle(i))).sum::<f64>();
-    let scale = if order == 0 { 1.0 } else { 2.0 } / count;
-    let (cosine, sine) = (scale * part(f64::cos), scale * part(f64::sin));
-    for (index, torque) in torques.iter_mut().enumerate() {
-        *torque -= cosine * angle(index).cos() + sine * angle(index).sin();
+/// Without what comes too seldom or too often a turn to be cogging.
+fn smooth(torques: &[f64]) -> Vec<f64> {
+    let count = torques.len();
+    // Of a place times an order, modulo a turn.
+    let waves: Vec<(f64, f64)> = (0..count).map(|index| (index as f64 / count as f64 * TAU).sin_cos()).collect();
+    let mut smoothed = vec![0.0; count];
+    for order in SLOW + 1..=FAST {
+        let wave = |index: usize| waves[order * index % count];
+        let (sine, cosine) = torques.iter().enumerate().fold((0.0, 0.0), |(sine, cosine), (index, torque)| {
+            (sine + torque * wave(index).0, cosine + torque * wave(index).1)
+        });
+        for (index, smoothed) in smoothed.iter_mut().enumerate() {
+            *smoothed += 2.0 / count as f64 * (sine * wave(index).0 + cosine * wave(index).1);
+        }
     }
+    smoothed
 }
 
 impl Recording {
@@ -129,7 +163,8 @@ impl Recording {
         let (step, entries) = self.table();
         let mut text = format!("// The cogging of {from}, as it is recorded: the torques that cancel it.\n\n");
         let map = "palpate::device::CoggingMap";
-        let _ = writeln!(text, "/// The map.\npub const COGGING: {map} = {map}::new({step:e}, &TABLE);\n");
+        let _ =
+            writeln!(text, "/// The map.\npub const COGGING: Option<{map}> = Some({map}::new({step:e}, &TABLE));\n");
         let _ = writeln!(text, "static TABLE: [i8; {}] = [", entries.len());
         for line in entries.chunks(20) {
             let numbers: Vec<String> = line.iter().map(ToString::to_string).collect();

@@ -2,12 +2,16 @@
 
 pub mod cogging;
 mod hosted;
+mod on_host;
+mod recording;
 #[path = "../../../../boards/knob.rs"]
 mod shared;
 pub mod turning;
 
-pub use cogging::{Recording, record};
+pub use cogging::Recording;
 pub use hosted::HostKnob;
+pub use on_host::{KnobLine, KnobWorld, SharedKnob};
+pub use recording::record;
 pub use shared::*;
 
 /// Angle of the simulated dial at which its sensor begins to count, radians.

@@ -10,7 +10,7 @@ use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Sensors, Watched};
 use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
 use palpate_plant::{DialSettings, MagneticFault};
-use palpate_tool::knob::{FROZEN, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
+use palpate_tool::knob::{FROZEN, JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
 use std::cell::RefCell;
 use std::convert::Infallible;
 use std::rc::Rc;
@@ -176,7 +176,7 @@ impl Rig {
         let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
         let queue: &'static mut Queue<Record, 64> = Box::leak(Box::new(Queue::new()));
         let (producer, records) = queue.split();
-        let settings = Settings { supply: Some(SUPPLY), ..Settings::new(CLOCK) };
+        let settings = Settings { supply: Some(SUPPLY), jog: Some(JOG), ..Settings::new(CLOCK) };
         let bench = Bench::new(This, board, &settings, reset, producer, mailbox);
         Self { world, bench, mailbox, records: Some(records) }
     }
@@ -269,10 +269,10 @@ fn a_button_that_is_held_at_reset_moves_nothing_and_one_press_aligns_and_the_nex
 }
 
 /// What is done to the world, and whether the stage must be off after so many ticks.
-type Harm = (&'static str, fn(&mut World), u32);
+pub type Harm = (&'static str, fn(&mut World), u32);
 
 /// A supply is believed to be gone by its fourth reading, a frame by the third that is missing.
-const HARMS: [Harm; 7] = [
+pub const HARMS: [Harm; 7] = [
     ("button let go of", |world| world.button = false, 1),
     ("stop, or its wire", |world| world.stop_open = true, 1),
     ("fault line, or its wire", |world| world.ready[0] = false, 1),

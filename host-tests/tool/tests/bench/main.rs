@@ -9,6 +9,7 @@ mod homing;
 mod idle;
 mod knob;
 mod knob_orders;
+mod knob_set_up;
 mod orders;
 mod panel;
 mod phases;

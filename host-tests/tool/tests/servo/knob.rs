@@ -6,8 +6,8 @@ mod heat;
 use palpate::device::{CoggingMap, Refusal};
 use palpate::servo::{Fault, Output, Phase};
 use palpate_plant::{Dial, DialSettings, Fingers, MagneticFault};
-use palpate_tool::commands::demo_knob::recorded_source;
-use palpate_tool::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, record, servo};
+use palpate_tool::commands::demo_knob::{recorded_of, recorded_source};
+use palpate_tool::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo};
 use palpate_truth::measured::measured;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn dial(settings: DialSettings) -> Dial {
 }
 
 fn recorded(settings: DialSettings) -> CoggingMap {
-    let (step, table) = record(dial(settings)).expect("the recording").table();
+    let (step, table) = recorded_of(settings).expect("the recording").table();
     CoggingMap::new(step, Box::leak(table.into_boxed_slice()))
 }
 
