@@ -1,112 +1,176 @@
-//! What commissioning found, as words to keep in the chip's flash, with a CRC-32.
+//! What commissioning found, as a record to keep in the chip's flash.
 
+use super::{CalibrationError, Wiring};
+use crate::device::{Device, Encoder, Motor};
 use crate::patch::crc32;
-use thiserror::Error;
+use core::f32::consts::TAU;
 
-/// First word of a record: says that there is one, and of which shape.
-const MAGIC: u32 = 0x7061_6c01;
+/// First word of a record: `palc`.
+const MAGIC: u32 = u32::from_le_bytes(*b"palc");
+/// Which record this is: another version may mean something else by its words.
+const VERSION: u32 = 1;
+/// A word of flash that was erased.
+const BLANK: u32 = u32::MAX;
+/// Words before the joints: magic, version and number of joints, inputs and outputs.
+const HEAD: usize = 3;
+/// Words of a joint.
+const OF_JOINT: usize = 4;
+/// Encoders may be finer or coarser than the device was built with by this factor: lines that were taken for counts
+/// are a factor of four.
+const ENCODER_WITHIN: f32 = 5.0;
+/// Motors may be stronger or weaker by this factor. More is another motor: a force would be as much too great.
+const TORQUE_WITHIN: f32 = 2.0;
 
-/// Where the joints are, and what the encoders are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Calibration<const JOINTS: usize> {
-    /// Joint angle per count of each encoder, radians.
-    pub radians_per_count: [f32; JOINTS],
-    /// Joint angle in the middle of count zero, radians: of absolute sensors, or at the reference pose.
-    pub angle_at_zero: [f32; JOINTS],
-    /// Torque of each motor at full duty, N·m.
-    pub torque_at_full: [f32; JOINTS],
-}
-
-/// Why a record is not taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+/// What was found of a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum CalibrationError {
-    /// There is none: flash that was erased, or another program's.
-    #[error("no calibration is kept here")]
-    Absent,
-    /// It is of a device with another number of joints, or too short.
-    #[error("the calibration kept here is of another device")]
-    Shape,
-    /// Its CRC is not that of its words.
-    #[error("the calibration kept here is damaged")]
-    Damaged,
-    /// A number is not finite.
-    #[error("the calibration kept here has a number that is not finite")]
-    NotFinite,
+pub struct JointCalibration {
+    /// Which of the board's encoder inputs it is on, from 0.
+    pub input: u8,
+    /// Which of the board's motor outputs it is on, from 0.
+    pub output: u8,
+    /// Joint angle a count, radians; negative where the encoder counts the other way.
+    pub radians_per_count: f32,
+    /// Joint angle in the middle of count zero, radians. Where homing finds zero by a pose or an index, it is the
+    /// angle there.
+    pub angle_at_zero: f32,
+    /// Joint torque at full duty, N·m; negative where the motor turns the joint the other way.
+    pub torque_at_full: f32,
+    /// Dry friction, N·m.
+    pub dry_friction: f32,
 }
+
+/// What was found of a device: what differs from arm to arm, and not its mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Calibration<const JOINTS: usize>(
+    /// Of each joint.
+    pub [JointCalibration; JOINTS],
+);
 
 impl<const JOINTS: usize> Calibration<JOINTS> {
-    /// Words of a record.
-    pub const WORDS: usize = 3 + 3 * JOINTS;
+    /// Words of a record, little-endian, of one joint or three. The last is the CRC-32 of the others.
+    pub const WORDS: usize = HEAD + 3 * OF_JOINT + 1;
 
-    /// Writes the record at the start of `words` and gives that part back; `None` if it is too short.
-    pub fn write<'a>(&self, words: &'a mut [u32]) -> Option<&'a [u32]> {
-        let record = words.get_mut(..Self::WORDS)?;
-        let (content, crc) = record.split_at_mut_checked(Self::WORDS - 1)?;
-        let numbers = self.radians_per_count.iter().chain(&self.angle_at_zero).chain(&self.torque_at_full);
-        let head = [MAGIC, JOINTS as u32];
-        let all = head.into_iter().chain(numbers.map(|number| number.to_bits()));
-        for (word, value) in content.iter_mut().zip(all) {
+    /// The record.
+    pub fn to_words(&self) -> [u32; HEAD + 3 * OF_JOINT + 1] {
+        const { assert!(JOINTS >= 1 && JOINTS <= 3, "a device has one to three joints") };
+        let mut words = [0; HEAD + 3 * OF_JOINT + 1];
+        let channels =
+            self.0.iter().enumerate().fold(0, |channels, (joint, JointCalibration { input, output, .. })| {
+                channels | (u32::from(*input) | u32::from(*output) << 16) << (4 * joint)
+            });
+        let head = [MAGIC, VERSION | (JOINTS as u32) << 16, channels];
+        let numbers = self.0.iter().flat_map(|joint| {
+            [joint.radians_per_count, joint.angle_at_zero, joint.torque_at_full, joint.dry_friction].map(f32::to_bits)
+        });
+        for (word, value) in words.iter_mut().zip(head.into_iter().chain(numbers)) {
             *word = value;
         }
-        *crc.first_mut()? = content.iter().fold(0, |crc, word| crc32(crc, *word));
-        Some(record)
+        let [content @ .., crc] = &mut words;
+        *crc = crc_of(content);
+        words
     }
 
-    /// Reads the record at the start of `words`.
+    /// The CRC-32 of its record.
+    pub fn crc(&self) -> u32 {
+        let [.., crc] = self.to_words();
+        crc
+    }
+
+    /// Reads a record.
     ///
     /// # Errors
-    /// Why there is none that can be believed.
-    pub fn read(words: &[u32]) -> Result<Self, CalibrationError> {
-        if words.first() != Some(&MAGIC) {
+    /// Why there is none, or none that can be believed. Whether it can be that of a device is for
+    /// [`Device::calibrated`] to say.
+    pub fn from_words(words: &[u32; HEAD + 3 * OF_JOINT + 1]) -> Result<Self, CalibrationError> {
+        let [magic, shape, channels, numbers @ .., crc] = words;
+        if words.iter().all(|word| *word == BLANK) {
             return Err(CalibrationError::Absent);
         }
-        let record = words.get(..Self::WORDS).ok_or(CalibrationError::Shape)?;
-        let Some(([_, joints, numbers @ ..], crc)) = record.split_last().map(|(crc, content)| (content, *crc)) else {
-            return Err(CalibrationError::Shape);
-        };
-        if *joints != JOINTS as u32 {
-            return Err(CalibrationError::Shape);
+        // The first words are written last.
+        if *magic == BLANK && *shape == BLANK {
+            return Err(CalibrationError::Interrupted);
         }
-        if record.iter().take(Self::WORDS - 1).fold(0, |crc, word| crc32(crc, *word)) != crc {
+        let [content @ .., _] = words;
+        if *magic != MAGIC || crc_of(content) != *crc {
             return Err(CalibrationError::Damaged);
         }
-        let mut rest = numbers.iter().map(|word| f32::from_bits(*word));
-        let mut next = || [0.0; JOINTS].map(|_: f32| rest.next().unwrap_or(f32::NAN));
-        let calibration = Self { radians_per_count: next(), angle_at_zero: next(), torque_at_full: next() };
-        let finite = |numbers: &[f32; JOINTS]| numbers.iter().all(|number| number.is_finite());
-        let all = [&calibration.radians_per_count, &calibration.angle_at_zero, &calibration.torque_at_full];
-        if all.into_iter().all(finite) { Ok(calibration) } else { Err(CalibrationError::NotFinite) }
+        let (version, joints) = (shape & 0xffff, shape >> 16);
+        if version != VERSION {
+            return Err(CalibrationError::Version { version: version as u16 });
+        }
+        if joints != JOINTS as u32 {
+            return Err(CalibrationError::Joints { joints: joints as u16 });
+        }
+        let (mut found, (joints, _)) = ([JointCalibration::default(); JOINTS], numbers.as_chunks::<OF_JOINT>());
+        for (joint, (found, words)) in found.iter_mut().zip(joints).enumerate() {
+            let [radians_per_count, angle_at_zero, torque_at_full, dry_friction] = words.map(f32::from_bits);
+            let [input, output] = [0, 16].map(|side| (channels >> (side + 4 * joint) & 15) as u8);
+            *found = JointCalibration { input, output, radians_per_count, angle_at_zero, torque_at_full, dry_friction };
+        }
+        Ok(Self(found))
+    }
+
+    /// Which input and output each joint is on.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Channels`], if one has none, or another's.
+    pub fn wiring(&self) -> Result<Wiring<JOINTS>, CalibrationError> {
+        Wiring::try_new(self.0.map(|joint| joint.input), self.0.map(|joint| joint.output))
+            .ok_or(CalibrationError::Channels)
+    }
+}
+
+fn crc_of(words: &[u32]) -> u32 {
+    words.iter().fold(0, |crc, word| crc32(crc, *word))
+}
+
+/// Whether a number is another one's to within this factor, whatever their signs. False for NaN and 0.
+fn is_within(found: f32, built: f32, factor: f32) -> bool {
+    let ratio = (found / built).abs();
+    ratio >= 1.0 / factor && ratio <= factor
+}
+
+impl<K: Copy, const JOINTS: usize> Device<K, JOINTS> {
+    /// The same device as commissioning found it: encoders, motors and dry friction. Its mechanism, ranges and limits
+    /// stay.
+    ///
+    /// # Errors
+    /// What cannot be of this device: a number that is not finite, a joint without an input or output of its own; an
+    /// encoder more than five times as fine or as coarse as it was built with, or whose zero lies more than a turn
+    /// outside of the joint's range; a motor more than twice as strong or as weak, or one that does not overcome the
+    /// joint's friction.
+    pub fn calibrated(&self, found: &Calibration<JOINTS>) -> Result<Self, CalibrationError> {
+        found.wiring()?;
+        let mut device = *self;
+        for (index, joint) in found.0.iter().enumerate() {
+            let JointCalibration { radians_per_count, angle_at_zero, torque_at_full, dry_friction, .. } = *joint;
+            let named = index as u8;
+            if ![radians_per_count, angle_at_zero, torque_at_full, dry_friction].iter().all(|number| number.is_finite())
+            {
+                return Err(CalibrationError::NotFinite { joint: named });
+            }
+            if !is_within(radians_per_count, self.encoders[index].radians_per_count, ENCODER_WITHIN) {
+                return Err(CalibrationError::Encoder { joint: named });
+            }
+            let [least, most] = self.joint_range[index];
+            if angle_at_zero < least - TAU || angle_at_zero > most + TAU {
+                return Err(CalibrationError::Zero { joint: named });
+            }
+            if !is_within(torque_at_full, self.motors[index].torque_at_full, TORQUE_WITHIN) {
+                return Err(CalibrationError::Torque { joint: named });
+            }
+            if !(0.0..torque_at_full.abs()).contains(&dry_friction) {
+                return Err(CalibrationError::Friction { joint: named });
+            }
+            device.encoders[index] = Encoder { radians_per_count, angle_at_zero };
+            device.motors[index] = Motor { torque_at_full };
+            device.dry_friction[index] = dry_friction;
+        }
+        Ok(device)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const KEPT: Calibration<3> = Calibration {
-        radians_per_count: [1e-4, -2e-4, 3e-4],
-        angle_at_zero: [0.1, 0.2, -0.3],
-        torque_at_full: [1.2, -0.9, 0.9],
-    };
-
-    #[test]
-    fn what_was_written_is_read_and_nothing_else_is() {
-        let mut words = [u32::MAX; 20];
-        assert_eq!(Calibration::<3>::read(&words), Err(CalibrationError::Absent), "erased flash");
-        assert_eq!(KEPT.write(&mut words).map(<[u32]>::len), Some(12));
-        assert_eq!(Calibration::read(&words), Ok(KEPT));
-        assert_eq!(Calibration::<2>::read(&words), Err(CalibrationError::Shape));
-        assert_eq!(Calibration::<3>::read(&words[..11]), Err(CalibrationError::Shape));
-        assert!(KEPT.write(&mut [0; 11]).is_none());
-        // Every single bit.
-        for bit in 0..12 * 32 {
-            let mut spoilt = words;
-            spoilt[bit / 32] ^= 1 << (bit % 32);
-            assert!(Calibration::<3>::read(&spoilt).is_err(), "bit {bit}");
-        }
-        let mut infinite = [0; 12];
-        Calibration { torque_at_full: [f32::INFINITY; 3], ..KEPT }.write(&mut infinite);
-        assert_eq!(Calibration::<3>::read(&infinite), Err(CalibrationError::NotFinite));
-    }
-}
+mod tests;

@@ -11,8 +11,16 @@
 //!
 //! What ends a jog is a [`JogRefusal`], which stands until the key is let go. Another motor needs the key let go too.
 
-mod calibration;
-mod jogging;
+//!
+//! What was found is a [`Calibration`]: a record that may be kept in the chip's flash, and is looked at with suspicion
+//! at every start ([`crate::device::Device::calibrated`]).
 
-pub use calibration::{Calibration, CalibrationError};
+mod calibration;
+mod calibration_error;
+mod jogging;
+mod wiring;
+
+pub use calibration::{Calibration, JointCalibration};
+pub use calibration_error::CalibrationError;
 pub use jogging::{Jog, JogLimits, JogLimitsError, JogRefusal, JogState, Jogging, KEY};
+pub use wiring::Wiring;

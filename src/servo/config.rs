@@ -163,7 +163,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
     }
 }
 
-impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
+impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'a, S, K, JOINTS, G> {
     /// What guards the loop beyond its own checks.
     pub const fn guard(&self) -> &G {
         &self.guard
@@ -257,6 +257,21 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     /// waits. A refusal is [`super::Fault::Homing`], and [`ServoState::homing`] has the reason.
     pub const fn homing(self, homing: Homing<JOINTS>) -> Self {
         Self { homing: Some(homing), ..self }
+    }
+
+    /// The same loop on the same device as commissioning found it ([`Device::calibrated`]): its encoders, motors and
+    /// friction take the place of those that the loop was made with, in homing too.
+    #[must_use]
+    pub const fn calibrated<'b>(self, device: &'b Device<K, JOINTS>) -> Servo<'b, S, K, JOINTS, G>
+    where
+        'a: 'b,
+    {
+        let homing = match self.homing {
+            Some(homing) => Some(homing.of_encoders(device.encoders)),
+            None => None,
+        };
+        let rendering = self.rendering;
+        Servo { device, homing, ..self }.set_rendering(rendering)
     }
 
     /// The state before the first tick after power-on: motors at zero, the witness point at rest.

@@ -63,11 +63,14 @@ pub enum Fault {
     /// A joint goes faster and faster against its motor: its encoder counts the other way, or its motor is wired so.
     #[error("an encoder counts against its motor")]
     WrongSign = 19,
+    /// The calibration that is kept in flash cannot be used ([`crate::commission::CalibrationError`]).
+    #[error("the calibration kept in flash cannot be used")]
+    Calibration = 20,
 }
 
 impl Fault {
     /// Every fault, in the order of its code.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::FrameLost,
         Self::FrameDamaged,
         Self::JointOutOfRange,
@@ -87,12 +90,14 @@ impl Fault {
         Self::Overspeed,
         Self::Supply,
         Self::WrongSign,
+        Self::Calibration,
     ];
 
     /// Whether [`super::SafeOutput::Damping`] may follow it. Not where that would drive a motor that has failed or is
-    /// wired the wrong way, which it would speed up, nor pump up a supply that is out of its range.
+    /// wired the wrong way, or may be for all that is known, which it would speed up, nor pump up a supply that is out
+    /// of its range.
     pub const fn leaves_damping(self) -> bool {
-        !matches!(self, Self::Drive | Self::WrongSign | Self::Supply)
+        !matches!(self, Self::Drive | Self::WrongSign | Self::Supply | Self::Calibration)
     }
 
     /// The code in a report, from 1.
@@ -180,6 +185,8 @@ pub enum Event {
     },
     /// Homing was refused.
     HomingRefused,
+    /// The calibration that is kept cannot be used.
+    CalibrationRefused,
     /// Stop.
     Stop,
     /// Somebody has looked at the device after a reset that is a fault, and wants it to go on: takes back

@@ -19,6 +19,7 @@
 //! | table corrupted or stale | [`Safety::checks_tables`], at boot and in every tick | `TableCorrupt` |
 //! | reset by watchdog or brown-out | [`ResetReason`], [`Servo::start_after`] | `WatchdogReset`, `BrownOut` |
 //! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
+//! | calibration in flash that is damaged, or not of this device | [`Event`] | `Calibration` |
 //! | supply out of range, or nobody measures it | [`crate::device::SupplyRange`], [`Event::Supply`] | `Supply` |
 //! | joint or probe too fast under force | [`crate::device::Protection`] | `Overspeed` |
 //! | encoder against its motor | [`crate::device::SignWatch`] | `WrongSign` |

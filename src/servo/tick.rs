@@ -54,6 +54,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
                 }
             }
             Event::HomingRefused => stop(state, Fault::Homing),
+            Event::CalibrationRefused => stop(state, Fault::Calibration),
             Event::DriveFault => stop(state, Fault::Drive),
             Event::Stop => stop(state, Fault::Stopped),
             Event::Acknowledged => {

@@ -2,6 +2,7 @@
 
 use super::message::{Reading, Record};
 use super::upload::UploadError;
+use crate::commission::CalibrationError;
 use crate::math::Vec3;
 use crate::order::SceneError;
 use crate::servo::{Remembered, ServoState, Tracked};
@@ -25,6 +26,45 @@ pub enum Told {
     Answer(Answer),
     /// To a host that has said hello: the loop as it is, as often as the line carries it.
     View(View),
+    /// After each hello, by a device that can keep a calibration in flash: which one it uses.
+    Calibrated(Calibrated),
+}
+
+/// Which calibration a device uses since its last reset.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Calibrated {
+    /// None is kept: it is what it was built with.
+    #[default]
+    BuiltIn,
+    /// The one that is kept.
+    Kept {
+        /// The CRC-32 of its record ([`crate::commission::Calibration::crc`]).
+        crc: u32,
+    },
+    /// One is kept that cannot be used: its motors stay off ([`crate::servo::Fault::Calibration`]).
+    Refused(CalibrationError),
+}
+
+/// Why a calibration is not kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum KeepError {
+    /// No flash was set aside for one.
+    #[error("this device has no flash set aside for a calibration")]
+    NoFlash,
+    /// The device is not being set up.
+    #[error("a calibration is kept only by a device that is being set up")]
+    NotSetUp,
+    /// A motor is driven, or somebody holds the enable input.
+    #[error("flash is written only while the motors are off: let go of the enable input first")]
+    Driven,
+    /// It cannot be this device's. What was kept before still is.
+    #[error("{0}")]
+    Calibration(CalibrationError),
+    /// The flash did not take it: none is kept now that is whole.
+    #[error("the flash did not take the calibration")]
+    Flash,
 }
 
 /// What a device is.
@@ -78,6 +118,9 @@ pub enum Refused {
     /// The device is being set up: nothing is felt.
     #[error("the device is being set up")]
     SetUp,
+    /// A calibration.
+    #[error("{0}")]
+    Calibration(KeepError),
 }
 
 /// What a host sees of the loop.

@@ -162,6 +162,15 @@ pub enum Command {
         /// Which part.
         part: super::upload::Upload,
     },
+    /// What commissioning found is kept in the device's flash, or forgotten; used from the next reset on. Taken only by
+    /// a device that is being set up, while no motor is driven and the enable input is released. Answered by its number
+    /// ([`super::Answer`]).
+    Calibrate {
+        /// As an order's.
+        number: u16,
+        /// Of each joint; a device with fewer takes the first. `None` forgets what is kept.
+        joints: Option<[crate::commission::JointCalibration; 3]>,
+    },
 }
 
 /// From a device that is being set up: what it reads and what it gives its motors.

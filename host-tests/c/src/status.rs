@@ -302,6 +302,7 @@ pub extern "C" fn palpate_fault_text(fault: u32) -> *const c_char {
         Some(Fault::Overspeed) => c"moving too fast under force",
         Some(Fault::Supply) => c"motor supply out of range or not measured",
         Some(Fault::WrongSign) => c"an encoder counts against its motor",
+        Some(Fault::Calibration) => c"the calibration kept in flash cannot be used",
     };
     text.as_ptr()
 }

@@ -2,7 +2,7 @@
 
 use crate::{Error, Line, Port};
 use palpate::wire::frame::{self, DELIMITER, MAX_FRAME, Received, Receiver};
-use palpate::wire::{Answer, Command, Hello, PROTOCOL, Reading, Record, Told, View};
+use palpate::wire::{Answer, Calibrated, Command, Hello, PROTOCOL, Reading, Record, Told, View};
 use std::time::{Duration, Instant};
 
 /// The device hears from this program at least so often while a call runs, and at each call that comes later than this
@@ -37,6 +37,7 @@ pub struct Device<L = Port> {
     pub(crate) record: Option<Record>,
     /// Of a device that is being set up.
     pub(crate) reading: Option<Reading>,
+    calibrated: Option<Calibrated>,
     /// When something was said last, and when the device was greeted last.
     said: Instant,
     greeted: Instant,
@@ -77,6 +78,7 @@ impl<L: Line> Device<L> {
             views: 0,
             record: None,
             reading: None,
+            calibrated: None,
             said: now,
             greeted: now,
             heard: None,
@@ -125,6 +127,12 @@ impl<L: Line> Device<L> {
     /// What the device has said of itself when it was greeted.
     pub const fn hello(&self) -> Hello {
         self.hello
+    }
+
+    /// Which calibration it uses since its last reset, as it says right after its hello; `None` of a device that cannot
+    /// keep one.
+    pub const fn calibrated(&self) -> Option<Calibrated> {
+        self.calibrated
     }
 
     /// What is kept in its flash by now.
@@ -234,6 +242,7 @@ impl<L: Line> Device<L> {
                 (self.record, self.reading) = (Some(record), None);
             }
             Told::Reading(reading) => self.reading = Some(reading),
+            Told::Calibrated(calibrated) => self.calibrated = Some(calibrated),
         }
     }
 

@@ -17,6 +17,6 @@ pub use palpate::render::Friction;
 pub use palpate::scene::{Order, Pose, SceneError};
 pub use palpate::servo::{Fault, Phase};
 pub use palpate::track::Contact;
-pub use palpate::wire::{Hello, PROTOCOL, Record, Refused, UploadError, View};
+pub use palpate::wire::{Calibrated, Hello, PROTOCOL, Record, Refused, UploadError, View};
 pub use port::Port;
 pub use read::SILENCE;

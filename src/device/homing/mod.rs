@@ -172,6 +172,22 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         Self { when_asked: true, ..self }
     }
 
+    /// The same with encoders that were measured, whose [`Encoder::angle_at_zero`] is the joint's angle in the pose or
+    /// at the index mark that the homing knows. Stops stay where they are.
+    pub(crate) const fn of_encoders(self, encoders: [Encoder; JOINTS]) -> Self {
+        let mut homing = Self { encoders, ..self };
+        if let Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles) =
+            &mut homing.reference
+        {
+            let mut joint = 0;
+            while joint < JOINTS {
+                angles[joint] = encoders[joint].angle_at_zero;
+                joint += 1;
+            }
+        }
+        homing
+    }
+
     /// Whether it goes on only while force is asked for.
     pub const fn waits_for_enable(&self) -> bool {
         self.when_asked || self.drives()

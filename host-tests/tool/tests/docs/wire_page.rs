@@ -4,12 +4,12 @@
 //! line and COBS by its definition. `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs wire_page` writes the
 //! tables anew.
 
-use palpate::commission::{Jog, KEY};
+use palpate::commission::{CalibrationError, Jog, JointCalibration, KEY};
 use palpate::scene::{Order, Pose, SceneError};
 use palpate::wire::acceptance::{Counted, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{MAX_FRAME, pack};
 use palpate::wire::{
-    Answer, CHUNK, Command, Hello, PROTOCOL, Reading, Record, Refused, Report, Sensors, Told, Upload, View,
+    Answer, CHUNK, Calibrated, Command, Hello, PROTOCOL, Reading, Record, Refused, Report, Sensors, Told, Upload, View,
 };
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -228,6 +228,64 @@ fn dialogue() -> [(&'static str, String); 7] {
         ("View", view),
         ("Command: upload", part),
     ]
+}
+
+/// A calibration that is damaged, or of another device.
+fn refused_calibration() -> String {
+    // In the order of their numbers.
+    let errors = [
+        CalibrationError::Absent,
+        CalibrationError::Interrupted,
+        CalibrationError::Damaged,
+        CalibrationError::Version { version: 7 },
+        CalibrationError::Joints { joints: 7 },
+        CalibrationError::Channels,
+        CalibrationError::NotFinite { joint: 7 },
+        CalibrationError::Encoder { joint: 7 },
+        CalibrationError::Zero { joint: 7 },
+        CalibrationError::Torque { joint: 7 },
+        CalibrationError::Friction { joint: 7 },
+    ];
+    let mut section = String::new();
+    for (number, error) in (0..).zip(errors) {
+        let what = [vars("told", 5), vars("calibrated", 2), vars("error", number)];
+        let which = match error {
+            CalibrationError::Version { .. } | CalibrationError::Joints { .. } => Some(vars("which", 7)),
+            CalibrationError::Absent
+            | CalibrationError::Interrupted
+            | CalibrationError::Damaged
+            | CalibrationError::Channels => None,
+            _ => Some(byte("which", 7)),
+        };
+        section = documented(
+            &Told::Calibrated(Calibrated::Refused(error)),
+            &what.into_iter().chain(which).collect::<Vec<_>>(),
+        );
+    }
+    section
+}
+
+/// What commissioning found, to be kept.
+fn calibrate() -> String {
+    let joint = |joint: u8| JointCalibration {
+        input: joint,
+        output: joint,
+        radians_per_count: 0.000_25,
+        angle_at_zero: 0.5,
+        torque_at_full: -0.9,
+        dry_friction: 0.01,
+    };
+    let joints = [joint(0), joint(1), joint(2)];
+    let mut fields = vec![vars("command", 8), vars("number", 303), field("is_kept", "flag", 1, vec![1])];
+    for joint in joints {
+        fields.push(byte("input", joint.input));
+        fields.push(byte("output", joint.output));
+        fields.push(floats("radians_per_count", &[joint.radians_per_count]));
+        fields.push(floats("angle_at_zero", &[joint.angle_at_zero]));
+        fields.push(floats("torque_at_full", &[joint.torque_at_full]));
+        fields.push(floats("dry_friction", &[joint.dry_friction]));
+    }
+    documented(&Command::Calibrate { number: 303, joints: Some(joints) }, &fields)
 }
 
 /// Frames of a device that is being accepted.
@@ -462,6 +520,15 @@ fn every_byte_of_a_frame_is_documented() {
         ],
     );
     let mut sections = vec![
+        (
+            "Calibrated",
+            documented(
+                &Told::Calibrated(Calibrated::Kept { crc: 300 }),
+                &[vars("told", 5), vars("calibrated", 1), vars("crc", 300)],
+            ),
+        ),
+        ("Calibrated: refused", refused_calibration()),
+        ("Command: calibrate", calibrate()),
         ("Sensors", sensors),
         ("Report", report),
         ("Record", record),

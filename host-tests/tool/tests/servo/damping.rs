@@ -69,11 +69,13 @@ fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
 }
 
 #[test]
-fn nothing_damps_after_a_fault_of_a_drive_of_the_supply_or_of_a_sign() {
+fn nothing_damps_after_a_fault_of_a_drive_of_the_supply_of_a_sign_or_of_the_calibration() {
     let (fault, driven) = driven_after(Some(Event::Stop), false);
     assert!(fault == Some(Fault::Stopped) && driven > 1_000, "what follows must damp otherwise: {driven} ticks");
     assert_eq!(driven_after(Some(Event::DriveFault), false), (Some(Fault::Drive), 0));
     assert_eq!(driven_after(Some(Event::Supply { millivolts: 12_000 }), false), (Some(Fault::Supply), 0));
+    // Which way they would push nobody knows.
+    assert_eq!(driven_after(Some(Event::CalibrationRefused), false), (Some(Fault::Calibration), 0));
     // It would push, not brake.
     assert_eq!(driven_after(None, true), (Some(Fault::WrongSign), 0));
 }

@@ -102,8 +102,15 @@ fn fuzz<P: Patch>(
             }
         };
         if bits >> 30 & 4_095 == 0 {
-            let events =
-                [Event::LinkAlive, Event::Homed, Event::Overrun, Event::DriveFault, Event::HomingRefused, Event::Stop];
+            let events = [
+                Event::LinkAlive,
+                Event::Homed,
+                Event::Overrun,
+                Event::DriveFault,
+                Event::HomingRefused,
+                Event::Stop,
+                Event::CalibrationRefused,
+            ];
             servo.note(&mut state, events[(bits >> 44) as usize % events.len()]);
         }
         let before = state.fault();

@@ -157,6 +157,10 @@ impl Bench<'_> {
                 self.servo.note(state, Event::HomingRefused);
                 Seen::Now { believable: false }
             }
+            Fault::Calibration => {
+                self.servo.note(state, Event::CalibrationRefused);
+                Seen::Now { believable: false }
+            }
             Fault::Stopped => {
                 self.servo.note(state, Event::Stop);
                 Seen::Now { believable: false }

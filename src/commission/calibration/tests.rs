@@ -1,0 +1,118 @@
+use super::*;
+use crate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
+
+/// The preset's own numbers on inputs and outputs that are swapped.
+fn kept() -> Calibration<3> {
+    Calibration(core::array::from_fn(|joint| JointCalibration {
+        input: [2, 0, 1][joint],
+        output: [0, 2, 1][joint],
+        radians_per_count: DEVICE.encoders[joint].radians_per_count,
+        angle_at_zero: DEVICE.encoders[joint].angle_at_zero,
+        torque_at_full: DEVICE.motors[joint].torque_at_full,
+        dry_friction: DEVICE.dry_friction[joint],
+    }))
+}
+
+#[test]
+fn what_was_written_is_read_and_nothing_else_is() {
+    let words = kept().to_words();
+    assert_eq!((words.len(), Calibration::<3>::WORDS), (16, 16));
+    assert_eq!(Calibration::from_words(&words), Ok(kept()));
+    // Standard CRC-32, over the little-endian bytes: what a host computes with any library.
+    assert_eq!(crc_of(&[u32::from_le_bytes(*b"1234"), u32::from_le_bytes(*b"5678")]), 0x9AE0_DAAF);
+    assert_eq!(Calibration::<2>::from_words(&words), Err(CalibrationError::Joints { joints: 3 }));
+    assert_eq!(Calibration::<3>::from_words(&[u32::MAX; 16]), Err(CalibrationError::Absent));
+    for bit in 0..16 * 32 {
+        let mut spoilt = words;
+        spoilt[bit / 32] ^= 1 << (bit % 32);
+        assert_eq!(Calibration::<3>::from_words(&spoilt), Err(CalibrationError::Damaged), "bit {bit}");
+        // Flash that was erased, but for a bit.
+        let mut worn = [u32::MAX; 16];
+        worn[bit / 32] ^= 1 << (bit % 32);
+        assert!(!matches!(Calibration::<3>::from_words(&worn), Ok(_) | Err(CalibrationError::Absent)), "bit {bit}");
+    }
+    let mut newer = words;
+    newer[1] += 1;
+    newer[15] = crc_of(&newer[..15]);
+    assert_eq!(Calibration::<3>::from_words(&newer), Err(CalibrationError::Version { version: 2 }));
+}
+
+#[test]
+fn a_record_that_is_not_written_to_its_end_is_no_record() {
+    let words = kept().to_words();
+    // Two words at a time, the first two last.
+    for written in 1..=7 {
+        let mut half = [u32::MAX; 16];
+        half[2..2 + 2 * written].copy_from_slice(&words[2..2 + 2 * written]);
+        assert_eq!(Calibration::<3>::from_words(&half), Err(CalibrationError::Interrupted), "{written}");
+    }
+}
+
+#[test]
+fn a_device_is_what_was_found_within_what_it_can_be() {
+    let same = DEVICE.calibrated(&kept()).unwrap();
+    assert_eq!((same.encoders, same.motors), (DEVICE.encoders, DEVICE.motors));
+    let with = |change: fn(&mut JointCalibration)| {
+        let mut found = kept();
+        change(&mut found.0[1]);
+        DEVICE.calibrated(&found).map(|device| (device.encoders[1], device.motors[1], device.dry_friction[1]))
+    };
+    let [encoder, motor] = [DEVICE.encoders[1].radians_per_count, DEVICE.motors[1].torque_at_full];
+    // The wrong way round, four times as coarse, zero elsewhere: what commissioning is for.
+    let found = with(|joint| {
+        joint.radians_per_count *= -4.0;
+        joint.torque_at_full *= -0.6;
+        (joint.angle_at_zero, joint.dry_friction) = (-0.4, 0.03);
+    });
+    let measured = Encoder { radians_per_count: -4.0 * encoder, angle_at_zero: -0.4 };
+    assert_eq!(found, Ok((measured, Motor { torque_at_full: -0.6 * motor }, 0.03)));
+    let refused: [(fn(&mut JointCalibration), CalibrationError); 14] = [
+        (|joint| joint.radians_per_count *= 5.1, CalibrationError::Encoder { joint: 1 }),
+        (|joint| joint.radians_per_count *= -0.19, CalibrationError::Encoder { joint: 1 }),
+        (|joint| joint.radians_per_count = 0.0, CalibrationError::Encoder { joint: 1 }),
+        (|joint| joint.radians_per_count = f32::NAN, CalibrationError::NotFinite { joint: 1 }),
+        // The range is -0.8 to 2.2.
+        (|joint| joint.angle_at_zero = -7.1, CalibrationError::Zero { joint: 1 }),
+        (|joint| joint.angle_at_zero = 8.5, CalibrationError::Zero { joint: 1 }),
+        (|joint| joint.angle_at_zero = f32::INFINITY, CalibrationError::NotFinite { joint: 1 }),
+        (|joint| joint.torque_at_full *= 2.01, CalibrationError::Torque { joint: 1 }),
+        (|joint| joint.torque_at_full *= -0.49, CalibrationError::Torque { joint: 1 }),
+        (|joint| joint.torque_at_full = f32::NEG_INFINITY, CalibrationError::NotFinite { joint: 1 }),
+        (|joint| joint.dry_friction = -0.01, CalibrationError::Friction { joint: 1 }),
+        (|joint| joint.dry_friction = 1.0, CalibrationError::Friction { joint: 1 }),
+        (|joint| joint.input = 1, CalibrationError::Channels),
+        (|joint| joint.output = 3, CalibrationError::Channels),
+    ];
+    for (change, error) in refused {
+        assert_eq!(with(change), Err(error));
+    }
+}
+
+#[test]
+fn no_word_makes_a_device_that_none_is() {
+    // Numbers as they come, with the CRC that they have: what is taken is a device all the same.
+    let mut random = 1_u32;
+    let mut next = || {
+        random ^= random << 13;
+        random ^= random >> 17;
+        random ^= random << 5;
+        random
+    };
+    let mut taken = 0;
+    for _ in 0..100_000 {
+        let mut words = kept().to_words();
+        for _ in 0..1 + next() % 3 {
+            words[3 + (next() % 12) as usize] ^= next() & (u32::MAX << (next() % 32));
+        }
+        words[15] = crc_of(&words[..15]);
+        let found = Calibration::<3>::from_words(&words).unwrap();
+        if let Ok(device) = DEVICE.calibrated(&found) {
+            taken += 1;
+            assert_eq!(device.check(), Ok(()));
+        }
+        // And words as they come.
+        let words = core::array::from_fn(|_| next());
+        assert_eq!(Calibration::<3>::from_words(&words), Err(CalibrationError::Damaged));
+    }
+    assert!(taken > 1_000, "{taken} of 100,000");
+}

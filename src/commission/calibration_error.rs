@@ -1,0 +1,64 @@
+//! Why a calibration is not used.
+
+use thiserror::Error;
+
+/// Why a calibration is not used. Joints are counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum CalibrationError {
+    /// There is none: flash that was erased.
+    #[error("no calibration is kept")]
+    Absent,
+    /// Its first words are missing: the power went while it was written.
+    #[error("the power went while the calibration was written: keep it again")]
+    Interrupted,
+    /// Its CRC is not that of its words, or it is something else.
+    #[error("the calibration kept in flash is damaged")]
+    Damaged,
+    /// It is of another version.
+    #[error("the calibration kept in flash is of version {version}: keep it again")]
+    Version {
+        /// Its version.
+        version: u16,
+    },
+    /// It is of a device with another number of joints.
+    #[error("the calibration is of a device of {joints} joints")]
+    Joints {
+        /// How many.
+        joints: u16,
+    },
+    /// A joint has no input or output of the board, or another's.
+    #[error("the calibration gives two joints the same encoder input or motor output, or one that the board has not")]
+    Channels,
+    /// A number is not finite.
+    #[error("joint {joint}: a number of the calibration is not finite")]
+    NotFinite {
+        /// Which.
+        joint: u8,
+    },
+    /// The encoder is too fine or too coarse for what the device was built with.
+    #[error("joint {joint}: the encoder's counts are more than five times off those that the device was built with")]
+    Encoder {
+        /// Which.
+        joint: u8,
+    },
+    /// The encoder's zero is not near the joint's range.
+    #[error("joint {joint}: the encoder's zero lies more than a turn outside of the joint's range")]
+    Zero {
+        /// Which.
+        joint: u8,
+    },
+    /// The motor is too strong or too weak for what the device was built with.
+    #[error("joint {joint}: the motor's torque is more than two times off that which the device was built with")]
+    Torque {
+        /// Which.
+        joint: u8,
+    },
+    /// The friction is negative, or the motor does not overcome it.
+    #[error("joint {joint}: the dry friction is negative, or more than the motor's torque")]
+    Friction {
+        /// Which.
+        joint: u8,
+    },
+}

@@ -1,0 +1,83 @@
+//! Which joint is on which of the board's inputs and outputs.
+
+/// Which of the board's encoder inputs and motor outputs each joint is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wiring<const JOINTS: usize> {
+    inputs: [u8; JOINTS],
+    outputs: [u8; JOINTS],
+}
+
+impl<const JOINTS: usize> Wiring<JOINTS> {
+    /// Each joint on the input and the output of its number.
+    pub const STRAIGHT: Self = {
+        let mut channels = [0; JOINTS];
+        let mut joint = 0;
+        while joint < JOINTS {
+            channels[joint] = joint as u8;
+            joint += 1;
+        }
+        Self { inputs: channels, outputs: channels }
+    };
+
+    /// A wiring; `None` unless each joint has an input and an output of its own.
+    pub fn try_new(inputs: [u8; JOINTS], outputs: [u8; JOINTS]) -> Option<Self> {
+        let is_each_once = |channels: &[u8; JOINTS]| (0..JOINTS).all(|joint| channels.contains(&(joint as u8)));
+        (is_each_once(&inputs) && is_each_once(&outputs)).then_some(Self { inputs, outputs })
+    }
+
+    /// What the joints are, of what the inputs are.
+    #[inline]
+    pub fn joints<T: Copy>(&self, at_inputs: [T; JOINTS]) -> [T; JOINTS] {
+        let mut joints = at_inputs;
+        for (joint, input) in joints.iter_mut().zip(self.inputs) {
+            // Always there.
+            if let Some(found) = at_inputs.get(usize::from(input)) {
+                *joint = *found;
+            }
+        }
+        joints
+    }
+
+    /// What the inputs are, of what the joints are.
+    #[inline]
+    pub fn inputs<T: Copy>(&self, at_joints: [T; JOINTS]) -> [T; JOINTS] {
+        spread(self.inputs, at_joints)
+    }
+
+    /// What the outputs get, of what the joints get.
+    #[inline]
+    pub fn outputs<T: Copy>(&self, at_joints: [T; JOINTS]) -> [T; JOINTS] {
+        spread(self.outputs, at_joints)
+    }
+}
+
+#[inline]
+fn spread<T: Copy, const JOINTS: usize>(channels: [u8; JOINTS], at_joints: [T; JOINTS]) -> [T; JOINTS] {
+    let mut spread = at_joints;
+    for (at_joint, channel) in at_joints.into_iter().zip(channels) {
+        // Always there.
+        if let Some(place) = spread.get_mut(usize::from(channel)) {
+            *place = at_joint;
+        }
+    }
+    spread
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joints_find_their_inputs_and_outputs() {
+        let wiring = Wiring::try_new([2, 0, 1], [1, 2, 0]).unwrap();
+        assert_eq!(wiring.joints(['x', 'y', 'z']), ['z', 'x', 'y']);
+        assert_eq!(wiring.inputs(wiring.joints([7, 8, 9])), [7, 8, 9]);
+        assert_eq!(wiring.outputs(['a', 'b', 'c']), ['c', 'a', 'b']);
+        assert_eq!(Wiring::STRAIGHT.joints([1, 2, 3]), [1, 2, 3]);
+        assert_eq!(Wiring::STRAIGHT.outputs([1, 2, 3]), [1, 2, 3]);
+        for wrong in [[0, 0, 1], [0, 1, 3], [1, 2, 255]] {
+            assert_eq!(Wiring::try_new(wrong, [0, 1, 2]), None);
+            assert_eq!(Wiring::try_new([0, 1, 2], wrong), None);
+        }
+    }
+}
