@@ -5,6 +5,7 @@ use crate::mailbox::Plain;
 use crate::sensors::BadFrame;
 use crate::set_up::SetUp;
 use crate::{Board, Hold, Interlock, Mailbox, Panel, Settings, Verdict};
+use palpate::commission::Wiring;
 use palpate::device::Kinematics;
 use palpate::servo::{Deadline, Event, FrameBridge, Guard, Input, Output, ResetReason, Servo, ServoState, Surface};
 use palpate::wire::telemetry::{Producer, Recorder};
@@ -25,6 +26,18 @@ pub trait Felt<const JOINTS: usize> {
 
     /// The servo.
     fn servo(&self) -> &Servo<'static, Self::Surface, Self::Mechanism, JOINTS, Self::Guard>;
+
+    /// Which input and output of the board each joint is on.
+    #[inline(always)]
+    fn wiring(&self) -> Wiring<JOINTS> {
+        Wiring::STRAIGHT
+    }
+
+    /// Whether a calibration is kept that the servo could not be made with: then no motor is driven.
+    #[inline(always)]
+    fn is_miscalibrated(&self) -> bool {
+        false
+    }
 }
 
 /// What the servo keeps between two ticks.
@@ -126,7 +139,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         let enable = asks || homes;
 
         let input = match self.board.read() {
-            Ok(counts) => Input::Sensors { counts, enable },
+            Ok(counts) => Input::Sensors { counts: self.felt.wiring().joints(counts), enable },
             Err(BadFrame::Absent) => Input::Lost,
             Err(BadFrame::Damaged | BadFrame::Jumped) => Input::Damaged,
         };
@@ -149,6 +162,11 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// The state after the last tick.
     pub const fn state(&self) -> &State<F, JOINTS> {
         &self.state
+    }
+
+    /// What is felt, on which device.
+    pub const fn felt(&self) -> &F {
+        &self.felt
     }
 
     /// The board.
@@ -199,6 +217,10 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
                 self.by_hand.lock();
             }
         }
+        // Whatever fault stood before it was acknowledged.
+        if self.felt.is_miscalibrated() && self.state.fault().is_none() {
+            self.felt.servo().note(&mut self.state, Event::CalibrationRefused);
+        }
         self.acknowledging = match (self.acknowledging, panel.stop) {
             (_, false) => Acknowledging::Released,
             (Acknowledging::NotYet, true) => Acknowledging::NotYet,
@@ -242,7 +264,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             self.felt.servo().note(&mut self.state, Event::LinkAlive);
             holds |= hold::NO_HOST;
         }
-        if self.mailbox.writing().answer(self.is_quiet(panel)) {
+        if self.mailbox.writing().answer(self.is_quiet(panel), false) {
             holds |= hold::WRITING;
         }
         holds
@@ -250,8 +272,6 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
 
     /// A tick of a device that is being set up.
     fn jog(&mut self, began: u32, panel: &Panel) {
-        // Not beside that.
-        let _ = self.mailbox.writing().answer(false);
         let Some(set_up) = &mut self.set_up else { return };
         set_up.tick(&mut self.board, (&mut self.hold, &mut self.interlock), panel, self.mailbox);
         if self.deadline.overrun(began, self.board.now()) {
@@ -275,10 +295,10 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     #[inline]
     fn output(&mut self, verdict: Verdict) {
         if let Some(fields) = self.felt.servo().fields(&self.state) {
-            self.board.aim(fields);
+            self.board.aim(self.felt.wiring().outputs(fields));
         }
         let obeyed = match self.state.output() {
-            Output::Drive(duties) if self.drives(verdict) => self.board.drive(duties),
+            Output::Drive(duties) if self.drives(verdict) => self.board.drive(self.felt.wiring().outputs(duties)),
             Output::Drive(_) | Output::Off => self.board.release(),
         };
         if obeyed.is_err() {

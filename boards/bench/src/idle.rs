@@ -1,9 +1,10 @@
 //! What runs below the tick: main's loop.
 
+use crate::calibrations::Calibrating;
 use crate::mailbox::Plain;
 use crate::outbox::Outbox;
 use crate::taking::Taking;
-use crate::{Mailbox, Uploads};
+use crate::{Calibrations, Mailbox, Uploads};
 use palpate::servo::Heartbeat;
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::telemetry::Consumer;
@@ -32,10 +33,13 @@ pub struct Idle<'a> {
     receiver: Receiver<Command>,
     outbox: Outbox,
     taking: Taking<'a>,
+    calibrating: Calibrating<'a>,
     /// What the device says of itself.
     hello: Hello,
     /// Whether that is still to be said.
     greets: bool,
+    /// And how it is calibrated.
+    tells_calibration: bool,
     /// Whether a host of this version has said hello.
     is_greeted: bool,
     /// The number of an order that is on its way through the tick, which answers it.
@@ -56,6 +60,7 @@ impl<'a> Idle<'a> {
             receiver: Receiver::new(),
             outbox: Outbox::new(),
             taking: Taking::nothing(),
+            calibrating: Calibrating::nothing(),
             hello: Hello {
                 protocol: PROTOCOL,
                 rate: 0.0,
@@ -67,6 +72,7 @@ impl<'a> Idle<'a> {
                 kept: 0,
             },
             greets: true,
+            tells_calibration: false,
             is_greeted: false,
             awaits: None,
             last: None,
@@ -103,6 +109,13 @@ impl<'a> Idle<'a> {
         self
     }
 
+    /// Keeps a calibration in flash.
+    #[must_use]
+    pub const fn calibrating(mut self, flash: &'a dyn Calibrations) -> Self {
+        self.calibrating.flash = Some(flash);
+        self
+    }
+
     /// A moment of it: at most a byte each way. Call it for ever.
     pub fn step(&mut self, port: &mut impl Port, watchdog: &mut impl Watchdog) {
         feed(&mut self.heartbeat, self.mailbox, watchdog);
@@ -114,6 +127,9 @@ impl<'a> Idle<'a> {
         if let Some(answer) = self.taking.wait(self.mailbox, &mut || feed(&mut self.heartbeat, self.mailbox, watchdog))
         {
             self.answer = Some(answer);
+        }
+        if let Some(answer) = self.calibrating.wait(self.mailbox) {
+            (self.last, self.answer) = (Some(answer), Some(answer));
         }
         if let Some(byte) = port.receive()
             && let Some(Received::Message(command)) = self.receiver.feed(byte)
@@ -143,7 +159,9 @@ impl<'a> Idle<'a> {
                     self.mailbox.put(Plain::Alive);
                 }
             }
-            Command::Order { number, .. } | Command::Upload { number, .. } if !self.is_greeted => {
+            Command::Order { number, .. } | Command::Upload { number, .. } | Command::Calibrate { number, .. }
+                if !self.is_greeted =>
+            {
                 self.answer = Some(Answer { number, refused: Some(Refused::Hello) });
             }
             Command::Order { number, .. } if self.awaits == Some(number) => {}
@@ -157,6 +175,21 @@ impl<'a> Idle<'a> {
                 self.mailbox.put(Plain::Alive);
                 self.mailbox.put_order(number, &order);
                 self.awaits = Some(number);
+            }
+            // On its way, or done before: not again.
+            Command::Calibrate { .. } if self.calibrating.is_asked() => {}
+            Command::Calibrate { number, .. } if self.last.is_some_and(|last| last.number == number) => {
+                self.answer = self.last;
+            }
+            Command::Calibrate { number, joints } => {
+                self.mailbox.put(Plain::Alive);
+                let answer = self.calibrating.take((number, joints), self.mailbox);
+                if answer.is_some() {
+                    self.answer = answer;
+                }
+            }
+            Command::Upload { number, .. } if self.calibrating.is_asked() => {
+                self.answer = Some(Answer { number, refused: Some(Refused::Busy) });
             }
             Command::Upload { number, part } => {
                 self.mailbox.put(Plain::Alive);
@@ -174,9 +207,15 @@ impl<'a> Idle<'a> {
     /// What is said next: answers first, records in their order, then the newest reading or view.
     fn next(&mut self) -> Option<Told> {
         if self.greets {
-            self.greets = false;
+            (self.greets, self.tells_calibration) = (false, true);
             self.hello.kept = self.taking.kept();
             return Some(Told::Hello(self.hello));
+        }
+        if self.tells_calibration {
+            self.tells_calibration = false;
+            if let Some(flash) = self.calibrating.flash {
+                return Some(Told::Calibrated(flash.in_use()));
+            }
         }
         if let Some(answer) = self.answer.take() {
             return Some(Told::Answer(answer));

@@ -24,6 +24,7 @@
 //! | [`Bench`] | the tick |
 //! | [`Idle`] | what runs below it |
 //! | [`accept`] | another image: a board shows what it can, and drives no motor |
+//! | [`Calibrations`] | flash for what commissioning found |
 //! | [`Uploads`] | memory for bodies that come over the line: RAM, and flash |
 //! | [`JogSettings`] | what may be jogged once a host sets the device up, in the servo's place |
 //!
@@ -39,7 +40,9 @@
 //!   and a motor moves only while enable is held, after it was seen released, *and* the host's key is held, as frames
 //!   that must keep coming say. Only a reset leads back.
 //! - Flash is written only while nothing is driven and enable is released, and the motors are held off until it is
-//!   done, or no part of it has come for a while.
+//!   done, or no part of it has come for a while. A calibration is written only while the device is set up.
+//! - A calibration that is damaged, or cannot be this device's, is a fault that nothing ends but another calibration
+//!   and a reset.
 //! - A loop that watches its link holds the motors off until a host was heard; one that falls silent then is a fault.
 //! - A reset by the watchdog or a brown-out stays a fault until somebody acknowledges it: stop pressed and let go, with
 //!   enable released, or the host's command.
@@ -49,6 +52,7 @@
 pub mod accept;
 mod bench_loop;
 mod board;
+mod calibrations;
 mod delay;
 mod drives;
 mod hold;
@@ -72,6 +76,7 @@ mod writing;
 pub(crate) use bench_loop::State;
 pub use bench_loop::{Bench, Felt};
 pub use board::{Board, NotObeyed, Panel, Passive};
+pub use calibrations::Calibrations;
 pub use delay::{Counter, CycleDelay, cycles};
 pub use drives::{Drives, Switched};
 pub use hold::{Hold, Verdict};

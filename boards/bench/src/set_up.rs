@@ -81,7 +81,12 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         panel: &Panel,
         mailbox: &Mailbox,
     ) {
-        let verdict = holds.next(panel, self.state.is_live());
+        let is_quiet = !self.state.is_live() && !panel.enable;
+        let mut verdict = holds.next(panel, self.state.is_live());
+        // Whoever holds a key meanwhile moves nothing: enable is locked.
+        if mailbox.writing().answer(is_quiet, true) {
+            verdict.hold |= hold::WRITING;
+        }
         self.enable = interlock.next(panel.enable, verdict.hold != 0) && !self.is_stopped;
         let stopped = if self.is_stopped { hold::STOP } else { 0 };
         self.hold = verdict.hold | stopped | if interlock.is_locked() { hold::RELEASE_FIRST } else { 0 };

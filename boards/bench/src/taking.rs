@@ -88,12 +88,12 @@ impl<'a> Taking<'a> {
         }
         let (number, bytes) = self.asked?;
         let put = match mailbox.writing().word() {
-            Word::Asked => return None,
+            Word::Asked | Word::AskedInSetUp => return None,
             Word::Granted => {
                 self.held = Some(mailbox.ticks());
                 self.begin_to_keep(bytes, mailbox, pause)
             }
-            Word::Denied | Word::Free => {
+            Word::Denied | Word::NotSetUp | Word::Free => {
                 mailbox.writing().end();
                 Err(UploadError::Driven)
             }

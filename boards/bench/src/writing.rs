@@ -2,8 +2,8 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-/// Main asks, the tick answers, main says when it is done. Only main writes [`Word::Free`] and [`Word::Asked`], only
-/// the tick, which main cannot interrupt, makes of the second one of the others.
+/// Main asks, the tick answers, main says when it is done. Only main writes [`Word::Free`] and what it asks, only the
+/// tick, which main cannot interrupt, makes of what is asked one of the others.
 #[derive(Debug)]
 pub(crate) struct Writing(AtomicU32);
 
@@ -19,6 +19,10 @@ pub(crate) enum Word {
     Granted = 2,
     /// They are driven, or somebody asks for force.
     Denied = 3,
+    /// Main wants to write what only a device that is being set up may.
+    AskedInSetUp = 4,
+    /// It is to be set up first.
+    NotSetUp = 5,
 }
 
 impl Writing {
@@ -32,6 +36,8 @@ impl Writing {
             1 => Word::Asked,
             2 => Word::Granted,
             3 => Word::Denied,
+            4 => Word::AskedInSetUp,
+            5 => Word::NotSetUp,
             _ => Word::Free,
         }
     }
@@ -46,6 +52,11 @@ impl Writing {
         self.0.store(Word::Asked as u32, Ordering::Relaxed);
     }
 
+    /// Main wants to write what only a device that is being set up may.
+    pub fn ask_in_set_up(&self) {
+        self.0.store(Word::AskedInSetUp as u32, Ordering::Relaxed);
+    }
+
     /// Main is done, or no longer wants to.
     pub fn end(&self) {
         self.0.store(Word::Free as u32, Ordering::Release);
@@ -53,13 +64,16 @@ impl Writing {
 
     /// The tick's answer, if it is asked; and whether the motors have to stay off.
     #[inline]
-    pub fn answer(&self, is_quiet: bool) -> bool {
-        let word = self.word();
-        if word != Word::Asked {
-            return word == Word::Granted;
-        }
-        let answer = if is_quiet { Word::Granted } else { Word::Denied };
+    pub fn answer(&self, is_quiet: bool, is_set_up: bool) -> bool {
+        let answer = match self.word() {
+            Word::Granted => return true,
+            Word::Asked | Word::AskedInSetUp if !is_quiet => Word::Denied,
+            Word::Asked if is_set_up => Word::Denied,
+            Word::AskedInSetUp if !is_set_up => Word::NotSetUp,
+            Word::Asked | Word::AskedInSetUp => Word::Granted,
+            Word::Free | Word::Denied | Word::NotSetUp => return false,
+        };
         self.0.store(answer as u32, Ordering::Relaxed);
-        is_quiet
+        answer == Word::Granted
     }
 }

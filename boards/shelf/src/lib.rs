@@ -1,10 +1,11 @@
-//! Memory for bodies that come over the line.
+//! Memory for bodies that come over the line, and flash for a calibration.
 //!
 //! | type | is |
 //! |---|---|
 //! | [`Bodies`] | two banks of RAM: main writes and checks a body in one while the tick feels that of the other |
 //! | [`Kept`] | flash for one body, which is felt from the first tick on; written only while the motors are off |
 //! | [`Both`] | one and the other for the same slot |
+//! | [`KeptCalibration`] | flash for what commissioning found, which the loop is made with after the next reset |
 //! | [`PretendedFlash`] | RAM with the rules of flash, where there is none to write |
 //!
 //! A bank goes from hand to hand by one word: main's, while it is written; nobody's, once its body was checked; the
@@ -19,11 +20,13 @@
 mod bank;
 mod bodies;
 mod both;
+mod calibrations;
 mod incoming;
 mod kept;
 mod pretended;
 
 pub use bodies::{Bodies, Writing};
 pub use both::Both;
+pub use calibrations::{Found, KeptCalibration};
 pub use kept::{Keeping, Kept, Region};
 pub use pretended::{Broken, Pretended, PretendedFlash};

@@ -83,7 +83,7 @@ fn start(servo: fn() -> Arm, reset: ResetReason) -> (Shared, Tick, Examiner<'sta
     let queue: &'static mut Queue<Ticks, 16> = Box::leak(Box::new(Queue::new()));
     let (producer, ticks) = queue.split();
     let (world, board) = wired(&servo(), held_at([0.0, 0.0, -0.004]), &settings());
-    let felt = Made(servo());
+    let felt = Made(servo(), false);
     let chip = Chip { core: 0x410f_c241, reset };
     let examiner = Examiner::new(&felt, &settings(), chip, mailbox, ticks, Even);
     (world, Acceptance::new(felt, board, &settings(), reset, producer, mailbox), examiner)

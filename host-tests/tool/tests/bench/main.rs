@@ -2,6 +2,7 @@
 
 mod acceptance;
 mod angles;
+mod calibration;
 mod flash;
 mod frames;
 mod guarded;

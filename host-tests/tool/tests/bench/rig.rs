@@ -206,8 +206,8 @@ impl Sensors<3> for Spoilt {
 type Amplifier = SetPointDrive<Width, Out>;
 pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
 
-/// A servo that a test made.
-pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch<'static>, K, 3, G>);
+/// A servo that a test made, and whether it could not be made with the calibration that is kept.
+pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch<'static>, K, 3, G>, pub bool);
 
 impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
     type Surface = SplinePatch<'static>;
@@ -216,6 +216,10 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
 
     fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, 3, G> {
         &self.0
+    }
+
+    fn is_miscalibrated(&self) -> bool {
+        self.1
     }
 }
 
@@ -319,12 +323,16 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         settings: &Settings,
         reset: ResetReason,
     ) -> Self {
-        let (world, board) = wired(&servo, plant, settings);
+        Self::made(Made(servo, false), plant, settings, reset)
+    }
+
+    pub fn made(made: Made<K, G>, plant: Plant, settings: &Settings, reset: ResetReason) -> Self {
+        let (world, board) = wired(&made.0, plant, settings);
         // They live as long as the test, as a board's statics do.
         let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
         let queue: &'static mut Queue<Record, 4_096> = Box::leak(Box::new(Queue::new()));
         let (producer, records) = queue.split();
-        let bench = Bench::new(Made(servo), board, settings, reset, producer, mailbox);
+        let bench = Bench::new(made, board, settings, reset, producer, mailbox);
         Self { world, bench, mailbox, records: Some(records) }
     }
 
