@@ -19,7 +19,8 @@ mod tables {
 /// One patch alone is no body: choose a model of one.
 const BODY: &Body<'static> = tables::SURFACE;
 
-type Surface = Scene<'static, Slot<'static, Shelf>, 1>;
+/// What is touched.
+pub type Surface = Scene<'static, Slot<'static, Shelf>, 1>;
 
 /// As without a host (`alone.rs`).
 const HOMING: Homing<3> = Homing::new(
@@ -40,8 +41,12 @@ static SCENE: Surface = Scene::new(
 
 /// It feels by itself, with a host or without: no host watches. One that orders is better watched
 /// (`Safety::link_timeout`).
-static SERVO: Servo<'static, Surface, SerialArm, 3, Guarded<3>> =
-    Servo::new(&DEVICE, &SCENE, Controller::SECOND_ORDER, SETTINGS).protect(PROTECTION).homing(HOMING);
+pub const fn built() -> Servo<'static, Surface, SerialArm, 3, Guarded<3>> {
+    Servo::new(&DEVICE, &SCENE, Controller::SECOND_ORDER, SETTINGS).protect(PROTECTION).homing(HOMING)
+}
+
+/// What is refused does not compile.
+static SERVO: Servo<'static, Surface, SerialArm, 3, Guarded<3>> = built();
 
 /// What the loop feels.
 pub struct This;

@@ -26,11 +26,12 @@ pub fn tick(place: &mut Option<Loop>) {
 #[cfg(not(feature = "accept"))]
 mod chosen {
     use super::MAILBOX;
+    use crate::body::SETTINGS;
     use crate::felt::This;
     use palpate::servo::{Heartbeat, ResetReason};
     use palpate::wire::Record;
     use palpate::wire::telemetry::Consumer;
-    use palpate_bench::{Bench, Felt as _, Idle, Port, Watchdog};
+    use palpate_bench::{Bench, Idle, Port, Watchdog};
     use palpate_cortex::Cycles;
 
     /// The loop.
@@ -46,8 +47,7 @@ mod chosen {
         mut port: impl Port,
         start: impl FnOnce() -> W,
     ) -> ! {
-        let settings = This.servo().settings();
-        let idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(settings.rate, settings.max_force);
+        let idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate, SETTINGS.max_force);
         #[cfg(feature = "host")]
         let ends = crate::host::ends();
         #[cfg(feature = "host")]

@@ -1,4 +1,5 @@
-//! The loop of the boards for the bench: its pins over two FIFOs of the host, its serial port over the UART.
+//! The loop of the boards for the bench: its pins over two FIFOs of the host, its serial port over the UART, what it
+//! was calibrated with in a file of the host.
 
 #![no_std]
 #![no_main]
@@ -7,22 +8,29 @@ use core::cell::Cell;
 
 use cortex_m::interrupt::{Mutex, free};
 use cortex_m_rt::entry;
+use palpate::device::Device;
 use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Producer, Queue};
 use palpate_bench::{Bench, Idle, Mailbox, Settings};
-use palpate_emulated::accepted::This;
 use palpate_emulated::board::BOARD;
-use palpate_emulated::body::SETTINGS;
+use palpate_emulated::body::{DEVICE, Mechanism, SETTINGS};
+use palpate_emulated::flash::FileFlash;
 use palpate_emulated::link_semihosting::FifoLink;
 use palpate_emulated::link_uart::Uart;
+use palpate_emulated::measured::Measured;
 use palpate_emulated::pins::{NoWatchdog, Pins};
 use palpate_emulated::vectors::interrupt;
+use palpate_shelf::KeptCalibration;
 
-type Loop = Bench<'static, This, Pins<FifoLink>, 3>;
+type Loop = Bench<'static, Measured, Pins<FifoLink>, 3>;
 
-/// The interrupt's end of the queue, on its way there from main.
-static HANDED_OVER: Mutex<Cell<Option<Producer<'static, Record>>>> = Mutex::new(Cell::new(None));
+/// The device as it was built: what is kept is looked at beside it.
+static BUILT: Device<Mechanism, 3> = DEVICE;
+
+/// What is felt, and the interrupt's end of the queue, on their way there from main.
+type HandedOver = (Measured, Producer<'static, Record>);
+static HANDED_OVER: Mutex<Cell<Option<HandedOver>>> = Mutex::new(Cell::new(None));
 static MAILBOX: Mailbox = Mailbox::new();
 
 #[entry]
@@ -30,8 +38,12 @@ fn main() -> ! {
     static mut QUEUE: Queue<Record, 16> = Queue::new();
 
     let (producer, records) = QUEUE.split();
-    free(|section| HANDED_OVER.borrow(section).set(Some(producer)));
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default());
+    let Some(flash) = FileFlash::open() else { panic!("it is opened here and nowhere else") };
+    let (kept, found) = KeptCalibration::find(flash, &BUILT);
+    let felt = Measured::try_new(found);
+    free(|section| HANDED_OVER.borrow(section).set(felt.map(|felt| (felt, producer))));
+    let mut idle =
+        Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate, SETTINGS.max_force).calibrating(&kept);
     let mut port = Uart::new(&BOARD);
     BOARD.start_timer(SETTINGS.rate);
     loop {
@@ -49,9 +61,9 @@ fn TIMER0() {
     if let Some(servo_loop) = LOOP {
         servo_loop.tick();
         servo_loop.board().report();
-    } else if let Some(records) = free(|section| HANDED_OVER.borrow(section).take()) {
+    } else if let Some((felt, records)) = free(|section| HANDED_OVER.borrow(section).take()) {
         let pins = Pins::new(&BOARD, FifoLink::open());
-        *LOOP = Some(Bench::new(This, pins, &Settings::new(BOARD.clock), BOARD.reset_reason(), records, &MAILBOX));
+        *LOOP = Some(Bench::new(felt, pins, &Settings::new(BOARD.clock), BOARD.reset_reason(), records, &MAILBOX));
         BOARD.start_timer(SETTINGS.rate);
     }
 }

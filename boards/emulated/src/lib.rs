@@ -16,11 +16,15 @@ pub mod accepted;
 pub mod board;
 pub mod body;
 pub mod budget;
+#[cfg(not(feature = "protected"))]
+pub mod flash;
 #[cfg(feature = "knob")]
 pub mod knob;
 pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;
+#[cfg(not(feature = "protected"))]
+pub mod measured;
 pub mod panic;
 #[cfg(not(feature = "protected"))]
 pub mod pins;

@@ -1,9 +1,14 @@
 //! Three timers in encoder mode: the hardware counts every edge, and a tick reads three registers.
 
-use palpate_bench::sensors::Readings;
+use palpate_bench::Felt;
+use palpate_bench::sensors::{Readings, greatest_step};
 use stm32g4xx_hal::gpio::{AF1, AF2, PA0, PA1, PB6, PB7, PC6, PC7};
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
 use stm32g4xx_hal::stm32::{TIM2, TIM3, TIM4};
+
+use crate::BENCH;
+use crate::body::SETTINGS;
+use crate::felt::This;
 
 /// The pins, A and B of each encoder, already given to their timers.
 pub type Pins = ((PA0<AF1>, PA1<AF1>), (PC6<AF2>, PC7<AF2>), (PB6<AF2>, PB7<AF2>));
@@ -43,6 +48,13 @@ impl Encoders {
         start!(timers.2);
         Self { timers, _pins: pins }
     }
+}
+
+/// The greatest step between two readings of each input, counts.
+pub fn steps(felt: &This) -> [i32; 3] {
+    let device = felt.servo().device();
+    let step = |encoder| greatest_step(&encoder, device.max_joint_rate, SETTINGS.rate, BENCH.bad_frames);
+    felt.wiring().inputs(device.encoders.map(step))
 }
 
 impl Readings<3> for Encoders {

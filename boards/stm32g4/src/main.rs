@@ -11,7 +11,8 @@ mod amplifiers;
 mod body;
 mod chip;
 mod encoders;
-#[path = "../../felt.rs"]
+#[cfg_attr(feature = "host", path = "host/felt.rs")]
+#[cfg_attr(not(feature = "host"), path = "../../felt.rs")]
 mod felt;
 #[cfg(feature = "host")]
 mod host;
@@ -31,7 +32,7 @@ use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
 use palpate::device::SupplyRange;
 use palpate::wire::telemetry::Queue;
-use palpate_bench::sensors::{Counters, greatest_step};
+use palpate_bench::sensors::Counters;
 use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Settings};
 use palpate_cortex::Cycles;
 use stm32g4xx_hal::gpio::{AnyPin, Input};
@@ -40,10 +41,8 @@ use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, interrupt};
 use stm32g4xx_hal::time::ExtU32;
 
-use crate::body::{DEVICE, SETTINGS};
 use crate::chip::{CLOCK, MEMO};
 use crate::encoders::Encoders;
-use crate::felt::This;
 use crate::program::{Loop, Message};
 use crate::set_points::{Drives, Light};
 use crate::supply::Volts;
@@ -107,14 +106,16 @@ fn main() -> ! {
         (b.pb6.into_alternate(), b.pb7.into_alternate()),
     );
     let encoders = Encoders::new((chip.TIM2, chip.TIM3, chip.TIM4), pins, &mut rcc);
-    let steps =
-        DEVICE.encoders.map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate, SETTINGS.rate, BENCH.bad_frames));
+    #[cfg(feature = "host")]
+    let felt = felt::on(host::find(chip.FLASH));
+    #[cfg(not(feature = "host"))]
+    let felt = felt::This;
     let port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
 
     let board = Parts {
         counter: cycles,
         timer: Ticks::start(chip.TIM7, &rcc),
-        sensors: Counters::new(encoders, steps),
+        sensors: Counters::new(encoders, encoders::steps(&felt)),
         drives,
         lines: Lines {
             // The blue button: high while pressed.
@@ -130,10 +131,8 @@ fn main() -> ! {
         },
         light,
     };
-    #[cfg(feature = "host")]
-    host::find(chip.FLASH);
     let (producer, messages) = QUEUE.split();
-    program::HANDED_OVER.give(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX));
+    program::HANDED_OVER.give(Loop::new(felt, board, &BENCH, reset, producer, &program::MAILBOX));
     MEMO.write(Memo::new(Cause::Running));
     program::below(messages, cycles, reset, port, || {
         let mut watchdog = IndependentWatchdog::new(chip.IWDG);

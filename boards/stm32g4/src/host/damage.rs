@@ -10,7 +10,7 @@ static DAMAGED: AtomicBool = AtomicBool::new(false);
 /// Does something in which such words may be read, and says whether any was.
 pub fn watched<T>(work: impl FnOnce() -> T) -> (T, bool) {
     let done = bearing_nmi(is_damage, work);
-    (done, DAMAGED.load(Ordering::SeqCst))
+    (done, DAMAGED.swap(false, Ordering::SeqCst))
 }
 
 /// The chip tells of a word whose checksum is beyond mending by an NMI (RM0440, 3.3.4). Any other one is a stop.

@@ -5,11 +5,12 @@ use core::ptr;
 use cortex_m::interrupt;
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use stm32g4xx_hal::stm32::FLASH;
+use stm32g4xx_hal::stm32::flash::RegisterBlock;
 
-/// Where the second of two banks begins, and what it holds.
+/// Where the second of two banks begins.
 pub const START: usize = 0x0804_0000;
-/// Its bytes.
-pub const BANK_BYTES: usize = 256 * 1024;
+/// Its bytes for a body: all but the last page, which is for a calibration.
+pub const BODY_BYTES: usize = 256 * 1024 - PAGE;
 
 const PAGE: usize = 2_048;
 const DOUBLE_WORD: usize = 8;
@@ -23,8 +24,11 @@ const ERRORS: u32 = FLAGS & !1;
 /// So often the status is looked at: a page takes 25 ms at most, 4.2 million cycles, and a look some ten.
 const LOOKS: u32 = 1_000_000;
 
-/// The bank.
-pub struct Bank2(FLASH);
+/// Pages of the bank, in a row. Main has them all.
+pub struct Bank2 {
+    first: usize,
+    bytes: usize,
+}
 
 /// Flash did not take it, or what was asked of it makes no sense.
 #[derive(Clone, Copy, Debug)]
@@ -39,60 +43,65 @@ impl NorFlashError for Refused {
 const OTHER: Refused = Refused(NorFlashErrorKind::Other);
 
 impl Bank2 {
-    /// The bank, if the chip's option bytes have two.
-    pub fn try_new(flash: FLASH) -> Option<Self> {
+    /// The bank's part for a body and that for a calibration, if the chip's option bytes have two banks.
+    pub fn try_new(flash: FLASH) -> Option<[Self; 2]> {
         let is_dual = flash.optr().read().dbank().is_dual_bank_mode();
-        is_dual.then_some(Self(flash))
+        is_dual.then_some([Self { first: 0, bytes: BODY_BYTES }, Self { first: BODY_BYTES, bytes: PAGE }])
+    }
+
+    fn registers() -> &'static RegisterBlock {
+        // SAFETY: the parts are made of the only owner there is, and used by main alone, one after the other.
+        unsafe { &*FLASH::ptr() }
     }
 
     /// Waits until nothing is under way.
-    fn wait(&self) -> Result<(), Refused> {
-        let is_done = (0..LOOKS).any(|_| self.0.sr().read().bsy().bit_is_clear());
+    fn wait() -> Result<(), Refused> {
+        let is_done = (0..LOOKS).any(|_| Self::registers().sr().read().bsy().bit_is_clear());
         if is_done { Ok(()) } else { Err(OTHER) }
     }
 
     /// What became of an operation.
-    fn outcome(&self) -> Result<(), Refused> {
-        self.wait()?;
-        if self.0.sr().read().bits() & ERRORS == 0 { Ok(()) } else { Err(OTHER) }
+    fn outcome() -> Result<(), Refused> {
+        Self::wait()?;
+        if Self::registers().sr().read().bits() & ERRORS == 0 { Ok(()) } else { Err(OTHER) }
     }
 
     /// Does something with the control register open, and the data cache empty afterwards.
-    fn with(&self, work: impl FnOnce(&Self) -> Result<(), Refused>) -> Result<(), Refused> {
-        self.wait()?;
+    fn with(work: impl FnOnce() -> Result<(), Refused>) -> Result<(), Refused> {
+        Self::wait()?;
         // Off meanwhile: what it fetches while flash is written may be wrong. The tick waits for flash, with its motors
         // off.
-        self.0.acr().modify(|_, w| w.dcen().clear_bit());
+        Self::registers().acr().modify(|_, w| w.dcen().clear_bit());
         // SAFETY: ones clear flags, the keys are the manual's.
         unsafe {
-            self.0.sr().write(|w| w.bits(FLAGS));
+            Self::registers().sr().write(|w| w.bits(FLAGS));
             for key in KEYS {
-                self.0.keyr().write(|w| w.bits(key));
+                Self::registers().keyr().write(|w| w.bits(key));
             }
         }
-        let done = work(self);
-        self.0.cr().modify(|_, w| w.pg().clear_bit().per().clear_bit().lock().set_bit());
+        let done = work();
+        Self::registers().cr().modify(|_, w| w.pg().clear_bit().per().clear_bit().lock().set_bit());
         // It is emptied only while it is off.
-        self.0.acr().modify(|_, w| w.dcrst().set_bit());
-        self.0.acr().modify(|_, w| w.dcrst().clear_bit());
-        self.0.acr().modify(|_, w| w.dcen().set_bit());
+        Self::registers().acr().modify(|_, w| w.dcrst().set_bit());
+        Self::registers().acr().modify(|_, w| w.dcrst().clear_bit());
+        Self::registers().acr().modify(|_, w| w.dcen().set_bit());
         done
     }
 
-    fn erase_page(&self, page: u8) -> Result<(), Refused> {
-        self.with(|bank| {
+    fn erase_page(page: u8) -> Result<(), Refused> {
+        Self::with(|| {
             // SAFETY: a page of 128.
-            bank.0.cr().modify(|_, w| unsafe { w.per().set_bit().bker().set_bit().pnb().bits(page) });
-            bank.0.cr().modify(|_, w| w.strt().set_bit());
-            bank.outcome()
+            Self::registers().cr().modify(|_, w| unsafe { w.per().set_bit().bker().set_bit().pnb().bits(page) });
+            Self::registers().cr().modify(|_, w| w.strt().set_bit());
+            Self::outcome()
         })
     }
 
     fn write_all(&self, offset: usize, bytes: &[u8]) -> Result<(), Refused> {
-        self.with(|bank| {
-            bank.0.cr().modify(|_, w| w.pg().set_bit());
+        Self::with(|| {
+            Self::registers().cr().modify(|_, w| w.pg().set_bit());
             for (number, [low, high]) in bytes.as_chunks::<4>().0.as_chunks::<2>().0.iter().enumerate() {
-                let place = (START + offset + number * DOUBLE_WORD) as *mut u32;
+                let place = (START + self.first + offset + number * DOUBLE_WORD) as *mut u32;
                 // Both words of a double word, one right after the other.
                 interrupt::free(|_| {
                     // SAFETY: within the second bank, where nothing else lies, at a multiple of eight.
@@ -101,20 +110,20 @@ impl Bank2 {
                         ptr::write_volatile(place.add(1), u32::from_le_bytes(*high));
                     }
                 });
-                bank.outcome()?;
+                Self::outcome()?;
             }
             Ok(())
         })
     }
 }
 
-/// Whether a part of the bank begins and ends where it may.
-fn check(offset: usize, bytes: usize, size: usize) -> Result<(), Refused> {
+/// Whether something begins and ends where it may.
+fn check(offset: usize, bytes: usize, size: usize, room: usize) -> Result<(), Refused> {
     if !offset.is_multiple_of(size) || !bytes.is_multiple_of(size) {
         return Err(Refused(NorFlashErrorKind::NotAligned));
     }
     match offset.checked_add(bytes) {
-        Some(end) if end <= BANK_BYTES => Ok(()),
+        Some(end) if end <= room => Ok(()),
         _ => Err(Refused(NorFlashErrorKind::OutOfBounds)),
     }
 }
@@ -127,16 +136,16 @@ impl ReadNorFlash for Bank2 {
     const READ_SIZE: usize = 1;
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Refused> {
-        check(offset as usize, bytes.len(), Self::READ_SIZE)?;
+        check(offset as usize, bytes.len(), Self::READ_SIZE, self.bytes)?;
         for (number, byte) in bytes.iter_mut().enumerate() {
             // SAFETY: within the second bank.
-            *byte = unsafe { ptr::read_volatile((START + offset as usize + number) as *const u8) };
+            *byte = unsafe { ptr::read_volatile((START + self.first + offset as usize + number) as *const u8) };
         }
         Ok(())
     }
 
     fn capacity(&self) -> usize {
-        BANK_BYTES
+        self.bytes
     }
 }
 
@@ -146,13 +155,13 @@ impl NorFlash for Bank2 {
 
     fn erase(&mut self, from: u32, to: u32) -> Result<(), Refused> {
         let [from, to] = [from, to].map(|offset| offset as usize);
-        check(from, to.saturating_sub(from), PAGE)?;
+        check(from, to.saturating_sub(from), PAGE, self.bytes)?;
         // The cast is right: there are 128.
-        (from / PAGE..to / PAGE).try_for_each(|page| self.erase_page(page as u8))
+        ((self.first + from) / PAGE..(self.first + to) / PAGE).try_for_each(|page| Self::erase_page(page as u8))
     }
 
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Refused> {
-        check(offset as usize, bytes.len(), DOUBLE_WORD)?;
+        check(offset as usize, bytes.len(), DOUBLE_WORD, self.bytes)?;
         self.write_all(offset as usize, bytes)
     }
 }
