@@ -4,7 +4,7 @@ use super::demo_knob::recorded_of;
 use super::device::toml_of;
 use crate::commission::{
     Device, EmulatedLine, Finding, HostLine, Key, KeyHeld, Keyboard, Lab, Line, NoKey, Person, Planted, PlantedFault,
-    PortLine, RATE, SimulatedHands, World, Zero, angle, find, find_mounting,
+    PortLine, RATE, SimulatedHands, World, Zero, angle, calibration, find, find_mounting,
 };
 use crate::devices;
 use crate::firmware::{Board, Choice, Program, Progress};
@@ -12,8 +12,8 @@ use crate::knob;
 use crate::own::{self, DeviceFile, OwnDevice};
 use anyhow::{Context, bail};
 use clap::Args;
-use palpate::commission::JogRefusal;
-use palpate::wire::Reading;
+use palpate::commission::{Calibration, JogRefusal};
+use palpate::wire::{Calibrated, Reading};
 use palpate_plant::DialSettings;
 use std::io::{IsTerminal, Write as _, stdout};
 use std::path::PathBuf;
@@ -46,8 +46,14 @@ pub struct Arguments {
     #[arg(long, value_name = "DEVICE", default_value = "woodenhaptics-2016")]
     device: PathBuf,
     /// Where the measured file goes (device.toml; of a knob FILE.rs); nothing is measured without it
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["jog", "watch"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["jog", "watch", "forget"])]
     out: Option<PathBuf>,
+    /// Keeps what was measured in the device's flash too, where it has some: used from the next reset on
+    #[arg(long, requires = "out")]
+    keep: bool,
+    /// Forgets what is kept in the device's flash: from the next reset on it is what it was built with
+    #[arg(long, conflicts_with_all = ["out", "jog", "watch"])]
+    forget: bool,
     /// By which known angles encoders are found
     #[arg(long, value_enum, default_value_t)]
     zero: Zero,
@@ -94,6 +100,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         None => OwnDevice::read(&arguments.device)?,
     };
     let mut lab = lab(arguments, &own)?;
+    say_calibration(&lab.device);
+    if arguments.forget {
+        keep(&mut lab, None)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     if let Some(seconds) = arguments.watch {
         return watch(&mut lab.device, &own.file, seconds);
     }
@@ -108,13 +119,20 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     std::fs::write(out, toml_of(&found, &head)?).with_context(|| format!("cannot write {}", out.display()))?;
     report(&own, &findings);
     println!("written to {}", out.display());
+    if arguments.keep {
+        keep(&mut lab, Some(calibration(&found).context("a device of less than three joints")?))?;
+    }
     Ok(ExitCode::SUCCESS)
 }
 
 /// Records the cogging of a knob's motor.
 fn record_cogging(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let Some(out) = arguments.out.as_ref().filter(|_| !arguments.weigh && arguments.plant.is_empty()) else {
-        bail!("of a knob the cogging alone is recorded: --out FILE.rs, without --watch, --jog, --weigh and --plant");
+    let Some(out) =
+        arguments.out.as_ref().filter(|_| !arguments.weigh && !arguments.keep && arguments.plant.is_empty())
+    else {
+        bail!(
+            "of a knob the cogging alone is recorded: --out FILE.rs, without --watch, --jog, --weigh, --keep and --plant"
+        );
     };
     let (recording, from) = if let Some(path) = &arguments.port {
         let mut device = Device::connect(Box::new(PortLine::open(path, arguments.baud)?), Box::new(Keyboard::new()?))?;
@@ -131,6 +149,31 @@ fn record_cogging(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     println!("cogging of {:.2} mN·m, root mean square", 1e3 * recording.size());
     println!("written to {}: build the image anew", out.display());
     Ok(ExitCode::SUCCESS)
+}
+
+/// Says what the device uses since its last reset.
+fn say_calibration(device: &Device) {
+    match device.calibrated() {
+        None => println!("the device keeps no calibration"),
+        Some(Calibrated::BuiltIn) => println!("the device is what it was built with: no calibration is kept"),
+        Some(Calibrated::Kept { crc }) => println!("the device uses the calibration that it keeps, CRC {crc:08x}"),
+        Some(Calibrated::Refused(error)) => println!("the device keeps its motors off: {error}"),
+    }
+}
+
+/// Has a calibration kept in the device's flash, or forgotten. A simulated device is reset, to see that it is used.
+fn keep(lab: &mut Lab, found: Option<Calibration<3>>) -> anyhow::Result<()> {
+    lab.hands.enable(false)?;
+    lab.device.keep(found.map(|found| found.0)).context("the device's flash is as it was, or keeps nothing")?;
+    match found {
+        Some(found) => println!("kept in the device's flash, CRC {:08x}: used from the next reset on", found.crc()),
+        None => println!("forgotten: from the next reset on the device is what it was built with"),
+    }
+    if lab.device.reset()? {
+        print!("after a reset ");
+        say_calibration(&lab.device);
+    }
+    Ok(())
 }
 
 fn report(own: &OwnDevice, findings: &[Finding]) {

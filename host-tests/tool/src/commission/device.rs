@@ -1,9 +1,9 @@
 //! A device that is being set up, at the other end of a line.
 
 use anyhow::{Context, bail};
-use palpate::commission::{Jog, JogRefusal, KEY};
+use palpate::commission::{Jog, JogRefusal, JointCalibration, KEY};
 use palpate::wire::frame::{self, MAX_FRAME, Received, Receiver};
-use palpate::wire::{Command, Reading, Told, hold};
+use palpate::wire::{Answer, Calibrated, Command, PROTOCOL, Reading, Told, hold};
 use std::collections::VecDeque;
 
 /// Ticks of a step: a fiftieth of a second at 4 kHz.
@@ -13,6 +13,8 @@ const SILENCES: u32 = 200;
 /// How often a device is asked to be set up, and how often the line is looked at after each.
 const ASKED: u32 = 40;
 const LOOKS: u32 = 10;
+/// How long the enable button may take to be let go of, in fiftieths of a second.
+const RELEASES: u32 = 1_500;
 
 /// The bytes between this program and a device.
 pub trait Line {
@@ -27,6 +29,14 @@ pub trait Line {
     /// # Errors
     /// As [`Self::send`].
     fn receive(&mut self) -> anyhow::Result<Vec<u8>>;
+
+    /// Resets the device, where this program can: one that is simulated. Whether it did.
+    ///
+    /// # Errors
+    /// As [`Self::send`].
+    fn reset(&mut self) -> anyhow::Result<bool> {
+        Ok(false)
+    }
 }
 
 /// The key without which no motor moves.
@@ -65,6 +75,10 @@ pub struct Device {
     /// Of the last jog sent.
     number: u32,
     last: Reading,
+    /// How it says that it is calibrated; nothing of one that cannot keep a calibration.
+    calibrated: Option<Calibrated>,
+    /// To the last that was to be kept.
+    answer: Option<Answer>,
 }
 
 impl Device {
@@ -74,14 +88,21 @@ impl Device {
     /// A device that does not answer so.
     pub fn connect(line: Box<dyn Line>, key: Box<dyn Key>) -> anyhow::Result<Self> {
         let (receiver, bytes) = (Receiver::new(), VecDeque::new());
-        let mut device = Self { line, key, receiver, bytes, number: 0, last: Reading::default() };
+        let last = Reading::default();
+        let mut device = Self { line, key, receiver, bytes, number: 0, last, calibrated: None, answer: None };
+        device.set_up()?;
+        Ok(device)
+    }
+
+    /// Greets it, hears how it is calibrated, and has it set up.
+    fn set_up(&mut self) -> anyhow::Result<()> {
         for _ in 0..ASKED {
-            device.send(Command::SetUp)?;
+            self.send(Command::Hello { protocol: PROTOCOL })?;
+            self.send(Command::SetUp)?;
             for _ in 0..LOOKS {
-                if let Some(reading) = device.look()? {
-                    device.number = reading.number;
-                    device.last = reading;
-                    return Ok(device);
+                if let Some(reading) = self.look()? {
+                    (self.number, self.last) = (reading.number, reading);
+                    return Ok(());
                 }
             }
         }
@@ -89,6 +110,52 @@ impl Device {
             "the device does not answer: it lets itself be set up only while its motors are off and its enable button \
              is released"
         )
+    }
+
+    /// How it says that it is calibrated since its last reset; `None` of one that cannot keep a calibration.
+    pub const fn calibrated(&self) -> Option<Calibrated> {
+        self.calibrated
+    }
+
+    /// Has a calibration kept in the device's flash, or the one that is kept forgotten; used from its next reset on.
+    ///
+    /// # Errors
+    /// What the device refuses, an enable button that nobody lets go of, a line that broke.
+    pub fn keep(&mut self, joints: Option<[JointCalibration; 3]>) -> anyhow::Result<()> {
+        for _ in 0..RELEASES {
+            // The key is let go.
+            if !self.step(None)?.enable {
+                break;
+            }
+        }
+        // Another number than any before, for the device remembers the last.
+        let number = self.last.tick as u16;
+        self.answer = None;
+        for _ in 0..ASKED {
+            self.send(Command::Calibrate { number, joints })?;
+            for _ in 0..LOOKS {
+                self.look()?;
+                if let Some(Answer { refused, .. }) = self.answer.take_if(|answer| answer.number == number) {
+                    return refused.map_or(Ok(()), |refused| Err(anyhow::anyhow!("{refused}")));
+                }
+            }
+        }
+        bail!("the device does not say whether the calibration is kept")
+    }
+
+    /// Resets a device that is simulated, and has it set up anew. Whether it could be.
+    ///
+    /// # Errors
+    /// As [`Self::connect`]'s.
+    pub fn reset(&mut self) -> anyhow::Result<bool> {
+        let is_reset = self.line.reset()?;
+        if is_reset {
+            self.calibrated = None;
+            (self.receiver, self.last) = (Receiver::new(), Reading::default());
+            self.bytes.clear();
+            self.set_up()?;
+        }
+        Ok(is_reset)
     }
 
     /// The last reading.
@@ -160,9 +227,12 @@ impl Device {
         self.bytes.extend(came);
         let mut newest = None;
         for byte in self.bytes.drain(..) {
-            // Records of before are no readings, and are passed over as damaged.
-            if let Some(Received::Message(Told::Reading(reading))) = self.receiver.feed(byte) {
-                newest = Some(reading);
+            match self.receiver.feed(byte) {
+                Some(Received::Message(Told::Reading(reading))) => newest = Some(reading),
+                Some(Received::Message(Told::Calibrated(calibrated))) => self.calibrated = Some(calibrated),
+                Some(Received::Message(Told::Answer(answer))) => self.answer = Some(answer),
+                // Records of before are no readings.
+                _ => {}
             }
         }
         Ok(newest)

@@ -20,7 +20,7 @@ pub struct EmulatedLine {
     world: Arc<Mutex<World>>,
     tick: u32,
     /// Its image, which the emulator may still be reading.
-    _program: Program,
+    program: Program,
 }
 
 impl EmulatedLine {
@@ -29,10 +29,16 @@ impl EmulatedLine {
     /// # Errors
     /// An emulator that does not start.
     pub fn start(program: Program, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
-        let (pins, port) = program.start_with_telemetry()?;
-        port.set_read_timeout(Some(WAIT))?;
-        Ok(Self { pins, port, world: Arc::clone(world), tick: 0, _program: program })
+        let (pins, port) = started(&program, &[])?;
+        Ok(Self { pins, port, world: Arc::clone(world), tick: 0, program })
     }
+}
+
+/// A board with this in its flash.
+fn started(program: &Program, flash: &[u8]) -> anyhow::Result<(Emulator, TcpStream)> {
+    let (pins, port) = program.start_with_flash(flash)?;
+    port.set_read_timeout(Some(WAIT))?;
+    Ok((pins, port))
 }
 
 impl Line for EmulatedLine {
@@ -56,5 +62,13 @@ impl Line for EmulatedLine {
             Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock) => Ok(Vec::new()),
             Err(error) => Err(error.into()),
         }
+    }
+
+    /// Another emulator, with the flash of the first.
+    fn reset(&mut self) -> anyhow::Result<bool> {
+        let flash = self.pins.flash()?;
+        (self.pins, self.port) = started(&self.program, &flash)?;
+        self.tick = 0;
+        Ok(true)
     }
 }

@@ -4,7 +4,8 @@ use super::{Line, RATE, World};
 use crate::own::OwnDevice;
 use crate::preset::Preset;
 use crate::wall::WALL;
-use anyhow::bail;
+use anyhow::{Context as _, bail};
+use palpate::commission::Wiring;
 use palpate::device::{Counts, Device, Duty, Kinematics};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
@@ -14,6 +15,7 @@ use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Watchdog};
+use palpate_shelf::{Found, KeptCalibration, PretendedFlash};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -24,7 +26,15 @@ const TICKS: u32 = 8;
 /// Bytes that a line of 500,000 baud carries in a tick, either way, with time to spare.
 const BYTES: u32 = 16;
 
-struct Made<K: 'static>(Servo<'static, SplinePatch<'static>, K, 3>);
+/// Its flash: a page, for a calibration.
+type Flash = PretendedFlash<512>;
+
+/// A servo on the device as it was found in flash.
+struct Made<K: 'static> {
+    servo: Servo<'static, SplinePatch<'static>, K, 3>,
+    wiring: Wiring<3>,
+    is_miscalibrated: bool,
+}
 
 impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
     type Surface = SplinePatch<'static>;
@@ -32,7 +42,15 @@ impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
     type Guard = Unguarded;
 
     fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, 3> {
-        &self.0
+        &self.servo
+    }
+
+    fn wiring(&self) -> Wiring<3> {
+        self.wiring
+    }
+
+    fn is_miscalibrated(&self) -> bool {
+        self.is_miscalibrated
     }
 }
 
@@ -116,11 +134,16 @@ impl Watchdog for NoWatchdog {
     fn feed(&mut self) {}
 }
 
+/// The loop and what runs below it.
+type Started = (Box<dyn Ticks>, Idle<'static>);
+
 /// A line to the loop of the boards in this very program.
 pub struct HostLine {
     bench: Box<dyn Ticks>,
     idle: Idle<'static>,
     bytes: Bytes,
+    flash: &'static Flash,
+    start: Box<dyn Fn(&'static Flash) -> anyhow::Result<Started>>,
 }
 
 impl HostLine {
@@ -137,27 +160,44 @@ impl HostLine {
         }
     }
 
-    fn of<K: Kinematics<3>>(device: &'static Device<K, 3>, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
-        let settings = Settings {
-            rate: RATE,
-            stiffness: 0.5 * device.max_stiffness,
-            damping: 0.5 * device.max_damping,
-            max_force: device.max_force,
-            velocity_corner: 200.0,
-            soft_start: 0.2,
-            body_origin: vec3(0.0, 0.0, -1.0),
-        };
-        let servo = Servo::try_new(device, &WALL, Controller::SECOND_ORDER, settings)?;
-        let board = SimulatedBoard { world: Arc::clone(world), duties: [0; 3] };
-        // They live as long as the program, as a board's statics do.
-        let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
-        let queue: &'static mut Queue<Record, 16> = Box::leak(Box::new(Queue::new()));
-        let (producer, records) = queue.split();
-        let settings = palpate_bench::Settings::new(CLOCK);
-        let bench = Bench::new(Made(servo), board, &settings, ResetReason::PowerOn, producer, mailbox);
-        let idle = Idle::new(mailbox, records, Heartbeat::default());
-        Ok(Self { bench: Box::new(bench), idle, bytes: Bytes::default() })
+    fn of<K: Kinematics<3> + Copy>(device: &'static Device<K, 3>, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
+        let flash: &'static Flash = Box::leak(Box::new(Flash::new()));
+        let world = Arc::clone(world);
+        let start = Box::new(move |flash| started(device, &world, flash));
+        let (bench, idle) = start(flash)?;
+        Ok(Self { bench, idle, bytes: Bytes::default(), flash, start })
     }
+}
+
+/// A device that begins, with what its flash has. What it is made of lives as long as the program, as a board's statics
+/// do.
+fn started<K: Kinematics<3> + Copy>(
+    built: &'static Device<K, 3>,
+    world: &Arc<Mutex<World>>,
+    flash: &'static Flash,
+) -> anyhow::Result<Started> {
+    let settings = Settings {
+        rate: RATE,
+        stiffness: 0.5 * built.max_stiffness,
+        damping: 0.5 * built.max_damping,
+        max_force: built.max_force,
+        velocity_corner: 200.0,
+        soft_start: 0.2,
+        body_origin: vec3(0.0, 0.0, -1.0),
+    };
+    let writer = flash.writer().context("its flash has a writer already")?;
+    let (kept, found) = KeptCalibration::find(writer, built);
+    let Found { device, wiring, is_miscalibrated } = found;
+    let servo = Servo::try_new(built, &WALL, Controller::SECOND_ORDER, settings)?;
+    let made = Made { servo: servo.calibrated(Box::leak(Box::new(device))), wiring, is_miscalibrated };
+    let board = SimulatedBoard { world: Arc::clone(world), duties: [0; 3] };
+    let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
+    let queue: &'static mut Queue<Record, 16> = Box::leak(Box::new(Queue::new()));
+    let (producer, records) = queue.split();
+    let settings = palpate_bench::Settings::new(CLOCK);
+    let bench = Bench::new(made, board, &settings, ResetReason::PowerOn, producer, mailbox);
+    let idle = Idle::new(mailbox, records, Heartbeat::default()).calibrating(Box::leak(Box::new(kept)));
+    Ok((Box::new(bench), idle))
 }
 
 impl Line for HostLine {
@@ -174,5 +214,12 @@ impl Line for HostLine {
             }
         }
         Ok(std::mem::take(&mut self.bytes.from_device))
+    }
+
+    fn reset(&mut self) -> anyhow::Result<bool> {
+        self.flash = Box::leak(Box::new(self.flash.after_reset()));
+        (self.bench, self.idle) = (self.start)(self.flash)?;
+        self.bytes = Bytes::default();
+        Ok(true)
     }
 }

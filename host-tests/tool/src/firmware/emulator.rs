@@ -20,6 +20,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// How often to look whether the emulator is still there.
 const LOOK: Duration = Duration::from_millis(100);
 
+/// Where an image that has flash keeps it, in the folder where the emulator was started.
+const FLASH: &str = "flash";
+
 /// A running emulator. It ends when this is dropped, or by itself if this program is gone.
 #[derive(Debug)]
 pub struct Emulator {
@@ -56,12 +59,15 @@ impl Emulator {
     }
 
     /// Starts an image that speaks over FIFOs and tells of itself over its UART: the line it does that on comes with
-    /// it.
+    /// it. `flash` is what lies in its flash, if the image has some; nothing is erased flash.
     ///
     /// # Errors
     /// If the emulator does not start.
-    pub fn start_with_telemetry(qemu: &Qemu, image: &Image) -> Result<(Self, TcpStream), LinkError> {
+    pub fn start_with_telemetry(qemu: &Qemu, image: &Image, flash: &[u8]) -> Result<(Self, TcpStream), LinkError> {
         let (mut command, folder) = command(qemu, image, Pace::Brisk)?;
+        if !flash.is_empty() {
+            fs::write(folder.path().join(FLASH), flash)?;
+        }
         let fifos = Fifos::new(folder.path())?;
         let (child, telemetry) = accept_uart(&mut command, &folder)?;
         Ok((Self::new(child, Transport::Fifo, Line::Fifos(fifos), folder), telemetry))
@@ -81,6 +87,17 @@ impl Emulator {
 
     fn new(child: Child, transport: Transport, line: Line, folder: TempDir) -> Self {
         Self { child, transport, line, receiver: Receiver::new(), buffer: [0; MAX_FRAME], next: 0, end: 0, folder }
+    }
+
+    /// What lies in its flash now; nothing, if it has never been written.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn flash(&self) -> Result<Vec<u8>, LinkError> {
+        match fs::read(self.folder.path().join(FLASH)) {
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+            read => Ok(read?),
+        }
     }
 
     /// Hangs up, so that the firmware finds its host gone, and waits for the emulator to end by itself.

@@ -98,7 +98,15 @@ impl Program {
     /// # Errors
     /// If the emulator does not start.
     pub fn start_with_telemetry(&self) -> Result<(Emulator, TcpStream), LinkError> {
-        Emulator::start_with_telemetry(&self.qemu, &self.image)
+        self.start_with_flash(&[])
+    }
+
+    /// The same with this in the flash of a program that has some; erased, if it is nothing.
+    ///
+    /// # Errors
+    /// If the emulator does not start.
+    pub fn start_with_flash(&self, flash: &[u8]) -> Result<(Emulator, TcpStream), LinkError> {
+        Emulator::start_with_telemetry(&self.qemu, &self.image, flash)
     }
 
     /// Starts it where it speaks over FIFOs and writes to its standard output, which comes with it.

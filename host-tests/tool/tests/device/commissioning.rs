@@ -6,10 +6,11 @@
 use palpate::device::{Counts, Device, Kinematics};
 use palpate::servo::{Fault, Input, Phase, Servo, Settings};
 use palpate::track::Controller;
+use palpate::wire::Calibrated;
 use palpate_plant::{Direction, HandSettings, JointSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
 use palpate_tool::commission::{
-    Device as Commissioned, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, find,
-    find_mounting,
+    Device as Commissioned, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, calibration,
+    find, find_mounting,
 };
 use palpate_tool::devices::{DEVICES, Preset, ShippedDevice};
 use palpate_tool::own::OwnDevice;
@@ -169,6 +170,31 @@ fn every_planted_fault_is_found_and_with_the_file_that_is_written_the_planted_de
     // A turntable that is turned too little, or the other way, is not felt on a level wall. Most of the rest is, or the
     // runs above say nothing.
     assert!(spoilt >= 16, "{spoilt} of 36");
+}
+
+#[test]
+fn what_is_kept_in_the_device_is_what_was_found_and_is_used_after_a_reset() {
+    for (shipped, own) in devices() {
+        let faults = HARMS[HARMS.len() - 1].0;
+        let planted = faults.iter().fold(Planted::sound(shipped.plant), |planted, fault| planted.with(*fault));
+        let mut lab = lab(&own, planted);
+        assert_eq!(lab.device.calibrated(), Some(Calibrated::BuiltIn));
+        let (file, _) = find_mounting(&mut lab, &own, Zero::Jig).expect("it is found");
+        let found = OwnDevice::new(file, "found.toml").expect("a device");
+        let kept = calibration(&found).expect("three joints");
+        // Whoever holds the button lets go of it first.
+        let refusal = lab.device.keep(Some(kept.0)).expect_err("the button is held").to_string();
+        assert!(refusal.contains("enable"), "{refusal}");
+        lab.hands.enable(false).expect("simulated");
+        lab.device.keep(Some(kept.0)).expect("it is kept");
+        assert!(lab.device.reset().expect("it starts"));
+        assert_eq!(lab.device.calibrated(), Some(Calibrated::Kept { crc: kept.crc() }));
+        let reading = lab.device.last();
+        assert!(!reading.live, "raw counts and outputs as before, and nothing moves");
+        lab.device.keep(None).expect("it is forgotten");
+        assert!(lab.device.reset().expect("it starts"));
+        assert_eq!(lab.device.calibrated(), Some(Calibrated::BuiltIn), "{}", shipped.name);
+    }
 }
 
 #[test]

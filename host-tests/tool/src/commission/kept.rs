@@ -1,0 +1,28 @@
+//! What was measured, as the device keeps it.
+
+use crate::own::OwnDevice;
+use crate::preset::Preset;
+use palpate::commission::{Calibration, JointCalibration};
+use palpate::device::Device;
+
+/// What a device of three joints keeps of a file; `None` of one with fewer.
+pub fn calibration(own: &OwnDevice) -> Option<Calibration<3>> {
+    match own.preset {
+        Preset::SerialArm(device) => Some(of(own, device)),
+        Preset::LinkageArm(device) => Some(of(own, device)),
+        Preset::Delta(device) => Some(of(own, device)),
+        Preset::FiveBar(_) | Preset::Paddle(_) => None,
+    }
+}
+
+fn of<K>(own: &OwnDevice, device: &Device<K, 3>) -> Calibration<3> {
+    Calibration(core::array::from_fn(|joint| JointCalibration {
+        // Below three, as the file was read.
+        input: own.file.joint[joint].encoder.channel as u8,
+        output: own.file.joint[joint].motor.channel as u8,
+        radians_per_count: device.encoders[joint].radians_per_count,
+        angle_at_zero: device.encoders[joint].angle_at_zero,
+        torque_at_full: device.motors[joint].torque_at_full,
+        dry_friction: device.dry_friction[joint],
+    }))
+}
