@@ -47,6 +47,7 @@ fn how(fault: Fault) -> How {
             knob.dial.hold(Fingers { stiffness: 0.0, damping: 5e-3, aim: 0.0, rate: 90.0 });
         }),
         Fault::Supply => How::Anytime(|knob| knob.dial.supply(9.9)),
+        Fault::Calibration => How::Anytime(|knob| knob.note(Event::CalibrationRefused)),
         Fault::WrongSign => How::Never("the alignment finds out which way the counts go"),
     }
 }
