@@ -1,5 +1,5 @@
-//! Flash that a reset leaves alone. No emulator here has any that a program can write: it is RAM with the rules of flash,
-//! and a file of the host, beside its FIFOs, from one start of the emulator to the next.
+//! Flash that a reset leaves alone. No emulator here has any that a program can write: it is RAM with the rules of
+//! flash, and a file of the host, beside its FIFOs, from one start of the emulator to the next.
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 use palpate_shelf::{Broken, Pretended, PretendedFlash};

@@ -1,4 +1,5 @@
-//! The servo of a board that a host may order about, on the device as commissioning found it: in RAM, made at each start.
+//! The servo of a board that a host may order about, on the device as commissioning found it: in RAM, made at each
+//! start.
 
 #[path = "../../../hosted.rs"]
 #[allow(dead_code)]
