@@ -67,7 +67,7 @@ pub fn analyse(ways: [&[Sample]; 2], torque: f64) -> Result<Recording, Unbelieva
     let end = BEGIN + i32::from(COMMUTATION.pole_pairs) * TURN;
     let measured = |way: usize| ways[way].iter().copied().filter(move |sample| (BEGIN..end).contains(&sample.field));
     let mut there = measured(0);
-    let (Some(first), Some(last)) = (there.next(), there.last()) else { return Err(Unbelievable::Incomplete) };
+    let (Some(first), Some(last)) = (there.next(), there.next_back()) else { return Err(Unbelievable::Incomplete) };
     let reversed = last.counts < first.counts;
     let unaligned = Aligned { at_zero: ElectricalAngle(0), reversed };
     let ahead_of = |sample: &Sample, at_zero: ElectricalAngle| {
