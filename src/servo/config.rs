@@ -121,7 +121,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         self,
         protection: Protection<JOINTS>,
     ) -> Result<Servo<'a, S, K, JOINTS, Guarded<JOINTS>>, ProtectionError> {
-        let guard = match Guarded::try_new(protection, self.rate, &self.penalty) {
+        let guard = match Guarded::try_new(protection, self.device.dry_friction, self.rate, &self.penalty) {
             Ok(guard) => guard,
             Err(error) => return Err(error),
         };

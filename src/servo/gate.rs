@@ -20,33 +20,6 @@ pub fn gate<const JOINTS: usize>(
     felt: [f32; JOINTS],
     weight: [f32; JOINTS],
 ) -> Result<([Duty; JOINTS], f32), Fault> {
-    pass(drives, motors, felt, weight, 1.0, None)
-}
-
-/// As [`gate`], where each motor may be given only this share of its full scale; `least` is the least of them.
-///
-/// # Errors
-/// As [`gate`]'s.
-#[inline]
-pub fn gate_within<const JOINTS: usize>(
-    drives: bool,
-    motors: &[Motor; JOINTS],
-    felt: [f32; JOINTS],
-    weight: [f32; JOINTS],
-    (least, bounds): (f32, &[f32; JOINTS]),
-) -> Result<([Duty; JOINTS], f32), Fault> {
-    pass(drives, motors, felt, weight, least, Some(bounds))
-}
-
-#[inline(always)]
-fn pass<const JOINTS: usize>(
-    drives: bool,
-    motors: &[Motor; JOINTS],
-    felt: [f32; JOINTS],
-    weight: [f32; JOINTS],
-    least: f32,
-    bounds: Option<&[f32; JOINTS]>,
-) -> Result<([Duty; JOINTS], f32), Fault> {
     let mut fractions = [0.0; JOINTS];
     let mut sum = 0.0;
     for (((fraction, motor), felt), weight) in fractions.iter_mut().zip(motors).zip(felt).zip(weight) {
@@ -61,53 +34,87 @@ fn pass<const JOINTS: usize>(
         return Ok(([Duty::ZERO; JOINTS], 0.0));
     }
     // Mostly: what all of them give together, one alone could.
-    if sum <= least {
+    if sum <= 1.0 {
         return Ok((fractions.map(Duty::from_fraction), 1.0));
     }
-    Ok(saturate(motors, felt, weight, bounds))
+    Ok(saturate(motors, felt, weight))
 }
 
-/// The most of the felt torques that the motors have left above the weight, each within its bound.
+/// The most of the felt torques that the motors have left above the weight.
 #[inline]
 fn saturate<const JOINTS: usize>(
     motors: &[Motor; JOINTS],
     felt: [f32; JOINTS],
     weight: [f32; JOINTS],
-    bounds: Option<&[f32; JOINTS]>,
 ) -> ([Duty; JOINTS], f32) {
-    let full = |joint: usize| bounds.map_or(1.0, |bounds| bounds[joint]);
     let mut fractions = [[0.0; 2]; JOINTS];
-    let (mut scale, mut is_heavy) = (1.0, false);
-    for (joint, ((fractions, motor), (felt, weight))) in
-        fractions.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)).enumerate()
-    {
-        let [asked, carried] = [motor.fraction(felt), motor.fraction(weight)];
-        *fractions = [asked, carried];
-        // Where all of the scale may be given, a weight beyond it shows by what it leaves, if anything is felt.
-        is_heavy |= bounds.is_some() && carried.abs() > full(joint);
-        scale = least_scale(scale, *fractions, full(joint));
+    let mut scale = 1.0;
+    for ((fractions, motor), (felt, weight)) in fractions.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
+        *fractions = [motor.fraction(felt), motor.fraction(weight)];
+        // A weight beyond the scale shows by what it leaves, if anything is felt.
+        scale = least_scale(scale, *fractions, 1.0);
     }
-    if is_heavy || scale < 0.0 {
-        scale = relieve(&mut fractions, full);
+    if scale < 0.0 {
+        scale = relieve(&mut fractions, &[1.0; JOINTS]);
     }
     (fractions.map(|[asked, carried]| Duty::from_fraction(asked * scale + carried)), scale)
 }
 
-/// Scales a weight that no motor carries to what they can.
+/// As [`gate`], where each motor may be given only this share of its full scale.
+///
+/// # Errors
+/// As [`gate`]'s.
+#[inline]
+pub fn gate_within<const JOINTS: usize>(
+    drives: bool,
+    motors: &[Motor; JOINTS],
+    mut felt: [f32; JOINTS],
+    mut weight: [f32; JOINTS],
+    bounds: [f32; JOINTS],
+) -> Result<([Duty; JOINTS], f32), Fault> {
+    let mut limits = bounds;
+    let (mut scale, mut sum, mut is_heavy) = (1.0, 0.0, false);
+    for ((limit, motor), (felt, weight)) in limits.iter_mut().zip(motors).zip(felt.iter().zip(&weight)) {
+        *limit = (*limit * motor.torque_at_full).abs();
+        let load = weight.abs();
+        sum += felt.abs() + load;
+        is_heavy |= load > *limit;
+        scale = least_scale(scale, [*felt, *weight], *limit);
+    }
+    if !sum.is_finite() {
+        return Err(Fault::NotFinite);
+    }
+    if !drives {
+        return Ok(([Duty::ZERO; JOINTS], 0.0));
+    }
+    if is_heavy || scale < 0.0 {
+        let mut torques = core::array::from_fn(|joint| [felt[joint], weight[joint]]);
+        scale = relieve(&mut torques, &limits);
+        (felt, weight) = (torques.map(|[felt, _]| felt), torques.map(|[_, weight]| weight));
+    }
+    let mut duties = [Duty::ZERO; JOINTS];
+    for ((duty, motor), (felt, weight)) in duties.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
+        *duty = Duty::from_part(motor.fraction(felt * scale + weight));
+    }
+    Ok((duties, scale))
+}
+
+/// Scales a weight that no motor carries to what they can. Each joint has what is asked for and what is carried, and the
+/// most it may have, in one unit.
 #[cold]
-fn relieve<const JOINTS: usize>(fractions: &mut [[f32; 2]; JOINTS], full: impl Fn(usize) -> f32) -> f32 {
-    let shares = fractions.iter().enumerate().map(|(joint, [_, carried])| carried.abs() / full(joint));
+fn relieve<const JOINTS: usize>(joints: &mut [[f32; 2]; JOINTS], full: &[f32; JOINTS]) -> f32 {
+    let shares = joints.iter().zip(full).map(|([_, carried], full)| carried.abs() / full);
     let heaviest = shares.fold(1.0, |most: f32, share| if share > most { share } else { most });
     let mut scale = 1.0;
-    for (joint, fractions) in fractions.iter_mut().enumerate() {
-        fractions[1] /= heaviest;
-        scale = least_scale(scale, *fractions, full(joint));
+    for (joint, full) in joints.iter_mut().zip(full) {
+        joint[1] /= heaviest;
+        scale = least_scale(scale, *joint, *full);
     }
     // Below 0 by rounding.
     if scale > 0.0 { scale } else { 0.0 }
 }
 
-/// By what the felt force must be scaled, `scale` at most, for a joint's share `asked` to fit in what the weight
+/// By what the felt force must be scaled, `scale` at most, for what is `asked` of a joint to fit in what the weight
 /// `carried` has left; below 0 where that is nothing.
 #[inline(always)]
 fn least_scale(scale: f32, [asked, carried]: [f32; 2], full: f32) -> f32 {
@@ -178,12 +185,33 @@ mod tests {
             let (felt, weight) = ([(); 3].map(|()| draw(2.0)), [(); 3].map(|()| draw(1.5)));
             // A third of them nothing at all.
             let scales = [(); 3].map(|()| draw(1.0)).map(|scale| if scale.abs() > 0.67 { 0.0 } else { scale.abs() });
-            let least = scales.iter().copied().fold(1.0, f32::min);
-            let (duties, scale) = gate_within(true, &MOTORS, felt, weight, (least, &scales)).unwrap();
+            let (duties, scale) = gate_within(true, &MOTORS, felt, weight, scales).unwrap();
             assert!((0.0..=1.0).contains(&scale), "{felt:?} {weight:?} {scales:?}");
             for (duty, most) in duties.iter().zip(scales) {
                 // Half a step of duty.
                 assert!(duty.fraction().abs() <= most + 1.6e-5, "{felt:?} {weight:?} {scales:?} {duties:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_motor_at_its_bound_never_turns_round() {
+        let mut seed = 1_u32;
+        let mut draw = |size: f32| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / (1 << 23) as f32 * size - size
+        };
+        for _ in 0..1_000_000 {
+            let motors = [(); 3].map(|()| Motor { torque_at_full: draw(3.0) });
+            let torques = motors.map(|motor| motor.torque_at_full * draw(4.0));
+            let weight = motors.map(|motor| motor.torque_at_full * draw(1.5));
+            let bounds = [1.0, 0.999_999_94, draw(1.0).abs()];
+            let (duties, scale) = gate_within(true, &motors, torques, weight, bounds).unwrap();
+            for (joint, duty) in duties.iter().enumerate() {
+                let wanted = (torques[joint] * scale + weight[joint]) / motors[joint].torque_at_full;
+                // Where a weight was scaled too, this is more than was given, of the same sign.
+                assert!(duty.fraction() * wanted >= -1e-4, "{duty:?} {wanted}");
+                assert!(duty.0 != i16::MIN, "{duty:?}");
             }
         }
     }
@@ -205,6 +233,10 @@ mod tests {
                     assert_eq!(gate(drives, &MOTORS, NONE, torques), Err(Fault::NotFinite));
                     // Whatever their sum.
                     assert_eq!(gate(drives, &MOTORS, torques, torques.map(|torque| -torque)), Err(Fault::NotFinite));
+                    for bounds in [[0.5; 3], [0.0; 3]] {
+                        assert_eq!(gate_within(drives, &MOTORS, torques, NONE, bounds), Err(Fault::NotFinite));
+                        assert_eq!(gate_within(drives, &MOTORS, NONE, torques, bounds), Err(Fault::NotFinite));
+                    }
                 }
             }
         }

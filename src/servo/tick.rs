@@ -137,7 +137,6 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             stop(state, fault);
         }
         if let Some(expected) = self.expected_crc()
-            && !self.guard.is_busy(&state.guard)
             && !state.table_check.step(self.surface, expected)
         {
             stop(state, Fault::TableCorrupt);
@@ -213,19 +212,18 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         state.fade = self.next_fade(state);
         state.force = self.force(state, tool, touched.normal, &motion);
         let mut felt = pose.torques(state.force);
+        if state.phase == Phase::Running {
+            let (angles, rates) = (&state.angles, &state.rates);
+            let moving = Moving { angles, rates, velocity, pose: &pose, force: state.force };
+            let share = self.guard.motion(&mut state.guard, &moving, &mut felt)?;
+            state.force *= share;
+        } else {
+            self.guard.released(&mut state.guard);
+        }
         if let Some(limits) = self.safety.stuck
-            && !self.guard.is_busy(&state.guard)
             && state.stillness.is_broken(limits, &self.device.dry_friction, &counts, &state.angles, &felt)
         {
             return Err(Fault::JointStuck);
-        }
-        if state.phase == Phase::Running {
-            let moving = Moving { rates: &state.rates, velocity, pose: &pose, force: state.force, felt: &felt };
-            let share = self.guard.motion(&mut state.guard, &moving)?;
-            if share < 1.0 {
-                felt = felt.map(|torque| torque * share);
-                state.force *= share;
-            }
         }
         let fade = state.fade;
         Ok(Torques { felt, weight: weight.map(|torque| torque * fade), live: state.phase == Phase::Running })

@@ -102,6 +102,7 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
         Ok(counted.0.into_iter().filter(|(of, _)| of.contains(name)).collect())
     };
     let (protected, smooth) = (other("counted", "tick, protected")?, other("smooth", "tick, smooth")?);
+    let folded = other("folded", "tick, folded back")?;
     let knob = figures(&Program::prepare(board, "knob_budget", &["knob"], progress)?.run(Pace::Counting)?)?;
     let file = figures(&Program::prepare(board, "file_budget", &[], progress)?.run(Pace::Counting)?)?;
     all.0.extend(knob.0);
@@ -110,6 +111,7 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
         all.0.extend(figures(&Program::prepare(board, "scene_budget", &[scene], progress)?.run(Pace::Counting)?)?.0);
     }
     all.0.extend(protected);
+    all.0.extend(folded);
     all.0.extend(smooth);
     Ok(all)
 }

@@ -8,13 +8,12 @@ use super::{Guard, Moving, Remembered};
 use crate::device::{Duty, Motor, Protection};
 use crate::render::Penalty;
 use crate::servo::Fault;
-use crate::servo::gate::gate_within;
+use crate::servo::gate::{gate, gate_within};
 
 /// A device's [`Protection`] for a loop's rate and gains.
 ///
-/// The joints take turns, one a tick: a tick looks at the rate and at the sign of one joint and takes the heat of one
-/// motor on. What that costs in time is a tick less than there are joints: half a millisecond of three at 4 kHz. The
-/// probe's speed and the supply are looked at in every tick.
+/// The joints take turns, one a tick: a tick looks at the rate of one joint and takes the heat of one motor on. What that costs in time is a tick less than there are joints: half a millisecond of three at 4 kHz. The
+/// probe's speed, the signs and the supply are looked at in every tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Guarded<const JOINTS: usize> {
     heat: [HeatModel; JOINTS],
@@ -49,9 +48,9 @@ impl<const JOINTS: usize> GuardState<JOINTS> {
         self.windings.map(|winding| winding.bound)
     }
 
-    /// How many contacts each joint has come through in the watch over signs that are wrong.
-    pub fn contacts_passed(&self) -> [u8; JOINTS] {
-        self.signs.passed()
+    /// Which joints were seen to follow their motors.
+    pub fn joints_seen(&self) -> [bool; JOINTS] {
+        self.signs.seen()
     }
 
     /// Whether a motor is so warm that it is given less than full scale.
@@ -65,6 +64,7 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
     /// The number that is refused.
     pub(in crate::servo) const fn try_new(
         protection: Protection<JOINTS>,
+        dry_friction: [f32; JOINTS],
         rate: f32,
         penalty: &Penalty,
     ) -> Result<Self, ProtectionError> {
@@ -86,7 +86,7 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
                 None => None,
             },
             signs: match protection.signs {
-                Some(watch) => Some(Signs::new(&watch, rate, penalty)),
+                Some(watch) => Some(Signs::new(&watch, dry_friction, rate, penalty)),
                 None => None,
             },
         })
@@ -116,22 +116,27 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
         self.supply.as_ref().map_or(Ok(()), |supply| supply.tick(&mut state.supply_age))
     }
 
-    #[inline]
-    fn is_busy(&self, state: &GuardState<JOINTS>) -> bool {
-        state.signs.is_busy()
-    }
-
     #[inline(always)]
-    fn motion(&self, state: &mut GuardState<JOINTS>, moving: &Moving<'_, JOINTS>) -> Result<f32, Fault> {
+    fn motion(
+        &self,
+        state: &mut GuardState<JOINTS>,
+        moving: &Moving<'_, JOINTS>,
+        felt: &mut [f32; JOINTS],
+    ) -> Result<f32, Fault> {
         let turn = state.turn;
         let (Some(rate), Some(most)) = (moving.rates.get(turn), self.max_joint_rates.get(turn)) else { return Ok(1.0) };
         if moving.velocity.length_squared() > self.max_squared_speed || rate.abs() > *most {
             return Err(Fault::Overspeed);
         }
         match &self.signs {
-            Some(signs) => signs.look(&mut state.signs, moving, turn),
+            Some(signs) => signs.look(&mut state.signs, moving, felt),
             None => Ok(1.0),
         }
+    }
+
+    #[inline]
+    fn released(&self, state: &mut GuardState<JOINTS>) {
+        state.signs.end();
     }
 
     #[inline]
@@ -143,7 +148,11 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
         felt: [f32; JOINTS],
         weight: [f32; JOINTS],
     ) -> Result<([Duty; JOINTS], f32), Fault> {
-        gate_within(drives, motors, felt, weight, (state.least_bound, &state.bounds()))
+        if state.folds() {
+            gate_within(drives, motors, felt, weight, state.bounds())
+        } else {
+            gate(drives, motors, felt, weight)
+        }
     }
 
     #[inline]

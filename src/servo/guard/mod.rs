@@ -23,6 +23,8 @@ use core::fmt::Debug;
 /// What a tick's motion is, as a guard looks at it.
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'a, const JOINTS: usize> {
+    /// Joint angles, as the counts tell them, rad.
+    pub angles: &'a [f32; JOINTS],
     /// Joint rates, rad/s.
     pub rates: &'a [f32; JOINTS],
     /// The probe's velocity, m/s.
@@ -31,8 +33,6 @@ pub struct Moving<'a, const JOINTS: usize> {
     pub pose: &'a ProbePose<JOINTS>,
     /// The force that is to be felt, N.
     pub force: Vec3,
-    /// Its joint torques, N·m.
-    pub felt: &'a [f32; JOINTS],
 }
 
 /// What guards a loop. Every call is bounded, and none panics.
@@ -49,13 +49,20 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     /// What can be wrong whatever the sensors say; once a tick.
     fn watch(&self, state: &mut Self::State) -> Result<(), Fault>;
 
-    /// Whether it watches a contact on trial. The check of the tables and the watch over stuck sensors, which look at a
-    /// word and a joint a tick and need no hurry, wait meanwhile, for at most two contacts of each joint after a start:
-    /// they pay for the watch.
-    fn is_busy(&self, state: &Self::State) -> bool;
+    /// Looks at a tick in which force is given, and leaves of its joint torques `felt`, N·m, what may be given. The
+    /// share of the force that is.
+    ///
+    /// # Errors
+    /// What it finds wrong.
+    fn motion(
+        &self,
+        state: &mut Self::State,
+        moving: &Moving<'_, JOINTS>,
+        felt: &mut [f32; JOINTS],
+    ) -> Result<f32, Fault>;
 
-    /// Looks at a tick in which force is given; the share of the force that may be felt.
-    fn motion(&self, state: &mut Self::State, moving: &Moving<'_, JOINTS>) -> Result<f32, Fault>;
+    /// A tick in which no force is asked for.
+    fn released(&self, state: &mut Self::State);
 
     /// The last thing before the motors (`gate.rs`): the duties for these torques, N·m, and what the felt ones were
     /// scaled by.
@@ -105,14 +112,12 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     }
 
     #[inline]
-    fn is_busy(&self, (): &()) -> bool {
-        false
+    fn motion(&self, (): &mut (), _: &Moving<'_, JOINTS>, _: &mut [f32; JOINTS]) -> Result<f32, Fault> {
+        Ok(1.0)
     }
 
     #[inline]
-    fn motion(&self, (): &mut (), _: &Moving<'_, JOINTS>) -> Result<f32, Fault> {
-        Ok(1.0)
-    }
+    fn released(&self, (): &mut ()) {}
 
     #[inline]
     fn gate(

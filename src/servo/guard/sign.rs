@@ -1,233 +1,286 @@
 //! Whether a joint moves the way its motor pushes.
 //!
 //! An encoder that counts against its motor makes of every wall a slope: the force grows with the depth and pulls
-//! further in. What a hand does cannot tell the two apart, for it pushes either way; what the force *changes* can.
-//! While a torque `u` acts on a joint of inertia `I`, its rate changes by `u/I` and by what the hand does. Summed over
-//! the first moments of a contact, `n = Σ u·Δq̇` is the power by which the motors speed the device up, and `d = Σ
-//! u²/I·Δt` what it would be if they were alone: `n/d` is 1 less the hand's share for a good sign, and −1 less it for a
-//! wrong one.
+//! further in. So no joint bears a force before it was seen to follow its motor. Where a surface asks for a force and a
+//! joint has not been seen yet, the force is withheld, and one motor at a time knocks at its joint: a constant torque
+//! `u` the way the contact loads it, for [`SLOT`], as strong as a quarter of the greatest force at most.
 //!
-//! Each contact that begins in free air is judged as soon as `d` reaches [`ENOUGH`] and the verdict is clear, and by
-//! [`MORE`] in any case: a hand that presses evenly leaves `n` at zero. Until a joint has come through two of
-//! them it is on trial, and the force no more than a quarter of the greatest one, as far as it loads this joint; a
-//! joint that the force hardly loads stays on trial. What a contact has shown counts from its end on, so that no limit
-//! is lifted while something is felt.
+//! What tells the two signs apart is power. A hand that holds a device is passive, and so is the device: from whatever
+//! motion they are in, as far as that goes on evenly by itself, the work `u·Δx` that a constant torque does on the
+//! *change* of motion is never negative. (The change starts from rest, and a passive system gives back no more than it
+//! was given.) So `Δx` has the sign of `u`, or nothing moves; with a wrong sign it has the other. This holds for any
+//! inertia, spring and friction that is felt alike whichever way the joint moves; the stiffer and heavier the grip, the
+//! smaller is `Δx`.
 //!
-//! The sums take every joint in every tick, for a verdict has no time to lose; which force a joint on trial bears is
-//! asked of one joint a tick, in turn, and only once the force is above a quarter: until each had its turn, a quarter
-//! is the limit.
+//! What the hand does by itself meanwhile is what the last three places tell of it: `Δx = x − 3x₁ + 3x₂ − x₃`, a
+//! [`SLOT`] apart, which is blind to any constant speed and acceleration. The motion that an equal torque left behind a
+//! slot ago cancels too (½ + 1 − 3·½), and three slots ago; so the joints knock in turn, one a slot, each third slot at
+//! most. What is left, jerks of the hand and the encoder's counts, is why no single knock decides: `Δx` as a share of
+//! `u T²/2I`, what it would be of the joint alone, is summed up until it is clear.
 
 use super::Moving;
 use crate::device::SignWatch;
+use crate::math::Vec3;
 use crate::render::Penalty;
 use crate::servo::Fault;
 
-/// `d` at which a contact is judged, W: 1 N that alone changes the probe's speed by 50 mm/s. Less would be the noise of
-/// the encoders' counts, more would be felt.
-const ENOUGH: f32 = 0.05;
-/// `d` by which a contact is judged, W.
-const MORE: f32 = 2.5 * ENOUGH;
-/// `n/d` above which a sign is good without waiting for more.
-const GOOD: f32 = 0.2;
-/// `n/d` below which a sign is wrong. `cargo test a_wrong_sign` prints what wrong and good ones come to.
-const WRONG: f32 = -0.42;
-/// The share of `d` that a joint must have to be judged with it.
-const PART: f32 = 0.2;
-/// The share of the greatest force that a joint on trial bears.
+/// The length of a knock, s: of so many ticks that counts add up to something, and short of what a hand answers in.
+const SLOT: f32 = 8e-3;
+/// The speed at the probe that a knock gives at most to a joint alone, m/s: 0.15 mm in its time.
+const SPEED: f32 = 0.1;
+/// The share of the greatest force that a knock has at most.
 const ON_TRIAL: f32 = 0.25;
-/// The load from which on a joint on trial is loaded, as a share of what so much force could load it with.
-const LOADED: f32 = 1.0 / 3.0;
+/// Each joint knocks every so many slots, or as many as there are joints.
+const ROUND: usize = 3;
+/// The most that one knock says either way.
+const SAYS: f32 = 0.5;
+/// From this sum on a joint follows its motor: two knocks at least.
+const GOOD: f32 = 0.75;
+/// Down from this sum on it goes the other way: three knocks at least.
+const WRONG: f32 = -1.25;
+/// Below this sum there is a rest before the next knock.
+const DOUBTFUL: f32 = -0.2;
+/// That rest, s: what the knocks before have set off dies away.
+const REST: f32 = 0.06;
+/// The knocks of a contact at most. A force that is in doubt by then is withheld until the contact ends.
+const KNOCKS: u8 = 24;
+/// The least displacement of the probe that is asked for, m: what says less says nothing.
+const LEAST: f32 = 2e-5;
+/// The time in which the force comes once all joints were seen, s.
+const RISE: f32 = 0.05;
 
 /// The watch as the tick needs it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Signs<const JOINTS: usize> {
-    /// A period over each inertia, s/(kg·m²).
-    mobility: [f32; JOINTS],
-    /// The square of the force that a joint on trial bears, N².
-    squared_trial: f32,
+    /// How far a unit of torque turns each joint in a knock, rad/(N·m).
+    yields: [f32; JOINTS],
+    /// The dry friction of each joint, N·m: what a knock has on top, for it moves nothing.
+    friction: [f32; JOINTS],
+    /// How far a knock moves the probe of a joint alone at most, m.
+    way: f32,
+    /// The force of a knock at most, N.
+    force: f32,
+    /// Ticks of a slot.
+    slot: u16,
+    /// Slots of a rest.
+    rest: u16,
+    /// By how much the share of the force grows in a tick.
+    rise: f32,
 }
 
 /// How far the contact at hand has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Trial {
+enum Stage {
     /// There is none.
     FreeAir,
-    /// It is being watched.
-    Watched,
-    /// It has been judged.
-    Judged,
-    /// Every joint has come through: nothing is watched any more.
+    /// The force is withheld, and joints knock.
+    OnTrial,
+    /// All joints were seen: the force comes.
+    Rising,
+    /// All joints were seen, and nothing is withheld any more.
     Over,
 }
-
-/// Some of the joints, a bit each.
-type Joints = u8;
 
 /// What the watch remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SignState<const JOINTS: usize> {
-    trial: Trial,
-    /// Which joints have come through a contact, and which through two.
-    passed: [Joints; 2],
-    /// Which joints have come through this one.
-    passes: Joints,
-    /// `2 n` so far, W.
-    change: f32,
-    /// `4 d` so far of each joint, W.
-    alone: [f32; JOINTS],
-    /// The torques of the tick before, N·m.
-    torques: [f32; JOINTS],
-    /// The rates of the tick before, rad/s.
-    rates: [f32; JOINTS],
-    /// The square of the force that each joint was found to bear in this contact, N².
-    squared_limits: [f32; JOINTS],
-    /// The share of the force that was felt in the last tick.
+    stage: Stage,
+    /// Ticks until this slot ends.
+    ticks: u16,
+    /// Slots until joints may knock.
+    rest: u16,
+    /// Slots so far of this contact, from 0 again after each round.
+    slot: usize,
+    /// Knocks left in this contact.
+    knocks: u8,
+    /// Whether a joint knocks: the one that has this slot.
+    is_knocking: bool,
+    /// The torque of a knock, N·m.
+    torque: f32,
+    /// The force of that at the probe, N.
+    force: f32,
+    /// The share of the force that is given while it rises.
     share: f32,
+    /// The angles at the beginnings of this slot and of the two before, the newest first, rad.
+    places: [[f32; JOINTS]; 3],
+    /// What the knocks of each joint have said so far.
+    sums: [f32; JOINTS],
 }
 
 impl<const JOINTS: usize> SignState<JOINTS> {
     pub(super) const START: Self = Self {
-        trial: Trial::FreeAir,
-        passed: [0; 2],
-        passes: 0,
-        change: 0.0,
-        alone: [0.0; JOINTS],
-        torques: [0.0; JOINTS],
-        rates: [0.0; JOINTS],
-        squared_limits: [0.0; JOINTS],
-        share: 1.0,
+        stage: Stage::FreeAir,
+        ticks: 0,
+        rest: 0,
+        slot: 0,
+        knocks: 0,
+        is_knocking: false,
+        torque: 0.0,
+        force: 0.0,
+        share: 0.0,
+        places: [[0.0; JOINTS]; 3],
+        sums: [0.0; JOINTS],
     };
 
-    /// Whether a contact is on trial that has not been judged.
-    #[inline]
-    pub(super) fn is_busy(&self) -> bool {
-        self.trial == Trial::Watched
-    }
-
-    /// How many contacts each joint has come through.
-    pub(super) fn passed(&self) -> [u8; JOINTS] {
-        core::array::from_fn(|joint| self.passed.iter().map(|joints| joints >> joint & 1).sum())
+    /// Which joints were seen to follow their motors.
+    pub(super) fn seen(&self) -> [bool; JOINTS] {
+        self.sums.map(|sum| sum >= GOOD)
     }
 
     pub(super) fn for_each_word(&self, mut take: impl FnMut(u32)) {
-        let [once, twice] = self.passed;
-        take(u32::from(once) | u32::from(twice) << 8 | u32::from(self.passes) << 16 | (self.trial as u32) << 24);
-        for floats in [self.alone, self.torques, self.rates, self.squared_limits] {
-            floats.into_iter().for_each(|float| take(float.to_bits()));
-        }
-        [self.change, self.share].into_iter().for_each(|float| take(float.to_bits()));
+        take(u32::from(self.ticks) << 16 | u32::from(self.rest));
+        take((self.stage as u32) << 24 | (self.slot as u32) << 16 | u32::from(self.knocks) << 8);
+        [f32::from(u8::from(self.is_knocking)), self.torque, self.force, self.share]
+            .into_iter()
+            .chain(self.places.into_iter().flatten())
+            .chain(self.sums)
+            .for_each(|float| take(float.to_bits()));
     }
 
-    /// A contact is over: what it has shown counts.
-    #[inline]
-    fn end(&mut self) {
-        let [once, twice] = &mut self.passed;
-        *twice |= *once & self.passes;
-        *once |= self.passes;
-        self.trial = if *twice == all::<JOINTS>() { Trial::Over } else { Trial::FreeAir };
-        (self.passes, self.change, self.share) = (0, 0.0, 1.0);
-        (self.alone, self.torques, self.squared_limits) = ([0.0; JOINTS], [0.0; JOINTS], [0.0; JOINTS]);
-    }
-
-    /// Judges a contact that has shown enough; `all` is `4 d`.
+    /// A contact begins: two slots must pass before it is known how the hand moves.
     #[cold]
-    fn judge(&mut self, all: f32) -> Result<(), Fault> {
-        let ratio = 2.0 * self.change / all;
-        if ratio < WRONG {
-            return Err(Fault::WrongSign);
-        }
-        if ratio < GOOD && all < 4.0 * MORE {
-            return Ok(());
-        }
-        self.trial = Trial::Judged;
-        for (joint, alone) in self.alone.iter().enumerate() {
-            self.passes |= u8::from(*alone >= PART * all) << joint;
-        }
-        Ok(())
+    fn begin(&mut self) {
+        *self = Self { stage: Stage::OnTrial, rest: 3, knocks: KNOCKS, sums: self.sums, ..Self::START };
     }
-}
 
-/// All joints.
-const fn all<const JOINTS: usize>() -> Joints {
-    (1 << JOINTS) - 1
+    /// A contact is over, if there was one.
+    #[inline]
+    pub(super) fn end(&mut self) {
+        match self.stage {
+            Stage::FreeAir | Stage::Over => (),
+            Stage::OnTrial => self.stage = Stage::FreeAir,
+            Stage::Rising => self.stage = Stage::Over,
+        }
+    }
 }
 
 impl<const JOINTS: usize> Signs<JOINTS> {
-    pub(super) const fn new(watch: &SignWatch<JOINTS>, rate: f32, penalty: &Penalty) -> Self {
-        let mut mobility = watch.inertia;
+    pub(super) const fn new(watch: &SignWatch<JOINTS>, friction: [f32; JOINTS], rate: f32, penalty: &Penalty) -> Self {
+        let ticks = rate * SLOT;
+        let slot = if ticks < 2.0 { 2.0 } else { ticks };
+        let time = slot / rate;
+        let mut yields = watch.inertia;
         let mut joint = 0;
         while joint < JOINTS {
-            mobility[joint] = 1.0 / (rate * watch.inertia[joint]);
+            yields[joint] = 0.5 * time * time / watch.inertia[joint];
             joint += 1;
         }
-        let trial = ON_TRIAL * penalty.max_force;
-        Self { mobility, squared_trial: trial * trial }
+        Self {
+            yields,
+            friction,
+            way: 0.5 * SPEED * time,
+            force: ON_TRIAL * penalty.max_force,
+            slot: slot as u16,
+            rest: (REST / time) as u16,
+            rise: 1.0 / (RISE * rate),
+        }
     }
 
-    /// Looks at a tick in which force is given. The share of it that may be felt: less than 1 on trial. `turn` is the
-    /// joint whose turn it is.
+    /// Looks at a tick in which force is given. What of it may be given: `felt`, its joint torques, are what is left of
+    /// them when this returns, and the share of the force is what is told of it.
     #[inline(always)]
     pub(super) fn look(
         &self,
         state: &mut SignState<JOINTS>,
         moving: &Moving<'_, JOINTS>,
-        turn: usize,
+        felt: &mut [f32; JOINTS],
     ) -> Result<f32, Fault> {
-        if state.trial == Trial::Over {
+        if state.stage == Stage::Over {
             return Ok(1.0);
         }
-        let squared = moving.force.length_squared();
-        if squared <= 0.0 {
-            if state.trial != Trial::FreeAir {
-                state.end();
-            }
-            state.rates = *moving.rates;
+        if moving.force == Vec3::ZERO {
+            state.end();
             return Ok(1.0);
         }
-        if state.trial == Trial::FreeAir {
-            state.trial = Trial::Watched;
-        }
-        let share = if squared <= self.squared_trial { 1.0 } else { self.share(state, moving, squared, turn) };
-        let (mut change, mut all) = (0.0, 0.0);
-        for joint in 0..JOINTS {
-            // The sum of the torques at both ends of the tick: what a damper makes of the noise of the rates then sums
-            // up to next to nothing, for it is the difference of two squares.
-            let (torque, rate) = (moving.felt[joint] * share, moving.rates[joint]);
-            let twice = state.torques[joint] + torque;
-            change += twice * (rate - state.rates[joint]);
-            state.alone[joint] += twice * twice * self.mobility[joint];
-            all += state.alone[joint];
-            (state.torques[joint], state.rates[joint]) = (torque, rate);
-        }
-        state.change += change;
-        if state.trial == Trial::Watched && all >= 4.0 * ENOUGH {
-            state.judge(all)?;
-        }
-        Ok(share)
+        self.try_joints(state, moving, felt)
     }
 
-    /// The share of a force above a quarter of the greatest one that joints on trial bear: that quarter, or more where
-    /// it loads them by less than a third of what it could. Which way a force loads a joint hardly changes until its
-    /// turn comes round.
-    #[inline(always)]
-    fn share(&self, state: &mut SignState<JOINTS>, moving: &Moving<'_, JOINTS>, squared: f32, turn: usize) -> f32 {
-        let felt = moving.felt.get(turn).zip(moving.pose.jacobian.get(turn));
-        if let (Some(limit), Some((felt, column))) = (state.squared_limits.get_mut(turn), felt) {
-            let third = LOADED * LOADED * self.squared_trial * column.length_squared();
-            // A joint that bears no load divides by zero: no limit.
-            *limit = if state.passed[1] >> turn & 1 != 0 { f32::INFINITY } else { third * squared / (felt * felt) };
+    /// A tick of a contact before all joints were seen.
+    #[inline(never)]
+    fn try_joints(
+        &self,
+        state: &mut SignState<JOINTS>,
+        moving: &Moving<'_, JOINTS>,
+        felt: &mut [f32; JOINTS],
+    ) -> Result<f32, Fault> {
+        if state.stage == Stage::FreeAir {
+            state.begin();
         }
-        let least =
-            state.squared_limits.iter().fold(squared, |least, limit| if *limit < least { *limit } else { least });
-        let most = if least > self.squared_trial { least } else { self.squared_trial };
-        if most >= squared {
-            state.share = 1.0;
+        if state.stage == Stage::Rising {
+            state.share += self.rise;
+            if state.share >= 1.0 {
+                state.stage = Stage::Over;
+                return Ok(1.0);
+            }
+            *felt = felt.map(|torque| torque * state.share);
+            return Ok(state.share);
+        }
+        if state.ticks > 0 {
+            state.ticks -= 1;
         } else {
-            // √(most/squared) by a step a tick of its own Newton's method, from below: the harmonic mean of two numbers
-            // is below the geometric one.
-            let (wanted, last) = (most / squared, state.share);
-            state.share = 2.0 * wanted * last / (last * last + wanted);
+            state.ticks = self.slot - 1;
+            self.judge(state, moving)?;
+            self.next_slot(state, moving, felt);
         }
-        state.share
+        *felt = [0.0; JOINTS];
+        match felt.get_mut(state.slot).filter(|_| state.is_knocking) {
+            Some(torque) => {
+                *torque = state.torque;
+                Ok(state.force / moving.force.length())
+            }
+            None => Ok(0.0),
+        }
+    }
+
+    /// A slot has ended: what its knock says.
+    fn judge(&self, state: &mut SignState<JOINTS>, moving: &Moving<'_, JOINTS>) -> Result<(), Fault> {
+        let joint = state.slot;
+        let [first, second, third] = state.places;
+        if state.is_knocking && joint < JOINTS {
+            let moved = moving.angles[joint] - 3.0 * (first[joint] - second[joint]) - third[joint];
+            let alone = (state.torque.abs() - self.friction[joint]) * self.yields[joint];
+            if alone * moving.pose.jacobian[joint].length() >= LEAST {
+                let says = if state.torque < 0.0 { -moved } else { moved } / alone;
+                state.sums[joint] += if says > SAYS {
+                    SAYS
+                } else if says < -SAYS {
+                    -SAYS
+                } else {
+                    says
+                };
+            }
+            if state.sums[joint] <= WRONG {
+                return Err(Fault::WrongSign);
+            }
+            if state.sums[joint] < DOUBTFUL {
+                state.rest = self.rest;
+            }
+        }
+        state.places = [*moving.angles, first, second];
+        Ok(())
+    }
+
+    /// The next slot begins: whose it is, and whether that joint knocks.
+    fn next_slot(&self, state: &mut SignState<JOINTS>, moving: &Moving<'_, JOINTS>, felt: &[f32; JOINTS]) {
+        state.slot = if state.slot + 1 < JOINTS.max(ROUND) { state.slot + 1 } else { 0 };
+        state.rest = state.rest.saturating_sub(1);
+        state.is_knocking = false;
+        if state.sums.iter().all(|sum| *sum >= GOOD) {
+            state.stage = Stage::Rising;
+            return;
+        }
+        let squared = moving.force.length_squared();
+        let joint = state.slot;
+        let waits = state.rest > 0 || state.knocks == 0 || squared < self.force * self.force;
+        if waits || joint >= JOINTS || state.sums[joint] >= GOOD {
+            return;
+        }
+        let reach = moving.pose.jacobian[joint].length();
+        let [fast, most] = [self.way / (self.yields[joint] * reach) + self.friction[joint], self.force * reach];
+        let torque = if fast < most { fast } else { most };
+        state.is_knocking = true;
+        state.knocks -= 1;
+        state.torque = if felt[joint] < 0.0 { -torque } else { torque };
+        state.force = if fast < most { torque / reach } else { self.force };
     }
 }

@@ -18,7 +18,9 @@ const TICKS: u32 = 100_000;
 pub(super) const APPROACH: u32 = 20;
 
 /// What the figures are of.
-const NAME: &str = if cfg!(feature = "protected") {
+const NAME: &str = if cfg!(feature = "folded") {
+    "servo tick, folded back"
+} else if cfg!(feature = "protected") {
     "servo tick, protected"
 } else if cfg!(feature = "smooth") {
     "servo tick, smooth"

@@ -1,83 +1,15 @@
-//! A loop that is protected: motors that stay cool enough, joints and probes that are not let run, signs that are
-//! wrong.
+//! A loop that is protected: motors that stay cool enough, joints and probes that are not let run, supplies.
 
-use crate::surfaces::{WALL, table1c};
+use crate::protected::{Bench, FALCON, PHANTOM, POLHEM, RATE, WOODEN_HAPTICS, settings};
+use crate::surfaces::WALL;
 use palpate::device::presets::{
-    NOVINT_FALCON, NOVINT_FALCON_PROTECTION, PHANTOM_PREMIUM, PHANTOM_PREMIUM_PROTECTION, POLHEM_V2,
-    POLHEM_V2_PROTECTION, WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION,
+    PHANTOM_PREMIUM, PHANTOM_PREMIUM_PROTECTION, WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION,
 };
-use palpate::device::{Counts, Device, Duty, Kinematics, Protection, SupplyRange};
-use palpate::math::{Vec3, vec3};
+use palpate::device::{Counts, Duty, Kinematics, Protection, SupplyRange};
+use palpate::math::Vec3;
 use palpate::servo::{Event, Fault, Input, Phase, Servo, Settings};
-use palpate::track::{Controller, Witness};
-use palpate_plant::{
-    Direction, HandPath, HandSettings, Plant, PlantSettings, Thermal, ThermalSettings, TouchingPath, TouchingSettings,
-    Vector,
-};
-
-const RATE: f64 = 4_000.0;
-
-/// A device of three joints, what protects it, and what stands in for it.
-struct Bench<K: 'static> {
-    name: &'static str,
-    device: &'static Device<K, 3>,
-    protection: Protection<3>,
-    plant: PlantSettings,
-    heat: [ThermalSettings; 3],
-    /// The signs of which motors make it run away from a wall under it.
-    runaways: &'static [&'static [usize]],
-}
-
-/// Calls something with each device.
-macro_rules! each {
-    ($call:ident) => {
-        $call(&Bench {
-            name: "WoodenHaptics 2016",
-            device: &WOODEN_HAPTICS_2016,
-            protection: WOODEN_HAPTICS_2016_PROTECTION,
-            plant: PlantSettings::wooden_haptics_2016(),
-            heat: PlantSettings::WOODEN_HAPTICS_HEAT,
-            runaways: &[&[2], &[0, 1, 2]],
-        });
-        $call(&Bench {
-            name: "Polhem v2",
-            device: &POLHEM_V2,
-            protection: POLHEM_V2_PROTECTION,
-            plant: PlantSettings::polhem_v2(),
-            heat: PlantSettings::POLHEM_HEAT,
-            runaways: &[&[2], &[0, 1, 2]],
-        });
-        $call(&Bench {
-            name: "Phantom Premium",
-            device: &PHANTOM_PREMIUM,
-            protection: PHANTOM_PREMIUM_PROTECTION,
-            plant: PlantSettings::phantom_premium(),
-            heat: PlantSettings::PHANTOM_HEAT,
-            runaways: &[&[1], &[0, 1, 2]],
-        });
-        $call(&Bench {
-            name: "Novint Falcon",
-            device: &NOVINT_FALCON,
-            protection: NOVINT_FALCON_PROTECTION,
-            plant: PlantSettings::novint_falcon(),
-            heat: PlantSettings::FALCON_HEAT,
-            runaways: &[&[0, 1, 2]],
-        });
-    };
-}
-
-/// The gains that the preset recommends at most.
-fn settings<K>(device: &Device<K, 3>, body_origin: Vec3) -> Settings {
-    Settings {
-        rate: RATE as f32,
-        stiffness: device.max_stiffness,
-        damping: device.max_damping,
-        max_force: device.max_force,
-        velocity_corner: 200.0,
-        soft_start: 0.1,
-        body_origin,
-    }
-}
+use palpate::track::Controller;
+use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Thermal, Vector};
 
 /// Comes straight down at a constant speed.
 struct Down {
@@ -91,81 +23,6 @@ impl HandPath for Down {
     }
     fn velocity(&self, _time: f64) -> Vector {
         [0.0, 0.0, -self.speed]
-    }
-}
-
-fn distance(from: Vector, to: Vector) -> f64 {
-    from.iter().zip(to).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-}
-
-fn runs_away<K: Kinematics<3>>(bench: &Bench<K>) {
-    let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings(bench.device, Vec3::ZERO))
-        .protect(bench.protection);
-    for wrong in bench.runaways {
-        for speed in [0.05, 0.1, 0.2] {
-            let mut plant = bench.plant;
-            for joint in *wrong {
-                let way = &mut plant.joints[*joint].motor_direction;
-                *way = if *way == Direction::With { Direction::Against } else { Direction::With };
-            }
-            let hand = Box::new(Down { speed, from: 0.004 + 0.15 * speed });
-            let mut plant = Plant::new(&plant, HandSettings::default(), hand, RATE).unwrap();
-            let mut state = servo.start();
-            let (mut began, mut most) = (None, 0.0_f32);
-            for tick in 0..4_000 {
-                let place = plant.position();
-                servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
-                if state.force() != Vec3::ZERO {
-                    began = began.or(Some((tick, place)));
-                }
-                most = most.max(state.force().length());
-                if state.fault().is_some() {
-                    break;
-                }
-                plant.advance(state.duties().map(|duty| duty.0));
-            }
-            let (first, place) = began.expect("it touches");
-            let time = f64::from(state.ticks() - 1 - first as u32) / RATE * 1e3;
-            let way = distance(place, plant.position()) * 1e3;
-            println!(
-                "{:<20} motors {wrong:?} wrong, met at {speed} m/s: stopped after {time:.1} ms and {way:.2} mm, at {most:.2} of {} N",
-                bench.name, bench.device.max_force
-            );
-            assert_eq!(state.fault().map(|(fault, _)| fault), Some(Fault::WrongSign));
-            assert!(time <= 10.0 && way <= 1.0, "{time} ms, {way} mm");
-            // To the roundings of a scaled force.
-            assert!(most <= 0.2501 * bench.device.max_force, "{most} N");
-        }
-    }
-}
-
-fn does_not_run_away<K: Kinematics<3>>(bench: &Bench<K>) {
-    let table = table1c();
-    let at = vec3(-0.05, -0.05, -0.065);
-    let servo = Servo::new(bench.device, &table, Controller::SECOND_ORDER, settings(bench.device, at))
-        .protect(bench.protection);
-    for seed in 0..5 {
-        let place = |u: f64, v: f64| {
-            let witness = Witness::at(&table, (0.25 + 0.5 * u) as f32, (0.25 + 0.5 * v) as f32);
-            let normal = witness.normal(&table).unwrap();
-            ((witness.surface.point + at).to_array().map(f64::from), normal.to_array().map(f64::from))
-        };
-        let touching =
-            TouchingSettings { duration: 4.0, touches: 4, press_depth: [0.006, 0.014], ..TouchingSettings::default() };
-        let path = TouchingPath::new(place, touching, seed).unwrap();
-        let mut plant = Plant::new(&bench.plant, HandSettings::default(), Box::new(path), RATE).unwrap();
-        let mut state = servo.start();
-        let mut most = 0.0_f32;
-        for _ in 0..16_000 {
-            servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
-            plant.advance(state.duties().map(|duty| duty.0));
-            most = most.max(state.force().length());
-        }
-        let passed = state.guard().contacts_passed();
-        println!("{:<20} seed {seed}: contacts passed by each joint {passed:?}, up to {most:.1} N", bench.name);
-        assert_eq!(state.fault(), None);
-        // Of two contacts of three joints.
-        assert!(passed.iter().sum::<u8>() >= 4, "the watch must have had something to judge: {passed:?}");
     }
 }
 
@@ -295,12 +152,18 @@ fn a_motor_warms_by_what_it_is_given_in_every_tick_and_not_only_in_its_turn() {
 
 #[test]
 fn a_stalled_motor_stays_cool_whatever_is_asked_for() {
-    each!(never_burns);
+    never_burns(&WOODEN_HAPTICS);
+    never_burns(&POLHEM);
+    never_burns(&PHANTOM);
+    never_burns(&FALCON);
 }
 
 #[test]
 fn a_motor_that_warms_up_is_felt_as_less_force_and_not_as_a_step() {
-    each!(stays_cool);
+    stays_cool(&WOODEN_HAPTICS);
+    stays_cool(&POLHEM);
+    stays_cool(&PHANTOM);
+    stays_cool(&FALCON);
 }
 
 #[test]
@@ -369,14 +232,4 @@ fn a_supply_out_of_range_or_that_nobody_measures_is_a_fault() {
     // A tenth of a second after the last measurement, at 4 kHz.
     assert_eq!(ends(&|tick| (tick <= 500).then_some(24_000)), Some((Fault::Supply, 900)));
     assert_eq!(ends(&|_| None), Some((Fault::Supply, 400)));
-}
-
-#[test]
-fn a_wrong_sign_is_seen_within_ten_milliseconds_and_a_millimetre() {
-    each!(runs_away);
-}
-
-#[test]
-fn good_signs_are_never_called_wrong_where_surfaces_are_touched() {
-    each!(does_not_run_away);
 }

@@ -13,6 +13,8 @@ mod jogging;
 mod knob;
 mod limits;
 mod passivity;
+mod protected;
+mod signs;
 mod surfaces;
 mod through;
 mod touch;
