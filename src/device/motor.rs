@@ -20,12 +20,12 @@ impl Duty {
         Self(((fraction * 32_767.0 + half) as i32).clamp(-32_767, 32_767) as i16)
     }
 
-    /// As [`Self::from_fraction`], of a fraction that is known to be within ±1.000_015, roundings included: beyond that
-    /// the half would carry it over the scale.
+    /// As [`Self::from_fraction`], of a fraction that is known to be within ±1.000_015, roundings included; any duty of
+    /// another. A half goes to the even one.
     #[inline]
     pub(crate) fn from_part(fraction: f32) -> Self {
-        let half = if fraction < 0.0 { -0.5 } else { 0.5 };
-        Self((fraction * 32_767.0 + half) as i32 as i16)
+        // Next to 1.5·2²³ the numbers are the whole ones: the addition rounds, and the duty is the last 16 bits.
+        Self((fraction * 32_767.0 + 12_582_912.0).to_bits() as i16)
     }
 
     /// The duty as a fraction of full scale, −1 to 1.

@@ -121,10 +121,12 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         self,
         protection: Protection<JOINTS>,
     ) -> Result<Servo<'a, S, K, JOINTS, Guarded<JOINTS>>, ProtectionError> {
-        let guard = match Guarded::try_new(protection, self.device.dry_friction, self.rate, &self.penalty) {
-            Ok(guard) => guard,
-            Err(error) => return Err(error),
-        };
+        let guard =
+            match Guarded::try_new(protection, &self.device.motors, self.device.dry_friction, self.rate, &self.penalty)
+            {
+                Ok(guard) => guard,
+                Err(error) => return Err(error),
+            };
         Ok(Servo {
             device: self.device,
             surface: self.surface,

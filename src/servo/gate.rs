@@ -52,15 +52,15 @@ fn saturate<const JOINTS: usize>(
     for ((fractions, motor), (felt, weight)) in fractions.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
         *fractions = [motor.fraction(felt), motor.fraction(weight)];
         // A weight beyond the scale shows by what it leaves, if anything is felt.
-        scale = least_scale(scale, *fractions, 1.0);
+        scale = least_scale(scale, *fractions);
     }
     if scale < 0.0 {
-        scale = relieve(&mut fractions, &[1.0; JOINTS]);
+        scale = relieve(&mut fractions);
     }
     (fractions.map(|[asked, carried]| Duty::from_fraction(asked * scale + carried)), scale)
 }
 
-/// As [`gate`], where each motor may be given only this share of its full scale.
+/// As [`gate`], where each motor may be given only so much torque, N·m: full scale at most.
 ///
 /// # Errors
 /// As [`gate`]'s.
@@ -68,57 +68,63 @@ fn saturate<const JOINTS: usize>(
 pub fn gate_within<const JOINTS: usize>(
     drives: bool,
     motors: &[Motor; JOINTS],
-    mut felt: [f32; JOINTS],
-    mut weight: [f32; JOINTS],
-    bounds: [f32; JOINTS],
+    felt: [f32; JOINTS],
+    weight: [f32; JOINTS],
+    limits: [f32; JOINTS],
 ) -> Result<([Duty; JOINTS], f32), Fault> {
-    let mut limits = bounds;
-    let (mut scale, mut sum, mut is_heavy) = (1.0, 0.0, false);
-    for ((limit, motor), (felt, weight)) in limits.iter_mut().zip(motors).zip(felt.iter().zip(&weight)) {
-        *limit = (*limit * motor.torque_at_full).abs();
-        let load = weight.abs();
-        sum += felt.abs() + load;
-        is_heavy |= load > *limit;
-        scale = least_scale(scale, [*felt, *weight], *limit);
+    let is_heavy = weight.iter().zip(&limits).any(|(weight, limit)| weight.abs() > *limit);
+    let weight = if is_heavy { relieved(weight, &limits) } else { weight };
+    let mut scale = 1.0;
+    for ((felt, weight), limit) in felt.into_iter().zip(weight).zip(limits) {
+        let torque = felt * scale + weight;
+        if torque.abs() > limit {
+            scale = (if torque > 0.0 { limit - weight } else { -limit - weight }) / felt;
+        }
+    }
+    let mut duties = [Duty::ZERO; JOINTS];
+    let mut sum = 0.0;
+    for ((duty, motor), (felt, weight)) in duties.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
+        let fraction = motor.fraction(felt * scale + weight);
+        sum += fraction.abs();
+        *duty = Duty::from_part(fraction);
     }
     if !sum.is_finite() {
         return Err(Fault::NotFinite);
     }
-    if !drives {
-        return Ok(([Duty::ZERO; JOINTS], 0.0));
-    }
-    if is_heavy || scale < 0.0 {
-        let mut torques = core::array::from_fn(|joint| [felt[joint], weight[joint]]);
-        scale = relieve(&mut torques, &limits);
-        (felt, weight) = (torques.map(|[felt, _]| felt), torques.map(|[_, weight]| weight));
-    }
-    let mut duties = [Duty::ZERO; JOINTS];
-    for ((duty, motor), (felt, weight)) in duties.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
-        *duty = Duty::from_part(motor.fraction(felt * scale + weight));
-    }
-    Ok((duties, scale))
+    if drives { Ok((duties, scale)) } else { Ok(([Duty::ZERO; JOINTS], 0.0)) }
 }
 
-/// Scales a weight that no motor carries to what they can. Each joint has what is asked for and what is carried, and the
-/// most it may have, in one unit.
+/// A weight that the motors may not carry, scaled as a whole to what they may.
 #[cold]
-fn relieve<const JOINTS: usize>(joints: &mut [[f32; 2]; JOINTS], full: &[f32; JOINTS]) -> f32 {
-    let shares = joints.iter().zip(full).map(|([_, carried], full)| carried.abs() / full);
-    let heaviest = shares.fold(1.0, |most: f32, share| if share > most { share } else { most });
+fn relieved<const JOINTS: usize>(weight: [f32; JOINTS], limits: &[f32; JOINTS]) -> [f32; JOINTS] {
+    let mut heaviest = 1.0;
+    for (weight, limit) in weight.iter().zip(limits) {
+        let share = weight.abs() / limit;
+        heaviest = if share > heaviest { share } else { heaviest };
+    }
+    // Short of the limit by more than roundings: what is left for the force is then never below zero.
+    let scale = 0.999_999 / heaviest;
+    weight.map(|weight| weight * scale)
+}
+
+/// Scales a weight that no motor carries to what they can. Each joint has what is asked for and what is carried.
+#[cold]
+fn relieve<const JOINTS: usize>(fractions: &mut [[f32; 2]; JOINTS]) -> f32 {
+    let heaviest = fractions.iter().fold(1.0, |most: f32, [_, carried]| carried.abs().max(most));
     let mut scale = 1.0;
-    for (joint, full) in joints.iter_mut().zip(full) {
-        joint[1] /= heaviest;
-        scale = least_scale(scale, *joint, *full);
+    for fractions in fractions.iter_mut() {
+        fractions[1] /= heaviest;
+        scale = least_scale(scale, *fractions);
     }
     // Below 0 by rounding.
     if scale > 0.0 { scale } else { 0.0 }
 }
 
-/// By what the felt force must be scaled, `scale` at most, for what is `asked` of a joint to fit in what the weight
+/// By what the felt force must be scaled, `scale` at most, for a joint's share `asked` to fit in what the weight
 /// `carried` has left; below 0 where that is nothing.
 #[inline(always)]
-fn least_scale(scale: f32, [asked, carried]: [f32; 2], full: f32) -> f32 {
-    let left = if asked > 0.0 { full - carried } else { full + carried };
+fn least_scale(scale: f32, [asked, carried]: [f32; 2]) -> f32 {
+    let left = if asked > 0.0 { 1.0 - carried } else { 1.0 + carried };
     let size = asked.abs();
     if size * scale > left { left / size } else { scale }
 }
@@ -206,12 +212,14 @@ mod tests {
             let torques = motors.map(|motor| motor.torque_at_full * draw(4.0));
             let weight = motors.map(|motor| motor.torque_at_full * draw(1.5));
             let bounds = [1.0, 0.999_999_94, draw(1.0).abs()];
-            let (duties, scale) = gate_within(true, &motors, torques, weight, bounds).unwrap();
+            let limits = core::array::from_fn(|joint| bounds[joint] * motors[joint].torque_at_full.abs());
+            let (duties, scale) = gate_within(true, &motors, torques, weight, limits).unwrap();
+            let is_heavy = weight.iter().zip(limits).any(|(weight, limit)| weight.abs() > limit);
             for (joint, duty) in duties.iter().enumerate() {
                 let wanted = (torques[joint] * scale + weight[joint]) / motors[joint].torque_at_full;
-                // Where a weight was scaled too, this is more than was given, of the same sign.
-                assert!(duty.fraction() * wanted >= -1e-4, "{duty:?} {wanted}");
-                assert!(duty.0 != i16::MIN, "{duty:?}");
+                // Half a step of duty, and roundings of numbers up to 4.
+                assert!(is_heavy || (duty.fraction() - wanted).abs() < 1.7e-5, "{duty:?} {wanted}");
+                assert!(duty.fraction().abs() <= bounds[joint] + 1.6e-5, "{duty:?} {bounds:?}");
             }
         }
     }

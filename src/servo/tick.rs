@@ -137,6 +137,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             stop(state, fault);
         }
         if let Some(expected) = self.expected_crc()
+            && !self.guard.is_busy(&state.guard)
             && !state.table_check.step(self.surface, expected)
         {
             stop(state, Fault::TableCorrupt);
@@ -221,6 +222,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             self.guard.released(&mut state.guard);
         }
         if let Some(limits) = self.safety.stuck
+            && !self.guard.is_busy(&state.guard)
             && state.stillness.is_broken(limits, &self.device.dry_friction, &counts, &state.angles, &felt)
         {
             return Err(Fault::JointStuck);

@@ -58,7 +58,7 @@ pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller
 
 /// A motor that is always too warm.
 #[cfg(feature = "protected")]
-const WARM: Endurance = Endurance { continuous: 1e-3, time_constant: 600.0 };
+const WARM: Endurance = Endurance { continuous: 0.001, time_constant: 600.0 };
 
 /// What protects it. Where it is counted, joints stay on trial: to an inertia that no knock moves, a path says nothing of
 /// signs. On trial nothing is folded back, so where that is counted, the signs are not watched.

@@ -8,7 +8,7 @@ use super::{Guard, Moving, Remembered};
 use crate::device::{Duty, Motor, Protection};
 use crate::render::Penalty;
 use crate::servo::Fault;
-use crate::servo::gate::{gate, gate_within};
+use crate::servo::gate::gate_within;
 
 /// A device's [`Protection`] for a loop's rate and gains.
 ///
@@ -30,8 +30,6 @@ pub struct GuardState<const JOINTS: usize> {
     /// The joint whose turn it is.
     turn: usize,
     windings: [Winding; JOINTS],
-    /// The least of their bounds.
-    least_bound: f32,
     /// Ticks since the supply was measured.
     supply_age: u32,
     signs: SignState<JOINTS>,
@@ -43,27 +41,28 @@ impl<const JOINTS: usize> GuardState<JOINTS> {
         self.windings.map(|winding| winding.heat)
     }
 
-    /// How much of full scale each motor may be given.
-    pub fn bounds(&self) -> [f32; JOINTS] {
-        self.windings.map(|winding| winding.bound)
+    /// The most torque that each motor may be given, N·m.
+    pub fn limits(&self) -> [f32; JOINTS] {
+        self.windings.map(|winding| winding.limit)
     }
 
     /// Which joints were seen to follow their motors.
     pub fn joints_seen(&self) -> [bool; JOINTS] {
         self.signs.seen()
     }
-
-    /// Whether a motor is so warm that it is given less than full scale.
-    pub const fn folds(&self) -> bool {
-        self.least_bound < 1.0
-    }
 }
 
 impl<const JOINTS: usize> Guarded<JOINTS> {
+    /// Whether a motor is so warm that it is given less than full scale.
+    pub fn folds(&self, state: &GuardState<JOINTS>) -> bool {
+        self.heat.iter().zip(&state.windings).any(|(model, winding)| model.folds(winding.heat))
+    }
+
     /// # Errors
     /// The number that is refused.
     pub(in crate::servo) const fn try_new(
         protection: Protection<JOINTS>,
+        motors: &[Motor; JOINTS],
         dry_friction: [f32; JOINTS],
         rate: f32,
         penalty: &Penalty,
@@ -71,10 +70,10 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
         if let Err(error) = check(&protection, rate) {
             return Err(error);
         }
-        let mut heat = [HeatModel::new(protection.motors[0], rate, JOINTS); JOINTS];
+        let mut heat = [HeatModel::new(protection.motors[0], motors[0], rate, JOINTS); JOINTS];
         let mut joint = 1;
         while joint < JOINTS {
-            heat[joint] = HeatModel::new(protection.motors[joint], rate, JOINTS);
+            heat[joint] = HeatModel::new(protection.motors[joint], motors[joint], rate, JOINTS);
             joint += 1;
         }
         Ok(Self {
@@ -93,18 +92,12 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
     }
 }
 
-/// The least of some bounds, 1 at most.
-#[inline]
-fn least<const JOINTS: usize>(windings: &[Winding; JOINTS]) -> f32 {
-    windings.iter().fold(1.0, |least, winding| if winding.bound < least { winding.bound } else { least })
-}
-
 impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
     type State = GuardState<JOINTS>;
 
     fn start(&self) -> GuardState<JOINTS> {
         let windings = self.heat.map(|model| model.start());
-        GuardState { turn: 0, windings, least_bound: least(&windings), supply_age: 0, signs: SignState::START }
+        GuardState { turn: 0, windings, supply_age: 0, signs: SignState::START }
     }
 
     fn measured(&self, state: &mut GuardState<JOINTS>, millivolts: u32) -> Result<(), Fault> {
@@ -114,6 +107,11 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
     #[inline]
     fn watch(&self, state: &mut GuardState<JOINTS>) -> Result<(), Fault> {
         self.supply.as_ref().map_or(Ok(()), |supply| supply.tick(&mut state.supply_age))
+    }
+
+    #[inline]
+    fn is_busy(&self, state: &GuardState<JOINTS>) -> bool {
+        state.signs.is_on_trial()
     }
 
     #[inline(always)]
@@ -148,11 +146,7 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
         felt: [f32; JOINTS],
         weight: [f32; JOINTS],
     ) -> Result<([Duty; JOINTS], f32), Fault> {
-        if state.folds() {
-            gate_within(drives, motors, felt, weight, state.bounds())
-        } else {
-            gate(drives, motors, felt, weight)
-        }
+        gate_within(drives, motors, felt, weight, state.limits())
     }
 
     #[inline]
@@ -167,18 +161,14 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
         let (Some(winding), Some(model)) = (state.windings.get_mut(turn), self.heat.get(turn)) else { return };
         winding.heat = model.next(winding.heat, winding.squares / JOINTS as u32);
         winding.squares = 0;
-        let bound = model.bound(winding.heat);
-        if bound != winding.bound {
-            winding.bound = bound;
-            state.least_bound = least(&state.windings);
-        }
+        winding.limit = model.limit(winding.heat);
     }
 }
 
 impl<const JOINTS: usize> Remembered for GuardState<JOINTS> {
     fn for_each_word(&self, mut take: impl FnMut(u32)) {
-        for Winding { heat: Heat(heat), squares, bound } in self.windings {
-            [heat as u32, squares, bound.to_bits()].into_iter().for_each(&mut take);
+        for Winding { heat: Heat(heat), squares, limit } in self.windings {
+            [heat as u32, squares, limit.to_bits()].into_iter().for_each(&mut take);
         }
         take(self.supply_age << 2 | self.turn as u32);
         self.signs.for_each_word(take);

@@ -21,7 +21,7 @@
 //! warmth is `(θ/ϑ) x + (1 − θ/ϑ) LP(x)`, with a low-pass `LP` of `ϑ`: not above `c²` either. So a `θ` that is too
 //! short is safe.
 
-use crate::device::Endurance;
+use crate::device::{Endurance, Motor};
 
 /// One motor's endurance, as the tick needs it.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +34,8 @@ pub(super) struct HeatModel {
     slope: f32,
     /// `c`.
     continuous: f32,
+    /// The torque of full scale, N·m.
+    full: f32,
 }
 
 /// What is remembered of one motor.
@@ -43,8 +45,8 @@ pub(super) struct Winding {
     pub heat: Heat,
     /// The sum of the squares of its duties since its last turn.
     pub squares: u32,
-    /// How much of full scale it may be given.
-    pub bound: f32,
+    /// The most torque that it may be given, N·m.
+    pub limit: f32,
 }
 
 /// Warmth of a winding: the mean square of its duty, of which full duty for ever is 2³⁰ − 2¹⁶ + 1 (32,767²).
@@ -68,12 +70,23 @@ impl HeatModel {
     ///
     /// # Panics
     /// Never; numbers that make no sense were refused before ([`super::ProtectionError`]).
-    pub(super) const fn new(Endurance { continuous, time_constant }: Endurance, rate: f32, turns: usize) -> Self {
+    pub(super) const fn new(
+        Endurance { continuous, time_constant }: Endurance,
+        motor: Motor,
+        rate: f32,
+        turns: usize,
+    ) -> Self {
         let half = 0.5 * continuous * continuous * FULL;
         let fold = if continuous < 1.0 { Heat(half as i32) } else { Heat(i32::MAX) };
         // From turn to turn is far shorter than the time constant: the share is that time over the constant.
         let share = turns as f32 * 4_294_967_296.0 / (time_constant * rate);
-        Self { share: share as i32, fold, slope: (1.0 - continuous) / half, continuous }
+        Self {
+            share: share as i32,
+            fold,
+            slope: (1.0 - continuous) / half,
+            continuous,
+            full: motor.torque_at_full.abs(),
+        }
     }
 
     /// After a reset nothing is known of the motor: it may have been driven for hours before. It starts at its
@@ -81,7 +94,7 @@ impl HeatModel {
     pub(super) fn start(&self) -> Winding {
         let hottest = if self.continuous < 1.0 { self.continuous } else { 1.0 };
         let heat = Heat((hottest * hottest * FULL) as i32);
-        Winding { heat, squares: 0, bound: self.bound(heat) }
+        Winding { heat, squares: 0, limit: self.limit(heat) }
     }
 
     /// The motor's turn, with the mean square of its duties since the last one.
@@ -107,6 +120,12 @@ impl HeatModel {
         let bound = 1.0 - (heat.0 - self.fold.0) as f32 * self.slope;
         if bound > self.continuous { bound } else { self.continuous }
     }
+
+    /// The most torque that the motor may be given, N·m.
+    #[inline]
+    pub(super) fn limit(&self, heat: Heat) -> f32 {
+        self.bound(heat) * self.full
+    }
 }
 
 #[cfg(test)]
@@ -114,7 +133,8 @@ mod tests {
     use super::*;
     use crate::device::Duty;
 
-    const MODEL: HeatModel = HeatModel::new(Endurance { continuous: 0.3, time_constant: 5.0 }, 4_000.0, 1);
+    const MOTOR: Motor = Motor { torque_at_full: -2.0 };
+    const MODEL: HeatModel = HeatModel::new(Endurance { continuous: 0.3, time_constant: 5.0 }, MOTOR, 4_000.0, 1);
 
     fn square(Duty(duty): Duty) -> u32 {
         u32::from(duty.unsigned_abs()).pow(2)
@@ -165,8 +185,8 @@ mod tests {
 
     #[test]
     fn an_amplifier_that_cannot_overheat_the_motor_is_never_bounded() {
-        let strong = HeatModel::new(Endurance { continuous: 1.1, time_constant: 5.0 }, 4_000.0, 3);
-        assert_eq!(strong.start().bound, 1.0);
+        let strong = HeatModel::new(Endurance { continuous: 1.1, time_constant: 5.0 }, MOTOR, 4_000.0, 3);
+        assert_eq!(strong.start().limit, 2.0);
         assert_eq!(strong.bound(Heat(FULL as i32)), 1.0);
     }
 }

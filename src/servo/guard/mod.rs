@@ -49,6 +49,10 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     /// What can be wrong whatever the sensors say; once a tick.
     fn watch(&self, state: &mut Self::State) -> Result<(), Fault>;
 
+    /// Whether it withholds the force of a contact. The check of the tables and the watch over stuck sensors wait
+    /// meanwhile: they pay for it, and nothing is felt that they would guard.
+    fn is_busy(&self, state: &Self::State) -> bool;
+
     /// Looks at a tick in which force is given, and leaves of its joint torques `felt`, N·m, what may be given. The
     /// share of the force that is.
     ///
@@ -109,6 +113,11 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     #[inline]
     fn watch(&self, (): &mut ()) -> Result<(), Fault> {
         Ok(())
+    }
+
+    #[inline]
+    fn is_busy(&self, (): &()) -> bool {
+        false
     }
 
     #[inline]

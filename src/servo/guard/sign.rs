@@ -127,6 +127,12 @@ impl<const JOINTS: usize> SignState<JOINTS> {
         self.sums.map(|sum| sum >= GOOD)
     }
 
+    /// Whether a contact is on trial: no force is given but knocks.
+    #[inline]
+    pub(super) fn is_on_trial(&self) -> bool {
+        self.stage == Stage::OnTrial
+    }
+
     pub(super) fn for_each_word(&self, mut take: impl FnMut(u32)) {
         take(u32::from(self.ticks) << 16 | u32::from(self.rest));
         take((self.stage as u32) << 24 | (self.slot as u32) << 16 | u32::from(self.knocks) << 8);

@@ -43,7 +43,7 @@ fn a_motor_that_is_warm_is_given_less_at_its_pin() {
     let servo = servo.protect(Protection { motors, signs: None, ..WOODEN_HAPTICS_2016_PROTECTION });
     let mut rig = Rig::new(servo, held_at(PRESSED), &settings(), ResetReason::PowerOn);
     rig.press_until_it_runs();
-    assert!(rig.state().guard().folds());
+    assert!(servo.guard().folds(rig.state().guard()));
     for current in rig.world.borrow().currents() {
         // A hundredth for what rests warmed it down meanwhile, and the steps of width and duty.
         assert!(current.abs() <= f64::from(continuous) + 0.01, "{current} of full scale");

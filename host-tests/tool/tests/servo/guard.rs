@@ -41,7 +41,7 @@ fn stays_cool<K: Kinematics<3>>(bench: &Bench<K>) {
     for _ in 0..400_000 {
         servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: false });
     }
-    assert!(!state.guard().folds());
+    assert!(!servo.guard().folds(state.guard()));
     let (mut step, mut last, mut hottest, mut greatest) = (0.0_f32, 0.0_f32, [0.0_f64; 3], 0.0_f32);
     for tick in 0..100_000 {
         servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
@@ -110,7 +110,7 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
                     worn = palpate::servo::Guard::<3>::start(servo.guard());
                 }
                 last_on = is_on;
-                let bound = worn.bounds()[joint];
+                let bound = worn.limits()[joint] / bench.device.motors[joint].torque_at_full.abs();
                 let mut duties = [Duty::ZERO; 3];
                 duties[joint] = Duty::from_fraction(if is_on { bound } else { 0.0 });
                 palpate::servo::Guard::<3>::given(servo.guard(), &mut worn, &duties);
