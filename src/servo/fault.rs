@@ -60,7 +60,7 @@ pub enum Fault {
     /// The motors' supply is out of its range, or nobody has measured it.
     #[error("motor supply out of range or not measured")]
     Supply = 18,
-    /// A joint goes faster and faster against its motor: its encoder counts the other way, or its motor is wired so.
+    /// A joint goes against what its motor pushes: its encoder counts the other way, or its motor is wired so.
     #[error("an encoder counts against its motor")]
     WrongSign = 19,
     /// The calibration that is kept in flash cannot be used ([`crate::commission::CalibrationError`]).

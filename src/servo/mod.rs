@@ -16,7 +16,7 @@
 //! | a force or torque that is NaN or infinite | the gate before the motors | `NotFinite` |
 //! | tick overrun | [`Deadline`], [`Event::Overrun`] | `Overrun` |
 //! | host link lost | [`Safety::link_timeout`], [`Event::LinkAlive`] | `LinkLost` |
-//! | table corrupted or stale | [`Safety::checks_tables`], at boot and in every tick | `TableCorrupt` |
+//! | table corrupted or stale | [`Safety::checks_tables`], at boot and in every tick that withholds no force | `TableCorrupt` |
 //! | reset by watchdog or brown-out | [`ResetReason`], [`Servo::start_after`] | `WatchdogReset`, `BrownOut` |
 //! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
 //! | calibration in flash that is damaged, or not of this device | [`Event`] | `Calibration` |
