@@ -30,11 +30,12 @@ fn asking(torque: f32) -> HostKnob {
     let servo = Servo::new(device, knob, Controller::SECOND_ORDER, SETTINGS).protect(TOLD_OF_SUPPLY);
     // The winding's time constant is hundreds of ticks' in which nothing but heat changes: large steps do.
     let settings = DialSettings { sub_steps: 4, ..DialSettings::gimbal_knob() };
+    let guard = *servo.guard();
     let mut knob = HostKnob::new(servo.homing(homing(SEARCH)), dial(settings));
     knob.ticks(SEARCH.ticks() + 100);
     assert!(knob.state().homed(), "{:?}", knob.state().homing().refusal());
     knob.enable = false;
-    while knob.state().guard().folds() {
+    while guard.folds(knob.state().guard()) {
         knob.tick();
     }
     knob.enable = true;
@@ -122,7 +123,8 @@ fn allowed(endurance: Endurance, motor: ThermalSettings, (on, off, reset): (f64,
             worn = servo.guard().start();
         }
         was_on = is_on;
-        let [bound] = worn.bounds();
+        let [limit] = worn.limits();
+        let bound = limit / GIMBAL_KNOB.motors[0].torque_at_full.abs();
         let duty = Duty::from_fraction(if is_on { bound } else { 0.0 });
         servo.guard().given(&mut worn, &[duty]);
         let current = f64::from(duty.fraction()) * amplitude;
