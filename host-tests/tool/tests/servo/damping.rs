@@ -4,7 +4,7 @@ use crate::surfaces::WALL;
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
 use palpate::device::{Counts, Duty, Protection, SupplyRange};
 use palpate::math::Vec3;
-use palpate::servo::{Event, Fault, Input, Output, SafeOutput, Safety, Servo, Settings};
+use palpate::servo::{Event, Fault, Input, Output, Rendering, SafeOutput, Safety, Servo, Settings};
 use palpate::track::Controller;
 use palpate_plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::f64::consts::TAU;
@@ -39,6 +39,8 @@ fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
         body_origin: Vec3::ZERO,
     };
     let servo = Servo::new(device, &WALL, Controller::SECOND_ORDER, settings)
+        // A wrong motor makes of the weight that it carries a load, and the arm falls through the wall.
+        .rendering(Rendering { carries_weight: !wrong, ..Rendering::PLAIN })
         .safety(Safety { output: SafeOutput::Damping(4.0), ..Safety::DEFAULT })
         .protect(PROTECTION);
     let mut plant = PlantSettings::wooden_haptics_2016();
@@ -51,7 +53,8 @@ fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
     let mut plant = Plant::new(&plant, HandSettings::default(), Box::new(UpAndDown), RATE).unwrap();
     let mut state = servo.start();
     let mut after = None;
-    for tick in 0..8_000 {
+    // Seven contacts: a wrong sign is told in one of the first.
+    for tick in 0..20_000 {
         servo.note(&mut state, Event::Supply { millivolts: 24_000 });
         if tick == 4_000
             && let Some(event) = event
