@@ -60,8 +60,8 @@ pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller
 #[cfg(feature = "protected")]
 const WARM: Endurance = Endurance { continuous: 0.001, time_constant: 600.0 };
 
-/// What protects it. Where it is counted, joints stay on trial: to an inertia that no knock moves, a path says nothing of
-/// signs. On trial nothing is folded back, so where that is counted, the signs are not watched.
+/// What protects it. Where it is counted, joints stay on trial: to an inertia that no knock moves, a path says nothing
+/// of signs. On trial nothing is folded back, so where that is counted, the signs are not watched.
 #[cfg(feature = "protected")]
 const fn protection() -> Protection<3> {
     if cfg!(feature = "counted") {
