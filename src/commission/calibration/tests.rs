@@ -13,6 +13,9 @@ fn kept() -> Calibration<3> {
     }))
 }
 
+/// Makes of a joint what it cannot be.
+type Spoil = fn(&mut JointCalibration);
+
 #[test]
 fn what_was_written_is_read_and_nothing_else_is() {
     let words = kept().to_words();
@@ -66,7 +69,7 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
     });
     let measured = Encoder { radians_per_count: -4.0 * encoder, angle_at_zero: -0.4 };
     assert_eq!(found, Ok((measured, Motor { torque_at_full: -0.6 * motor }, 0.03)));
-    let refused: [(fn(&mut JointCalibration), CalibrationError); 14] = [
+    let refused: [(Spoil, CalibrationError); 14] = [
         (|joint| joint.radians_per_count *= 5.1, CalibrationError::Encoder { joint: 1 }),
         (|joint| joint.radians_per_count *= -0.19, CalibrationError::Encoder { joint: 1 }),
         (|joint| joint.radians_per_count = 0.0, CalibrationError::Encoder { joint: 1 }),

@@ -13,8 +13,8 @@ use crate::servo::gate::gate_within;
 /// A device's [`Protection`] for a loop's rate and gains.
 ///
 /// The joints take turns, one a tick: a tick looks at the rate of one joint and takes the heat of one motor on. What
-/// that costs in time is a tick less than there are joints: half a millisecond of three at 4 kHz. The probe's speed, the
-/// signs and the supply are looked at in every tick.
+/// that costs in time is a tick less than there are joints: half a millisecond of three at 4 kHz. The probe's speed,
+/// the signs and the supply are looked at in every tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Guarded<const JOINTS: usize> {
     heat: [HeatModel; JOINTS],

@@ -247,13 +247,7 @@ impl<const JOINTS: usize> Signs<JOINTS> {
             let alone = (state.torque.abs() - self.friction[joint]) * self.yields[joint];
             if alone * moving.pose.jacobian[joint].length() >= LEAST {
                 let says = if state.torque < 0.0 { -moved } else { moved } / alone;
-                state.sums[joint] += if says > SAYS {
-                    SAYS
-                } else if says < -SAYS {
-                    -SAYS
-                } else {
-                    says
-                };
+                state.sums[joint] += says.clamp(-SAYS, SAYS);
             }
             if state.sums[joint] <= WRONG {
                 return Err(Fault::WrongSign);

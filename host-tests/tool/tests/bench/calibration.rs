@@ -225,10 +225,13 @@ fn refused(error: KeepError) -> Option<Refused> {
     Some(Refused::Calibration(error))
 }
 
+/// Makes of joints what a device cannot be.
+type Spoil = fn(&mut [JointCalibration; 3]);
+
 #[test]
 fn it_is_kept_by_a_device_that_is_set_up_and_used_after_the_reset() {
     let page = Page::erased();
-    let mut device = Device::new(&page);
+    let device = Device::new(&page);
     assert_eq!(device.calibrated, Some(Calibrated::BuiltIn));
     let mut device = Device::set_up(&page);
     assert_eq!(device.keep(Some(joints())), None);
@@ -319,7 +322,7 @@ fn what_cannot_be_this_device_is_refused_by_its_joint_and_what_is_kept_stays() {
     let mut device = Device::set_up(&page);
     assert_eq!(device.keep(Some(joints())), None);
     let before = *page.0.bytes.borrow();
-    let wrong: [(fn(&mut [JointCalibration; 3]), CalibrationError); 4] = [
+    let wrong: [(Spoil, CalibrationError); 4] = [
         (|joints| joints[2].radians_per_count *= 8.0, CalibrationError::Encoder { joint: 2 }),
         (|joints| joints[0].torque_at_full = f32::NAN, CalibrationError::NotFinite { joint: 0 }),
         (|joints| joints[1].torque_at_full *= 0.3, CalibrationError::Torque { joint: 1 }),
@@ -357,7 +360,7 @@ fn whenever_the_power_goes_there_is_the_whole_calibration_or_none() {
         page.0.left.set(u32::MAX);
         assert_eq!(found(&page), wanted, "the power goes after {left}");
         // The motors of one that was being written stay off; kept again, it is as new.
-        let mut device = Device::new(&page);
+        let device = Device::new(&page);
         assert_eq!(device.rig.fault(), matches!(wanted, Calibrated::Refused(_)).then_some(Fault::Calibration));
         assert_eq!(Device::set_up(&page).keep(Some(other)), None);
         assert_eq!(found(&page), anew);
