@@ -12,7 +12,7 @@ use crate::track::Controller;
 
 /// The loop's configuration: device, surface, controller and settings. Constant, in flash. `G` is what guards it beyond
 /// its own checks: nothing, unless [`Self::protect`] says so.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Servo<'a, S, K, const JOINTS: usize, G = Unguarded> {
     pub(super) device: &'a Device<K, JOINTS>,
     pub(super) surface: &'a S,
@@ -33,6 +33,15 @@ pub struct Servo<'a, S, K, const JOINTS: usize, G = Unguarded> {
     pub(super) contact_watch: ContactWatch,
     pub(super) guard: G,
 }
+
+// By hand, for a derived one would ask a copy of the surface and the mechanism too, which are only referred to.
+impl<S, K, const JOINTS: usize, G: Copy> Clone for Servo<'_, S, K, JOINTS, G> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S, K, const JOINTS: usize, G: Copy> Copy for Servo<'_, S, K, JOINTS, G> {}
 
 impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K, JOINTS> {
     /// The loop of a device that touches a patch or a body, with [`Rendering::PLAIN`] and [`Safety::DEFAULT`].
@@ -262,9 +271,9 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
     }
 
     /// The same loop on the same device as commissioning found it ([`Device::calibrated`]): its encoders, motors and
-    /// friction take the place of those that the loop was made with, in homing too.
+    /// friction take the place of those that the loop was made with, in homing and for what guards it too.
     #[must_use]
-    pub const fn calibrated<'b>(self, device: &'b Device<K, JOINTS>) -> Servo<'b, S, K, JOINTS, G>
+    pub fn calibrated<'b>(self, device: &'b Device<K, JOINTS>) -> Servo<'b, S, K, JOINTS, G>
     where
         'a: 'b,
     {
@@ -273,7 +282,8 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
             None => None,
         };
         let rendering = self.rendering;
-        Servo { device, homing, ..self }.set_rendering(rendering)
+        let guard = self.guard.of_motors(&device.motors, &device.dry_friction);
+        Servo { device, homing, guard, ..self }.set_rendering(rendering)
     }
 
     /// The state before the first tick after power-on: motors at zero, the witness point at rest.

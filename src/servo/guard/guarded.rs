@@ -96,6 +96,14 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
 impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
     type State = GuardState<JOINTS>;
 
+    fn of_motors(mut self, motors: &[Motor; JOINTS], dry_friction: &[f32; JOINTS]) -> Self {
+        for (heat, motor) in self.heat.iter_mut().zip(motors) {
+            *heat = heat.of_motor(*motor);
+        }
+        self.signs = self.signs.map(|signs| signs.of_friction(*dry_friction));
+        self
+    }
+
     fn start(&self) -> GuardState<JOINTS> {
         let windings = self.heat.map(|model| model.start());
         GuardState { turn: 0, windings, supply_age: 0, signs: SignState::START }

@@ -89,6 +89,11 @@ impl HeatModel {
         }
     }
 
+    /// The same of a motor of another torque.
+    pub(super) fn of_motor(self, motor: Motor) -> Self {
+        Self { full: motor.torque_at_full.abs(), ..self }
+    }
+
     /// After a reset nothing is known of the motor: it may have been driven for hours before. It starts at its
     /// continuous torque and is found cold by and by.
     pub(super) fn start(&self) -> Winding {

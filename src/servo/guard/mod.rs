@@ -40,6 +40,10 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     /// What it remembers from tick to tick.
     type State: Remembered;
 
+    /// The same for motors, and joints of a dry friction, N·m, that are not those it was made for.
+    #[must_use]
+    fn of_motors(self, motors: &[Motor; JOINTS], dry_friction: &[f32; JOINTS]) -> Self;
+
     /// Before the first tick after any reset.
     fn start(&self) -> Self::State;
 
@@ -102,6 +106,10 @@ pub struct Unguarded;
 
 impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     type State = ();
+
+    fn of_motors(self, _: &[Motor; JOINTS], _: &[f32; JOINTS]) -> Self {
+        self
+    }
 
     fn start(&self) {}
 

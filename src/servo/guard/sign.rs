@@ -182,6 +182,11 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         }
     }
 
+    /// The same of joints of another dry friction, N·m.
+    pub(super) fn of_friction(self, friction: [f32; JOINTS]) -> Self {
+        Self { friction, ..self }
+    }
+
     /// Looks at a tick in which force is given. What of it may be given: `felt`, its joint torques, are what is left of
     /// them when this returns, and the share of the force is what is told of it.
     #[inline(always)]

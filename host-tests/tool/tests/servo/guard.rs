@@ -5,7 +5,7 @@ use crate::surfaces::WALL;
 use palpate::device::presets::{
     PHANTOM_PREMIUM, PHANTOM_PREMIUM_PROTECTION, WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION,
 };
-use palpate::device::{Counts, Duty, Kinematics, Protection, SupplyRange};
+use palpate::device::{Counts, Device, Duty, Kinematics, Motor, Protection, SupplyRange};
 use palpate::math::Vec3;
 use palpate::servo::{Event, Fault, Input, Phase, Servo, Settings};
 use palpate::track::Controller;
@@ -232,4 +232,17 @@ fn a_supply_out_of_range_or_that_nobody_measures_is_a_fault() {
     // A tenth of a second after the last measurement, at 4 kHz.
     assert_eq!(ends(&|tick| (tick <= 500).then_some(24_000)), Some((Fault::Supply, 900)));
     assert_eq!(ends(&|_| None), Some((Fault::Supply, 400)));
+}
+
+/// What a motor may be given is counted in torque: of a weaker one it is less.
+#[test]
+fn a_motor_that_was_found_weaker_is_bounded_by_its_own_torque() {
+    let servo =
+        Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO))
+            .protect(WOODEN_HAPTICS_2016_PROTECTION);
+    let weaker = WOODEN_HAPTICS_2016.motors.map(|motor| Motor { torque_at_full: -0.5 * motor.torque_at_full });
+    let device = Device { motors: weaker, ..WOODEN_HAPTICS_2016 };
+    let limits = servo.calibrated(&device).start().guard().limits();
+    assert_eq!(limits, weaker.map(|motor| motor.torque_at_full.abs()));
+    assert_eq!(servo.start().guard().limits(), WOODEN_HAPTICS_2016.motors.map(|motor| motor.torque_at_full.abs()));
 }
