@@ -277,10 +277,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
     where
         'a: 'b,
     {
-        let homing = match self.homing {
-            Some(homing) => Some(homing.of_encoders(device.encoders)),
-            None => None,
-        };
+        let homing = self.homing.map(|homing| homing.of_encoders(device.encoders));
         let rendering = self.rendering;
         let guard = self.guard.of_motors(&device.motors, &device.dry_friction);
         Servo { device, homing, guard, ..self }.set_rendering(rendering)
