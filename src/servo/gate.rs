@@ -86,7 +86,7 @@ pub fn gate_within<const JOINTS: usize>(
     for ((duty, motor), (felt, weight)) in duties.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
         let fraction = motor.fraction(felt * scale + weight);
         sum += fraction.abs();
-        *duty = Duty::from_part(fraction);
+        *duty = Duty::from_number(fraction);
     }
     if !sum.is_finite() {
         return Err(Fault::NotFinite);
