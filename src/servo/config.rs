@@ -297,6 +297,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
         ServoState {
             phase: if fault.is_some() { Phase::Fault } else { Phase::Reset },
             fault: fault.map(|fault| (fault, 0)),
+            later: None,
             reset,
             ticks: 0,
             frames_lost: 0,

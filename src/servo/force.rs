@@ -36,14 +36,19 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             }
         };
         let faded = limit::saturated(felt * (state.fade * state.room), self.penalty.max_force);
-        let eased = match &self.eased {
-            Some(eased) => {
-                let quickened = tool.velocity - last;
-                eased.next(faded, state.force, &Reason { moved: motion.moved, quickened })
-            }
-            None => faded,
+        let slewed = if self.guard.share(&state.guard) < 1.0 {
+            // What is withheld cannot grow out of what was given, and once it may be given the guard lets it come slowly.
+            faded
+        } else {
+            let eased = match &self.eased {
+                Some(eased) => {
+                    let quickened = tool.velocity - last;
+                    eased.next(faded, state.force, &Reason { moved: motion.moved, quickened })
+                }
+                None => faded,
+            };
+            limit::slewed(eased, state.force, self.max_growth)
         };
-        let slewed = limit::slewed(eased, state.force, self.max_growth);
         let Some(passivity) = &self.rendering.passivity else { return slewed };
         let touching = state.contact() == Contact::Touching || self.rendering.coupling.is_some();
         passivity.control(&mut state.energy, slewed, motion, touching, self.penalty.max_force)

@@ -10,8 +10,9 @@ pub enum SafeOutput {
     /// Nothing.
     Zero,
     /// They brake the probe with this damping, N·s/m, in every tick whose sensors can be believed; nothing in the
-    /// others, nor after a fault of a drive, of the supply or of a sign ([`super::Fault::leaves_damping`]). It helps
-    /// where the device would fall.
+    /// others, nor after a fault of a drive, of the supply or of a sign ([`super::Fault::leaves_damping`]), nor where
+    /// signs are watched and not all joints have been seen to follow their motors. It helps where the device would
+    /// fall.
     Damping(f32),
 }
 
@@ -59,7 +60,7 @@ pub struct Safety {
     /// When contact counts as lost; `None` does not watch.
     pub contact: Option<ContactLimits>,
     /// Whether tables that carry the CRC they were baked with are checked: whole before the first tick, and again and
-    /// again after, a word every second tick.
+    /// again after, a word every second tick; not while a guard withholds the force of a contact.
     pub checks_tables: bool,
 }
 

@@ -14,6 +14,8 @@ pub struct ServoState<const JOINTS: usize, W = PatchWitness, G = ()> {
     pub(super) phase: Phase,
     /// What stopped it, and at which tick. Latched.
     pub(super) fault: Option<(Fault, u32)>,
+    /// What else was found wrong since. Latched; what lets nothing be driven any more stands before what does.
+    pub(super) later: Option<Fault>,
     /// Why the chip was reset before the loop began.
     pub(super) reset: ResetReason,
     /// Ticks done.
@@ -85,7 +87,8 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
     pub fn digest(&self) -> u32 {
         let mut hash = Fnv::new();
         let (fault, fault_tick) = self.fault.map_or((0, 0), |(fault, tick)| (fault.code(), tick));
-        hash.words([self.phase as u32, u32::from(fault), fault_tick, self.ticks]);
+        let faults = u32::from(fault) | u32::from(self.later.map_or(0, Fault::code)) << 8;
+        hash.words([self.phase as u32, faults, fault_tick, self.ticks]);
         hash.words([self.reset as u32, self.overruns, self.overruns_in_a_row, u32::from(self.overran)]);
         hash.words([self.link_silence, self.settled, u32::from(self.homed)]);
         self.homing.words(|word| hash.words([word]));

@@ -59,9 +59,12 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             Event::Stop => stop(state, Fault::Stopped),
             Event::Acknowledged => {
                 if state.reset.fault().is_some_and(|fault| state.fault == Some((fault, 0))) {
-                    state.fault = None;
-                    state.phase = Phase::Reset;
-                    self.begin_anew(state);
+                    // What was found since is not what somebody has looked at.
+                    state.fault = state.later.take().map(|fault| (fault, state.ticks));
+                    if state.fault.is_none() {
+                        state.phase = Phase::Reset;
+                        self.begin_anew(state);
+                    }
                 }
             }
             Event::Chosen { index } => self.surface.choose(&mut state.witness, index),
@@ -181,7 +184,10 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         state.probe = probe;
         state.room = self.device.room(to_stop, &pose);
         if state.phase == Phase::Fault {
-            let may = state.fault.is_some_and(|(fault, _)| fault.leaves_damping());
+            let faults = [state.fault.map(|(fault, _)| fault), state.later];
+            // A motor that may push the wrong way would not damp.
+            let may =
+                faults.iter().flatten().all(|fault| fault.leaves_damping()) && self.guard.share(&state.guard) >= 1.0;
             let live = may && matches!(self.safety.output, SafeOutput::Damping(_));
             state.drives = live;
             return Ok(Torques { felt: self.safe_torques(state, &pose, velocity), live, ..Torques::NONE });
@@ -198,7 +204,9 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         state.steps_undone = state.steps_undone.wrapping_add(u32::from(touched.undone));
         state.is_too_deep = false;
         if state.witness.contact() == Contact::Touching {
-            if touched.unexplained || -state.witness.gap() > self.contact_watch.max_depth {
+            // A hand goes deep where the force is withheld, and nothing pushes it out.
+            let is_given_up = -state.witness.gap() > self.contact_watch.max_depth && !self.guard.is_busy(&state.guard);
+            if touched.unexplained || is_given_up {
                 self.lose_contact(state)?;
             } else {
                 state.is_too_deep = self.surface.is_too_deep(&state.witness);
@@ -227,8 +235,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         {
             return Err(Fault::JointStuck);
         }
-        let fade = state.fade;
-        Ok(Torques { felt, weight: weight.map(|torque| torque * fade), live: state.phase == Phase::Running })
+        let carried = state.fade * self.guard.share(&state.guard);
+        Ok(Torques { felt, weight: weight.map(|torque| torque * carried), live: state.phase == Phase::Running })
     }
 
     /// A tick of homing: no angle can be believed yet, only how it changes.
@@ -312,10 +320,19 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     }
 }
 
-/// Latches a fault; the first one stands. Motors at zero.
+/// Latches a fault; the first one stands, and of the others the gravest is remembered. Motors at zero.
 fn stop<W, G, const JOINTS: usize>(state: &mut ServoState<JOINTS, W, G>, fault: Fault) {
     state.phase = Phase::Fault;
-    state.fault = state.fault.or(Some((fault, state.ticks)));
+    match state.fault {
+        None => state.fault = Some((fault, state.ticks)),
+        Some((first, _)) if first == fault => {}
+        Some(_) => {
+            let is_graver = |later: Fault| later.leaves_damping() && !fault.leaves_damping();
+            if state.later.is_none_or(is_graver) {
+                state.later = Some(fault);
+            }
+        }
+    }
     state.force = Vec3::ZERO;
     state.fade = 0.0;
     state.drives = false;

@@ -59,7 +59,8 @@ impl Hold {
         let is_explained = verdict.hold != 0;
         if panel.ready || is_explained {
             self.unexplained = None;
-        } else if drives {
+        } else if drives && self.unexplained.is_none() {
+            // Once: damping after a fault goes on asking for the motors all the while.
             self.unexplained = Some(self.grace);
         }
         if !panel.ready {

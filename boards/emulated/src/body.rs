@@ -61,13 +61,18 @@ pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller
 const WARM: Endurance = Endurance { continuous: 0.001, time_constant: 600.0 };
 
 /// What protects it. Where it is counted, joints stay on trial: to an inertia that no knock moves, a path says nothing
-/// of signs. On trial nothing is folded back, so where that is counted, the signs are not watched.
+/// of signs. On trial nothing is folded back, so where that is counted, the path gives way to knocks until all joints
+/// were seen.
 #[cfg(feature = "protected")]
 const fn protection() -> Protection<3> {
     if cfg!(feature = "counted") {
         Protection {
             supply: Some(SupplyRange { least: 20_000, most: 28_000 }),
-            signs: if cfg!(feature = "folded") { None } else { Some(SignWatch { inertia: [1e3; 3] }) },
+            signs: if cfg!(feature = "folded") {
+                settings::PROTECTION.signs
+            } else {
+                Some(SignWatch { inertia: [1e3; 3] })
+            },
             motors: if cfg!(feature = "folded") { [WARM; 3] } else { settings::PROTECTION.motors },
             ..settings::PROTECTION
         }

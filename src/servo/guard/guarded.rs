@@ -119,6 +119,11 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
     }
 
     #[inline]
+    fn share(&self, state: &GuardState<JOINTS>) -> f32 {
+        if self.signs.is_some() { state.signs.share() } else { 1.0 }
+    }
+
+    #[inline]
     fn is_busy(&self, state: &GuardState<JOINTS>) -> bool {
         state.signs.is_on_trial()
     }

@@ -76,22 +76,24 @@ impl HeatModel {
         rate: f32,
         turns: usize,
     ) -> Self {
-        let half = 0.5 * continuous * continuous * FULL;
-        let fold = if continuous < 1.0 { Heat(half as i32) } else { Heat(i32::MAX) };
         // From turn to turn is far shorter than the time constant: the share is that time over the constant.
         let share = turns as f32 * 4_294_967_296.0 / (time_constant * rate);
-        Self {
-            share: share as i32,
-            fold,
-            slope: (1.0 - continuous) / half,
-            continuous,
-            full: motor.torque_at_full.abs(),
-        }
+        Self::bearing(share as i32, continuous, motor.torque_at_full.abs())
     }
 
-    /// The same of a motor of another torque.
+    /// Of a motor that bears this share of full scale for ever, of which the torque is `full`, N·m.
+    const fn bearing(share: i32, continuous: f32, full: f32) -> Self {
+        let half = 0.5 * continuous * continuous * FULL;
+        let fold = if continuous < 1.0 { Heat(half as i32) } else { Heat(i32::MAX) };
+        Self { share, fold, slope: (1.0 - continuous) / half, continuous, full }
+    }
+
+    /// The same of a motor of another torque. One that is stronger may be so because its amplifier gives more current
+    /// than it should: it bears no more for ever than was known. One that is weaker bears no more current.
     pub(super) fn of_motor(self, motor: Motor) -> Self {
-        Self { full: motor.torque_at_full.abs(), ..self }
+        let full = motor.torque_at_full.abs();
+        let continuous = if full > self.full { self.continuous * self.full / full } else { self.continuous };
+        Self::bearing(self.share, continuous, full)
     }
 
     /// After a reset nothing is known of the motor: it may have been driven for hours before. It starts at its
@@ -186,6 +188,16 @@ mod tests {
         });
         // ln 2 of 5 s at 4 kHz.
         assert!(matches!(rested, Some(13_800..=13_900)), "{rested:?}");
+    }
+
+    #[test]
+    fn a_motor_found_stronger_bears_no_more_and_one_found_weaker_no_more_current() {
+        let strong = MODEL.of_motor(Motor { torque_at_full: 4.0 });
+        assert!((strong.start().limit - MODEL.start().limit).abs() < 1e-6, "0.6 N·m of either");
+        let hot = Heat((0.15 * 0.15 * FULL) as i32);
+        assert!((strong.bound(hot) - 0.15).abs() < 1e-5 && (strong.bound(Heat(hot.0 / 2)) - 1.0).abs() < 1e-5);
+        let weak = MODEL.of_motor(Motor { torque_at_full: 1.0 });
+        assert!((weak.start().limit - 0.3).abs() < 1e-6, "{weak:?}");
     }
 
     #[test]

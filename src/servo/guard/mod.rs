@@ -53,6 +53,10 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     /// What can be wrong whatever the sensors say; once a tick.
     fn watch(&self, state: &mut Self::State) -> Result<(), Fault>;
 
+    /// The share of force and weight that may be given: less than 1 while it is not known that all motors push the way
+    /// they should. What is given meanwhile is not the force that was asked for, nor does it grow out of that.
+    fn share(&self, state: &Self::State) -> f32;
+
     /// Whether it withholds the force of a contact. The check of the tables and the watch over stuck sensors wait
     /// meanwhile: they pay for it, and nothing is felt that they would guard.
     fn is_busy(&self, state: &Self::State) -> bool;
@@ -121,6 +125,11 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     #[inline]
     fn watch(&self, (): &mut ()) -> Result<(), Fault> {
         Ok(())
+    }
+
+    #[inline]
+    fn share(&self, (): &()) -> f32 {
+        1.0
     }
 
     #[inline]

@@ -1,9 +1,11 @@
 //! Whether a joint moves the way its motor pushes.
 //!
 //! An encoder that counts against its motor makes of every wall a slope: the force grows with the depth and pulls
-//! further in. So no joint bears a force before it was seen to follow its motor. Where a surface asks for a force and a
-//! joint has not been seen yet, the force is withheld, and one motor at a time knocks at its joint: a constant torque
-//! `u` the way the contact loads it, for [`SLOT`], as strong as a quarter of the greatest force at most.
+//! further in, and of the weight that a motor carries a weight that it adds. So no joint bears either before all were
+//! seen to follow their motors. Where a surface asks for a force and a joint has not been seen yet, the force is
+//! withheld, and one motor at a time knocks at its joint: a constant torque `u` the way the contact loads it, for
+//! [`SLOT`], as strong as a quarter of the greatest force at most. That force is what a hand feels that keeps the probe
+//! where it is: `F` with `Jᵀ F = u eⱼ`, so `|u|` over the distance of the joint's column of `J` from the others' span.
 //!
 //! What tells the two signs apart is power. A hand that holds a device is passive, and so is the device: from whatever
 //! motion they are in, as far as that goes on evenly by itself, the work `u·Δx` that a constant torque does on the
@@ -26,10 +28,11 @@ use crate::servo::Fault;
 
 /// The length of a knock, s: of so many ticks that counts add up to something, and short of what a hand answers in.
 const SLOT: f32 = 8e-3;
-/// The speed at the probe that a knock gives at most to a joint alone, m/s: 0.15 mm in its time.
+/// The speed at the probe that a knock gives at most to a joint alone, m/s: 0.4 mm in its time.
 const SPEED: f32 = 0.1;
-/// The share of the greatest force that a knock has at most.
-const ON_TRIAL: f32 = 0.25;
+/// The share of the greatest force that a knock has at most: below a quarter, for its torque is that of the pose in which
+/// it begins.
+const ON_TRIAL: f32 = 0.245;
 /// Each joint knocks every so many slots, or as many as there are joints.
 const ROUND: usize = 3;
 /// The most that one knock says either way.
@@ -46,7 +49,7 @@ const REST: f32 = 0.06;
 const KNOCKS: u8 = 24;
 /// The least displacement of the probe that is asked for, m: what says less says nothing.
 const LEAST: f32 = 2e-5;
-/// The time in which the force comes once all joints were seen, s.
+/// The time in which force and weight come once all joints were seen, s.
 const RISE: f32 = 0.05;
 
 /// The watch as the tick needs it.
@@ -64,7 +67,7 @@ pub(super) struct Signs<const JOINTS: usize> {
     slot: u16,
     /// Slots of a rest.
     rest: u16,
-    /// By how much the share of the force grows in a tick.
+    /// By how much the share of force and weight grows in a tick.
     rise: f32,
 }
 
@@ -75,7 +78,7 @@ enum Stage {
     FreeAir,
     /// The force is withheld, and joints knock.
     OnTrial,
-    /// All joints were seen: the force comes.
+    /// All joints were seen: force and weight come.
     Rising,
     /// All joints were seen, and nothing is withheld any more.
     Over,
@@ -99,7 +102,7 @@ pub(super) struct SignState<const JOINTS: usize> {
     torque: f32,
     /// The force of that at the probe, N.
     force: f32,
-    /// The share of the force that is given while it rises.
+    /// The share of force and weight that is given: 0 until all joints were seen, and then rising to 1.
     share: f32,
     /// The angles at the beginnings of this slot and of the two before, the newest first, rad.
     places: [[f32; JOINTS]; 3],
@@ -149,13 +152,27 @@ impl<const JOINTS: usize> SignState<JOINTS> {
         *self = Self { stage: Stage::OnTrial, rest: 3, knocks: KNOCKS, sums: self.sums, ..Self::START };
     }
 
-    /// A contact is over, if there was one.
+    /// The share of force and weight that may be given.
+    #[inline]
+    pub(super) fn share(&self) -> f32 {
+        self.share
+    }
+
+    /// Nobody asks for force any more.
     #[inline]
     pub(super) fn end(&mut self) {
         match self.stage {
             Stage::FreeAir | Stage::Over => (),
             Stage::OnTrial => self.stage = Stage::FreeAir,
-            Stage::Rising => self.stage = Stage::Over,
+            // When it is asked for again, all of it is faded in.
+            Stage::Rising => self.rise_by(1.0),
+        }
+    }
+
+    fn rise_by(&mut self, more: f32) {
+        self.share += more;
+        if self.share >= 1.0 {
+            (self.stage, self.share) = (Stage::Over, 1.0);
         }
     }
 }
@@ -165,16 +182,18 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         let ticks = rate * SLOT;
         let slot = if ticks < 2.0 { 2.0 } else { ticks };
         let time = slot / rate;
+        // A knock begins a tick after its slot.
+        let knock = (slot - 1.0) / rate;
         let mut yields = watch.inertia;
         let mut joint = 0;
         while joint < JOINTS {
-            yields[joint] = 0.5 * time * time / watch.inertia[joint];
+            yields[joint] = 0.5 * knock * knock / watch.inertia[joint];
             joint += 1;
         }
         Self {
             yields,
             friction,
-            way: 0.5 * SPEED * time,
+            way: 0.5 * SPEED * knock,
             force: ON_TRIAL * penalty.max_force,
             slot: slot as u16,
             rest: (REST / time) as u16,
@@ -187,7 +206,7 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         Self { friction, ..self }
     }
 
-    /// Looks at a tick in which force is given. What of it may be given: `felt`, its joint torques, are what is left of
+    /// Looks at a tick in which force may be given. What of it may be: `felt`, its joint torques, are what is left of
     /// them when this returns, and the share of the force is what is told of it.
     #[inline(always)]
     pub(super) fn look(
@@ -196,17 +215,10 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         moving: &Moving<'_, JOINTS>,
         felt: &mut [f32; JOINTS],
     ) -> Result<f32, Fault> {
-        if state.stage == Stage::Over {
-            return Ok(1.0);
-        }
-        if moving.force == Vec3::ZERO {
-            state.end();
-            return Ok(1.0);
-        }
-        self.try_joints(state, moving, felt)
+        if state.stage == Stage::Over { Ok(1.0) } else { self.try_joints(state, moving, felt) }
     }
 
-    /// A tick of a contact before all joints were seen.
+    /// A tick before all joints were seen, and all is given.
     #[inline(never)]
     fn try_joints(
         &self,
@@ -214,24 +226,27 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         moving: &Moving<'_, JOINTS>,
         felt: &mut [f32; JOINTS],
     ) -> Result<f32, Fault> {
-        if state.stage == Stage::FreeAir {
-            state.begin();
-        }
         if state.stage == Stage::Rising {
-            state.share += self.rise;
-            if state.share >= 1.0 {
-                state.stage = Stage::Over;
-                return Ok(1.0);
-            }
+            state.rise_by(self.rise);
             *felt = felt.map(|torque| torque * state.share);
             return Ok(state.share);
         }
+        if moving.force == Vec3::ZERO {
+            state.stage = Stage::FreeAir;
+            return Ok(1.0);
+        }
+        if state.stage == Stage::FreeAir {
+            state.begin();
+        }
         if state.ticks > 0 {
             state.ticks -= 1;
+            // A tick after the last one was judged: neither has to fit in beside the other.
+            if state.ticks == self.slot - 2 {
+                self.next_slot(state, moving, felt);
+            }
         } else {
             state.ticks = self.slot - 1;
             self.judge(state, moving)?;
-            self.next_slot(state, moving, felt);
         }
         *felt = [0.0; JOINTS];
         match felt.get_mut(state.slot).filter(|_| state.is_knocking) {
@@ -261,6 +276,7 @@ impl<const JOINTS: usize> Signs<JOINTS> {
                 state.rest = self.rest;
             }
         }
+        state.is_knocking = false;
         state.places = [*moving.angles, first, second];
         Ok(())
     }
@@ -269,7 +285,6 @@ impl<const JOINTS: usize> Signs<JOINTS> {
     fn next_slot(&self, state: &mut SignState<JOINTS>, moving: &Moving<'_, JOINTS>, felt: &[f32; JOINTS]) {
         state.slot = if state.slot + 1 < JOINTS.max(ROUND) { state.slot + 1 } else { 0 };
         state.rest = state.rest.saturating_sub(1);
-        state.is_knocking = false;
         if state.sums.iter().all(|sum| *sum >= GOOD) {
             state.stage = Stage::Rising;
             return;
@@ -281,11 +296,12 @@ impl<const JOINTS: usize> Signs<JOINTS> {
             return;
         }
         let reach = moving.pose.jacobian[joint].length();
-        let [fast, most] = [self.way / (self.yields[joint] * reach) + self.friction[joint], self.force * reach];
+        let lever = moving.pose.lever(joint);
+        let [fast, most] = [self.way / (self.yields[joint] * reach) + self.friction[joint], self.force * lever];
         let torque = if fast < most { fast } else { most };
         state.is_knocking = true;
         state.knocks -= 1;
         state.torque = if felt[joint] < 0.0 { -torque } else { torque };
-        state.force = if fast < most { torque / reach } else { self.force };
+        state.force = if fast < most { torque / lever } else { self.force };
     }
 }

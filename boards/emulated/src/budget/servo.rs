@@ -64,6 +64,25 @@ impl Walk {
     }
 }
 
+/// How far knocks have turned the joints of a device that otherwise goes where it is told, rad.
+#[cfg(feature = "folded")]
+struct GivesWay([f32; 3]);
+
+#[cfg(feature = "folded")]
+impl GivesWay {
+    /// A knock goes on for 31 ticks, in which a joint alone comes 0.4 mm at the probe, two milliradians. None knocks, or
+    /// gives way, once all were seen.
+    fn counts(&mut self, state: &State, mut counts: [Counts; 3]) -> [Counts; 3] {
+        let is_on_trial = state.guard().joints_seen() != [true; 3];
+        for joint in 0..3 {
+            let push = f32::from(state.duties()[joint].0.signum()) * DEVICE.motors[joint].torque_at_full.signum();
+            self.0[joint] += if is_on_trial { 6.5e-5 * push } else { 0.0 };
+            counts[joint].0 += (self.0[joint] / DEVICE.encoders[joint].radians_per_count) as i32;
+        }
+        counts
+    }
+}
+
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut state = SERVO.start();
     let mut walk = Walk::start();
@@ -71,10 +90,15 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         walk.counts(probe(0) + SETTINGS.body_origin);
     }
     let mut ticks = Tally::new();
+    #[cfg(feature = "folded")]
+    let mut gives_way = GivesWay([0.0; 3]);
     let (mut touched, mut met) = (0, [0_u32; 3]);
     for index in 0..TICKS {
         let position = probe(index) + SETTINGS.body_origin;
-        let input = black_box(Input::Sensors { counts: walk.counts(position), enable: true });
+        let counts = walk.counts(position);
+        #[cfg(feature = "folded")]
+        let counts = gives_way.counts(&state, counts);
+        let input = black_box(Input::Sensors { counts, enable: true });
         // As the loop does with each frame: a host that is silent is a fault.
         SERVO.note(&mut state, Event::LinkAlive);
         #[cfg(feature = "protected")]
@@ -88,6 +112,10 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     ticks.print(NAME);
     if state.fault().is_some() {
         return Err("the servo found a fault on its path");
+    }
+    #[cfg(feature = "folded")]
+    if state.guard().joints_seen() != [true; 3] {
+        return Err("the servo has not seen all joints follow their motors");
     }
     if touched < TICKS / 100 {
         return Err("the servo's path hardly touches the surface");
