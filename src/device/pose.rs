@@ -30,19 +30,18 @@ impl<const JOINTS: usize> ProbePose<JOINTS> {
         self.jacobian.map(|column| column.dot(force))
     }
 
-    /// The torque of one joint alone, N·m, that presses with 1 N at a probe which is held: the distance of its column of
-    /// the Jacobian from the span of the others', m. (The force `F` with `Jᵀ F = τ eⱼ` is at right angles to the others'
-    /// columns.) Zero at a singularity, where the pose is not finite, for a joint that is not there, and for more than
-    /// three.
-    pub(crate) fn lever(&self, joint: usize) -> f32 {
+    /// The force at a probe that is held, N, of 1 N·m of one joint alone: `F` with `Jᵀ F = eⱼ`, at right angles to the
+    /// other joints' columns. Not finite at a singularity; zero for a joint that is not there.
+    #[inline]
+    pub(crate) fn force_of_joint(&self, joint: usize) -> Vec3 {
         match (self.jacobian.as_slice(), joint) {
-            ([only], 0) => sqrt(only.length_squared()),
-            ([a, b], 0) => lever_of_two(*a, *b),
-            ([a, b], 1) => lever_of_two(*b, *a),
-            ([a, b, c], 0) => lever_of_three(*a, *b, *c),
-            ([a, b, c], 1) => lever_of_three(*b, *c, *a),
-            ([a, b, c], 2) => lever_of_three(*c, *a, *b),
-            _ => 0.0,
+            ([only], 0) => *only / only.length_squared(),
+            ([a, b], 0) => beside(*a, *b),
+            ([a, b], 1) => beside(*b, *a),
+            ([a, b, c], 0) => across(*a, *b, *c),
+            ([a, b, c], 1) => across(*b, *c, *a),
+            ([a, b, c], 2) => across(*c, *a, *b),
+            _ => Vec3::ZERO,
         }
     }
 
@@ -70,17 +69,17 @@ impl<const JOINTS: usize> ProbePose<JOINTS> {
     }
 }
 
-/// The distance of `column` from the line along `other`.
-fn lever_of_two(column: Vec3, other: Vec3) -> f32 {
-    let squared = other.length_squared();
-    if squared > 0.0 { sqrt(column.cross(other).length_squared() / squared) } else { 0.0 }
+/// What has 1 with `column` and 0 with `other`, in their plane.
+fn beside(column: Vec3, other: Vec3) -> Vec3 {
+    let rest = column - other * (column.dot(other) / other.length_squared());
+    rest / rest.dot(column)
 }
 
-/// The distance of `column` from the plane of `a` and `b`.
-fn lever_of_three(column: Vec3, a: Vec3, b: Vec3) -> f32 {
+/// What has 1 with `column` and 0 with `a` and `b`.
+#[inline]
+fn across(column: Vec3, a: Vec3, b: Vec3) -> Vec3 {
     let normal = a.cross(b);
-    let squared = normal.length_squared();
-    if squared > 0.0 { column.dot(normal).abs() / sqrt(squared) } else { 0.0 }
+    normal * (1.0 / column.dot(normal))
 }
 
 #[cfg(test)]
@@ -124,23 +123,22 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_alone_presses_with_its_torque_over_its_lever() {
-        // τ = Jᵀ F with all torques but one zero: F is the reciprocal of the column to the others, times τ.
+    fn a_joint_alone_presses_past_the_others() {
         let pose = |jacobian| ProbePose { position: Vec3::ZERO, jacobian };
         let [a, b, c] = [vec3(0.2, 0.0, 0.05), vec3(0.1, 0.3, 0.0), vec3(-0.1, 0.1, 0.2)];
-        let skewed = pose([a, b, c]);
         for joint in 0..3 {
-            let [own, next, last] = [0, 1, 2].map(|step| skewed.jacobian[(joint + step) % 3]);
-            let force = next.cross(last) / own.dot(next.cross(last));
-            let torques = skewed.torques(force);
-            assert!((0..3).all(|each| (torques[each] - f32::from(u8::from(each == joint))).abs() < 1e-6));
-            // Less force than anything else that needs this torque, and more than the column's own length tells.
-            assert!((skewed.lever(joint) * force.length() - 1.0).abs() < 1e-6);
-            assert!(skewed.lever(joint) < own.length());
+            let unit = [0, 1, 2].map(|each| f32::from(u8::from(each == joint)));
+            let torques = pose([a, b, c]).torques(pose([a, b, c]).force_of_joint(joint));
+            // Roundings of sums of three products below 2.
+            assert!(torques.iter().zip(unit).all(|(torque, unit)| (torque - unit).abs() < 1e-6), "{torques:?}");
         }
         let planar = ProbePose { position: Vec3::ZERO, jacobian: [vec3(0.0, 0.2, 0.0), vec3(0.1, 0.1, 0.0)] };
-        assert!((planar.lever(0) - 0.2 * 0.5_f32.sqrt()).abs() < 1e-6 && (planar.lever(1) - 0.1).abs() < 1e-6);
-        assert!((ProbePose { position: Vec3::ZERO, jacobian: [c] }.lever(0) - c.length()).abs() < 1e-6);
-        assert_eq!((pose([a, b, a]).lever(0), pose([a, b, c]).lever(3)), (0.0, 0.0));
+        for joint in 0..2 {
+            let torques = planar.torques(planar.force_of_joint(joint));
+            assert!((torques[joint] - 1.0).abs() < 1e-6 && torques[1 - joint].abs() < 1e-6, "{torques:?}");
+        }
+        assert!((ProbePose { position: Vec3::ZERO, jacobian: [c] }.force_of_joint(0).dot(c) - 1.0).abs() < 1e-6);
+        assert!(!pose([a, b, a]).force_of_joint(0).is_finite());
+        assert_eq!(pose([a, b, c]).force_of_joint(3), Vec3::ZERO);
     }
 }

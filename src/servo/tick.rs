@@ -223,9 +223,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         let mut felt = pose.torques(state.force);
         if state.phase == Phase::Running {
             let (angles, rates) = (&state.angles, &state.rates);
-            let moving = Moving { angles, rates, velocity, pose: &pose, force: state.force };
-            let share = self.guard.motion(&mut state.guard, &moving, &mut felt)?;
-            state.force *= share;
+            let moving = Moving { angles, rates, velocity, pose: &pose };
+            self.guard.motion(&mut state.guard, &moving, &mut state.force, &mut felt)?;
         } else {
             self.guard.released(&mut state.guard);
         }

@@ -6,6 +6,7 @@ use super::sign::{SignState, Signs};
 use super::supply::SupplyWatch;
 use super::{Guard, Moving, Remembered};
 use crate::device::{Duty, Motor, Protection};
+use crate::math::Vec3;
 use crate::render::Penalty;
 use crate::servo::Fault;
 use crate::servo::gate::gate_within;
@@ -133,16 +134,17 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
         &self,
         state: &mut GuardState<JOINTS>,
         moving: &Moving<'_, JOINTS>,
+        force: &mut Vec3,
         felt: &mut [f32; JOINTS],
-    ) -> Result<f32, Fault> {
+    ) -> Result<(), Fault> {
         let turn = state.turn;
-        let (Some(rate), Some(most)) = (moving.rates.get(turn), self.max_joint_rates.get(turn)) else { return Ok(1.0) };
+        let (Some(rate), Some(most)) = (moving.rates.get(turn), self.max_joint_rates.get(turn)) else { return Ok(()) };
         if moving.velocity.length_squared() > self.max_squared_speed || rate.abs() > *most {
             return Err(Fault::Overspeed);
         }
         match &self.signs {
-            Some(signs) => signs.look(&mut state.signs, moving, felt),
-            None => Ok(1.0),
+            Some(signs) => signs.look(&mut state.signs, moving, force, felt),
+            None => Ok(()),
         }
     }
 

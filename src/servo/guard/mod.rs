@@ -31,8 +31,6 @@ pub struct Moving<'a, const JOINTS: usize> {
     pub velocity: Vec3,
     /// Where the probe is, and the Jacobian.
     pub pose: &'a ProbePose<JOINTS>,
-    /// The force that is to be felt, N.
-    pub force: Vec3,
 }
 
 /// What guards a loop. Every call is bounded, and none panics.
@@ -61,8 +59,8 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     /// meanwhile: they pay for it, and nothing is felt that they would guard.
     fn is_busy(&self, state: &Self::State) -> bool;
 
-    /// Looks at a tick in which force is given, and leaves of its joint torques `felt`, N·m, what may be given. The
-    /// share of the force that is.
+    /// Looks at a tick in which force is given, and leaves of the force, N, and of its joint torques `felt`, N·m, what
+    /// may be given.
     ///
     /// # Errors
     /// What it finds wrong.
@@ -70,8 +68,9 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
         &self,
         state: &mut Self::State,
         moving: &Moving<'_, JOINTS>,
+        force: &mut Vec3,
         felt: &mut [f32; JOINTS],
-    ) -> Result<f32, Fault>;
+    ) -> Result<(), Fault>;
 
     /// A tick in which no force is asked for.
     fn released(&self, state: &mut Self::State);
@@ -138,8 +137,8 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     }
 
     #[inline]
-    fn motion(&self, (): &mut (), _: &Moving<'_, JOINTS>, _: &mut [f32; JOINTS]) -> Result<f32, Fault> {
-        Ok(1.0)
+    fn motion(&self, (): &mut (), _: &Moving<'_, JOINTS>, _: &mut Vec3, _: &mut [f32; JOINTS]) -> Result<(), Fault> {
+        Ok(())
     }
 
     #[inline]

@@ -5,7 +5,7 @@
 //! seen to follow their motors. Where a surface asks for a force and a joint has not been seen yet, the force is
 //! withheld, and one motor at a time knocks at its joint: a constant torque `u` the way the contact loads it, for
 //! [`SLOT`], as strong as a quarter of the greatest force at most. That force is what a hand feels that keeps the probe
-//! where it is: `F` with `Jᵀ F = u eⱼ`, so `|u|` over the distance of the joint's column of `J` from the others' span.
+//! where it is: `F` with `Jᵀ F = u eⱼ`, past what the other joints could bear of it.
 //!
 //! What tells the two signs apart is power. A hand that holds a device is passive, and so is the device: from whatever
 //! motion they are in, as far as that goes on evenly by itself, the work `u·Δx` that a constant torque does on the
@@ -22,7 +22,7 @@
 
 use super::Moving;
 use crate::device::SignWatch;
-use crate::math::Vec3;
+use crate::math::{Vec3, inverse_sqrt_from_below};
 use crate::render::Penalty;
 use crate::servo::Fault;
 
@@ -100,8 +100,8 @@ pub(super) struct SignState<const JOINTS: usize> {
     is_knocking: bool,
     /// The torque of a knock, N·m.
     torque: f32,
-    /// The force of that at the probe, N.
-    force: f32,
+    /// The force of that at a probe that is held, N.
+    force: Vec3,
     /// The share of force and weight that is given: 0 until all joints were seen, and then rising to 1.
     share: f32,
     /// The angles at the beginnings of this slot and of the two before, the newest first, rad.
@@ -119,7 +119,7 @@ impl<const JOINTS: usize> SignState<JOINTS> {
         knocks: 0,
         is_knocking: false,
         torque: 0.0,
-        force: 0.0,
+        force: Vec3::ZERO,
         share: 0.0,
         places: [[0.0; JOINTS]; 3],
         sums: [0.0; JOINTS],
@@ -139,8 +139,9 @@ impl<const JOINTS: usize> SignState<JOINTS> {
     pub(super) fn for_each_word(&self, mut take: impl FnMut(u32)) {
         take(u32::from(self.ticks) << 16 | u32::from(self.rest));
         take((self.stage as u32) << 24 | (self.slot as u32) << 16 | u32::from(self.knocks) << 8);
-        [f32::from(u8::from(self.is_knocking)), self.torque, self.force, self.share]
+        [f32::from(u8::from(self.is_knocking)), self.torque, self.share]
             .into_iter()
+            .chain(self.force.to_array())
             .chain(self.places.into_iter().flatten())
             .chain(self.sums)
             .for_each(|float| take(float.to_bits()));
@@ -180,7 +181,7 @@ impl<const JOINTS: usize> SignState<JOINTS> {
 impl<const JOINTS: usize> Signs<JOINTS> {
     pub(super) const fn new(watch: &SignWatch<JOINTS>, friction: [f32; JOINTS], rate: f32, penalty: &Penalty) -> Self {
         let ticks = rate * SLOT;
-        let slot = if ticks < 2.0 { 2.0 } else { ticks };
+        let slot = if ticks < 3.0 { 3.0 } else { ticks };
         let time = slot / rate;
         // A knock begins a tick after its slot.
         let knock = (slot - 1.0) / rate;
@@ -206,16 +207,21 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         Self { friction, ..self }
     }
 
-    /// Looks at a tick in which force may be given. What of it may be: `felt`, its joint torques, are what is left of
-    /// them when this returns, and the share of the force is what is told of it.
+    /// Looks at a tick in which force may be given. `force` and `felt`, its joint torques, are what may be given of them
+    /// when this returns.
     #[inline(always)]
     pub(super) fn look(
         &self,
         state: &mut SignState<JOINTS>,
         moving: &Moving<'_, JOINTS>,
+        force: &mut Vec3,
         felt: &mut [f32; JOINTS],
-    ) -> Result<f32, Fault> {
-        if state.stage == Stage::Over { Ok(1.0) } else { self.try_joints(state, moving, felt) }
+    ) -> Result<(), Fault> {
+        match state.stage {
+            Stage::Over => Ok(()),
+            Stage::FreeAir if *force == Vec3::ZERO => Ok(()),
+            Stage::FreeAir | Stage::OnTrial | Stage::Rising => self.try_joints(state, moving, force, felt),
+        }
     }
 
     /// A tick before all joints were seen, and all is given.
@@ -224,38 +230,36 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         &self,
         state: &mut SignState<JOINTS>,
         moving: &Moving<'_, JOINTS>,
+        force: &mut Vec3,
         felt: &mut [f32; JOINTS],
-    ) -> Result<f32, Fault> {
+    ) -> Result<(), Fault> {
         if state.stage == Stage::Rising {
             state.rise_by(self.rise);
             *felt = felt.map(|torque| torque * state.share);
-            return Ok(state.share);
+            *force *= state.share;
+            return Ok(());
         }
-        if moving.force == Vec3::ZERO {
+        if *force == Vec3::ZERO {
             state.stage = Stage::FreeAir;
-            return Ok(1.0);
+            return Ok(());
         }
+        // One after the other, so that none has to fit in a tick beside another.
         if state.stage == Stage::FreeAir {
             state.begin();
-        }
-        if state.ticks > 0 {
-            state.ticks -= 1;
-            // A tick after the last one was judged: neither has to fit in beside the other.
-            if state.ticks == self.slot - 2 {
-                self.next_slot(state, moving, felt);
-            }
-        } else {
+        } else if state.ticks == 0 {
             state.ticks = self.slot - 1;
             self.judge(state, moving)?;
-        }
-        *felt = [0.0; JOINTS];
-        match felt.get_mut(state.slot).filter(|_| state.is_knocking) {
-            Some(torque) => {
-                *torque = state.torque;
-                Ok(state.force / moving.force.length())
+        } else {
+            state.ticks -= 1;
+            if state.ticks == self.slot - 2 {
+                self.next_slot(state, moving, *force, felt);
             }
-            None => Ok(0.0),
         }
+        (*force, *felt) = (Vec3::ZERO, [0.0; JOINTS]);
+        if let Some(torque) = felt.get_mut(state.slot).filter(|_| state.is_knocking) {
+            (*force, *torque) = (state.force, state.torque);
+        }
+        Ok(())
     }
 
     /// A slot has ended: what its knock says.
@@ -281,27 +285,34 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         Ok(())
     }
 
-    /// The next slot begins: whose it is, and whether that joint knocks.
-    fn next_slot(&self, state: &mut SignState<JOINTS>, moving: &Moving<'_, JOINTS>, felt: &[f32; JOINTS]) {
+    /// The next slot begins: whose it is, and whether that joint knocks at what the contact would load it with.
+    fn next_slot(&self, state: &mut SignState<JOINTS>, moving: &Moving<'_, JOINTS>, force: Vec3, felt: &[f32; JOINTS]) {
         state.slot = if state.slot + 1 < JOINTS.max(ROUND) { state.slot + 1 } else { 0 };
         state.rest = state.rest.saturating_sub(1);
         if state.sums.iter().all(|sum| *sum >= GOOD) {
             state.stage = Stage::Rising;
             return;
         }
-        let squared = moving.force.length_squared();
         let joint = state.slot;
-        let waits = state.rest > 0 || state.knocks == 0 || squared < self.force * self.force;
+        let waits = state.rest > 0 || state.knocks == 0 || force.length_squared() < self.force * self.force;
         if waits || joint >= JOINTS || state.sums[joint] >= GOOD {
             return;
         }
-        let reach = moving.pose.jacobian[joint].length();
-        let lever = moving.pose.lever(joint);
-        let [fast, most] = [self.way / (self.yields[joint] * reach) + self.friction[joint], self.force * lever];
+        let of_torque = moving.pose.force_of_joint(joint);
+        let squared = of_torque.length_squared();
+        if !squared.is_finite() {
+            return;
+        }
+        // The torque that presses with 1 N, or a little less.
+        let lever = inverse_sqrt_from_below(squared);
+        // No faster than `SPEED`, for a column is no shorter than its lever.
+        let column = moving.pose.jacobian[joint].length_squared();
+        let fast = self.way * lever / (self.yields[joint] * column) + self.friction[joint];
+        let most = self.force * lever;
         let torque = if fast < most { fast } else { most };
         state.is_knocking = true;
         state.knocks -= 1;
         state.torque = if felt[joint] < 0.0 { -torque } else { torque };
-        state.force = if fast < most { torque / lever } else { self.force };
+        state.force = of_torque * state.torque;
     }
 }
