@@ -3,13 +3,15 @@
 use crate::led::Led;
 use crate::{Board, Hold, Interlock, Mailbox, NotObeyed, Panel};
 use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging};
+use palpate::device::drive::Feed;
 use palpate::device::{Counts, Device, Duty, Encoder};
 use palpate::wire::{Reading, hold};
 
 /// What a jog may do, whatever the host asks for. It lies in the device's own flash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JogSettings {
-    /// The greatest share of a motor's full duty; half at most.
+    /// The greatest share of a motor's full duty of torque; half at most. Of a motor whose field is led, a share of the
+    /// voltage.
     pub share: f32,
     /// The greatest speed of any joint, rad/s, by the encoders as the device believes they are.
     pub rate: f32,
@@ -46,6 +48,8 @@ impl JogSettings {
 pub(crate) struct SetUp<const JOINTS: usize> {
     jogging: Jogging<JOINTS>,
     state: JogState<JOINTS>,
+    /// What each drive is to be told so that its motor gives a duty of torque.
+    feeds: [Feed; JOINTS],
     /// The field, of motors that have one.
     led: Option<Led>,
     counts: [Counts; JOINTS],
@@ -68,8 +72,8 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
             Some(led) => led,
             None => None,
         };
-        let (state, counts) = (JogState::default(), [Counts(0); JOINTS]);
-        Ok(Self { jogging, state, led, counts, enable: false, hold: 0, is_stopped: false })
+        let (state, counts, feeds) = (JogState::default(), [Counts(0); JOINTS], device.feeds);
+        Ok(Self { jogging, state, feeds, led, counts, enable: false, hold: 0, is_stopped: false })
     }
 
     /// A tick up to the motors, whose duties this leaves with the board.
@@ -153,8 +157,13 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
             // One motor at a time: the others have no duty, wherever their fields are.
             duties.into_iter().for_each(|duty| led.on(duty));
             board.aim([led.angle(); JOINTS]);
-            // The sign says which way the field goes, not which way it points.
+            // The sign says which way the field goes, not which way it points. What leads it is a share of the voltage.
             duties = duties.map(|Duty(duty)| Duty(duty.saturating_abs()));
+        } else {
+            // As of a joint at rest: nothing is known yet of which encoder is whose, and back-EMF then brakes.
+            for (duty, feed) in duties.iter_mut().zip(&self.feeds) {
+                *duty = feed.command(*duty, 0.0);
+            }
         }
         board.drive(duties)
     }

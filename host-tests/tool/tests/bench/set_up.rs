@@ -4,8 +4,10 @@
 use crate::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
 use palpate::commission::{Jog, JogRefusal, KEY};
 use palpate::device::SerialArm;
+use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::servo::{Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
+use palpate::patch::SplinePatch;
+use palpate::servo::{Fault, Guard, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo, Unguarded};
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Command, Reading, Told, hold};
@@ -13,6 +15,7 @@ use palpate_bench::{Idle, Port, Settings, Watchdog};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::VecDeque;
+use std::sync::OnceLock;
 
 /// A line whose bytes are all there at once.
 #[derive(Default)]
@@ -39,8 +42,8 @@ impl Watchdog for NoWatchdog {
 }
 
 /// The whole device side: interrupt, main and line.
-struct Device {
-    rig: Rig<SerialArm>,
+struct Device<G: Guard<3> + 'static = Unguarded> {
+    rig: Rig<SerialArm, G>,
     idle: Idle<'static>,
     wire: Wire,
     receiver: Receiver<Told>,
@@ -55,7 +58,22 @@ impl Device {
 
     fn after(reset: ResetReason, settings: &Settings, safety: Safety) -> Self {
         let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
-        let mut rig = Rig::new(servo, held_at([0.0, 0.0, 0.02]), settings, reset);
+        Self::of(servo, reset, settings)
+    }
+
+    /// One being set up, whose enable button is held as it should be.
+    fn being_set_up() -> Self {
+        Self::being_set_up_with(&settings())
+    }
+
+    fn being_set_up_with(settings: &Settings) -> Self {
+        Self::new(settings, Safety::DEFAULT).set_up()
+    }
+}
+
+impl<G: Guard<3> + 'static> Device<G> {
+    fn of(servo: Servo<'static, SplinePatch<'static>, SerialArm, 3, G>, reset: ResetReason, of: &Settings) -> Self {
+        let mut rig = Rig::new(servo, held_at([0.0, 0.0, 0.02]), of, reset);
         let records = rig.take_records();
         let idle = Idle::new(rig.mailbox, records, Heartbeat::default());
         Self { rig, idle, wire: Wire::default(), receiver: Receiver::new(), last: None, number: 0 }
@@ -96,20 +114,15 @@ impl Device {
         (0..ticks).for_each(|_| self.tick());
     }
 
-    /// One being set up, whose enable button is held as it should be.
-    fn being_set_up() -> Self {
-        Self::being_set_up_with(&settings())
-    }
-
-    fn being_set_up_with(settings: &Settings) -> Self {
-        let mut device = Self::new(settings, Safety::DEFAULT);
-        device.ticks(50);
-        device.send(Command::SetUp);
-        device.ticks(10);
-        assert!(device.last.is_some(), "it is being set up");
-        device.rig.set(|world| world.button = true);
-        device.ticks(10);
-        device
+    /// The same being set up, with its enable button held.
+    fn set_up(mut self) -> Self {
+        self.ticks(50);
+        self.send(Command::SetUp);
+        self.ticks(10);
+        assert!(self.last.is_some(), "it is being set up");
+        self.rig.set(|world| world.button = true);
+        self.ticks(10);
+        self
     }
 
     /// Holds the key for so many ticks, a frame every 20 ms.
@@ -150,6 +163,39 @@ fn one_motor_moves_while_key_and_button_are_held_by_no_more_than_its_limit() {
             let wanted = if joint == usize::from(motor) { 0.4 } else { 0.0 };
             // Half a step of 8,500 on a range of 0.4.
             assert!((current - wanted).abs() < 2e-4, "{currents:?}");
+        }
+        device.jog(0, motor, 0);
+        device.assert_off(100);
+    }
+}
+
+#[test]
+fn a_bridge_that_gives_a_voltage_is_told_the_voltage_of_the_duty() {
+    let amps = 3.0;
+    let voltage = |ohms| {
+        Feed::Voltage(VoltageFeed {
+            supply: 24.0,
+            resistance: ohms,
+            torque_constant: 0.0259,
+            current_at_full: amps,
+            ratio: 16.0,
+            back_emf_share: 0.8,
+        })
+    };
+    static FED: OnceLock<palpate::device::Device<SerialArm, 3>> = OnceLock::new();
+    let feeds = [voltage(0.711), Feed::Current, voltage(2.0)];
+    let fed = FED.get_or_init(|| palpate::device::Device { feeds, ..WOODEN_HAPTICS_2016 });
+    let servo = Servo::new(fed, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let mut device = Device::of(servo, ResetReason::PowerOn, &settings()).set_up();
+    // 1.2 A through each winding at rest: a stalled motor has no more current than a moving one.
+    for (motor, told) in [(0, 0.4 * amps * 0.711 / 24.0), (1, 0.4), (2, 0.4 * amps * 2.0 / 24.0)] {
+        for sign in [1, -1] {
+            device.hold_key(1_000, motor, sign * i16::MAX);
+            let (reading, motor) = (device.reading(), usize::from(motor));
+            assert_eq!((reading.live, reading.duties[motor]), (true, sign * 13_107), "the torque's share is told");
+            let current = device.rig.world.borrow().currents()[motor];
+            // As above.
+            assert!((current - f64::from(sign) * f64::from(told)).abs() < 2e-4, "{motor}: {current} for {told}");
         }
         device.jog(0, motor, 0);
         device.assert_off(100);
