@@ -13,9 +13,10 @@ pub struct JogSettings {
     /// The greatest share of a motor's full duty of torque; half at most. Of a motor whose field is led, a share of the
     /// voltage.
     pub share: f32,
-    /// The greatest speed of any joint, rad/s, by the encoders as the device believes they are.
+    /// The greatest speed of any joint, rad/s, by the encoders as the device believes they are: which is on which joint
+    /// is not known yet, so this is what the coarsest may go, and a finer one less.
     pub rate: f32,
-    /// How far any joint may go while the key is held, rad.
+    /// How far any joint may go while the key is held, rad; with a finer encoder less, as above.
     pub travel: f32,
     /// Seconds without a frame after which the key counts as let go; half a second at most.
     pub patience: f32,
@@ -31,13 +32,13 @@ impl JogSettings {
 
     /// The limits in counts and duties.
     fn limits<const JOINTS: usize>(&self, encoders: &[Encoder; JOINTS]) -> JogLimits<JOINTS> {
-        // Of the finest encoder: nothing is known yet of which is where.
-        let finest = encoders.iter().map(|encoder| encoder.radians_per_count.abs()).fold(f32::INFINITY, f32::min);
+        // Of the coarsest encoder: nothing is known yet of which is where, and on any other joint it is less.
+        let coarsest = encoders.iter().map(|encoder| encoder.radians_per_count.abs()).fold(0.0, f32::max);
         JogLimits {
             max_duty: [Duty::from_fraction(self.share); JOINTS],
-            max_speed: self.rate / finest,
+            max_speed: self.rate / coarsest,
             // The cast saturates.
-            max_travel: (self.travel / finest) as u32,
+            max_travel: (self.travel / coarsest) as u32,
             patience: self.patience,
         }
     }

@@ -53,6 +53,8 @@ pub struct World {
     /// Frames to come that are bad.
     pub bad: u32,
     pub kind: BadFrame,
+    /// Counts that the counters are ahead of the plant by: joints that a test turns itself.
+    pub turned: [i32; 3],
     /// Cycles that reading the sensors takes.
     pub reading: u32,
     /// Width of the set-points, as a share of their period.
@@ -174,7 +176,9 @@ pub struct Timers(Shared);
 
 impl Readings<3> for Timers {
     fn readings(&mut self) -> [u32; 3] {
-        self.0.borrow().plant.counts().map(|count| count as u32 & 0xffff)
+        let world = self.0.borrow();
+        let counts = world.plant.counts();
+        core::array::from_fn(|joint| (counts[joint] + world.turned[joint]) as u32 & 0xffff)
     }
 }
 
@@ -272,6 +276,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
         measured: Some,
         bad: 0,
         kind: BadFrame::Damaged,
+        turned: [0; 3],
         reading: 200,
         widths: [0.5; 3],
         enables: [false; 3],

@@ -1,7 +1,7 @@
 //! A device that is being set up, from the bytes on its line to the current in its motors: nothing moves without the
 //! enable button *and* the key, and whatever goes wrong lets go at once.
 
-use crate::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
+use crate::rig::{RATE, Rig, SETTINGS, WALL, World, held_at, settings};
 use palpate::commission::{Jog, JogRefusal, KEY};
 use palpate::device::SerialArm;
 use palpate::device::drive::{Feed, VoltageFeed};
@@ -199,6 +199,44 @@ fn a_bridge_that_gives_a_voltage_is_told_the_voltage_of_the_duty() {
         }
         device.jog(0, motor, 0);
         device.assert_off(100);
+    }
+}
+
+/// A tick's part of a joint's turning at so many rad/s, for a time: the refusal that ends it, and how far it went, rad.
+fn turned_at(rate: f64, joint: usize) -> (Option<JogRefusal>, f64) {
+    let mut device = Device::being_set_up();
+    let counts_per_radian = 1.0 / f64::from(WOODEN_HAPTICS_2016.encoders[joint].radians_per_count).abs();
+    let begin = i32::MAX / 2;
+    let mut from = begin;
+    for tick in 0..4_000_u32 {
+        let angle = rate * f64::from(tick) / RATE;
+        device.rig.set(|world| world.turned[joint] = (angle * counts_per_radian) as i32);
+        if tick % 80 == 0 {
+            device.jog(KEY, 0, 0);
+        }
+        device.tick();
+        if from == begin {
+            from = device.reading().counts[joint];
+        }
+        if device.reading().refusal != 0 {
+            let moved = f64::from((device.reading().counts[joint] - from).abs()) / counts_per_radian;
+            return (JogRefusal::from_code(device.reading().refusal), moved);
+        }
+    }
+    (None, 0.0)
+}
+
+#[test]
+fn no_joint_goes_further_or_faster_than_is_said_however_coarse_its_encoder() {
+    // Joint 1 has three counts where joint 0 has four. A third of a radian less is what the finer one may go.
+    for joint in 0..3 {
+        let (refusal, moved) = turned_at(3.0, joint);
+        assert_eq!(refusal, Some(JogRefusal::TooFar), "{joint}");
+        // A hundredth: what the hand lets it move besides.
+        assert!((0.74..1.01).contains(&moved), "{joint}: {moved} rad");
+        // A tenth more than it may, for as long as it takes to have gone a fiftieth of a second's way too far.
+        let (refusal, moved) = turned_at(4.4, joint);
+        assert_eq!(refusal, Some(JogRefusal::TooFast), "{joint}: {moved} rad");
     }
 }
 
