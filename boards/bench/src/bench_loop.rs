@@ -110,7 +110,10 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             ticks: 0,
             acknowledging: Acknowledging::NotYet,
             // Limits that make no sense jog nothing.
-            set_up: settings.jog.and_then(|jog| SetUp::try_new(&jog, felt.servo().device(), rate).ok()),
+            set_up: settings.jog.and_then(|jog| {
+                let (device, continuous) = (felt.servo().device(), felt.servo().guard().continuous());
+                SetUp::try_new(&jog, device, continuous, rate).ok()
+            }),
             is_set_up: false,
             is_host_heard: !felt.servo().watches_link(),
             felt,

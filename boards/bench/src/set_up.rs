@@ -4,14 +4,14 @@ use crate::led::Led;
 use crate::{Board, Hold, Interlock, Mailbox, NotObeyed, Panel};
 use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging};
 use palpate::device::drive::Feed;
-use palpate::device::{Counts, Device, Duty, Encoder};
+use palpate::device::{Counts, Device, Duty};
 use palpate::wire::{Reading, hold};
 
 /// What a jog may do, whatever the host asks for. It lies in the device's own flash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JogSettings {
-    /// The greatest share of a motor's full duty of torque; half at most. Of a motor whose field is led, a share of the
-    /// voltage.
+    /// The greatest share of a motor's full duty of torque; half at most, and never more than what each motor bears for
+    /// ever, where the loop's guard knows that. Of a motor whose field is led, a share of the voltage.
     pub share: f32,
     /// The greatest speed of any joint, rad/s, by the encoders as the device believes they are: which is on which joint
     /// is not known yet, so this is what the coarsest may go, and a finer one less.
@@ -31,11 +31,23 @@ impl JogSettings {
     pub const DEFAULT: Self = Self { share: 0.4, rate: 4.0, travel: 1.0, patience: 0.1, turn_ticks: None };
 
     /// The limits in counts and duties.
-    fn limits<const JOINTS: usize>(&self, encoders: &[Encoder; JOINTS]) -> JogLimits<JOINTS> {
+    fn limits<K, const JOINTS: usize>(
+        &self,
+        device: &Device<K, JOINTS>,
+        continuous: [f32; JOINTS],
+    ) -> JogLimits<JOINTS> {
         // Of the coarsest encoder: nothing is known yet of which is where, and on any other joint it is less.
-        let coarsest = encoders.iter().map(|encoder| encoder.radians_per_count.abs()).fold(0.0, f32::max);
+        let coarsest = device.encoders.iter().map(|encoder| encoder.radians_per_count.abs()).fold(0.0, f32::max);
+        // Nor which motor is where, and no heat is counted: no more than the one bears for ever that bears least. Of a
+        // field that is led it is the voltage at rest.
+        let mut most = Duty::from_fraction(self.share);
+        for (continuous, feed) in continuous.into_iter().zip(&device.feeds) {
+            let borne = Duty::from_fraction(continuous);
+            let borne = if self.turn_ticks.is_some() { feed.command(borne, 0.0) } else { borne };
+            most = Duty(most.0.min(borne.0));
+        }
         JogLimits {
-            max_duty: [Duty::from_fraction(self.share); JOINTS],
+            max_duty: [most; JOINTS],
             max_speed: self.rate / coarsest,
             // The cast saturates.
             max_travel: (self.travel / coarsest) as u32,
@@ -62,12 +74,17 @@ pub(crate) struct SetUp<const JOINTS: usize> {
 }
 
 impl<const JOINTS: usize> SetUp<JOINTS> {
-    /// Of a device, in a loop of `rate` Hz.
+    /// Of a device whose motors bear these shares of full duty for ever, in a loop of `rate` Hz.
     ///
     /// # Errors
     /// The limit that is refused: nothing will be jogged.
-    pub fn try_new<K>(settings: &JogSettings, device: &Device<K, JOINTS>, rate: f32) -> Result<Self, JogLimitsError> {
-        let jogging = Jogging::try_new(settings.limits(&device.encoders), rate)?;
+    pub fn try_new<K>(
+        settings: &JogSettings,
+        device: &Device<K, JOINTS>,
+        continuous: [f32; JOINTS],
+        rate: f32,
+    ) -> Result<Self, JogLimitsError> {
+        let jogging = Jogging::try_new(settings.limits(device, continuous), rate)?;
         let led = match settings.turn_ticks.map(Led::try_new) {
             Some(None) => return Err(JogLimitsError::Speed),
             Some(led) => led,

@@ -105,6 +105,10 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
         self
     }
 
+    fn continuous(&self) -> [f32; JOINTS] {
+        self.heat.map(|model| model.continuous())
+    }
+
     fn start(&self) -> GuardState<JOINTS> {
         let windings = self.heat.map(|model| model.start());
         GuardState { turn: 0, windings, supply_age: 0, signs: SignState::START }

@@ -96,10 +96,15 @@ impl HeatModel {
         Self::bearing(self.share, continuous, full)
     }
 
+    /// What it bears for ever, as a share of full duty.
+    pub(super) fn continuous(&self) -> f32 {
+        if self.continuous < 1.0 { self.continuous } else { 1.0 }
+    }
+
     /// After a reset nothing is known of the motor: it may have been driven for hours before. It starts at its
     /// continuous torque and is found cold by and by.
     pub(super) fn start(&self) -> Winding {
-        let hottest = if self.continuous < 1.0 { self.continuous } else { 1.0 };
+        let hottest = self.continuous();
         let heat = Heat((hottest * hottest * FULL) as i32);
         Winding { heat, squares: 0, limit: self.limit(heat) }
     }

@@ -42,6 +42,10 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     #[must_use]
     fn of_motors(self, motors: &[Motor; JOINTS], dry_friction: &[f32; JOINTS]) -> Self;
 
+    /// The duty of torque that each motor may be given for ever, as a share of full duty, 0 to 1: for whoever drives it
+    /// where no heat is counted.
+    fn continuous(&self) -> [f32; JOINTS];
+
     /// Before the first tick after any reset.
     fn start(&self) -> Self::State;
 
@@ -112,6 +116,10 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
 
     fn of_motors(self, _: &[Motor; JOINTS], _: &[f32; JOINTS]) -> Self {
         self
+    }
+
+    fn continuous(&self) -> [f32; JOINTS] {
+        [1.0; JOINTS]
     }
 
     fn start(&self) {}

@@ -2,6 +2,7 @@
 
 use super::encoders::find_encoders;
 use super::motors::find_motors;
+use super::ramp::most;
 use super::torques::find_torques;
 use super::{Finding, Lab, Zero};
 use crate::own::{DeviceFile, OwnDevice};
@@ -30,7 +31,7 @@ pub fn find_mounting(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result
     // Only now can anything move.
     lab.hands.enable(true)?;
     lab.device.wait_for_enable()?;
-    find_motors(lab, &mut file, middle, &mut findings)?;
+    find_motors(lab, &mut file, most(own), middle, &mut findings)?;
     Ok((file, findings))
 }
 

@@ -13,13 +13,14 @@ const MOVED: f64 = 0.01;
 pub(super) fn find_motors(
     lab: &mut Lab,
     file: &mut DeviceFile,
+    most: f64,
     (centre, loads): ([f64; 3], [f64; 3]),
     findings: &mut Vec<Finding>,
 ) -> anyhow::Result<()> {
     let mut taken = [false; 3];
     for (index, load) in loads.into_iter().enumerate() {
         let towards = away(load);
-        let (output, with) = find_motor(lab, file, index, (centre, towards), taken)?;
+        let (output, with) = find_motor(lab, file, (index, most), (centre, towards), taken)?;
         taken[output] = true;
         let joint = &mut file.joint[index];
         if joint.motor.channel != output {
@@ -44,7 +45,7 @@ pub(super) fn away(load: f64) -> f64 {
 fn find_motor(
     lab: &mut Lab,
     file: &DeviceFile,
-    joint: usize,
+    (joint, most): (usize, f64),
     (centre, towards): ([f64; 3], f64),
     taken: [bool; 3],
 ) -> anyhow::Result<(usize, bool)> {
@@ -62,7 +63,8 @@ fn find_motor(
             if (0..5).any(|_| lab.device.step(None).is_ok_and(|reading| moved(reading.counts).abs() > 0.5 * MOVED)) {
                 bail!("joint {}: it moves by itself; support it against falling", file.joint[joint].name);
             }
-            let found = grow(lab, u8::try_from(output)?, sign, (0.0, Growth::BRISK), |counts| moved(counts) > MOVED)?;
+            let output_byte = u8::try_from(output)?;
+            let found = grow(lab, output_byte, sign, (0.0, Growth::BRISK, most), |counts| moved(counts) > MOVED)?;
             lab.device.step(None)?;
             if found.is_some() {
                 return Ok((output, sign * towards > 0.0));

@@ -6,10 +6,10 @@ use crate::preset::Preset;
 use crate::wall::WALL;
 use anyhow::{Context as _, bail};
 use palpate::commission::Wiring;
-use palpate::device::{Counts, Device, Duty, Kinematics};
+use palpate::device::{Counts, Device, Duty, Kinematics, Protection};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Heartbeat, ResetReason, Servo, Settings, Unguarded};
+use palpate::servo::{Guarded, Heartbeat, ResetReason, Servo, Settings};
 use palpate::track::Controller;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
@@ -31,7 +31,7 @@ type Flash = PretendedFlash<512>;
 
 /// A servo on the device as it was found in flash.
 struct Made<K: 'static> {
-    servo: Servo<'static, SplinePatch<'static>, K, 3>,
+    servo: Servo<'static, SplinePatch<'static>, K, 3, Guarded<3>>,
     wiring: Wiring<3>,
     is_miscalibrated: bool,
 }
@@ -39,9 +39,9 @@ struct Made<K: 'static> {
 impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
     type Surface = SplinePatch<'static>;
     type Mechanism = K;
-    type Guard = Unguarded;
+    type Guard = Guarded<3>;
 
-    fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, 3> {
+    fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, 3, Guarded<3>> {
         &self.servo
     }
 
@@ -153,17 +153,21 @@ impl HostLine {
     /// A device of fewer joints, or settings that it does not take.
     pub fn new(own: &OwnDevice, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
         match own.preset {
-            Preset::SerialArm(device) => Self::of(device, world),
-            Preset::LinkageArm(device) => Self::of(device, world),
-            Preset::Delta(device) => Self::of(device, world),
+            Preset::SerialArm(device) => Self::of(device, own.protection, world),
+            Preset::LinkageArm(device) => Self::of(device, own.protection, world),
+            Preset::Delta(device) => Self::of(device, own.protection, world),
             Preset::FiveBar(_) | Preset::Paddle(_) => bail!("{} has too few joints", own.file.name),
         }
     }
 
-    fn of<K: Kinematics<3> + Copy>(device: &'static Device<K, 3>, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
+    fn of<K: Kinematics<3> + Copy>(
+        device: &'static Device<K, 3>,
+        protection: Protection<3>,
+        world: &Arc<Mutex<World>>,
+    ) -> anyhow::Result<Self> {
         let flash: &'static Flash = Box::leak(Box::new(Flash::new()));
         let world = Arc::clone(world);
-        let start = Box::new(move |flash| started(device, &world, flash));
+        let start = Box::new(move |flash| started((device, protection), &world, flash));
         let (bench, idle) = start(flash)?;
         Ok(Self { bench, idle, bytes: Bytes::default(), flash, start })
     }
@@ -172,7 +176,7 @@ impl HostLine {
 /// A device that begins, with what its flash has. What it is made of lives as long as the program, as a board's statics
 /// do.
 fn started<K: Kinematics<3> + Copy>(
-    built: &'static Device<K, 3>,
+    (built, protection): (&'static Device<K, 3>, Protection<3>),
     world: &Arc<Mutex<World>>,
     flash: &'static Flash,
 ) -> anyhow::Result<Started> {
@@ -188,7 +192,7 @@ fn started<K: Kinematics<3> + Copy>(
     let writer = flash.writer().context("its flash has a writer already")?;
     let (kept, found) = KeptCalibration::find(writer, built);
     let Found { device, wiring, is_miscalibrated } = found;
-    let servo = Servo::try_new(built, &WALL, Controller::SECOND_ORDER, settings)?;
+    let servo = Servo::try_new(built, &WALL, Controller::SECOND_ORDER, settings)?.try_protect(protection)?;
     let made = Made { servo: servo.calibrated(Box::leak(Box::new(device))), wiring, is_miscalibrated };
     let board = SimulatedBoard { world: Arc::clone(world), duties: [0; 3] };
     let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));

@@ -2,10 +2,14 @@
 
 use super::Lab;
 use super::device::said;
+use crate::own::OwnDevice;
 use anyhow::bail;
 
-/// The greatest share of full duty that is tried: what a device allows, and a little less.
-pub(super) const MOST: f64 = 0.39;
+/// The greatest share of full duty that is tried: a little less than a device allows, which is four tenths, or what the
+/// motor that bears least bears for ever. Which motor is where is not known yet.
+pub(super) fn most(own: &OwnDevice) -> f64 {
+    own.protection.motors.iter().map(|motor| f64::from(motor.continuous)).fold(0.4, f64::min) - 0.01
+}
 /// How often a key may be let go before whoever holds it has given up.
 const TRIES: u32 = 20;
 
@@ -19,7 +23,7 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// To [`MOST`] within a second.
+    /// To [`most`] within a second.
     pub const BRISK: Self = Self { least: 0.002, share: 0.04 };
     /// A fiftieth of full duty in a second: so slowly that what just moves has hardly been pushed more than it takes.
     pub const FINE: Self = Self { least: 0.0003, share: 0.0 };
@@ -36,7 +40,7 @@ pub(super) fn duty(share: f64) -> i16 {
     (share.clamp(-1.0, 1.0) * 32_767.0).round() as i16
 }
 
-/// Lets an output's duty grow from a share to [`MOST`], in the direction of `sign`, until `has_moved` says so of the
+/// Lets an output's duty grow from a share to `most`, in the direction of `sign`, until `has_moved` says so of the
 /// counts. The share at which it did, and the counts; `None` if it never did. The motor is still driven.
 ///
 /// # Errors
@@ -45,12 +49,12 @@ pub(super) fn grow(
     lab: &mut Lab,
     output: u8,
     sign: f64,
-    (from, growth): (f64, Growth),
+    (from, growth, most): (f64, Growth, f64),
     has_moved: impl Fn([i32; 3]) -> bool,
 ) -> anyhow::Result<Option<(f64, [i32; 3])>> {
     let mut share = from;
     let mut tries = 0;
-    while share < MOST {
+    while share < most {
         share = growth.next(share);
         let reading = lab.device.step(Some((output, duty(sign * share))))?;
         if has_moved(reading.counts) {

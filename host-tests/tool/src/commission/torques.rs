@@ -11,7 +11,7 @@ use super::device::said;
 use super::encoders::angle;
 use super::finding::differs;
 use super::motors::away;
-use super::ramp::{Growth, MOST, duty, grow};
+use super::ramp::{Growth, duty, grow, most};
 use super::{Finding, Lab};
 use crate::own::{DeviceFile, OwnDevice};
 use anyhow::{Context as _, bail};
@@ -36,6 +36,7 @@ pub(super) fn find_torques(
     (centre, loads): ([f64; 3], [f64; 3]),
     findings: &mut Vec<Finding>,
 ) -> anyhow::Result<()> {
+    let most = most(own);
     let jacobian = own.plant.mechanism(0.0).jacobian(centre);
     for (index, load) in loads.into_iter().enumerate() {
         let column: [f64; 3] = core::array::from_fn(|axis| jacobian[axis][index]);
@@ -43,22 +44,22 @@ pub(super) fn find_torques(
         let motor = &file.joint[index].motor;
         let by_file = (motor.torque_constant * motor.current_at_full * motor.ratio).abs();
         let towards = away(load);
-        let [up, down] = edges(lab, file, (centre, index), towards)?;
+        let [up, down] = edges(lab, file, (centre, index), (towards, most))?;
         // What is left for a weight, and two fifths of it for a motor that is weaker than the file says.
-        let share = LOADS[0].min(0.6 * (MOST - up));
+        let share = LOADS[0].min(0.6 * (most - up));
         if share < LOADS[1] {
             bail!(
                 "joint {}: gravity and friction take {:.0} % of full duty, and with {:.0} % of it at most there is \
                  nothing left to measure a weight with: balance the arm first",
                 file.joint[index].name,
                 100.0 * up,
-                100.0 * MOST
+                100.0 * most
             );
         }
         let wanted = share * by_file / lever;
         // The way the load falls.
         let pulled = lab.hands.pull(column.map(|part| -towards * part / lever * wanted))?;
-        let [weighed_up, weighed_down] = edges(lab, file, (centre, index), towards)?;
+        let [weighed_up, weighed_down] = edges(lab, file, (centre, index), (towards, most))?;
         lab.hands.pull([0.0; 3])?;
         let full = pulled * lever / (0.5 * (weighed_up + weighed_down) - 0.5 * (up + down));
         let joint = &mut file.joint[index];
@@ -90,7 +91,7 @@ fn edges(
     lab: &mut Lab,
     file: &DeviceFile,
     (centre, joint): ([f64; 3], usize),
-    towards: f64,
+    (towards, most): (f64, f64),
 ) -> anyhow::Result<[f64; 2]> {
     let entry = &file.joint[joint];
     let (output, sign) = (u8::try_from(entry.motor.channel)?, entry.motor.ratio.signum() * towards);
@@ -100,12 +101,12 @@ fn edges(
         lab.hands.rest(joint, towards)?;
         let before = angle(file, joint, lab.device.step(None)?.counts);
         let height = move |counts| towards * (angle(file, joint, counts) - before);
-        let lifted = grow(lab, output, sign, (from, growth), |counts| height(counts) >= motion)?;
+        let lifted = grow(lab, output, sign, (from, growth, most), |counts| height(counts) >= motion)?;
         let (up, counts) = lifted.with_context(|| {
             format!(
                 "joint {}: {:.0} % of full duty do not lift it off its support: take less weight, or balance the arm",
                 entry.name,
-                100.0 * MOST
+                100.0 * most
             )
         })?;
         anyhow::Ok((up, height(counts), before))
@@ -114,7 +115,7 @@ fn edges(
     let (up, reached, before) = lift((about - LEAD.max(0.2 * about)).max(0.0), Growth::FINE)?;
     let height = |counts| towards * (angle(file, joint, counts) - before);
     let (mut highest, mut drop) = (reached, 0.0);
-    while up - drop > -MOST {
+    while up - drop > -most {
         drop = Growth::BACK.next(drop);
         let reading = lab.device.step(Some((output, duty(sign * (up - drop)))))?;
         let now = height(reading.counts);

@@ -3,9 +3,9 @@
 
 use crate::rig::{RATE, Rig, SETTINGS, WALL, World, held_at, settings};
 use palpate::commission::{Jog, JogRefusal, KEY};
-use palpate::device::SerialArm;
 use palpate::device::drive::{Feed, VoltageFeed};
-use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
+use palpate::device::{Endurance, Protection, SerialArm};
 use palpate::patch::SplinePatch;
 use palpate::servo::{Fault, Guard, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo, Unguarded};
 use palpate::track::Controller;
@@ -237,6 +237,24 @@ fn no_joint_goes_further_or_faster_than_is_said_however_coarse_its_encoder() {
         // A tenth more than it may, for as long as it takes to have gone a fiftieth of a second's way too far.
         let (refusal, moved) = turned_at(4.4, joint);
         assert_eq!(refusal, Some(JogRefusal::TooFast), "{joint}: {moved} rad");
+    }
+}
+
+#[test]
+fn no_motor_is_jogged_with_more_than_every_motor_bears_for_ever() {
+    // Which motor is on which output is not known yet, and nobody counts the heat.
+    let endurance = |continuous| Endurance { continuous, time_constant: 16.0 };
+    let motors = [1.1, 0.22, 0.5].map(endurance);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
+        .protect(Protection { motors, ..WOODEN_HAPTICS_2016_PROTECTION });
+    let mut device = Device::of(servo, ResetReason::PowerOn, &settings()).set_up();
+    for motor in 0..3 {
+        device.hold_key(1_000, motor, i16::MAX);
+        let reading = device.reading();
+        // Rounded.
+        assert_eq!((reading.live, reading.duties[usize::from(motor)]), (true, 7_209));
+        device.jog(0, motor, 0);
+        device.assert_off(100);
     }
 }
 
