@@ -21,19 +21,20 @@ class AngleSensor:
         # The first half of a frame, where a bus sends bytes.
         self.half: int | None = None
 
-    def exchange(self, frame: int) -> int:
-        """A frame each way."""
+    def exchange(self, frame: int) -> int | None:
+        """A frame each way; `None` if nobody drives the line."""
         if not self.answers:
-            return 0xFFFF
+            return None
         assert bin(frame).count("1") % 2 == 0, "commands have even parity"
         answer = self.next
         self.next = with_parity({ANGLE: self.angle, DIAGNOSTICS: WELL}.get(frame & 0x3FFF, 0))
         return answer
 
-    def exchange_byte(self, byte: int) -> int:
+    def exchange_byte(self, byte: int) -> int | None:
         """Half a frame each way. What is answered does not depend on what is asked meanwhile."""
         if self.half is None:
             self.half = byte
-            return self.next >> 8 if self.answers else 0xFF
+            return self.next >> 8 if self.answers else None
         frame, self.half = self.half << 8 | byte, None
-        return self.exchange(frame) & 0xFF
+        answer = self.exchange(frame)
+        return None if answer is None else answer & 0xFF

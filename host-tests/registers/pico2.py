@@ -9,6 +9,7 @@ from rp2350 import (
 
 ENABLES, DIRECTIONS, SET_POINTS, SELECTS = (16,), (11, 13, 15), (10, 12, 14), (5, 6, 7)
 SLICES = (5, 6, 7)
+DATA = 4
 BUTTON, STOP, READY, LIGHT, SUPPLY = 17, 21, (18, 19, 20), 25, 26
 MOTORS = (*ENABLES, *DIRECTIONS, *SET_POINTS)
 WIDTHS = tuple(getattr(PWM, f"CH{slice}_CC") for slice in SLICES)
@@ -66,7 +67,8 @@ class Pico2(Rp2350):
         selected = [sensor for sensor, pin in zip(self.sensors, SELECTS) if not self.level(pin)]
         answers = [sensor.exchange_byte(byte) for sensor in selected]
         assert len(answers) < 2, "one at a time"
-        return answers[0] if answers else 0xFF
+        silence = 0xFF * self.pad(DATA, PUE)
+        return silence if not answers or answers[0] is None else answers[0]
 
     def press(self, enable: bool | None = None, stop: bool | None = None) -> None:
         """The buttons: enable's contact closes to ground, stop's opens; the pins are pulled up."""

@@ -43,6 +43,8 @@ class Teensy41(Imxrt1062):
         _, self.volts, _ = self.SUPPLY_RANGE
         self.levels = {STOP: 0, **{line: 1 for line in READY}}
         self.sensors = [AngleSensor() for _ in SELECTS]
+        # What the sensors' data line reads where nobody drives it.
+        self.silence = 0xFFFF
 
     def level(self, port: int, bit: int) -> int:
         """What is on a pin: its own output, the level from outside, its pull; or whatever was last there (keeper)."""
@@ -67,7 +69,7 @@ class Teensy41(Imxrt1062):
         selected = [sensor for sensor, (port, bit, _) in zip(self.sensors, SELECTS) if not self.level(port, bit)]
         answers = [sensor.exchange(frame) for sensor in selected]
         assert len(answers) < 2, "one at a time"
-        return answers[0] if answers else 0xFFFF
+        return self.silence if not answers or answers[0] is None else answers[0]
 
     def press(self, enable: bool | None = None, stop: bool | None = None) -> None:
         """The buttons: enable's contact closes to ground, stop's opens; the pins are pulled up."""

@@ -11,7 +11,7 @@ from bench import OF_PANIC
 from imxrt1062 import EN, LPSPI4, PWM2, RCS, UPDATE, WDOG3
 from in_set_up import InSetUp
 from teensy41 import Teensy41
-from with_angle_sensors import WithAngleSensors
+from with_angle_sensors import BRIDGED, WithAngleSensors
 
 
 class Teensy(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
@@ -67,3 +67,10 @@ class Teensy(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
 
     def test_chip_that_got_too_hot_is_a_program_that_hung(self) -> None:
         self.assert_is_told(telemetry.WATCHDOG, heat=True)
+    def test_silent_sensor_whose_line_reads_low_stops_in_the_third_tick(self) -> None:
+        for number in range(self.BOARD.SENSORS):
+            machine = self.while_driving()
+            machine.chip.silence = 0
+            machine.chip.break_line(f"sensor {number + 1}")
+            self.assert_stops_within(machine, BRIDGED + 1)
+

@@ -68,13 +68,9 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
     /// [`SensorError::Absent`], [`SensorError::Magnet`], and what a frame can suffer.
     pub fn start(&mut self) -> Result<(), SensorError<S::Error>> {
         self.asked = false;
-        let diagnostics = match self.chip {
-            AmsChip::As5047p => 0x3ffc,
-            AmsChip::As5048a => 0x3ffd,
-        };
         // What answers this first frame was asked for by nobody we know: an error flag in it is about to be cleared.
         self.exchange(ERRORS)?;
-        match self.exchange(diagnostics).and_then(Self::checked) {
+        match self.exchange(self.diagnostics()).and_then(Self::checked) {
             // The answer to the command that clears the flag still carries it.
             Ok(_) | Err(SensorError::Refused) => {}
             Err(error) => return Err(error),
@@ -91,18 +87,22 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
     }
 
     /// The angle as it was at the end of the last frame, 0 to 16,383 a turn; asks for the next. One frame. `None` if
-    /// the last frame did not ask for it: after an error, before [`Self::start`].
+    /// the last frame did not ask for it: after an error, before [`Self::start`]. At angle zero, three frames: that is what
+    /// a dead line reads too.
     ///
     /// # Errors
-    /// Bus, parity, the error flag, or a bus that only gives ones.
+    /// Bus, parity, the error flag, or a bus that gives only ones or only zeros.
     pub fn read(&mut self) -> Result<Option<u16>, SensorError<S::Error>> {
         let asked = core::mem::replace(&mut self.asked, false);
         let angle = self.exchange(ANGLE).and_then(Self::checked)?;
+        if asked && angle == 0 {
+            self.answers()?;
+        }
         self.asked = true;
         Ok(asked.then_some(angle))
     }
 
-    /// The angle as it is now, to a frame. Two frames.
+    /// The angle as it is now, to a frame. Two frames; at angle zero four, as above.
     ///
     /// # Errors
     /// As [`Self::read`].
@@ -110,8 +110,26 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
         self.asked = false;
         self.exchange(ANGLE).and_then(Self::checked)?;
         let angle = self.exchange(ANGLE).and_then(Self::checked)?;
+        if angle == 0 {
+            self.answers()?;
+        }
         self.asked = true;
         Ok(angle)
+    }
+
+    /// Whether the sensor is there at all, once it has said zero: a line that is stuck low reads as that, without a
+    /// flaw. The diagnostics of a sensor that is there are never zero. Asks for the angle again.
+    fn answers(&mut self) -> Result<(), SensorError<S::Error>> {
+        self.exchange(self.diagnostics())?;
+        let health = self.exchange(ANGLE).and_then(Self::checked)?;
+        if health & READY == 0 { Err(SensorError::Absent) } else { Ok(()) }
+    }
+
+    const fn diagnostics(&self) -> u16 {
+        match self.chip {
+            AmsChip::As5047p => 0x3ffc,
+            AmsChip::As5048a => 0x3ffd,
+        }
     }
 
     /// Sends a command to read an address; the answer is that of the frame before.

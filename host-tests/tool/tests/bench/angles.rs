@@ -29,6 +29,8 @@ struct Chip {
     /// When it answers, cycles.
     ready_at: u64,
     is_there: bool,
+    /// What its data line reads where nobody drives it: it is pulled, or broken on the side of a level.
+    silence: u16,
     selected: bool,
     risen: Option<u64>,
     fallen: u64,
@@ -78,7 +80,7 @@ impl Table {
         let now = self.cycles;
         let chip = &mut self.chips[joint];
         if !chip.is_there || now < chip.ready_at {
-            return u16::MAX;
+            return chip.silence;
         }
         let answer = chip.answer | if chip.error { 1 << 14 } else { 0 };
         let is_whole = chip.deaf == 0 && command.count_ones().is_multiple_of(2);
@@ -172,6 +174,7 @@ fn table(frequency: u32, look: u64) -> (Shared, Joints) {
         deaf: 0,
         ready_at: (POWER_UP * f64::from(frequency) / 1e9) as u64,
         is_there: true,
+        silence: u16::MAX,
         selected: false,
         risen: None,
         fallen: 0,
@@ -252,6 +255,38 @@ fn a_sensor_that_is_not_there_is_said_so_within_a_fifth_of_a_second_and_found_wh
     assert_eq!(joints.read(), Err(BadFrame::Absent));
     shared.borrow_mut().chips[2].is_there = true;
     assert!(joints.read().is_ok());
+}
+
+#[test]
+fn a_sensor_whose_data_line_dies_is_absent_whichever_level_it_reads_then() {
+    for silence in [0, u16::MAX] {
+        for angle in [0, 8, 1_000] {
+            let (shared, mut joints) = table(150_000_000, 6);
+            for chip in &mut shared.borrow_mut().chips {
+                (chip.silence, chip.angle) = (silence, angle);
+            }
+            joints.start().unwrap();
+            assert_eq!(joints.read(), Ok([Counts(i32::from(angle)); 3]));
+            shared.borrow_mut().chips[1].is_there = false;
+            for _ in 0..10 {
+                assert_eq!(joints.read(), Err(BadFrame::Absent), "{silence:#x} at {angle}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_joint_that_rests_at_angle_zero_is_read_there() {
+    let (shared, mut joints) = table(150_000_000, 6);
+    joints.start().unwrap();
+    for angle in [5, 3, 0, 0, 0, 0, 0, 2, 0] {
+        shared.borrow_mut().chips[0].angle = angle;
+        assert_eq!(joints.read(), Ok([Counts(i32::from(angle)), Counts(0), Counts(0)]));
+    }
+    // Where one answers, and another one has died, the dead one is found.
+    shared.borrow_mut().chips[2].silence = 0;
+    shared.borrow_mut().chips[2].is_there = false;
+    assert_eq!(joints.read(), Err(BadFrame::Absent));
 }
 
 #[test]

@@ -73,6 +73,23 @@ fn after_a_start_the_first_reading_is_an_angle() {
 }
 
 #[test]
+fn a_zero_is_believed_of_a_sensor_that_has_diagnostics() {
+    for (chip, ask) in [(AmsChip::As5047p, ASK_DIAGNOSTICS_47), (AmsChip::As5048a, ASK_DIAGNOSTICS_48)] {
+        for (health, verdict) in [([0x81, 0x00], Ok(0)), ([0x00, 0x00], Err(SensorError::Absent))] {
+            // The third answers the angle asked for with the second.
+            let rest = [(ASK_ANGLE, [0x00, 0x00]), (ask, [0x00, 0x03]), (ASK_ANGLE, health)];
+            let mut fresh = sensor(chip, &[&[(ASK_ANGLE, [0x01, 0x23])], &rest[..]].concat());
+            assert_eq!(fresh.read_fresh(), verdict);
+            fresh.free().done();
+            let mut delayed = sensor(chip, &[&[(ASK_ANGLE, [0x01, 0x23])], &rest[..]].concat());
+            assert_eq!(delayed.read(), Ok(None));
+            assert_eq!(delayed.read(), verdict.map(Some));
+            delayed.free().done();
+        }
+    }
+}
+
+#[test]
 fn what_cannot_be_believed_is_told_and_the_next_answer_with_it() {
     for (answer, error) in [
         ([0x92, 0x35], SensorError::Damaged),
