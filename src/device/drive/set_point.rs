@@ -36,7 +36,7 @@ impl<W: SetDutyCycle, E: OutputPin> SetPointDrive<W, E> {
 impl<W: SetDutyCycle, E: OutputPin, D: OutputPin> SetPointDrive<W, E, D> {
     /// An amplifier whose set-point is a magnitude, none at the start of the range, and whose direction is a pin, high
     /// for positive duty. A reversal first gives no magnitude for `dwell` commands, at least one: make them last two
-    /// periods of the pulse width, since the amplifier measures it over one.
+    /// periods of the pulse width, since the amplifier measures it over one. Neither is the amplifier enabled before.
     pub const fn with_direction(pulse_width: W, enable: E, direction: D, range: SetPointRange, dwell: u8) -> Self {
         Self { pulse_width, enable, range, direction: Some(Direction::new(direction, dwell)), enabled: false }
     }
@@ -51,13 +51,13 @@ impl<W: SetDutyCycle, E: OutputPin, D: OutputPin> SetPointDrive<W, E, D> {
         self.pulse_width.set_duty_cycle(part_of(share, most)).map_err(DriveError::PulseWidth)
     }
 
-    /// The set-point of a duty; no current while the direction has to turn first.
-    fn set(&mut self, duty: Duty) -> Result<(), DriveError<W::Error, E::Error>> {
-        let Some(direction) = &mut self.direction else { return self.send(self.range.of_signed(duty)) };
+    /// The set-point of a duty; no current while the direction has to turn first. Whether it need not.
+    fn set(&mut self, duty: Duty) -> Result<bool, DriveError<W::Error, E::Error>> {
+        let Some(direction) = &mut self.direction else { return self.send(self.range.of_signed(duty)).map(|()| true) };
         let pointed = direction.point(duty.0 >= 0);
         let may = if matches!(pointed, Ok(true)) { duty } else { Duty::ZERO };
         self.send(self.range.of_magnitude(may))?;
-        pointed.map(|_| ()).map_err(|_| DriveError::Direction)
+        pointed.map_err(|_| DriveError::Direction)
     }
 }
 
@@ -65,9 +65,10 @@ impl<W: SetDutyCycle, E: OutputPin, D: OutputPin> Drive for SetPointDrive<W, E, 
     type Error = DriveError<W::Error, E::Error>;
 
     fn apply(&mut self, duty: Duty) -> Result<(), Self::Error> {
-        self.set(duty)?;
-        if !self.enabled {
-            // Only now that the set-point is there.
+        let is_there = self.set(duty)?;
+        if is_there && !self.enabled {
+            // Only now that the set-point is there, and with a direction pin has been none for as long as a turn takes:
+            // until its next period the pulse width is whatever it was.
             self.enable.set_high().map_err(DriveError::Pin)?;
             self.enabled = true;
         }

@@ -89,6 +89,29 @@ fn a_set_point_with_a_direction_pin_is_none_at_ten_percent_and_turns_only_there(
 }
 
 #[test]
+fn an_amplifier_with_a_direction_pin_is_enabled_once_none_was_sent_for_as_long_as_a_turn_takes() {
+    // Its width may still be an old one: what is sent holds from the next period on. None for two commands, twice, for
+    // what is released begins anew; a release disables whatever was not enabled too.
+    let mut amplifier = SetPointDrive::with_direction(
+        widths(&[100, 100, 100, 100, 100, 900], &[]),
+        pin(&[State::Low, State::High]),
+        pin(&[State::High]),
+        SetPointRange::TEN_TO_NINETY,
+        2,
+    );
+    amplifier.apply(Duty::FULL).unwrap();
+    amplifier.apply(Duty::FULL).unwrap();
+    amplifier.release().unwrap();
+    for _ in 0..3 {
+        amplifier.apply(Duty::FULL).unwrap();
+    }
+    let (mut width, mut enable, direction) = amplifier.free();
+    width.done();
+    enable.done();
+    direction.unwrap().done();
+}
+
+#[test]
 fn a_set_point_is_there_before_the_amplifier_is_enabled_and_in_the_middle_after() {
     // 10 %, 50 % and 90 % of 1,000, and half way; released: pin first, then no current.
     let mut amplifier = SetPointDrive::new(
