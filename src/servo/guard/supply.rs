@@ -28,7 +28,8 @@ impl SupplyWatch {
     /// A tick: the fault if nobody has measured for too long.
     #[inline]
     pub(super) fn tick(&self, age: &mut u32) -> Result<(), Fault> {
-        *age += 1;
+        // A fault that is not looked at may stand for days.
+        *age = age.saturating_add(1);
         if *age > self.fresh_ticks { Err(Fault::Supply) } else { Ok(()) }
     }
 }
