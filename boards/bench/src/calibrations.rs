@@ -27,16 +27,28 @@ pub(crate) struct Calibrating<'a> {
     pub flash: Option<&'a dyn Calibrations>,
     /// What waits for the tick to say whether it may be written.
     asked: Option<Asked>,
+    /// The answer to the last one: it is not written again where it comes again, because the answer was lost.
+    last: Option<Answer>,
 }
 
 impl<'a> Calibrating<'a> {
     pub const fn nothing() -> Self {
-        Self { flash: None, asked: None }
+        Self { flash: None, asked: None, last: None }
     }
 
     /// Whether something waits for the tick.
     pub const fn is_asked(&self) -> bool {
         self.asked.is_some()
+    }
+
+    /// The answer that the one of this number was given, if it was the last.
+    pub fn answered(&self, number: u16) -> Option<Answer> {
+        self.last.filter(|last| last.number == number)
+    }
+
+    /// Another host begins to count anew.
+    pub const fn forget_answer(&mut self) {
+        self.last = None;
     }
 
     /// A calibration that came; its answer, unless the tick has to be asked first.
@@ -64,7 +76,8 @@ impl<'a> Calibrating<'a> {
         };
         mailbox.writing().end();
         self.asked = None;
-        Some(answer(number, kept))
+        self.last = Some(answer(number, kept));
+        self.last
     }
 }
 

@@ -129,7 +129,7 @@ impl<'a> Idle<'a> {
             self.answer = Some(answer);
         }
         if let Some(answer) = self.calibrating.wait(self.mailbox) {
-            (self.last, self.answer) = (Some(answer), Some(answer));
+            self.answer = Some(answer);
         }
         if let Some(byte) = port.receive()
             && let Some(Received::Message(command)) = self.receiver.feed(byte)
@@ -155,6 +155,7 @@ impl<'a> Idle<'a> {
             Command::Hello { protocol } => {
                 // Another host begins to count anew.
                 (self.greets, self.is_greeted, self.last) = (true, protocol == PROTOCOL, None);
+                self.calibrating.forget_answer();
                 if self.is_greeted {
                     self.mailbox.put(Plain::Alive);
                 }
@@ -178,8 +179,8 @@ impl<'a> Idle<'a> {
             }
             // On its way, or done before: not again.
             Command::Calibrate { .. } if self.calibrating.is_asked() => {}
-            Command::Calibrate { number, .. } if self.last.is_some_and(|last| last.number == number) => {
-                self.answer = self.last;
+            Command::Calibrate { number, .. } if self.calibrating.answered(number).is_some() => {
+                self.answer = self.calibrating.answered(number);
             }
             Command::Calibrate { number, joints } => {
                 self.mailbox.put(Plain::Alive);

@@ -252,6 +252,28 @@ fn it_is_kept_by_a_device_that_is_set_up_and_used_after_the_reset() {
 }
 
 #[test]
+fn an_order_of_the_same_number_answers_for_no_calibration_nor_the_other_way_round() {
+    let page = Page::erased();
+    let mut device = Device::set_up(&page);
+    let order = |device: &mut Device| {
+        device.send(&Command::Order { number: device.number + 1, order: palpate::scene::Order::Choose { index: 0 } });
+        device.tick();
+        device.answer.take().expect("an answer")
+    };
+    assert_eq!(order(&mut device), Answer { number: 1, refused: Some(Refused::SetUp) });
+    // The number of that order.
+    assert_eq!(device.keep(Some(joints())), None);
+    assert_eq!(found(&page), Calibrated::Kept { crc: Calibration(joints()).crc() });
+    // And one that comes again is answered as before, and not done again.
+    device.number -= 1;
+    page.0.bytes.borrow_mut()[20] ^= 4;
+    assert_eq!(device.keep(Some(joints())), None);
+    assert_eq!(found(&page), Calibrated::Refused(CalibrationError::Damaged));
+    device.number -= 1;
+    assert_eq!(order(&mut device), Answer { number: 1, refused: Some(Refused::SetUp) });
+}
+
+#[test]
 fn a_loop_that_is_calibrated_is_the_loop_of_that_device_bit_for_bit() {
     let device: &'static _ = Box::leak(Box::new(DEVICE.calibrated(&Calibration(joints())).unwrap()));
     let built = Servo::new(&DEVICE, &WALL, Controller::SECOND_ORDER, SETTINGS);
