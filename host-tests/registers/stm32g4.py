@@ -14,7 +14,11 @@ RCC = Block(
     "RCC", 0x4002_1000, CR=0, CFGR=8, PLLCFGR=0xC, AHB1ENR=0x48, AHB2ENR=0x4C, APB1ENR1=0x58, APB2ENR=0x60, CCIPR=0x88,
     CSR=0x94,
 )  # fmt: skip
-FLASH = Block("FLASH", 0x4002_2000, ACR=0)
+FLASH = Block("FLASH", 0x4002_2000, ACR=0, ECCR=0x18, OPTR=0x20)
+# Bits of ECCR: a word beyond mending, of the second bank.
+ECCD, BK_ECC = 1 << 31, 1 << 21
+# A bit of the option bytes: two banks.
+DBANK = 1 << 22
 PWR = Block("PWR", 0x4000_7000, CR1=0, CR3=8, SR2=0x14, CR5=0x80)
 GPIO = {
     port: Block(

@@ -4,9 +4,17 @@ from __future__ import annotations
 
 import unittest
 
+import telemetry
+import unicorn
 from at_stops import AtStops
 from in_set_up import InSetUp
+from machine import NMI, Machine
 from nucleo import Nucleo
+from stm32g4 import BK_ECC, DBANK, ECCD, FLASH
+
+# The second bank of the flash, and its last page.
+BANK_2, BANK_SIZE = 0x0804_0000, 0x4_0000
+CALIBRATION = BANK_2 + BANK_SIZE - 0x800
 
 
 class Stm32g4WithHost(InSetUp, AtStops, unittest.TestCase):
@@ -14,3 +22,28 @@ class Stm32g4WithHost(InSetUp, AtStops, unittest.TestCase):
 
     # Erasing a page of flash takes up to 25 ms.
     WATCHDOG = 0.040
+
+    def began_with(self, is_damaged: bool) -> Machine:
+        """A board whose second bank is erased; the words of its calibration can be read, or make the chip say that they
+        cannot: by an NMI ("Error code correction")."""
+        machine = self.new_machine()
+        machine.unicorn.mem_write(BANK_2, b"\xff" * BANK_SIZE)
+        machine.reset(power=True)
+        machine.chip.keep(FLASH.OPTR, DBANK)
+        if is_damaged:
+            hook = machine.unicorn.hook_add(
+                unicorn.UC_HOOK_MEM_READ, lambda uc, *_: uc.emu_stop(), begin=CALIBRATION, end=CALIBRATION + 63
+            )
+            machine.run(self.LONG)
+            machine.unicorn.hook_del(hook)
+            machine.chip.keep(FLASH.ECCR, ECCD | BK_ECC)
+            machine.exception(NMI)
+        machine.set_up()
+        return machine
+
+    def test_calibration_that_cannot_be_read_keeps_the_motors_off(self) -> None:
+        self.assertTrue(self.drive_again(self.began_with(is_damaged=False)), "none is kept: as it was built")
+        machine = self.began_with(is_damaged=True)
+        self.assertFalse(self.drive_again(machine))
+        self.assert_never_high(machine)
+        self.assertEqual(self.last(machine).phase, telemetry.FAULT)

@@ -45,14 +45,26 @@ impl<F: NorFlash, K: Copy, const JOINTS: usize> KeptCalibration<F, K, JOINTS> {
             kept.in_use = Calibrated::Kept { crc: calibration.crc() };
             Ok(Found { device, wiring, is_miscalibrated: false })
         });
-        let found = found.unwrap_or_else(|error| {
-            let is_miscalibrated = error != CalibrationError::Absent;
-            if is_miscalibrated {
+        let found = found.unwrap_or_else(|error| match error {
+            CalibrationError::Absent => kept.as_built(false),
+            error => {
                 kept.in_use = Calibrated::Refused(error);
+                kept.as_built(true)
             }
-            Found { device: *built, wiring: Wiring::STRAIGHT, is_miscalibrated }
         });
         (kept, found)
+    }
+
+    /// The same where the chip says that it could not read what lies there, whatever it read in its place: a calibration
+    /// that cannot be used. Words that were erased for a new one may read as none at all.
+    pub fn damaged(mut self) -> (Self, Found<K, JOINTS>) {
+        self.in_use = Calibrated::Refused(CalibrationError::Damaged);
+        let found = self.as_built(true);
+        (self, found)
+    }
+
+    fn as_built(&self, is_miscalibrated: bool) -> Found<K, JOINTS> {
+        Found { device: *self.built, wiring: Wiring::STRAIGHT, is_miscalibrated }
     }
 
     fn read(&self) -> Result<[u32; WORDS], CalibrationError> {

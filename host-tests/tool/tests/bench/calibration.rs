@@ -274,6 +274,16 @@ fn an_order_of_the_same_number_answers_for_no_calibration_nor_the_other_way_roun
 }
 
 #[test]
+fn words_that_a_chip_could_not_read_are_a_calibration_that_cannot_be_used_though_they_read_as_erased() {
+    let (kept, found) = Kept::find(Page::erased(), &DEVICE);
+    assert_eq!((kept.in_use(), found.is_miscalibrated), (Calibrated::BuiltIn, false));
+    let (kept, found) = kept.damaged();
+    assert_eq!((kept.in_use(), found.is_miscalibrated), (Calibrated::Refused(CalibrationError::Damaged), true));
+    // Another one is kept in its place.
+    assert_eq!(kept.keep(Some(&joints())), Ok(()));
+}
+
+#[test]
 fn a_loop_that_is_calibrated_is_the_loop_of_that_device_bit_for_bit() {
     let device: &'static _ = Box::leak(Box::new(DEVICE.calibrated(&Calibration(joints())).unwrap()));
     let built = Servo::new(&DEVICE, &WALL, Controller::SECOND_ORDER, SETTINGS);
