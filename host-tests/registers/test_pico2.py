@@ -97,6 +97,15 @@ class Pico(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
         machine = self.started(**self.BOARD.BROWN_OUT)
         self.assert_stays_safe(self.started(memory=machine, watchdog=True), telemetry.WATCHDOG)
 
+    def test_brown_out_before_is_none_of_a_reset_that_was_asked_for_later(self) -> None:
+        for before, reason in ((self.BOARD.BROWN_OUT, telemetry.BROWN_OUT), ({"glitch": True}, telemetry.BROWN_OUT)):
+            machine = self.started(**before)
+            machine.ticks(2 * self.A_WHILE)
+            self.assertEqual(self.last(machine).reset, reason)
+            machine = self.started(memory=machine, force=True)
+            machine.ticks(2 * self.A_WHILE)
+            self.assertEqual(self.last(machine).reset, telemetry.SOFTWARE)
+
     def test_memo_is_not_where_the_boot_rom_writes(self) -> None:
         # It keeps what it boots from the third of the watchdog's scratch registers on.
         written = {entry.address for entry in self.after_set_up().log.entries if entry.is_write}

@@ -45,10 +45,10 @@ pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> ResetReason {
         // The boot ROM reboots by the watchdog too, as `picotool` asks it to; it comes from a reset that left no memo.
         tool: timer && memo.cause().is_none(),
         // A flag of its own, which power-on does not raise; or a glitch of the core's supply, where it is watched for.
-        brown_out: chip.had_bor().bit_is_set() || chip.had_glitch_detect().bit_is_set(),
+        brown_out: of_chip && (chip.had_bor().bit_is_set() || chip.had_glitch_detect().bit_is_set()),
         power: of_chip && chip.had_por().bit_is_set(),
         // A program, or a debugger by its port. One that resets a core alone leaves the reason that was there.
-        software: forced || chip.had_dp_reset_req().bit_is_set() || chip.had_rescue().bit_is_set(),
+        software: forced || (of_chip && (chip.had_dp_reset_req().bit_is_set() || chip.had_rescue().bit_is_set())),
         pin: of_chip && chip.had_run_low().bit_is_set(),
     };
     // Power-on clears the memo: what is left of it says nothing about a brown-out here.
