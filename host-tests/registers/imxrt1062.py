@@ -38,6 +38,9 @@ PWM2 = Block(
     "PWM2", 0x403E_0000, OUTEN=0x180, MCTRL=0x188, FCTRL0=0x18C,
     **{f"SM{n}_{name}": 0x60 * n + at for n in range(3) for name, at in (("CTRL", 4), ("VAL1", 0xC), ("VAL3", 0x14))},
 )  # fmt: skip
+# Of a submodule of PWM2: its registers' bytes, the words of its prescaler, its values and its start, and the core's
+# cycles of one of its clock's.
+SUBMODULE, BUFFERED, TO_PWM = 0x60, range(0x8, 0x20, 4), 4
 # Hz; what opens the watchdog and feeds it ("RTWDOG").
 CRYSTAL, LOW_POWER, SYSTEM_PLL, UNLOCK, FEED = 24e6, 32_768, 528e6, 0xD928_C520, 0xB480_A602
 # Bits of the watchdog's CS.
@@ -91,6 +94,8 @@ class Imxrt1062(Chip):
         self.open_until = self.calibrated_at = None
         self.is_calibrated = False
         self.received, self.sent, self.answers = bytearray(), bytearray(), []
+        # When each submodule of PWM2 began to run, since when LDOK waits for its reload, and writes that it ignored.
+        self.runs, self.waits, self.ignored = {}, {}, 0
 
     def entry(self) -> tuple[int, int]:
         """Where the boot ROM goes: the vector table that the image vector table names ("Program image")."""
@@ -117,6 +122,10 @@ class Imxrt1062(Chip):
             value = 1
         elif address == ADC1.R0:
             value = self.reading()
+        elif address == PWM2.MCTRL:
+            value = value & ~0xF | sum(1 << number for number in range(4) if self.waits_for_reload(number))
+        elif any(address == PWM2.base + SUBMODULE * number for number in self.runs):
+            value = value & ~0xFFFF | self.count(self.submodule(address))
         elif address == LPUART6.STAT:
             # TDRE and TC; RDRF while something waits.
             value = 1 << 23 | 1 << 22 | bool(self.received) << 21
@@ -170,8 +179,11 @@ class Imxrt1062(Chip):
         elif address in (USB1.ENDPTPRIME, USB1.ENDPTFLUSH):
             value = 0
         elif address == PWM2.MCTRL:
-            # LDOK goes down when the new values are loaded.
-            value &= ~0xF
+            value = self.write_load(value)
+        elif self.is_buffered(address) and self.waits_for_reload(self.submodule(address)):
+            # "VALx cannot be written while LDOK is set": nothing happens.
+            self.ignored += 1
+            return self.word(address)
         elif address == LPUART6.FIFO:
             # The flushes are over at once; TXOF and RXUF are cleared by writing 1.
             value &= ~(1 << 14 | 1 << 15 | 1 << 16 | 1 << 17)
@@ -182,6 +194,46 @@ class Imxrt1062(Chip):
             assert self.word(LPSPI4.TCR) & 0xFFF == 15, "a sensor takes 16 bits"
             self.answers.append(self.exchange(value & 0xFFFF))
         return self.keep(address, value)
+
+    def submodule(self, address: int) -> int:
+        return (address - PWM2.base) // SUBMODULE
+
+    def is_buffered(self, address: int) -> bool:
+        """Whether a register is one that LDOK loads."""
+        return 0 <= self.submodule(address) < 4 and (address - PWM2.base) % SUBMODULE in BUFFERED
+
+    def write_load(self, value: int) -> int:
+        """LDOK goes up when it is written as 1, and down by CLDOK or once its values are loaded ("MCTRL")."""
+        for number in range(4):
+            if value >> 8 + number & 1:
+                self.runs.setdefault(number, self.machine.cycles)
+            else:
+                self.runs.pop(number, None)
+            if value >> 4 + number & 1:
+                self.waits.pop(number, None)
+            elif value >> number & 1 and not self.waits_for_reload(number):
+                self.waits[number] = self.machine.cycles
+        return value & ~0xFF
+
+    def period(self, number: int) -> int:
+        """Of a submodule, which counts from 0 to VAL1, in the core's cycles."""
+        base = PWM2.base + SUBMODULE * number
+        return (self.word(base + 0xC) >> 16) + 1 << (self.word(base + 4) >> 20 & 7) << TO_PWM // 2
+
+    def count(self, number: int) -> int:
+        """Where its counter is."""
+        since = (self.machine.cycles - self.runs[number]) % self.period(number)
+        return since * ((self.word(PWM2.base + SUBMODULE * number + 0xC) >> 16) + 1) // self.period(number)
+
+    def waits_for_reload(self, number: int) -> bool:
+        """Whether LDOK is up: until the counter comes round, if it runs."""
+        since, began = self.waits.get(number), self.runs.get(number)
+        if since is None or began is None:
+            return since is not None
+        rounds = [(when - began) // self.period(number) for when in (max(since, began), self.machine.cycles)]
+        if rounds[0] < rounds[1]:
+            del self.waits[number]
+        return number in self.waits
 
     def write_watchdog(self, address: int, value: int) -> int:
         """It is opened for a moment, if updates are allowed, and takes one configuration ("RTWDOG, configuring")."""

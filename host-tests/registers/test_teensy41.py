@@ -44,6 +44,21 @@ class Teensy(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
             counts = (chip.word(period) >> 16) + 1
             self.assertEqual(chip.bus_clock() / (1 << (chip.word(control) >> 20 & 7)) / counts, 2_000)
 
+    def test_no_set_point_is_written_while_the_chip_ignores_it(self) -> None:
+        # Each holds from the next of its periods on, which are two ticks long; until then it takes no other unless it
+        # is told so. Whatever the phase of the ticks in a period: a tick just before its end waits for that.
+        for ahead in (0, 1_000, *range(140_000, 150_001, 500)):
+            machine = self.while_driving()
+            machine.ahead += ahead
+            machine.ticks(4)
+            machine.chip.press(enable=False)
+            machine.ticks(2)
+            self.assertEqual(machine.chip.ignored, 0)
+            self.assert_set_points_rest(machine)
+            # And they come through: nothing waits for longer than a period.
+            machine.ahead += 2 * machine.chip.PERIOD
+            self.assertFalse(any(machine.chip.waits_for_reload(number) for number in range(3)))
+
     def test_no_fault_input_holds_the_set_points_off(self) -> None:
         log = self.after_set_up().log
         # Nothing drives the fault inputs: a low one must be no fault (FLVL), and what was latched is cleared (FFLAG),
@@ -59,6 +74,13 @@ class Teensy(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
         machine.ticks(1)
         self.assertEqual(machine.chip.word(LPSPI4.TCR) >> 30, 0b01)
 
+    def test_silent_sensor_whose_line_reads_low_stops_in_the_third_tick(self) -> None:
+        for number in range(self.BOARD.SENSORS):
+            machine = self.while_driving()
+            machine.chip.silence = 0
+            machine.chip.break_line(f"sensor {number + 1}")
+            self.assert_stops_within(machine, BRIDGED + 1)
+
     def test_converter_is_calibrated(self) -> None:
         self.assertTrue(self.after_set_up().chip.is_calibrated)
 
@@ -67,10 +89,3 @@ class Teensy(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
 
     def test_chip_that_got_too_hot_is_a_program_that_hung(self) -> None:
         self.assert_is_told(telemetry.WATCHDOG, heat=True)
-    def test_silent_sensor_whose_line_reads_low_stops_in_the_third_tick(self) -> None:
-        for number in range(self.BOARD.SENSORS):
-            machine = self.while_driving()
-            machine.chip.silence = 0
-            machine.chip.break_line(f"sensor {number + 1}")
-            self.assert_stops_within(machine, BRIDGED + 1)
-

@@ -12,6 +12,10 @@ use crate::body::SETTINGS;
 
 /// 2 kHz from 150 MHz / 4: the ESCON takes 10 Hz to 5 kHz, and measures worse the faster it is.
 const PERIOD: u16 = 18_750;
+/// Counts before a period's end, a microsecond: longer than it takes to write a width.
+const NEAR: u16 = 38;
+/// Looks that are longer than that.
+const LOOKS: u32 = 1_000;
 /// Two periods of a width, in ticks: how long a reversal stays at no current.
 pub const DWELL: u8 = (2.0 * SETTINGS.rate / 2_000.0) as u8 + 1;
 
@@ -29,6 +33,8 @@ impl PulseWidth {
     pub unsafe fn start(submodule: SM) -> Self {
         // SAFETY: as asked for above, nobody changes the shared register at the same time.
         let mut pwm = Pwm::new::<2>(unsafe { PWM2::instance() });
+        // A reset of the core alone leaves what waited.
+        pwm.clear_load_ok(submodule.mask());
         pwm.set_clock_select(submodule, ClockSelect::Ipg);
         pwm.set_prescaler(submodule, Prescaler::Prescaler4);
         pwm.set_pair_operation(submodule, PairOperation::Independent);
@@ -43,6 +49,21 @@ impl PulseWidth {
         pwm.set_run(pwm.run() | submodule.mask());
         Self { pwm, submodule }
     }
+
+    /// Whether a width waits for the end of the period: the chip takes no other meanwhile.
+    fn waits(&self) -> bool {
+        self.pwm.load_ok().contains(self.submodule.mask())
+    }
+
+    /// Takes back a width that waits. One that is about to hold is waited for: widths that are taken back again and again
+    /// just before the period's end, which ticks may be in step with, would never hold.
+    #[inline]
+    fn take_back(&mut self) {
+        if self.waits() && self.pwm.sm_count(self.submodule) >= (PERIOD - NEAR) as i16 {
+            let _ = (0..LOOKS).any(|_| !self.waits());
+        }
+        self.pwm.clear_load_ok(self.submodule.mask());
+    }
 }
 
 impl ErrorType for PulseWidth {
@@ -56,6 +77,8 @@ impl SetDutyCycle for PulseWidth {
 
     #[inline]
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+        // Ticks are twice as fast as periods.
+        self.take_back();
         // At most 18,750: a positive i16. The new width holds from the next period on.
         self.pwm.set_turn_off(self.submodule, Channel::A, duty.min(PERIOD) as i16);
         self.pwm.set_load_ok(self.submodule.mask());
