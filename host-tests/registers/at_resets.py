@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import telemetry
-from bench import A_WHILE, OF_RUNNING, Bench
+from bench import HELD, OF_RUNNING, Bench
 from machine import HARD_FAULT, Machine
 
 
@@ -17,9 +17,9 @@ class AtResets(Bench):
         record = self.last(machine)
         self.assertEqual((record.reset, record.phase), (reason, telemetry.FAULT))
         machine.chip.press(enable=False, stop=True)
-        machine.ticks(A_WHILE)
+        machine.ticks(HELD)
         machine.chip.press(stop=False)
-        machine.ticks(A_WHILE)
+        machine.ticks(HELD)
         self.assertTrue(self.drive_again(machine), "once it is acknowledged there is force again")
 
     def assert_is_told(self, reason: int, **reset: bool) -> None:

@@ -1,5 +1,6 @@
 //! The tick of a board.
 
+use crate::acknowledging::Acknowledging;
 use crate::light::is_lit;
 use crate::mailbox::Plain;
 use crate::sensors::BadFrame;
@@ -72,17 +73,6 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     is_host_heard: bool,
 }
 
-/// How far somebody has come with pressing stop and letting go of it, which acknowledges a reset that is a fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Acknowledging {
-    /// Stop has not been seen released since the reset: whoever pressed it did so before.
-    NotYet,
-    /// Stop is released.
-    Released,
-    /// Stop was pressed since.
-    Pressed,
-}
-
 impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B, JOINTS> {
     /// A loop before its first tick, on a board whose motors are off. It reads the tables whole: do this before the
     /// watchdog runs.
@@ -108,7 +98,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             // At least 1 Hz, and below 2³² by far.
             rate: rate as u32,
             ticks: 0,
-            acknowledging: Acknowledging::NotYet,
+            acknowledging: Acknowledging::new(rate),
             // Limits that make no sense jog nothing.
             set_up: settings.jog.and_then(|jog| {
                 let (device, continuous) = (felt.servo().device(), felt.servo().guard().continuous());
@@ -210,7 +200,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             };
             self.mailbox.put_answer(Answer { number, refused });
         }
-        let by_hand = self.acknowledging == Acknowledging::Pressed && !panel.stop && !panel.enable;
+        let by_hand = self.acknowledging.next(panel);
         if by_hand || commands.has(Plain::Acknowledge) {
             let was_fault = self.state.fault().is_some();
             self.felt.servo().note(&mut self.state, Event::Acknowledged);
@@ -224,11 +214,6 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         if self.felt.is_miscalibrated() && self.state.fault().is_none() {
             self.felt.servo().note(&mut self.state, Event::CalibrationRefused);
         }
-        self.acknowledging = match (self.acknowledging, panel.stop) {
-            (_, false) => Acknowledging::Released,
-            (Acknowledging::NotYet, true) => Acknowledging::NotYet,
-            (Acknowledging::Released | Acknowledging::Pressed, true) => Acknowledging::Pressed,
-        };
     }
 
     /// Whether the reset was a fault, and nobody has acknowledged it.

@@ -50,6 +50,7 @@
 #![no_std]
 
 pub mod accept;
+mod acknowledging;
 mod bench_loop;
 mod board;
 mod calibrations;

@@ -419,7 +419,7 @@ fn any_bit_that_flips_is_found_and_keeps_the_motors_off_whatever_is_pressed_or_s
         let by_hand = |device: &mut Device| {
             for stop in [true, false] {
                 device.rig.set(|world| world.stop_open = stop);
-                device.ticks_off(10);
+                device.ticks_off(210);
             }
         };
         by_hand(&mut device);

@@ -8,6 +8,9 @@ use palpate::track::Controller;
 use palpate::wire::{Command, frame};
 use palpate_bench::{Cause, Idle, Memo, Port, ResetFlags, Watchdog};
 
+/// Ticks that are longer than what a button that acknowledges is held for, 50 ms.
+const HELD: u32 = 210;
+
 /// 4 mm inside the wall, where force is felt at once.
 fn rig(reset: ResetReason) -> Rig<SerialArm> {
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
@@ -65,7 +68,7 @@ fn a_reset_by_the_watchdog_or_a_brown_out_stays_safe_until_it_is_acknowledged() 
         // Stop was pressed before: letting go of it acknowledges nothing that was not looked at.
         let mut rig = rig(reset);
         rig.set(|world| world.stop_open = true);
-        rig.ticks_off(10);
+        rig.ticks_off(HELD);
         rig.set(|world| world.stop_open = false);
         for pressed in [false, true, false, true] {
             rig.set(|world| world.button = pressed);
@@ -74,18 +77,55 @@ fn a_reset_by_the_watchdog_or_a_brown_out_stays_safe_until_it_is_acknowledged() 
         }
         // Pressed and let go, but with enable held: no.
         rig.set(|world| world.stop_open = true);
-        rig.ticks_off(10);
+        rig.ticks_off(HELD);
         rig.set(|world| world.stop_open = false);
-        rig.ticks_off(10);
+        rig.ticks_off(HELD);
+        assert_eq!(rig.fault(), Some(fault));
+        // Nor by an enable that is let go of a little later.
+        rig.set(|world| world.button = false);
+        rig.ticks_off(HELD);
         assert_eq!(rig.fault(), Some(fault));
         // With enable released: yes. And then as after any reset.
-        rig.set(|world| (world.stop_open, world.button) = (true, false));
-        rig.ticks_off(10);
+        rig.set(|world| world.stop_open = true);
+        rig.ticks_off(HELD);
         rig.set(|world| world.stop_open = false);
-        rig.ticks_off(10);
+        rig.ticks_off(HELD);
         assert_eq!((rig.fault(), rig.state().reset()), (None, reset));
         rig.press_until_it_runs();
     }
+}
+
+#[test]
+fn noise_on_the_stop_line_acknowledges_nothing_and_a_button_that_bounces_does() {
+    let mut rig = rig(ResetReason::Watchdog);
+    rig.ticks_off(1_000);
+    // A spike, or many, or a contact that is loose: never 50 ms either way.
+    for ticks in [1, 2, 10, 190] {
+        for _ in 0..8 {
+            rig.set(|world| world.stop_open = !world.stop_open);
+            rig.ticks_off(ticks);
+        }
+        rig.ticks_off(1_000);
+        assert_eq!(rig.fault(), Some(Fault::WatchdogReset), "{ticks} ticks");
+    }
+    // Pressed for long, let go of for a moment, and pressed again.
+    rig.set(|world| world.stop_open = true);
+    rig.ticks_off(HELD);
+    rig.set(|world| world.stop_open = false);
+    rig.ticks_off(190);
+    assert_eq!(rig.fault(), Some(Fault::WatchdogReset));
+    // A contact bounces for some milliseconds at each end.
+    for level in [true, false] {
+        for tick in 0..20 {
+            rig.set(|world| world.stop_open = level ^ (tick % 3 == 1));
+            rig.ticks_off(1);
+        }
+        rig.set(|world| world.stop_open = level);
+        assert_eq!(rig.fault(), Some(Fault::WatchdogReset));
+        rig.ticks_off(HELD);
+    }
+    assert_eq!(rig.fault(), None);
+    rig.press_until_it_runs();
 }
 
 /// A port that a host talks into.
