@@ -59,6 +59,10 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     by_hand: Interlock,
     bridge: FrameBridge<JOINTS>,
     deadline: Deadline,
+    /// When the last tick began; `None` before the first, and where this one need not come in time.
+    began: Option<u32>,
+    /// How long after it the next one may begin at the latest.
+    latest: Deadline,
     recorder: Recorder<'a>,
     mailbox: &'a Mailbox,
     /// Of the loop, Hz.
@@ -99,6 +103,9 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             rate: rate as u32,
             ticks: 0,
             acknowledging: Acknowledging::new(rate),
+            began: None,
+            // One and a half: what a board's own interrupts delay a tick by is far less than the half.
+            latest: Deadline::of_period(1.5 * settings.clock as f32, rate),
             // Limits that make no sense jog nothing.
             set_up: settings.jog.and_then(|jog| {
                 let (device, continuous) = (felt.servo().device(), felt.servo().guard().continuous());
@@ -115,10 +122,14 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     pub fn tick(&mut self) {
         let began = self.board.now();
         self.board.acknowledge();
+        let is_late = self.begins_late(began);
         let panel = self.board.panel();
         self.listen(&panel);
         if self.is_set_up {
-            return self.jog(began, &panel);
+            return self.jog((began, is_late), &panel);
+        }
+        if is_late {
+            self.felt.servo().note(&mut self.state, Event::Overrun);
         }
         let mut verdict = self.hold.next(&panel, matches!(self.state.output(), Output::Drive(_)));
         verdict.hold |= self.holds_for_host(&panel);
@@ -145,11 +156,33 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         }
 
         self.output(verdict);
-        if self.deadline.overrun(began, self.board.now()) {
-            self.felt.servo().note(&mut self.state, Event::Overrun);
+        if self.overran(began) {
+            if !is_late {
+                self.felt.servo().note(&mut self.state, Event::Overrun);
+            }
             self.output(verdict);
         }
         self.tell(began, verdict);
+    }
+
+    /// Whether a tick that begins now comes too late after the one before. While flash is written, and in the tick after
+    /// it, whatever reads flash may wait for it: the motors are off meanwhile.
+    #[inline]
+    fn begins_late(&mut self, began: u32) -> bool {
+        let is_written = self.mailbox.writing().is_granted();
+        let last = if is_written { None } else { self.began };
+        self.began = if is_written { None } else { Some(began) };
+        last.is_some_and(|last| self.latest.overrun(last, began))
+    }
+
+    /// Whether a tick took too long. The next one, which had to wait for it, is then not late besides.
+    #[inline]
+    fn overran(&mut self, began: u32) -> bool {
+        let is_over = self.deadline.overrun(began, self.board.now());
+        if is_over {
+            self.began = None;
+        }
+        is_over
     }
 
     /// The state after the last tick.
@@ -259,12 +292,18 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     }
 
     /// A tick of a device that is being set up.
-    fn jog(&mut self, began: u32, panel: &Panel) {
+    fn jog(&mut self, (began, is_late): (u32, bool), panel: &Panel) {
         let Some(set_up) = &mut self.set_up else { return };
-        set_up.tick(&mut self.board, (&mut self.hold, &mut self.interlock), panel, self.mailbox);
-        if self.deadline.overrun(began, self.board.now()) {
+        if is_late {
             set_up.overran(&mut self.board);
         }
+        set_up.tick(&mut self.board, (&mut self.hold, &mut self.interlock), panel, self.mailbox);
+        if self.overran(began)
+            && let Some(set_up) = &mut self.set_up
+        {
+            set_up.overran(&mut self.board);
+        }
+        let Some(set_up) = &self.set_up else { return };
         self.board.show(is_lit(self.ticks, self.rate, set_up.is_live(), false, set_up.hold() != 0));
         self.ticks = self.ticks.wrapping_add(1);
         self.mailbox.tell_reading(&set_up.reading(self.ticks));

@@ -189,6 +189,25 @@ fn no_motor_is_driven_from_the_first_word_to_the_last_and_then_only_by_a_new_pre
 }
 
 #[test]
+fn a_tick_that_waits_for_flash_while_it_is_written_does_not_begin_late() {
+    // 25 ms, as long as a page takes: before the last word, and with it.
+    let erase = |device: &Device| device.rig.set(|world| world.cycles = world.cycles.wrapping_add(4_250_000));
+    let mut device = Device::new(Safety::DEFAULT);
+    device.hello();
+    assert_eq!(device.part(KEEP), None);
+    device.ticks_off(10);
+    erase(&device);
+    device.ticks_off(10);
+    assert_eq!(device.part(Upload::End), None);
+    erase(&device);
+    device.ticks_off(10);
+    assert_eq!(device.rig.fault(), None);
+    erase(&device);
+    device.ticks_off(1);
+    assert_eq!(device.rig.fault(), Some(Fault::Overrun), "nothing is written any more");
+}
+
+#[test]
 fn what_ends_badly_or_is_left_lets_go() {
     for end in 0..4 {
         let mut device = Device::new(Safety::DEFAULT);

@@ -8,7 +8,10 @@ use palpate::track::Controller;
 use palpate_bench::Passive;
 
 fn servo(output: SafeOutput) -> Servo<'static, palpate::patch::SplinePatch<'static>, SerialArm, 3> {
-    let safety = Safety { output, settle_ticks: 50, ..Safety::DEFAULT };
+    safe(Safety { output, settle_ticks: 50, ..Safety::DEFAULT })
+}
+
+fn safe(safety: Safety) -> Servo<'static, palpate::patch::SplinePatch<'static>, SerialArm, 3> {
     Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety)
 }
 
@@ -98,6 +101,31 @@ fn a_tick_that_is_late_is_a_fault_and_its_own_duties_are_taken_back() {
         rig.set(|world| world.reading = 200);
         rig.ticks_off(1_000);
     }
+}
+
+#[test]
+fn a_tick_that_begins_late_is_a_fault_and_gives_no_duties_of_its_own() {
+    let mut rig = Rig::new(servo(SafeOutput::Zero), held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
+    // However long nothing had begun before the first.
+    rig.set(|world| world.cycles = world.cycles.wrapping_add(1_000_000));
+    rig.press_until_it_runs();
+    // The rig's own period is half of one, and a little. Half a period of lateness is borne.
+    rig.set(|world| world.cycles = world.cycles.wrapping_add(40_000));
+    rig.tick();
+    assert_eq!((rig.fault(), rig.is_off()), (None, false));
+    rig.set(|world| world.cycles = world.cycles.wrapping_add(43_000));
+    rig.ticks_off(1);
+    assert_eq!((rig.fault(), rig.state().overruns()), (Some(Fault::Overrun), 1));
+    rig.ticks_off(1_000);
+    // A tick that took too long is counted itself, and not once more by the next, which it has kept waiting.
+    let safety = Safety { max_overruns: 1, ..Safety::DEFAULT };
+    let mut rig = Rig::new(safe(safety), held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
+    rig.press_until_it_runs();
+    rig.set(|world| world.reading = 80_000);
+    rig.tick();
+    rig.set(|world| world.reading = 200);
+    rig.ticks(10);
+    assert_eq!((rig.fault(), rig.state().overruns()), (None, 1));
 }
 
 #[test]

@@ -272,12 +272,13 @@ fn a_key_that_falls_silent_is_let_go_after_a_tenth_of_a_second() {
 #[test]
 fn whatever_goes_wrong_lets_go_in_the_same_tick() {
     type Harm = (&'static str, fn(&mut World), u8, u8);
-    let harms: [Harm; 5] = [
+    let harms: [Harm; 6] = [
         ("the button is released", |world| world.button = false, 0, 0),
         ("stop is pressed", |world| world.stop_open = true, 0, hold::STOP),
         ("an amplifier fails", |world| world.amplifiers_well = false, 0, hold::NOT_READY),
         ("a sensor fails", |world| world.bad = 1, JogRefusal::Sensor.code(), 0),
         ("a tick is late", |world| world.reading = 43_000, JogRefusal::Late.code(), 0),
+        ("a tick begins late", |world| world.cycles = world.cycles.wrapping_add(43_000), JogRefusal::Late.code(), 0),
     ];
     for (name, harm, refusal, holds) in harms {
         let mut device = Device::being_set_up();
