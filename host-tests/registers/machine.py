@@ -20,6 +20,8 @@ INTERRUPTS = 16
 EXC_RETURN = 0xFFFF_FFF9
 # A run of so many half-words of code is taken for one that hangs; so many are more than a stop takes.
 TOO_LONG, STOPS = 60_000_000, 40_000
+# Pieces of code, from branch to branch, that are more than a critical section has.
+MOMENTS = 200
 
 
 class Machine(Core):
@@ -61,10 +63,18 @@ class Machine(Core):
         for _ in range(count):
             began = self.cycles
             self.run(between)
-            if self.chip.tick_is_due() and self.is_unmasked(self.chip.TICK) and not self.is_masked():
+            if self.chip.tick_is_due() and self.is_unmasked(self.chip.TICK) and self.takes_interrupts():
                 self.exception(INTERRUPTS + self.chip.TICK)
             # Whatever of the period is left goes by.
             self.ahead += max(0, self.chip.PERIOD - (self.cycles - began))
+
+    def takes_interrupts(self) -> bool:
+        """Whether the core takes interrupts, or does in a moment: what comes in a critical section waits for its end."""
+        for _ in range(MOMENTS):
+            if not self.is_masked():
+                break
+            self.run(1)
+        return not self.is_masked()
 
     def exception(self, number: int, returns: bool | None = True, half_words: int = STOPS) -> None:
         """Takes an exception, and runs its handler until it returns; one that must not is run for so long. Where nobody

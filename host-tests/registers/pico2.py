@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from angle_sensor import AngleSensor
 from rp2350 import (
-    ADC, CLOCKS, CRYSTAL, ENABLE, IO, ISO, PADS, PAUSES, PDE, PWM, SIO, SPI0, TICKS, WATCHDOG, Rp2350,
+    ADC, CLOCKS, CRYSTAL, ENABLE, IO, ISO, PADS, PAUSES, PDE, PUE, PWM, SIO, SPI0, TICKS, WATCHDOG, Rp2350,
 )  # fmt: skip
 
 ENABLES, DIRECTIONS, SET_POINTS, SELECTS = (16,), (11, 13, 15), (10, 12, 14), (5, 6, 7)

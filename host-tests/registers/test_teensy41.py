@@ -11,7 +11,7 @@ from bench import OF_PANIC
 from imxrt1062 import EN, LPSPI4, PWM2, RCS, UPDATE, WDOG3
 from in_set_up import InSetUp
 from teensy41 import Teensy41
-from with_angle_sensors import BRIDGED, WithAngleSensors
+from with_angle_sensors import WithAngleSensors
 
 
 class Teensy(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
@@ -73,13 +73,6 @@ class Teensy(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
         machine = self.after_set_up()
         machine.ticks(1)
         self.assertEqual(machine.chip.word(LPSPI4.TCR) >> 30, 0b01)
-
-    def test_silent_sensor_whose_line_reads_low_stops_in_the_third_tick(self) -> None:
-        for number in range(self.BOARD.SENSORS):
-            machine = self.while_driving()
-            machine.chip.silence = 0
-            machine.chip.break_line(f"sensor {number + 1}")
-            self.assert_stops_within(machine, BRIDGED + 1)
 
     def test_converter_is_calibrated(self) -> None:
         self.assertTrue(self.after_set_up().chip.is_calibrated)

@@ -64,6 +64,18 @@ class WithAngleSensors(InForce):
         sensors = (f"sensor {number + 1}" for number in range(self.BOARD.SENSORS))
         self.assert_broken_line_stops_within(BRIDGED + 1, *sensors)
 
+    def test_silent_sensor_whose_line_reads_low_near_angle_zero_stops_in_the_third_tick(self) -> None:
+        for number in range(self.BOARD.SENSORS):
+            machine = self.new_machine()
+            machine.reset(power=True)
+            machine.chip.silence = 0
+            for sensor in machine.chip.sensors:
+                sensor.angle = 0
+            machine.set_up()
+            self.assertTrue(self.drive_again(machine), "zero is an angle")
+            machine.chip.break_line(f"sensor {number + 1}")
+            self.assert_stops_within(machine, BRIDGED + 1)
+
     def test_silent_sensor_at_power_on_keeps_force_away(self) -> None:
         machine = self.new_machine()
         machine.reset(power=True)
