@@ -69,7 +69,7 @@ class Machine(Core):
             self.ahead += max(0, self.chip.PERIOD - (self.cycles - began))
 
     def takes_interrupts(self) -> bool:
-        """Whether the core takes interrupts, or does in a moment: what comes in a critical section waits for its end."""
+        """Whether the core takes interrupts, or does in a moment: one that comes in a critical section waits."""
         for _ in range(MOMENTS):
             if not self.is_masked():
                 break

@@ -165,8 +165,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         self.tell(began, verdict);
     }
 
-    /// Whether a tick that begins now comes too late after the one before. While flash is written, and in the tick after
-    /// it, whatever reads flash may wait for it: the motors are off meanwhile.
+    /// Whether a tick that begins now comes too late after the one before. While flash is written, and in the tick
+    /// after it, whatever reads flash may wait for it: the motors are off meanwhile.
     #[inline]
     fn begins_late(&mut self, began: u32) -> bool {
         let is_written = self.mailbox.writing().is_granted();

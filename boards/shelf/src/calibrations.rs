@@ -55,8 +55,8 @@ impl<F: NorFlash, K: Copy, const JOINTS: usize> KeptCalibration<F, K, JOINTS> {
         (kept, found)
     }
 
-    /// The same where the chip says that it could not read what lies there, whatever it read in its place: a calibration
-    /// that cannot be used. Words that were erased for a new one may read as none at all.
+    /// The same where the chip says that it could not read what lies there, whatever it read in its place: a
+    /// calibration that cannot be used. Words that were erased for a new one may read as none at all.
     pub fn damaged(mut self) -> (Self, Found<K, JOINTS>) {
         self.in_use = Calibrated::Refused(CalibrationError::Damaged);
         let found = self.as_built(true);

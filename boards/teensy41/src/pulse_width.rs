@@ -55,8 +55,8 @@ impl PulseWidth {
         self.pwm.load_ok().contains(self.submodule.mask())
     }
 
-    /// Takes back a width that waits. One that is about to hold is waited for: widths that are taken back again and again
-    /// just before the period's end, which ticks may be in step with, would never hold.
+    /// Takes back a width that waits. One that is about to hold is waited for: widths that are taken back again and
+    /// again just before the period's end, which ticks may be in step with, would never hold.
     #[inline]
     fn take_back(&mut self) {
         if self.waits() && self.pwm.sm_count(self.submodule) >= (PERIOD - NEAR) as i16 {

@@ -87,8 +87,8 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
     }
 
     /// The angle as it was at the end of the last frame, 0 to 16,383 a turn; asks for the next. One frame. `None` if
-    /// the last frame did not ask for it: after an error, before [`Self::start`]. At angle zero, three frames: that is what
-    /// a dead line reads too.
+    /// the last frame did not ask for it: after an error, before [`Self::start`]. At angle zero, three frames: that is
+    /// what a dead line reads too.
     ///
     /// # Errors
     /// Bus, parity, the error flag, or a bus that gives only ones or only zeros.
