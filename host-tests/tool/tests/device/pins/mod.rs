@@ -3,3 +3,4 @@
 mod drives;
 mod sensors;
 mod simulated;
+mod three_phase;
