@@ -4,14 +4,32 @@ use anyhow::{Context, bail};
 use palpate::wire::acceptance::{Failure, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{self, MAX_FRAME, Received, Receiver};
 use std::collections::VecDeque;
-use std::io::{ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::TcpStream;
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// How long a device may take to say who it is, a reset included, and how often it is asked meanwhile.
-const GREETING: Duration = Duration::from_secs(20);
+pub const GREETING: Duration = Duration::from_secs(20);
 const AGAIN: Duration = Duration::from_millis(500);
+/// How often a line that broke is tried anew.
+const TRIED: Duration = Duration::from_millis(50);
 /// How long it may be silent in the midst of its script or of its ticks: an emulated one on a busy machine is slow.
 const SILENCE: Duration = Duration::from_secs(120);
+
+/// The line to a device.
+pub trait DeviceLine: Read + Write {
+    /// Opens it anew, where the device went and took it along: its own USB plug goes at every reset.
+    ///
+    /// # Errors
+    /// If it is not there, or not yet.
+    fn reopen(&mut self) -> io::Result<()> {
+        Err(ErrorKind::Unsupported.into())
+    }
+}
+
+/// An emulated board's, which stays.
+impl DeviceLine for TcpStream {}
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +40,8 @@ pub struct Plan {
     pub seconds: f64,
     /// How it is to fail, one after the other.
     pub failures: Vec<Failure>,
+    /// How long the device may take to say who it is; [`GREETING`].
+    pub greeting: Duration,
 }
 
 /// What a device said.
@@ -39,18 +59,28 @@ pub struct Found {
     pub damaged: u32,
     /// How it was told to fail, and the reset reason that it gave afterwards, as its number.
     pub failures: Vec<(Failure, u8)>,
+    /// Why not everything was asked, if so.
+    pub broken_off: Option<String>,
 }
 
-/// Asks a device everything, over a line whose reading gives up after a moment.
+/// Asks a device everything, over a line whose reading gives up after a moment. What it has said is kept where it falls
+/// silent later on, or its line fails: [`Found::broken_off`].
 ///
 /// # Errors
-/// If it does not answer, or the line fails.
-pub fn examine<L: Read + Write>(line: &mut L, plan: &Plan) -> anyhow::Result<Found> {
+/// If it does not say who it is.
+pub fn examine<L: DeviceLine>(line: &mut L, plan: &Plan) -> anyhow::Result<Found> {
     let mut talk = Talk { line, receiver: Receiver::new(), came: VecDeque::new(), damaged: 0 };
-    let mut found = Found { identity: talk.greet()?, ..Found::default() };
+    let mut found = Found { identity: talk.greet(plan.greeting)?, ..Found::default() };
     // What came before the greeting may have begun before this program did.
     talk.damaged = 0;
+    if let Err(error) = ask_all(&mut talk, plan, &mut found) {
+        found.broken_off = Some(format!("{error:#}"));
+    }
+    Ok(found)
+}
 
+/// Asks what there is to ask of a device that is known.
+fn ask_all<L: DeviceLine>(talk: &mut Talk<'_, L>, plan: &Plan, found: &mut Found) -> anyhow::Result<()> {
     talk.ask(Request::Script { most: plan.most })?;
     loop {
         match talk.next(SILENCE)?.context("the device fell silent in the midst of its script")? {
@@ -81,15 +111,11 @@ pub fn examine<L: Read + Write>(line: &mut L, plan: &Plan) -> anyhow::Result<Fou
 
     for failure in &plan.failures {
         talk.ask(Request::Fail(*failure))?;
-        // It is gone before it is asked again.
-        let gone = Instant::now();
-        while gone.elapsed() < AGAIN {
-            talk.next(AGAIN)?;
-        }
-        let identity = talk.greet().with_context(|| format!("after it was told to fail ({failure:?})"))?;
+        let identity =
+            talk.greet_anew(plan.greeting).with_context(|| format!("after it was told to fail ({failure:?})"))?;
         found.failures.push((*failure, identity.reset));
     }
-    Ok(found)
+    Ok(())
 }
 
 /// A line, and what came over it.
@@ -100,7 +126,7 @@ struct Talk<'a, L> {
     damaged: u32,
 }
 
-impl<L: Read + Write> Talk<'_, L> {
+impl<L: DeviceLine> Talk<'_, L> {
     fn ask(&mut self, request: Request) -> anyhow::Result<()> {
         let mut buffer = [0; MAX_FRAME];
         let frame = frame::pack(&request, &mut buffer)?;
@@ -108,18 +134,57 @@ impl<L: Read + Write> Talk<'_, L> {
     }
 
     /// Asks who it is until it says so.
-    fn greet(&mut self) -> anyhow::Result<Identity> {
+    fn greet(&mut self, patience: Duration) -> anyhow::Result<Identity> {
         let began = Instant::now();
-        while began.elapsed() < GREETING {
-            self.ask(Request::Identity)?;
-            let asked = Instant::now();
-            while asked.elapsed() < AGAIN {
-                if let Some(Finding::Identity(identity)) = self.next(AGAIN)? {
-                    return Ok(identity);
-                }
+        while began.elapsed() < patience {
+            if let Some(identity) = self.asked_who()? {
+                return Ok(identity);
             }
         }
         bail!("no device answers: is its image the one of `firmware --board B accept`?")
+    }
+
+    /// Asks once who it is, and waits a moment for the answer.
+    fn asked_who(&mut self) -> anyhow::Result<Option<Identity>> {
+        self.ask(Request::Identity)?;
+        let asked = Instant::now();
+        while asked.elapsed() < AGAIN {
+            if let Some(Finding::Identity(identity)) = self.next(AGAIN)? {
+                return Ok(Some(identity));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The same of a device that goes, and comes again. Its line may go with it, at once or only when its watchdog
+    /// bites, and is then opened anew.
+    fn greet_anew(&mut self, patience: Duration) -> anyhow::Result<Identity> {
+        let began = Instant::now();
+        // It is gone before it is asked again.
+        let mut broken = loop {
+            match self.next(AGAIN) {
+                Ok(_) if began.elapsed() < AGAIN => {}
+                Ok(_) => break None,
+                Err(error) => break Some(error),
+            }
+        };
+        while began.elapsed() < patience {
+            if broken.is_some() {
+                if self.line.reopen().is_err() {
+                    thread::sleep(TRIED);
+                    continue;
+                }
+                // Half of a frame from before is none.
+                (self.receiver, broken) = (Receiver::new(), None);
+                self.came.clear();
+            }
+            match self.asked_who() {
+                Ok(Some(identity)) => return Ok(identity),
+                Ok(None) => {}
+                Err(error) => broken = Some(error),
+            }
+        }
+        Err(broken.unwrap_or_else(|| anyhow::anyhow!("it did not come again")))
     }
 
     /// What it says next; `None` if it says nothing for so long.

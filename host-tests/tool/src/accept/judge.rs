@@ -49,6 +49,11 @@ pub fn judge(found: &Found, expected: &[ExpectedLine], around: &Surroundings<'_>
     checks.push(sensors(found, around));
     checks.push(line(found));
     checks.extend(found.failures.iter().map(|(failure, reset)| provoked(*failure, *reset)));
+    if let Some(reason) = &found.broken_off {
+        // A cell of a table has neither lines nor bars.
+        let reason = reason.replace(['|', '\n'], " ");
+        checks.push(Check::new("to the end", reason, "everything is asked and answered", false));
+    }
     checks
 }
 

@@ -12,7 +12,7 @@ mod judge;
 mod report;
 
 pub use check::{Check, Verdict};
-pub use examine::{Found, Plan, examine};
+pub use examine::{DeviceLine, Found, GREETING, Plan, examine};
 pub use expected::{ExpectedLine, expected};
 pub use judge::{Surroundings, judge};
 pub use report::Report;

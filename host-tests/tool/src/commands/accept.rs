@@ -1,12 +1,16 @@
 //! `palpate accept`: whether a board does what the library promises of it, without its motors.
 
 use super::output::{print, write_whole};
-use crate::accept::{self, Found, PATIENCE, Plan, Report, Surroundings, examine, expected, judge};
+use crate::accept::{
+    self, DeviceLine, Found, GREETING, PATIENCE, Plan, Report, Surroundings, examine, expected, judge,
+};
 use crate::firmware::{Board, Program, Progress, SetUpError};
 use anyhow::{Context, bail, ensure};
 use clap::Args;
 use palpate::wire::acceptance::Failure;
+use serialport::SerialPort;
 use std::fs;
+use std::io::{self, ErrorKind, Read, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -57,26 +61,29 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     ensure!(arguments.ticks > 0, "--ticks: a script of no ticks shows nothing");
     let resets = arguments.resets.then_some([Failure::Hang, Failure::Panic, Failure::Exception]);
     let failures = resets.into_iter().flatten().collect();
-    let plan = Plan { most: arguments.ticks, seconds: arguments.seconds, failures };
-    let (device, found, counted) = if let Some(board) = arguments.emulator {
+    let plan = Plan { most: arguments.ticks, seconds: arguments.seconds, failures, greeting: GREETING };
+    let (device, mut found, counted) = if let Some(board) = arguments.emulator {
         let program = match &arguments.image {
             Some(elf) => Program::of_image(board, elf, &Progress::new())?,
             None => accept::prepared(board, &[])?,
         };
         let found = accept::on_emulator(&program, &plan)?;
-        let counted = Some(found.lines.clone());
+        let counted = Ok(Some(found.lines.clone()));
         (format!("{} ({}), emulated", board.name(), board.machine()), found, counted)
     } else if let Some(path) = &arguments.port {
-        let port = serialport::new(path, arguments.baud).timeout(PATIENCE).open();
-        let mut port = port.with_context(|| format!("cannot open the serial port {path}"))?;
-        // A device at its own USB plug tells while this is up. Not every system raises it; not every port has it.
-        let _ = port.write_data_terminal_ready(true);
+        let mut port = Port { path: path.clone(), baud: arguments.baud, open: None };
+        port.reopen().with_context(|| format!("cannot open the serial port {path}"))?;
         let found = examine(&mut port, &plan).with_context(|| format!("serial port {path}"))?;
-        let counted = counted(arguments, &plan, &found)?;
+        let counted = counted(arguments, &plan, &found);
         (format!("serial port {path}"), found, counted)
     } else {
         bail!("either --port or --emulator");
     };
+    // A device that was examined has its report, whatever comes after.
+    let counted = counted.unwrap_or_else(|error| {
+        found.broken_off.get_or_insert(format!("no instructions were counted beside the cycles: {error:#}"));
+        None
+    });
     let around =
         Surroundings { emulated: arguments.emulator.is_some(), bare: arguments.bare, counted: counted.as_deref() };
     let expected = expected(arguments.ticks);
@@ -90,6 +97,47 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     write_whole(&arguments.report, text.as_bytes())?;
     eprintln!("the report to post: {}", arguments.report.display());
     Ok(if report.failed().is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// A serial port, or none while its device is gone.
+struct Port {
+    path: String,
+    baud: u32,
+    open: Option<Box<dyn SerialPort>>,
+}
+
+impl Port {
+    fn line(&mut self) -> io::Result<&mut Box<dyn SerialPort>> {
+        self.open.as_mut().ok_or_else(|| ErrorKind::NotConnected.into())
+    }
+}
+
+impl Read for Port {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.line()?.read(buffer)
+    }
+}
+
+impl Write for Port {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.line()?.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.line()?.flush()
+    }
+}
+
+impl DeviceLine for Port {
+    fn reopen(&mut self) -> io::Result<()> {
+        // Let go of first: a plug that comes back while its old name is in use is given another.
+        self.open = None;
+        let mut port = serialport::new(&self.path, self.baud).timeout(PATIENCE).open()?;
+        // A device at its own USB plug tells while this is up. Not every system raises it; not every port has it.
+        let _ = port.write_data_terminal_ready(true);
+        self.open = Some(port);
+        Ok(())
+    }
 }
 
 /// What an emulated core of the device's kind counts in the same script; `None` where there is no emulator.

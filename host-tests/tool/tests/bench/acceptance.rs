@@ -12,9 +12,10 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::accept::{Acceptance, Chip, Examiner, Stopwatch};
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Mailbox, Port, Watchdog};
-use palpate_tool::accept::{Check, Found, Plan, Surroundings, Verdict, examine, expected, judge};
+use palpate_tool::accept::{self, Check, Found, Plan, Report, Surroundings, Verdict, examine, expected, judge};
 use std::collections::VecDeque;
 use std::io::{self, Read, Write};
+use std::time::Duration;
 
 type Arm = Servo<'static, SplinePatch<'static>, SerialArm, 3>;
 type Tick = Acceptance<'static, Made<SerialArm>, SimulatedBoard, 3>;
@@ -50,6 +51,23 @@ struct Device {
     ticks: u32,
     /// The reset reason that a failure leads to.
     resets_to: fn(Failure) -> ResetReason,
+    /// Its line is the plug of a chip that a reset drops.
+    plug: Plug,
+}
+
+/// What becomes of a device's line at a reset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Plug {
+    /// A wire, which does not notice.
+    Wire,
+    /// A plug that is in.
+    In,
+    /// One that has gone, and is not found the next so many times.
+    Gone(u32),
+    /// One that goes for good with the next reset.
+    Breaks,
+    /// One that never comes back.
+    Lost,
 }
 
 #[derive(Default)]
@@ -92,7 +110,8 @@ fn start(servo: fn() -> Arm, reset: ResetReason) -> (Shared, Tick, Examiner<'sta
 impl Device {
     fn new(events: fn(&mut World, u32), resets_to: fn(Failure) -> ResetReason) -> Self {
         let (world, tick, examiner) = start(arm, ResetReason::PowerOn);
-        Self { world, tick, examiner, wire: Wire::default(), fed: Fed::default(), events, ticks: 0, resets_to }
+        let (wire, fed, plug) = (Wire::default(), Fed::default(), Plug::Wire);
+        Self { world, tick, examiner, wire, fed, events, ticks: 0, resets_to, plug }
     }
 
     /// A period of it: a tick, and what main does below.
@@ -108,6 +127,12 @@ impl Device {
             if let Some(failure) = self.examiner.step(&mut self.wire, &mut self.fed) {
                 (self.world, self.tick, self.examiner) = start(arm, (self.resets_to)(failure));
                 self.wire.to.clear();
+                self.plug = match self.plug {
+                    // Not found at once: the chip starts first.
+                    Plug::In => Plug::Gone(3),
+                    Plug::Breaks => Plug::Lost,
+                    other => other,
+                };
             }
         }
     }
@@ -116,6 +141,9 @@ impl Device {
 impl Read for Device {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         for _ in 0..2_000 {
+            if matches!(self.plug, Plug::Gone(_) | Plug::Lost) {
+                return Err(io::ErrorKind::BrokenPipe.into());
+            }
             self.period();
             if !self.wire.from.is_empty() {
                 return self.wire.from.read(buffer);
@@ -127,6 +155,9 @@ impl Read for Device {
 
 impl Write for Device {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if matches!(self.plug, Plug::Gone(_) | Plug::Lost) {
+            return Err(io::ErrorKind::BrokenPipe.into());
+        }
         self.wire.to.write(bytes)
     }
 
@@ -135,7 +166,21 @@ impl Write for Device {
     }
 }
 
+/// A plug that was pulled out comes back after a while, or never.
+impl accept::DeviceLine for Device {
+    fn reopen(&mut self) -> io::Result<()> {
+        self.plug = match self.plug {
+            Plug::Gone(0) => Plug::In,
+            Plug::Gone(more) => Plug::Gone(more - 1),
+            other => other,
+        };
+        if matches!(self.plug, Plug::Wire | Plug::In) { Ok(()) } else { Err(io::ErrorKind::NotFound.into()) }
+    }
+}
+
 const MOST: u32 = 300;
+/// A device that does not come back is not waited for longer.
+const GREETING: Duration = Duration::from_secs(2);
 
 fn known(failure: Failure) -> ResetReason {
     match failure {
@@ -146,7 +191,7 @@ fn known(failure: Failure) -> ResetReason {
 }
 
 fn found(device: &mut Device, failures: &[Failure]) -> Found {
-    let plan = Plan { most: MOST, seconds: 5.0, failures: failures.to_vec() };
+    let plan = Plan { most: MOST, seconds: 5.0, failures: failures.to_vec(), greeting: GREETING };
     let mut found = examine(device, &plan).unwrap();
     // The simulated device's time is not the host's, which is taken for it here.
     found.seconds = 5.0;
@@ -215,6 +260,29 @@ fn a_good_board_is_accepted_by_its_cycles_too() {
     let mut short = found;
     short.lines.pop();
     assert_eq!(failed(&short, 1_000), ["state hash", "script"]);
+}
+
+#[test]
+fn a_board_whose_plug_a_reset_drops_is_reached_again() {
+    let mut device = Device { plug: Plug::In, ..Device::new(|_, _| (), known) };
+    let found = found(&mut device, &[Failure::Hang, Failure::Panic, Failure::Exception]);
+    assert_eq!(failed(&found, 1_000), Vec::<&str>::new());
+    assert_eq!(found.failures.len(), 3);
+}
+
+#[test]
+fn what_was_found_before_a_line_broke_for_good_is_reported_and_not_accepted() {
+    let mut device = Device { plug: Plug::Lost, ..Device::new(|_, _| (), known) };
+    let plan = Plan { most: MOST, seconds: 1.0, failures: vec![Failure::Hang], greeting: GREETING };
+    assert!(examine(&mut device, &plan).is_err(), "a device that never said who it is");
+
+    let mut device = Device { plug: Plug::Breaks, ..Device::new(|_, _| (), known) };
+    let found = found(&mut device, &[Failure::Hang]);
+    assert_eq!((failed(&found, 1_000), found.failures.len()), (vec!["to the end"], 0));
+    let (expected, around) = (expected(MOST), Surroundings::default());
+    let report = Report::new("a port", &found, &expected, &around, judge(&found, &expected, &around)).to_string();
+    assert!(report.contains("| passed | state hash |"), "{report}");
+    assert!(report.contains("| FAILED | to the end | after it was told to fail (Hang): "), "{report}");
 }
 
 #[test]
