@@ -12,6 +12,7 @@ mod injection;
 mod jogging;
 mod knob;
 mod limits;
+mod no_alarm;
 mod passivity;
 mod protected;
 mod signs;

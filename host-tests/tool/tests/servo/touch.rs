@@ -13,10 +13,10 @@ use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 const RATE: f64 = 4_000.0;
 
 /// Comes down along a normal in 0.4 s, from 4 mm above, and holds.
-struct Press {
-    point: Vector,
-    normal: Vector,
-    depth: f64,
+pub struct Press {
+    pub point: Vector,
+    pub normal: Vector,
+    pub depth: f64,
 }
 
 impl Press {

@@ -1,0 +1,121 @@
+//! The watch over signs calls nothing wrong where all is right: where a hand presses, and in the demo.
+
+use crate::protected::{Bench, FALCON, PHANTOM, POLHEM, RATE, WOODEN_HAPTICS, settings};
+use crate::surfaces::WALL;
+use crate::touch::Press;
+use clap::Parser;
+use palpate::device::{Counts, Kinematics};
+use palpate::math::Vec3;
+use palpate::servo::recommended::{self, Recommended};
+use palpate::servo::{Input, Rendering, Servo, Settings};
+use palpate::track::{Contact, Controller};
+use palpate_plant::{HandSettings, Plant};
+use palpate_tool::commands::options::SceneOptions;
+use palpate_tool::commands::sim::run_on_host;
+use palpate_tool::report::Summary;
+use std::ops::RangeInclusive;
+
+#[derive(Parser)]
+struct Demo {
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+/// Presses on a wall with so many newtons, which the motors bear for ever, for 0.7 s: with the gains that the preset
+/// allows at most, and with those that the device is recommended to be driven with.
+fn presses<K: Kinematics<3>>(bench: &Bench<K>, recommended: &Recommended, push: f64) {
+    let most = settings(bench.device, Vec3::ZERO);
+    let felt = Settings { body_origin: Vec3::ZERO, ..recommended.settings };
+    for (settings, rendering) in [(most, Rendering::PLAIN), (felt, recommended.rendering)] {
+        let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings)
+            .rendering(rendering)
+            .protect(bench.protection);
+        let hand = HandSettings::default();
+        // What the wall yields and what the hand does.
+        let depth = push / f64::from(settings.stiffness) + push / hand.stiffness;
+        let path = Press { point: [0.0; 3], normal: [0.0, 0.0, 1.0], depth };
+        let mut plant = Plant::new(&bench.plant, hand, Box::new(path), RATE).unwrap();
+        let mut state = servo.start();
+        let mut seen_at = None;
+        for tick in 0..2_800 {
+            servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+            assert_eq!(state.fault(), None, "{} at {} N/m", bench.name, settings.stiffness);
+            plant.advance(state.duties().map(|duty| duty.0));
+            if state.guard().joints_seen() == [true; 3] {
+                seen_at = seen_at.or(Some(f64::from(tick) / RATE));
+            }
+        }
+        let force = state.force().length();
+        println!("{:<20} {} N/m: all joints seen at {seen_at:?} s, {force:.2} N", bench.name, settings.stiffness);
+        assert!(seen_at.is_some() && state.contact() == Contact::Touching, "{}", bench.name);
+        assert!(f64::from(force) > 0.5 * push, "{}: {force} N", bench.name);
+    }
+}
+
+#[test]
+fn wooden_haptics_is_pressed_without_an_alarm() {
+    presses(&WOODEN_HAPTICS, &recommended::WOODEN_HAPTICS_2016, 3.0);
+}
+
+#[test]
+fn polhem_is_pressed_without_an_alarm() {
+    presses(&POLHEM, &recommended::POLHEM_V2, 3.0);
+}
+
+#[test]
+fn phantom_is_pressed_without_an_alarm() {
+    presses(&PHANTOM, &recommended::PHANTOM_PREMIUM, 1.2);
+}
+
+#[test]
+fn falcon_is_pressed_without_an_alarm() {
+    presses(&FALCON, &recommended::NOVINT_FALCON, 6.0);
+}
+
+const MODELS: [&str; 2] = ["capped_box", "ellipsoid_body"];
+
+/// Two seconds of the demo with all protection: what the hand needs for its touches.
+fn demos(device: &str, models: &[&str], seeds: RangeInclusive<u64>) {
+    for model in models {
+        let words = ["demo", "--device", device, "--model", model, "--seconds", "2", "--protected"];
+        let Demo { mut options } = Demo::parse_from(words);
+        let scene = options.scene().unwrap();
+        for seed in seeds.clone() {
+            options.seed = seed;
+            let summary = Summary::new(&run_on_host(&options, &scene).unwrap());
+            println!("{device}, {model}, seed {seed}: {:?}", summary.rows());
+            assert!(summary.fault.is_none() && summary.touches > 0, "{device}, {model}, seed {seed}: {summary}");
+            assert!(summary.largest_force > 1.0, "{device}, {model}, seed {seed}: {summary}");
+        }
+    }
+}
+
+#[test]
+fn the_protected_demo_is_felt_and_no_alarm() {
+    demos("woodenhaptics-2016", &MODELS[..1], 1..=3);
+    demos("phantom-premium", &MODELS[..1], 1..=3);
+}
+
+#[test]
+fn the_protected_demo_of_an_ellipsoid_is_felt_and_no_alarm() {
+    demos("phantom-premium", &MODELS[1..], 1..=1);
+}
+
+/// The plants of these two take longer.
+#[test]
+fn the_protected_demo_of_polhem_is_felt_and_no_alarm() {
+    demos("polhem-v2", &MODELS[..1], 1..=1);
+}
+
+#[test]
+fn the_protected_demo_of_the_falcon_is_felt_and_no_alarm() {
+    demos("falcon", &MODELS[..1], 1..=1);
+}
+
+#[test]
+#[ignore = "a minute: every device, model and seed"]
+fn every_protected_demo_is_felt_and_no_alarm() {
+    for device in ["woodenhaptics-2016", "polhem-v2", "phantom-premium", "falcon"] {
+        demos(device, &MODELS, 1..=3);
+    }
+}
