@@ -58,6 +58,15 @@ fn every_device_of_three_joints_touches_alike_on_host_and_board() {
     }
 }
 
+#[test]
+fn the_protected_demo_touches_alike_on_host_and_board_and_without_an_alarm() {
+    if !is_wanted("the protected demo on the emulated board") {
+        return;
+    }
+    let [board, _] = traces(&["demo", "--seconds", "2", "--protected"]).map(|trace| Summary::new(&trace));
+    assert!(board.touches > 0 && board.fault.is_none(), "{board}");
+}
+
 /// Bodies on paths, and a free one that is pushed.
 #[test]
 fn a_scene_that_moves_is_felt_alike_on_the_host_and_every_board() {

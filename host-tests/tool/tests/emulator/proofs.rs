@@ -10,15 +10,21 @@ use std::io::{Write, stderr};
 
 /// Stack of the whole image, bytes.
 const STACK: i64 = 2 * 1024;
+/// The same with all protection: its tick calls one function more.
+const PROTECTED_STACK: i64 = STACK + 256;
+/// Flash of an image with all protection, bytes: a small part's half.
+const PROTECTED: u64 = 64 * 1024;
 
 struct Read {
     code: Code,
     lines: Lines,
+    flash: u64,
 }
 
 fn read(board: Board, program: &str, features: &[&str]) -> Read {
     let program = Program::prepare(board, program, features, &Progress::new()).unwrap();
-    Read { code: Code::read(&program.image.elf).unwrap(), lines: Lines::read(&program.image.elf).unwrap() }
+    let elf = &program.image.elf;
+    Read { code: Code::read(elf).unwrap(), lines: Lines::read(elf).unwrap(), flash: program.image.flash }
 }
 
 impl Read {
@@ -32,6 +38,24 @@ impl Read {
     }
 }
 
+fn proves(board: Board, program: &str, features: &[&str]) {
+    let image = read(board, program, features);
+    let tree = image.tree();
+    // A tree of one small function would prove nothing: evaluation, controller and servo are hundreds of instructions.
+    let size: usize = tree.functions().map(|function| function.instructions.len()).sum();
+    assert!(size > 1_000, "{board:?}: the tick is {size} instructions");
+    assert!(tree.findings().is_empty(), "{board:?}, {program}: {:#?}", tree.findings());
+    assert_eq!(image.missing(), Vec::<String>::new(), "{board:?}, {program}");
+    assert_eq!(unwanted(&image.code, &image.lines), Vec::<String>::new(), "{board:?}, {program}");
+    let stack = deepest_stack(&image.code).unwrap();
+    let most = if features.is_empty() { STACK } else { PROTECTED_STACK };
+    assert!(stack <= most, "{board:?}, {program} {features:?}: {stack} bytes of stack");
+    let flash = image.flash;
+    assert!(flash <= PROTECTED, "{board:?}, {program} {features:?}: {flash} bytes of flash");
+    let core = board.core();
+    let _ = writeln!(stderr(), "{core} {program} {features:?}: {flash} bytes of flash, {stack} of stack at most");
+}
+
 #[test]
 fn no_tick_panics_allocates_recurses_computes_in_f64_or_loops_without_a_bound() {
     if !is_wanted("no_tick_panics_allocates_recurses_computes_in_f64_or_loops_without_a_bound") {
@@ -39,19 +63,18 @@ fn no_tick_panics_allocates_recurses_computes_in_f64_or_loops_without_a_bound() 
     }
     for board in Board::ALL {
         for program in ["uart", "fifo"] {
-            let image = read(board, program, &[]);
-            let tree = image.tree();
-            // A tree of one small function would prove nothing: evaluation, controller and servo are hundreds of
-            // instructions.
-            let size: usize = tree.functions().map(|function| function.instructions.len()).sum();
-            assert!(size > 1_000, "{board:?}: the tick is {size} instructions");
-            assert!(tree.findings().is_empty(), "{board:?}, {program}: {:#?}", tree.findings());
-            assert_eq!(image.missing(), Vec::<String>::new(), "{board:?}, {program}");
-            assert_eq!(unwanted(&image.code, &image.lines), Vec::<String>::new(), "{board:?}, {program}");
-            let stack = deepest_stack(&image.code).unwrap();
-            assert!(stack <= STACK, "{board:?}, {program}: {stack} bytes of stack");
-            let _ = writeln!(stderr(), "{} {program}: {stack} bytes of stack at most", board.core());
+            proves(board, program, &[]);
         }
+    }
+}
+
+#[test]
+fn no_protected_tick_does_either_and_its_image_stays_within_64_kilobytes() {
+    if !is_wanted("no_protected_tick_does_either_and_its_image_stays_within_64_kilobytes") {
+        return;
+    }
+    for board in Board::ALL {
+        proves(board, "uart", &["protected"]);
     }
 }
 
