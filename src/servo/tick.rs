@@ -107,7 +107,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         });
         match gated {
             Ok((duties, scale, live)) => {
-                state.duties = self.device.feed(live, duties, state.rates);
+                state.duties = self.device.feed(live, duties, self.rates_to_feed(state));
                 state.force *= scale;
                 self.guard.given(&mut state.guard, &duties);
             }
@@ -117,6 +117,14 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             }
         }
         state.ticks = state.ticks.wrapping_add(1);
+    }
+
+    /// The joint rates that the drives make up for: none while a field is led. The rotor is to follow it, and a hand that
+    /// spins the dial is to get no volts for that.
+    #[inline]
+    fn rates_to_feed(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> [f32; JOINTS] {
+        let leads = !state.homed && self.homing.as_ref().is_some_and(Homing::leads_fields);
+        if leads { [0.0; JOINTS] } else { state.rates }
     }
 
     /// What the CRC of the tables must be, if they are to be checked and carry one.

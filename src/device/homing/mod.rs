@@ -198,6 +198,12 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         matches!(self.reference, Reference::Stops(_) | Reference::Fields(_))
     }
 
+    /// Whether it leads fields round ([`Reference::Fields`]).
+    #[inline]
+    pub(crate) const fn leads_fields(&self) -> bool {
+        matches!(self.reference, Reference::Fields(_))
+    }
+
     /// One tick. Once done or refused, nothing changes any more.
     pub fn tick(&self, state: &mut HomingState<JOINTS>, input: HomingInput<JOINTS>) -> HomingProgress<JOINTS> {
         if state.end.is_none() {

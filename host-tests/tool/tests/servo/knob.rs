@@ -3,7 +3,7 @@
 mod faults;
 mod heat;
 
-use palpate::device::{CoggingMap, Refusal};
+use palpate::device::{CoggingMap, Duty, Refusal};
 use palpate::servo::{Fault, Output, Phase};
 use palpate_plant::{Dial, DialSettings, Fingers, MagneticFault};
 use palpate_tool::commands::demo_knob::{recorded_of, recorded_source};
@@ -144,6 +144,26 @@ fn the_alignment_is_bounded_and_needs_the_button_all_the_time() {
     assert!(knob.state().homed() && knob.state().fault().is_none());
     // Its torque is at most the search's, on a rotor that stands across its field; a tenth for back-EMF.
     assert!(torque > 1e-3 && torque <= 1.1 * f64::from(SEARCH.torque), "{torque}");
+}
+
+/// A hand that spins the dial meanwhile: what it adds is its own speed's, and the field stays as weak as it was.
+#[test]
+fn a_hand_that_spins_the_dial_makes_the_field_that_aligns_it_no_stronger() {
+    let feed = device(None).feeds[0];
+    let most = feed.command(Duty::from_fraction(SEARCH.torque / device(None).motors[0].torque_at_full), 0.0);
+    for rate in [50.0, -50.0] {
+        let mut knob = knob(DialSettings::gimbal_knob(), None);
+        knob.dial.hold(Fingers { stiffness: 0.0, damping: 5e-3, aim: 0.0, rate });
+        let (mut greatest, mut fastest) = (0, 0.0_f64);
+        while knob.state().fault().is_none() {
+            knob.tick();
+            greatest = greatest.max(knob.state().duties()[0].0.abs());
+            fastest = fastest.max(knob.dial.rate().abs());
+        }
+        println!("spun with up to {fastest:.0} rad/s: a duty of {greatest}, of a rotor at rest {}", most.0);
+        assert_eq!(knob.state().fault().map(|(fault, _)| fault), Some(Fault::Homing));
+        assert!(fastest > 40.0 && greatest <= most.0, "{greatest} instead of {}", most.0);
+    }
 }
 
 #[test]
