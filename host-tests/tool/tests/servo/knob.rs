@@ -2,6 +2,7 @@
 
 mod faults;
 mod heat;
+mod lost_phase;
 
 use palpate::device::{CoggingMap, Duty, Refusal};
 use palpate::servo::{Fault, Output, Phase};
