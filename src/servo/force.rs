@@ -37,7 +37,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         };
         let faded = limit::saturated(felt * (state.fade * state.room), self.penalty.max_force);
         let slewed = if self.guard.share(&state.guard) < 1.0 {
-            // What is withheld cannot grow out of what was given, and once it may be given the guard lets it come slowly.
+            // What is withheld cannot grow out of what was given, and once it may be given the guard lets it come
+            // slowly.
             faded
         } else {
             let eased = match &self.eased {

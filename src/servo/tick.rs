@@ -119,8 +119,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         state.ticks = state.ticks.wrapping_add(1);
     }
 
-    /// The joint rates that the drives make up for: none while a field is led. The rotor is to follow it, and a hand that
-    /// spins the dial is to get no volts for that.
+    /// The joint rates that the drives make up for: none while a field is led. The rotor is to follow it, and a hand
+    /// that spins the dial is to get no volts for that.
     #[inline]
     fn rates_to_feed(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> [f32; JOINTS] {
         let leads = !state.homed && self.homing.as_ref().is_some_and(Homing::leads_fields);

@@ -50,8 +50,8 @@ fn with_a_phase_lost_the_torque_is_weaker_and_never_turns_its_sign() {
         assert_eq!(knob.state().fault(), None);
         let told = [least, most, over].map(|torque| 1e3 * torque);
         println!("phase {phase} lost: least, most, most above what is asked for: {told:.3?} mN·m; {current:.2} A");
-        // What dead time is made up for by is a little too much with a phase less; the wrong way it is a tenth of the dry
-        // friction at most.
+        // What dead time is made up for by is a little too much with a phase less; the wrong way it is a tenth of the
+        // dry friction at most.
         assert!(least > -1e-4 && over < 1.5e-3 && current < FULL, "{told:?} {current}");
         assert!(most > 0.03, "it is driven: {told:?}");
     }
