@@ -1,6 +1,7 @@
 //! What commissioning found, as a record to keep in the chip's flash.
 
 use super::{CalibrationError, Wiring};
+use crate::device::drive::{Feed, VoltageFeed};
 use crate::device::{Device, Encoder, Motor};
 use crate::patch::crc32;
 use core::f32::consts::TAU;
@@ -132,6 +133,19 @@ fn is_within(found: f32, built: f32, factor: f32) -> bool {
     ratio >= 1.0 / factor && ratio <= factor
 }
 
+/// The feed of a motor that was found to give so many times the torque it was built with.
+///
+/// What it makes up for of the back-EMF turns round with the motor, and never grows: more of it than there is drives
+/// the motor on. A torque constant so many times as great has a back-EMF so many times as great; a supply so many times
+/// as great makes up for so many times as much; nothing tells which it is. So it is taken less by the factor either
+/// way, and what is then not made up for brakes.
+fn fed(feed: Feed, factor: f32) -> Feed {
+    let Feed::Voltage(built) = feed else { return feed };
+    let size = factor.abs();
+    let less = if size > 1.0 { 1.0 / size } else { size };
+    Feed::Voltage(VoltageFeed { ratio: built.ratio * if factor < 0.0 { -less } else { less }, ..built })
+}
+
 impl<K: Copy, const JOINTS: usize> Device<K, JOINTS> {
     /// The same device as commissioning found it: encoders, motors and dry friction. Its mechanism, ranges and limits
     /// stay.
@@ -172,5 +186,6 @@ impl<K: Copy, const JOINTS: usize> Device<K, JOINTS> {
     }
 }
 
+            device.feeds[index] = fed(self.feeds[index], torque_at_full / self.motors[index].torque_at_full);
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,5 @@
 use super::*;
+use crate::device::Duty;
 use crate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 
 /// The preset's own numbers on inputs and outputs that are swapped.
@@ -93,6 +94,48 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
 
 #[test]
 fn no_word_makes_a_device_that_none_is() {
+/// What a feed gives back of the back-EMF, V, at a rate of 2 rad/s.
+fn made_up_for(feed: Feed) -> f32 {
+    let Feed::Voltage(VoltageFeed { supply, .. }) = feed else { panic!("a bridge") };
+    feed.command(Duty::ZERO, 2.0).fraction() * supply
+}
+
+#[test]
+fn back_emf_is_made_up_for_the_way_a_motor_was_found_to_turn_and_never_by_more_than_was_built() {
+    const FEED: VoltageFeed = VoltageFeed {
+        supply: 12.0,
+        resistance: 5.0,
+        torque_constant: 0.05,
+        current_at_full: 2.0,
+        ratio: -10.0,
+        back_emf_share: 0.8,
+    };
+    let mut built = DEVICE;
+    built.feeds = [Feed::Voltage(FEED); 3];
+    let before = made_up_for(built.feeds[1]);
+    for step in 0..=30 {
+        // From 0.5 to 2.
+        let size = 0.5 * 4.0_f32.powf(step as f32 / 30.0);
+        for factor in [size, -size] {
+            let mut found = kept();
+            found.0[1].torque_at_full *= factor;
+            let device = built.calibrated(&found).unwrap();
+            let now = made_up_for(device.feeds[1]) / before;
+            // A motor that turns the other way has its back-EMF the other way.
+            assert_eq!(now.signum(), factor.signum(), "{factor}");
+            // Whichever of them made the torque another one, what is made up for is no more of the back-EMF than was
+            // built: the torque constant (which the back-EMF goes with), the supply (which what is made up for goes
+            // with), the resistance (with which neither does). A step of 2⁻¹⁵ of 12 V is 0.05 %.
+            let [by_constant, by_supply, by_resistance] = [now.abs() / size, now.abs() * size, now.abs()];
+            for share in [by_constant, by_supply, by_resistance] {
+                assert!((0.2..=1.001).contains(&share), "{factor}: {share}");
+            }
+            assert_eq!((device.feeds[0], device.feeds[2]), (built.feeds[0], built.feeds[2]));
+        }
+    }
+    assert_eq!(built.calibrated(&kept()).unwrap().feeds, built.feeds);
+}
+
     // Numbers as they come, with the CRC that they have: what is taken is a device all the same.
     let mut random = 1_u32;
     let mut next = || {
