@@ -2,7 +2,7 @@
 
 use super::{CalibrationError, Wiring};
 use crate::device::drive::{Feed, VoltageFeed};
-use crate::device::{Device, Encoder, Motor};
+use crate::device::{Device, Encoder, Kinematics, Motor};
 use crate::patch::crc32;
 use core::f32::consts::TAU;
 
@@ -21,6 +21,11 @@ const OF_JOINT: usize = 4;
 const ENCODER_WITHIN: f32 = 5.0;
 /// Motors may be stronger or weaker by this factor. More is another motor: a force would be as much too great.
 const TORQUE_WITHIN: f32 = 2.0;
+/// Dry friction may take this share of the torque that the device's greatest force loads a joint with, in the middle of
+/// the joints' ranges. The watch over signs ([`crate::device::SignWatch`]) knocks with a quarter of that force at most:
+/// half of a knock is left to move the joint. One that sticks more would never be seen to follow its motor, and no
+/// force would ever come, nor a fault.
+pub(crate) const FRICTION_WITHIN: f32 = 0.125;
 
 /// What was found of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -146,17 +151,18 @@ fn fed(feed: Feed, factor: f32) -> Feed {
     Feed::Voltage(VoltageFeed { ratio: built.ratio * if factor < 0.0 { -less } else { less }, ..built })
 }
 
-impl<K: Copy, const JOINTS: usize> Device<K, JOINTS> {
+impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Device<K, JOINTS> {
     /// The same device as commissioning found it: encoders, motors and dry friction. Its mechanism, ranges and limits
     /// stay.
     ///
     /// # Errors
     /// What cannot be of this device: a number that is not finite, a joint without an input or output of its own; an
     /// encoder more than five times as fine or as coarse as it was built with, or whose zero lies more than a turn
-    /// outside of the joint's range; a motor more than twice as strong or as weak, or one that does not overcome the
-    /// joint's friction.
+    /// outside of the joint's range; a motor more than twice as strong or as weak; a friction of more than an eighth of
+    /// what the greatest force loads the joint with, or one that the motor does not overcome.
     pub fn calibrated(&self, found: &Calibration<JOINTS>) -> Result<Self, CalibrationError> {
         found.wiring()?;
+        let loads = self.greatest_loads();
         let mut device = *self;
         for (index, joint) in found.0.iter().enumerate() {
             let JointCalibration { radians_per_count, angle_at_zero, torque_at_full, dry_friction, .. } = *joint;
@@ -175,17 +181,26 @@ impl<K: Copy, const JOINTS: usize> Device<K, JOINTS> {
             if !is_within(torque_at_full, self.motors[index].torque_at_full, TORQUE_WITHIN) {
                 return Err(CalibrationError::Torque { joint: named });
             }
-            if !(0.0..torque_at_full.abs()).contains(&dry_friction) {
+            let most = FRICTION_WITHIN * loads[index].unwrap_or(torque_at_full.abs());
+            if !(0.0..=most).contains(&dry_friction) || dry_friction >= torque_at_full.abs() {
                 return Err(CalibrationError::Friction { joint: named });
             }
             device.encoders[index] = Encoder { radians_per_count, angle_at_zero };
+            device.feeds[index] = fed(self.feeds[index], torque_at_full / self.motors[index].torque_at_full);
             device.motors[index] = Motor { torque_at_full };
             device.dry_friction[index] = dry_friction;
         }
         Ok(device)
     }
+
+    /// The torques that the greatest force can load each joint with in the middle of the joints' ranges, N·m; `None`
+    /// where the mechanism is not in its workspace there.
+    fn greatest_loads(&self) -> [Option<f32>; JOINTS] {
+        let pose = self.kinematics.pose(self.joint_range.map(|[least, most]| 0.5 * (least + most)));
+        let is_within = pose.singularity_margin() >= self.min_margin;
+        pose.jacobian.map(|column| is_within.then(|| self.max_force * column.length()))
+    }
 }
 
-            device.feeds[index] = fed(self.feeds[index], torque_at_full / self.motors[index].torque_at_full);
 #[cfg(test)]
 mod tests;

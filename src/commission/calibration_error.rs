@@ -55,8 +55,8 @@ pub enum CalibrationError {
         /// Which.
         joint: u8,
     },
-    /// The friction is negative, or the motor does not overcome it.
-    #[error("joint {joint}: the dry friction is negative, or more than the motor's torque")]
+    /// The friction is negative, or so great that the joint would not be seen to follow its motor.
+    #[error("joint {joint}: the dry friction is negative, or more than an eighth of what the greatest force takes")]
     Friction {
         /// Which.
         joint: u8,

@@ -20,6 +20,8 @@ mod calibration_error;
 mod jogging;
 mod wiring;
 
+#[cfg(test)]
+pub(crate) use calibration::FRICTION_WITHIN;
 pub use calibration::{Calibration, JointCalibration};
 pub use calibration_error::CalibrationError;
 pub use jogging::{Jog, JogLimits, JogLimitsError, JogRefusal, JogState, Jogging, KEY};

@@ -3,7 +3,7 @@
 use core::cell::RefCell;
 use embedded_storage::nor_flash::NorFlash;
 use palpate::commission::{Calibration, CalibrationError, JointCalibration, Wiring};
-use palpate::device::Device;
+use palpate::device::{Device, Kinematics};
 use palpate::wire::{Calibrated, KeepError};
 use palpate_bench::Calibrations;
 
@@ -32,7 +32,7 @@ pub struct Found<K, const JOINTS: usize> {
     pub is_miscalibrated: bool,
 }
 
-impl<F: NorFlash, K: Copy, const JOINTS: usize> KeptCalibration<F, K, JOINTS> {
+impl<F: NorFlash, K: Kinematics<JOINTS> + Copy, const JOINTS: usize> KeptCalibration<F, K, JOINTS> {
     /// Looks for a calibration, before the loop is made. Where none is kept, or one that cannot be used, the device is
     /// what it was built with; [`Calibrations::in_use`] says which.
     pub fn find(flash: F, built: &'static Device<K, JOINTS>) -> (Self, Found<K, JOINTS>) {
@@ -93,7 +93,7 @@ impl<F: NorFlash, K: Copy, const JOINTS: usize> KeptCalibration<F, K, JOINTS> {
     }
 }
 
-impl<F: NorFlash, K: Copy, const JOINTS: usize> Calibrations for KeptCalibration<F, K, JOINTS> {
+impl<F: NorFlash, K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Calibrations for KeptCalibration<F, K, JOINTS> {
     fn in_use(&self) -> Calibrated {
         self.in_use
     }

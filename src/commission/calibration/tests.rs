@@ -70,7 +70,7 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
     });
     let measured = Encoder { radians_per_count: -4.0 * encoder, angle_at_zero: -0.4 };
     assert_eq!(found, Ok((measured, Motor { torque_at_full: -0.6 * motor }, 0.03)));
-    let refused: [(Spoil, CalibrationError); 14] = [
+    let refused: [(Spoil, CalibrationError); 15] = [
         (|joint| joint.radians_per_count *= 5.1, CalibrationError::Encoder { joint: 1 }),
         (|joint| joint.radians_per_count *= -0.19, CalibrationError::Encoder { joint: 1 }),
         (|joint| joint.radians_per_count = 0.0, CalibrationError::Encoder { joint: 1 }),
@@ -84,6 +84,8 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
         (|joint| joint.torque_at_full = f32::NEG_INFINITY, CalibrationError::NotFinite { joint: 1 }),
         (|joint| joint.dry_friction = -0.01, CalibrationError::Friction { joint: 1 }),
         (|joint| joint.dry_friction = 1.0, CalibrationError::Friction { joint: 1 }),
+        // An eighth of 5 N on 205 mm is 0.128 N·m.
+        (|joint| joint.dry_friction = 0.13, CalibrationError::Friction { joint: 1 }),
         (|joint| joint.input = 1, CalibrationError::Channels),
         (|joint| joint.output = 3, CalibrationError::Channels),
     ];
@@ -92,8 +94,6 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
     }
 }
 
-#[test]
-fn no_word_makes_a_device_that_none_is() {
 /// What a feed gives back of the back-EMF, V, at a rate of 2 rad/s.
 fn made_up_for(feed: Feed) -> f32 {
     let Feed::Voltage(VoltageFeed { supply, .. }) = feed else { panic!("a bridge") };
@@ -136,6 +136,8 @@ fn back_emf_is_made_up_for_the_way_a_motor_was_found_to_turn_and_never_by_more_t
     assert_eq!(built.calibrated(&kept()).unwrap().feeds, built.feeds);
 }
 
+#[test]
+fn no_word_makes_a_device_that_none_is() {
     // Numbers as they come, with the CRC that they have: what is taken is a device all the same.
     let mut random = 1_u32;
     let mut next = || {

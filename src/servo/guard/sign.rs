@@ -316,3 +316,35 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         state.force = of_torque * state.torque;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::commission::FRICTION_WITHIN;
+    use crate::device::presets::*;
+    use crate::device::{Device, Kinematics, Protection};
+
+    /// Whether each joint of a device moves far enough when it knocks in the middle of its workspace, though it sticks
+    /// as much as a calibration may say.
+    fn sees<K: Kinematics<3>>(device: &Device<K, 3>, protection: &Protection<3>, middle: [f32; 3]) {
+        let penalty = Penalty { stiffness: 600.0, damping: 2.0, max_force: device.max_force };
+        let of_range = device.kinematics.pose(device.joint_range.map(|[least, most]| 0.5 * (least + most)));
+        let friction = of_range.jacobian.map(|column| FRICTION_WITHIN * device.max_force * column.length());
+        let signs = Signs::new(&protection.signs.expect("watched"), friction, 4_000.0, &penalty);
+        for (joint, column) in device.kinematics.pose(middle).jacobian.into_iter().enumerate() {
+            let reach = column.length();
+            let most = (signs.force * reach).min(signs.way / (signs.yields[joint] * reach) + friction[joint]);
+            let way = (most - friction[joint]) * signs.yields[joint] * reach;
+            assert!(way >= LEAST, "joint {joint}: {most} N·m against {}: {way} m", friction[joint]);
+        }
+    }
+
+    #[test]
+    fn no_friction_that_a_calibration_may_say_keeps_a_knock_from_being_seen() {
+        sees(&WOODEN_HAPTICS_2016, &WOODEN_HAPTICS_2016_PROTECTION, [0.0, 0.5, 0.2]);
+        sees(&POLHEM_V2, &POLHEM_V2_PROTECTION, [0.0, 0.912_695, 2.360_105]);
+        sees(&PHANTOM_PREMIUM, &PHANTOM_PREMIUM_PROTECTION, [0.0, 1.570_796, 1.570_796]);
+        let middle = NOVINT_FALCON.kinematics.angles(Vec3::ZERO).expect("within reach");
+        sees(&NOVINT_FALCON, &NOVINT_FALCON_PROTECTION, middle);
+    }
+}
