@@ -172,18 +172,21 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         Self { when_asked: true, ..self }
     }
 
-    /// The same with encoders that were measured, whose [`Encoder::angle_at_zero`] is the joint's angle in the pose or
-    /// at the index mark that the homing knows. Stops stay where they are.
-    pub(crate) const fn of_encoders(self, encoders: [Encoder; JOINTS]) -> Self {
+    /// The same with encoders that were measured. Of a pose or a mark that the counters know nothing of, their
+    /// [`Encoder::angle_at_zero`] is the joint's angle there; of a known pose, whose counts are known, it is that at
+    /// count zero, and the pose's angles follow from it. Stops stay where they are.
+    pub(crate) fn of_encoders(self, encoders: [Encoder; JOINTS]) -> Self {
         let mut homing = Self { encoders, ..self };
-        if let Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles) =
-            &mut homing.reference
-        {
-            let mut joint = 0;
-            while joint < JOINTS {
-                angles[joint] = encoders[joint].angle_at_zero;
-                joint += 1;
+        match &mut homing.reference {
+            Reference::Pose(angles) | Reference::Index(angles) => {
+                *angles = encoders.map(|encoder| encoder.angle_at_zero);
             }
+            Reference::KnownPose { angles, counts, .. } => {
+                for ((angle, encoder), counts) in angles.iter_mut().zip(&encoders).zip(counts) {
+                    *angle = encoder.angle(*counts);
+                }
+            }
+            Reference::Stops(_) | Reference::Fields(_) => {}
         }
         homing
     }
@@ -366,6 +369,7 @@ impl<const JOINTS: usize> Homing<JOINTS> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::device::Commutation;
 
     const ENCODERS: [Encoder; 2] = [Encoder::geared(1_000.0, 1.0, 0.0), Encoder::geared(1_000.0, -2.0, 9.0)];
     const ANGLES: [f32; 2] = [0.5, -0.25];
@@ -458,6 +462,51 @@ mod tests {
             assert!((angle - expected).abs() < 1e-6);
         }
         assert_eq!(run(&homing, input(1)), (49, HomingProgress::Refused(Refusal::NoIndex)));
+    }
+
+    #[test]
+    fn with_encoders_that_were_measured_each_way_of_homing_has_the_angles_that_they_have() {
+        // The second joint's encoder was found finer and the other way round, and zero elsewhere.
+        let found = [Encoder::geared(1_000.0, 1.0, 0.3), Encoder::geared(1_000.0, 2.5, -0.7)];
+        let stop = |angle| StopSearch { angle, speed: 1.0, torque: 0.1, clearance: 0.1, travel: 1.0 };
+        let search = FieldSearch {
+            commutation: Commutation { counts_per_turn: 1_000, pole_pairs: 7 },
+            torque: 0.02,
+            ramp_ticks: 10,
+            turn_ticks: 64,
+            turns: 1,
+        };
+        let (zeroes, counts) = (found.map(|encoder| encoder.angle_at_zero), [Counts(100), Counts(-100)]);
+        for (built, expected) in [
+            // What was measured is the angle in the pose, or at the mark.
+            (Reference::Pose(ANGLES), Reference::Pose(zeroes)),
+            (Reference::Index(ANGLES), Reference::Index(zeroes)),
+            // What was measured is the angle at count zero, and the pose is elsewhere.
+            (
+                Reference::KnownPose { angles: ANGLES, counts, tolerance: 3 },
+                Reference::KnownPose {
+                    angles: [found[0].angle(counts[0]), found[1].angle(counts[1])],
+                    counts,
+                    tolerance: 3,
+                },
+            ),
+            // Stops and poles are where they are.
+            (Reference::Stops([stop(0.1), stop(0.2)]), Reference::Stops([stop(0.1), stop(0.2)])),
+            (Reference::Fields([search; 2]), Reference::Fields([search; 2])),
+        ] {
+            let homing = Homing::try_new(ENCODERS, built, 5, 1, 1_000).unwrap().when_asked();
+            let wanted = Homing::try_new(found, expected, 5, 1, 1_000).unwrap().when_asked();
+            assert_eq!(homing.of_encoders(found), wanted);
+        }
+        // In a known pose every angle is then what the encoders say by themselves.
+        let known = Reference::KnownPose { angles: ANGLES, counts, tolerance: 3 };
+        let (_, progress) = run(&homing(known).of_encoders(found), |_| at([102, -98]));
+        for (angle, expected) in
+            angles(progress, [500, 500]).into_iter().zip(found.map(|encoder| encoder.angle(Counts(500))))
+        {
+            // Two counts of the pose, 6 and 2.5 mrad each.
+            assert!((angle - expected).abs() < 0.013, "{angle} {expected}");
+        }
     }
 
     #[test]
