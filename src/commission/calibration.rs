@@ -2,14 +2,14 @@
 
 use super::{CalibrationError, Wiring};
 use crate::device::drive::{Feed, VoltageFeed};
-use crate::device::{Device, Encoder, Kinematics, Motor};
+use crate::device::{Device, Encoder, Kinematics, Motor, ZeroOf};
 use crate::patch::crc32;
 use core::f32::consts::TAU;
 
 /// First word of a record: `palc`.
 const MAGIC: u32 = u32::from_le_bytes(*b"palc");
 /// Which record this is: another version may mean something else by its words.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// A word of flash that was erased.
 const BLANK: u32 = u32::MAX;
 /// Words before the joints: magic, version and number of joints, inputs and outputs.
@@ -38,8 +38,9 @@ pub struct JointCalibration {
     pub output: u8,
     /// Joint angle a count, radians; negative where the encoder counts the other way.
     pub radians_per_count: f32,
-    /// Joint angle in the middle of count zero, radians. Where homing finds zero by a pose or an index, it is the
-    /// angle there.
+    /// What `angle_at_zero` is the angle at.
+    pub zero_of: ZeroOf,
+    /// Joint angle there, radians: in the middle of count zero, in the pose, or at the mark.
     pub angle_at_zero: f32,
     /// Joint torque at full duty, N·m; negative where the motor turns the joint the other way.
     pub torque_at_full: f32,
@@ -66,7 +67,9 @@ impl<const JOINTS: usize> Calibration<JOINTS> {
             self.0.iter().enumerate().fold(0, |channels, (joint, JointCalibration { input, output, .. })| {
                 channels | (u32::from(*input) | u32::from(*output) << 16) << (4 * joint)
             });
-        let head = [MAGIC, VERSION | (JOINTS as u32) << 16, channels];
+        let zeroes =
+            self.0.iter().enumerate().fold(0, |zeroes, (joint, found)| zeroes | (found.zero_of as u32) << (2 * joint));
+        let head = [MAGIC, VERSION | (JOINTS as u32) << 16 | zeroes << 24, channels];
         let numbers = self.0.iter().flat_map(|joint| {
             [joint.radians_per_count, joint.angle_at_zero, joint.torque_at_full, joint.dry_friction].map(f32::to_bits)
         });
@@ -102,7 +105,7 @@ impl<const JOINTS: usize> Calibration<JOINTS> {
         if *magic != MAGIC || crc_of(content) != *crc {
             return Err(CalibrationError::Damaged);
         }
-        let (version, joints) = (shape & 0xffff, shape >> 16);
+        let (version, joints, zeroes) = (shape & 0xffff, shape >> 16 & 0xff, shape >> 24);
         if version != VERSION {
             return Err(CalibrationError::Version { version: version as u16 });
         }
@@ -113,9 +116,36 @@ impl<const JOINTS: usize> Calibration<JOINTS> {
         for (joint, (found, words)) in found.iter_mut().zip(joints).enumerate() {
             let [radians_per_count, angle_at_zero, torque_at_full, dry_friction] = words.map(f32::from_bits);
             let [input, output] = [0, 16].map(|side| (channels >> (side + 4 * joint) & 15) as u8);
-            *found = JointCalibration { input, output, radians_per_count, angle_at_zero, torque_at_full, dry_friction };
+            let zero_of = match zeroes >> (2 * joint) & 3 {
+                0 => ZeroOf::Count,
+                1 => ZeroOf::Pose,
+                2 => ZeroOf::Mark,
+                _ => return Err(CalibrationError::Damaged),
+            };
+            *found = JointCalibration {
+                input,
+                output,
+                radians_per_count,
+                zero_of,
+                angle_at_zero,
+                torque_at_full,
+                dry_friction,
+            };
         }
         Ok(Self(found))
+    }
+
+    /// Checks that its zeroes are of what a device is homed by ([`crate::device::Homing::zero_of`]); all are where that
+    /// is found out anew each time.
+    ///
+    /// # Errors
+    /// [`CalibrationError::ZeroOf`], with the first joint whose zero is of another kind.
+    pub fn check_zeroes(&self, homed_by: Option<ZeroOf>) -> Result<(), CalibrationError> {
+        let is_other = |joint: &JointCalibration| homed_by.is_some_and(|wanted| joint.zero_of != wanted);
+        match self.0.iter().position(is_other) {
+            Some(joint) => Err(CalibrationError::ZeroOf { joint: joint as u8 }),
+            None => Ok(()),
+        }
     }
 
     /// Which input and output each joint is on.

@@ -61,4 +61,10 @@ pub enum CalibrationError {
         /// Which.
         joint: u8,
     },
+    /// The zero is that of another way of homing: of a pose, of a mark, or of none.
+    #[error("joint {joint}: the zero is not of what this device is homed by: a pose, a mark, or none; measure it anew")]
+    ZeroOf {
+        /// Which.
+        joint: u8,
+    },
 }

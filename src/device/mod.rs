@@ -31,7 +31,7 @@ pub use dial::Dial;
 pub use encoder::{Counts, Encoder};
 pub use five_bar::FiveBar;
 pub use homing::{
-    FieldSearch, Homing, HomingError, HomingInput, HomingProgress, HomingState, Reference, Refusal, StopSearch,
+    FieldSearch, Homing, HomingError, HomingInput, HomingProgress, HomingState, Reference, Refusal, StopSearch, ZeroOf,
 };
 pub use linkage_arm::{LinkMass, LinkageArm};
 pub use motor::{Duty, Motor};

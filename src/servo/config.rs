@@ -5,7 +5,7 @@ use super::{
     Fault, Guard, Guarded, Phase, ProtectionError, Rendering, RenderingError, ResetReason, Safety, SafetyError,
     ServoState, Settings, SettingsError, Stillness, Surface, TableCheck, Unguarded,
 };
-use crate::device::{Device, Duty, Homing, HomingState, Kinematics, Protection, VelocityEstimator};
+use crate::device::{Device, Duty, Homing, HomingState, Kinematics, Protection, VelocityEstimator, ZeroOf};
 use crate::math::Vec3;
 use crate::render::{Anchor, Eased, Energy, Penalty, Tool};
 use crate::track::Controller;
@@ -253,6 +253,15 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
             Err(SafetyError::LinkTimeout) => panic!("link_timeout"),
             Err(SafetyError::Stuck) => panic!("stuck"),
             Err(SafetyError::Contact) => panic!("contact"),
+        }
+    }
+
+    /// What the encoders' zeroes have to be the joints' angles at, for this loop's homing; `None` where that is found out
+    /// anew each time.
+    pub const fn zero_of(&self) -> Option<ZeroOf> {
+        match &self.homing {
+            Some(homing) => homing.zero_of(),
+            None => Some(ZeroOf::Count),
         }
     }
 

@@ -39,7 +39,8 @@ fn main() -> ! {
 
     let (producer, records) = QUEUE.split();
     let Some(flash) = FileFlash::open() else { panic!("it is opened here and nowhere else") };
-    let (kept, found) = KeptCalibration::find(flash, &BUILT);
+    // Nothing homes it: its counters are the simulation's, which begin in the pose.
+    let (kept, found) = KeptCalibration::find(flash, &BUILT, None);
     let felt = Measured::try_new(found);
     free(|section| HANDED_OVER.borrow(section).set(felt.map(|felt| (felt, producer))));
     let mut idle =

@@ -3,7 +3,7 @@
 use core::cell::RefCell;
 use embedded_storage::nor_flash::NorFlash;
 use palpate::commission::{Calibration, CalibrationError, JointCalibration, Wiring};
-use palpate::device::{Device, Kinematics};
+use palpate::device::{Device, Kinematics, ZeroOf};
 use palpate::wire::{Calibrated, KeepError};
 use palpate_bench::Calibrations;
 
@@ -18,6 +18,8 @@ const HEAD: usize = 8;
 pub struct KeptCalibration<F, K: 'static, const JOINTS: usize> {
     flash: RefCell<F>,
     built: &'static Device<K, JOINTS>,
+    /// What the zeroes have to be of; `None` where it does not matter.
+    homed_by: Option<ZeroOf>,
     in_use: Calibrated,
 }
 
@@ -34,13 +36,15 @@ pub struct Found<K, const JOINTS: usize> {
 
 impl<F: NorFlash, K: Kinematics<JOINTS> + Copy, const JOINTS: usize> KeptCalibration<F, K, JOINTS> {
     /// Looks for a calibration, before the loop is made. Where none is kept, or one that cannot be used, the device is
-    /// what it was built with; [`Calibrations::in_use`] says which.
-    pub fn find(flash: F, built: &'static Device<K, JOINTS>) -> (Self, Found<K, JOINTS>) {
+    /// what it was built with; [`Calibrations::in_use`] says which. One whose zeroes are not of what the device is homed
+    /// by ([`palpate::device::Homing::zero_of`]; [`ZeroOf::Count`] without homing) is not used.
+    pub fn find(flash: F, built: &'static Device<K, JOINTS>, homed_by: Option<ZeroOf>) -> (Self, Found<K, JOINTS>) {
         const { assert!(HEAD.is_multiple_of(F::WRITE_SIZE), "a head is written whole") };
         const { assert!(HEAD.is_multiple_of(F::READ_SIZE), "a record is read whole") };
-        let mut kept = Self { flash: RefCell::new(flash), built, in_use: Calibrated::BuiltIn };
+        let mut kept = Self { flash: RefCell::new(flash), built, homed_by, in_use: Calibrated::BuiltIn };
         let found = kept.read().and_then(|words| {
             let calibration = Calibration::from_words(&words)?;
+            calibration.check_zeroes(homed_by)?;
             let (device, wiring) = (built.calibrated(&calibration)?, calibration.wiring()?);
             kept.in_use = Calibrated::Kept { crc: calibration.crc() };
             Ok(Found { device, wiring, is_miscalibrated: false })
@@ -103,6 +107,7 @@ impl<F: NorFlash, K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Calibration
         if let Some(joints) = joints {
             let joints = joints.first_chunk().ok_or(KeepError::Calibration(CalibrationError::Joints { joints: 3 }))?;
             let calibration = Calibration(*joints);
+            calibration.check_zeroes(self.homed_by).map_err(KeepError::Calibration)?;
             self.built.calibrated(&calibration).map_err(KeepError::Calibration)?;
             words = Some(calibration.to_words());
         }

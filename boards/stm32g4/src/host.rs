@@ -42,7 +42,7 @@ static CALIBRATION: HandOver<Calibration> = HandOver::new();
 /// middle of are no body, and are erased; and no calibration, which is said.
 pub fn find(flash: FLASH) -> Option<Found<SerialArm, 3>> {
     let [bodies, calibration] = Bank2::try_new(flash)?;
-    let ((kept, found), is_damaged) = damage::watched(|| Calibration::find(calibration, &DEVICE));
+    let ((kept, found), is_damaged) = damage::watched(|| Calibration::find(calibration, &DEVICE, felt::homed_by()));
     let (kept, found) = if is_damaged { kept.damaged() } else { (kept, found) };
     CALIBRATION.give(kept);
     let (end, is_damaged) = damage::watched(|| SHELF.main(bodies, &mut || ()));

@@ -12,6 +12,7 @@ pub use constant::{settings_source, source};
 pub use preset::Preset;
 pub use read::{DeviceFileError, OwnDevice};
 pub use schema::{
-    BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry, MechanismEntry, MotorEntry,
+    BridgeEntry, DeviceFile, EncoderEntry, HomingEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry,
+    MechanismEntry, MotorEntry,
 };
 pub use shipped::{file_of, protection_of};

@@ -8,12 +8,26 @@ use serde::{Deserialize, Serialize};
 pub struct DeviceFile {
     /// What it is called.
     pub name: String,
+    /// By what its board finds where the joints are.
+    #[serde(default)]
+    pub homing: HomingEntry,
     /// The mechanism.
     pub mechanism: MechanismEntry,
     /// What the whole device bears.
     pub limits: LimitsEntry,
     /// Its three joints, in the mechanism's order.
     pub joint: Vec<JointEntry>,
+}
+
+/// By what a board finds where the joints are: what the encoders' zeroes are the angles of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HomingEntry {
+    /// The counters begin anywhere, and the hand holds the device in a pose: `zero` is the angle there.
+    #[default]
+    Pose,
+    /// By nothing: the counters know it, and `zero` is the angle where they are zero.
+    None,
 }
 
 /// The mechanism and its lengths, metres.

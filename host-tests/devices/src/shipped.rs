@@ -1,7 +1,8 @@
 //! The device file of a device that ships: where one's own begins.
 
 use super::schema::{
-    BridgeEntry, DeviceFile, EncoderEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry, MechanismEntry, MotorEntry,
+    BridgeEntry, DeviceFile, EncoderEntry, HomingEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry,
+    MechanismEntry, MotorEntry,
 };
 use crate::preset::Preset;
 use palpate::device::drive::Feed;
@@ -63,7 +64,7 @@ pub fn file_of(name: &str, preset: Preset, plant: &PlantSettings) -> Option<Devi
         Preset::FiveBar(_) | Preset::Paddle(_) => return None,
     };
     let (limits, joint) = rest;
-    Some(DeviceFile { name: name.to_owned(), mechanism, limits, joint })
+    Some(DeviceFile { name: name.to_owned(), homing: HomingEntry::Pose, mechanism, limits, joint })
 }
 
 /// What protects a shipped device of three joints.

@@ -8,6 +8,7 @@ fn kept() -> Calibration<3> {
         input: [2, 0, 1][joint],
         output: [0, 2, 1][joint],
         radians_per_count: DEVICE.encoders[joint].radians_per_count,
+        zero_of: [ZeroOf::Pose, ZeroOf::Mark, ZeroOf::Count][joint],
         angle_at_zero: DEVICE.encoders[joint].angle_at_zero,
         torque_at_full: DEVICE.motors[joint].torque_at_full,
         dry_friction: DEVICE.dry_friction[joint],
@@ -35,10 +36,15 @@ fn what_was_written_is_read_and_nothing_else_is() {
         worn[bit / 32] ^= 1 << (bit % 32);
         assert!(!matches!(Calibration::<3>::from_words(&worn), Ok(_) | Err(CalibrationError::Absent)), "bit {bit}");
     }
+    let of = |zero_of| Calibration(kept().0.map(|joint| JointCalibration { zero_of, ..joint }));
+    assert_eq!(of(ZeroOf::Mark).check_zeroes(Some(ZeroOf::Mark)), Ok(()));
+    assert_eq!(of(ZeroOf::Mark).check_zeroes(Some(ZeroOf::Pose)), Err(CalibrationError::ZeroOf { joint: 0 }));
+    assert_eq!(kept().check_zeroes(Some(ZeroOf::Pose)), Err(CalibrationError::ZeroOf { joint: 1 }));
+    assert_eq!(kept().check_zeroes(None), Ok(()));
     let mut newer = words;
     newer[1] += 1;
     newer[15] = crc_of(&newer[..15]);
-    assert_eq!(Calibration::<3>::from_words(&newer), Err(CalibrationError::Version { version: 2 }));
+    assert_eq!(Calibration::<3>::from_words(&newer), Err(CalibrationError::Version { version: 3 }));
 }
 
 #[test]

@@ -41,6 +41,21 @@ pub enum Reference<const JOINTS: usize> {
     Fields([FieldSearch; JOINTS]),
 }
 
+/// What an encoder's [`Encoder::angle_at_zero`] is the joint's angle at: a number that was measured for one of them says
+/// nothing of another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ZeroOf {
+    /// Count zero, of sensors that know it after each reset.
+    #[default]
+    Count,
+    /// The pose in which the device is homed ([`Reference::Pose`]).
+    Pose,
+    /// The joint's index mark ([`Reference::Index`]).
+    Mark,
+}
+
 /// How a device finds its joint angles. Constant, in flash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Homing<const JOINTS: usize> {
@@ -189,6 +204,16 @@ impl<const JOINTS: usize> Homing<JOINTS> {
             Reference::Stops(_) | Reference::Fields(_) => {}
         }
         homing
+    }
+
+    /// What the encoders' [`Encoder::angle_at_zero`] has to be the angle at; `None` where it is found out anew each time.
+    pub const fn zero_of(&self) -> Option<ZeroOf> {
+        match &self.reference {
+            Reference::Pose(_) => Some(ZeroOf::Pose),
+            Reference::Index(_) => Some(ZeroOf::Mark),
+            Reference::KnownPose { .. } | Reference::Fields(_) => Some(ZeroOf::Count),
+            Reference::Stops(_) => None,
+        }
     }
 
     /// Whether it goes on only while force is asked for.

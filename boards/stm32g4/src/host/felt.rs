@@ -6,7 +6,7 @@
 mod hosted;
 
 use palpate::commission::Wiring;
-use palpate::device::{Device, SerialArm};
+use palpate::device::{Device, SerialArm, ZeroOf};
 use palpate::servo::{Guarded, Servo};
 use palpate_bench::Felt;
 use palpate_shelf::Found;
@@ -20,6 +20,11 @@ pub struct This {
     servo: Servo<'static, Surface, SerialArm, 3, Guarded<3>>,
     wiring: Wiring<3>,
     is_miscalibrated: bool,
+}
+
+/// What the zeroes of a calibration have to be of.
+pub fn homed_by() -> Option<ZeroOf> {
+    servo().zero_of()
 }
 
 static FOUND: StaticCell<Device<SerialArm, 3>> = StaticCell::new();

@@ -2,7 +2,7 @@
 
 use super::finding::differs;
 use super::{Finding, Lab, Zero};
-use crate::own::DeviceFile;
+use crate::own::{DeviceFile, HomingEntry};
 use anyhow::bail;
 use std::f64::consts::TAU;
 
@@ -11,13 +11,19 @@ const TURN: f64 = 0.15;
 /// Fewer counts than this between the two angles are no encoder.
 const LEAST: i32 = 50;
 
-/// Finds them and writes them into the file.
+/// Finds them and writes them into the file. The counters begin wherever the joints stood at the board's reset: of a
+/// device that is homed by a pose, zero is the angle there.
 pub(super) fn find_encoders(
     lab: &mut Lab,
     file: &mut DeviceFile,
     (centre, by): ([f64; 3], Zero),
     findings: &mut Vec<Finding>,
 ) -> anyhow::Result<()> {
+    let file_pose = core::array::from_fn(|joint| file.joint[joint].encoder.zero);
+    let pose = match file.homing {
+        HomingEntry::Pose => lab.pose(file_pose)?,
+        HomingEntry::None => [0; 3],
+    };
     for index in 0..3 {
         let [low, high] = match by {
             Zero::Jig => [centre[index] - TURN, centre[index] + TURN],
@@ -54,7 +60,7 @@ pub(super) fn find_encoders(
             entry.channel = input;
         }
         let count = TAU / (entry.counts * entry.ratio);
-        let zero = low - (f64::from(first[input]) + 0.5) * count;
+        let zero = low - (f64::from(first[input].wrapping_sub(pose[input])) + 0.5) * count;
         if (zero - entry.zero).abs() > 2.0 * count.abs() {
             findings.push(Finding(format!("joint {name}: encoder zero {zero:.4} rad, not {:.4}", entry.zero)));
             entry.zero = zero;

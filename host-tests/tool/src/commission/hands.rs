@@ -8,6 +8,12 @@ pub trait Hands {
     /// Nobody is there any more.
     fn place(&mut self, angles: [f64; 3]) -> anyhow::Result<()>;
 
+    /// Holds the device in the pose in which it is homed, which its file has at these angles, rad.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<()>;
+
     /// Lets one joint rest against a support where it is, so that its motor can move it only one way, `towards` rising
     /// angles (1) or falling ones (−1); goes on holding the others.
     ///

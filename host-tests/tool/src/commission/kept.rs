@@ -1,9 +1,9 @@
 //! What was measured, as the device keeps it.
 
-use crate::own::OwnDevice;
+use crate::own::{HomingEntry, OwnDevice};
 use crate::preset::Preset;
 use palpate::commission::{Calibration, JointCalibration};
-use palpate::device::Device;
+use palpate::device::{Device, ZeroOf};
 
 /// What a device of three joints keeps of a file; `None` of one with fewer.
 pub fn calibration(own: &OwnDevice) -> Option<Calibration<3>> {
@@ -21,6 +21,10 @@ fn of<K>(own: &OwnDevice, device: &Device<K, 3>) -> Calibration<3> {
         input: own.file.joint[joint].encoder.channel as u8,
         output: own.file.joint[joint].motor.channel as u8,
         radians_per_count: device.encoders[joint].radians_per_count,
+        zero_of: match own.file.homing {
+            HomingEntry::Pose => ZeroOf::Pose,
+            HomingEntry::None => ZeroOf::Count,
+        },
         angle_at_zero: device.encoders[joint].angle_at_zero,
         torque_at_full: device.motors[joint].torque_at_full,
         dry_friction: device.dry_friction[joint],

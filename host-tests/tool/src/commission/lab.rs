@@ -36,9 +36,22 @@ impl Lab {
     /// # Errors
     /// A line that fell silent, or joints that do not come to rest.
     pub fn place(&mut self, angles: [f64; 3]) -> anyhow::Result<[i32; 3]> {
+        self.still(|hands| hands.place(angles))
+    }
+
+    /// The same in the pose in which the device is homed, which its file has at these angles.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    pub fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<[i32; 3]> {
+        self.still(|hands| hands.pose(angles))
+    }
+
+    /// The counts once the hands have done something, and the joints are still.
+    fn still(&mut self, what: impl FnOnce(&mut dyn Hands) -> anyhow::Result<()>) -> anyhow::Result<[i32; 3]> {
         // The key is let go before anybody reaches in.
         self.device.step(None)?;
-        self.hands.place(angles)?;
+        what(&mut *self.hands)?;
         let (mut began, mut still) = (self.device.step(None)?.counts, 0);
         for _ in 0..MOST {
             let counts = self.device.step(None)?.counts;

@@ -1,12 +1,12 @@
 //! The loop of the boards, compiled for the host, on a simulated board.
 
 use super::{Line, RATE, World};
-use crate::own::OwnDevice;
+use crate::own::{HomingEntry, OwnDevice};
 use crate::preset::Preset;
 use crate::wall::WALL;
 use anyhow::{Context as _, bail};
 use palpate::commission::Wiring;
-use palpate::device::{Counts, Device, Duty, Kinematics, Protection};
+use palpate::device::{Counts, Device, Duty, Homing, Kinematics, Protection, Reference};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
 use palpate::servo::{Guarded, Heartbeat, ResetReason, Servo, Settings};
@@ -153,9 +153,9 @@ impl HostLine {
     /// A device of fewer joints, or settings that it does not take.
     pub fn new(own: &OwnDevice, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
         match own.preset {
-            Preset::SerialArm(device) => Self::of(device, own.protection, world),
-            Preset::LinkageArm(device) => Self::of(device, own.protection, world),
-            Preset::Delta(device) => Self::of(device, own.protection, world),
+            Preset::SerialArm(device) => Self::of(device, own.protection, own.file.homing, world),
+            Preset::LinkageArm(device) => Self::of(device, own.protection, own.file.homing, world),
+            Preset::Delta(device) => Self::of(device, own.protection, own.file.homing, world),
             Preset::FiveBar(_) | Preset::Paddle(_) => bail!("{} has too few joints", own.file.name),
         }
     }
@@ -163,11 +163,12 @@ impl HostLine {
     fn of<K: Kinematics<3> + Copy>(
         device: &'static Device<K, 3>,
         protection: Protection<3>,
+        homing: HomingEntry,
         world: &Arc<Mutex<World>>,
     ) -> anyhow::Result<Self> {
         let flash: &'static Flash = Box::leak(Box::new(Flash::new()));
         let world = Arc::clone(world);
-        let start = Box::new(move |flash| started((device, protection), &world, flash));
+        let start = Box::new(move |flash| started((device, protection), homing, &world, flash));
         let (bench, idle) = start(flash)?;
         Ok(Self { bench, idle, bytes: Bytes::default(), flash, start })
     }
@@ -177,6 +178,7 @@ impl HostLine {
 /// do.
 fn started<K: Kinematics<3> + Copy>(
     (built, protection): (&'static Device<K, 3>, Protection<3>),
+    homing: HomingEntry,
     world: &Arc<Mutex<World>>,
     flash: &'static Flash,
 ) -> anyhow::Result<Started> {
@@ -190,10 +192,20 @@ fn started<K: Kinematics<3> + Copy>(
         body_origin: vec3(0.0, 0.0, -1.0),
     };
     let writer = flash.writer().context("its flash has a writer already")?;
-    let (kept, found) = KeptCalibration::find(writer, built);
-    let Found { device, wiring, is_miscalibrated } = found;
     let servo = Servo::try_new(built, &WALL, Controller::SECOND_ORDER, settings)?.try_protect(protection)?;
+    // As the boards are homed.
+    let (still, patience) = ((0.1 * RATE) as u32, (10.0 * RATE) as u32);
+    let by = |reference| Homing::try_new(built.encoders, reference, still, 4, patience).map(Homing::when_asked);
+    let servo = match homing {
+        HomingEntry::Pose => servo.homing(by(Reference::Pose(built.angles_at_zero()))?),
+        HomingEntry::None => servo,
+    };
+    let (kept, found) = KeptCalibration::find(writer, built, servo.zero_of());
+    let Found { device, wiring, is_miscalibrated } = found;
     let made = Made { servo: servo.calibrated(Box::leak(Box::new(device))), wiring, is_miscalibrated };
+    if homing != HomingEntry::None {
+        world.lock().unwrap_or_else(PoisonError::into_inner).begin_to_count();
+    }
     let board = SimulatedBoard { world: Arc::clone(world), duties: [0; 3] };
     let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
     let queue: &'static mut Queue<Record, 16> = Box::leak(Box::new(Queue::new()));

@@ -39,6 +39,17 @@ impl Hands for Person {
         self.ask(&format!("Put joint {}, and hold them there. Enter when they are.", places.join(", "))).map(drop)
     }
 
+    fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<()> {
+        let places = self.names.iter().zip(angles);
+        let places: Vec<_> = places.map(|(name, angle)| format!("{name} at {:.2}°", angle.to_degrees())).collect();
+        self.ask(&format!(
+            "Hold the arm in the very pose in which you will hold it whenever its board is homed (as the file has it, \
+             joint {}): what is measured is where that is. Enter when it is.",
+            places.join(", ")
+        ))
+        .map(drop)
+    }
+
     fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()> {
         let (name, way) = (&self.names[joint], if towards > 0.0 { "rising" } else { "falling" });
         let what = format!(

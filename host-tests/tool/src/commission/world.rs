@@ -13,6 +13,8 @@ pub struct World {
     planted: Planted,
     /// The enable button is pressed.
     pub enable: bool,
+    /// The inputs' counts where the board began to count.
+    began: [i32; 3],
     /// Where the far end of the soft spring is.
     far: Shared<Vector>,
 }
@@ -44,7 +46,7 @@ impl World {
         let far = Arc::new(Mutex::new([0.0; 3]));
         let hand = HandSettings { stiffness: SOFT, damping: 0.0, mass: 0.0 };
         let plant = Plant::new(&planted.plant, hand, Box::new(Far(Arc::clone(&far))), f64::from(RATE))?;
-        let mut world = Self { plant, planted, enable: false, far };
+        let mut world = Self { plant, planted, enable: false, began: [0; 3], far };
         world.place(world.plant.angles());
         Ok(world)
     }
@@ -57,8 +59,19 @@ impl World {
         Ok(Arc::new(Mutex::new(Self::new(planted)?)))
     }
 
+    /// The board is reset: its counters begin at zero where the joints stand. Before that they are zero where the joints
+    /// are in the pose in which the device is homed, as those of sensors are that know it.
+    pub fn begin_to_count(&mut self) {
+        self.began = self.at_inputs();
+    }
+
     /// The counts at the board's inputs.
     pub fn counts(&self) -> [i32; 3] {
+        let now = self.at_inputs();
+        core::array::from_fn(|input| now[input].wrapping_sub(self.began[input]))
+    }
+
+    fn at_inputs(&self) -> [i32; 3] {
         let joints = self.plant.counts();
         self.planted.encoder_on.map(|joint| joints[joint])
     }
@@ -99,6 +112,12 @@ impl Hands for SimulatedHands {
         self.held = angles;
         lock(&self.world).place(angles);
         Ok(())
+    }
+
+    fn pose(&mut self, _: [f64; 3]) -> anyhow::Result<()> {
+        // Wherever the file has it.
+        let pose = lock(&self.world).planted.plant.joints.map(|joint| joint.angle_at_zero);
+        self.place(pose)
     }
 
     fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()> {

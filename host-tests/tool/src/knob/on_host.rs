@@ -52,6 +52,10 @@ impl Hands for SharedKnob {
         bail!("a knob has no joints to put anywhere")
     }
 
+    fn pose(&mut self, _: [f64; 3]) -> anyhow::Result<()> {
+        bail!("a knob is homed by its field")
+    }
+
     fn rest(&mut self, _: usize, _: f64) -> anyhow::Result<()> {
         bail!("a knob rests by itself")
     }

@@ -6,7 +6,7 @@ use crate::rig::{Made, Rig, SETTINGS, WALL, held_at, settings};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use palpate::commission::{Calibration, CalibrationError, Jog, JointCalibration, KEY};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Device as Built, Encoder, SerialArm};
+use palpate::device::{Device as Built, Encoder, SerialArm, ZeroOf};
 use palpate::servo::{Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
@@ -108,17 +108,21 @@ fn joints() -> [JointCalibration; 3] {
         input: joint as u8,
         output: joint as u8,
         radians_per_count: DEVICE.encoders[joint].radians_per_count,
+        zero_of: ZeroOf::Count,
         angle_at_zero: DEVICE.encoders[joint].angle_at_zero + [0.0, 0.01, 0.0][joint],
         torque_at_full: DEVICE.motors[joint].torque_at_full * [1.0, 1.0, 0.8][joint],
         dry_friction: 0.02,
     })
 }
 
+/// The loops of these tests begin where their counters are zero.
+const NOT_HOMED: Option<ZeroOf> = Some(ZeroOf::Count);
+
 type Kept = KeptCalibration<Page, SerialArm, 3>;
 
 /// What is found at a start with this flash.
 fn found(page: &Page) -> Calibrated {
-    Kept::find(page.clone(), &DEVICE).0.in_use()
+    Kept::find(page.clone(), &DEVICE, NOT_HOMED).0.in_use()
 }
 
 /// A device from its reset on, with what its flash has.
@@ -136,7 +140,7 @@ struct Device {
 
 impl Device {
     fn start(page: &Page, reset: ResetReason) -> Self {
-        let (kept, found) = Kept::find(page.clone(), &DEVICE);
+        let (kept, found) = Kept::find(page.clone(), &DEVICE, NOT_HOMED);
         let device: &'static _ = Box::leak(Box::new(found.device));
         let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
         let built = Servo::new(&DEVICE, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
@@ -354,7 +358,8 @@ fn what_cannot_be_this_device_is_refused_by_its_joint_and_what_is_kept_stays() {
     let mut device = Device::set_up(&page);
     assert_eq!(device.keep(Some(joints())), None);
     let before = *page.0.bytes.borrow();
-    let wrong: [(Spoil, CalibrationError); 4] = [
+    let wrong: [(Spoil, CalibrationError); 5] = [
+        (|joints| joints[2].zero_of = ZeroOf::Pose, CalibrationError::ZeroOf { joint: 2 }),
         (|joints| joints[2].radians_per_count *= 8.0, CalibrationError::Encoder { joint: 2 }),
         (|joints| joints[0].torque_at_full = f32::NAN, CalibrationError::NotFinite { joint: 0 }),
         (|joints| joints[1].torque_at_full *= 0.3, CalibrationError::Torque { joint: 1 }),
@@ -371,7 +376,7 @@ fn what_cannot_be_this_device_is_refused_by_its_joint_and_what_is_kept_stays() {
 #[test]
 fn whenever_the_power_goes_there_is_the_whole_calibration_or_none() {
     let old = Page::erased();
-    assert_eq!(Kept::find(old.clone(), &DEVICE).0.keep(Some(&joints())), Ok(()));
+    assert_eq!(Kept::find(old.clone(), &DEVICE, NOT_HOMED).0.keep(Some(&joints())), Ok(()));
     let kept = Calibrated::Kept { crc: Calibration(joints()).crc() };
     let mut other = joints();
     other[0].dry_friction = 0.03;
@@ -402,7 +407,7 @@ fn whenever_the_power_goes_there_is_the_whole_calibration_or_none() {
 #[test]
 fn any_bit_that_flips_is_found_and_keeps_the_motors_off_whatever_is_pressed_or_said() {
     let good = Page::erased();
-    assert_eq!(Kept::find(good.clone(), &DEVICE).0.keep(Some(&joints())), Ok(()));
+    assert_eq!(Kept::find(good.clone(), &DEVICE, NOT_HOMED).0.keep(Some(&joints())), Ok(()));
     for bit in 0..64 * 8 {
         let page = Page::of(*good.0.bytes.borrow());
         page.0.bytes.borrow_mut()[bit / 8] ^= 1 << (bit % 8);
@@ -461,12 +466,19 @@ fn a_record_of_another_device_is_refused_by_name() {
         place.copy_from_slice(&word.to_le_bytes());
     }
     assert_eq!(found(&page), Calibrated::Refused(CalibrationError::Joints { joints: 2 }));
+    // Of this very arm, homed by its marks before and by a pose with the firmware of now.
+    let page = Page::erased();
+    let of_marks = joints().map(|joint| JointCalibration { zero_of: ZeroOf::Mark, ..joint });
+    assert_eq!(Kept::find(page.clone(), &DEVICE, Some(ZeroOf::Mark)).0.keep(Some(&of_marks)), Ok(()));
+    let (kept, found) = Kept::find(page, &DEVICE, Some(ZeroOf::Pose));
+    assert_eq!(kept.in_use(), Calibrated::Refused(CalibrationError::ZeroOf { joint: 0 }));
+    assert!(found.is_miscalibrated && found.device.encoders == DEVICE.encoders);
     // Whole and finite, and of an arm whose encoders are not these.
     static COARSE: Built<SerialArm, 3> =
         Built { encoders: [Encoder::geared(100.0, 1.0, 0.0); 3], ..WOODEN_HAPTICS_2016 };
     let page = Page::erased();
-    assert_eq!(Kept::find(page.clone(), &DEVICE).0.keep(Some(&joints())), Ok(()));
-    let (kept, found) = Kept::find(page, &COARSE);
+    assert_eq!(Kept::find(page.clone(), &DEVICE, NOT_HOMED).0.keep(Some(&joints())), Ok(()));
+    let (kept, found) = Kept::find(page, &COARSE, NOT_HOMED);
     assert_eq!(kept.in_use(), Calibrated::Refused(CalibrationError::Encoder { joint: 0 }));
     assert!(found.is_miscalibrated && found.device.encoders == COARSE.encoders);
 }

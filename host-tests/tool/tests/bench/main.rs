@@ -8,6 +8,7 @@ mod frames;
 mod guarded;
 mod homing;
 mod idle;
+mod kept_zero;
 mod knob;
 mod knob_orders;
 mod knob_set_up;

@@ -274,6 +274,9 @@ fn nothing_is_found_without_the_enable_button_or_the_key() {
         fn place(&mut self, angles: [f64; 3]) -> anyhow::Result<()> {
             self.0.place(angles)
         }
+        fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<()> {
+            self.0.pose(angles)
+        }
         fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()> {
             self.0.rest(joint, towards)
         }

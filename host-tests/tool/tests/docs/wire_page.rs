@@ -5,6 +5,7 @@
 //! tables anew.
 
 use palpate::commission::{CalibrationError, Jog, JointCalibration, KEY};
+use palpate::device::ZeroOf;
 use palpate::scene::{Order, Pose, SceneError};
 use palpate::wire::acceptance::{Counted, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{MAX_FRAME, pack};
@@ -245,6 +246,7 @@ fn refused_calibration() -> String {
         CalibrationError::Zero { joint: 7 },
         CalibrationError::Torque { joint: 7 },
         CalibrationError::Friction { joint: 7 },
+        CalibrationError::ZeroOf { joint: 7 },
     ];
     let mut section = String::new();
     for (number, error) in (0..).zip(errors) {
@@ -271,6 +273,7 @@ fn calibrate() -> String {
         input: joint,
         output: joint,
         radians_per_count: 0.000_25,
+        zero_of: ZeroOf::Pose,
         angle_at_zero: 0.5,
         torque_at_full: -0.9,
         dry_friction: 0.01,
@@ -281,6 +284,7 @@ fn calibrate() -> String {
         fields.push(byte("input", joint.input));
         fields.push(byte("output", joint.output));
         fields.push(floats("radians_per_count", &[joint.radians_per_count]));
+        fields.push(vars("zero_of", joint.zero_of as u32));
         fields.push(floats("angle_at_zero", &[joint.angle_at_zero]));
         fields.push(floats("torque_at_full", &[joint.torque_at_full]));
         fields.push(floats("dry_friction", &[joint.dry_friction]));
