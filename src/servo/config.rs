@@ -256,8 +256,8 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
         }
     }
 
-    /// What the encoders' zeroes have to be the joints' angles at, for this loop's homing; `None` where that is found out
-    /// anew each time.
+    /// What the encoders' zeroes have to be the joints' angles at, for this loop's homing; `None` where that is found
+    /// out anew each time.
     pub const fn zero_of(&self) -> Option<ZeroOf> {
         match &self.homing {
             Some(homing) => homing.zero_of(),

@@ -28,6 +28,18 @@ pub enum Told {
     View(View),
     /// After each hello, by a device that can keep a calibration in flash: which one it uses.
     Calibrated(Calibrated),
+    /// From a device that is being set up, whose inputs have index marks: where they were passed.
+    Marked(Marked),
+}
+
+/// Index marks that were passed while a device is being set up, by the board's inputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Marked {
+    /// The count at which each input's mark was passed last.
+    pub counts: [i32; 3],
+    /// How often it was, wrapping; 0 of an input whose mark was not passed yet.
+    pub passes: [u16; 3],
 }
 
 /// Which calibration a device uses since its last reset.

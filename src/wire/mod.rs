@@ -20,6 +20,6 @@ mod message;
 mod report;
 pub mod telemetry;
 mod upload;
-pub use dialogue::{Answer, Calibrated, Hello, KeepError, PROTOCOL, Refused, Told, View};
+pub use dialogue::{Answer, Calibrated, Hello, KeepError, Marked, PROTOCOL, Refused, Told, View};
 pub use message::{Command, Reading, Record, Report, Sensors, hold};
 pub use upload::{CHUNK, Upload, UploadError};

@@ -143,7 +143,10 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         let enable = asks || homes;
 
         let input = match self.board.read() {
-            Ok(counts) => Input::Sensors { counts: self.felt.wiring().joints(counts), enable },
+            Ok(counts) => {
+                self.note_marks(enable);
+                Input::Sensors { counts: self.felt.wiring().joints(counts), enable }
+            }
             Err(BadFrame::Absent) => Input::Lost,
             Err(BadFrame::Damaged | BadFrame::Jumped) => Input::Damaged,
         };
@@ -183,6 +186,18 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             self.began = None;
         }
         is_over
+    }
+
+    /// Index marks that joints have passed, by whoever homes the device: those that were passed while the button was up
+    /// say nothing, for another mark may have been nearer then. No motor is driven for them.
+    #[inline]
+    fn note_marks(&mut self, enable: bool) {
+        let marks = self.felt.wiring().joints(self.board.marks());
+        for (joint, mark) in marks.into_iter().enumerate() {
+            if let Some(counts) = mark.filter(|_| enable) {
+                self.felt.servo().note(&mut self.state, Event::IndexPassed { joint, counts });
+            }
+        }
     }
 
     /// The state after the last tick.

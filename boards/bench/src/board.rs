@@ -39,6 +39,13 @@ pub trait Passive<const JOINTS: usize> {
     /// A frame that did not come, or that cannot be believed.
     fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame>;
 
+    /// The counts at which the inputs' index marks were passed since this was asked last, after a good reading. None of
+    /// a board whose inputs have no marks.
+    #[inline]
+    fn marks(&mut self) -> [Option<Counts>; JOINTS] {
+        [None; JOINTS]
+    }
+
     /// Disables the drives. Tries every pin, whatever fails.
     ///
     /// # Errors

@@ -224,6 +224,9 @@ impl<'a> Idle<'a> {
         if let Some(record) = self.records.dequeue() {
             return Some(Told::Record(record));
         }
+        if let Some(marked) = self.mailbox.take_marked() {
+            return Some(Told::Marked(marked));
+        }
         if let Some(reading) = self.mailbox.take_reading() {
             return Some(Told::Reading(reading));
         }

@@ -5,7 +5,7 @@ use crate::writing::Writing;
 use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::commission::Jog;
 use palpate::scene::Order;
-use palpate::wire::{Answer, Reading, View};
+use palpate::wire::{Answer, Marked, Reading, View};
 
 /// A `static` of the board: the ticks done, for the watchdog; the commands that came; what a device that is being set
 /// up reads.
@@ -15,6 +15,7 @@ pub struct Mailbox {
     commands: AtomicU32,
     jog: Letter<3>,
     reading: Letter<8>,
+    marked: Letter<5>,
     /// An order and its number, in 64 bytes: the longest takes 61.
     order: Letter<16>,
     /// What became of it: the longest takes 7 bytes.
@@ -49,6 +50,7 @@ impl Mailbox {
             commands: AtomicU32::new(0),
             jog: Letter::new(),
             reading: Letter::new(),
+            marked: Letter::new(),
             order: Letter::new(),
             answer: Letter::new(),
             view: Letter::new(),
@@ -128,6 +130,18 @@ impl Mailbox {
     pub(crate) fn take_jog(&self) -> Option<Jog> {
         let [number, key, push] = self.jog.take()?;
         Some(Jog { number, key, motor: push as u8, duty: (push >> 16) as i16 })
+    }
+
+    pub(crate) fn tell_marked(&self, marked: &Marked) {
+        let ([a, b, c], [x, y, z]) = (marked.counts.map(|count| count as u32), marked.passes.map(u32::from));
+        self.marked.put([a, b, c, x | y << 16, z]);
+    }
+
+    /// The newest marks, unless they were taken before.
+    pub(crate) fn take_marked(&self) -> Option<Marked> {
+        let [a, b, c, first, z] = self.marked.take()?;
+        let passes = [first, first >> 16, z].map(|passes| passes as u16);
+        Some(Marked { counts: [a, b, c].map(|count| count as i32), passes })
     }
 
     pub(crate) fn tell_reading(&self, reading: &Reading) {

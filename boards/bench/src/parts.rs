@@ -62,6 +62,11 @@ where
     }
 
     #[inline]
+    fn marks(&mut self) -> [Option<Counts>; JOINTS] {
+        self.sensors.marks()
+    }
+
+    #[inline]
     fn release(&mut self) -> Result<(), NotObeyed> {
         self.drives.release()
     }

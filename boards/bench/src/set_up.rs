@@ -5,7 +5,10 @@ use crate::{Board, Hold, Interlock, Mailbox, NotObeyed, Panel};
 use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging};
 use palpate::device::drive::Feed;
 use palpate::device::{Counts, Device, Duty};
-use palpate::wire::{Reading, hold};
+use palpate::wire::{Marked, Reading, hold};
+
+/// Ticks after which the marks that were passed are told again.
+const AGAIN: u32 = 500;
 
 /// What a jog may do, whatever the host asks for. It lies in the device's own flash.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +69,10 @@ pub(crate) struct SetUp<const JOINTS: usize> {
     /// The field, of motors that have one.
     led: Option<Led>,
     counts: [Counts; JOINTS],
+    /// The last index mark of each input, and how often each came.
+    marked: Marked,
+    /// Ticks until that is told again: a host may have missed it.
+    tells_in: u32,
     /// Whether the enable input asks for it.
     enable: bool,
     hold: u8,
@@ -91,7 +98,18 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
             None => None,
         };
         let (state, counts, feeds) = (JogState::default(), [Counts(0); JOINTS], device.feeds);
-        Ok(Self { jogging, state, feeds, led, counts, enable: false, hold: 0, is_stopped: false })
+        Ok(Self {
+            jogging,
+            state,
+            feeds,
+            led,
+            counts,
+            marked: Marked::default(),
+            tells_in: AGAIN,
+            enable: false,
+            hold: 0,
+            is_stopped: false,
+        })
     }
 
     /// A tick up to the motors, whose duties this leaves with the board.
@@ -117,11 +135,34 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         }
         let counts = board.read().ok();
         self.counts = counts.unwrap_or(self.counts);
+        if counts.is_some() {
+            self.look_for_marks(board.marks(), mailbox);
+        }
         if let Some(jog) = mailbox.take_jog() {
             self.jogging.command(&mut self.state, jog);
         }
         self.jogging.tick(&mut self.state, counts, self.enable);
         self.output(board);
+    }
+
+    /// Tells of marks that were passed, and again now and then.
+    fn look_for_marks(&mut self, marks: [Option<Counts>; JOINTS], mailbox: &Mailbox) {
+        let places = self.marked.counts.iter_mut().zip(&mut self.marked.passes);
+        for ((counts, passes), mark) in places.zip(marks) {
+            if let Some(Counts(mark)) = mark {
+                (*counts, *passes) = (mark, passes.wrapping_add(1));
+                self.tells_in = 0;
+            }
+        }
+        self.tells_in = match self.tells_in.checked_sub(1) {
+            Some(left) => left,
+            None => {
+                if self.marked != Marked::default() {
+                    mailbox.tell_marked(&self.marked);
+                }
+                AGAIN
+            }
+        };
     }
 
     /// The host says stop: until the next reset, as everywhere.

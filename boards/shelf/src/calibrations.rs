@@ -36,8 +36,8 @@ pub struct Found<K, const JOINTS: usize> {
 
 impl<F: NorFlash, K: Kinematics<JOINTS> + Copy, const JOINTS: usize> KeptCalibration<F, K, JOINTS> {
     /// Looks for a calibration, before the loop is made. Where none is kept, or one that cannot be used, the device is
-    /// what it was built with; [`Calibrations::in_use`] says which. One whose zeroes are not of what the device is homed
-    /// by ([`palpate::device::Homing::zero_of`]; [`ZeroOf::Count`] without homing) is not used.
+    /// what it was built with; [`Calibrations::in_use`] says which. One whose zeroes are not of what the device is
+    /// homed by ([`palpate::device::Homing::zero_of`]; [`ZeroOf::Count`] without homing) is not used.
     pub fn find(flash: F, built: &'static Device<K, JOINTS>, homed_by: Option<ZeroOf>) -> (Self, Found<K, JOINTS>) {
         const { assert!(HEAD.is_multiple_of(F::WRITE_SIZE), "a head is written whole") };
         const { assert!(HEAD.is_multiple_of(F::READ_SIZE), "a record is read whole") };

@@ -26,6 +26,8 @@ pub enum HomingEntry {
     /// The counters begin anywhere, and the hand holds the device in a pose: `zero` is the angle there.
     #[default]
     Pose,
+    /// The same, and the hand moves each joint past its index mark: `zero` is the angle there.
+    Index,
     /// By nothing: the counters know it, and `zero` is the angle where they are zero.
     None,
 }

@@ -243,6 +243,8 @@ impl<L: Line> Device<L> {
             }
             Told::Reading(reading) => self.reading = Some(reading),
             Told::Calibrated(calibrated) => self.calibrated = Some(calibrated),
+            // Of a device that is being set up: `palpate commission` reads them.
+            Told::Marked(_) => {}
         }
     }
 

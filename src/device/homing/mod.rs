@@ -41,8 +41,8 @@ pub enum Reference<const JOINTS: usize> {
     Fields([FieldSearch; JOINTS]),
 }
 
-/// What an encoder's [`Encoder::angle_at_zero`] is the joint's angle at: a number that was measured for one of them says
-/// nothing of another.
+/// What an encoder's [`Encoder::angle_at_zero`] is the joint's angle at: a number that was measured for one of them
+/// says nothing of another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -206,7 +206,8 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         homing
     }
 
-    /// What the encoders' [`Encoder::angle_at_zero`] has to be the angle at; `None` where it is found out anew each time.
+    /// What the encoders' [`Encoder::angle_at_zero`] has to be the angle at; `None` where it is found out anew each
+    /// time.
     pub const fn zero_of(&self) -> Option<ZeroOf> {
         match &self.reference {
             Reference::Pose(_) => Some(ZeroOf::Pose),

@@ -8,6 +8,13 @@ use palpate::device::{Counts, Encoder};
 pub trait Readings<const JOINTS: usize> {
     /// The counters, of which the lower 16 bits are used.
     fn readings(&mut self) -> [u32; JOINTS];
+
+    /// The counters as the chip caught them at the last index mark that was passed, each told once. Asked after
+    /// [`Self::readings`]. None where no input has marks.
+    #[inline]
+    fn caught(&mut self) -> [Option<u32>; JOINTS] {
+        [None; JOINTS]
+    }
 }
 
 /// The counters, counted on over their wrap.
@@ -15,12 +22,14 @@ pub trait Readings<const JOINTS: usize> {
 pub struct Counters<R, const JOINTS: usize> {
     readings: R,
     counts: [TimerCount; JOINTS],
+    /// The last good reading of each, and what it was counted on to.
+    last: [(u32, Counts); JOINTS],
 }
 
 impl<R: Readings<JOINTS>, const JOINTS: usize> Counters<R, JOINTS> {
     /// The counters, each with the greatest step between two readings ([`greatest_step`]).
     pub fn new(readings: R, greatest_steps: [i32; JOINTS]) -> Self {
-        Self { readings, counts: greatest_steps.map(TimerCount::new) }
+        Self { readings, counts: greatest_steps.map(TimerCount::new), last: [(0, Counts(0)); JOINTS] }
     }
 }
 
@@ -29,10 +38,23 @@ impl<R: Readings<JOINTS>, const JOINTS: usize> Sensors<JOINTS> for Counters<R, J
     fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame> {
         let readings = self.readings.readings();
         let mut counts = [Counts(0); JOINTS];
-        for ((count, counter), reading) in counts.iter_mut().zip(&mut self.counts).zip(readings) {
+        for (((count, counter), reading), last) in
+            counts.iter_mut().zip(&mut self.counts).zip(readings).zip(&mut self.last)
+        {
             *count = counter.count(reading).map_err(|_| BadFrame::Jumped)?;
+            *last = (reading, *count);
         }
         Ok(counts)
+    }
+
+    #[inline]
+    fn marks(&mut self) -> [Option<Counts>; JOINTS] {
+        let mut marks = [None; JOINTS];
+        for ((mark, caught), (reading, counts)) in marks.iter_mut().zip(self.readings.caught()).zip(&self.last) {
+            // Caught less than half a wrap before or after the reading.
+            *mark = caught.map(|caught| Counts(counts.0.wrapping_add(i32::from(caught.wrapping_sub(*reading) as i16))));
+        }
+        marks
     }
 }
 

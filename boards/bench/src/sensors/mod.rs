@@ -34,4 +34,11 @@ pub trait Sensors<const JOINTS: usize> {
     /// # Errors
     /// What is wrong with the first that is bad. The next reading is measured against the last good one.
     fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame>;
+
+    /// The counts at which index marks were passed since this was asked last, of which each is told once, in the counts
+    /// of the last good reading. None of sensors without marks.
+    #[inline]
+    fn marks(&mut self) -> [Option<Counts>; JOINTS] {
+        [None; JOINTS]
+    }
 }

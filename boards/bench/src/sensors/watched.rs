@@ -30,4 +30,9 @@ impl<S: Sensors<JOINTS>, const JOINTS: usize> Sensors<JOINTS> for Watched<S, JOI
         }
         Ok(counts)
     }
+
+    #[inline]
+    fn marks(&mut self) -> [Option<Counts>; JOINTS] {
+        self.sensors.marks()
+    }
 }

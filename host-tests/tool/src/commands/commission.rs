@@ -4,12 +4,12 @@ use super::demo_knob::recorded_of;
 use super::device::toml_of;
 use crate::commission::{
     Device, EmulatedLine, Finding, HostLine, Key, KeyHeld, Keyboard, Lab, Line, NoKey, Person, Planted, PlantedFault,
-    PortLine, RATE, SimulatedHands, World, Zero, angle, calibration, find, find_mounting,
+    PortLine, RATE, SimulatedHands, World, Zero, angle, begin_within, calibration, find, find_mounting,
 };
 use crate::devices;
 use crate::firmware::{Board, Choice, Program, Progress};
 use crate::knob;
-use crate::own::{self, DeviceFile, OwnDevice};
+use crate::own::{self, DeviceFile, HomingEntry, OwnDevice};
 use anyhow::{Context, bail};
 use clap::Args;
 use palpate::commission::{Calibration, JogRefusal};
@@ -99,6 +99,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         }
         None => OwnDevice::read(&arguments.device)?,
     };
+    let by_marks = arguments.zero == Zero::Index || own.file.homing == HomingEntry::Index;
+    if arguments.emulator.is_some() && by_marks {
+        bail!("the pins of an emulated board carry no index marks: take a --port, or --host");
+    }
     let mut lab = lab(arguments, &own)?;
     say_calibration(&lab.device);
     if arguments.forget {
@@ -118,6 +122,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let head = format!("Measured by `palpate commission`, begun from {name}.");
     std::fs::write(out, toml_of(&found, &head)?).with_context(|| format!("cannot write {}", out.display()))?;
     report(&own, &findings);
+    for sentence in begin_within(&found.file) {
+        println!("  {sentence}");
+    }
     println!("written to {}", out.display());
     if arguments.keep {
         keep(&mut lab, Some(calibration(&found).context("a device of less than three joints")?))?;

@@ -3,7 +3,7 @@
 use anyhow::{Context, bail};
 use palpate::commission::{Jog, JogRefusal, JointCalibration, KEY};
 use palpate::wire::frame::{self, MAX_FRAME, Received, Receiver};
-use palpate::wire::{Answer, Calibrated, Command, PROTOCOL, Reading, Told, hold};
+use palpate::wire::{Answer, Calibrated, Command, Marked, PROTOCOL, Reading, Told, hold};
 use std::collections::VecDeque;
 
 /// Ticks of a step: a fiftieth of a second at 4 kHz.
@@ -77,6 +77,8 @@ pub struct Device {
     last: Reading,
     /// How it says that it is calibrated; nothing of one that cannot keep a calibration.
     calibrated: Option<Calibrated>,
+    /// Which index marks were passed since its last reset.
+    marked: Marked,
     /// To the last that was to be kept.
     answer: Option<Answer>,
 }
@@ -89,7 +91,17 @@ impl Device {
     pub fn connect(line: Box<dyn Line>, key: Box<dyn Key>) -> anyhow::Result<Self> {
         let (receiver, bytes) = (Receiver::new(), VecDeque::new());
         let last = Reading::default();
-        let mut device = Self { line, key, receiver, bytes, number: 0, last, calibrated: None, answer: None };
+        let mut device = Self {
+            line,
+            key,
+            receiver,
+            bytes,
+            number: 0,
+            last,
+            calibrated: None,
+            marked: Marked::default(),
+            answer: None,
+        };
         device.set_up()?;
         Ok(device)
     }
@@ -150,12 +162,17 @@ impl Device {
     pub fn reset(&mut self) -> anyhow::Result<bool> {
         let is_reset = self.line.reset()?;
         if is_reset {
-            self.calibrated = None;
+            (self.calibrated, self.marked) = (None, Marked::default());
             (self.receiver, self.last) = (Receiver::new(), Reading::default());
             self.bytes.clear();
             self.set_up()?;
         }
         Ok(is_reset)
+    }
+
+    /// Which index marks were passed since its last reset, as far as was told.
+    pub const fn marked(&self) -> Marked {
+        self.marked
     }
 
     /// The last reading.
@@ -230,6 +247,7 @@ impl Device {
             match self.receiver.feed(byte) {
                 Some(Received::Message(Told::Reading(reading))) => newest = Some(reading),
                 Some(Received::Message(Told::Calibrated(calibrated))) => self.calibrated = Some(calibrated),
+                Some(Received::Message(Told::Marked(marked))) => self.marked = marked,
                 Some(Received::Message(Told::Answer(answer))) => self.answer = Some(answer),
                 // Records of before are no readings.
                 _ => {}

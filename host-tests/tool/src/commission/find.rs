@@ -5,7 +5,7 @@ use super::motors::find_motors;
 use super::ramp::most;
 use super::torques::find_torques;
 use super::{Finding, Lab, Zero};
-use crate::own::{DeviceFile, OwnDevice};
+use crate::own::{DeviceFile, HomingEntry, OwnDevice};
 use anyhow::Context;
 
 /// Measures a device and writes what it finds into its file. What is within what a measurement can tell stays as it is.
@@ -24,6 +24,9 @@ pub fn find(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result<(DeviceF
 /// As [`find`]'s.
 pub fn find_mounting(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result<(DeviceFile, Vec<Finding>)> {
     let (mut file, mut findings) = (own.file.clone(), Vec::new());
+    if by == Zero::Index {
+        file.homing = HomingEntry::Index;
+    }
     let middle = middle(own)?;
     lab.hands.enable(false)?;
     lab.device.step(None)?;

@@ -14,6 +14,12 @@ pub trait Hands {
     /// As [`Self::place`].
     fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<()>;
 
+    /// Moves one joint slowly past its index mark to where these angles have it, rad, and holds the others.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn pass(&mut self, joint: usize, angles: [f64; 3]) -> anyhow::Result<()>;
+
     /// Lets one joint rest against a support where it is, so that its motor can move it only one way, `towards` rising
     /// angles (1) or falling ones (−1); goes on holding the others.
     ///

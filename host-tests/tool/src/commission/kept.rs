@@ -23,6 +23,7 @@ fn of<K>(own: &OwnDevice, device: &Device<K, 3>) -> Calibration<3> {
         radians_per_count: device.encoders[joint].radians_per_count,
         zero_of: match own.file.homing {
             HomingEntry::Pose => ZeroOf::Pose,
+            HomingEntry::Index => ZeroOf::Mark,
             HomingEntry::None => ZeroOf::Count,
         },
         angle_at_zero: device.encoders[joint].angle_at_zero,

@@ -3,12 +3,15 @@
 use super::{Device, Hands};
 use anyhow::bail;
 use clap::ValueEnum;
+use palpate::wire::Marked;
 
 /// The servo rate of a device that is simulated, Hz.
 pub const RATE: f32 = 4_000.0;
 /// So many readings in a row say the same of what is still: a joint that swings back from where it was put turns around
 /// within one of them, not within four.
 const STILL: u32 = 4;
+/// So many readings are enough to hear again of a mark that was passed while nobody listened.
+const TOLD_AGAIN: u32 = 10;
 /// How many readings it may take to come to rest: ten seconds.
 const MOST: u32 = 500;
 
@@ -28,6 +31,8 @@ pub enum Zero {
     Jig,
     /// The end stops, which are where the file's ranges end
     Stops,
+    /// Two angles as for a jig, and each joint's index mark, by which the board is homed
+    Index,
 }
 
 impl Lab {
@@ -45,6 +50,19 @@ impl Lab {
     /// As [`Self::place`].
     pub fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<[i32; 3]> {
         self.still(|hands| hands.pose(angles))
+    }
+
+    /// One joint is moved past its mark to where these angles have it: what the device says of the marks.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    pub fn pass(&mut self, joint: usize, angles: [f64; 3]) -> anyhow::Result<Marked> {
+        self.still(|hands| hands.pass(joint, angles))?;
+        // It tells of them again now and then.
+        for _ in 0..TOLD_AGAIN {
+            self.device.step(None)?;
+        }
+        Ok(self.device.marked())
     }
 
     /// The counts once the hands have done something, and the joints are still.

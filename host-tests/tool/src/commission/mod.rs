@@ -28,7 +28,7 @@ mod world;
 
 pub use device::{Device, Key, KeyHeld, Line, NoKey};
 pub use emulated::EmulatedLine;
-pub use encoders::angle;
+pub use encoders::{angle, begin_within};
 pub use find::{find, find_mounting};
 pub use finding::Finding;
 pub use hands::Hands;

@@ -88,6 +88,10 @@ impl Passive<3> for SimulatedBoard {
         Ok(self.world().counts().map(Counts))
     }
 
+    fn marks(&mut self) -> [Option<Counts>; 3] {
+        self.world().take_marks().map(|mark| mark.map(Counts))
+    }
+
     fn release(&mut self) -> Result<(), NotObeyed> {
         self.duties = [0; 3];
         Ok(())
@@ -198,6 +202,7 @@ fn started<K: Kinematics<3> + Copy>(
     let by = |reference| Homing::try_new(built.encoders, reference, still, 4, patience).map(Homing::when_asked);
     let servo = match homing {
         HomingEntry::Pose => servo.homing(by(Reference::Pose(built.angles_at_zero()))?),
+        HomingEntry::Index => servo.homing(by(Reference::Index(built.angles_at_zero()))?),
         HomingEntry::None => servo,
     };
     let (kept, found) = KeptCalibration::find(writer, built, servo.zero_of());

@@ -50,6 +50,14 @@ impl Hands for Person {
         .map(drop)
     }
 
+    fn pass(&mut self, joint: usize, angles: [f64; 3]) -> anyhow::Result<()> {
+        let (name, angle) = (&self.names[joint], angles[joint].to_degrees());
+        self.ask(&format!(
+            "Move joint {name} alone, slowly, to about {angle:.0}°, past its index mark. Enter when it is."
+        ))
+        .map(drop)
+    }
+
     fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()> {
         let (name, way) = (&self.names[joint], if towards > 0.0 { "rising" } else { "falling" });
         let what = format!(

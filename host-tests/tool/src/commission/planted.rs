@@ -3,6 +3,9 @@
 use palpate_plant::{Direction, PlantSettings};
 use std::str::FromStr;
 
+/// Where marks happen to be.
+const MARKS: [Option<i32>; 3] = [Some(137), Some(-421), Some(300)];
+
 /// How a planted device differs from its file.
 #[derive(Clone, Copy, Debug)]
 pub struct Planted {
@@ -12,6 +15,12 @@ pub struct Planted {
     pub encoder_on: [usize; 3],
     /// The joint whose motor is on each output.
     pub motor_on: [usize; 3],
+    /// The count of each joint's encoder at which its index mark is, once in each turn of its shaft; `None` without.
+    pub marks: [Option<i32>; 3],
+    /// The joint whose mark is on each input.
+    pub mark_on: [usize; 3],
+    /// So many counts further off a mark is when it is passed downwards: one that is loose.
+    pub mark_play: i32,
 }
 
 /// A fault to plant: what, in which joint, and by how much.
@@ -38,7 +47,7 @@ pub enum PlantedFault {
 impl Planted {
     /// A device that is as it should be.
     pub const fn sound(plant: PlantSettings) -> Self {
-        Self { plant, encoder_on: [0, 1, 2], motor_on: [0, 1, 2] }
+        Self { plant, encoder_on: [0, 1, 2], motor_on: [0, 1, 2], marks: MARKS, mark_on: [0, 1, 2], mark_play: 0 }
     }
 
     /// The same with a fault in it.
@@ -54,7 +63,10 @@ impl Planted {
             PlantedFault::Zero(joint, radians) => joints[joint].angle_at_zero += radians,
             PlantedFault::Torque(joint, times) => joints[joint].torque_constant *= times,
             PlantedFault::Friction(joint, times) => joints[joint].coulomb_friction *= times,
-            PlantedFault::Encoders(a, b) => self.encoder_on.swap(a, b),
+            PlantedFault::Encoders(a, b) => {
+                self.encoder_on.swap(a, b);
+                self.mark_on.swap(a, b);
+            }
             PlantedFault::Motors(a, b) => self.motor_on.swap(a, b),
         }
         self

@@ -15,6 +15,8 @@ pub struct World {
     pub enable: bool,
     /// The inputs' counts where the board began to count.
     began: [i32; 3],
+    /// Where each joint's mark was passed since somebody asked, in its encoder's counts.
+    passed: [Option<i32>; 3],
     /// Where the far end of the soft spring is.
     far: Shared<Vector>,
 }
@@ -46,7 +48,7 @@ impl World {
         let far = Arc::new(Mutex::new([0.0; 3]));
         let hand = HandSettings { stiffness: SOFT, damping: 0.0, mass: 0.0 };
         let plant = Plant::new(&planted.plant, hand, Box::new(Far(Arc::clone(&far))), f64::from(RATE))?;
-        let mut world = Self { plant, planted, enable: false, began: [0; 3], far };
+        let mut world = Self { plant, planted, enable: false, began: [0; 3], passed: [None; 3], far };
         world.place(world.plant.angles());
         Ok(world)
     }
@@ -59,8 +61,8 @@ impl World {
         Ok(Arc::new(Mutex::new(Self::new(planted)?)))
     }
 
-    /// The board is reset: its counters begin at zero where the joints stand. Before that they are zero where the joints
-    /// are in the pose in which the device is homed, as those of sensors are that know it.
+    /// The board is reset: its counters begin at zero where the joints stand. Before that they are zero in the pose in
+    /// which the device is homed, as those of sensors are that know it.
     pub fn begin_to_count(&mut self) {
         self.began = self.at_inputs();
     }
@@ -76,13 +78,38 @@ impl World {
         self.planted.encoder_on.map(|joint| joints[joint])
     }
 
+    /// The counts at which the inputs' marks were passed since this was asked last.
+    pub fn take_marks(&mut self) -> [Option<i32>; 3] {
+        let passed = std::mem::take(&mut self.passed);
+        core::array::from_fn(|input| {
+            passed[self.planted.mark_on[input]].map(|mark| mark.wrapping_sub(self.began[input]))
+        })
+    }
+
+    /// Joints that stood at these counts have moved: past which marks.
+    fn pass_marks(&mut self, before: [i32; 3]) {
+        for (joint, (now, before)) in self.plant.counts().into_iter().zip(before).enumerate() {
+            let Some(mark) = self.planted.marks[joint] else { continue };
+            let turn = self.planted.plant.joints[joint].counts_per_turn;
+            // Which turn of its shaft it is in, before and now; the mark that it passed last begins one of them.
+            let [from, to] = [before, now].map(|count| (f64::from(count - mark) / turn).floor());
+            if from != to {
+                let last = if to > from { to } else { to + 1.0 };
+                let play = if to > from { 0 } else { self.planted.mark_play };
+                self.passed[joint] = Some(mark + (last * turn).round() as i32 + play);
+            }
+        }
+    }
+
     /// A period under these duties of the board's outputs.
     pub fn advance(&mut self, duties: [i16; 3]) {
         let mut at_joints = [0; 3];
         for (duty, joint) in duties.iter().zip(self.planted.motor_on) {
             at_joints[joint] = *duty;
         }
+        let before = self.plant.counts();
         self.plant.advance(at_joints);
+        self.pass_marks(before);
     }
 
     /// The simulated joints' stops close in on these angles.
@@ -118,6 +145,10 @@ impl Hands for SimulatedHands {
         // Wherever the file has it.
         let pose = lock(&self.world).planted.plant.joints.map(|joint| joint.angle_at_zero);
         self.place(pose)
+    }
+
+    fn pass(&mut self, _: usize, angles: [f64; 3]) -> anyhow::Result<()> {
+        self.place(angles)
     }
 
     fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()> {

@@ -56,6 +56,10 @@ impl Hands for SharedKnob {
         bail!("a knob is homed by its field")
     }
 
+    fn pass(&mut self, _: usize, _: [f64; 3]) -> anyhow::Result<()> {
+        bail!("a knob is homed by its field")
+    }
+
     fn rest(&mut self, _: usize, _: f64) -> anyhow::Result<()> {
         bail!("a knob rests by itself")
     }

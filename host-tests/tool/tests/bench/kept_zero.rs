@@ -1,6 +1,6 @@
 //! A zero that was found and kept, and a board that is reset elsewhere: homed, it has the angles that the joints have.
 
-use crate::rig::{Made, RATE, Rig, SETTINGS, WALL, settings};
+use crate::rig::{Made, RATE, Rig, SETTINGS, WALL, settings as rig_settings};
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Device as Built, Homing, Reference, SerialArm};
 use palpate::servo::{Phase, ResetReason, Servo};
@@ -11,7 +11,8 @@ use palpate_tool::commission::{
     Device, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, calibration, find_mounting,
 };
 use palpate_tool::devices;
-use palpate_tool::own::OwnDevice;
+use palpate_tool::own::{HomingEntry, OwnDevice};
+use std::f64::consts::TAU;
 
 static BUILT: Built<SerialArm, 3> = DEVICE;
 
@@ -40,7 +41,10 @@ fn kept(own: &OwnDevice, planted: Planted, by: Zero) -> &'static Built<SerialArm
     Box::leak(Box::new(BUILT.calibrated(&found).expect("this device")))
 }
 
-/// The loop of a board on a device that stood elsewhere when it was reset, in a hand that holds its joints at these
+/// How many counts elsewhere each joint stood when the board was reset.
+const ELSEWHERE: [i32; 3] = [2_000, -1_100, 900];
+
+/// The loop of a board on a device that stood elsewhere when it was reset, and whose joints are now held at these
 /// angles.
 fn reset_elsewhere(
     planted: &Planted,
@@ -51,14 +55,15 @@ fn reset_elsewhere(
     // As the boards have it (boards/hosted.rs).
     let homing = Homing::try_new(BUILT.encoders, reference, (0.1 * RATE) as u32, 4, 40_000).expect("homing");
     let servo = Servo::new(&BUILT, &WALL, Controller::SECOND_ORDER, SETTINGS).homing(homing.when_asked());
-    let mut plant = planted.plant;
-    for (joint, elsewhere) in plant.joints.iter_mut().zip([0.4, -0.3, 0.25]) {
-        joint.angle_at_zero += elsewhere;
+    let mut settings = planted.plant;
+    for (joint, elsewhere) in settings.joints.iter_mut().zip(ELSEWHERE) {
+        let counts = joint.counts_per_turn * joint.ratio * joint.encoder_direction.sign();
+        joint.angle_at_zero += f64::from(elsewhere) * TAU / counts;
     }
-    let (grip, place) =
-        (HandSettings { stiffness: 5_000.0, damping: 50.0, mass: 0.0 }, plant.mechanism(0.0).position(held));
-    let plant = Plant::new(&plant, grip, Box::new(StillHand(place)), RATE).expect("a plant");
-    Rig::made(Made(servo.calibrated(device), false), plant, &settings(), ResetReason::PowerOn)
+    let place = settings.mechanism(0.0).position(held);
+    let mut plant = Plant::new(&settings, HandSettings::NONE, Box::new(StillHand(place)), RATE).expect("a plant");
+    held.into_iter().enumerate().for_each(|(joint, angle)| plant.move_stops(joint, [angle; 2]));
+    Rig::made(Made(servo.calibrated(device), false), plant, &rig_settings(), ResetReason::PowerOn)
 }
 
 /// It is homed, nothing was driven, and it has the joints' angles to a count: half of one of each jig, pose and joint.
@@ -80,5 +85,42 @@ fn a_kept_zero_is_right_wherever_the_arm_stood_at_either_reset() {
     rig.ticks_off(400);
     rig.set(|world| world.button = true);
     rig.ticks_off(2_000);
+    assert_is_homed(&rig);
+}
+
+#[test]
+fn a_zero_kept_of_the_marks_is_found_again_by_moving_each_joint_past_its_mark_and_nothing_is_driven() {
+    let (own, planted) = planted();
+    let mut file = own.file;
+    file.homing = HomingEntry::Index;
+    let own = OwnDevice::new(file, "by marks").expect("a device");
+    let device = kept(&own, planted, Zero::Index);
+    let marks = device.encoders.map(|encoder| f64::from(encoder.angle_at_zero));
+    let start = marks.map(|mark| mark - 0.05);
+    let mut rig = reset_elsewhere(&planted, start, Reference::Index(BUILT.angles_at_zero()), device);
+    rig.ticks_off(400);
+    // Whoever carried it past some mark before pressing the button did not home it.
+    rig.set(|world| world.caught = [Some(77); 3]);
+    rig.ticks_off(10);
+    rig.set(|world| world.button = true);
+    rig.ticks_off(10);
+    for joint in 0..3 {
+        assert!(!rig.state().homed());
+        // Half a radian a second.
+        for tick in 0..800 {
+            let angle = start[joint] + f64::from(tick) * 0.5 / RATE;
+            rig.set(|world| world.plant.move_stops(joint, [angle; 2]));
+            let before = rig.world.borrow().plant.counts();
+            rig.ticks_off(1);
+            let now = rig.world.borrow().plant.counts();
+            let turn = planted.plant.joints[joint].counts_per_turn as i32;
+            let mark = planted.marks[joint].expect("a mark") - ELSEWHERE[joint];
+            let [from, to] = [before, now].map(|counts| (counts[joint] - mark).div_euclid(turn));
+            if from != to {
+                rig.set(|world| world.caught[joint] = Some(mark + from.max(to) * turn));
+            }
+        }
+    }
+    rig.ticks_off(800);
     assert_is_homed(&rig);
 }

@@ -55,6 +55,8 @@ pub struct World {
     pub kind: BadFrame,
     /// Counts that the counters are ahead of the plant by: joints that a test turns itself.
     pub turned: [i32; 3],
+    /// What the timers caught at marks since they were asked.
+    pub caught: [Option<i32>; 3],
     /// Cycles that reading the sensors takes.
     pub reading: u32,
     /// Width of the set-points, as a share of their period.
@@ -180,6 +182,10 @@ impl Readings<3> for Timers {
         let counts = world.plant.counts();
         core::array::from_fn(|joint| (counts[joint] + world.turned[joint]) as u32 & 0xffff)
     }
+
+    fn caught(&mut self) -> [Option<u32>; 3] {
+        std::mem::take(&mut self.0.borrow_mut().caught).map(|count| count.map(|count| count as u32 & 0xffff))
+    }
 }
 
 /// Sensors some of whose frames are bad, and which take their time.
@@ -204,6 +210,11 @@ impl Sensors<3> for Spoilt {
         let joints = self.world.borrow().plant.counts();
         let ahead = *self.ahead.get_or_insert_with(|| core::array::from_fn(|joint| counts[joint].0 - joints[joint]));
         Ok(core::array::from_fn(|joint| Counts(counts[joint].0 - ahead[joint])))
+    }
+
+    fn marks(&mut self) -> [Option<Counts>; 3] {
+        let (marks, ahead) = (self.counters.marks(), self.ahead.unwrap_or_default());
+        core::array::from_fn(|joint| marks[joint].map(|mark| Counts(mark.0 - ahead[joint])))
     }
 }
 
@@ -277,6 +288,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
         bad: 0,
         kind: BadFrame::Damaged,
         turned: [0; 3],
+        caught: [None; 3],
         reading: 200,
         widths: [0.5; 3],
         enables: [false; 3],

@@ -9,11 +9,11 @@ use palpate::track::Controller;
 use palpate::wire::Calibrated;
 use palpate_plant::{Direction, HandSettings, JointSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
 use palpate_tool::commission::{
-    Device as Commissioned, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, calibration,
-    find, find_mounting,
+    Device as Commissioned, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, begin_within,
+    calibration, find, find_mounting,
 };
 use palpate_tool::devices::{DEVICES, Preset, ShippedDevice};
-use palpate_tool::own::OwnDevice;
+use palpate_tool::own::{HomingEntry, OwnDevice};
 use palpate_tool::wall::WALL;
 use std::cell::RefCell;
 
@@ -258,6 +258,63 @@ fn zero_and_ratio_are_found_by_the_stops_too() {
     }
 }
 
+/// The angle at a joint's mark, up to turns of its shaft, and those turns: rad.
+fn at_mark(planted: &Planted, joint: usize) -> (f64, f64) {
+    let JointSettings { ratio, counts_per_turn, encoder_direction, angle_at_zero, .. } = planted.plant.joints[joint];
+    let turn = std::f64::consts::TAU / (ratio * encoder_direction.sign());
+    let mark = f64::from(planted.marks[joint].expect("a mark"));
+    (angle_at_zero + (mark + 0.5) * turn / counts_per_turn, turn.abs())
+}
+
+#[test]
+fn zero_is_found_by_the_marks_wherever_the_counters_began() {
+    // The second joint of the Polhem cannot be turned by a whole turn of its encoder while the others stay.
+    for (shipped, own) in devices().filter(|(shipped, _)| shipped.name != "polhem-v2") {
+        for faults in [
+            &[][..],
+            &[PlantedFault::Zero(1, 0.2), PlantedFault::Zero(2, -0.1)],
+            &[PlantedFault::EncoderSign(0), PlantedFault::Encoders(0, 2)],
+        ] {
+            // The hands hold a joint to a count only while nothing pulls at it.
+            let sound = Planted::sound(PlantSettings { gravity: 0.0, ..shipped.plant });
+            let planted = faults.iter().fold(sound, |planted, fault| planted.with(*fault));
+            let (_, found) = commission(&own, planted, false, Zero::Index);
+            assert_eq!(found.file.homing, HomingEntry::Index);
+            for (index, joint) in found.file.joint.iter().enumerate() {
+                let count = std::f64::consts::TAU / (joint.encoder.counts * joint.encoder.ratio);
+                let ((mark, turn), is) = (at_mark(&planted, index), joint.encoder.zero + 0.5 * count);
+                let off = (is - mark + 0.5 * turn).rem_euclid(turn) - 0.5 * turn;
+                // Half a count of each end of the jig's, and a mark's own.
+                assert!(off.abs() <= 1.6 * count.abs(), "{} {faults:?} {index}: {off} of {count}", shipped.name);
+            }
+            let said = begin_within(&found.file);
+            assert!(said.len() == 3 && said[0].contains("joint a: its mark comes once in"), "{said:?}");
+        }
+    }
+}
+
+/// What is wrong with marks.
+type Loosen = fn(&mut Planted);
+
+#[test]
+fn marks_that_cannot_be_believed_are_refused_by_their_joints_name() {
+    let (shipped, own) = devices().next().expect("one ships");
+    let wrong: [(Loosen, &str); 3] = [
+        (|planted| planted.marks[1] = None, "joint b: no index mark came on input 1"),
+        (|planted| planted.mark_play = 5, "joint a: its index mark came at counts"),
+        (
+            |planted| planted.mark_on.swap(0, 2),
+            "joint a: its encoder is on input 0, and its index mark came on input 2",
+        ),
+    ];
+    for (loosen, says) in wrong {
+        let mut planted = Planted::sound(shipped.plant);
+        loosen(&mut planted);
+        let refusal = find_mounting(&mut lab(&own, planted), &own, Zero::Index).expect_err("no mark").to_string();
+        assert!(refusal.starts_with(says), "{refusal}");
+    }
+}
+
 #[test]
 fn a_motor_too_weak_for_its_load_is_refused_by_its_joints_name() {
     let (shipped, own) = devices().find(|(shipped, _)| shipped.name == "falcon").expect("it ships");
@@ -276,6 +333,9 @@ fn nothing_is_found_without_the_enable_button_or_the_key() {
         }
         fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<()> {
             self.0.pose(angles)
+        }
+        fn pass(&mut self, joint: usize, angles: [f64; 3]) -> anyhow::Result<()> {
+            self.0.pass(joint, angles)
         }
         fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()> {
             self.0.rest(joint, towards)

@@ -10,7 +10,8 @@ use palpate::scene::{Order, Pose, SceneError};
 use palpate::wire::acceptance::{Counted, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{MAX_FRAME, pack};
 use palpate::wire::{
-    Answer, CHUNK, Calibrated, Command, Hello, PROTOCOL, Reading, Record, Refused, Report, Sensors, Told, Upload, View,
+    Answer, CHUNK, Calibrated, Command, Hello, Marked, PROTOCOL, Reading, Record, Refused, Report, Sensors, Told,
+    Upload, View,
 };
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -532,6 +533,17 @@ fn every_byte_of_a_frame_is_documented() {
             ),
         ),
         ("Calibrated: refused", refused_calibration()),
+        (
+            "Marked",
+            documented(
+                &Told::Marked(Marked { counts: [-1, 0, 300], passes: [1, 0, 300] }),
+                &[
+                    vars("told", 6),
+                    zig_zags("counts", [-1, 0, 300]),
+                    field("passes", "three var", "1, 0, 300", vec![1, 0, 0xac, 2]),
+                ],
+            ),
+        ),
         ("Command: calibrate", calibrate()),
         ("Sensors", sensors),
         ("Report", report),
