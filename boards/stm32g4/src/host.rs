@@ -7,7 +7,7 @@ compile_error!("an image that is accepted takes no host's orders: one feature or
 mod damage;
 mod flash;
 
-use palpate::device::SerialArm;
+use palpate::device::{SerialArm, ZeroOf};
 use palpate::wire::Upload;
 use palpate_bench::{Idle, Uploads as _};
 use palpate_cortex::HandOver;
@@ -40,9 +40,9 @@ static CALIBRATION: HandOver<Calibration> = HandOver::new();
 /// Looks for a body that was kept, and for a calibration: before the loop is made, which is made with the one and feels
 /// the other from the first tick on. A chip that was set to one bank keeps none. Words that the power went in the
 /// middle of are no body, and are erased; and no calibration, which is said.
-pub fn find(flash: FLASH) -> Option<Found<SerialArm, 3>> {
+pub fn find(flash: FLASH, homed_by: Option<ZeroOf>) -> Option<Found<SerialArm, 3>> {
     let [bodies, calibration] = Bank2::try_new(flash)?;
-    let ((kept, found), is_damaged) = damage::watched(|| Calibration::find(calibration, &DEVICE, felt::homed_by()));
+    let ((kept, found), is_damaged) = damage::watched(|| Calibration::find(calibration, &DEVICE, homed_by));
     let (kept, found) = if is_damaged { kept.damaged() } else { (kept, found) };
     CALIBRATION.give(kept);
     let (end, is_damaged) = damage::watched(|| SHELF.main(bodies, &mut || ()));

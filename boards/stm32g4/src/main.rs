@@ -107,7 +107,7 @@ fn main() -> ! {
     );
     let encoders = Encoders::new((chip.TIM2, chip.TIM3, chip.TIM4), pins, &mut rcc);
     #[cfg(feature = "host")]
-    let felt = felt::on(host::find(chip.FLASH));
+    let felt = felt::on(host::find(chip.FLASH, felt::homed_by()));
     #[cfg(not(feature = "host"))]
     let felt = felt::This;
     let port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);

@@ -323,6 +323,7 @@ mod tests {
     use crate::commission::FRICTION_WITHIN;
     use crate::device::presets::*;
     use crate::device::{Device, Kinematics, Protection};
+    use core::f32::consts::FRAC_PI_2;
 
     /// Whether each joint of a device moves far enough when it knocks in the middle of its workspace, though it sticks
     /// as much as a calibration may say.
@@ -343,7 +344,7 @@ mod tests {
     fn no_friction_that_a_calibration_may_say_keeps_a_knock_from_being_seen() {
         sees(&WOODEN_HAPTICS_2016, &WOODEN_HAPTICS_2016_PROTECTION, [0.0, 0.5, 0.2]);
         sees(&POLHEM_V2, &POLHEM_V2_PROTECTION, [0.0, 0.912_695, 2.360_105]);
-        sees(&PHANTOM_PREMIUM, &PHANTOM_PREMIUM_PROTECTION, [0.0, 1.570_796, 1.570_796]);
+        sees(&PHANTOM_PREMIUM, &PHANTOM_PREMIUM_PROTECTION, [0.0, FRAC_PI_2, FRAC_PI_2]);
         let middle = NOVINT_FALCON.kinematics.angles(Vec3::ZERO).expect("within reach");
         sees(&NOVINT_FALCON, &NOVINT_FALCON_PROTECTION, middle);
     }

@@ -279,7 +279,7 @@ fn an_order_of_the_same_number_answers_for_no_calibration_nor_the_other_way_roun
 
 #[test]
 fn words_that_a_chip_could_not_read_are_a_calibration_that_cannot_be_used_though_they_read_as_erased() {
-    let (kept, found) = Kept::find(Page::erased(), &DEVICE);
+    let (kept, found) = Kept::find(Page::erased(), &DEVICE, NOT_HOMED);
     assert_eq!((kept.in_use(), found.is_miscalibrated), (Calibrated::BuiltIn, false));
     let (kept, found) = kept.damaged();
     assert_eq!((kept.in_use(), found.is_miscalibrated), (Calibrated::Refused(CalibrationError::Damaged), true));
