@@ -41,9 +41,16 @@ fn even(frame: u16) -> u16 {
 #[test]
 fn a_single_turn_sensor_follows_the_shaft_over_many_turns_a_frame_late() {
     let swing = swing();
-    let frames = swing.iter().map(|counts| even(*counts as u16 & 0x3fff)).flat_map(|frame| {
-        let exchange = Transaction::transfer_in_place(vec![0xff, 0xff], frame.to_be_bytes().to_vec());
-        [Transaction::transaction_start(), exchange, Transaction::transaction_end()]
+    let exchange = |asked: u16, frame: u16| {
+        let both = Transaction::transfer_in_place(asked.to_be_bytes().to_vec(), frame.to_be_bytes().to_vec());
+        [Transaction::transaction_start(), both, Transaction::transaction_end()]
+    };
+    let frames = swing.iter().enumerate().flat_map(|(index, counts)| {
+        let angle = exchange(0xffff, even(*counts as u16 & 0x3fff)).to_vec();
+        // A sensor that has been asked for its angle, and says zero, is asked whether it is there.
+        let is_zero = index > 0 && counts & 0x3fff == 0;
+        let health = [exchange(0xfffc, 0), exchange(0xffff, even(0x0100))].concat();
+        angle.into_iter().chain(if is_zero { health } else { Vec::new() })
     });
     let mut sensor = AmsAngle::new(Mock::new(&frames.collect::<Vec<_>>()), AmsChip::As5047p);
     // 0.5 m/s at the hand is 133 rad/s at the motor, 87 counts a tick.
