@@ -33,6 +33,8 @@ const SPEED: f32 = 0.1;
 /// The share of the greatest force that a knock has at most: below a quarter, for its torque is that of the pose in which
 /// it begins.
 const ON_TRIAL: f32 = 0.245;
+/// The share of that which a contact must ask for, so that whoever touches softly is felt too.
+const ASKED: f32 = 1.0 / 3.0;
 /// Each joint knocks every so many slots, or as many as there are joints.
 const ROUND: usize = 3;
 /// The most that one knock says either way.
@@ -63,6 +65,8 @@ pub(super) struct Signs<const JOINTS: usize> {
     way: f32,
     /// The force of a knock at most, N.
     force: f32,
+    /// The square of the force that a contact asks for at least, N².
+    asked: f32,
     /// Ticks of a slot.
     slot: u16,
     /// Slots of a rest.
@@ -196,6 +200,7 @@ impl<const JOINTS: usize> Signs<JOINTS> {
             friction,
             way: 0.5 * SPEED * knock,
             force: ON_TRIAL * penalty.max_force,
+            asked: (ASKED * ON_TRIAL * penalty.max_force) * (ASKED * ON_TRIAL * penalty.max_force),
             slot: slot as u16,
             rest: (REST / time) as u16,
             rise: 1.0 / (RISE * rate),
@@ -294,7 +299,7 @@ impl<const JOINTS: usize> Signs<JOINTS> {
             return;
         }
         let joint = state.slot;
-        let waits = state.rest > 0 || state.knocks == 0 || force.length_squared() < self.force * self.force;
+        let waits = state.rest > 0 || state.knocks == 0 || force.length_squared() < self.asked;
         if waits || joint >= JOINTS || state.sums[joint] >= GOOD {
             return;
         }
