@@ -30,8 +30,8 @@ use crate::servo::Fault;
 const SLOT: f32 = 8e-3;
 /// The speed at the probe that a knock gives at most to a joint alone, m/s: 0.4 mm in its time.
 const SPEED: f32 = 0.1;
-/// The share of the greatest force that a knock has at most: below a quarter, for its torque is that of the pose in which
-/// it begins.
+/// The share of the greatest force that a knock has at most: below a quarter, for its torque is that of the pose in
+/// which it begins.
 const ON_TRIAL: f32 = 0.245;
 /// The share of that which a contact must ask for, so that whoever touches softly is felt too.
 const ASKED: f32 = 1.0 / 3.0;
@@ -212,8 +212,8 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         Self { friction, ..self }
     }
 
-    /// Looks at a tick in which force may be given. `force` and `felt`, its joint torques, are what may be given of them
-    /// when this returns.
+    /// Looks at a tick in which force may be given. `force` and `felt`, its joint torques, are what may be given of
+    /// them when this returns.
     #[inline(always)]
     pub(super) fn look(
         &self,

@@ -69,8 +69,8 @@ impl<B: SpiBus, P: OutputPin, D: DelayNs, const JOINTS: usize> Angles<B, P, D, J
 }
 
 impl<B: SpiBus, P: OutputPin, D: DelayNs, const JOINTS: usize> Sensors<JOINTS> for Angles<B, P, D, JOINTS> {
-    /// Two frames a sensor, some 3 µs each at 8 MHz; two more for one that stands at angle zero, three more for one that
-    /// reported an error in the tick before.
+    /// Two frames a sensor, some 3 µs each at 8 MHz; two more for one that stands at angle zero, three more for one
+    /// that reported an error in the tick before.
     #[inline]
     fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame> {
         self.start_all()?;

@@ -70,8 +70,8 @@ struct GivesWay([f32; 3]);
 
 #[cfg(feature = "folded")]
 impl GivesWay {
-    /// A knock goes on for 31 ticks, in which a joint alone comes 0.4 mm at the probe, two milliradians. None knocks, or
-    /// gives way, once all were seen.
+    /// A knock goes on for 31 ticks, in which a joint alone comes 0.4 mm at the probe, two milliradians. None knocks,
+    /// or gives way, once all were seen.
     fn counts(&mut self, state: &State, mut counts: [Counts; 3]) -> [Counts; 3] {
         let is_on_trial = state.guard().joints_seen() != [true; 3];
         for joint in 0..3 {

@@ -89,8 +89,8 @@ fn pressed<K: Kinematics<3>>(bench: &Bench<K>, angles: [f32; 3], duties: [Duty; 
     length([0, 1, 2].map(|axis| (0..3).map(|joint| torque(joint) * normals[joint][axis]).sum::<f64>() / determinant))
 }
 
-/// Signs that are turned round in the plant, and a hand that comes twice. The links are carried, as they are by default:
-/// by no motor that was not seen to push the right way.
+/// Signs that are turned round in the plant, and a hand that comes twice. The links are carried, as they are by
+/// default: by no motor that was not seen to push the right way.
 fn runs_away<K: Kinematics<3>>(bench: &Bench<K>, wrong: [bool; 3], speed: f64) -> Harm {
     let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings(bench.device, Vec3::ZERO))
         .protect(bench.protection);
@@ -165,8 +165,8 @@ fn a_wrong_sign_is_stopped_within_ten_milliseconds_and_a_millimetre() {
     assert!(most(|harm| harm.in_all) < 3.0);
 }
 
-/// A hand that comes three times to a device as it is recommended: a force is felt, and the links are carried, neither before
-/// all joints were seen.
+/// A hand that comes three times to a device as it is recommended: a force is felt, and the links are carried, neither
+/// before all joints were seen.
 fn as_recommended<K: Kinematics<3>>(bench: &Bench<K>, Recommended { settings, rendering }: Recommended) {
     let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings)
         .rendering(rendering)
