@@ -17,8 +17,9 @@
 //! What the hand does by itself meanwhile is what the last three places tell of it: `Δx = x − 3x₁ + 3x₂ − x₃`, a
 //! [`SLOT`] apart, which is blind to any constant speed and acceleration. The motion that an equal torque left behind a
 //! slot ago cancels too (½ + 1 − 3·½; all but a fifteenth, for a knock begins a tick late), and three slots ago; so
-//! the joints knock in turn, one a slot, each third slot at most. What is left, jerks of the hand and the encoder's counts, is why no single knock decides: `Δx` as a share of
-//! `u T²/2I`, what it would be of the joint alone, is summed up until it is clear.
+//! the joints knock in turn, one a slot, each third slot at most. What is left, jerks of the hand and the encoder's
+//! counts, is why no single knock decides: `Δx` as a share of `u T²/2I`, what it would be of the joint alone, is summed
+//! up until it is clear.
 
 use super::Moving;
 use crate::device::SignWatch;
