@@ -18,7 +18,8 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-ENVIRONMENT = ROOT / "target/registers"
+# Made anew where it is not complete, with all that lies in it: images are not to.
+ENVIRONMENT = ROOT / "target/registers/environment"
 UNICORN = "unicorn>=2.1.4,<2.2"
 # What builds an image of the loop; with more words, that for a host.
 LOOP = ("--body", "capped_box", "build", "--release")
