@@ -16,7 +16,10 @@ class AtResets(Bench):
         self.assert_never_high(machine)
         record = self.last(machine)
         self.assertEqual((record.reset, record.phase), (reason, telemetry.FAULT))
-        machine.chip.press(enable=False, stop=True)
+        # Stop has to be seen released first, for as long.
+        machine.chip.press(enable=False)
+        machine.ticks(HELD)
+        machine.chip.press(stop=True)
         machine.ticks(HELD)
         machine.chip.press(stop=False)
         machine.ticks(HELD)

@@ -23,14 +23,20 @@ class Shield(Nucleo):
     def reset(self, machine, **reasons: bool) -> None:
         super().reset(machine, **reasons)
         self.sensors = [AngleSensor()]
+        # What a line reads that nobody drives.
+        self.silence = 0xFF
+        self.bytes = 0
 
     def exchange(self, byte: int) -> int:
         """A byte each way with the sensor, if it is selected. Its last bit is never quiet."""
         [sensor] = self.sensors
         if self.level(*SELECT):
             return 0xFF
-        sensor.angle ^= 1
-        return sensor.exchange_byte(byte)
+        # Once a frame, of two bytes.
+        self.bytes += 1
+        sensor.angle ^= self.bytes & 1
+        answer = sensor.exchange_byte(byte)
+        return self.silence if answer is None else answer
 
     def break_line(self, what: str) -> None:
         """Breaks a wire."""
