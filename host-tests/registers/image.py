@@ -19,8 +19,12 @@ class Image:
         programs, sections = struct.unpack_from("<II", data, 28)
         program_size, program_count, section_size, section_count = struct.unpack_from("<4H", data, 42)
         self.segments: list[tuple[int, bytes]] = []
+        # Where everything lies while the program runs: each segment's first address and size.
+        self.placed: list[tuple[int, int]] = []
         for at in range(programs, programs + program_count * program_size, program_size):
-            kind, offset, _, load, size = struct.unpack_from("<5I", data, at)
+            kind, offset, runs, load, size, memory = struct.unpack_from("<6I", data, at)
+            if kind == LOADED and memory:
+                self.placed.append((runs, memory))
             if kind == LOADED and size:
                 self.segments.append((load, data[offset : offset + size]))
         self.symbols: dict[str, int] = {}

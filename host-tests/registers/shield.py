@@ -32,9 +32,9 @@ class Shield(Nucleo):
         [sensor] = self.sensors
         if self.level(*SELECT):
             return 0xFF
-        # Once a frame, of two bytes.
+        # Every fourth frame: more seldom than ticks, in which it would be seen at the same level each time.
         self.bytes += 1
-        sensor.angle ^= self.bytes & 1
+        sensor.angle ^= self.bytes % 8 == 0
         answer = sensor.exchange_byte(byte)
         return self.silence if answer is None else answer
 

@@ -11,12 +11,13 @@ from at_stops import AtStops
 from bench import A_WHILE
 from in_set_up import InSetUp
 from machine import Machine
+from on_stack import OnStack
 from shield import Shield
 from stm32g4 import GPIO, PWR, SPI1
 from with_angle_sensors import WithAngleSensors
 
 
-class Knob(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
+class Knob(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
     BOARD, NAME = Shield, "knob"
     DRIVING, HAS_LIGHT = telemetry.CALIBRATE, False
 

@@ -8,6 +8,7 @@ import telemetry
 from at_resets import AtResets
 from at_stops import AtStops
 from in_set_up import InSetUp
+from on_stack import OnStack
 from pico2 import BUTTON, ENABLES, MOTORS, READY, SELECTS, SET_POINTS, SLICES, STOP, SUPPLY, Pico2
 from rp2350 import (
     IE, IO, PADS, PDE, POWMAN, PSM, PUE, PWM, PWM_FUNCTION, RESETS_STAGE, ROSC, SIO_FUNCTION, SPI0, STAGES, WATCHDOG,
@@ -16,7 +17,7 @@ from rp2350 import (
 from with_angle_sensors import WithAngleSensors
 
 
-class Pico(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
+class Pico(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
     BOARD, NAME = Pico2, "pico2"
 
     # Pins.

@@ -6,8 +6,9 @@ import unittest
 
 from at_stops import AtStops
 from in_set_up import InSetUp
+from on_stack import OnStack
 from pico2 import Pico2
 
 
-class PicoWithHost(InSetUp, AtStops, unittest.TestCase):
+class PicoWithHost(InSetUp, OnStack, AtStops, unittest.TestCase):
     BOARD, NAME = Pico2, "pico2_host"

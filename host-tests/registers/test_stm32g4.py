@@ -10,10 +10,11 @@ from at_stops import AtStops
 from in_force import InForce
 from in_set_up import InSetUp
 from nucleo import Nucleo
+from on_stack import OnStack
 from stm32g4 import ADC1, ADCAL, ADEN, ADVREGEN, FLASH, GPIO, PWR, RCC, TIM1, TIM2, TIM3, TIM4
 
 
-class Stm32g4(InSetUp, InForce, AtResets, AtStops, unittest.TestCase):
+class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
     BOARD, NAME = Nucleo, "stm32g4"
 
     def test_power_interface_has_its_clock_before_the_boost_is_set(self) -> None:

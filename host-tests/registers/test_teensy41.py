@@ -10,11 +10,12 @@ from at_stops import AtStops
 from bench import OF_PANIC
 from imxrt1062 import EN, LPSPI4, PWM2, RCS, UPDATE, WDOG3
 from in_set_up import InSetUp
+from on_stack import OnStack
 from teensy41 import Teensy41
 from with_angle_sensors import WithAngleSensors
 
 
-class Teensy(InSetUp, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
+class Teensy(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
     BOARD, NAME = Teensy41, "teensy41"
 
     def test_watchdog_takes_its_configuration_which_is_read_back(self) -> None:

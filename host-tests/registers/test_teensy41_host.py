@@ -6,8 +6,9 @@ import unittest
 
 from at_stops import AtStops
 from in_set_up import InSetUp
+from on_stack import OnStack
 from teensy41 import Teensy41
 
 
-class TeensyWithHost(InSetUp, AtStops, unittest.TestCase):
+class TeensyWithHost(InSetUp, OnStack, AtStops, unittest.TestCase):
     BOARD, NAME = Teensy41, "teensy41_host"

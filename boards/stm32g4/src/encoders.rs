@@ -6,9 +6,9 @@ use stm32g4xx_hal::gpio::{AF1, AF2, PA0, PA1, PB6, PB7, PC6, PC7};
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
 use stm32g4xx_hal::stm32::{TIM2, TIM3, TIM4};
 
-use crate::BENCH;
 use crate::body::SETTINGS;
 use crate::felt::This;
+use crate::set_up::BENCH;
 
 /// The pins, A and B of each encoder, already given to their timers.
 pub type Pins = ((PA0<AF1>, PA1<AF1>), (PC6<AF2>, PC7<AF2>), (PB6<AF2>, PB7<AF2>));

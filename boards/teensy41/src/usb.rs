@@ -4,6 +4,7 @@
 //! until what was handed is taken back after a reset of the bus, until the eight bytes of a request are whole. Those
 //! loops have no bound of their own: a controller that never answers is found by the watchdog, for main hangs.
 
+use cortex_m::singleton;
 use imxrt_ral::read_reg;
 use imxrt_ral::usb::USB1;
 use palpate_usb::{Chip, PACKET};
@@ -16,10 +17,15 @@ static MEMORY: EndpointMemory<{ 4 * PACKET + 8 }> = EndpointMemory::new();
 static STATE: EndpointState<6> = EndpointState::new();
 
 /// The controller's bus, at full speed: a packet of high speed would be 512 bytes. Its clock is that of `board::t41`.
-pub fn bus(usb: Instances<1>) -> UsbBusAllocator<BusAdapter> {
+///
+/// # Panics
+/// The second time; its peripherals are there once.
+pub fn bus(usb: Instances<1>) -> &'static UsbBusAllocator<BusAdapter> {
     // SAFETY: main alone reaches the bus, and no interrupt does.
     let bus = unsafe { BusAdapter::without_critical_sections(usb, &MEMORY, &STATE, Speed::LowFull) };
-    UsbBusAllocator::new(bus)
+    let bus = singleton!(: UsbBusAllocator<BusAdapter> = UsbBusAllocator::new(bus));
+    let Some(bus) = bus else { panic!("there is one plug") };
+    bus
 }
 
 /// What usb-device does not ask of the bus.

@@ -53,20 +53,21 @@ type Pin = AnyPin<Input>;
 type Bus = Spi<SPI1, (PA5<AF5>, PA6<AF5>, PA7<AF5>)>;
 type Sensor = Watched<Angles<Bus, PB6<Output>, CycleDelay<Cycles>, 1>, 1>;
 type Board = Parts<Cycles, Ticks, Sensor, [Stage; 1], Pin, Pin, Pin, Volts, NoPin, 2>;
+type Loop = Bench<'static, This, Board, 1>;
 
 /// The loop on its way from main to the interrupt, and what passes between them afterwards.
-static HANDED_OVER: HandOver<Bench<'static, This, Board, 1>> = HandOver::new();
+static HANDED_OVER: HandOver<&'static mut Loop> = HandOver::new();
 static MAILBOX: Mailbox = Mailbox::new();
 
 #[interrupt]
 fn TIM7() {
     // Taken at the first tick: from then on no lock is needed.
-    static mut LOOP: Option<Bench<'static, This, Board, 1>> = None;
+    static mut TAKEN: Option<&'static mut Loop> = None;
 
-    if LOOP.is_none() {
-        *LOOP = HANDED_OVER.take();
+    if TAKEN.is_none() {
+        *TAKEN = HANDED_OVER.take();
     }
-    if let Some(servo_loop) = LOOP {
+    if let Some(servo_loop) = TAKEN {
         servo_loop.tick();
     }
 }
@@ -74,6 +75,7 @@ fn TIM7() {
 #[entry]
 fn main() -> ! {
     static mut QUEUE: Queue<Record, 16> = Queue::new();
+    static mut LOOP: Option<Loop> = None;
 
     stage::motors_off();
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
@@ -119,7 +121,7 @@ fn main() -> ! {
     };
     let mut choice = Choice::new(a.pa10.into_pull_up_input(), cycles);
     let (producer, records) = QUEUE.split();
-    HANDED_OVER.give(Bench::new(This, board, &BENCH, reset, producer, &MAILBOX));
+    HANDED_OVER.give(LOOP.insert(Bench::new(This, board, &BENCH, reset, producer, &MAILBOX)));
     MEMO.write(Memo::new(Cause::Running));
     let mut watchdog = port::Bowl(IndependentWatchdog::new(chip.IWDG));
     watchdog.0.start(20.millis());

@@ -1,0 +1,125 @@
+//! Clocks, pins and memory, in an order in which no motor moves.
+
+use cortex_m::peripheral::NVIC;
+use palpate::device::SupplyRange;
+use palpate::device::drive::HBridge;
+use palpate::wire::telemetry::Queue;
+use palpate_bench::sensors::{Angles, greatest_step};
+use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings, Switched};
+use palpate_cortex::Cycles;
+use palpate_usb::{Cdc, Either, Plain};
+use rp235x_hal::adc::{Adc, AdcPin};
+use rp235x_hal::clocks::{Clock, init_clocks_and_plls};
+use rp235x_hal::fugit::RateExtU32;
+use rp235x_hal::gpio::Pins;
+use rp235x_hal::pac::{Interrupt, Peripherals};
+use rp235x_hal::pwm::Slices;
+use rp235x_hal::spi::Spi;
+use rp235x_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
+use rp235x_hal::{Sio, Watchdog};
+
+use crate::body::{DEVICE, SETTINGS};
+use crate::chip::{CLOCK, CRYSTAL};
+use crate::felt::This;
+use crate::program::{self, Below, Loop, Message};
+use crate::supply::Volts;
+use crate::ticks::Ticks;
+use crate::{chip, pins, port, supply, usb};
+
+/// What the loop of the boards is told of this one.
+pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
+
+/// Sets all up, in an order in which no motor moves.
+#[inline(never)]
+pub fn set_up(
+    queue: &'static mut Queue<Message, 16>,
+    servo_loop: &'static mut Option<Loop>,
+) -> Below<impl Port, impl FnOnce() -> port::Bowl> {
+    let (Some(mut core), Some(mut chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
+        panic!("the peripherals are taken here and nowhere else")
+    };
+    chip::motors_off();
+    let reset = chip::reset(&chip.WATCHDOG, &chip.POWMAN);
+    let sio = Sio::new(chip.SIO);
+    let pins = Pins::new(chip.IO_BANK0, chip.PADS_BANK0, sio.gpio_bank0, &mut chip.RESETS);
+    // Motors first: off.
+    let enable = pins.gpio16.into_push_pull_output().into_dyn_pin();
+
+    let mut watchdog = Watchdog::new(chip.WATCHDOG);
+    let clocks = init_clocks_and_plls(
+        CRYSTAL,
+        chip.XOSC,
+        chip.CLOCKS,
+        chip.PLL_SYS,
+        chip.PLL_USB,
+        &mut chip.RESETS,
+        &mut watchdog,
+    );
+    let Ok(clocks) = clocks else { panic!("the crystal does not start") };
+    let speed = clocks.peripheral_clock.freq();
+    let cycles = Cycles::start(&mut core.DCB, core.DWT);
+
+    let mut slices = Slices::new(chip.PWM, &mut chip.RESETS);
+    pins::start(&mut slices.pwm5, &mut slices.pwm6, &mut slices.pwm7);
+    slices.pwm5.channel_a.output_to(pins.gpio10);
+    slices.pwm6.channel_a.output_to(pins.gpio12);
+    slices.pwm7.channel_a.output_to(pins.gpio14);
+    let bridges = (
+        HBridge::new(slices.pwm5.channel_a, pins.gpio11.into_push_pull_output().into_dyn_pin()),
+        HBridge::new(slices.pwm6.channel_a, pins.gpio13.into_push_pull_output().into_dyn_pin()),
+        HBridge::new(slices.pwm7.channel_a, pins.gpio15.into_push_pull_output().into_dyn_pin()),
+    );
+
+    let lines = (pins.gpio3.reconfigure(), pins.gpio4.reconfigure(), pins.gpio2.reconfigure());
+    let bus = Spi::new(chip.SPI0, lines).init(&mut chip.RESETS, speed, 8.MHz(), embedded_hal::spi::MODE_1);
+    let selects = [
+        pins.gpio5.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
+        pins.gpio6.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
+        pins.gpio7.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
+    ];
+    let steps =
+        DEVICE.encoders.map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate, SETTINGS.rate, BENCH.bad_frames));
+    let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, CLOCK), steps);
+    // One that does not start is a fault of the loop, which names it in its first tick.
+    let _ = sensors.start();
+
+    let settings = UartConfig::new(500_000.Hz(), DataBits::Eight, None, StopBits::One);
+    let uart =
+        UartPeripheral::new(chip.UART0, (pins.gpio0.into_function(), pins.gpio1.into_function()), &mut chip.RESETS);
+    let Ok(uart) = uart.enable(settings, speed) else { panic!("150 MHz make 500,000 baud") };
+    let Ok(supply_pin) = AdcPin::new(supply::pin(pins.gpio26)) else { panic!("GP26 is a pin of the converter") };
+    let board = Parts {
+        counter: cycles,
+        timer: Ticks::start(slices.pwm0),
+        sensors,
+        drives: Switched::new(bridges, enable),
+        lines: Lines {
+            enable: pins.gpio17.into_pull_up_input().into_dyn_pin(),
+            enable_level: false,
+            stop: pins.gpio21.into_pull_up_input().into_dyn_pin(),
+            ready: [
+                pins.gpio18.reconfigure().into_dyn_pin(),
+                pins.gpio19.reconfigure().into_dyn_pin(),
+                pins.gpio20.reconfigure().into_dyn_pin(),
+            ],
+            supply: Volts { converter: Adc::new(chip.ADC, &mut chip.RESETS), pin: supply_pin },
+        },
+        light: pins.gpio25.into_push_pull_output().into_dyn_pin(),
+    };
+    let bus = usb::bus(chip.USB, chip.USB_DPRAM, clocks.usb_clock, &mut chip.RESETS);
+    let Ok(plug) = Cdc::try_new(bus, Plain) else { panic!("it is a device that USB allows") };
+    let port = Either::new(plug, port::Uart(uart));
+    let (producer, messages) = queue.split();
+    program::HANDED_OVER.give(servo_loop.insert(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX)));
+    chip::remember(Cause::Running);
+    let start = move || {
+        let watchdog = port::Bowl::start(watchdog);
+        // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
+        unsafe {
+            core.NVIC.set_priority(Interrupt::PWM_IRQ_WRAP_0, 0);
+            NVIC::unmask(Interrupt::PWM_IRQ_WRAP_0);
+        }
+        watchdog
+    };
+    Below { messages, cycles, reset, port, start }
+}

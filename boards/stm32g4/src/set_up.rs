@@ -1,0 +1,120 @@
+//! Clocks, pins and memory, in an order in which no motor moves.
+
+use cortex_m::peripheral::NVIC;
+use palpate::device::SupplyRange;
+use palpate::wire::telemetry::Queue;
+use palpate_bench::sensors::Counters;
+use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Port, Settings};
+use palpate_cortex::Cycles;
+use stm32g4xx_hal::gpio::{AnyPin, Input};
+use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
+use stm32g4xx_hal::prelude::*;
+use stm32g4xx_hal::stm32::{Interrupt, Peripherals};
+use stm32g4xx_hal::time::ExtU32;
+
+use crate::chip::{CLOCK, MEMO};
+use crate::encoders::Encoders;
+#[cfg(feature = "host")]
+use crate::host;
+use crate::program::{self, Below, Loop, Message};
+use crate::set_points::{Drives, Light};
+use crate::supply::Volts;
+use crate::ticks::Ticks;
+use crate::{amplifiers, chip, encoders, felt, port, set_points};
+
+/// What the loop of the boards is told of this one.
+pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
+
+/// When the watchdog bites, ms: with a host after the 25 ms that a page of flash takes to be erased, motors held off.
+const BITES: u32 = if cfg!(feature = "host") { 40 } else { 20 };
+
+type Pin = AnyPin<Input>;
+/// What the loop runs on.
+pub type Board = Parts<Cycles, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
+
+/// Sets all up, in an order in which no motor moves.
+#[inline(never)]
+pub fn set_up(
+    queue: &'static mut Queue<Message, 16>,
+    servo_loop: &'static mut Option<Loop>,
+) -> Below<impl Port, impl FnOnce() -> port::Bowl> {
+    let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
+        panic!("the peripherals are taken here and nowhere else")
+    };
+    amplifiers::motors_off();
+    let (mut rcc, flags) = chip::start(chip.RCC, chip.PWR, &chip.FLASH);
+    let reset = flags.reason(MEMO.read());
+    let cycles = Cycles::start(&mut core.DCB, core.DWT);
+    let (a, b, c) = (chip.GPIOA.split(&mut rcc), chip.GPIOB.split(&mut rcc), chip.GPIOC.split(&mut rcc));
+
+    // Motors first: not enabled.
+    let enables = (c.pc0.into_push_pull_output(), c.pc1.into_push_pull_output(), c.pc2.into_push_pull_output());
+    let ways = (b.pb13.into_push_pull_output(), b.pb14.into_push_pull_output(), b.pb15.into_push_pull_output());
+    let mut delay = CycleDelay::new(cycles, CLOCK);
+    #[cfg(not(feature = "analog"))]
+    let (outputs, light) = (
+        set_points::outputs(
+            chip.TIM1,
+            (a.pa8.into_alternate(), a.pa9.into_alternate(), a.pa10.into_alternate()),
+            &mut rcc,
+        ),
+        a.pa5.into_push_pull_output(),
+    );
+    #[cfg(feature = "analog")]
+    let (outputs, light) = (
+        set_points::outputs(
+            (chip.DAC1, chip.DAC2),
+            (a.pa4.into_analog(), a.pa5.into_analog(), a.pa6.into_analog()),
+            &mut delay,
+            &mut rcc,
+        ),
+        palpate::device::drive::NoPin,
+    );
+    let drives = amplifiers::amplifiers(outputs, enables, ways, set_points::RANGE, set_points::DWELL);
+
+    let pins = (
+        (a.pa0.into_alternate(), a.pa1.into_alternate()),
+        (c.pc6.into_alternate(), c.pc7.into_alternate()),
+        (b.pb6.into_alternate(), b.pb7.into_alternate()),
+    );
+    let encoders = Encoders::new((chip.TIM2, chip.TIM3, chip.TIM4), pins, &mut rcc);
+    #[cfg(feature = "host")]
+    let felt = felt::on(host::find(chip.FLASH, felt::homed_by()));
+    #[cfg(not(feature = "host"))]
+    let felt = felt::This;
+    let port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
+
+    let board = Parts {
+        counter: cycles,
+        timer: Ticks::start(chip.TIM7, &rcc),
+        sensors: Counters::new(encoders, encoders::steps(&felt)),
+        drives,
+        lines: Lines {
+            // The blue button: high while pressed.
+            enable: c.pc13.into_floating_input().erase(),
+            enable_level: true,
+            stop: b.pb0.into_pull_up_input().erase(),
+            ready: [
+                c.pc3.into_pull_down_input().erase(),
+                c.pc4.into_pull_down_input().erase(),
+                c.pc5.into_pull_down_input().erase(),
+            ],
+            supply: Volts::new(chip.ADC1, chip.ADC12_COMMON, b.pb1.into_analog(), &mut delay, &mut rcc),
+        },
+        light,
+    };
+    let (producer, messages) = queue.split();
+    program::HANDED_OVER.give(servo_loop.insert(Loop::new(felt, board, &BENCH, reset, producer, &program::MAILBOX)));
+    MEMO.write(Memo::new(Cause::Running));
+    let start = move || {
+        let mut watchdog = IndependentWatchdog::new(chip.IWDG);
+        watchdog.start(BITES.millis());
+        // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
+        unsafe {
+            core.NVIC.set_priority(Interrupt::TIM7, 0);
+            NVIC::unmask(Interrupt::TIM7);
+        }
+        port::Bowl(watchdog)
+    };
+    Below { messages, cycles, reset, port, start }
+}

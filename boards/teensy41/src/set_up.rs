@@ -1,0 +1,125 @@
+//! Clocks, pins and memory, in an order in which no motor moves.
+
+use cortex_m::peripheral::NVIC;
+use palpate::device::SupplyRange;
+use palpate::device::drive::{SetPointDrive, SetPointRange};
+use palpate::wire::telemetry::Queue;
+use palpate_bench::sensors::{Angles, greatest_step};
+use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings};
+use palpate_cortex::Cycles;
+use palpate_usb::{Cdc, Either};
+use teensy4_bsp::Interrupt;
+use teensy4_bsp::board::{self, ARM_FREQUENCY, Lpspi, LpspiPins, lpuart};
+use teensy4_bsp::hal::flexpwm::SM;
+use teensy4_bsp::hal::gpio::{Input, Output};
+use teensy4_bsp::hal::iomuxc::{self, Config, Hysteresis, PullKeeper};
+use teensy4_bsp::hal::lpspi::MODE_1;
+
+use crate::body::{DEVICE, SETTINGS};
+use crate::felt::This;
+use crate::program::{self, Below, Loop, Message};
+use crate::pulse_width::{DWELL, PulseWidth};
+use crate::supply::Volts;
+use crate::ticks::Ticks;
+use crate::watchdog::Bowl;
+use crate::{chip, port, usb};
+
+/// What the loop of the boards is told of this one.
+pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(ARM_FREQUENCY) };
+
+type Sensors = Angles<Lpspi, Output, CycleDelay<Cycles>, 3>;
+type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
+/// What the loop runs on.
+pub type Board = Parts<Cycles, Ticks, Sensors, [Amplifier; 3], Input, Input, Input, Volts, Output, 3>;
+
+/// Sets all up, in an order in which no motor moves.
+#[inline(never)]
+pub fn set_up(
+    queue: &'static mut Queue<Message, 16>,
+    servo_loop: &'static mut Option<Loop>,
+) -> Below<impl Port, impl FnOnce() -> Bowl> {
+    let Some(mut core) = cortex_m::Peripherals::take() else {
+        panic!("the peripherals are taken here and nowhere else")
+    };
+    chip::motors_off();
+    let (flags, memo) = chip::reset();
+    let reset = flags.reason(memo);
+    let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, usb, .. } =
+        board::t41(board::instances());
+    // Motors first: not enabled.
+    let enables = [gpio1.output(pins.p16).ok(), gpio1.output(pins.p17).ok(), gpio1.output(pins.p18).ok()];
+    let ways = [gpio4.output(pins.p2).ok(), gpio4.output(pins.p3).ok(), gpio2.output(pins.p7).ok()];
+    let selects = [gpio2.output(pins.p8).ok(), gpio2.output(pins.p9).ok(), gpio2.output(pins.p10).ok()];
+    let ([Some(enable_a), Some(enable_b), Some(enable_c)], [Some(way_a), Some(way_b), Some(way_c)]) = (enables, ways)
+    else {
+        panic!("pins 16 to 18, 2, 3 and 7 are of these ports")
+    };
+    let [Some(a), Some(b), Some(c)] = selects else { panic!("pins 8 to 10 are of GPIO2") };
+    let selects = [a, b, c];
+    selects.iter().for_each(Output::set);
+    // What stays in flash is cached.
+    core.SCB.enable_icache();
+    core.SCB.enable_dcache(&mut core.CPUID);
+    let cycles = Cycles::start(&mut core.DCB, core.DWT);
+
+    iomuxc::flexpwm::prepare(&mut pins.p4);
+    iomuxc::flexpwm::prepare(&mut pins.p5);
+    iomuxc::flexpwm::prepare(&mut pins.p6);
+    // SAFETY: each submodule once; from here on only the interrupt sets them.
+    let [a, b, c] = unsafe { [SM::SM0, SM::SM1, SM::SM2].map(|submodule| PulseWidth::start(submodule)) };
+    // As WoodenHaptics configures its amplifiers: 10 % is no current, and a pin says which way.
+    let range = SetPointRange::TEN_TO_NINETY;
+    let drives = [
+        SetPointDrive::with_direction(a, enable_a, way_a, range, DWELL),
+        SetPointDrive::with_direction(b, enable_b, way_b, range, DWELL),
+        SetPointDrive::with_direction(c, enable_c, way_c, range, DWELL),
+    ];
+
+    let mut bus = board::lpspi(lpspi4, LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 }, 8_000_000);
+    bus.set_mode(MODE_1);
+    let steps =
+        DEVICE.encoders.map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate, SETTINGS.rate, BENCH.bad_frames));
+    let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, ARM_FREQUENCY), steps);
+    // One that does not start is a fault of the loop, which names it in its first tick.
+    let _ = sensors.start();
+    let input = Config::zero().set_hysteresis(Hysteresis::Enabled);
+    let (up, down) =
+        (input.set_pull_keeper(Some(PullKeeper::Pullup22k)), input.set_pull_keeper(Some(PullKeeper::Pulldown100k)));
+    iomuxc::configure(&mut pins.p14, up);
+    iomuxc::configure(&mut pins.p21, up);
+    iomuxc::configure(&mut pins.p15, down);
+    iomuxc::configure(&mut pins.p19, down);
+    iomuxc::configure(&mut pins.p20, down);
+    let (Ok(enable), Ok(stop)) = (gpio1.input(pins.p14), gpio1.input(pins.p21)) else { panic!("they are of GPIO1") };
+    let ready = (gpio1.input(pins.p15), gpio1.input(pins.p19), gpio1.input(pins.p20));
+    let (Ok(ready_a), Ok(ready_b), Ok(ready_c)) = ready else { panic!("they are of GPIO1") };
+    let (Ok(light), Ok(supply)) = (gpio1.output(pins.p22), adc1.input::<_, 1>(pins.p23)) else {
+        panic!("they are as wired")
+    };
+    let bus = usb::bus(usb);
+    let Ok(plug) = Cdc::try_new(bus, usb::Plug) else { panic!("it is a device that USB allows") };
+    let port = Either::new(plug, port::Uart(lpuart(lpuart6, pins.p1, pins.p0, port::BAUD)));
+
+    let lines = Lines {
+        enable,
+        enable_level: false,
+        stop,
+        ready: [ready_a, ready_b, ready_c],
+        supply: Volts::new(adc1, supply),
+    };
+    let board = Parts { counter: cycles, timer: Ticks::start(pit), sensors, drives, lines, light };
+    let (producer, messages) = queue.split();
+    program::HANDED_OVER.give(servo_loop.insert(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX)));
+    chip::remember(Cause::Running);
+    let start = move || {
+        // SAFETY: nothing else uses it.
+        let watchdog = Bowl::start(unsafe { imxrt_ral::rtwdog::RTWDOG::instance() });
+        // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
+        unsafe {
+            core.NVIC.set_priority(Interrupt::PIT, 0);
+            NVIC::unmask(Interrupt::PIT);
+        }
+        watchdog
+    };
+    Below { messages, cycles, reset, port, start }
+}

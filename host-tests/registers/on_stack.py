@@ -1,0 +1,53 @@
+"""The stack: how deep it has been, and what lies under it."""
+
+from __future__ import annotations
+
+import unicorn
+from bench import Bench
+from core import NOISE, Stuck
+from machine import HARD_FAULT, INTERRUPTS, NMI, Machine
+
+# What the core pushes of its floating-point registers, which Unicorn's exceptions leave out: for each of the three that
+# can lie on each other.
+FLOATS = 3 * 72
+# What is to be left, as a share of all: an upload, which is not run here, goes deeper than what is.
+LEFT = 0.25
+
+
+class OnStack(Bench):
+    """The stack."""
+
+    def stack(self) -> tuple[int, int]:
+        """Where the memory begins that the stack is in, and where the stack does, which grows down."""
+        top = self.image.symbol("_stack_start")
+        [start] = [start for start, size in self.BOARD.MEMORY if start < top <= start + size]
+        return start, top
+
+    def deepest(self, machine: Machine) -> int:
+        """The lowest address that anything on the stack ever had."""
+        start, top = self.stack()
+        return start + next(index for index, byte in enumerate(machine.memory(start, top - start)) if byte != NOISE)
+
+    def test_nothing_that_is_kept_lies_under_the_stack(self) -> None:
+        start, top = self.stack()
+        # Some linker scripts place the stack like a variable.
+        placed = [(first, size) for first, size in self.image.placed if (first, size) != (start, top - start)]
+        kept = [(first, size) for first, size in placed if first < top and start < first + size]
+        self.assertEqual(kept, [], "a stack that grows too deep stops the core before it spoils anything")
+
+    def test_stack_has_room_left_when_all_that_can_is_on_it(self) -> None:
+        machine = self.while_driving()
+        machine.stop_when = machine.chip.is_acknowledged
+        machine.exception(INTERRUPTS + machine.chip.TICK, returns=None)
+        machine.exception(HARD_FAULT, returns=False)
+        machine.exception(NMI, returns=False)
+        start, top = self.stack()
+        left = self.deepest(machine) - FLOATS - start
+        self.assertGreater(left, LEFT * (top - start), f"{top - start} bytes")
+
+    def test_stack_that_overflows_stops_the_core(self) -> None:
+        machine = self.while_driving()
+        start, _ = self.stack()
+        machine.set_registers(SP=start)
+        with self.assertRaises((Stuck, unicorn.UcError)):
+            machine.ticks(1)
