@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import struct
 
-from stm32g4 import FEEDS, GPIO, IWDG, LSI, RCC, STARTS, TIM1, TIM2, TIM3, TIM4, TIM7, USART2, Stm32g4, peripheral
-
+from stm32g4 import (
+    CATCHES, CAUGHT, FEEDS, GPIO, IWDG, LSI, RCC, STARTS, TIM1, TIM2, TIM3, TIM4, TIM7, USART2, Stm32g4, peripheral,
+)  # fmt: skip
 
 
 class Nucleo(Stm32g4):
@@ -47,6 +48,12 @@ class Nucleo(Stm32g4):
 
     def count(self, address: int) -> int:
         return self.counts[address]
+
+    def pass_mark(self, caught: int) -> None:
+        """A joint passes its index mark: its timer catches the count of that moment."""
+        timer = CAUGHT[caught]
+        self.keep(caught, self.counts[timer.CNT])
+        self.keep(timer.SR, self.word(timer.SR) | CATCHES[caught])
 
     def press(self, enable: bool | None = None, stop: bool | None = None) -> None:
         """The buttons: the blue one gives a high level; stop's contact opens, and the pin is left to its pull."""

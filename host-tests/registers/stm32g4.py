@@ -29,12 +29,15 @@ GPIO = {
 }  # fmt: skip
 TIM1, TIM2, TIM3, TIM4, TIM7 = (
     Block(
-        f"TIM{number}", base, CR1=0, SMCR=8, DIER=0xC, SR=0x10, CCMR1=0x18, CCER=0x20, CNT=0x24, PSC=0x28, ARR=0x2C,
-        CCR1=0x34, CCR2=0x38, CCR3=0x3C, BDTR=0x44,
+        f"TIM{number}", base, CR1=0, SMCR=8, DIER=0xC, SR=0x10, CCMR1=0x18, CCMR2=0x1C, CCER=0x20, CNT=0x24, PSC=0x28, ARR=0x2C,
+        CCR1=0x34, CCR2=0x38, CCR3=0x3C, CCR4=0x40, BDTR=0x44,
     )
     for number, base in ((1, 0x4001_2C00), (2, 0x4000_0000), (3, 0x4000_0400), (4, 0x4000_0800), (7, 0x4000_1400))
 )  # fmt: skip
 TIMERS = (TIM1, TIM2, TIM3, TIM4, TIM7)
+# The registers that catch a count, each with its timer, and their flags in SR.
+CAUGHT = {TIM2.CCR3: TIM2, TIM3.CCR3: TIM3, TIM4.CCR4: TIM4}
+CATCHES = {TIM2.CCR3: 1 << 3, TIM3.CCR3: 1 << 3, TIM4.CCR4: 1 << 4}
 USART2 = Block("USART2", 0x4000_4400, CR1=0, BRR=0xC, ISR=0x1C, RDR=0x24, TDR=0x28)
 SPI1 = Block("SPI1", 0x4001_3000, CR1=0, CR2=4, SR=8, DR=0xC)
 IWDG = Block("IWDG", 0x4000_3000, KR=0, PR=4, RLR=8, SR=0xC, WINR=0x10)
@@ -144,6 +147,9 @@ class Stm32g4(Chip):
             value = 0
         elif address in (TIM2.CNT, TIM3.CNT, TIM4.CNT):
             value = self.count(address)
+        elif address in CAUGHT:
+            # Reading what was caught takes its flag down ("TIMx status register").
+            self.keep(CAUGHT[address].SR, self.word(CAUGHT[address].SR) & ~CATCHES[address])
         else:
             for port, block in GPIO.items():
                 if address == block.IDR:

@@ -11,7 +11,7 @@ from in_force import InForce
 from in_set_up import InSetUp
 from nucleo import Nucleo
 from on_stack import OnStack
-from stm32g4 import ADC1, ADCAL, ADEN, ADVREGEN, FLASH, GPIO, PWR, RCC, TIM1, TIM2, TIM3, TIM4
+from stm32g4 import ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, FLASH, GPIO, PWR, RCC, TIM1, TIM2, TIM3, TIM4
 
 
 class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
@@ -62,6 +62,27 @@ class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
             self.assertEqual(machine.chip.word(timer.SMCR) & 7, 3)
             self.assertEqual(machine.chip.word(timer.CR1) & 1, 1)
             self.assertLess(machine.log.first(timer.CCMR1), machine.log.first(timer.CR1))
+
+    def test_counts_are_caught_at_index_marks_through_pins_that_are_pulled_down(self) -> None:
+        machine = self.after_set_up()
+        chip = machine.chip
+        for timer, enable, port, pin in ((TIM2, 8, "B", 10), (TIM3, 8, "C", 8), (TIM4, 12, "B", 9)):
+            # Channels 3 and 4 take their own inputs, filtered like the others; one of them is on, at rising edges.
+            self.assertEqual(chip.word(timer.CCMR2), 0b1001_00_01_1001_00_01)
+            self.assertEqual(chip.word(timer.CCER), 1 << enable)
+            self.assertEqual(chip.mode(port, pin), 2)
+            self.assertEqual(chip.word(GPIO[port].PUPDR) >> 2 * pin & 3, 2)
+
+    def test_mark_that_was_passed_is_read_once_in_the_next_tick(self) -> None:
+        for caught, timer in CAUGHT.items():
+            machine = self.once_homed()
+            chip = machine.chip
+            chip.pass_mark(caught)
+            since = len(machine.log.entries)
+            machine.ticks(3)
+            reads = [entry for entry in machine.log.entries[since:] if entry.address in CAUGHT]
+            self.assertEqual([entry.address for entry in reads], [caught])
+            self.assertFalse(chip.word(timer.SR) & CATCHES[caught])
 
     def test_converter_has_a_clock_that_it_takes_and_is_calibrated(self) -> None:
         machine = self.after_set_up()

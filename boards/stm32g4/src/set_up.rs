@@ -73,9 +73,9 @@ pub fn set_up(
     let drives = amplifiers::amplifiers(outputs, enables, ways, set_points::RANGE, set_points::DWELL);
 
     let pins = (
-        (a.pa0.into_alternate(), a.pa1.into_alternate()),
-        (c.pc6.into_alternate(), c.pc7.into_alternate()),
-        (b.pb6.into_alternate(), b.pb7.into_alternate()),
+        (a.pa0.into_alternate(), a.pa1.into_alternate(), b.pb10.into_pull_down_input().into_alternate()),
+        (c.pc6.into_alternate(), c.pc7.into_alternate(), c.pc8.into_pull_down_input().into_alternate()),
+        (b.pb6.into_alternate(), b.pb7.into_alternate(), b.pb9.into_pull_down_input().into_alternate()),
     );
     let encoders = Encoders::new((chip.TIM2, chip.TIM3, chip.TIM4), pins, &mut rcc);
     #[cfg(feature = "host")]
