@@ -1,0 +1,44 @@
+//! What is known of the joints before they are homed.
+
+use super::{FieldSearch, StopSearch};
+use crate::device::Counts;
+
+/// What is known of the joints at a pose that can be recognised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reference<const JOINTS: usize> {
+    /// The hand holds the device still in a mechanical reference pose, at these joint angles, radians.
+    Pose([f32; JOINTS]),
+    /// As a pose, with absolute sensors that must read these counts there, give or take the tolerance: what is kept
+    /// from assembly tells a device that was put down wrong, or put together wrong.
+    KnownPose {
+        /// Joint angles at the pose, radians.
+        angles: [f32; JOINTS],
+        /// What the sensors read there.
+        counts: [Counts; JOINTS],
+        /// How far off they may be, counts.
+        tolerance: u32,
+    },
+    /// Each joint passes its index mark once, at this joint angle, radians; the hand moves the device about meanwhile.
+    Index([f32; JOINTS]),
+    /// The motors drive one joint after the other to its end stop, while the others hang free.
+    Stops([StopSearch; JOINTS]),
+    /// The motors have three phases, and lead one joint after the other round with their fields: how each rotor stands
+    /// to its field is found out, and [`Homing::fields`] says from then on where each field is to be. The joints'
+    /// angles stay what the encoders say.
+    Fields([FieldSearch; JOINTS]),
+}
+
+/// What an encoder's [`Encoder::angle_at_zero`] is the joint's angle at: a number that was measured for one of them
+/// says nothing of another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ZeroOf {
+    /// Count zero, of sensors that know it after each reset.
+    #[default]
+    Count,
+    /// The pose in which the device is homed ([`Reference::Pose`]).
+    Pose,
+    /// The joint's index mark ([`Reference::Index`]).
+    Mark,
+}
