@@ -2,11 +2,12 @@
 
 use super::read::OwnDevice;
 use crate::preset::Preset;
+use crate::schema::HomingEntry;
 use palpate::device::drive::Feed;
 use palpate::device::{Device, Protection};
 use std::fmt::{Debug, Write as _};
 
-/// The file's text as Rust source: `Mechanism`, `DEVICE`, `PROTECTION` and the inputs and outputs of each joint. Every
+/// The file's text as Rust source: `Mechanism`, `DEVICE`, `PROTECTION`, `REFERENCE` and the inputs and outputs of each joint. Every
 /// number reads back as the same `f32`.
 pub fn source(own: &OwnDevice, from: &str) -> String {
     let mut text = format!("// Written by `palpate device` from {from}. Change that, not this.\n\n");
@@ -16,6 +17,12 @@ pub fn source(own: &OwnDevice, from: &str) -> String {
         Preset::Delta(device) => constants(&mut text, "Delta", device, &own.protection),
         Preset::FiveBar(_) | Preset::Paddle(_) => {}
     }
+    let _ = write!(
+        text,
+        "\n/// What a board homes the joints by; nothing, for counts that are known after each reset.\n#[allow(dead_code)]\n\
+         pub const REFERENCE: Option<palpate::device::Reference<3>> = {};\n",
+        reference(own.file.homing),
+    );
     let inputs: Vec<usize> = own.file.joint.iter().map(|joint| joint.encoder.channel).collect();
     let outputs: Vec<usize> = own.file.joint.iter().map(|joint| joint.motor.channel).collect();
     let _ = write!(
@@ -26,6 +33,15 @@ pub fn source(own: &OwnDevice, from: &str) -> String {
          pub const MOTOR_CHANNELS: [usize; 3] = {outputs:?};\n"
     );
     text
+}
+
+/// What a board homes by, for joints whose encoders' zeroes are of that.
+const fn reference(homing: HomingEntry) -> &'static str {
+    match homing {
+        HomingEntry::Pose => "Some(palpate::device::Reference::Pose(DEVICE.angles_at_zero()))",
+        HomingEntry::Index => "Some(palpate::device::Reference::Index(DEVICE.angles_at_zero()))",
+        HomingEntry::None => "None",
+    }
 }
 
 /// The source that an image of a device that is to be set up is built with: its constants, gains that it bears, and
