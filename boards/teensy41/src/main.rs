@@ -2,7 +2,8 @@
 //!
 //! The servo runs in the interrupt of the periodic timer (PIT), which nothing can delay. Below it `main` sends
 //! telemetry and feeds the watchdog. What both do is the loop of every board (`boards/bench`); here are this one's
-//! clocks, pins and memory ([`set_up`]). The README has the wiring; [`body`] is what to change first, `build.rs` the memory map.
+//! clocks, pins and memory ([`set_up`]). The README has the wiring; [`body`] is what to change first, `build.rs` the
+//! memory map.
 
 #![no_std]
 #![no_main]

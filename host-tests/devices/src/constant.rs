@@ -7,8 +7,8 @@ use palpate::device::drive::Feed;
 use palpate::device::{Device, Protection};
 use std::fmt::{Debug, Write as _};
 
-/// The file's text as Rust source: `Mechanism`, `DEVICE`, `PROTECTION`, `REFERENCE` and the inputs and outputs of each joint. Every
-/// number reads back as the same `f32`.
+/// The file's text as Rust source: `Mechanism`, `DEVICE`, `PROTECTION`, `REFERENCE` and the inputs and outputs of each
+/// joint. Every number reads back as the same `f32`.
 pub fn source(own: &OwnDevice, from: &str) -> String {
     let mut text = format!("// Written by `palpate device` from {from}. Change that, not this.\n\n");
     match own.preset {
