@@ -23,13 +23,13 @@ pub enum Reference<const JOINTS: usize> {
     /// The motors drive one joint after the other to its end stop, while the others hang free.
     Stops([StopSearch; JOINTS]),
     /// The motors have three phases, and lead one joint after the other round with their fields: how each rotor stands
-    /// to its field is found out, and [`Homing::fields`] says from then on where each field is to be. The joints'
-    /// angles stay what the encoders say.
+    /// to its field is found out, and [`Homing::fields`](super::Homing::fields) says from then on where each field is to
+    /// be. The joints' angles stay what the encoders say.
     Fields([FieldSearch; JOINTS]),
 }
 
-/// What an encoder's [`Encoder::angle_at_zero`] is the joint's angle at: a number that was measured for one of them
-/// says nothing of another.
+/// What an encoder's [`angle_at_zero`](crate::device::Encoder::angle_at_zero) is the joint's angle at: a number that
+/// was measured for one of them says nothing of another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
