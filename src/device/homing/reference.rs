@@ -23,8 +23,8 @@ pub enum Reference<const JOINTS: usize> {
     /// The motors drive one joint after the other to its end stop, while the others hang free.
     Stops([StopSearch; JOINTS]),
     /// The motors have three phases, and lead one joint after the other round with their fields: how each rotor stands
-    /// to its field is found out, and [`Homing::fields`](super::Homing::fields) says from then on where each field is to
-    /// be. The joints' angles stay what the encoders say.
+    /// to its field is found out, and [`Homing::fields`](super::Homing::fields) says from then on where each field is
+    /// to be. The joints' angles stay what the encoders say.
     Fields([FieldSearch; JOINTS]),
 }
 
