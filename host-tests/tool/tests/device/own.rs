@@ -1,7 +1,7 @@
 //! Device files: what ships as a file is the preset, and what no device has is refused by its entry.
 
 use palpate_tool::devices::{DEVICES, Preset};
-use palpate_tool::own::{OwnDevice, source};
+use palpate_tool::own::{HomingEntry, OwnDevice, source};
 
 /// The file of WoodenHaptics, as text.
 fn text() -> String {
@@ -37,6 +37,22 @@ fn the_file_of_a_device_that_ships_reads_back_as_its_constant() {
         assert!(rust.contains("DEVICE.check()"));
     }
     assert_eq!(seen, 4);
+}
+
+#[test]
+fn the_constants_say_by_what_the_joints_are_homed() {
+    for (homing, says) in [
+        (HomingEntry::Pose, "= Some(palpate::device::Reference::Pose(DEVICE.angles_at_zero()));"),
+        (HomingEntry::Index, "= Some(palpate::device::Reference::Index(DEVICE.angles_at_zero()));"),
+        (HomingEntry::None, "= None;"),
+    ] {
+        let mut file = DEVICES[0].file().expect("three joints");
+        file.homing = homing;
+        let own = OwnDevice::parse(&toml::to_string(&file).unwrap(), "my.toml").unwrap();
+        let rust = source(&own, "my.toml");
+        let line = rust.lines().find(|line| line.starts_with("pub const REFERENCE")).expect("it says");
+        assert!(line.ends_with(says), "{homing:?}: {line}");
+    }
 }
 
 #[test]
