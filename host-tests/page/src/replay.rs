@@ -9,7 +9,7 @@ use palpate::math::Vec3;
 use palpate::scene::Scene;
 use palpate::servo::{Event, Guard, Input, Safety, Servo, ServoState, Settings};
 use palpate::track::Controller;
-use palpate_recorded::{Mechanism, Recorded, SceneNumbers};
+use palpate_sim::recorded::{Mechanism, Recorded, SceneNumbers};
 
 use crate::loaded::Loaded;
 use crate::sight::Sighted;

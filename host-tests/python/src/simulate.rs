@@ -9,7 +9,7 @@ use palpate::patch::Patch as _;
 use palpate::servo::{Event, Guard, Input, Safety, Servo, Settings};
 use palpate::track::Controller;
 use palpate::wire::Report;
-use palpate_plant::{HandSettings, PathError, Plant, PlantSettings, TouchingPath, direction_around};
+use palpate_sim::plant::{HandSettings, PathError, Plant, PlantSettings, TouchingPath, direction_around};
 
 /// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every device holds it without a limit
 /// cycle.

@@ -5,7 +5,7 @@ pub use crate::preset::{Limits, Preset};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use palpate::device::{Protection, presets};
 use palpate::servo::recommended::{self, Recommended};
-use palpate_plant::PlantSettings;
+use palpate_sim::plant::PlantSettings;
 use std::ffi::OsStr;
 use std::path::Path;
 

@@ -33,4 +33,4 @@ pub mod talk;
 pub mod wall;
 pub mod zwidth;
 
-pub use palpate_devices::{self as own, preset};
+pub use palpate_sim::devices::{self as own, preset};

@@ -5,7 +5,7 @@ use palpate::device::{Counts, Kinematics};
 use palpate::servo::{Event, Guard, Input, Servo, ServoState, Surface, Unguarded};
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::{Report, Sensors};
-use palpate_plant::Plant;
+use palpate_sim::plant::Plant;
 use std::time::Duration;
 
 /// The servo loop compiled for the host, behind the same link as the firmware: the frames and the way from a frame to

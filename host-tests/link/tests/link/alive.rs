@@ -4,7 +4,7 @@ use crate::line::{device, for_seconds, running};
 use crate::orders::at;
 use palpate::servo::ResetReason;
 use palpate_link::{Error, Fault, Phase};
-use palpate_simulated::Kind;
+use palpate_sim::simulated::Kind;
 use std::time::Duration;
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::line::{Bad, device, for_seconds, running};
 use crate::uploads::{BOX, SPHERE};
 use palpate_link::{Device, Error, Phase, Refused, UploadError, View};
-use palpate_simulated::{Hand, Kind};
+use palpate_sim::simulated::{Hand, Kind};
 
 fn crc(file: &[u8]) -> u32 {
     u32::from_le_bytes(*file.last_chunk().unwrap())

@@ -3,7 +3,7 @@
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
 use palpate::wire::{Command, Told, Upload};
 use palpate_link::{Device, Line, View};
-use palpate_simulated::{Hand, Kind, Simulated};
+use palpate_sim::simulated::{Hand, Kind, Simulated};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use std::io;

@@ -3,7 +3,7 @@
 use crate::line::{Bad, device, for_seconds};
 use crate::orders::at;
 use palpate_link::{Device, Error, TRIES};
-use palpate_simulated::Kind;
+use palpate_sim::simulated::Kind;
 
 #[test]
 fn an_answer_that_is_lost_is_asked_for_anew_under_the_same_number() {

@@ -3,7 +3,7 @@
 use crate::line::{device, for_seconds, running};
 use palpate::scene::SceneError;
 use palpate_link::{Contact, Device, Error, Friction, Order, Phase, Pose, Refused};
-use palpate_simulated::Kind;
+use palpate_sim::simulated::Kind;
 
 /// Upright, here.
 pub fn at(position: [f32; 3]) -> Pose {

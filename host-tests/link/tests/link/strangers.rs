@@ -4,7 +4,7 @@ use crate::line::device;
 use palpate::wire::frame::{self, MAX_FRAME};
 use palpate::wire::{Command, Told};
 use palpate_link::{Device, Error, Hello, Line, PROTOCOL};
-use palpate_simulated::Kind;
+use palpate_sim::simulated::Kind;
 use std::cell::Cell;
 use std::io::{self, ErrorKind};
 use std::time::{Duration, Instant};

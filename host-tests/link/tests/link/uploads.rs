@@ -3,7 +3,7 @@
 use crate::line::{Bad, device, for_seconds, running};
 use palpate::body::FileError;
 use palpate_link::{Device, Error, Fault, Refused, UploadError};
-use palpate_simulated::Kind;
+use palpate_sim::simulated::Kind;
 
 /// A capped box of 6,896 bytes and a sphere of 31,380, as `palpate bake` makes them.
 pub const BOX: &[u8] = include_bytes!("../../../../boards/bodies/capped_box.palp");

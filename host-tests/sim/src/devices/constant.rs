@@ -1,8 +1,8 @@
 //! A device file as the library's constants, checked when they are compiled.
 
 use super::read::OwnDevice;
-use crate::preset::Preset;
-use crate::schema::HomingEntry;
+use crate::devices::preset::Preset;
+use crate::devices::schema::HomingEntry;
 use palpate::device::drive::Feed;
 use palpate::device::{Device, Protection};
 use std::fmt::{Debug, Write as _};

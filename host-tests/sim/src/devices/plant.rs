@@ -5,7 +5,7 @@
 //! says.
 
 use super::schema::{DeviceFile, JointEntry, MassEntry, MechanismEntry};
-use palpate_plant::{
+use crate::plant::{
     Amplifier, ArmSettings, DeltaSettings, Direction, FiveBarSettings, JointSettings, Link, LinkLump,
     LinkageArmSettings, MechanismSettings, PlantSettings, Winding,
 };

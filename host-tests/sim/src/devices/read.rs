@@ -2,14 +2,14 @@
 
 use super::plant;
 use super::schema::{DeviceFile, JointEntry, LinkageEntry, MechanismEntry};
-use crate::preset::Preset;
+use crate::devices::preset::Preset;
+use crate::plant::PlantSettings;
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::{
     Delta, Device, DeviceError, Encoder, Endurance, FiveBar, LinkMass, LinkageArm, Motor, Protection, SerialArm,
     SignWatch,
 };
 use palpate::math::{Vec2, vec3};
-use palpate_plant::PlantSettings;
 use std::fs;
 use std::path::Path;
 use thiserror::Error;

@@ -4,10 +4,10 @@ use super::schema::{
     BridgeEntry, DeviceFile, EncoderEntry, HomingEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry,
     MechanismEntry, MotorEntry,
 };
-use crate::preset::Preset;
+use crate::devices::preset::Preset;
+use crate::plant::{Direction, PlantSettings};
 use palpate::device::drive::Feed;
 use palpate::device::{Device, Protection, presets};
-use palpate_plant::{Direction, PlantSettings};
 
 /// The shortest decimal that reads back as the same `f32`.
 fn decimal(number: f32) -> f64 {

@@ -2,10 +2,10 @@
 
 use super::hand::Legs;
 use super::script::{Deed, Script, Stage};
+use crate::plant::Vector;
 use palpate::body::{Body, Edge, EdgeFace, EdgeKind, Face};
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
-use palpate_plant::Vector;
 
 /// How far from an edge the hand comes down and goes on to, m; less on a small face.
 const REACH: f64 = 0.012;

@@ -4,7 +4,7 @@ use super::record::{Recording, Tick};
 use super::sensation::Sensation;
 use super::spectrum::{BANDS, Spectrum};
 use super::threshold::Threshold;
-use palpate_plant::Vector;
+use crate::plant::Vector;
 
 /// How long after a contact began, and about its end, a step counts as theirs, s.
 const AROUND: f64 = 0.01;

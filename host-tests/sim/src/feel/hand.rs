@@ -1,6 +1,6 @@
 //! Scripted hands: straight legs at steady speeds, rounded where they meet as a hand rounds them.
 
-use palpate_plant::{HandPath, Vector};
+use crate::plant::{HandPath, Vector};
 
 /// Over how long a hand changes its speed, s: about the time constant of a finger.
 const ROUNDING: f64 = 0.03;

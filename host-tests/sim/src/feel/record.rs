@@ -1,10 +1,10 @@
 //! The loop against a simulated device in a scripted hand.
 
 use super::script::Script;
+use crate::plant::{HandSettings, Plant, PlantError, PlantSettings, Vector};
 use palpate::device::{Counts, Kinematics};
 use palpate::servo::{Fault, Input, Output, Servo, Surface};
 use palpate::track::Contact;
-use palpate_plant::{HandSettings, Plant, PlantError, PlantSettings, Vector};
 use thiserror::Error;
 
 /// From when on force is asked for, s: the witness point has converged by then, and the hand not yet begun.

@@ -1,7 +1,7 @@
 //! What the hands do: on a flat wall for every device, and over the edges of a body for those that feel it.
 
 use super::hand::Legs;
-use palpate_plant::Vector;
+use crate::plant::Vector;
 
 /// What a hand does, and when to look at what it gets.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,7 +169,7 @@ impl Stage {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use palpate_plant::HandPath as _;
+    use crate::plant::HandPath as _;
 
     const STAGE: Stage = Stage { joints: 3, stiffness: 1_000.0, hand: 300.0, dry: 0.1, max_force: 5.0 };
 

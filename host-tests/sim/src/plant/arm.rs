@@ -150,9 +150,9 @@ impl Arm {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Mechanism;
-    use crate::PlantSettings;
-    use crate::vector::{add_scaled, norm, scaled, times};
+    use crate::plant::Mechanism;
+    use crate::plant::PlantSettings;
+    use crate::plant::vector::{add_scaled, norm, scaled, times};
 
     fn arm() -> Arm {
         PlantSettings::wooden_haptics_2016().arm(0.05)

@@ -31,7 +31,7 @@ pub fn dry_friction(rates: Vector, mobility: &Matrix, limits: Vector) -> Vector 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vector::{add_scaled, times};
+    use crate::plant::vector::{add_scaled, times};
 
     const MOBILITY: Matrix = [[2.0, 0.3, -0.2], [0.3, 3.0, 1.4], [-0.2, 1.4, 2.5]];
 

@@ -128,8 +128,8 @@ impl<G: Geometry> Mechanism for Lumped<G> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::PlantSettings;
-    use crate::vector::difference;
+    use crate::plant::PlantSettings;
+    use crate::plant::vector::difference;
 
     /// Every lumped mechanism, with a hand, at poses about its workspace centre, and rates.
     fn poses() -> Vec<(Box<dyn Mechanism>, Vector, Vector)> {

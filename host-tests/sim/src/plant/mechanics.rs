@@ -111,7 +111,7 @@ impl Mechanics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Arm, PlantSettings};
+    use crate::plant::{Arm, PlantSettings};
     use std::f64::consts::{PI, TAU};
 
     /// A sub-step of the 4 kHz plant.

@@ -157,7 +157,7 @@ fn validate(settings: &TouchingSettings) -> Result<(), PathError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vector::dot;
+    use crate::plant::vector::dot;
 
     const RADIUS: f64 = 0.06;
 

@@ -1,6 +1,6 @@
 //! What a touching hand does: where on the surface it is, and how high over it, drawn from a seed.
 
-use crate::random::Random;
+use crate::plant::random::Random;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// What the hand does.

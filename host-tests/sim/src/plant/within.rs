@@ -1,8 +1,8 @@
 //! The path of a hand that feels a surface on a device: as often and as widely as speed and workspace let it.
 
-use crate::path::{PathError, TouchingPath};
-use crate::touching::TouchingSettings;
-use crate::vector::Vector;
+use crate::plant::path::{PathError, TouchingPath};
+use crate::plant::touching::TouchingSettings;
+use crate::plant::vector::Vector;
 use std::f64::consts::PI;
 
 /// How often the hand touches: a stroke of 0.8 s.
@@ -67,7 +67,7 @@ pub fn direction_around(u: f64, v: f64) -> Vector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vector::norm;
+    use crate::plant::vector::norm;
 
     /// A square of 20 cm at the height 0.
     fn square(u: f64, v: f64) -> (Vector, Vector) {

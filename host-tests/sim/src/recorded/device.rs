@@ -1,7 +1,7 @@
 //! A device and what protects it.
 
-use crate::mechanism::Mechanism;
-use crate::walk::{Filled, Taken, Walk};
+use crate::recorded::mechanism::Mechanism;
+use crate::recorded::walk::{Filled, Taken, Walk};
 use alloc::vec::Vec;
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::{Device, Encoder, Endurance, Motor, Protection, SignWatch, SupplyRange};

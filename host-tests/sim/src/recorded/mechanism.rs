@@ -1,6 +1,6 @@
 //! A mechanism that is known only when the program runs.
 
-use crate::walk::Walk;
+use crate::recorded::walk::Walk;
 use palpate::device::{Delta, FiveBar, Kinematics, LinkMass, LinkageArm, ProbePose, SerialArm};
 use palpate::math::{Vec2, Vec3};
 

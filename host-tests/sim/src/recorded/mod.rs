@@ -5,10 +5,6 @@
 //! what is written and what is read cannot drift apart. Nothing is computed on the way; the numbers are those of the
 //! loop, in every bit.
 
-#![no_std]
-
-extern crate alloc;
-
 mod device;
 mod mechanism;
 mod scene;

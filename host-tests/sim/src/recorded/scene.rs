@@ -1,6 +1,6 @@
 //! A scene: how each of its bodies moves and feels, and which it is.
 
-use crate::walk::{Filled, Taken, Walk};
+use crate::recorded::walk::{Filled, Taken, Walk};
 use alloc::vec;
 use alloc::vec::Vec;
 use palpate::body::Body;

@@ -1,13 +1,13 @@
 //! From the file's entries to what the library takes.
 
 use super::file::{BodyEntry, JointEntry, SceneFile, SceneFileError};
+use crate::recorded::{Entry, Movement, SceneNumbers, Turn};
 use glam::{DMat3, DVec3};
 use palpate::body::Body;
 use palpate::math::{Vec3, vec3};
 use palpate::render::Friction;
 use palpate::scene::{Joint, Limits, Material, Part, RigidBody, Scene, SceneError, Sphere, Tether};
 use palpate::track::Placement;
-use palpate_recorded::{Entry, Movement, SceneNumbers, Turn};
 
 /// What is known of a body's shape: its tables' frame in its model, and its bounding box in that frame, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]

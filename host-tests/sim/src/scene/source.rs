@@ -2,11 +2,11 @@
 
 use super::file::SceneFile;
 use super::parts::Shape;
+use crate::recorded::{Movement, Turn};
 use palpate::body::Body;
 use palpate::math::Vec3;
 use palpate::scene::{Joint, Limits, Part, Tether};
 use palpate::track::Placement;
-use palpate_recorded::{Movement, Turn};
 use std::fmt::Write as _;
 
 /// The source: a module of tables for each body, and the scene of them as `Surface` and `SURFACE`, which an image takes

@@ -1,6 +1,7 @@
 //! The device.
 
-use crate::hand::Hand;
+use crate::plant::{HandSettings, Plant, PlantSettings};
+use crate::simulated::hand::Hand;
 use anyhow::Context as _;
 use palpate::body::{Aligned, Body, Edge, Face, FileHead, Room};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
@@ -14,7 +15,6 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Uploads, Watchdog};
 use palpate_link::Line;
-use palpate_plant::{HandSettings, Plant, PlantSettings};
 use palpate_shelf::{Bodies, Both, Kept, PretendedFlash};
 use std::collections::VecDeque;
 use std::io;
@@ -34,7 +34,7 @@ const MIDDLE: [f32; 3] = [0.03, 0.02, 0.04];
 const ABOVE: [f64; 3] = [0.03, 0.02, 0.05];
 
 /// The capped box, as the tool bakes it.
-static BOX: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../boards/bodies/capped_box.palp"));
+static BOX: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../../boards/bodies/capped_box.palp"));
 
 /// Two banks of 64 KB, and faces and edges of some 200 patches.
 type Memory = Bodies<16_640, 240, 600>;

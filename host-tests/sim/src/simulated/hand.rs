@@ -1,6 +1,6 @@
 //! Whoever stands at the device.
 
-use palpate_plant::{HandPath, Vector};
+use crate::plant::{HandPath, Vector};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The hand at the device, and the button beside it.

@@ -3,7 +3,7 @@
 use crate::common::{BOX, LIMITS, RATE};
 use glam::DVec3;
 use palpate::scene::{Motion, SceneError};
-use palpate_scene::{SceneFile, SceneFileError, Shape, source};
+use palpate_sim::scene::{SceneFile, SceneFileError, Shape, source};
 
 const SHIPPED: &str = include_str!("../../../scenes/turntable.toml");
 const SHAPE: Shape = Shape { centre: DVec3::ZERO, low: DVec3::ZERO, high: DVec3::new(0.06, 0.04, 0.0335) };

@@ -1,4 +1,4 @@
-//! What a scene is held to: `cargo test -p palpate-scene`.
+//! What a scene is held to: `cargo test -p palpate-sim --test scene`.
 
 mod books;
 mod common;

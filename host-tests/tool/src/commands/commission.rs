@@ -14,7 +14,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 use palpate::commission::{Calibration, JogRefusal};
 use palpate::wire::{Calibrated, Reading};
-use palpate_plant::DialSettings;
+use palpate_sim::plant::DialSettings;
 use std::io::{IsTerminal, Write as _, stdout};
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -11,7 +11,7 @@ use crate::knob::{
 use crate::report::{Section, write_sections};
 use anyhow::Context;
 use palpate::servo::{Fault, Phase};
-use palpate_plant::DialSettings;
+use palpate_sim::plant::DialSettings;
 use plotters::prelude::*;
 use std::fs;
 use std::path::Path;

@@ -13,7 +13,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use palpate::servo::Rendering;
 use palpate::servo::recommended::{self, Recommended};
-use palpate_feel::{BANDS, Threshold, recorded};
+use palpate_sim::feel::{BANDS, Threshold, recorded};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

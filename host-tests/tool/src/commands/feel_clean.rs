@@ -5,7 +5,7 @@ use crate::feel::{Clean, ENCODERS, RATES, TRIED, Wish, clean_stiffness, plot, sl
 use crate::zwidth::in_words;
 use anyhow::Context;
 use palpate::device::VelocityMethod;
-use palpate_feel::Threshold;
+use palpate_sim::feel::Threshold;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;

@@ -13,7 +13,7 @@ use palpate::scene::Limits;
 use palpate_bake::source::{Origin, body_source, rust_source};
 use palpate_bake::split::Provenance;
 use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch};
-use palpate_plant::direction_around;
+use palpate_sim::plant::direction_around;
 use palpate_truth::oracle::OraclePoint;
 use std::path::Path;
 

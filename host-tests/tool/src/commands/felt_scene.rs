@@ -14,7 +14,7 @@ use palpate::scene::{Limits, Motion, Scene};
 use palpate::track::Placement;
 use palpate_bake::source::{Origin, body_source};
 use palpate_bake::{BakedBody, Model};
-use palpate_scene::{SceneFile, Shape, source};
+use palpate_sim::scene::{SceneFile, Shape, source};
 use std::path::Path;
 
 /// Points of a face along either parameter, from which its box is taken.

@@ -16,9 +16,9 @@ use palpate::servo::{Safety, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::source::Origin;
 use palpate_bake::{BakedBody, Model, NurbsPatch};
-use palpate_plant::{HandSettings, PathError, Plant, TouchingPath};
-use palpate_recorded::Recorded;
-use palpate_scene::SceneFile;
+use palpate_sim::plant::{HandSettings, PathError, Plant, TouchingPath};
+use palpate_sim::recorded::Recorded;
+use palpate_sim::scene::SceneFile;
 use std::path::PathBuf;
 
 /// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every preset holds it without a limit
@@ -214,7 +214,7 @@ impl Scene {
                 5 => self.host_loop_on(device, scene.scene::<5>(self.limits())?),
                 6 => self.host_loop_on(device, scene.scene::<6>(self.limits())?),
                 7 => self.host_loop_on(device, scene.scene::<7>(self.limits())?),
-                _ => self.host_loop_on(device, scene.scene::<{ palpate_scene::MAX_BODIES }>(self.limits())?),
+                _ => self.host_loop_on(device, scene.scene::<{ palpate_sim::scene::MAX_BODIES }>(self.limits())?),
             },
         }
     }

@@ -7,7 +7,7 @@ use crate::talk::{Console, Emulated, Misunderstood, Step};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use palpate_link::{Device, Error, Line, Port, SILENCE};
-use palpate_simulated::{Hand, Kind, Simulated};
+use palpate_sim::simulated::{Hand, Kind, Simulated};
 use std::io::{IsTerminal as _, Write, stdin, stdout};
 use std::path::Path;
 use std::process::ExitCode;

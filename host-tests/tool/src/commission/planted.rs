@@ -1,6 +1,6 @@
 //! What is wrong with a simulated device that is to be commissioned.
 
-use palpate_plant::{Direction, PlantSettings};
+use palpate_sim::plant::{Direction, PlantSettings};
 use std::str::FromStr;
 
 /// Where marks happen to be.

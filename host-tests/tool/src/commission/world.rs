@@ -1,7 +1,7 @@
 //! The simulated device on a simulated bench, and the hands at it.
 
 use super::{Hands, Planted, RATE};
-use palpate_plant::{HandPath, HandSettings, Plant, Vector};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, Vector};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Of the spring whose far end is what pulls, N/m: so soft that the probe's own motion changes the force by nothing.

@@ -9,7 +9,7 @@ use crate::devices::ShippedDevice;
 use crate::zwidth::{Loop, Slice, max_stiffness};
 use palpate::device::VelocityMethod;
 use palpate::servo::Rendering;
-use palpate_feel::{RunError, Threshold};
+use palpate_sim::feel::{RunError, Threshold};
 
 /// Servo rates, Hz.
 pub const RATES: [f32; 5] = [1_000.0, 2_000.0, 4_000.0, 8_000.0, 10_000.0];

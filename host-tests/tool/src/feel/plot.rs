@@ -3,7 +3,7 @@
 use super::clean::{Clean, ENCODERS, TRIED};
 use super::rows::Row;
 use crate::drawing::{BLUE_INK, GREEN_INK, RED_INK, SURFACE_INK, TEXT_INK, draw};
-use palpate_feel::{Deed, Spectrum, Threshold, thirds};
+use palpate_sim::feel::{Deed, Spectrum, Threshold, thirds};
 use plotters::prelude::*;
 
 /// Displacements drawn, m: what lies below is not drawn.

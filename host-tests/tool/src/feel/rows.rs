@@ -10,8 +10,8 @@ use palpate::math::Vec3;
 use palpate::render::{Friction, Material};
 use palpate::servo::{Rendering, Servo, Settings, Surface};
 use palpate::track::Controller;
-use palpate_feel::{Deed, Figures, Script, Sensation, Stage, Threshold, over_edges, record, wall};
-use palpate_plant::{HandSettings, PlantSettings};
+use palpate_sim::feel::{Deed, Figures, Script, Sensation, Stage, Threshold, over_edges, record, wall};
+use palpate_sim::plant::{HandSettings, PlantSettings};
 
 /// Friction of the wall where the hand pulls on the verge of slipping.
 const FRICTION: Friction = Material::WOOD.friction;

@@ -1,7 +1,7 @@
 //! Rows as text and as CSV, and a device on a line.
 
 use super::rows::Row;
-use palpate_feel::{BANDS, Deed, ROUND};
+use palpate_sim::feel::{BANDS, Deed, ROUND};
 use std::fmt::Write as _;
 use std::path::Path;
 

@@ -4,7 +4,7 @@ use super::{FROZEN, KnobServo, KnobState, MODULATION, widths};
 use palpate::device::Counts;
 use palpate::device::sensor::Frozen;
 use palpate::servo::{Event, Input, ResetReason};
-use palpate_plant::Dial;
+use palpate_sim::plant::Dial;
 
 /// The loop and the dial that it turns.
 #[derive(Clone, Debug)]

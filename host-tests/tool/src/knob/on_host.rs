@@ -10,7 +10,7 @@ use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Settings, Watchdog};
-use palpate_plant::DialSettings;
+use palpate_sim::plant::DialSettings;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -25,7 +25,7 @@ const BYTES: u32 = 16;
 #[derive(Debug)]
 pub struct KnobWorld {
     /// The dial.
-    pub dial: palpate_plant::Dial,
+    pub dial: palpate_sim::plant::Dial,
     /// The enable button is pressed.
     pub enable: bool,
 }
@@ -37,7 +37,7 @@ pub struct SharedKnob(Arc<Mutex<KnobWorld>>);
 impl SharedKnob {
     /// A dial at rest.
     pub fn new(settings: DialSettings) -> Self {
-        let dial = palpate_plant::Dial::new(settings, f64::from(SETTINGS.rate));
+        let dial = palpate_sim::plant::Dial::new(settings, f64::from(SETTINGS.rate));
         Self(Arc::new(Mutex::new(KnobWorld { dial, enable: false })))
     }
 

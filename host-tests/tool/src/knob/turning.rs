@@ -6,7 +6,7 @@ use palpate::device::Counts;
 use palpate::device::sensor::Frozen;
 use palpate::servo::{Event, Input};
 use palpate::wire::{Report, Sensors};
-use palpate_plant::{Dial, DialSettings, Fingers, MagneticFault};
+use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
 
 /// Ticks from the start until force is there: the rotor is aligned, and force fades in.
 const UNTIL_FELT: u32 = SEARCH.ticks() + 1_200;

@@ -6,7 +6,7 @@ use crate::simulation::Trace;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use palpate::servo::Settings;
-use palpate_recorded::{Recorded, SceneNumbers};
+use palpate_sim::recorded::{Recorded, SceneNumbers};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -21,11 +21,11 @@ pub struct Recording {
     pub model: String,
     /// The bodies: one, or each of a scene's once.
     pub bodies: Vec<RecordedBody>,
-    /// The scene's numbers, as `palpate_recorded` has them, in base64; none, where one body is felt.
+    /// The scene's numbers, as `palpate_sim::recorded` has them, in base64; none, where one body is felt.
     pub scene: Option<RecordedScene>,
     /// The device's name.
     pub device: String,
-    /// Its numbers, as `palpate_recorded` has them, in base64, with those of what protects it.
+    /// Its numbers, as `palpate_sim::recorded` has them, in base64, with those of what protects it.
     pub device_numbers: String,
     /// Rate, stiffness, damping, greatest force, velocity corner, soft start, and the body's origin: SI units.
     pub settings: [f32; 9],
@@ -55,7 +55,7 @@ pub struct RecordedBody {
 pub struct RecordedScene {
     /// What each of its parts is called, and which of the recorded bodies it is.
     pub parts: Vec<(String, u32)>,
-    /// Its numbers, as `palpate_recorded` has them, in base64.
+    /// Its numbers, as `palpate_sim::recorded` has them, in base64.
     pub numbers: String,
 }
 

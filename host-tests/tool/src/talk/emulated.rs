@@ -4,8 +4,8 @@
 use crate::firmware::{Board, Emulator, Link as _, Program, Progress};
 use palpate::wire::Sensors;
 use palpate_link::Line;
-use palpate_plant::{HandSettings, Plant, PlantSettings};
-use palpate_simulated::Hand;
+use palpate_sim::plant::{HandSettings, Plant, PlantSettings};
+use palpate_sim::simulated::Hand;
 use std::io::{self, ErrorKind, Read as _, Write as _};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};

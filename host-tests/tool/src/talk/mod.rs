@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  Console ── Asked: a line, understood ── palpate_link::Device ── Line: a serial port │ Emulated │
-//! palpate_simulated::Simulated
+//! palpate_sim::simulated::Simulated
 //! ```
 
 mod asked;

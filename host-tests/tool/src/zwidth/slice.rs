@@ -3,7 +3,7 @@
 use crate::devices::ShippedDevice;
 use palpate::device::drive::Feed;
 use palpate::render::bounds::DeviceFriction;
-use palpate_plant::{Amplifier, JointSettings, dot, inverse, scaled, times};
+use palpate_sim::plant::{Amplifier, JointSettings, dot, inverse, scaled, times};
 
 /// One mass with friction, an encoder and a force source.
 #[derive(Clone, Copy, Debug, PartialEq)]

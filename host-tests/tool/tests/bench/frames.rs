@@ -7,7 +7,7 @@ use palpate::servo::{Fault, ResetReason, Safety, Servo, StuckLimits};
 use palpate::track::Controller;
 use palpate_bench::Settings;
 use palpate_bench::sensors::BadFrame;
-use palpate_plant::{EncoderFault, HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::plant::{EncoderFault, HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::f64::consts::TAU;
 
 /// A hand that presses the probe into the wall and slides it about, 40 mm either way, a few times a second.

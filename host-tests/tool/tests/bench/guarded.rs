@@ -5,7 +5,7 @@ use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTI
 use palpate::device::{Endurance, Protection};
 use palpate::servo::{Fault, Guard, ResetReason, Servo};
 use palpate::track::Controller;
-use palpate_plant::HandSettings;
+use palpate_sim::plant::HandSettings;
 
 const PRESSED: [f64; 3] = [0.0, 0.0, -0.008];
 

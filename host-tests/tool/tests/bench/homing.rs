@@ -5,7 +5,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Homing, Reference, SerialArm, StopSearch};
 use palpate::servo::{Fault, Output, Phase, ResetReason, Servo};
 use palpate::track::Controller;
-use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, StillHand};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, StillHand};
 
 /// The stops of the simulated arm, from where it hangs once nothing holds it.
 pub const STOPS: [StopSearch; 3] = [

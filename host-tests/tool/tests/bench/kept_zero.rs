@@ -6,7 +6,7 @@ use palpate::device::{Device as Built, Homing, Reference, SerialArm};
 use palpate::servo::{Phase, ResetReason, Servo};
 use palpate::track::Controller;
 use palpate::wire::Calibrated;
-use palpate_plant::{HandSettings, Plant, PlantSettings, StillHand};
+use palpate_sim::plant::{HandSettings, Plant, PlantSettings, StillHand};
 use palpate_tool::commission::{
     Device, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, calibration, find_mounting,
 };

@@ -9,7 +9,7 @@ use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Sensors, Watched};
 use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
-use palpate_plant::{DialSettings, MagneticFault};
+use palpate_sim::plant::{DialSettings, MagneticFault};
 use palpate_tool::knob::{FROZEN, JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -35,7 +35,7 @@ impl Felt<1> for This {
 
 /// What the pins are wired to.
 pub struct World {
-    pub dial: palpate_plant::Dial,
+    pub dial: palpate_sim::plant::Dial,
     pub button: bool,
     stop_open: bool,
     ready: [bool; 2],
@@ -146,7 +146,7 @@ impl Rig {
     /// Of this dial.
     pub fn with(dial: DialSettings, reset: ResetReason) -> Self {
         let world = World {
-            dial: palpate_plant::Dial::new(dial, f64::from(SETTINGS.rate)),
+            dial: palpate_sim::plant::Dial::new(dial, f64::from(SETTINGS.rate)),
             button: false,
             stop_open: false,
             ready: [true; 2],

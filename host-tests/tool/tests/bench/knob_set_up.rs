@@ -6,7 +6,7 @@ use crate::knob_orders::Device;
 use palpate::commission::{Jog, JogRefusal, KEY};
 use palpate::servo::ResetReason;
 use palpate::wire::{Command, PROTOCOL, Reading, Told};
-use palpate_plant::Fingers;
+use palpate_sim::plant::Fingers;
 use palpate_tool::knob::JOG;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;

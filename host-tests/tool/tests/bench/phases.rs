@@ -64,10 +64,10 @@ fn in_every_phase_and_with_either_safe_output_the_pins_do_what_the_state_says() 
 fn damping_after_a_fault_reaches_the_motors_and_brakes() {
     let speeds = [SafeOutput::Zero, SafeOutput::Damping(8.0)].map(|output| {
         // Nobody holds it, and it falls.
-        let plant = palpate_plant::Plant::new(
-            &palpate_plant::PlantSettings::wooden_haptics_2016(),
-            palpate_plant::HandSettings::NONE,
-            Box::new(palpate_plant::StillHand([0.0, 0.0, 0.03])),
+        let plant = palpate_sim::plant::Plant::new(
+            &palpate_sim::plant::PlantSettings::wooden_haptics_2016(),
+            palpate_sim::plant::HandSettings::NONE,
+            Box::new(palpate_sim::plant::StillHand([0.0, 0.0, 0.03])),
             crate::rig::RATE,
         );
         let mut rig = Rig::new(servo(output), plant.unwrap(), &settings(), ResetReason::PowerOn);

@@ -11,7 +11,7 @@ use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, greatest_step};
 use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
-use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::cell::RefCell;
 use std::convert::Infallible;
 use std::rc::Rc;

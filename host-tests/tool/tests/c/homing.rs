@@ -9,7 +9,7 @@ use palpate::device::{Counts, Homing, Reference, SerialArm, StopSearch};
 use palpate::math::vec3;
 use palpate::servo::{Event, Fault, Input, Phase, Servo, Settings};
 use palpate::track::Controller;
-use palpate_plant::{HandSettings, Plant, PlantSettings, StillHand};
+use palpate_sim::plant::{HandSettings, Plant, PlantSettings, StillHand};
 use std::fs;
 
 const RATE: f32 = 4_000.0;

@@ -7,7 +7,9 @@ use palpate::device::{Counts, Device, Kinematics};
 use palpate::servo::{Fault, Input, Phase, Servo, Settings};
 use palpate::track::Controller;
 use palpate::wire::Calibrated;
-use palpate_plant::{Direction, HandSettings, JointSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
+use palpate_sim::plant::{
+    Direction, HandSettings, JointSettings, Plant, PlantSettings, TouchingPath, TouchingSettings,
+};
 use palpate_tool::commission::{
     Device as Commissioned, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, begin_within,
     calibration, find, find_mounting,

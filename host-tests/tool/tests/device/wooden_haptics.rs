@@ -3,7 +3,7 @@
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Counts, Duty, Kinematics, ProbePose};
 use palpate::math::{Vec3, vec3};
-use palpate_plant::{Arm, HandPath, HandSettings, Plant, PlantSettings, StillHand};
+use palpate_sim::plant::{Arm, HandPath, HandSettings, Plant, PlantSettings, StillHand};
 
 fn arm() -> Arm {
     PlantSettings::wooden_haptics_2016().arm(0.0)

@@ -256,8 +256,7 @@ fn no_file_and_no_layer_imports_what_imports_it() {
         ("palpate", "src"),
         ("palpate-bake", "host-tests/bake/src"),
         ("palpate-truth", "host-tests/truth/src"),
-        ("palpate-plant", "host-tests/plant/src"),
-        ("palpate-scene", "host-tests/scene/src"),
+        ("palpate-sim", "host-tests/sim/src"),
         ("palpate-tool", "host-tests/tool/src"),
     ];
     let bad: Vec<String> = crates.into_iter().flat_map(|(name, source)| findings(name, &root.join(source))).collect();

@@ -4,7 +4,7 @@ use crate::running::is_wanted;
 use palpate::servo::{Fault, Phase};
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::{Calibrated, Record, Sensors, Told};
-use palpate_plant::{HandPath, HandSettings, Plant, Vector};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, Vector};
 use palpate_tool::commission::{
     Device, EmulatedLine, KeyHeld, Lab, Planted, PlantedFault, RATE, SimulatedHands, World, Zero, calibration,
     find_mounting,

@@ -9,7 +9,7 @@ use palpate::wire::{
     Answer, CHUNK, Command, Hello, PROTOCOL, Record, Refused, Sensors, Told, Upload, UploadError, View, hold,
 };
 use palpate_bake::{BakedBody, Model, file};
-use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use palpate_tool::firmware::{Board, Emulator, Link as _, Program, Progress};
 use palpate_truth::dunes::dunes;
 use rand::{RngExt, SeedableRng};

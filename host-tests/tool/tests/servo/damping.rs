@@ -6,7 +6,7 @@ use palpate::device::{Counts, Duty, Protection, SupplyRange};
 use palpate::math::Vec3;
 use palpate::servo::{Event, Fault, Input, Output, Rendering, SafeOutput, Safety, Servo, Settings};
 use palpate::track::Controller;
-use palpate_plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::f64::consts::TAU;
 
 const RATE: f64 = 4_000.0;

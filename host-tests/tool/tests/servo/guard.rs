@@ -9,7 +9,7 @@ use palpate::device::{Counts, Device, Duty, Kinematics, Motor, Protection, Suppl
 use palpate::math::Vec3;
 use palpate::servo::{Event, Fault, Input, Phase, Servo, Settings};
 use palpate::track::Controller;
-use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Thermal, Vector};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Thermal, Vector};
 
 /// Comes straight down at a constant speed.
 struct Down {

@@ -7,7 +7,7 @@ use palpate::device::{Counts, Device, Duty, Homing, Kinematics, Reference, Refus
 use palpate::servo::{Event, Fault, Input, Phase, SafeOutput, Safety, Servo, ServoState};
 use palpate::track::Controller;
 use palpate::wire::Report;
-use palpate_plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, StillHand, Vector};
+use palpate_sim::plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, StillHand, Vector};
 use std::f32::consts::PI;
 
 /// The stops of the simulated arm, from where it hangs once nothing holds it.

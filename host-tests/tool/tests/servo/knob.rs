@@ -6,7 +6,7 @@ mod lost_phase;
 
 use palpate::device::{CoggingMap, Duty, Refusal};
 use palpate::servo::{Fault, Output, Phase};
-use palpate_plant::{Dial, DialSettings, Fingers, MagneticFault};
+use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
 use palpate_tool::commands::demo_knob::{recorded_of, recorded_source};
 use palpate_tool::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo};
 use palpate_truth::measured::measured;

@@ -7,7 +7,7 @@ use palpate::math::Vec3;
 use palpate::render::{Ease, Material};
 use palpate::servo::{Input, Rendering, Servo, Settings};
 use palpate::track::Controller;
-use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use palpate_tool::devices::{DEVICES, named};
 use palpate_tool::zwidth::{Loop, Slice, max_stiffness};
 

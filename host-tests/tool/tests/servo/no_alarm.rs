@@ -9,7 +9,7 @@ use palpate::math::Vec3;
 use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Input, Rendering, Servo, Settings};
 use palpate::track::{Contact, Controller};
-use palpate_plant::{HandSettings, Plant};
+use palpate_sim::plant::{HandSettings, Plant};
 use palpate_tool::commands::options::SceneOptions;
 use palpate_tool::commands::sim::run_on_host;
 use palpate_tool::report::Summary;

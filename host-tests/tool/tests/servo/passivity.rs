@@ -7,7 +7,7 @@ use palpate::math::Vec3;
 use palpate::render::Passivity;
 use palpate::servo::{Input, Rendering, Servo, Settings};
 use palpate::track::{Contact, Controller};
-use palpate_plant::{HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
+use palpate_sim::plant::{HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
 
 const RATE: f64 = 4_000.0;
 /// One count of each joint: published as 43, 54 and 64 µm, at right angles or less.

@@ -7,7 +7,7 @@ use palpate::device::presets::{
 use palpate::device::{Delta, Device, LinkageArm, Protection, SerialArm};
 use palpate::math::Vec3;
 use palpate::servo::Settings;
-use palpate_plant::{PlantSettings, ThermalSettings};
+use palpate_sim::plant::{PlantSettings, ThermalSettings};
 
 pub const RATE: f64 = 4_000.0;
 

@@ -7,7 +7,9 @@ use palpate::math::{Vec3, vec3};
 use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Fault, Input, Servo};
 use palpate::track::{Controller, Witness};
-use palpate_plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings, Vector};
+use palpate_sim::plant::{
+    Direction, HandPath, HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings, Vector,
+};
 use rand::{Rng as _, SeedableRng as _};
 
 /// From the beginning of one approach to the next, s.

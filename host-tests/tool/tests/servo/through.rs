@@ -7,7 +7,7 @@ use palpate::math::{Vec3, vec3};
 use palpate::servo::{ContactLimits, Input, Servo, Settings};
 use palpate::track::{Contact, Controller};
 use palpate_bake::{BakedBody, Model};
-use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::path::Path;
 
 const RATE: f64 = 4_000.0;

@@ -8,7 +8,7 @@ use palpate::patch::Patch;
 use palpate::render::{Coupling, Friction};
 use palpate::servo::{Input, Phase, Rendering, Servo, ServoState, Settings};
 use palpate::track::{Contact, Controller, Probe, Witness};
-use palpate_plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 
 const RATE: f64 = 4_000.0;
 

@@ -4,7 +4,7 @@
 use palpate::device::{Counts, Kinematics};
 use palpate::patch::Patch;
 use palpate::servo::{Event, Input, Servo, ServoState, Settings};
-use palpate_plant::{HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
+use palpate_sim::plant::{HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
 
 pub const RATE: f64 = 4_000.0;
 

@@ -7,7 +7,7 @@ use palpate::device::{Counts, Device, Duty, Kinematics};
 use palpate::math::{Vec3, vec3};
 use palpate::servo::{Event, Input, Phase, Rendering, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
-use palpate_plant::{HandSettings, Plant, PlantSettings, StillHand, Vector};
+use palpate_sim::plant::{HandSettings, Plant, PlantSettings, StillHand, Vector};
 
 fn moved(a: Vector, b: Vector) -> f64 {
     (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()

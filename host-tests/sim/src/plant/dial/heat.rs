@@ -1,9 +1,9 @@
 //! How warm each of three phases gets: three windings on one housing.
 //!
-//! Each as in [`crate::Thermal`], with its own share of the teeth between it and the housing. Nothing passes from one
+//! Each as in [`crate::plant::Thermal`], with its own share of the teeth between it and the housing. Nothing passes from one
 //! phase to the next but by the housing, which is the harder case for a phase that has more current than the others.
 
-use crate::thermal::{AIR, ThermalSettings};
+use crate::plant::thermal::{AIR, ThermalSettings};
 
 /// The temperatures of a motor with three phases.
 #[derive(Clone, Copy, Debug, PartialEq)]

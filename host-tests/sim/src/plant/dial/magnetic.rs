@@ -1,6 +1,6 @@
 //! A magnetic sensor at the end of a shaft.
 
-use crate::random::Random;
+use crate::plant::random::Random;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 

@@ -5,7 +5,7 @@ use palpate::device::presets::{
 };
 use palpate::device::{Counts, Device, Duty, Kinematics};
 use palpate::math::{Vec3, vec3};
-use palpate_plant::{Mechanism, PlantSettings};
+use palpate_sim::plant::{Mechanism, PlantSettings};
 
 pub type Triple = [f64; 3];
 

@@ -2,7 +2,7 @@
 
 use super::case::{Case, cases, distance, narrow};
 use palpate::math::Vec3;
-use palpate_plant::{HandSettings, Plant, StillHand};
+use palpate_sim::plant::{HandSettings, Plant, StillHand};
 
 const RATE: f64 = 4_000.0;
 

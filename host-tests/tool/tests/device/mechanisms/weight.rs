@@ -1,7 +1,7 @@
 //! The torques that carry the links, and the resolution at the probe.
 
 use super::case::{cases, distance};
-use palpate_plant::{HandSettings, Plant, StillHand};
+use palpate_sim::plant::{HandSettings, Plant, StillHand};
 
 #[test]
 fn holding_torques_balance_the_simulated_weight_where_masses_are_known() {

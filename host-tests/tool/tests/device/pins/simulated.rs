@@ -4,7 +4,7 @@ use embedded_hal_mock::eh1::spi::{Mock, Transaction};
 use palpate::device::presets::HAPKIT;
 use palpate::device::sensor::{AmsAngle, AmsChip, Mt6701, TimerCount, TurnCount};
 use palpate::device::{Counts, Duty};
-use palpate_plant::{EncoderFault, HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::plant::{EncoderFault, HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::f64::consts::TAU;
 
 /// A hand that swings the paddle to and fro, 40 mm either way, once a second.

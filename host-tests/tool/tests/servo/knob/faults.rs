@@ -3,7 +3,7 @@
 use super::{SEARCH, dial, knob};
 use palpate::device::{Device, Dial};
 use palpate::servo::{Event, Fault, Output, ResetReason, Safety};
-use palpate_plant::{DialSettings, Fingers, MagneticFault};
+use palpate_sim::plant::{DialSettings, Fingers, MagneticFault};
 use palpate_tool::knob::{HostKnob, NAMES, TOLD_OF_SUPPLY, device, servo};
 
 /// How a knob comes to a fault.

@@ -2,7 +2,7 @@
 
 use super::running;
 use palpate::servo::Fault;
-use palpate_plant::{Cogging, DialSettings, Fingers};
+use palpate_sim::plant::{Cogging, DialSettings, Fingers};
 use palpate_tool::knob::{FEELS, NAMES};
 
 /// Full duty of torque as the amplitude of a phase, A: 0.75 A in the scale that keeps the power.

@@ -5,11 +5,11 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::math::{Vec3, vec3};
 use palpate::servo::{Servo, Settings};
 use palpate::track::Controller;
-use palpate_feel::{Deed, Recording, Script, Stage, Threshold, over_edges, record, wall};
-use palpate_plant::{HandSettings, PlantSettings};
+use palpate_sim::feel::{Deed, Recording, Script, Stage, Threshold, over_edges, record, wall};
+use palpate_sim::plant::{HandSettings, PlantSettings};
 
 mod capped_box {
-    include!("../../../boards/bodies/capped_box.rs");
+    include!("../../../../boards/bodies/capped_box.rs");
 }
 
 /// The middle of the box.

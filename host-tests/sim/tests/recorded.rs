@@ -10,7 +10,7 @@ use palpate::math::vec3;
 use palpate::render::Friction;
 use palpate::scene::{Joint, Limits, RigidBody, Sphere, Tether};
 use palpate::track::Placement;
-use palpate_recorded::{Entry, Movement, Recorded, SceneNumbers, Turn};
+use palpate_sim::recorded::{Entry, Movement, Recorded, SceneNumbers, Turn};
 
 fn shipped() -> Vec<Recorded> {
     let watched = palpate::device::Protection { supply: Some(SupplyRange::TWENTY_FOUR), ..NOVINT_FALCON_PROTECTION };

@@ -8,8 +8,8 @@ use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Knocking, Rendering, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::{BakedBody, Model};
-use palpate_feel::{Deed, Recording, Script, Stage, Threshold, Tick, over_edges, record, wall};
-use palpate_plant::{HandSettings, PlantSettings, Vector};
+use palpate_sim::feel::{Deed, Recording, Script, Stage, Threshold, Tick, over_edges, record, wall};
+use palpate_sim::plant::{HandSettings, PlantSettings, Vector};
 use std::path::Path;
 
 /// The middle of the block.

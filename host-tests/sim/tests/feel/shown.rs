@@ -8,11 +8,11 @@ use palpate::math::{Vec3, vec3};
 use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Servo, Settings};
 use palpate::track::Controller;
-use palpate_feel::{Deed, Figures, Recording, Script, Stage, Threshold, over_edges, record, wall};
-use palpate_plant::{HandSettings, PlantSettings};
+use palpate_sim::feel::{Deed, Figures, Recording, Script, Stage, Threshold, over_edges, record, wall};
+use palpate_sim::plant::{HandSettings, PlantSettings};
 
 mod capped_box {
-    include!("../../../boards/bodies/capped_box.rs");
+    include!("../../../../boards/bodies/capped_box.rs");
 }
 
 /// Its middle, below which the dome begins.

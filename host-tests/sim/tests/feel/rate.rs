@@ -6,8 +6,8 @@ use palpate::device::{Device, Encoder, VelocityMethod};
 use palpate::math::Vec3;
 use palpate::servo::{Rendering, Servo, Settings};
 use palpate::track::Controller;
-use palpate_feel::{Deed, Sensation, Stage, Threshold, record, wall};
-use palpate_plant::{HandSettings, PlantSettings};
+use palpate_sim::feel::{Deed, Sensation, Stage, Threshold, record, wall};
+use palpate_sim::plant::{HandSettings, PlantSettings};
 
 /// The estimators that can be had at a rate, Hz: the observer's corner goes up to a twenty-fifth of it.
 fn estimators(rate: f32) -> Vec<(VelocityMethod, f32)> {
