@@ -41,13 +41,13 @@ impl Body<'_> {
             let asks = state.is_audited && !self.is_convex();
             let places = || self.places(&state.feature, &state.witness);
             let rival = asks.then(|| Rival { half_squared: nearer, places: places() });
-            search.turn_against(self, probe, rival.as_ref());
+            search.advance_against(self, probe, rival.as_ref());
             step.evaluations += u8::from(search.has_evaluated());
             return steps_too;
         };
         let is_audit = state.is_audited && !self.is_convex();
         // What has just been found is looked at first.
-        (state.is_audited, state.rests) = (true, false);
+        (state.is_audited, state.is_trackers_turn) = (true, false);
         if !state.is_located || found.half_squared < nearer {
             self.set_down(state, &found, probe, nearer, step);
             // The probe has moved since: on with the others.
@@ -69,7 +69,7 @@ impl Body<'_> {
         match feature {
             Feature::Face(index) => [Some((*index, witness.parameters)), None],
             Feature::Edge(index) => match self.edges.get(usize::from(*index)) {
-                Some(edge) => edge.faces.map(|of| self.place_on(of, witness.parameters[0])),
+                Some(edge) => edge.faces.map(|of| self.position_on_face(of, witness.parameters[0])),
                 None => [None; 2],
             },
             Feature::Vertex(_) => [None; 2],

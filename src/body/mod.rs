@@ -5,32 +5,34 @@
 //! [`Body`] holds the tables that the host has baked, as statics or from a file ([`Body::from_bytes`]); [`Locator`]
 //! gives a global start in bounded time (theory §10).
 
-mod along;
 mod audit;
-mod beside;
+mod border_release;
+mod candidate_search;
+mod contact;
 mod curve;
-mod enter;
+mod edge_step;
+mod face_entry;
 mod feature;
+mod feature_switch;
 mod file;
+mod inside_test;
 mod locator;
-mod meet;
-mod minimise;
-mod outside;
-mod over_border;
 mod pole;
-mod quadratic;
+mod pole_step;
+mod quadratic_model;
 mod search;
-mod switch;
 mod table;
+mod table_words;
 mod tracker;
-mod words;
 
+pub use candidate_search::{
+    CandidateSearch, CandidateStatus, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
+};
 pub use curve::{CurvePoint, MAX_CURVE_DEGREE, SplineCurve};
 pub use feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Separator, Side, Spoke, Vertex};
-pub use file::{Aligned, FILE_VERSION, FileError, FileHead, Room, Section};
+pub use file::{Aligned, BodyBuffer, FILE_VERSION, FileError, FileHead, Section};
 pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES};
-pub use minimise::{Descending, Judgement, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
 pub use search::{Located, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, Search};
 pub use table::{Body, BodyError};
+pub use table_words::TableCursor;
 pub use tracker::{BodyStep, BodyWitness};
-pub use words::TableCursor;

@@ -3,9 +3,11 @@
 //! Half an evaluation a call, so that a servo tick can carry it: the search runs beside the tracker until it is done,
 //! and begins anew in whatever cell the probe is then. The same search answers a query at one go ([`Body::locate`]).
 
+use super::candidate_search::{
+    CandidateSearch, CandidateStatus, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
+};
 use super::feature::Face;
 use super::locator::{Candidate, GRID};
-use super::minimise::{Descending, Judgement, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
 use super::table::Body;
 use crate::math::Vec3;
 
@@ -17,7 +19,7 @@ pub const MAX_EVALUATIONS_CONVEX: u16 = 32;
 /// A search between two evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Search {
-    descending: Descending,
+    descending: CandidateSearch,
     /// Index of the entry that is being searched.
     entry: u16,
     evaluations: u16,
@@ -100,14 +102,14 @@ impl Search {
     /// Half of a step: one evaluation, or what follows from it. The probe may move a little between two calls. Nothing
     /// once it is done.
     #[inline]
-    pub fn turn(&mut self, body: &Body, probe: Vec3) {
-        self.turn_against(body, probe, None);
+    pub fn advance(&mut self, body: &Body, probe: Vec3) {
+        self.advance_against(body, probe, None);
     }
 
     /// The same for the audit, which asks for no more than a point that is nearer than the `rival`: with the first one
     /// that is, it is done. What is certain to hold none is passed over.
     #[inline(always)]
-    pub(super) fn turn_against(&mut self, body: &Body, probe: Vec3, rival: Option<&Rival>) {
+    pub(super) fn advance_against(&mut self, body: &Body, probe: Vec3, rival: Option<&Rival>) {
         if self.ended.is_some() {
             return;
         }
@@ -121,7 +123,7 @@ impl Search {
                 && self.descending.is_fresh()
             {
                 if rival.holds(&self.descending.candidate) {
-                    self.go_on(body, Judgement::Beaten);
+                    self.go_on(body, CandidateStatus::Beaten);
                     return;
                 }
                 self.asked = Some((probe, rival.half_squared));
@@ -141,14 +143,14 @@ impl Search {
         let asked = rival.and(self.asked);
         let known = asked.map_or(self.best.half_squared, |(_, known)| known);
         let progress = if body.has_poles {
-            self.descending.judge_beside(patch, body.poles_of(face), known, body.size)
+            self.descending.judge_near_pole(patch, body.poles_of(face), known, body.size)
         } else {
             self.descending.judge(patch, known, body.size)
         };
-        if progress == Judgement::Exhausted {
+        if progress == CandidateStatus::Exhausted {
             self.exhausted = true;
         }
-        let Descending { parameters, half_squared, .. } = self.descending;
+        let CandidateSearch { parameters, half_squared, .. } = self.descending;
         if half_squared < self.best.half_squared {
             self.best = Best { face, parameters, half_squared };
         }
@@ -162,14 +164,14 @@ impl Search {
     /// On with the next candidate, after one whose point is no nearer after all.
     pub(super) fn resume(&mut self, body: &Body) {
         (self.ended, self.best.half_squared) = (None, f32::INFINITY);
-        self.go_on(body, Judgement::Beaten);
+        self.go_on(body, CandidateStatus::Beaten);
     }
 
     /// To the next evaluation, the next candidate, or the end.
     #[inline]
-    fn go_on(&mut self, body: &Body, progress: Judgement) {
+    fn go_on(&mut self, body: &Body, progress: CandidateStatus) {
         let most = if body.is_convex() { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
-        let falls = progress == Judgement::Falling;
+        let falls = progress == CandidateStatus::Falling;
         if !falls && !self.descending.candidate.more {
             self.ended = Some(!self.exhausted);
         } else if self.evaluations >= most {
@@ -214,7 +216,7 @@ impl Body<'_> {
         let mut search = Search::new(self, probe);
         // Two halves an evaluation.
         for _ in 0..2 * MAX_EVALUATIONS {
-            search.turn(self, probe);
+            search.advance(self, probe);
             if search.ended.is_some() {
                 break;
             }
@@ -243,27 +245,28 @@ impl Body<'_> {
         }
         let Some(Face { patch, .. }) = self.faces.get(usize::from(index)) else { return };
         let most = MAX_EVALUATIONS_PER_CANDIDATE;
-        let mut descending = Descending::from(Candidate::whole(index), parameters, most).to_the_end();
+        let mut descending = CandidateSearch::from(Candidate::whole(index), parameters, most).with_last_evaluation();
         for _ in 0..most {
             search.evaluations += 1;
-            if descending.step(patch, self.poles_of(index), probe, f32::INFINITY, self.size) != Judgement::Falling {
+            if descending.step(patch, self.poles_of(index), probe, f32::INFINITY, self.size) != CandidateStatus::Falling
+            {
                 break;
             }
         }
         if descending.half_squared < half_squared {
-            let Descending { parameters, half_squared, .. } = descending;
+            let CandidateSearch { parameters, half_squared, .. } = descending;
             search.best = Best { face: index, parameters, half_squared };
         }
     }
 
     /// A search from the middle of the candidate at an index.
-    fn descending(&self, entry: usize) -> Descending {
+    fn descending(&self, entry: usize) -> CandidateSearch {
         let candidate = self.candidate(entry);
         // A convex body's lists are short, and no audit looks again.
         if self.is_convex() {
-            Descending::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX).to_the_end()
+            CandidateSearch::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX).with_last_evaluation()
         } else {
-            Descending::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE)
+            CandidateSearch::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE)
         }
     }
 

@@ -1,7 +1,7 @@
 //! The tracker that joins both levels: the Voronoi switch, or one controller step on the active feature (theory §9).
 
-use super::along::Along;
 use super::curve::CurvePoint;
+use super::edge_step::EdgeStep;
 use super::feature::{EdgeFace, Face, Feature};
 use super::search::Search;
 use super::table::Body;
@@ -39,9 +39,9 @@ pub struct BodyWitness {
     /// body.
     pub(super) is_audited: bool,
     /// Behind the surface: whether the tracker has its turn, or the audit.
-    pub(super) rests: bool,
+    pub(super) is_trackers_turn: bool,
     /// On an edge: whether the last tick has asked all of its faces, and none took the probe.
-    pub(super) is_declined: bool,
+    pub(super) no_face_took_probe: bool,
     /// The search for a global start, or the rolling audit, once begun.
     pub(super) search: Option<Search>,
     /// The probe of the last tick; infinite before the first.
@@ -94,8 +94,8 @@ impl Body<'_> {
             contact: Contact::Behind,
             is_located: false,
             is_audited: false,
-            rests: false,
-            is_declined: false,
+            is_trackers_turn: false,
+            no_face_took_probe: false,
             search: None,
             probe: Vec3::INFINITY,
             reach: 0.0,
@@ -114,7 +114,7 @@ impl Body<'_> {
         state
     }
 
-    /// One tick of the loop: [`Self::track`], then [`Self::meet`].
+    /// One tick of the loop: [`Self::track`], then [`Self::update_contact`].
     #[inline(always)]
     pub fn step(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
         let moved = (probe.position - state.probe).length_squared();
@@ -124,7 +124,7 @@ impl Body<'_> {
         }
         let mut step = self.track(controller, state, probe, period);
         if !step.searched {
-            self.meet(state, probe.position, &step);
+            self.update_contact(state, probe.position, &step);
         }
         step.unexplained = state.contact == Contact::Touching && -state.gap > state.reach + UNEXPLAINED * self.size;
         step
@@ -139,7 +139,7 @@ impl Body<'_> {
     /// the closest one, otherwise the rolling audit finds it. While the body is touched there is no audit: the witness
     /// point is the god-object (theory §11), which hands over across common edges only.
     ///
-    /// Contact decides, so [`Self::meet`] belongs after each tick that was not `searched`. Without it the probe counts
+    /// Contact decides, so [`Self::update_contact`] belongs after each tick that was not `searched`. Without it the probe counts
     /// as behind the surface: on a convex body the audit has every second tick.
     #[inline(always)]
     pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
@@ -185,10 +185,13 @@ impl Body<'_> {
     fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
         let aim = match Aim::in_full(&face.patch, &state.witness, probe) {
             Ok(aim) => aim,
-            Err(_) if self.has_poles && self.step_beside_pole(face, state, step) => return,
+            Err(_) if self.has_poles && self.step_near_pole(face, state, step) => return,
             Err(most) => Aim::in_part(most, &face.patch, &state.witness, probe),
         };
-        if aim.beyond != BoundaryMode::Interior && self.has_smooth_edges && self.step_across(face, &aim, state, step) {
+        if aim.beyond != BoundaryMode::Interior
+            && self.has_smooth_edges
+            && self.step_over_smooth_edge(face, &aim, state, step)
+        {
             return;
         }
         state.witness.mode = aim.beyond;
@@ -220,16 +223,22 @@ impl Body<'_> {
         match state.contact {
             contact if contact >= self.sure_from => true,
             Contact::Behind if self.is_convex() => {
-                state.rests = !state.rests;
-                state.rests && state.is_located
+                state.is_trackers_turn = !state.is_trackers_turn;
+                state.is_trackers_turn && state.is_located
             }
             _ => false,
         }
     }
 
-    /// One step along an edge; undone if the distance would rise.
+    /// One step along an edge; rejected if the distance would rise.
     #[inline]
-    pub(super) fn slide(&self, index: u16, along: &Along, is_curved: bool, state: &mut BodyWitness) -> Outcome {
+    pub(super) fn step_along_edge(
+        &self,
+        index: u16,
+        along: &EdgeStep,
+        is_curved: bool,
+        state: &mut BodyWitness,
+    ) -> Outcome {
         let Some(edge) = self.edges.get(usize::from(index)) else { return Outcome::AtRest };
         let (t, probe) = (state.witness.parameters[0], state.probe);
         let minimiser = if is_curved { along.minimiser(edge, state.witness.second.half_uu, t) } else { None };
@@ -243,7 +252,7 @@ impl Body<'_> {
         let reached = edge.curve.evaluate(next);
         let before = along.difference.length_squared();
         if !self.is_no_rise((reached.point - probe).length_squared(), before, reached.point, probe) {
-            return Outcome::Undone;
+            return Outcome::Rejected;
         }
         state.rest_on_edge(index, next, &reached);
         Outcome::Moved

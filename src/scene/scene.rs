@@ -201,7 +201,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         let position = frame.point_to_body(probe.position);
         part.velocity = frame.to_body(probe.velocity - frame.velocity_at(probe.position));
         let seen = Probe { position, velocity: part.velocity };
-        let Touched { normal, undone, unexplained } = surface.follow(controller, &mut part.witness, seen, elapsed);
+        let Touched { normal, rejected, unexplained } = surface.follow(controller, &mut part.witness, seen, elapsed);
         part.normal = normal;
         part.unexplained = unexplained;
         part.gap = part.witness.gap() - tip_radius;
@@ -218,7 +218,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
             let clear = saturate(clear, 0.0, if most < f32::INFINITY { most } else { 0.0 });
             part.rests = (clear * self.limits.rate / self.limits.max_speed) as u32;
         }
-        undone
+        rejected
     }
 
     /// One body beside the two that are tracked, the next that is due; and whether it is to be tracked from now on.
@@ -335,11 +335,11 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
     #[inline]
     fn follow(&self, controller: &Controller, state: &mut Self::Witness, probe: Probe, period: f32) -> Touched {
         state.ticks = state.ticks.wrapping_add(1);
-        let mut undone = false;
+        let mut rejected = false;
         for slot in 0..if N > 1 { 2 } else { 1 } {
             let index = usize::from(state.tracked[slot]);
             if self.is_on(state, index) {
-                undone |= self.visit(controller, state, index, probe, period);
+                rejected |= self.visit(controller, state, index, probe, period);
             }
         }
         if N > 2 {
@@ -365,7 +365,7 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
         let part = &state.parts[usize::from(state.felt)];
         Touched {
             normal: part.frame.to_scene(part.normal),
-            undone,
+            rejected,
             unexplained: state.tracked.iter().any(|index| {
                 state
                     .parts

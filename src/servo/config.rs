@@ -319,7 +319,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
             homing: HomingState::default(),
             angles_at_zero: self.device.encoders.map(|encoder| encoder.angle_at_zero),
             table_check,
-            steps_undone: 0,
+            rejected_steps: 0,
             lost_contact: LostContact::default(),
             is_too_deep: false,
             counts: None,

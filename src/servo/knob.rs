@@ -197,7 +197,7 @@ impl Surface for Knob {
         }
         state.force = state.torque * inverse;
         state.witness.surface.point = probe.position;
-        Touched { normal: Vec3::ZERO, undone: false, unexplained: false }
+        Touched { normal: Vec3::ZERO, rejected: false, unexplained: false }
     }
 
     fn lose(&self, _: &mut KnobWitness) {}

@@ -28,7 +28,7 @@ impl<P: Patch> Surface for P {
         let normal = witness.normal(self).unwrap_or(Vec3::ZERO);
         *gap = (probe.position - witness.surface.point).dot(normal);
         *contact = contact.next(*gap, witness.mode);
-        Touched { normal, undone: step.outcome == Outcome::Undone, unexplained: false }
+        Touched { normal, rejected: step.outcome == Outcome::Rejected, unexplained: false }
     }
 
     fn lose(&self, state: &mut PatchWitness) {

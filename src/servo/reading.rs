@@ -123,10 +123,10 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         &self.table_check
     }
 
-    /// Controller steps that were undone because the distance would have risen.
+    /// Controller steps that were rejected because the distance would have risen.
     #[inline]
-    pub const fn steps_undone(&self) -> u32 {
-        self.steps_undone
+    pub const fn rejected_steps(&self) -> u32 {
+        self.rejected_steps
     }
 
     /// The last good encoder counts; `None` before the first.

@@ -40,8 +40,8 @@ pub struct ServoState<const JOINTS: usize, W = PatchWitness, G = ()> {
     pub(super) angles_at_zero: [f32; JOINTS],
     /// How far the check of the tables has come.
     pub(super) table_check: TableCheck,
-    /// Controller steps that were undone because the distance would have risen.
-    pub(super) steps_undone: u32,
+    /// Controller steps that were rejected because the distance would have risen.
+    pub(super) rejected_steps: u32,
     /// Contact that was lost.
     pub(super) lost_contact: LostContact,
     /// Whether the probe is deeper inside than the least radius of curvature.
@@ -95,7 +95,7 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         hash.floats(self.angles_at_zero);
         let TableCheck { place, crc, passes, read } = self.table_check;
         hash.words([place.record, place.word, crc, passes, u32::from(read.is_some()), read.unwrap_or(0)]);
-        hash.words([self.frames_lost, self.steps_undone, u32::from(self.counts.is_some())]);
+        hash.words([self.frames_lost, self.rejected_steps, u32::from(self.counts.is_some())]);
         let LostContact { count, in_a_row, tick, force, share } = self.lost_contact;
         hash.words([count, in_a_row, tick, share.to_bits(), u32::from(self.is_too_deep)]);
         hash.vectors([force]);

@@ -92,8 +92,8 @@ pub trait Tracked: Copy + Debug + PartialEq {
 pub struct Touched {
     /// Unit vector out of the body at the witness point, or zero where there is none.
     pub normal: Vec3,
-    /// Whether the controller's step was undone.
-    pub undone: bool,
+    /// Whether the controller's step was rejected.
+    pub rejected: bool,
     /// Whether the witness point is farther from the probe than the probe has moved since contact began.
     pub unexplained: bool,
 }
@@ -108,7 +108,7 @@ impl Surface for Body<'_> {
     #[inline]
     fn follow(&self, controller: &Controller, witness: &mut BodyWitness, probe: Probe, period: f32) -> Touched {
         let step = self.step(controller, witness, probe, period);
-        Touched { normal: witness.normal, undone: step.outcome == Outcome::Undone, unexplained: step.unexplained }
+        Touched { normal: witness.normal, rejected: step.outcome == Outcome::Rejected, unexplained: step.unexplained }
     }
 
     fn lose(&self, witness: &mut BodyWitness) {

@@ -209,7 +209,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         state.tool.position = tool.position;
         let target = Probe { position: tool.position, velocity: tool.velocity };
         let touched = self.surface.follow(&self.controller, &mut state.witness, target, self.period);
-        state.steps_undone = state.steps_undone.wrapping_add(u32::from(touched.undone));
+        state.rejected_steps = state.rejected_steps.wrapping_add(u32::from(touched.rejected));
         state.is_too_deep = false;
         if state.witness.contact() == Contact::Touching {
             // A hand goes deep where the force is withheld, and nothing pushes it out.

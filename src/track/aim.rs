@@ -3,7 +3,6 @@
 use super::border::{self, BoundaryMode};
 use super::boundary::{self, Descent, Landing, MAX_HALVINGS};
 use super::gain::certified_gain;
-use super::law::Law;
 use super::projection::ProjectionErrors;
 use super::rounding::{is_above_zero, rises};
 use super::second_order::{Model, Plan, exact_share};
@@ -41,7 +40,7 @@ impl Aim {
     pub(crate) fn in_full<P: Patch>(patch: &P, witness: &Witness, probe: Vec3) -> Result<Self, Option<Self>> {
         let errors = ProjectionErrors::new(&witness.surface, probe);
         let squared = errors.difference.length_squared();
-        // After a step that had to be undone it would be the same again.
+        // After a rejected step it would be the same again.
         let model = Model::new(&errors, witness).filter(|_| witness.halvings == 0).ok_or(None)?;
         let plan = model.plan(witness.parameters);
         let full = Self::full(&plan, squared);
@@ -72,13 +71,13 @@ impl Aim {
         Self { landing, squared: self.squared - fall, ..*self }
     }
 
-    /// The step to an evaluated point: done, or undone where the distance rose by more than rounding.
+    /// The step to an evaluated point: done, or rejected where the distance rose by more than rounding.
     #[inline(always)]
     pub(crate) fn settle(&self, reached: &CurvedPoint, witness: &mut Witness, probe: Vec3, size: f32) -> Outcome {
         if rises(&witness.surface, &reached.surface, probe, self.squared, size) {
             witness.is_free = false;
             witness.halvings = (witness.halvings + 1).min(MAX_HALVINGS);
-            return Outcome::Undone;
+            return Outcome::Rejected;
         }
         (witness.surface, witness.second) = (reached.surface, reached.second);
         (witness.parameters, witness.is_free) = (self.landing.parameters, self.landing.is_inside);
@@ -109,7 +108,7 @@ impl Aim {
 }
 
 /// Where the model is not convex: the same with the shifted one. The certified step of first order at a pole, and after
-/// an undone step.
+/// a rejected step.
 #[inline(never)]
 fn without_model<P: Patch>(patch: &P, witness: &Witness, x: f32, y: f32, z: f32) -> Aim {
     let probe = vec3(x, y, z);
@@ -129,7 +128,7 @@ fn without_model<P: Patch>(patch: &P, witness: &Witness, x: f32, y: f32, z: f32)
 fn to_first_order<P: Patch>(patch: &P, witness: &Witness, x: f32, y: f32, z: f32) -> Aim {
     let errors = ProjectionErrors::new(&witness.surface, vec3(x, y, z));
     let squared = errors.difference.length_squared();
-    let descent = Descent::of(Law::MeasureNumbers, &errors, witness);
+    let descent = Descent::of(&errors, witness);
     let gain = certified_gain(&descent, &patch.bounds(), squared);
     let (parameters, is_inside) = (witness.parameters, witness.is_free);
     // What is not a number, or too large for one, has come this far and goes no farther.

@@ -5,7 +5,6 @@
 //! and the set of constraints active there is the mode.
 
 use super::border::{Border, BoundaryMode, is_inside, is_within};
-use super::law::Law;
 use super::projection::ProjectionErrors;
 use super::witness::Witness;
 use crate::math::saturate;
@@ -29,30 +28,20 @@ pub struct Descent {
 
 impl Descent {
     /// The direction a witness point takes under a law: the best that the boundary allows, halved after steps that had
-    /// to be undone.
+    /// to be rejected.
     #[inline(always)]
-    pub fn of(law: Law, errors: &ProjectionErrors, witness: &Witness) -> Self {
-        if law != Law::Covariant
-            && witness.is_free
+    pub fn of(errors: &ProjectionErrors, witness: &Witness) -> Self {
+        if witness.is_free
             && let Some(direction) = errors.correction()
         {
             return Self::along(direction, errors.gradient, BoundaryMode::Interior);
         }
-        Self::new(law, errors, witness.parameters).halved(witness.halvings)
-    }
-
-    /// The best direction that the boundary allows at `(u, v)` under a law.
-    #[inline(always)]
-    pub fn new(law: Law, errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
-        match law {
-            Law::MeasureNumbers | Law::SecondOrder => Self::measured(errors, parameters),
-            Law::Covariant => Self::projected_gradient(errors, parameters.map(Border::of)),
-        }
+        Self::new(errors, witness.parameters).halved(witness.halvings)
     }
 
     /// The same way, `2ⁿ` times shorter: a direction like any other.
     #[inline]
-    fn halved(self, halvings: u8) -> Self {
+    pub(super) fn halved(self, halvings: u8) -> Self {
         if halvings == 0 {
             return self;
         }
@@ -67,13 +56,13 @@ impl Descent {
         }
     }
 
-    /// `−Ψ`, or the active set of the two-variable problem.
+    /// The best direction that the boundary allows at `(u, v)`: `−Ψ`, or the active set of the two-variable problem.
     #[inline(always)]
-    fn measured(errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
-        let borders @ [u, v] = parameters.map(Border::of);
+    pub fn new(errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
+        let [u, v] = parameters.map(Border::of);
         // No inverse at a pole: the plain gradient is still a descent there.
         let Some([w_u, w_v]) = errors.correction() else {
-            return Self::projected_gradient(errors, borders);
+            return Self::projected_gradient(errors, parameters);
         };
         if !(u.blocks(w_u) || v.blocks(w_v)) {
             return Self::along([w_u, w_v], errors.gradient, BoundaryMode::Interior);
@@ -115,7 +104,8 @@ impl Descent {
     /// `−g / trace I`, saturated component by component. The trace is not below the largest eigenvalue of `I`, so that
     /// `wᵀ I w ≤ −gᵀ w`.
     #[inline]
-    fn projected_gradient(errors: &ProjectionErrors, [u, v]: [Border; 2]) -> Self {
+    pub(super) fn projected_gradient(errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
+        let [u, v] = parameters.map(Border::of);
         let scale = -reciprocal_or_zero(errors.form.e + errors.form.g);
         let [w_u, w_v] = [errors.gradient[0] * scale, errors.gradient[1] * scale];
         match (u.blocks(w_u), v.blocks(w_v)) {
@@ -242,7 +232,7 @@ mod tests {
                 let errors = ProjectionErrors::new(&surface, vec3(cosine, sine, 0.4));
                 for u in corners {
                     for v in corners {
-                        let descent = Descent::new(Law::MeasureNumbers, &errors, [u, v]);
+                        let descent = Descent::new(&errors, [u, v]);
                         modes[descent.mode as usize] = true;
                         assert!(
                             !Border::of(u).blocks(descent.direction[0]) && !Border::of(v).blocks(descent.direction[1])
@@ -314,10 +304,10 @@ mod tests {
             gradient: [3.0, -5.0],
             form: crate::track::FirstFundamentalForm { e: 6.0, f: 0.0, g: 2.0 },
         };
-        let free = Descent::new(Law::Covariant, &errors, [0.5, 0.5]);
+        let free = Descent::projected_gradient(&errors, [0.5, 0.5]);
         assert_eq!((free.direction, free.slope), ([-3.0 / 8.0, 5.0 / 8.0], 34.0 / 8.0));
-        assert_eq!(Descent::new(Law::Covariant, &errors, [0.0, 0.5]).direction, [0.0, 5.0 / 8.0]);
-        assert_eq!(Descent::new(Law::Covariant, &errors, [0.5, 1.0]).direction, [-3.0 / 8.0, 0.0]);
+        assert_eq!(Descent::projected_gradient(&errors, [0.0, 0.5]).direction, [0.0, 5.0 / 8.0]);
+        assert_eq!(Descent::projected_gradient(&errors, [0.5, 1.0]).direction, [-3.0 / 8.0, 0.0]);
     }
 
     #[test]

@@ -7,21 +7,16 @@
 //! The way of a step of the paper's law: [`ProjectionErrors`] of the new probe at the cached surface point →
 //! [`Descent`], the direction the boundary allows and its [`BoundaryMode`] → [`certified_gain`], the longest step
 //! proved to bring the witness nearer → cut at the patch's border → one evaluation of the patch → kept if the distance
-//! did not rise. The default, [`Controller::SECOND_ORDER`], goes to where the quadratic model of the distance is least
+//! did not rise. The default, [`Controller::SecondOrder`], goes to where the quadratic model of the distance is least
 //! over the square, as far as that is proved to bring the witness nearer (theory §12).
 
 mod aim;
 mod border;
 mod boundary;
-mod choices;
 mod contact;
 mod controller;
-mod feed_forward;
 mod gain;
-mod integrate;
-mod law;
-mod limits;
-mod pair;
+mod paper;
 mod placement;
 mod projection;
 mod rounding;
@@ -32,13 +27,13 @@ pub(crate) use aim::Aim;
 pub use border::BoundaryMode;
 pub(crate) use border::{is_inside, mode_at};
 pub use boundary::Descent;
-pub use choices::ControllerError;
 pub use contact::Contact;
 pub use controller::Controller;
 pub use gain::certified_gain;
-pub use law::{FeedForward, Gain, Integrator, Law};
-pub use limits::PerformanceLimits;
-pub use pair::{CommonNormalStep, CommonNormalTracker, PairStep, PairTracker, PairWitness};
+pub use paper::{
+    CommonNormalStep, CommonNormalTracker, FeedForward, FirstOrder, FirstOrderError, Gain, Integrator, Law, PairStep,
+    PairTracker, PairWitness, PerformanceLimits,
+};
 pub use placement::Placement;
 pub use projection::{FirstFundamentalForm, ProjectionErrors};
 pub use witness::{Outcome, Probe, Step, Witness};

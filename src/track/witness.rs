@@ -34,7 +34,7 @@ pub struct Witness {
     /// Whether the next step need look neither at the borders, for both parameters are away from them, nor at
     /// `halvings`.
     pub is_free: bool,
-    /// How often the next step is halved: once more after each in a row that had to be undone.
+    /// How often the next step is halved: once more after each in a row that was rejected.
     pub halvings: u8,
 }
 
@@ -46,9 +46,9 @@ pub enum Outcome {
     Moved,
     /// There was nowhere nearer to go.
     AtRest,
-    /// The step would have raised the distance by more than rounding can explain and was undone; the next is half as
+    /// The step would have raised the distance by more than rounding can explain and was rejected; the next is half as
     /// long. With bounds that hold, on a patch that is C¹, it does not happen.
-    Undone,
+    Rejected,
 }
 
 /// What a step found out on its way. Lengths are kept squared: the tick does not ask for their roots.
@@ -65,6 +65,12 @@ pub struct Step {
 }
 
 impl Step {
+    /// The step that moved nothing.
+    #[inline(always)]
+    pub(super) const fn at_rest(distance_squared_before: f32) -> Self {
+        Self { distance_squared_before, residual_squared: 0.0, gain: 0.0, outcome: Outcome::AtRest }
+    }
+
     /// `‖ΔR‖` from the probe to the witness point before the step, metres.
     pub fn distance_before(&self) -> f32 {
         sqrt(self.distance_squared_before)

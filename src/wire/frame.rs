@@ -160,7 +160,7 @@ mod tests {
         gap: -1.5,
         force: [-1.5; 3],
         frames_lost: u32::MAX,
-        steps_undone: u32::MAX,
+        rejected_steps: u32::MAX,
         instructions: u32::MAX,
         digest: u32::MAX,
     };

@@ -53,7 +53,7 @@ pub struct Report {
     /// Frames lost, late or damaged so far.
     pub frames_lost: u32,
     /// How often the controller undid a step that brought the witness point no nearer.
-    pub steps_undone: u32,
+    pub rejected_steps: u32,
     /// Instructions the servo tick took, from the counter of the board; 0 where there is none.
     pub instructions: u32,
     /// [`crate::servo::ServoState::digest`] after this tick: the same on host and target, bit for bit.

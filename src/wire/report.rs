@@ -30,7 +30,7 @@ impl Report {
             gap: state.gap(),
             force: state.force().to_array(),
             frames_lost: state.frames_lost(),
-            steps_undone: state.steps_undone(),
+            rejected_steps: state.rejected_steps(),
             instructions,
             digest: state.digest(),
         }

@@ -2,7 +2,7 @@
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU32, Ordering};
-use palpate::body::{Body, Edge, Face, FileError, Room};
+use palpate::body::{Body, BodyBuffer, Edge, Face, FileError};
 
 /// Who holds a bank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +76,7 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
         let built: &'static mut Built<FACES, EDGES> = unsafe { &mut *self.built.get() };
         let Built { faces, edges, body } = built;
         *body = None;
-        *body = Some(Body::from_bytes_with(file, Room { faces, edges }, pause)?);
+        *body = Some(Body::from_bytes_with(file, BodyBuffer { faces, edges }, pause)?);
         self.pass(Holder::Main, Holder::Waiting);
         Ok(())
     }

@@ -55,7 +55,7 @@ impl Incoming {
 /// What is said of a file that is none.
 pub(crate) const fn refusal(wrong: &FileError) -> UploadError {
     match wrong {
-        FileError::Room { .. } => UploadError::TooMany,
+        FileError::BufferTooSmall { .. } => UploadError::TooMany,
         _ => UploadError::NoBody,
     }
 }

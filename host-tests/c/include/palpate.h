@@ -14,13 +14,13 @@
  *
  * **What is checked**: each pointer for null and alignment, each length, each number that must be finite, each index,
  * the whole of a file. **What the caller promises**, for nobody can check it: a pointer that is not null points to as
- * much memory as the function says; a file, its room and a body stay as they are for as long as anything stands on
+ * much memory as the function says; a file, its buffer and a body stay as they are for as long as anything stands on
  * them; and no two calls that change a handle run at once.
  *
  * @code{.c}
  * static palpate_body body;
- * static palpate_word room[PALPATE_ROOM_WORDS(6, 12)];
- * palpate_body_load(&body, sizeof body, part_palp, sizeof part_palp, room, sizeof room);
+ * static palpate_word buffer[PALPATE_BODY_BUFFER_WORDS(6, 12)];
+ * palpate_body_load(&body, sizeof body, part_palp, sizeof part_palp, buffer, sizeof buffer);
  * palpate_tracker tracker;
  * palpate_start(&tracker, sizeof tracker, &body);
  * const float probe[3] = {0.01f, 0.02f, 0.05f};
@@ -63,8 +63,8 @@ typedef uintptr_t palpate_word;
 #define PALPATE_RECEIVER_WORDS 22
 #endif
 
-/** Words of the room of a body with so many faces and edges (palpate_file_info::faces, palpate_file_info::edges). */
-#define PALPATE_ROOM_WORDS(faces, edges) ((faces) * PALPATE_FACE_WORDS + (edges) * PALPATE_EDGE_WORDS)
+/** Words of the buffer of a body with so many faces and edges (palpate_file_info::faces, palpate_file_info::edges). */
+#define PALPATE_BODY_BUFFER_WORDS(faces, edges) ((faces) * PALPATE_FACE_WORDS + (edges) * PALPATE_EDGE_WORDS)
 
 /** A body: the tables of a file, checked. */
 typedef struct palpate_body { palpate_word reserved[PALPATE_BODY_WORDS]; } palpate_body;
@@ -145,7 +145,7 @@ const char *palpate_fault_text(uint32_t fault);
 typedef struct palpate_file_info {
     uint32_t faces;      /**< Faces of the body. */
     uint32_t edges;      /**< Edges of the body. */
-    uint32_t room_bytes; /**< Bytes of the room that it needs on this machine. */
+    uint32_t buffer_bytes; /**< Bytes of the buffer that it needs on this machine. */
     float centre[3];     /**< Where the origin of the tables lies in the model, m. */
     uint8_t source[32];  /**< SHA-256 of the model file. */
 } palpate_file_info;
@@ -161,7 +161,7 @@ typedef struct palpate_located {
 } palpate_located;
 
 /**
- * Looks at a file: its CRC and its sections. How much room a body needs is known then.
+ * Looks at a file: its CRC and its sections. The size of the buffer that a body needs is known then.
  *
  * @param file  the bytes that `palpate bake MODEL --out part.palp` wrote, at a multiple of 4
  * @param bytes how many
@@ -170,18 +170,18 @@ typedef struct palpate_located {
 palpate_status palpate_file_head(const uint8_t *file, size_t bytes, palpate_file_info *info);
 
 /**
- * Makes a body of a file, with everything in it checked. The numbers are read where they lie: file and room stay as
+ * Makes a body of a file, with everything in it checked. The numbers are read where they lie: file and buffer stay as
  * they are for as long as the body is used. The time is bounded by the length of the file.
  *
  * @param body        where the body goes
  * @param body_bytes  `sizeof` it
  * @param file        the file, at a multiple of 4
  * @param file_bytes  its length
- * @param room_memory memory for faces and edges, at the alignment of ::palpate_word
- * @param room_bytes  `sizeof` it; palpate_file_info::room_bytes at least
+ * @param buffer memory for faces and edges, at the alignment of ::palpate_word
+ * @param buffer_bytes  `sizeof` it; palpate_file_info::buffer_bytes at least
  */
 palpate_status palpate_body_load(palpate_body *body, size_t body_bytes, const uint8_t *file, size_t file_bytes,
-                                 void *room_memory, size_t room_bytes);
+                                 void *buffer, size_t buffer_bytes);
 
 /**
  * The closest point from a standing start. At most 512 evaluations of patches, on a convex body 32.
@@ -205,7 +205,7 @@ typedef struct palpate_touch {
     uint32_t feature;     /**< The index of a face, of an edge plus 0x4000, of a vertex plus 0x8000. */
     uint32_t contact;     /**< 0 behind the surface, 1 in front of it, 2 touching. */
     uint32_t located;     /**< 1 once it is known where the closest point is; until then nothing is touched. */
-    uint32_t undone;      /**< 1 if the step was undone because the distance would have risen. */
+    uint32_t rejected;      /**< 1 if the step was rejected because the distance would have risen. */
     uint32_t searched;    /**< 1 if the tick went to the search for a global start. */
     uint32_t unexplained; /**< 1 if it is farther off than the probe has moved since contact began. */
     uint32_t evaluations; /**< Evaluations of patches spent in the tick. */
@@ -234,7 +234,7 @@ palpate_status palpate_start_on(palpate_tracker *tracker, size_t tracker_bytes, 
                                 uint32_t face, float u, float v);
 
 /**
- * Moves the witness point towards the point closest to the probe: one evaluation of a patch. palpate_meet() follows.
+ * Moves the witness point towards the point closest to the probe: one evaluation of a patch. palpate_update_contact() follows.
  *
  * @param tracker the tracker
  * @param probe   three coordinates, m
@@ -247,10 +247,10 @@ palpate_status palpate_track(palpate_tracker *tracker, const float *probe);
  * @param tracker the tracker
  * @param touch   where the answer goes
  */
-palpate_status palpate_meet(palpate_tracker *tracker, palpate_touch *touch);
+palpate_status palpate_update_contact(palpate_tracker *tracker, palpate_touch *touch);
 
 /**
- * A whole tick: palpate_track(), then palpate_meet(), and how far the probe has gone since contact began.
+ * A whole tick: palpate_track(), then palpate_update_contact(), and how far the probe has gone since contact began.
  *
  * @param tracker the tracker
  * @param probe   three coordinates, m
@@ -535,7 +535,7 @@ typedef struct palpate_state {
     uint32_t frames_lost;   /**< Frames lost, late or damaged so far. */
     uint32_t overruns;      /**< Ticks that overran so far. */
     uint32_t contacts_lost; /**< How often contact ended because no motion explained it. */
-    uint32_t steps_undone;  /**< Steps undone so far. */
+    uint32_t rejected_steps;  /**< Rejected steps so far. */
     float probe[3];         /**< In the body's frame, m. */
     float point[3];         /**< The witness point, m. */
     float parameters[2];    /**< Its parameters. */

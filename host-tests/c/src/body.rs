@@ -2,7 +2,7 @@
 
 use crate::felt::Felt;
 use crate::handle::{Handle, Kind};
-use crate::pointers::{finite, get, put, room, row};
+use crate::pointers::{finite, get, put, row, take_slots};
 use crate::status::{Status, code};
 use core::ffi::c_void;
 use palpate_core::body::{Body, Edge, Face, FileHead, Room};
@@ -55,7 +55,7 @@ impl Standing {
 pub struct FileInfo {
     pub faces: u32,
     pub edges: u32,
-    pub room_bytes: u32,
+    pub buffer_bytes: u32,
     pub centre: [f32; 3],
     pub source: [u8; 32],
 }
@@ -81,11 +81,11 @@ pub unsafe extern "C" fn palpate_file_head(file: *const u8, bytes: usize, info: 
     let look = || {
         // SAFETY: the caller's file.
         let head = FileHead::of(unsafe { row(file, bytes) }?)?;
-        let room_bytes = head.faces * size_of::<Face>() + head.edges * size_of::<Edge>();
+        let buffer_bytes = head.faces * size_of::<Face>() + head.edges * size_of::<Edge>();
         let info_of = FileInfo {
             faces: head.faces as u32,
             edges: head.edges as u32,
-            room_bytes: room_bytes as u32,
+            buffer_bytes: buffer_bytes as u32,
             centre: head.centre.to_array(),
             source: head.source,
         };
@@ -105,8 +105,8 @@ pub unsafe extern "C" fn palpate_body_load(
     body_bytes: usize,
     file: *const u8,
     file_bytes: usize,
-    room_memory: *mut c_void,
-    room_bytes: usize,
+    buffer: *mut c_void,
+    buffer_bytes: usize,
 ) -> Status {
     let load = || {
         // SAFETY: the caller's memory for the body.
@@ -114,15 +114,15 @@ pub unsafe extern "C" fn palpate_body_load(
         // SAFETY: the caller's file, which stays.
         let file: &'static [u8] = unsafe { row(file, file_bytes) }?;
         let head = FileHead::of(file)?;
-        // SAFETY: the caller's room, which stays.
-        let (faces, rest, left) = unsafe { room(room_memory, room_bytes, head.faces, Face::VACANT) }?;
+        // SAFETY: the caller's buffer, which stays.
+        let (faces, rest, left) = unsafe { take_slots(buffer, buffer_bytes, head.faces, Face::VACANT) }?;
         let edges = if head.edges == 0 {
             &mut []
         } else {
             // SAFETY: what is left of it.
-            unsafe { room(rest, left, head.edges, Edge::VACANT) }?.0
+            unsafe { take_slots(rest, left, head.edges, Edge::VACANT) }?.0
         };
-        let body = Body::from_bytes(file, Room { faces, edges })?;
+        let body = Body::from_bytes(file, BodyBuffer { faces, edges })?;
         // SAFETY: the place that was vacated.
         unsafe { Handle::fill(place, Loaded { crc: body.baked_crc(), felt: Felt(body) }) };
         Ok(())

@@ -11,9 +11,9 @@ use palpate_core::body::{Edge, Face};
 /// Whether words are of 32 bits, as on a microcontroller, or of 64, as on most hosts.
 const NARROW: bool = size_of::<usize>() == 4;
 
-/// Words of a face in the room of a body.
+/// Words of a face in the buffer of a body.
 pub const FACE_WORDS: usize = if NARROW { 57 } else { 45 };
-/// Words of an edge in the room of a body.
+/// Words of an edge in the buffer of a body.
 pub const EDGE_WORDS: usize = if NARROW { 13 } else { 9 };
 /// Words of a body.
 pub const BODY_WORDS: usize = if NARROW { 24 } else { 20 };

@@ -76,7 +76,7 @@ pub unsafe fn row<'a, T: Plain>(pointer: *const T, count: usize) -> Result<&'a [
 ///
 /// # Safety
 /// If it is not null, the block is there for good, and nobody else's.
-pub unsafe fn room<T: Copy>(
+pub unsafe fn take_slots<T: Copy>(
     block: *mut c_void,
     bytes: usize,
     count: usize,

@@ -186,7 +186,7 @@ impl From<FileError> for Status {
             FileError::Code { .. } => Self::FileCode,
             FileError::Missing { .. } => Self::FileMissing,
             FileError::LeftOver { .. } => Self::FileLeftOver,
-            FileError::Room { .. } => Self::TooSmall,
+            FileError::BufferTooSmall { .. } => Self::TooSmall,
             FileError::Patch { .. } => Self::FilePatch,
             FileError::Body(_) => Self::FileBody,
             FileError::Tables { .. } => Self::FileTables,

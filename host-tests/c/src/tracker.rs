@@ -35,7 +35,7 @@ pub struct Touch {
     pub feature: u32,
     pub contact: u32,
     pub located: u32,
-    pub undone: u32,
+    pub rejected: u32,
     pub searched: u32,
     pub unexplained: u32,
     pub evaluations: u32,
@@ -58,7 +58,7 @@ impl Tracking {
             feature: u32::from(witness.feature()),
             contact: witness.contact as u32,
             located: u32::from(witness.is_located),
-            undone: u32::from(step.is_some_and(|step| step.outcome == Outcome::Undone)),
+            rejected: u32::from(step.is_some_and(|step| step.outcome == Outcome::Rejected)),
             searched: u32::from(step.is_some_and(|step| step.searched)),
             unexplained: u32::from(step.is_some_and(|step| step.unexplained)),
             evaluations: step.map_or(0, |step| u32::from(step.evaluations)),
@@ -143,7 +143,7 @@ pub unsafe extern "C" fn palpate_track(tracker: *mut Handle<Tracking>, probe: *c
 /// # Safety
 /// As the header says of all functions.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_meet(tracker: *mut Handle<Tracking>, touch: *mut Touch) -> Status {
+pub unsafe extern "C" fn palpate_update_contact(tracker: *mut Handle<Tracking>, touch: *mut Touch) -> Status {
     let meet = || {
         // SAFETY: the caller's handle, nobody else's.
         let tracking = unsafe { Handle::get_mut(tracker) }?;
@@ -151,7 +151,7 @@ pub unsafe extern "C" fn palpate_meet(tracker: *mut Handle<Tracking>, touch: *mu
         let body = unsafe { tracking.standing.body() }?;
         let step = tracking.step.ok_or(Status::NotReady)?;
         if !step.searched {
-            body.meet(&mut tracking.witness, tracking.probe, &step);
+            body.update_contact(&mut tracking.witness, tracking.probe, &step);
         }
         // SAFETY: the caller's place for it.
         unsafe { put(touch, tracking.touch()) }

@@ -20,7 +20,7 @@ static uint8_t *file;
 static size_t file_bytes;
 static palpate_file_info info;
 static palpate_body body;
-static void *room;
+static void *buffer;
 static palpate_tracker tracker;
 static palpate_pair pair;
 static palpate_servo servo;
@@ -110,8 +110,8 @@ static palpate_status spoiled_file(void)
         memcpy(copy + bytes - 4, &crc, 4);
     }
     palpate_body one;
-    void *place = malloc(info.room_bytes);
-    palpate_status status = palpate_body_load(&one, sizeof one, copy, bytes, place, info.room_bytes);
+    void *place = malloc(info.buffer_bytes);
+    palpate_status status = palpate_body_load(&one, sizeof one, copy, bytes, place, info.buffer_bytes);
     if (status == PALPATE_OK) {
         /* A hash, a note or a place in the model: another good file. Not counted. */
         if (kind != 3) stop("a damaged file was taken", status);
@@ -132,28 +132,28 @@ static palpate_status spoiled_file(void)
 static palpate_status bad_load(void)
 {
     palpate_body *one = malloc(sizeof *one);
-    void *place = malloc(info.room_bytes);
+    void *place = malloc(info.buffer_bytes);
     palpate_status status;
     switch (any(7)) {
-    case 0: status = palpate_body_load(NULL, sizeof *one, file, file_bytes, place, info.room_bytes); break;
-    case 1: status = palpate_body_load(one, sizeof *one, NULL, file_bytes, place, info.room_bytes); break;
-    case 2: status = palpate_body_load(one, sizeof *one, file, file_bytes, NULL, info.room_bytes); break;
-    case 3: status = palpate_body_load(ASKEW(one), sizeof *one, file, file_bytes, place, info.room_bytes); break;
+    case 0: status = palpate_body_load(NULL, sizeof *one, file, file_bytes, place, info.buffer_bytes); break;
+    case 1: status = palpate_body_load(one, sizeof *one, NULL, file_bytes, place, info.buffer_bytes); break;
+    case 2: status = palpate_body_load(one, sizeof *one, file, file_bytes, NULL, info.buffer_bytes); break;
+    case 3: status = palpate_body_load(ASKEW(one), sizeof *one, file, file_bytes, place, info.buffer_bytes); break;
     case 4: {
         size_t bytes = any(sizeof *one / 2);
         void *small = malloc(bytes + 1);
-        status = palpate_body_load(small, bytes, file, file_bytes, place, info.room_bytes);
+        status = palpate_body_load(small, bytes, file, file_bytes, place, info.buffer_bytes);
         free(small);
         break;
     }
     case 5: {
-        size_t bytes = any(info.room_bytes);
+        size_t bytes = any(info.buffer_bytes);
         void *small = malloc(bytes + 1);
         status = palpate_body_load(one, sizeof *one, file, file_bytes, small, bytes);
         free(small);
         break;
     }
-    default: status = palpate_body_load(one, sizeof *one, ASKEW(file), file_bytes - 1, place, info.room_bytes); break;
+    default: status = palpate_body_load(one, sizeof *one, ASKEW(file), file_bytes - 1, place, info.buffer_bytes); break;
     }
     free(place);
     free(one);
@@ -189,8 +189,8 @@ static palpate_status bad_probe(void)
     case 7: status = palpate_step(NULL, probe, &touch); break;
     case 8: status = palpate_closest(&body, ASKEW(probe), &located); break;
     case 9: status = palpate_closest(&body, probe, NULL); break;
-    case 10: status = palpate_meet(no_tracker, &touch); break;
-    default: status = palpate_meet(&tracker, NULL); break;
+    case 10: status = palpate_update_contact(no_tracker, &touch); break;
+    default: status = palpate_update_contact(&tracker, NULL); break;
     }
     free(no_body);
     free(no_tracker);
@@ -418,8 +418,8 @@ int main(int count, char **arguments)
     good("settings", palpate_settings_default(&settings));
     good("texture", palpate_texture(smooth));
     good("head", palpate_file_head(file, file_bytes, &info));
-    room = malloc(info.room_bytes);
-    good("load", palpate_body_load(&body, sizeof body, file, file_bytes, room, info.room_bytes));
+    buffer = malloc(info.buffer_bytes);
+    good("load", palpate_body_load(&body, sizeof body, file, file_bytes, buffer, info.buffer_bytes));
     good("start", palpate_start(&tracker, sizeof tracker, &body));
     good("pair", palpate_pair_start(&pair, sizeof pair, &body, 0, &body, 0));
     good("servo", palpate_servo_start_serial_arm(&servo, sizeof servo, &arm, &device, &body, &settings, 0));
@@ -448,7 +448,7 @@ int main(int count, char **arguments)
     }
     printf("hammer: %lu calls with bad arguments, an error code each; %u files that differ were good ones\n", refused,
            accepted);
-    free(room);
+    free(buffer);
     free(file);
     return 0;
 }

@@ -53,8 +53,8 @@ int main(int count, char **arguments)
 
     palpate_file_info info;
     good(palpate_file_head(file, file_bytes, &info));
-    void *room = malloc(info.room_bytes);
-    good(palpate_body_load(&body, sizeof body, file, file_bytes, room, info.room_bytes));
+    void *buffer = malloc(info.buffer_bytes);
+    good(palpate_body_load(&body, sizeof body, file, file_bytes, buffer, info.buffer_bytes));
     good(palpate_servo_start_serial_arm(&servo, sizeof servo, &arm, &device, &body, &settings, PALPATE_RESET_POWER_ON));
     good(palpate_servo_home(&servo, homing));
     uint32_t hash = 0, armed = 0, driven = 0;

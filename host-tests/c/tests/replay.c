@@ -66,8 +66,8 @@ int main(int count, char **arguments)
 
     palpate_file_info info;
     good(palpate_file_head(file, file_bytes, &info));
-    void *room = malloc(info.room_bytes);
-    good(palpate_body_load(&body, sizeof body, file, file_bytes, room, info.room_bytes));
+    void *buffer = malloc(info.buffer_bytes);
+    good(palpate_body_load(&body, sizeof body, file, file_bytes, buffer, info.buffer_bytes));
     if (palpate_servo_start_serial_arm_protected(&servo, sizeof servo, &arm, &device, &body, &settings, &protection,
                                                  PALPATE_RESET_POWER_ON) != PALPATE_SETTINGS_TEXTURE) return 3;
     good(palpate_texture(bowl));

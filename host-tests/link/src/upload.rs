@@ -2,7 +2,7 @@
 
 use crate::orders::{ANSWER, BUSY};
 use crate::{Device, Error, Line};
-use palpate::body::{Body, Edge, Face, FileError, FileHead, Room};
+use palpate::body::{Body, BodyBuffer, Edge, Face, FileError, FileHead};
 use palpate::scene::Order;
 use palpate::wire::{CHUNK, Command, Refused, Upload, UploadError};
 use std::time::Duration;
@@ -152,6 +152,6 @@ fn check(file: &[u8]) -> Result<FileHead, FileError> {
     let bytes = bytes.get(..file.len()).unwrap_or_default();
     let head = FileHead::of(bytes)?;
     let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-    Body::from_bytes(bytes, Room { faces: &mut faces, edges: &mut edges })?;
+    Body::from_bytes(bytes, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
     Ok(head)
 }

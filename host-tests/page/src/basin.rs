@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
-use palpate::track::{Controller, Outcome, Probe, Witness};
+use palpate::track::{Controller, FirstOrder, Outcome, Probe, Witness};
 
 use crate::newton::Newton;
 
@@ -21,7 +21,7 @@ impl Method {
     pub const fn of(number: u32) -> Self {
         match number {
             0 => Self::Certified(Controller::SECOND_ORDER),
-            1 => Self::Certified(Controller::CERTIFIED),
+            1 => Self::Certified(Controller::FirstOrder(FirstOrder::CERTIFIED)),
             2 => Self::Newton(Newton::Paper),
             3 => Self::Newton(Newton::Saturated),
             _ => Self::Newton(Newton::Textbook),
@@ -55,7 +55,7 @@ pub fn path(patch: &SplinePatch<'static>, probe: Vec3, start: [f32; 2], method: 
         path.push(next);
         let moved = (next[0] - at[0]).abs().max((next[1] - at[1]).abs());
         at = next;
-        // A step that was undone is tried again at half its length.
+        // A rejected step is tried again at half its length.
         if is_outside(at) || moved < SETTLED && witness.halvings == 0 {
             break;
         }

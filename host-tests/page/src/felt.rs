@@ -51,15 +51,15 @@ impl Surface for Felt {
                 // As the body's own `follow`, which keeps to itself what was spent.
                 let step = body.step(controller, witness, probe, period);
                 *spent = step.evaluations;
-                let undone = step.outcome == Outcome::Undone;
-                Touched { normal: witness.normal, undone, unexplained: step.unexplained }
+                let rejected = step.outcome == Outcome::Rejected;
+                Touched { normal: witness.normal, rejected, unexplained: step.unexplained }
             }
             (Self::Patch(patch), Kept::Patch(witness)) => {
                 *spent = 1;
                 patch.follow(controller, witness, probe, period)
             }
             // Each surface makes its own witness.
-            _ => Touched { normal: Vec3::ZERO, undone: false, unexplained: false },
+            _ => Touched { normal: Vec3::ZERO, rejected: false, unexplained: false },
         }
     }
 

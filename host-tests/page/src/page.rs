@@ -7,7 +7,7 @@ use palpate::device::{Counts, Device};
 use palpate::math::Vec3;
 use palpate::render::Friction;
 use palpate::servo::{Event, Guard, Input, Rendering, Servo, ServoState, Settings, Unguarded};
-use palpate::track::{Controller, Law};
+use palpate::track::{Controller, FirstOrder};
 
 use crate::felt::{Felt, FeltWitness};
 use crate::hand::{Grip, Hand};
@@ -39,8 +39,8 @@ impl Choices {
     pub const fn controller(&self) -> Controller {
         match self.law {
             0 => Controller::SECOND_ORDER,
-            1 => Controller::CERTIFIED,
-            _ => Controller::CERTIFIED.law(Law::Covariant),
+            1 => Controller::FirstOrder(FirstOrder::CERTIFIED),
+            _ => Controller::FirstOrder(FirstOrder::COVARIANT),
         }
     }
 }

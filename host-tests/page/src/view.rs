@@ -62,7 +62,7 @@ pub fn write<S: Sighted, G: Remembered>(
         f32::from(u8::from(anchor.point.is_some())),
         f32::from(u8::from(anchor.slips)),
         f32::from(u8::from(state.is_too_deep())),
-        state.steps_undone() as f32,
+        state.rejected_steps() as f32,
     ]);
     surface.places(kept, out);
 }

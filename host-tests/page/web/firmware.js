@@ -17,7 +17,7 @@ const NUMBERS = [
   "held",
   "slips",
   "tooDeep",
-  "undone",
+  "rejected",
 ];
 
 export const TOUCHING = 2;

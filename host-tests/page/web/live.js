@@ -83,6 +83,6 @@ function seen(record, device) {
     held: 0,
     slips: 0,
     tooDeep: 0,
-    undone: 0,
+    rejected: 0,
   };
 }

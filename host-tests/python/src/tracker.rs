@@ -6,7 +6,7 @@ use crate::refusal::Refusal;
 use numpy::PyReadonlyArray2;
 use palpate::body::BodyWitness;
 use palpate::servo::Tracked as _;
-use palpate::track::{Controller, Probe};
+use palpate::track::{Controller, FirstOrder, Probe};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -20,7 +20,7 @@ const PERIOD: f32 = 1e-3;
 pub fn law(name: &str) -> Result<Controller, Refusal> {
     match name {
         "second-order" => Ok(Controller::SECOND_ORDER),
-        "certified" => Ok(Controller::CERTIFIED),
+        "certified" => Ok(Controller::FirstOrder(FirstOrder::CERTIFIED)),
         _ => Err(Refusal::Settings(format!("there is no law {name:?}; there are \"second-order\" and \"certified\""))),
     }
 }

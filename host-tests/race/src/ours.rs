@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use palpate::body::Body;
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
-use palpate::track::{self, Controller, Descent, Law, Outcome, ProjectionErrors, Witness};
+use palpate::track::{self, Controller, Descent, FirstOrder, Outcome, ProjectionErrors, Witness};
 
 /// Settled when a step to first order would lower the distance by no more than this, in sizes of the patch: a
 /// twentieth of what single precision resolves.
@@ -62,7 +62,7 @@ pub fn track_to_first_order(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>
     struct Track(SplinePatch<'static>, Witness);
     impl Contestant for Track {
         fn answer(&mut self, probe: &Probe) -> Answer {
-            Controller::CERTIFIED.step(&self.0, &mut self.1, at(probe), 1.0);
+            Controller::FirstOrder(FirstOrder::CERTIFIED).step(&self.0, &mut self.1, at(probe), 1.0);
             parameters(self.1.parameters)
         }
     }
@@ -80,7 +80,7 @@ pub fn start(scene: &Scene) -> Witness {
 #[inline]
 fn has_settled(witness: &Witness, probe: Vec3, size: f32) -> bool {
     let errors = ProjectionErrors::new(&witness.surface, probe);
-    let slope = Descent::of(Law::MeasureNumbers, &errors, witness).slope;
+    let slope = Descent::of(&errors, witness).slope;
     let resolved = 2.0 * SETTLED * size;
     slope * slope <= resolved * resolved * errors.difference.length_squared()
 }

@@ -169,9 +169,9 @@ mod tests {
 
     #[test]
     fn a_row_is_read_and_written_as_it_stands() {
-        let line = "| steps undone | 0 | | `cargo test` |";
+        let line = "| rejected steps | 0 | | `cargo test` |";
         let row = Row::parse(line).unwrap();
-        assert_eq!((row.claim.as_str(), row.value.as_str(), row.unit.as_str()), ("steps undone", "0", ""));
+        assert_eq!((row.claim.as_str(), row.value.as_str(), row.unit.as_str()), ("rejected steps", "0", ""));
         assert_eq!(Row::parse(&row.line()), Some(row));
         for other in ["| claim | value | unit | printed by |", "|---|---|---|---|", "| a | b | c |", "text"] {
             assert_eq!(Row::parse(other), None, "{other}");

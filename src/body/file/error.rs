@@ -151,7 +151,7 @@ pub enum FileError {
     },
     /// The room is too small.
     #[error("the file needs room for {faces} faces and {edges} edges")]
-    Room {
+    BufferTooSmall {
         /// Faces.
         faces: u32,
         /// Edges.

@@ -2,7 +2,7 @@
 //! a host has read.
 //!
 //! The numbers are read where they lie: a body from a file is felt by the same code and at the same cost as one that
-//! was compiled in. Only faces and edges, which refer to their numbers, are built, in a [`Room`] that the caller gives.
+//! was compiled in. Only faces and edges, which refer to their numbers, are built, in a [`BodyBuffer`] that the caller gives.
 //! Everything is checked first, once, in a time that the length of the file bounds. The form of the file is documented
 //! byte by byte in the repository's `docs/body-file.md`.
 
@@ -23,17 +23,17 @@ use sections::{BODY_WORDS, Sections};
 /// Where the faces and edges of a body from a file are built: 228 bytes a face and 52 an edge on a 32-bit target.
 ///
 /// ```
-/// use palpate::body::{Aligned, Body, Edge, Face, FileError, Room};
+/// use palpate::body::{Aligned, Body, Edge, Face, FileError, BodyBuffer};
 ///
 /// # fn main() {
 /// static PART: &Aligned<[u8]> = &Aligned([0; 64]); // &Aligned(*include_bytes!("part.palp"))
 /// let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
-/// let body = Body::from_bytes(&PART.0, Room { faces: &mut faces, edges: &mut edges });
+/// let body = Body::from_bytes(&PART.0, BodyBuffer { faces: &mut faces, edges: &mut edges });
 /// assert_eq!(body.err(), Some(FileError::Magic));
 /// # }
 /// ```
 #[derive(Debug)]
-pub struct Room<'a> {
+pub struct BodyBuffer<'a> {
     /// For the faces: as many as the file has, or more.
     pub faces: &'a mut [Face<'a>],
     /// For the edges.
@@ -62,7 +62,7 @@ pub struct FileHead {
 }
 
 /// What there is one of, from its record.
-struct Whole {
+struct BodyRecord {
     table_crc: u32,
     is_convex: bool,
     size: f32,
@@ -71,7 +71,7 @@ struct Whole {
     centre: Vec3,
 }
 
-impl Whole {
+impl BodyRecord {
     fn of(record: &[u32; BODY_WORDS]) -> Result<Self, FileError> {
         let wrong = FileError::Code { section: Section::Body, record: 0 };
         let [table_crc, convex, numbers @ ..] = *record;
@@ -101,7 +101,7 @@ impl FileHead {
         for (bytes, word) in source.as_chunks_mut().0.iter_mut().zip(sections.source) {
             *bytes = word.to_le_bytes();
         }
-        let Whole { centre, .. } = Whole::of(sections.body)?;
+        let BodyRecord { centre, .. } = BodyRecord::of(sections.body)?;
         Ok(Self { faces: sections.faces.len(), edges: sections.edges.len(), source, centre })
     }
 
@@ -122,7 +122,7 @@ impl<'a> Body<'a> {
     ///
     /// # Errors
     /// The first thing wrong with the file.
-    pub fn from_bytes(bytes: &'a [u8], room: Room<'a>) -> Result<Self, FileError> {
+    pub fn from_bytes(bytes: &'a [u8], room: BodyBuffer<'a>) -> Result<Self, FileError> {
         Self::from_bytes_with(bytes, room, &mut || ())
     }
 
@@ -131,15 +131,15 @@ impl<'a> Body<'a> {
     ///
     /// # Errors
     /// As [`Self::from_bytes`].
-    pub fn from_bytes_with(bytes: &'a [u8], room: Room<'a>, pause: &mut dyn FnMut()) -> Result<Self, FileError> {
+    pub fn from_bytes_with(bytes: &'a [u8], room: BodyBuffer<'a>, pause: &mut dyn FnMut()) -> Result<Self, FileError> {
         let sections = Sections::of_with(bytes, pause)?;
         pause();
-        let Whole { table_crc: stated, is_convex, size, corner, side, .. } = Whole::of(sections.body)?;
+        let BodyRecord { table_crc: stated, is_convex, size, corner, side, .. } = BodyRecord::of(sections.body)?;
         finite(sections.borders, Section::Borders)?;
         finite(sections.coefficients, Section::Coefficients)?;
         pause();
         let (faces, edges) = (sections.faces.len(), sections.edges.len());
-        let small = FileError::Room { faces: faces as u32, edges: edges as u32 };
+        let small = FileError::BufferTooSmall { faces: faces as u32, edges: edges as u32 };
         let in_faces = room.faces.get_mut(..faces).ok_or(small)?;
         let in_edges = room.edges.get_mut(..edges).ok_or(small)?;
         let mut numbers = Numbers { borders: sections.borders, coefficients: sections.coefficients };

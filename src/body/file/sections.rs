@@ -1,7 +1,7 @@
 //! A file cut into its sections: where each lies, and nothing yet of what it says.
 
 use super::super::feature::{Spoke, Vertex};
-use super::super::words::PAUSE;
+use super::super::table_words::PAUSE;
 use super::error::{FileError, Section};
 use crate::patch::crc32;
 use bytemuck::PodCastError;
@@ -46,7 +46,7 @@ impl<'a> Sections<'a> {
     /// The same; calls `pause` every so often.
     pub fn of_with(bytes: &'a [u8], pause: &mut dyn FnMut()) -> Result<Self, FileError> {
         const { assert!(cfg!(target_endian = "little"), "a body's file is read in place: little-endian targets only") };
-        let mut rest = Rest(checked(bytes, pause)?);
+        let mut rest = Remaining(checked(bytes, pause)?);
         Ok(Self {
             source: rest.only(Section::Source)?,
             body: rest.only(Section::Body)?,
@@ -96,9 +96,9 @@ fn checked<'a>(bytes: &'a [u8], pause: &mut dyn FnMut()) -> Result<&'a [u32], Fi
 }
 
 /// What has not been cut yet.
-struct Rest<'a>(&'a [u32]);
+struct Remaining<'a>(&'a [u32]);
 
-impl<'a> Rest<'a> {
+impl<'a> Remaining<'a> {
     /// The next section, whose name and length go before it.
     fn section(&mut self, section: Section) -> Result<&'a [u32], FileError> {
         let wrong = FileError::Section { section };

@@ -24,8 +24,8 @@ pub struct Tally {
     pub touches: u32,
     /// Ticks in contact.
     pub touching: u32,
-    /// Controller steps undone.
-    pub undone: u32,
+    /// Rejected controller steps.
+    pub rejected: u32,
 }
 
 impl Tally {
@@ -41,18 +41,18 @@ impl Tally {
         let touches = state.contact() == Contact::Touching;
         self.touching += u32::from(touches);
         self.touches += u32::from(touches && before != Contact::Touching);
-        self.undone += u32::from(state.steps_undone() > 0);
+        self.rejected += u32::from(state.rejected_steps() > 0);
     }
 }
 
 impl fmt::Display for Tally {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { ticks, digest, modes, features, phases, faults, touches, touching, undone } = self;
+        let Self { ticks, digest, modes, features, phases, faults, touches, touching, rejected } = self;
         write!(
             formatter,
             "ticks {ticks} digest {digest:08x} modes {modes:02x} features {:x}.{:x}.{:x} phases {phases:02x} ",
             features[0], features[1], features[2]
         )?;
-        write!(formatter, "faults {faults:04x} touches {touches} touching {touching} undone {undone}")
+        write!(formatter, "faults {faults:04x} touches {touches} touching {touching} rejected {rejected}")
     }
 }

@@ -26,7 +26,7 @@ fn tick(body: &Body, witness: &mut BodyWitness, position: &Vec3) -> BodyStep {
 
 #[inline(never)]
 fn meet(body: &Body, witness: &mut BodyWitness, position: &Vec3, step: &BodyStep) {
-    body.meet(witness, *position, step);
+    body.update_contact(witness, *position, step);
 }
 
 /// Kinds of ticks.
@@ -81,7 +81,7 @@ pub fn walk(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, in_pa
     let mut tallies = [const { Tally::new() }; KINDS.len()];
     let (mut any, mut contact, mut both) = (Tally::new(), Tally::new(), Tally::new());
     let mut met = [0_u32; 3];
-    let mut undone = 0_u32;
+    let mut rejected = 0_u32;
     for index in 0..TICKS {
         let index = if (index / TICKS_PER_JUMP) % 2 == 1 { index + TICKS } else { index };
         let position = black_box(probe(index));
@@ -95,7 +95,7 @@ pub fn walk(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, in_pa
             sum += spent;
         }
         both.add(sum);
-        undone += u32::from(step.outcome == Outcome::Undone);
+        rejected += u32::from(step.outcome == Outcome::Rejected);
         black_box(step);
         any.add(instructions);
         tallies[kind(&before, &witness, &step)].add(instructions);
@@ -112,8 +112,8 @@ pub fn walk(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, in_pa
         contact.print("normal, gap and contact at the closest point");
         both.print("closest point of the capped box with normal, gap and contact, any");
     }
-    if undone > 0 {
-        return Err("a step on the capped box was undone");
+    if rejected > 0 {
+        return Err("a step on the capped box was rejected");
     }
     if met.map(u32::count_ones) != [6, 12, 8] {
         return Err("the walk around the capped box misses a feature");

@@ -3,7 +3,7 @@
 
 use core::hint::black_box;
 
-use palpate::body::{Aligned, Body, Edge, Face, FileError, Room};
+use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, FileError};
 use semihosting::println;
 
 use super::closest;
@@ -23,14 +23,14 @@ fn load<'a>(bytes: &'a [u8], room: Room<'a>, pause: &mut dyn FnMut()) -> Result<
 /// That a file is refused, or what the walk ran into.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
-    let room = Room { faces: &mut faces, edges: &mut edges };
+    let room = BodyBuffer { faces: &mut faces, edges: &mut edges };
     longest_stage(counter, "sphere_body", &SPHERE.0, room);
     let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
-    let room = Room { faces: &mut faces, edges: &mut edges };
+    let room = BodyBuffer { faces: &mut faces, edges: &mut edges };
     let sphere = counted(counter, "sphere_body", &SPHERE.0, room)?;
     black_box(&sphere);
     let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
-    let room = Room { faces: &mut faces, edges: &mut edges };
+    let room = BodyBuffer { faces: &mut faces, edges: &mut edges };
     let capped_box = counted(counter, "capped_box", &CAPPED_BOX.0, room)?;
     closest::walk(counter, &capped_box, "closest point of the capped box from its file", false)
 }

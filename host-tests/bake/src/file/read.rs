@@ -7,7 +7,7 @@ use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, B
 use crate::model::Model;
 use crate::topology::{Border, BorderRole, Sense, Topology, TopologyEdge, TopologySpoke, TopologyVertex};
 use crate::{BakedCoefficients, BakedPatch};
-use palpate::body::{Body, Edge, EdgeFace, Face, FileHead, Room, Separator, Side, SplineCurve};
+use palpate::body::{Body, BodyBuffer, Edge, EdgeFace, Face, FileHead, Separator, Side, SplineCurve};
 use palpate::patch::{Coefficients, Orientation, Patch as _};
 
 /// A file that has been read.
@@ -32,7 +32,7 @@ impl BakedFile {
         let aligned: &[u8] = if bytes.len().is_multiple_of(4) { bytemuck::cast_slice(&words) } else { bytes };
         let head = FileHead::of(aligned)?;
         let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-        let body = Body::from_bytes(aligned, Room { faces: &mut faces, edges: &mut edges })?;
+        let body = Body::from_bytes(aligned, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
         let borders: Vec<_> =
             body.faces().iter().map(|face| face.patch.breaks().map(|breaks| breaks.len() - 2)).collect();
         let notes = Notes::read(FileHead::notes(aligned)?, &borders)?;

@@ -10,7 +10,7 @@ use super::starts::Starts;
 use super::tables;
 use crate::random::Random;
 use glam::DVec3;
-use palpate::body::{Candidate, Descending, Judgement, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
+use palpate::body::{Candidate, CandidateSearch, CandidateStatus, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
 use palpate::math::Vec3;
 
 /// Starts of descents that a list is compared with, at most.
@@ -136,7 +136,7 @@ impl<'a> Sampler<'a> {
     /// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this
     /// descent's included; `left` the evaluations that the search may still cost.
     fn descended(&self, candidate: &Candidate, probe: Vec3, best: &mut f32, left: &mut u16) -> [f32; 2] {
-        let mut descending = Descending::new(*candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX);
+        let mut descending = CandidateSearch::new(*candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX);
         loop {
             if *left == 0 {
                 return descending.parameters;
@@ -145,7 +145,7 @@ impl<'a> Sampler<'a> {
             let face = usize::from(candidate.face);
             let progress = descending.step(&self.faces.tables[face], self.faces.poles(face), probe, *best, self.size);
             *best = best.min(descending.half_squared);
-            if progress != Judgement::Falling {
+            if progress != CandidateStatus::Falling {
                 return descending.parameters;
             }
         }

@@ -3,7 +3,7 @@
 //!
 //! `plain-loop BODY.palp POINTS.f64 OUT.u32`; the tests find it by `PALPATE_PLAIN_LOOP`.
 
-use palpate::body::{Body, Edge, Face, FileHead, Room};
+use palpate::body::{Body, Edge, Face, FileHead, BodyBuffer};
 use palpate::math::vec3;
 use palpate::patch::Patch as _;
 use std::time::Instant;
@@ -21,7 +21,7 @@ fn main() -> io::Result<()> {
     let refused = |error: palpate::body::FileError| io::Error::other(error.to_string());
     let head = FileHead::of(file).map_err(refused)?;
     let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-    let body = Body::from_bytes(file, Room { faces: &mut faces, edges: &mut edges }).map_err(refused)?;
+    let body = Body::from_bytes(file, BodyBuffer { faces: &mut faces, edges: &mut edges }).map_err(refused)?;
 
     let numbers = fs::read(points)?;
     let numbers: Vec<f64> = numbers.as_chunks().0.iter().map(|number| f64::from_le_bytes(*number)).collect();

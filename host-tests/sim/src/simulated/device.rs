@@ -3,7 +3,7 @@
 use crate::plant::{HandSettings, Plant, PlantSettings};
 use crate::simulated::hand::Hand;
 use anyhow::Context as _;
-use palpate::body::{Aligned, Body, Edge, Face, FileHead, Room};
+use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, FileHead};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Duty, SerialArm};
 use palpate::math::{Vec3, vec3};
@@ -158,7 +158,7 @@ fn capped_box() -> anyhow::Result<&'static Body<'static>> {
     let head = FileHead::of(&BOX.0)?;
     let faces = Box::leak(vec![Face::VACANT; head.faces].into_boxed_slice());
     let edges = Box::leak(vec![Edge::VACANT; head.edges].into_boxed_slice());
-    Ok(kept(Body::from_bytes(&BOX.0, Room { faces, edges })?))
+    Ok(kept(Body::from_bytes(&BOX.0, BodyBuffer { faces, edges })?))
 }
 
 impl Simulated {

@@ -7,7 +7,9 @@ use palpate::math::{Vec3, vec3};
 use palpate::patch::Patch as _;
 use palpate::scene::{Motion, Path, Scene};
 use palpate::servo::Surface;
-use palpate::track::{Contact, Controller, FeedForward, Gain, Integrator, PerformanceLimits, Placement, Probe};
+use palpate::track::{
+    Contact, Controller, FeedForward, FirstOrder, Gain, Integrator, PerformanceLimits, Placement, Probe,
+};
 
 /// The tracker alone, in the body's own frame.
 struct Alone {
@@ -95,7 +97,8 @@ fn the_lag_is_bounded_by_the_speed_of_body_and_probe_together() {
     let path = Path::new(start).turning(Vec3::Z, vec3(0.004, 0.003, 0.0), 3.0, RATE);
     let probe = vec3(0.005, -0.004, 0.036);
     let gain = 100.0;
-    let [most, speed, gap] = greatest_lag(&Controller::CERTIFIED.gain(Gain::Constant(gain)), path, probe);
+    let [most, speed, gap] =
+        greatest_lag(&Controller::FirstOrder(FirstOrder::CERTIFIED.gain(Gain::Constant(gain))), path, probe);
     let shape = BOX.faces()[0].patch.shape();
     let limits = PerformanceLimits::new(&shape, Integrator::Euler, RATE, gap as f32);
     let bound = f64::from(limits.lag_bound(gain, speed as f32));
@@ -148,11 +151,14 @@ fn motion_fed_forward_takes_the_lag_of_a_turning_body_away() {
     let start = Placement { origin: vec3(-0.03, -0.02, 0.0), ..Placement::IDENTITY };
     let path = Path::new(start).turning(Vec3::Z, vec3(0.004, 0.003, 0.0), 3.0, RATE);
     let probe = vec3(0.005, -0.004, 0.036);
-    let slow = |feed_forward| Controller::CERTIFIED.gain(Gain::Constant(100.0)).feed_forward(feed_forward);
+    let slow = |feed_forward| {
+        Controller::FirstOrder(FirstOrder::CERTIFIED.gain(Gain::Constant(100.0)).feed_forward(feed_forward))
+    };
     let plain = mean_lag(&slow(FeedForward::None), path, probe);
     let fed = mean_lag(&slow(FeedForward::Full), path, probe);
-    let certified = mean_lag(&Controller::CERTIFIED, path, probe);
-    let certified_fed = mean_lag(&Controller::CERTIFIED.feed_forward(FeedForward::Full), path, probe);
+    let certified = mean_lag(&Controller::FirstOrder(FirstOrder::CERTIFIED), path, probe);
+    let certified_fed =
+        mean_lag(&Controller::FirstOrder(FirstOrder::CERTIFIED.feed_forward(FeedForward::Full)), path, probe);
     let default = mean_lag(&Controller::SECOND_ORDER, path, probe);
     println!("gain 100/s: {plain:.2e} m, fed forward {fed:.2e} m; certified {certified:.2e}, {certified_fed:.2e} m");
     println!("second order {default:.2e} m");

@@ -4,7 +4,7 @@ use super::subject::Subject;
 use glam::DVec3;
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
-use palpate::track::{Controller, Outcome, Probe, Witness};
+use palpate::track::{Controller, FirstOrder, Outcome, Probe, Witness};
 use palpate_truth::baselines::{Advance, Baseline, Errors, Method};
 use palpate_truth::oracle::ClosestPoint;
 use rand::{RngExt as _, SeedableRng as _};
@@ -74,7 +74,7 @@ impl Contender {
     /// Runs from a start until it rests, leaves the patch or has made 1000 steps.
     pub fn run(self, subject: &Subject, probe: Vec3, start: [f64; 2]) -> Run {
         let (method, errors) = match self {
-            Self::Switching => return firmware(&Controller::CERTIFIED, subject, probe, start),
+            Self::Switching => return firmware(&Controller::FirstOrder(FirstOrder::CERTIFIED), subject, probe, start),
             Self::SecondOrder => return firmware(&Controller::SECOND_ORDER, subject, probe, start),
             Self::Newton(errors) => (Method::Newton, errors),
             Self::SaturatedNewton(errors) => (Method::SaturatedNewton, errors),

@@ -3,12 +3,12 @@
 use super::subject::{Subject, cell_centres};
 use glam::DVec3;
 use palpate::math::Vec3;
-use palpate::track::{BoundaryMode, Controller, Gain, Outcome, Probe, ProjectionErrors, Witness};
+use palpate::track::{BoundaryMode, Controller, FirstOrder, Gain, Outcome, Probe, ProjectionErrors, Witness};
 use palpate_truth::oracle::ClosestPoint;
 
 /// The gain, 1/s: `K h = 1/100` a step draws the flow, not jumps.
 pub const GAIN: f32 = 10.0;
-const CONTROLLER: Controller = Controller::CERTIFIED.gain(Gain::Constant(GAIN));
+const CONTROLLER: Controller = Controller::FirstOrder(FirstOrder::CERTIFIED.gain(Gain::Constant(GAIN)));
 /// The paper's step, s.
 const PERIOD: f64 = 1e-3;
 /// Arrived, for the figure: this near to `P*`, relative to the patch's size; a tenth of a line's width on the page.

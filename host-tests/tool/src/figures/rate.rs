@@ -4,12 +4,12 @@
 use super::subject::Subject;
 use super::tracking::Configuration;
 use palpate::math::Vec3;
-use palpate::track::{Controller, Probe, Witness};
+use palpate::track::{Controller, FirstOrder, Probe, Witness};
 use palpate_bake::Axis;
 use palpate_truth::oracle::Oracle;
 
 /// Beside each other.
-pub const LAWS: [Controller; 2] = [Controller::CERTIFIED, Controller::SECOND_ORDER];
+pub const LAWS: [Controller; 2] = [Controller::FirstOrder(FirstOrder::CERTIFIED), Controller::SecondOrder];
 /// Ticks of a run.
 const TICKS: usize = 12;
 /// Height of the probe, in sizes of the patch.

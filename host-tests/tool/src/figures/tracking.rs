@@ -4,7 +4,7 @@ use super::subject::Subject;
 use anyhow::bail;
 use glam::DVec3;
 use palpate::math::Vec3;
-use palpate::track::{Controller, Gain, Integrator, Probe, ProjectionErrors, Witness};
+use palpate::track::{Controller, FirstOrder, Gain, Integrator, Probe, ProjectionErrors, Witness};
 use palpate_truth::baselines::ErrorKinematics;
 use palpate_truth::oracle::Oracle;
 
@@ -95,7 +95,8 @@ impl Configuration {
         // 1/1000 beyond the limit is a factor of 1.002^1000 = 7; the share of the offset along the worst direction
         // matters less.
         const STEPS: usize = 1_000;
-        let controller = Controller::CERTIFIED.gain(Gain::Unlimited(gain as f32)).integrator(integrator);
+        let controller =
+            Controller::FirstOrder(FirstOrder::CERTIFIED.gain(Gain::Unlimited(gain as f32)).integrator(integrator));
         let patch = &subject.patch;
         let start = self.foot.map(|parameter| (parameter + OFFSET) as f32);
         let mut witness = Witness::at(patch, start[0], start[1]);
@@ -133,14 +134,16 @@ pub struct Sample {
 pub fn runs(subject: &Subject, rest: &Configuration) -> [Vec<Sample>; 3] {
     let [good, chatter, slow] = GAINS;
     // Four time constants of the slow gain.
-    [(good, 0.7), (chatter, 0.7), (slow, 200.0)]
-        .map(|(gain, seconds)| track(subject, rest, &Controller::CERTIFIED.gain(Gain::Unlimited(gain as f32)), seconds))
+    [(good, 0.7), (chatter, 0.7), (slow, 200.0)].map(|(gain, seconds)| {
+        track(subject, rest, &Controller::FirstOrder(FirstOrder::CERTIFIED.gain(Gain::Unlimited(gain as f32))), seconds)
+    })
 }
 
 /// The same run with what the firmware offers instead of a gain: the paper's law at the certified one, and the law of
 /// second order.
 pub fn certified_runs(subject: &Subject, rest: &Configuration) -> [Vec<Sample>; 2] {
-    [Controller::CERTIFIED, Controller::SECOND_ORDER].map(|controller| track(subject, rest, &controller, 0.7))
+    [Controller::FirstOrder(FirstOrder::CERTIFIED), Controller::SecondOrder]
+        .map(|controller| track(subject, rest, &controller, 0.7))
 }
 
 /// Follows the moving probe, whatever comes of it, for so many seconds.

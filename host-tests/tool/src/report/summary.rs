@@ -39,8 +39,8 @@ pub struct Summary {
     pub largest_penetration: f64,
     /// Frames lost, late or damaged, as the loop counted them.
     pub frames_lost: u32,
-    /// Controller steps undone.
-    pub steps_undone: u32,
+    /// Rejected controller steps.
+    pub rejected_steps: u32,
     /// The latched fault and its tick.
     pub fault: Option<(Fault, u32)>,
     /// Why homing was refused.
@@ -75,7 +75,7 @@ impl Summary {
             largest_force: reports().map(|report| norm(report.force)).fold(0.0, f64::max),
             largest_penetration: reports().filter(touching).map(|report| -f64::from(report.gap)).fold(0.0, f64::max),
             frames_lost: last.frames_lost,
-            steps_undone: last.steps_undone,
+            rejected_steps: last.rejected_steps,
             state_hash: reports().fold(0, |hash, report| (hash ^ report.digest).wrapping_mul(0x0100_0193)),
             refusal: Refusal::from_code(last.refusal),
             fault: Fault::from_code(last.fault).map(|fault| (fault, last.fault_tick)),
@@ -111,7 +111,7 @@ impl Summary {
             ("largest penetration", format!("{:.2} mm", self.largest_penetration * 1e3)),
             ("frames lost", self.frames_lost.to_string()),
             ("faults", fault),
-            ("steps undone", self.steps_undone.to_string()),
+            ("rejected steps", self.rejected_steps.to_string()),
             ("state hash", format!("{:08x}", self.state_hash)),
             ("instructions a tick", instructions),
         ]

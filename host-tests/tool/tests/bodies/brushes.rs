@@ -6,7 +6,7 @@ use glam::DVec3;
 use palpate::body::Body;
 use palpate::math::{Vec3, vec3};
 use palpate::servo::{ContactLimits, Surface as _};
-use palpate::track::{Contact, Controller, Probe};
+use palpate::track::{Contact, Controller, FirstOrder, Probe};
 use palpate_truth::body_oracle::BodyOracle;
 use palpate_truth::generate::Random;
 use palpate_truth::generate::bodies;
@@ -164,8 +164,8 @@ fn a_brush_is_not_felt_in_free_air() {
 
 #[test]
 fn a_brush_under_the_paper_s_law_is_not_felt_in_free_air() {
-    brushes(Scene::load("capped_box"), &Controller::CERTIFIED, HANDOVERS);
-    brushes(Scene::load("rounded_cylinder"), &Controller::CERTIFIED, 0);
+    brushes(Scene::load("capped_box"), &Controller::FirstOrder(FirstOrder::CERTIFIED), HANDOVERS);
+    brushes(Scene::load("rounded_cylinder"), &Controller::FirstOrder(FirstOrder::CERTIFIED), 0);
 }
 
 /// A groove, and edges rounded to poles, those of a slab with a radius near half its thickness.

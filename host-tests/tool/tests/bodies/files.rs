@@ -1,7 +1,7 @@
 //! A body from a file beside the same one from statics: the same bits, cold and tick after tick.
 
 use super::scene::{Scene, repeat};
-use palpate::body::{Aligned, Body, BodyWitness, Edge, Face, FileHead, Room};
+use palpate::body::{Aligned, Body, BodyBuffer, BodyWitness, Edge, Face, FileHead};
 use palpate::math::Vec3;
 use palpate::track::{Controller, Probe};
 use palpate_bake::body::room;
@@ -52,7 +52,7 @@ fn compare(is_wanted: &dyn Fn(&str) -> bool) {
         let words = words(&bytes);
         let head = FileHead::of(bytemuck::cast_slice(&words)).unwrap();
         let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-        let place = Room { faces: &mut faces, edges: &mut edges };
+        let place = BodyBuffer { faces: &mut faces, edges: &mut edges };
         let from_file = Body::from_bytes(bytemuck::cast_slice(&words), place).unwrap();
         assert_eq!(from_file.baked_crc(), scene.body.baked_crc());
         let differing = repeat(PROBES, 61, |random| {

@@ -5,7 +5,7 @@ use crate::scene::repeat;
 use palpate::body::{Body, Feature, Separator, Side};
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SecondDerivativeBounds};
-use palpate::track::{Controller, Outcome, Probe};
+use palpate::track::{Controller, FirstOrder, Outcome, Probe};
 use palpate_bake::{BakedBody, BakedCoefficients, Model};
 use std::path::Path;
 
@@ -31,7 +31,7 @@ fn lying() -> Body<'static> {
 }
 
 #[test]
-fn a_step_that_leads_away_is_undone_on_faces_and_on_edges() {
+fn a_step_that_leads_away_is_rejected_on_faces_and_on_edges() {
     let body = lying();
     let seen = repeat(2_000, 41, |random| {
         let direction = Vec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0) as f32)).normalize();
@@ -39,14 +39,14 @@ fn a_step_that_leads_away_is_undone_on_faces_and_on_edges() {
         let probe = direction * random.between(0.3, 0.6) as f32;
         let start = [random.between(0.0, 1.0) as f32, random.between(0.0, 1.0) as f32];
         let mut state = body.start_on(random.below(body.faces().len()) as u16, start);
-        let mut undone = [0_u32; 2];
+        let mut rejected = [0_u32; 2];
         for tick in 0..100 {
             let before = state.witness.surface.point.as_dvec3().distance(probe.as_dvec3());
             let at = state.witness.surface.point;
-            let step = body.track(&Controller::CERTIFIED, &mut state, Probe::at(probe), PERIOD);
+            let step = body.track(&Controller::FirstOrder(FirstOrder::CERTIFIED), &mut state, Probe::at(probe), PERIOD);
             let now = state.witness.surface.point.as_dvec3().distance(probe.as_dvec3());
-            undone[usize::from(matches!(state.feature, Feature::Edge(_)))] +=
-                u32::from(step.outcome == Outcome::Undone);
+            rejected[usize::from(matches!(state.feature, Feature::Edge(_)))] +=
+                u32::from(step.outcome == Outcome::Rejected);
             let coordinates = (at.abs() + probe.abs())
                 .max_element()
                 .max((state.witness.surface.point.abs() + probe.abs()).max_element())
@@ -60,11 +60,11 @@ fn a_step_that_leads_away_is_undone_on_faces_and_on_edges() {
                 state.feature
             );
         }
-        undone
+        rejected
     });
     let [faces, edges] = seen.iter().fold([0, 0], |[faces, edges], [face, edge]| [faces + face, edges + edge]);
-    println!("steps undone: {faces} on faces, {edges} on edges");
-    assert!(faces > 100 && edges > 100, "undone: {faces} on faces, {edges} on edges");
+    println!("rejected steps: {faces} on faces, {edges} on edges");
+    assert!(faces > 100 && edges > 100, "rejected: {faces} on faces, {edges} on edges");
 }
 
 /// From the end of an edge, where it holds the witness point, to its second face: by way of no vertex.
@@ -119,20 +119,20 @@ fn gaping() -> Body<'static> {
     baked.to_body().unwrap()
 }
 
-/// Over a seam that gapes the next face may be farther: the step is undone, and the witness point is still where it is
+/// Over a seam that gapes the next face may be farther: the step is rejected, and the witness point is still where it is
 /// said to be.
 #[test]
-fn an_undone_step_over_a_seam_leaves_the_witness_point_on_its_face() {
+fn a_rejected_step_over_a_seam_leaves_the_witness_point_on_its_face() {
     let body = gaping();
-    let undone: u32 = repeat(500, 43, |random| {
+    let rejected: u32 = repeat(500, 43, |random| {
         let direction = Vec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0) as f32)).normalize();
         let probe = direction * random.between(0.06, 0.2) as f32;
         let start = [random.between(0.0, 1.0) as f32, random.between(0.0, 1.0) as f32];
         let mut state = body.start_on(random.below(body.faces().len()) as u16, start);
-        let mut undone = 0;
+        let mut rejected = 0;
         for tick in 0..60 {
             let step = body.track(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
-            undone += u32::from(step.outcome == Outcome::Undone);
+            rejected += u32::from(step.outcome == Outcome::Rejected);
             let Feature::Face(index) = state.feature else { continue };
             let [u, v] = state.witness.parameters;
             let point = body.faces()[usize::from(index)].patch.evaluate(u, v).point;
@@ -140,10 +140,10 @@ fn an_undone_step_over_a_seam_leaves_the_witness_point_on_its_face() {
             let off = point.distance(state.witness.surface.point);
             assert!(off < 1e-6, "tick {tick}: {off} m beside face {index} at {:?}", [u, v]);
         }
-        undone
+        rejected
     })
     .into_iter()
     .sum();
-    println!("{undone} steps undone");
-    assert!(undone > 100, "{undone} steps undone");
+    println!("{rejected} rejected steps");
+    assert!(rejected > 100, "{rejected} rejected steps");
 }

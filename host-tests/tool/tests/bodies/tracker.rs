@@ -4,7 +4,7 @@
 use crate::scene::{Scene, repeat};
 use palpate::body::BodyWitness;
 use palpate::math::{Vec3, vec3};
-use palpate::track::{Contact, Controller, Gain, Probe};
+use palpate::track::{Contact, Controller, FirstOrder, Gain, Probe};
 use palpate_truth::measured::measured;
 
 const PERIOD: f32 = 2.5e-4;
@@ -97,7 +97,7 @@ fn the_contact_holds_over_an_obtuse_edge() {
 #[test]
 fn no_contact_begins_with_a_witness_point_left_behind() {
     let scene = Scene::load("capped_box");
-    let slow = Controller::CERTIFIED.gain(Gain::Constant(0.1));
+    let slow = Controller::FirstOrder(FirstOrder::CERTIFIED.gain(Gain::Constant(0.1)));
     let mut state = scene.body.start();
     let above = |x: f32, z: f32| vec3(x, 0.02, z);
     for _ in 0..2_000 {

@@ -35,7 +35,7 @@ fn the_demo_prints_what_the_readme_shows() {
 
 /// What the README calls each headline figure, and the claim that it is.
 const HEADLINES: [[&str; 2]; 6] = [
-    ["steps undone in 2·10⁶ over generated patches", "2,000,000 steps over generated patches: steps undone"],
+    ["rejected steps in 2·10⁶ over generated patches", "2,000,000 steps over generated patches: rejected steps"],
     [
         "closest point from a cold start: greatest error",
         "cold, 2,000 golden probes of Table I and its companion: greatest error",

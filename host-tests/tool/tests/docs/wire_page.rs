@@ -404,7 +404,7 @@ fn every_byte_of_a_frame_is_documented() {
         gap: -0.0015,
         force: [0.0, 0.25, 0.875],
         frames_lost: 0,
-        steps_undone: 0,
+        rejected_steps: 0,
         instructions: 1_366,
         digest: 0x4213_209a,
     };
@@ -428,7 +428,7 @@ fn every_byte_of_a_frame_is_documented() {
             floats("gap", &[report.gap]),
             floats("force", &report.force),
             vars("frames_lost", report.frames_lost),
-            vars("steps_undone", report.steps_undone),
+            vars("rejected_steps", report.rejected_steps),
             vars("instructions", report.instructions),
             vars("digest", report.digest),
         ],

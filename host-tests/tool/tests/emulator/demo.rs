@@ -53,7 +53,7 @@ fn every_device_of_three_joints_touches_alike_on_host_and_board() {
     // The hand needs two seconds for its touches.
     for name in ["polhem-v2", "phantom-premium", "falcon"] {
         let [board, _] = traces(&["demo", "--device", name, "--seconds", "2"]).map(|trace| Summary::new(&trace));
-        assert!(board.touches > 0 && board.fault.is_none() && board.steps_undone == 0, "{name}: {board}");
+        assert!(board.touches > 0 && board.fault.is_none() && board.rejected_steps == 0, "{name}: {board}");
         println!("{name}: {:?}", board.rows());
     }
 }
@@ -140,5 +140,5 @@ fn host_and_firmware_agree_in_every_bit_of_every_tick_of_the_demo() {
     let readme = include_str!("../../../../README.md");
     let row = format!("  {:<20} {:08x}", "state hash", device.state_hash);
     assert!(readme.contains(&row), "the README does not show {row:?}");
-    assert!(device.fault.is_none() && device.frames_lost == 0 && device.steps_undone == 0, "{device}");
+    assert!(device.fault.is_none() && device.frames_lost == 0 && device.rejected_steps == 0, "{device}");
 }

@@ -8,7 +8,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{
     ContactLimits, Event, Fault, Input, Phase, SafeOutput, Safety, Servo, ServoState, Settings, StuckLimits,
 };
-use palpate::track::Controller;
+use palpate::track::{Controller, FirstOrder};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
@@ -47,7 +47,8 @@ fn phase_instants(trace: &Trace, phase: Phase) -> Vec<usize> {
 fn after_a_stop_the_device_is_limp_or_damped() {
     let (device, patch) = (device(), decayed());
     for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
-        let servo = Servo::new(&device, &patch, Controller::CERTIFIED, SETTINGS).safety(safety(output));
+        let servo =
+            Servo::new(&device, &patch, Controller::FirstOrder(FirstOrder::CERTIFIED), SETTINGS).safety(safety(output));
         let trace = Trace::record(&servo, 7);
         let instants: Vec<usize> = phase_instants(&trace, Phase::Running).into_iter().step_by(50).collect();
         let mut braked = 0;

@@ -1,7 +1,7 @@
 //! A body's file that is not what was baked: refused with its reason, or, where what was changed means something, a
 //! body that can be felt without a panic.
 
-use palpate::body::{Aligned, Body, Edge, FILE_VERSION, Face, FileError, FileHead, Room, Section};
+use palpate::body::{Aligned, Body, BodyBuffer, Edge, FILE_VERSION, Face, FileError, FileHead, Section};
 use palpate::math::vec3;
 use palpate::track::{Controller, Probe};
 use palpate_bake::file::{self, BakedFile};
@@ -59,7 +59,7 @@ fn with_body<R>(words: &[u32], work: impl FnOnce(&Body<'_>) -> R) -> Result<R, F
 fn loaded<R>(bytes: &[u8], work: impl FnOnce(&Body<'_>) -> R) -> Result<R, FileError> {
     let head = FileHead::of(bytes)?;
     let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-    Ok(work(&Body::from_bytes(bytes, Room { faces: &mut faces, edges: &mut edges })?))
+    Ok(work(&Body::from_bytes(bytes, BodyBuffer { faces: &mut faces, edges: &mut edges })?))
 }
 
 /// What is done to a file.
@@ -193,10 +193,10 @@ fn a_file_at_an_odd_address_or_without_room_is_refused() {
     }
     let place = &mut moved.0[..good.len()];
     place.copy_from_slice(&good);
-    let small = Some(FileError::Room { faces: 6, edges: 12 });
+    let small = Some(FileError::BufferTooSmall { faces: 6, edges: 12 });
     for [faces, edges] in [[5, 12], [6, 11], [0, 0]] {
         let (mut faces, mut edges) = (vec![Face::VACANT; faces], vec![Edge::VACANT; edges]);
-        assert_eq!(Body::from_bytes(place, Room { faces: &mut faces, edges: &mut edges }).err(), small);
+        assert_eq!(Body::from_bytes(place, BodyBuffer { faces: &mut faces, edges: &mut edges }).err(), small);
     }
 }
 
@@ -365,7 +365,7 @@ const fn name(error: FileError) -> &'static str {
         FileError::Code { .. } => "code",
         FileError::Missing { .. } => "missing",
         FileError::LeftOver { .. } => "left over",
-        FileError::Room { .. } => "room",
+        FileError::BufferTooSmall { .. } => "room",
         FileError::Patch { .. } => "patch",
         FileError::Body(_) => "body",
         FileError::Tables { .. } => "tables",

@@ -3,7 +3,9 @@
 
 use glam::DVec3;
 use palpate::patch::{Curvature, Patch as _, SplinePatch};
-use palpate::track::{Controller, FeedForward, Gain, Integrator, Law, Outcome, PerformanceLimits, Probe, Witness};
+use palpate::track::{
+    Controller, FeedForward, FirstOrder, Gain, Integrator, Outcome, PerformanceLimits, Probe, Witness,
+};
 use palpate_bake::{BakedPatch, Model, NurbsPatch};
 use palpate_truth::measured::measured;
 use palpate_truth::oracle::{Oracle, OraclePoint};
@@ -48,7 +50,7 @@ fn decays(body: &Body, foot: [f64; 2], query: DVec3, integrator: Integrator, gai
     const TICKS: usize = 300;
     // Small beside the radii of curvature, large beside the rounding of 1e-7 of the size.
     const PERTURBATION: f64 = 2e-4;
-    let controller = Controller::CERTIFIED.law(Law::MeasureNumbers).gain(Gain::Unlimited(gain)).integrator(integrator);
+    let controller = Controller::FirstOrder(FirstOrder::CERTIFIED.gain(Gain::Unlimited(gain)).integrator(integrator));
     let surface = body.at(foot);
     let size = f64::from(body.patch.size());
     // In a direction that is no principal one.
@@ -145,7 +147,7 @@ impl Probing {
 struct Lag {
     largest: f64,
     to_first_order: f64,
-    undone: usize,
+    rejected: usize,
 }
 
 fn track(body: &Body, path: &Probing, controller: &Controller, rate: f64) -> Lag {
@@ -154,14 +156,14 @@ fn track(body: &Body, path: &Probing, controller: &Controller, rate: f64) -> Lag
     let settle = 200;
     let oracle = Oracle::new(&body.surface);
     let mut witness = Witness::at(&body.patch, path.foot(0.0)[0] as f32, path.foot(0.0)[1] as f32);
-    let mut lag = Lag { largest: 0.0, to_first_order: 0.0, undone: 0 };
+    let mut lag = Lag { largest: 0.0, to_first_order: 0.0, rejected: 0 };
     for tick in 1..ticks + settle {
         let time = f64::from(tick) / rate;
         let query = path.probe(body, time).as_vec3();
         let velocity = path.velocity(body, time);
         let probe = Probe { position: query, velocity: velocity.as_vec3() };
         let step = controller.step(&body.patch, &mut witness, probe, (1.0 / rate) as f32);
-        lag.undone += usize::from(step.outcome == Outcome::Undone);
+        lag.rejected += usize::from(step.outcome == Outcome::Rejected);
         if tick < settle {
             continue;
         }
@@ -207,7 +209,7 @@ fn the_lag_behind_a_moving_probe_is_within_its_bound() {
                         (0.5, Gain::Constant(0.5 * monotone)),
                         (1.0, Gain::Certified),
                     ] {
-                        let controller = Controller::CERTIFIED.gain(gain);
+                        let controller = Controller::FirstOrder(FirstOrder::CERTIFIED.gain(gain));
                         let found = track(&body, &path, &controller, rate);
                         let bound = f64::from(limits.lag_bound(share * monotone, speed as f32));
                         println!(
@@ -221,7 +223,7 @@ fn the_lag_behind_a_moving_probe_is_within_its_bound() {
                             bound * 1e6,
                             found.to_first_order
                         );
-                        assert_eq!(found.undone, 0);
+                        assert_eq!(found.rejected, 0);
                         assert!(found.largest <= bound + floor(&body), "{} above {bound}", found.largest);
                         settings += 1;
                         finite += usize::from(bound.is_finite());
@@ -263,9 +265,10 @@ fn feed_forward_takes_the_lag_away_to_first_order() {
                 let gain = Gain::Constant((share * rate) as f32);
                 let [none, gated, full] =
                     [FeedForward::None, FeedForward::Gated, FeedForward::Full].map(|feed_forward| {
-                        let controller = Controller::CERTIFIED.gain(gain).feed_forward(feed_forward);
+                        let controller =
+                            Controller::FirstOrder(FirstOrder::CERTIFIED.gain(gain).feed_forward(feed_forward));
                         let found = track(&body, &path, &controller, rate);
-                        assert_eq!(found.undone, 0);
+                        assert_eq!(found.rejected, 0);
                         found.largest
                     });
                 println!(
@@ -278,7 +281,7 @@ fn feed_forward_takes_the_lag_away_to_first_order() {
                 );
                 assert!(gated <= none + floor(&body), "{name}: gated {gated}, none {none}");
                 let certified = [FeedForward::None, FeedForward::Full].map(|feed_forward| {
-                    let controller = Controller::CERTIFIED.feed_forward(feed_forward);
+                    let controller = Controller::FirstOrder(FirstOrder::CERTIFIED.feed_forward(feed_forward));
                     track(&body, &path, &controller, rate).largest
                 });
                 // The certified step is as long as may be, so there is nothing to add; nor does it do harm.
@@ -303,8 +306,8 @@ fn the_exponential_gain_decays_at_least_exponentially_until_it_is_capped() {
             let least = body.at(foot).point.distance(query);
             // A per cent a tick at least, so that tens of them pass before the cap.
             let rate = (0.02 / stretch) as f32;
-            let controller = Controller::CERTIFIED.gain(Gain::Exponential(rate));
-            let capped = Controller::CERTIFIED;
+            let controller = Controller::FirstOrder(FirstOrder::CERTIFIED.gain(Gain::Exponential(rate)));
+            let capped = Controller::FirstOrder(FirstOrder::CERTIFIED);
             let mut witness = Witness::at(&body.patch, 0.1, 0.9);
             let excess =
                 |witness: &Witness| witness.surface.point.as_dvec3().distance(query.as_vec3().as_dvec3()) - least;
@@ -339,7 +342,7 @@ fn no_gain_but_the_unlimited_one_goes_beyond_the_certified_one() {
     let query = body.probe([0.6, 0.4], 0.02).as_vec3();
     let start = Witness::at(&body.patch, 0.2, 0.7);
     let gain = |gain| {
-        let (controller, mut witness) = (Controller::CERTIFIED.gain(gain), start);
+        let (controller, mut witness) = (Controller::FirstOrder(FirstOrder::CERTIFIED.gain(gain)), start);
         controller.step(&body.patch, &mut witness, Probe::at(query), 1.0).gain
     };
     let certified = gain(Gain::Certified);
@@ -348,7 +351,7 @@ fn no_gain_but_the_unlimited_one_goes_beyond_the_certified_one() {
     assert_eq!(gain(Gain::Unlimited(1.5)), 1.5);
     // And the certified one is not below what the limits promise for projection errors of this length.
     let errors = palpate::track::ProjectionErrors::new(&start.surface, query);
-    let descent = palpate::track::Descent::new(Law::MeasureNumbers, &errors, start.parameters);
+    let descent = palpate::track::Descent::new(&errors, start.parameters);
     let distance = errors.difference.length();
     let limits = PerformanceLimits::new(&body.patch.shape(), Integrator::Euler, 1.0, distance);
     assert!(limits.monotone_gain(descent.slope.sqrt()) <= certified * (1.0 + 1e-6));

@@ -116,7 +116,7 @@ fn the_closest_pair_of_moving_bodies_is_found() {
     const MOVING: u32 = 200;
     /// Bodies nearly touching converge by `1/((1 + d κ_A)(1 + d κ_B))` a tick.
     const RESTING: u32 = 4_000;
-    let (mut worst, mut undone, mut most_ticks, mut rise) = (0.0_f64, 0_u64, 0, 0.0_f64);
+    let (mut worst, mut rejected, mut most_ticks, mut rise) = (0.0_f64, 0_u64, 0, 0.0_f64);
     for seed in 0..pairs() {
         let mut random = Random::new(seed);
         let (a, b) = bodies(seed, &mut random);
@@ -132,7 +132,7 @@ fn the_closest_pair_of_moving_bodies_is_found() {
             let share = f64::from(tick.min(MOVING)) / f64::from(MOVING);
             let placement = first.between(second, share).placement(&a, &b);
             let step = tracker.step(&a.patch, &b.patch, &placement, &mut witness, 1.0);
-            undone += u64::from(step.a.outcome == Outcome::Undone) + u64::from(step.b.outcome == Outcome::Undone);
+            rejected += u64::from(step.a.outcome == Outcome::Rejected) + u64::from(step.b.outcome == Outcome::Rejected);
             let now = f64::from(step.difference.length());
             if tick > MOVING {
                 rise = rise.max((now - before) / size);
@@ -151,12 +151,12 @@ fn the_closest_pair_of_moving_bodies_is_found() {
     }
     println!(
         "{} moving pairs: distance off by {worst:.1e} of the size at most, at most {most_ticks} ticks at rest, \
-         V up by {rise:.1e} of the size at most, {undone} steps undone",
+         V up by {rise:.1e} of the size at most, {rejected} rejected steps",
         pairs()
     );
     // Rounding of both points and of the placement, some 30 units in the last place.
     assert!(rise < 4e-6, "V rose by {rise:e} of the size");
-    assert_eq!(undone, 0);
+    assert_eq!(rejected, 0);
     measured(&format!("{} moving pairs of patches: greatest error", grouped(pairs())), format!("{worst:.1e}"));
 }
 

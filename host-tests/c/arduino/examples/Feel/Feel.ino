@@ -4,7 +4,7 @@
 #include "part.h"
 
 static palpate_body body;
-static palpate_word room[PALPATE_ROOM_WORDS(PART_FACES, PART_EDGES)];
+static palpate_word buffer[PALPATE_BODY_BUFFER_WORDS(PART_FACES, PART_EDGES)];
 static palpate_tracker tracker;
 
 static void must(palpate_status status) {
@@ -15,7 +15,7 @@ static void must(palpate_status status) {
 
 void setup() {
   Serial.begin(115200);
-  must(palpate_body_load(&body, sizeof body, part_palp, sizeof part_palp, room, sizeof room));
+  must(palpate_body_load(&body, sizeof body, part_palp, sizeof part_palp, buffer, sizeof buffer));
   must(palpate_start(&tracker, sizeof tracker, &body));
 }
 

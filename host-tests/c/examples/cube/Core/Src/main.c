@@ -6,7 +6,7 @@
 extern const uint8_t part_palp[], part_palp_end[];
 
 static palpate_body body;
-static palpate_word room[PALPATE_ROOM_WORDS(6, 12)];
+static palpate_word buffer[PALPATE_BODY_BUFFER_WORDS(6, 12)];
 static palpate_servo servo;
 static palpate_receiver receiver;
 
@@ -53,7 +53,7 @@ static void servo_init(void)
     settings.link_timeout = 0.1f;
 
     size_t bytes = (size_t)(part_palp_end - part_palp);
-    if (palpate_body_load(&body, sizeof body, part_palp, bytes, room, sizeof room) != PALPATE_OK) Error_Handler();
+    if (palpate_body_load(&body, sizeof body, part_palp, bytes, buffer, sizeof buffer) != PALPATE_OK) Error_Handler();
     if (palpate_servo_start_serial_arm(&servo, sizeof servo, &arm, &device, &body, &settings,
                                        PALPATE_RESET_POWER_ON) != PALPATE_OK) Error_Handler();
     if (palpate_receiver_start(&receiver, sizeof receiver) != PALPATE_OK) Error_Handler();

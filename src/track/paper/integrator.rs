@@ -1,8 +1,8 @@
 //! One step of the flow with the chosen integrator.
 
-use super::boundary::advance;
-use super::law::Integrator;
+use super::laws::Integrator;
 use crate::patch::{Patch, SurfacePoint};
+use crate::track::boundary::advance;
 
 /// The change of `(u, v)`, for a gain of 1, that the integrator makes of the flow over a step of the given gain.
 ///

@@ -2,13 +2,10 @@
 //!
 //! Each patch has its own boundary automaton, so any of the mixed modes occurs. One tick evaluates each patch once.
 
-use super::Controller;
-use super::boundary::{self, Descent, Landing};
-use super::placement::Placement;
-use super::projection::ProjectionErrors;
-use super::witness::{Probe, Step, Witness};
 use crate::math::Vec3;
 use crate::patch::Patch;
+use crate::track::boundary::{self, Descent, Landing};
+use crate::track::{Controller, Placement, Probe, ProjectionErrors, Step, Witness};
 
 /// The witness points of both patches, each in the frame of its own body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,7 +146,7 @@ impl CommonNormalTracker {
 fn slide<P: Patch>(patch: &P, witness: &mut Witness, by: Vec3) {
     // A point that is `by` away is a probe whose projection errors are the way to go.
     let errors = ProjectionErrors::new(&witness.surface, witness.surface.point + by);
-    let descent = Descent::of(Default::default(), &errors, witness);
+    let descent = Descent::of(&errors, witness);
     witness.mode = descent.mode;
     if let Some(Landing { parameters, is_inside }) = boundary::advance(witness.parameters, descent.direction, 1.0) {
         let surface = patch.evaluate(parameters[0], parameters[1]);

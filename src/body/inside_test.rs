@@ -1,7 +1,7 @@
 //! On which side of a closed body a probe is, as far as what meets at an edge or a vertex says.
 
+use super::border_release::{HOLLOW, Rim, bulge};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
-use super::over_border::{HOLLOW, Rim, bulge};
 use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::math::Vec3;

@@ -16,7 +16,7 @@ impl Body<'_> {
     /// called, and the step that it has made. Until the witness point is located, and for a probe that is not finite,
     /// nothing changes.
     #[inline(always)]
-    pub fn meet(&self, state: &mut BodyWitness, probe: Vec3, step: &BodyStep) {
+    pub fn update_contact(&self, state: &mut BodyWitness, probe: Vec3, step: &BodyStep) {
         if !state.is_located {
             return;
         }
@@ -38,7 +38,7 @@ impl Body<'_> {
                             return;
                         }
                         Contact::InFront | Contact::Touching
-                            if !step.hands_over() && self.leaves_over_border(face, state, away) =>
+                            if !step.hands_over() && self.releases_at_border(face, state, away) =>
                         {
                             return;
                         }
@@ -47,25 +47,25 @@ impl Body<'_> {
                 }
                 if gap.is_finite() {
                     (state.normal, state.gap) = (normal, gap);
-                    self.touch(state, away, state.contact.next(gap, BoundaryMode::Interior));
+                    self.set_contact(state, away, state.contact.next(gap, BoundaryMode::Interior));
                 }
             }
             Feature::Edge(index) => {
                 let Some(edge) = self.edges.get(usize::from(index)) else { return };
                 let is_outward = match edge.kind {
                     EdgeKind::Open => None,
-                    EdgeKind::Convex => Some(state.is_declined || state.gap >= 0.0),
+                    EdgeKind::Convex => Some(state.no_face_took_probe || state.gap >= 0.0),
                     EdgeKind::Reflex => Some(false),
                     EdgeKind::Smooth => Some(state.gap >= 0.0 || self.is_above_smooth(edge, state)),
                     EdgeKind::Mixed => Some(state.gap >= 0.0),
                 };
-                self.meet_border(state, is_outward);
+                self.update_contact_at_border(state, is_outward);
             }
             Feature::Vertex(index) => {
                 let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
                 let is_outward = || self.is_outside_at(vertex, probe - vertex.point).unwrap_or(state.gap >= 0.0);
                 let is_outward = (!vertex.is_open).then(is_outward);
-                self.meet_border(state, is_outward);
+                self.update_contact_at_border(state, is_outward);
             }
         }
     }
@@ -85,7 +85,7 @@ impl Body<'_> {
     /// contact holds where the witness point crosses the edge, and does not begin there. `is_outward` is `None` over
     /// the rim of an open body, where there is neither front nor back.
     #[inline(never)]
-    pub(super) fn meet_border(&self, state: &mut BodyWitness, is_outward: Option<bool>) {
+    pub(super) fn update_contact_at_border(&self, state: &mut BodyWitness, is_outward: Option<bool>) {
         let away = state.probe - state.witness.surface.point;
         let sign = if is_outward == Some(false) { -1.0 } else { 1.0 };
         let squared = away.length_squared();
@@ -102,7 +102,7 @@ impl Body<'_> {
             None => Contact::Behind,
             Some(_) => state.contact.next(state.gap, BoundaryMode::Interior),
         };
-        self.touch(state, away, contact);
+        self.set_contact(state, away, contact);
     }
 
     /// The normal at a pole, where tangents are rounding: that of its vertex. The last normal may be from across the
@@ -116,7 +116,7 @@ impl Body<'_> {
     /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe
     /// has left behind: that one is located anew.
     #[inline]
-    fn touch(&self, state: &mut BodyWitness, away: Vec3, contact: Contact) {
+    fn set_contact(&self, state: &mut BodyWitness, away: Vec3, contact: Contact) {
         let begins = contact == Contact::Touching && state.contact == Contact::InFront;
         if begins && away.length_squared() > self.jump_squared() {
             state.forget();

@@ -1,11 +1,11 @@
 //! Second order: the distance from a probe to one rectangle of a patch's parameters.
 //!
-//! Each step goes to the minimiser of the quadratic model ([`super::quadratic`]) over the rectangle; one that does not
+//! Each step goes to the minimiser of the quadratic model ([`super::quadratic_model`]) over the rectangle; one that does not
 //! lower half the squared distance `φ` is halved.
 
 use super::locator::Candidate;
 use super::pole::Pole;
-use super::quadratic::{Model, Seen};
+use super::quadratic_model::{DistanceDerivatives, Model};
 use crate::math::{Vec3, saturate, sqrt_from_above};
 use crate::patch::{Patch as _, ShapeBounds, SplinePatch};
 
@@ -26,7 +26,7 @@ const MAX_HALVINGS: u8 = 8;
 
 /// A search in one rectangle, between two evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Descending {
+pub struct CandidateSearch {
     /// The rectangle.
     pub candidate: Candidate,
     /// The best parameters so far; the seed before the first evaluation.
@@ -36,17 +36,17 @@ pub struct Descending {
     /// Where the next evaluation will be, or the last one was.
     trial: [f32; 2],
     /// What the last evaluation said, until it is judged.
-    seen: Option<Seen>,
+    seen: Option<DistanceDerivatives>,
     halvings: u8,
     /// Evaluations that it may still cost.
     left: u8,
     /// Whether the last step may be taken unseen.
-    may_end_unseen: bool,
+    may_skip_last_evaluation: bool,
 }
 
 /// What an evaluation found out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Judgement {
+pub enum CandidateStatus {
     /// There is more to be had.
     Falling,
     /// The minimum of the rectangle is found.
@@ -57,7 +57,7 @@ pub enum Judgement {
     Exhausted,
 }
 
-impl Descending {
+impl CandidateSearch {
     /// From the middle of a candidate's rectangle, for so many evaluations at most.
     pub fn new(candidate: Candidate, most: u8) -> Self {
         let [lower, upper] = candidate.rectangle();
@@ -74,20 +74,20 @@ impl Descending {
             seen: None,
             halvings: 0,
             left: most,
-            may_end_unseen: true,
+            may_skip_last_evaluation: true,
         }
     }
 
     /// The same, which sees every step's end: one evaluation more for what is left of the error.
-    pub const fn to_the_end(mut self) -> Self {
-        self.may_end_unseen = false;
+    pub const fn with_last_evaluation(mut self) -> Self {
+        self.may_skip_last_evaluation = false;
         self
     }
 
     /// Both halves of a step at one go.
-    pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> Judgement {
+    pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> CandidateStatus {
         self.evaluate(patch, probe);
-        if poles == 0 { self.judge(patch, known, size) } else { self.judge_beside(patch, poles, known, size) }
+        if poles == 0 { self.judge(patch, known, size) } else { self.judge_near_pole(patch, poles, known, size) }
     }
 
     /// Whether nothing has been evaluated yet.
@@ -110,35 +110,35 @@ impl Descending {
     pub fn evaluate(&mut self, patch: &SplinePatch, probe: Vec3) {
         let curved = patch.evaluate_curved(self.trial[0], self.trial[1]);
         self.left = self.left.wrapping_sub(1);
-        self.seen = Some(Seen::new(&curved, curved.surface.point - probe));
+        self.seen = Some(DistanceDerivatives::new(&curved, curved.surface.point - probe));
     }
 
     /// The second half on a face without poles: where to go from there. None of the arithmetic of poles is compiled in.
     /// `known` is the `φ` to beat, m²; `size` the body's, metres.
     #[inline(never)]
-    pub fn judge(&mut self, patch: &SplinePatch, known: f32, size: f32) -> Judgement {
+    pub fn judge(&mut self, patch: &SplinePatch, known: f32, size: f32) -> CandidateStatus {
         self.judged(patch, 0, known, size)
     }
 
     /// The second half on a face that may have poles ([`super::Face::poles`]).
     #[inline(never)]
-    pub fn judge_beside(&mut self, patch: &SplinePatch, poles: u8, known: f32, size: f32) -> Judgement {
+    pub fn judge_near_pole(&mut self, patch: &SplinePatch, poles: u8, known: f32, size: f32) -> CandidateStatus {
         // Below the compiler then knows that there are some.
         if poles == 0 { self.judge(patch, known, size) } else { self.judged(patch, poles, known, size) }
     }
 
     #[inline(always)]
-    fn judged(&mut self, patch: &SplinePatch, poles: u8, known: f32, size: f32) -> Judgement {
-        let Some(seen) = self.seen.take() else { return Judgement::Falling };
+    fn judged(&mut self, patch: &SplinePatch, poles: u8, known: f32, size: f32) -> CandidateStatus {
+        let Some(seen) = self.seen.take() else { return CandidateStatus::Falling };
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
             let pole = Pole::nearest(poles, at, patch, size);
-            let model = Model::new(pole.map_or(seen, |pole| seen.beside(pole)));
+            let model = Model::new(pole.map_or(seen, |pole| seen.near_pole(pole)));
             let [lower, upper] = self.candidate.rectangle();
             let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
             if self.candidate.convex && known < half_squared && half_squared + model.greatest_fall(room) > known {
-                return Judgement::Beaten;
+                return CandidateStatus::Beaten;
             }
             (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
             let (change, fall) = model.step(&seen, pole, room);
@@ -150,18 +150,18 @@ impl Descending {
                 resolved += f32::EPSILON * distance;
             }
             if -fall <= resolved * (distance + resolved) {
-                return Judgement::Found;
+                return CandidateStatus::Found;
             }
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
             // What the model is proved to say rightly of its minimiser need not be seen there.
             if poles == 0
-                && self.may_end_unseen
+                && self.may_skip_last_evaluation
                 && model.is_newton
                 && is_proved(&patch.shape(), &model, &seen, change, fall, size)
                 && patch.beyond_knots(at, self.trial) == [0.0; 2]
             {
                 (self.parameters, self.half_squared) = (self.trial, half_squared + fall);
-                return Judgement::Found;
+                return CandidateStatus::Found;
             }
         } else {
             self.halvings += 1;
@@ -175,7 +175,7 @@ impl Descending {
             };
         }
         let exhausted = self.left == 0 || self.halvings >= MAX_HALVINGS;
-        if exhausted { Judgement::Exhausted } else { Judgement::Falling }
+        if exhausted { CandidateStatus::Exhausted } else { CandidateStatus::Falling }
     }
 }
 
@@ -188,7 +188,14 @@ impl Descending {
 /// off by `t² g` at most, so that `φ` is off by a third of `|g|·|w|`; and `φ` has `½ gᵀH⁻¹g` left, as far as the
 /// Hessian of the step's beginning says.
 #[inline(always)]
-fn is_proved(shape: &ShapeBounds, model: &Model, seen: &Seen, [w_u, w_v]: [f32; 2], fall: f32, size: f32) -> bool {
+fn is_proved(
+    shape: &ShapeBounds,
+    model: &Model,
+    seen: &DistanceDerivatives,
+    [w_u, w_v]: [f32; 2],
+    fall: f32,
+    size: f32,
+) -> bool {
     let (second, third) = (&shape.second_derivatives, &shape.third_derivatives);
     let least = seen.half_squared + fall;
     let (share, proved) = (SHARE * least, PROVED * size * sqrt_from_above(2.0 * least));

@@ -12,7 +12,7 @@ pub(super) const LEAST_STRETCH: f32 = 0.25;
 
 /// Where a step along an edge starts from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Along {
+pub(super) struct EdgeStep {
     /// `ΔR = c − Q`, metres.
     pub difference: Vec3,
     /// `‖c'‖²`, m².
@@ -24,7 +24,7 @@ pub(super) struct Along {
 /// Where a probe is, seen from the border of a face. `m` is the face's outward conormal there, as long as the
 /// derivative across the border is along it; `k` a positive number.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Inward {
+pub(super) struct BorderSide {
     /// `k ΔR · m`, below 0 where the probe is beyond the face's region.
     product: f32,
     /// `k ‖m‖²`.
@@ -35,7 +35,7 @@ pub(super) struct Inward {
     skew: f32,
 }
 
-impl Inward {
+impl BorderSide {
     /// Whether the probe has left the face: `(Q − c) · m > 0`.
     #[inline]
     pub(super) fn is_beyond(&self) -> bool {
@@ -46,7 +46,7 @@ impl Inward {
     /// it, shortened by `stretch`, and Newton's along it, where `½ ‖ΔR‖²` has the second derivative `hessian`, m². The
     /// change of the parameter across, the parameter of the edge, and the fall of `½ ‖ΔR‖²` to first order, m².
     #[inline]
-    pub(super) fn landing(&self, along: &Along, hessian: f32, t: f32, stretch: f32) -> ([f32; 2], f32) {
+    pub(super) fn landing(&self, along: &EdgeStep, hessian: f32, t: f32, stretch: f32) -> ([f32; 2], f32) {
         let inside = saturate(self.product / (self.square * stretch), 0.0, 1.0);
         let beside = if hessian > LEAST_STRETCH * along.stretch {
             saturate(t + (inside * self.skew - along.gradient) / hessian, 0.0, 1.0)
@@ -57,7 +57,7 @@ impl Inward {
     }
 }
 
-impl Along {
+impl EdgeStep {
     #[inline]
     pub(super) fn new(point: Vec3, tangent: Vec3, probe: Vec3) -> Self {
         let difference = point - probe;
@@ -119,11 +119,11 @@ impl Along {
 
     /// Where the probe is, seen from the border of a face at the parameter `t` of its edge with this tangent.
     #[inline]
-    pub(super) fn inward(&self, separator: &Separator, tangent: Vec3, t: f32, probe: Vec3) -> Inward {
+    pub(super) fn inward(&self, separator: &Separator, tangent: Vec3, t: f32, probe: Vec3) -> BorderSide {
         match separator {
             Separator::Plane { across, offset } => {
                 let product = *offset - across.dot(probe);
-                Inward { product, square: 1.0, scale: across.length_squared(), skew: 0.0 }
+                BorderSide { product, square: 1.0, scale: across.length_squared(), skew: 0.0 }
             }
             // The conormal is the part of the cross derivative that is normal to the edge; times the tangent's square
             // there is nothing to divide.
@@ -131,11 +131,11 @@ impl Along {
                 let cross = cross.point(t);
                 let (out, skew) = (self.difference.dot(cross), cross.dot(tangent));
                 if self.stretch <= f32::MIN_POSITIVE {
-                    return Inward { product: out, square: f32::INFINITY, scale: 1.0, skew: 0.0 };
+                    return BorderSide { product: out, square: f32::INFINITY, scale: 1.0, skew: 0.0 };
                 }
                 let product = self.stretch * out - skew * self.gradient;
                 let square = self.stretch * cross.length_squared() - skew * skew;
-                Inward { product, square, scale: self.stretch, skew }
+                BorderSide { product, square, scale: self.stretch, skew }
             }
         }
     }
@@ -162,7 +162,7 @@ mod tests {
         let curve = straight(8.0);
         let at = curve.evaluate(0.25);
         // 0.5 m farther along and 1.2 m beside it: 1.3 m away.
-        let along = Along::new(at.point, at.tangent, at.point + vec3(0.5, 1.2, 0.0));
+        let along = EdgeStep::new(at.point, at.tangent, at.point + vec3(0.5, 1.2, 0.0));
         assert_eq!([along.stretch, along.gradient], [4.0, -1.0]);
         // w = 1/4, s = 1/4, K w² = 1/2: the gain is s / ((√s + K w²)² + 1.3 K w²) = 0.25 / 1.65, with
         // roots from above.
@@ -191,7 +191,7 @@ mod tests {
         let at = straight(0.0).evaluate(0.5);
         for (height, is_beyond) in [(0.5, true), (-0.5, false)] {
             let probe = vec3(0.1, height, 0.0);
-            let along = Along::new(at.point, at.tangent, probe);
+            let along = EdgeStep::new(at.point, at.tangent, probe);
             for separator in &separators() {
                 let inward = along.inward(separator, at.tangent, 0.5, probe);
                 assert_eq!(inward.is_beyond(), is_beyond, "{height}, {separator:?}");
@@ -204,8 +204,8 @@ mod tests {
     fn a_flat_face_is_entered_at_the_foot_of_the_probe() {
         let at = straight(0.0).evaluate(0.5);
         let probe = at.point + vec3(0.2, -1.0, 3.0);
-        let along = Along::new(at.point, at.tangent, probe);
-        // Across, w = 1/4. Along, 2 Δt − 3 w = 0.2 where the derivative slants, 2 Δt = 0.2 where it does not.
+        let along = EdgeStep::new(at.point, at.tangent, probe);
+        // Across, w = 1/4. EdgeStep, 2 Δt − 3 w = 0.2 where the derivative slants, 2 Δt = 0.2 where it does not.
         for (separator, beside) in separators().iter().zip([0.6, 0.975]) {
             let inward = along.inward(separator, at.tangent, 0.5, probe);
             let ([inside, t], slope) = inward.landing(&along, along.stretch, 0.5, 1.0);

@@ -1,9 +1,9 @@
 //! The top level: from which feature the tracker goes to which other one. No switch raises the distance by more than
 //! rounding.
 
-use super::along::Along;
 use super::curve::CurvePoint;
-use super::enter::{Border, Entry};
+use super::edge_step::EdgeStep;
+use super::face_entry::{EdgePoint, Entry};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side, Spoke, Vertex};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
@@ -50,7 +50,7 @@ impl Body<'_> {
                 };
                 let (t, tangent) = if *reversed { (1.0 - along, -tangent) } else { (along, tangent) };
                 state.rest_on_edge(*edge, t, &CurvePoint { point, tangent, half_second });
-                // After a step that was undone the other face is entered at the border.
+                // After a rejected step the other face is entered at the border.
                 state.witness.halvings = halvings;
                 step.switched = true;
                 true
@@ -78,41 +78,51 @@ impl Body<'_> {
         let Some(edge) = self.edges.get(usize::from(index)) else { return };
         let (t, probe) = (state.witness.parameters[0], state.probe);
         let tangent = state.witness.surface.tangent_u;
-        let border = Border { along: Along::new(state.witness.surface.point, tangent, probe), tangent, t };
+        let border = EdgePoint { along: EdgeStep::new(state.witness.surface.point, tangent, probe), tangent, t };
         let comes_from_face = from != EdgeFace::NONE.face;
-        state.is_declined = false;
+        state.no_face_took_probe = false;
         // No probe has a smooth edge for its own.
-        if comes_from_face && edge.kind == EdgeKind::Smooth && self.hand_over(edge, from, is_curved, state, step) {
+        if comes_from_face
+            && edge.kind == EdgeKind::Smooth
+            && self.cross_smooth_edge(edge, from, is_curved, state, step)
+        {
             return;
         }
         // Come to from a vertex it asks in the next tick.
         let faces = if comes_from_face || !step.switched { &edge.faces[..] } else { &[] };
         for of in faces.iter().copied() {
             if of.face != from
-                && let Some(beyond) = self.beyond(of, &border, probe)
+                && let Some(beyond) = self.neighbour(of, &border, probe)
                 && beyond.takes_probe()
             {
                 let entry = beyond.entry(&border, border.along.stretch, is_curved, state, f32::INFINITY);
-                self.enter(&entry, is_curved, state, step);
+                self.enter_face(&entry, is_curved, state, step);
                 return;
             }
         }
-        state.is_declined = !comes_from_face && !step.switched;
+        state.no_face_took_probe = !comes_from_face && !step.switched;
         if !border.along.is_held(t) {
-            step.outcome = self.slide(index, &border.along, is_curved, state);
-        } else if state.is_declined {
+            step.outcome = self.step_along_edge(index, &border.along, is_curved, state);
+        } else if state.no_face_took_probe {
             step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
         }
     }
 
     /// Over a smooth edge, from one of its faces to the other one at the border. Whether there is another.
     #[inline]
-    fn hand_over(&self, edge: &Edge, from: u16, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+    fn cross_smooth_edge(
+        &self,
+        edge: &Edge,
+        from: u16,
+        is_curved: bool,
+        state: &mut BodyWitness,
+        step: &mut BodyStep,
+    ) -> bool {
         let Witness { parameters: [t, _], halvings, .. } = state.witness;
         let Some(other) = edge.faces.iter().copied().find(|of| of.face != from) else { return false };
-        let Some((face, parameters)) = self.place_on(other, t) else { return false };
-        self.enter(&Entry { face, parameters, fall: 0.0 }, is_curved, state, step);
-        // A step over the edge that had to be undone is not tried again from the other side.
+        let Some((face, parameters)) = self.position_on_face(other, t) else { return false };
+        self.enter_face(&Entry { face, parameters, fall: 0.0 }, is_curved, state, step);
+        // A step over the edge that was rejected is not tried again from the other side.
         state.witness.halvings = halvings;
         true
     }

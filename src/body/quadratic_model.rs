@@ -13,7 +13,7 @@ use crate::patch::CurvedPoint;
 const MIN_DETERMINANT: f32 = 1.0e-4;
 /// `φ` and its derivatives at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Seen {
+pub(super) struct DistanceDerivatives {
     pub half_squared: f32,
     pub gradient: [f32; 2],
     /// The first fundamental form, and the Hessian: `[uu, uv, vv]`.
@@ -21,7 +21,7 @@ pub(super) struct Seen {
     pub newton: [f32; 3],
 }
 
-impl Seen {
+impl DistanceDerivatives {
     #[inline]
     pub(super) fn new(CurvedPoint { surface, second }: &CurvedPoint, difference: Vec3) -> Self {
         let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
@@ -33,7 +33,7 @@ impl Seen {
     }
 
     /// The same in the coordinates of [`super::pole`].
-    pub(super) fn beside(mut self, pole: Pole) -> Self {
+    pub(super) fn near_pole(mut self, pole: Pole) -> Self {
         self.newton[1] += pole.mixed(self.gradient);
         self
     }
@@ -50,7 +50,7 @@ pub(super) struct Model {
 }
 
 impl Model {
-    pub(super) fn new(Seen { gradient, form, newton, .. }: Seen) -> Self {
+    pub(super) fn new(DistanceDerivatives { gradient, form, newton, .. }: DistanceDerivatives) -> Self {
         let is_newton = is_positive_definite(newton);
         let hessian = if is_newton { newton } else { Self::stand_in(form, newton) };
         Self { gradient, hessian, is_newton }
@@ -59,7 +59,7 @@ impl Model {
     /// What stands in for a Hessian that is not positive definite.
     #[inline(never)]
     fn stand_in(form: [f32; 3], newton: [f32; 3]) -> [f32; 3] {
-        // Along an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of
+        // EdgeStep an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of
         // the other parameter still counts.
         let mixed = [0, 2].map(|axis| bend_of(newton[axis], form[axis]));
         let mixed = [mixed[0], newton[1], mixed[1]];
@@ -76,10 +76,10 @@ impl Model {
 
     /// The step to the minimiser, beside a pole in the coordinates of [`super::pole`], and the model's value there.
     #[inline(always)]
-    pub(super) fn step(&self, seen: &Seen, pole: Option<Pole>, room: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+    pub(super) fn step(&self, seen: &DistanceDerivatives, pole: Option<Pole>, room: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let Some(pole) = pole else { return self.minimiser(room) };
         pole.out_of(seen.gradient, seen.newton, seen.form, room).unwrap_or_else(|| {
-            let (change, fall) = self.minimiser_beside(&pole, room);
+            let (change, fall) = self.minimiser_near_pole(&pole, room);
             (pole.unrolled(change), fall)
         })
     }
@@ -138,7 +138,7 @@ impl Model {
 
     /// The same in the coordinates of a pole: the room of `η` is a wedge, as wide at the point as the parameter's.
     #[inline(never)]
-    fn minimiser_beside(&self, pole: &Pole, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+    fn minimiser_near_pole(&self, pole: &Pole, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let ([a, b, c], spread) = (self.hessian, pole.spread());
         let (across, along) = (pole.axis(), 1 - pole.axis());
         let diagonal = [a, c];

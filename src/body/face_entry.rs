@@ -2,10 +2,10 @@
 //! told from there, so that the tick in which a face takes the probe is no tick lost.
 //!
 //! The one evaluation of the tick is spent at that point, and says whether it is nearer by what theory §12 asks of
-//! every step. If it is not, the step is undone, and the next one enters at the border itself, where the distance is
+//! every step. If it is not, the step is rejected, and the next one enters at the border itself, where the distance is
 //! what it was.
 
-use super::along::{Along, Inward, LEAST_STRETCH};
+use super::edge_step::{BorderSide, EdgeStep, LEAST_STRETCH};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
@@ -18,9 +18,9 @@ pub(super) const LEAST_FALL: f32 = 1.0 / 16.0;
 
 /// A point of an edge, seen from a probe.
 #[derive(Clone, Copy)]
-pub(super) struct Border {
+pub(super) struct EdgePoint {
     /// What a step along the edge starts from.
-    pub along: Along,
+    pub along: EdgeStep,
     /// The edge's tangent, metres per unit of its parameter.
     pub tangent: Vec3,
     /// The edge's parameter.
@@ -40,15 +40,15 @@ pub(super) struct Entry {
 
 /// A face beyond a border, seen from a point of it.
 #[derive(Clone, Copy)]
-pub(super) struct Beyond<'a> {
+pub(super) struct Neighbour<'a> {
     face: &'a Face<'a>,
     of: EdgeFace,
     /// Whether the side runs against the edge.
     is_reversed: bool,
-    inward: Inward,
+    inward: BorderSide,
 }
 
-impl Beyond<'_> {
+impl Neighbour<'_> {
     /// Whether the face's region holds the probe.
     #[inline(always)]
     pub(super) fn takes_probe(&self) -> bool {
@@ -60,7 +60,7 @@ impl Beyond<'_> {
     #[inline(always)]
     pub(super) fn entry(
         &self,
-        border: &Border,
+        border: &EdgePoint,
         hessian: f32,
         is_curved: bool,
         state: &BodyWitness,
@@ -68,7 +68,7 @@ impl Beyond<'_> {
     ) -> Entry {
         let Self { face, of, is_reversed, inward } = self;
         let ([inside, t], fall) = if is_curved && state.witness.halvings == 0 {
-            beyond_border(face, inward, &border.along, [border.t, hessian], [state.gap, known])
+            entry_landing(face, inward, &border.along, [border.t, hessian], [state.gap, known])
         } else {
             ([0.0, border.t], 0.0)
         };
@@ -79,16 +79,16 @@ impl Beyond<'_> {
 impl Body<'_> {
     /// A face of an edge, seen from a point of it.
     #[inline(always)]
-    pub(super) fn beyond(&self, of: EdgeFace, border: &Border, probe: Vec3) -> Option<Beyond<'_>> {
+    pub(super) fn neighbour(&self, of: EdgeFace, border: &EdgePoint, probe: Vec3) -> Option<Neighbour<'_>> {
         let face = self.faces.get(usize::from(of.face))?;
         let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
         let inward = border.along.inward(separator, border.tangent, border.t, probe);
-        Some(Beyond { face, of, is_reversed: *reversed, inward })
+        Some(Neighbour { face, of, is_reversed: *reversed, inward })
     }
 
     /// What is beyond a side of the face that holds the witness point, by its edge. Both may be sides of one face.
     #[inline(always)]
-    pub(super) fn beyond_side(edge: &Edge, from: Feature, number: usize) -> EdgeFace {
+    pub(super) fn neighbour_of_side(edge: &Edge, from: Feature, number: usize) -> EdgeFace {
         let [first, second] = edge.faces;
         let is_first = from == Feature::Face(first.face) && usize::from(first.side) == number;
         if is_first { second } else { first }
@@ -96,7 +96,7 @@ impl Body<'_> {
 
     /// The face of an edge, and the parameters there of a point of the edge.
     #[inline(never)]
-    pub(super) fn place_on(&self, of: EdgeFace, t: f32) -> Option<(u16, [f32; 2])> {
+    pub(super) fn position_on_face(&self, of: EdgeFace, t: f32) -> Option<(u16, [f32; 2])> {
         match self.faces.get(usize::from(of.face))?.sides.get(usize::from(of.side))? {
             Side::Edge { reversed, .. } => Some((of.face, on_side(of.side, *reversed, 0.0, t))),
             Side::Pole { .. } => None,
@@ -105,7 +105,7 @@ impl Body<'_> {
 
     /// Into a face: onto the point of an entry, if that is near enough. One evaluation.
     #[inline(never)]
-    pub(super) fn enter(&self, entry: &Entry, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) {
+    pub(super) fn enter_face(&self, entry: &Entry, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(entry.face)) else { return };
         step.evaluations += 1;
         if is_curved {
@@ -115,7 +115,7 @@ impl Body<'_> {
             // On the border the distance is what it was.
             if entry.fall > 0.0 && !is_nearer {
                 state.witness.halvings = 1;
-                step.outcome = Outcome::Undone;
+                step.outcome = Outcome::Rejected;
                 return;
             }
             state.witness.rest_at(entry.parameters, &reached);
@@ -125,11 +125,17 @@ impl Body<'_> {
         (state.feature, step.switched) = (Feature::Face(entry.face), true);
     }
 
-    /// The step of second order that ends at a smooth edge, on the face beyond. Undone it leaves the witness point on
+    /// The step of second order that ends at a smooth edge, on the face beyond. Rejected it leaves the witness point on
     /// its own face: over a seam that gapes the distance may rise. Whether the side is such an edge.
     #[inline(never)]
-    pub(super) fn step_across(&self, face: &Face, aim: &Aim, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
-        let Some((entry, side)) = self.across(face, aim, state) else { return false };
+    pub(super) fn step_over_smooth_edge(
+        &self,
+        face: &Face,
+        aim: &Aim,
+        state: &mut BodyWitness,
+        step: &mut BodyStep,
+    ) -> bool {
+        let Some((entry, side)) = self.entry_over_smooth_edge(face, aim, state) else { return false };
         let Some(other) = self.faces.get(usize::from(entry.face)) else { return false };
         let reached = other.patch.evaluate_apart(entry.parameters);
         step.evaluations += 1;
@@ -137,7 +143,7 @@ impl Body<'_> {
         step.outcome =
             aim.landing_at(entry.parameters, entry.fall).settle(&reached, &mut state.witness, probe, self.size);
         state.witness.mode = aim.mode;
-        if step.outcome != Outcome::Undone {
+        if step.outcome != Outcome::Rejected {
             // Where another border has cut it, that one holds it.
             let [u, v] = entry.parameters;
             let is_cut = |along: f32| along <= 0.0 || along >= 1.0;
@@ -150,7 +156,7 @@ impl Body<'_> {
 
     /// Where a step of second order that ends at a smooth edge ends on the face beyond, and over which side of that.
     #[inline]
-    fn across(&self, face: &Face, aim: &Aim, state: &BodyWitness) -> Option<(Entry, u8)> {
+    fn entry_over_smooth_edge(&self, face: &Face, aim: &Aim, state: &BodyWitness) -> Option<(Entry, u8)> {
         let ([u, v], witness) = (aim.landing.parameters, &state.witness);
         let (number, along, is_along_v) = match aim.beyond {
             BoundaryMode::LowerU => (0, v, true),
@@ -169,7 +175,7 @@ impl Body<'_> {
         if edge.kind != EdgeKind::Smooth {
             return None;
         }
-        let other = Self::beyond_side(edge, state.feature, number);
+        let other = Self::neighbour_of_side(edge, state.feature, number);
         let t = if *reversed { 1.0 - along } else { along };
         // The border as it looks from the witness point.
         let step = [u - witness.parameters[0], v - witness.parameters[1]];
@@ -178,8 +184,8 @@ impl Body<'_> {
         let (tangent, half_second) =
             if is_along_v { (surface.tangent_v, second.half_vv) } else { (surface.tangent_u, second.half_uu) };
         let tangent = if *reversed { -tangent } else { tangent };
-        let border = Border { along: Along::new(point, tangent, state.probe), tangent, t };
-        let beyond = self.beyond(other, &border, state.probe)?;
+        let border = EdgePoint { along: EdgeStep::new(point, tangent, state.probe), tangent, t };
+        let beyond = self.neighbour(other, &border, state.probe)?;
         let hessian = border.along.hessian(half_second);
         let entry = beyond.entry(&border, hessian, true, state, face.bend(state.gap));
         Some((entry, other.side))
@@ -194,10 +200,10 @@ impl Body<'_> {
 /// Where none is known that of the face before, `known`, is as good a guess as any; where there is none either it is
 /// the border.
 #[inline(never)]
-fn beyond_border(
+fn entry_landing(
     face: &Face,
-    inward: &Inward,
-    along: &Along,
+    inward: &BorderSide,
+    along: &EdgeStep,
     [t, hessian]: [f32; 2],
     [gap, known]: [f32; 2],
 ) -> ([f32; 2], f32) {

@@ -42,20 +42,20 @@ impl Body<'_> {
     /// Ends contact where the probe is in front of what is beyond the border that the witness point is near to: then it
     /// has left the body over an edge or a vertex, though this face has it behind. Whether it has.
     #[inline(always)]
-    pub(super) fn leaves_over_border(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
+    pub(super) fn releases_at_border(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
         let [u, v] = state.witness.parameters;
         if is_apart(u) {
-            !is_apart(v) && self.leaves_over_side(face, 2 + is_upper(v), state, away)
+            !is_apart(v) && self.releases_at_side(face, 2 + is_upper(v), state, away)
         } else if is_apart(v) {
-            self.leaves_over_side(face, is_upper(u), state, away)
+            self.releases_at_side(face, is_upper(u), state, away)
         } else {
-            self.leaves_over_corner(face, state, away)
+            self.releases_at_corner(face, state, away)
         }
     }
 
     /// The same near a corner: by the planes between three convex edges, else over either side.
     #[inline(never)]
-    fn leaves_over_corner(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
+    fn releases_at_corner(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
         let (probe, [u, v]) = (state.probe, state.witness.parameters);
         let sides = [is_upper(u), 2 + is_upper(v)];
         let vertex = match face.sides.get(sides[0]) {
@@ -69,19 +69,19 @@ impl Body<'_> {
         match vertex.and_then(|vertex| self.is_in_front_at(vertex, probe - vertex.point)) {
             Some(is_over) => {
                 if is_over {
-                    self.meet_border(state, Some(true));
+                    self.update_contact_at_border(state, Some(true));
                 }
                 is_over
             }
-            None => sides.into_iter().any(|number| self.leaves_over_side(face, number, state, away)),
+            None => sides.into_iter().any(|number| self.releases_at_side(face, number, state, away)),
         }
     }
 
     #[inline(never)]
-    fn leaves_over_side(&self, face: &Face, number: usize, state: &mut BodyWitness, away: Vec3) -> bool {
-        let is_over = self.is_over_side(face, number, state, away);
+    fn releases_at_side(&self, face: &Face, number: usize, state: &mut BodyWitness, away: Vec3) -> bool {
+        let is_over = self.is_in_front_of_neighbour(face, number, state, away);
         if is_over {
-            self.meet_border(state, Some(true));
+            self.update_contact_at_border(state, Some(true));
             // What is beyond is nearer: behind this face it would not be looked for.
             if self.kind_of_side(face, number) == Some(EdgeKind::Convex) {
                 (state.witness.mode, state.witness.is_free) = (SIDES[number & 3], false);
@@ -96,7 +96,7 @@ impl Body<'_> {
     /// Over a smooth edge there is more of the same surface: but where that is a sliver that ends at a vertex, what
     /// is beyond the sliver begins at once.
     #[inline(always)]
-    fn is_over_side(&self, face: &Face, number: usize, state: &BodyWitness, away: Vec3) -> bool {
+    fn is_in_front_of_neighbour(&self, face: &Face, number: usize, state: &BodyWitness, away: Vec3) -> bool {
         let witness = &state.witness;
         let (index, is_reversed) = match face.sides.get(number) {
             Some(Side::Edge { edge, reversed, .. }) => (*edge, *reversed),
@@ -122,7 +122,7 @@ impl Body<'_> {
             }
             EdgeKind::Reflex | EdgeKind::Mixed | EdgeKind::Open => return false,
         }
-        let of = Self::beyond_side(edge, state.feature, number);
+        let of = Self::neighbour_of_side(edge, state.feature, number);
         let Some(beyond) = self.faces.get(usize::from(of.face)) else { return false };
         // A derivative of the face beyond across the side, of any sign and length; of a plane its inverse.
         let mut is_plane = true;

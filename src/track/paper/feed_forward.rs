@@ -1,9 +1,9 @@
 //! Motion of the probe, fed forward (Remark 3).
 
-use super::law::FeedForward;
-use super::projection::ProjectionErrors;
+use super::laws::FeedForward;
 use crate::math::Vec3;
 use crate::patch::SurfacePoint;
+use crate::track::ProjectionErrors;
 
 /// The gradient that stands in for `g` when a step of the given gain also follows the probe's motion.
 ///

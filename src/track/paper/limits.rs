@@ -1,7 +1,7 @@
 //! The paper's limits of performance: which gains are stable, which are proved to lower the distance, how far the
 //! witness point lags, how deep the probe may go.
 
-use super::law::Integrator;
+use super::laws::Integrator;
 use crate::math::ROOT_EXCESS;
 use crate::patch::{Curvature, ShapeBounds};
 
@@ -80,7 +80,7 @@ impl PerformanceLimits {
     /// from projection errors up to `residual` metres long: `1 / (h ((1 + c r)² + c ‖ΔR‖ + (k − 1) c (2 r + ‖ΔR‖)))`
     /// with `c` the greatest bend and `k` [`crate::math::ROOT_EXCESS`], for the roots that are taken from above.
     ///
-    /// It is not above what [`super::certified_gain`] can be there, whatever the direction and the place, and near what
+    /// It is not above what [`certified_gain`](crate::track::certified_gain) can be there, whatever the direction and the place, and near what
     /// it tends to as the witness point arrives, but for the bend being that of one place and direction then. Proved
     /// for any patch that is C¹ along the step, convex or not, from either side. 0 where nothing is known.
     pub const fn monotone_gain(&self, residual: f32) -> f32 {

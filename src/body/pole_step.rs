@@ -1,10 +1,10 @@
 //! A step of second order on a face that has a pole.
 
-use super::enter::LEAST_FALL;
+use super::candidate_search::RESOLUTION;
+use super::face_entry::LEAST_FALL;
 use super::feature::{Face, Side};
-use super::minimise::RESOLUTION;
 use super::pole::{Pole, at_pole};
-use super::quadratic::{Model, Seen};
+use super::quadratic_model::{DistanceDerivatives, Model};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::{Vec3, saturate, sqrt_from_above};
@@ -14,15 +14,15 @@ use crate::track::{Outcome, Witness, mode_at};
 impl Body<'_> {
     /// One step of second order on a face that has a pole, where the certificate is of little use: bounds over the
     /// whole face do not know that around the pole all is small. The evaluation says whether the step was good; if not
-    /// it is undone, and the next one is certified. Whether it was tried.
+    /// it is rejected, and the next one is certified. Whether it was tried.
     #[inline(never)]
-    pub(super) fn step_beside_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
+    pub(super) fn step_near_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Witness { parameters, surface, second, halvings, .. } = state.witness;
         if halvings != 0 {
             return false;
         }
         let at = CurvedPoint { surface, second };
-        let Some(plan) = StepBeside::new(face, parameters, &at, state.probe, self.size) else {
+        let Some(plan) = PoleStep::new(face, parameters, &at, state.probe, self.size) else {
             return self.leave_pole(face, state, step);
         };
         let reached = face.patch.evaluate_apart(plan.parameters);
@@ -35,7 +35,7 @@ impl Body<'_> {
             step.outcome = Outcome::Moved;
         } else {
             (state.witness.is_free, state.witness.halvings) = (false, 1);
-            step.outcome = Outcome::Undone;
+            step.outcome = Outcome::Rejected;
         }
         true
     }
@@ -77,7 +77,7 @@ fn worth(squared: f32, size: f32) -> f32 {
 
 /// A step of second order on a face that has poles.
 #[derive(Clone, Copy)]
-struct StepBeside {
+struct PoleStep {
     /// Where it leads.
     parameters: [f32; 2],
     /// Whether a border holds it there, by parameter.
@@ -86,15 +86,15 @@ struct StepBeside {
     fall: f32,
 }
 
-impl StepBeside {
+impl PoleStep {
     /// The step from a point, in the coordinates around the nearest pole. `None` where it would be rounding, or there
     /// is no pole.
     #[inline(never)]
     fn new(face: &Face, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
         let pole = Pole::nearest(face.poles(), at, &face.patch, size)?;
-        let seen = Seen::new(curved, curved.surface.point - probe);
+        let seen = DistanceDerivatives::new(curved, curved.surface.point - probe);
         let room = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
-        let model = Model::new(seen.beside(pole));
+        let model = Model::new(seen.near_pole(pole));
         let (change, fall) = model.step(&seen, Some(pole), room);
         let is_worth_it = -fall > worth(2.0 * seen.half_squared, size);
         if !is_worth_it {
