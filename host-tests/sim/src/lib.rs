@@ -5,7 +5,9 @@
 //! - [`scene`]: scene files;
 //! - [`recorded`]: devices and scenes as plain numbers, also without a standard library;
 //! - [`feel`]: scripted hands, and the force that they get as figures;
-//! - [`simulated`]: the boards' loop and a simulated arm as a line to talk with (feature `boards`).
+//! - [`zwidth`]: the maximum stiffness of a wall on a device;
+//! - [`rig`]: the boards' loop at simulated pins, and [`knob`], its loop of one joint (feature `boards`);
+//! - [`simulated`]: the boards' loop and a simulated arm as a line to talk with (feature `link`).
 
 #![cfg_attr(not(feature = "std"), no_std)]
 
@@ -15,10 +17,17 @@ extern crate alloc;
 pub mod devices;
 #[cfg(feature = "std")]
 pub mod feel;
+#[cfg(feature = "boards")]
+pub mod knob;
 #[cfg(feature = "std")]
 pub mod plant;
 pub mod recorded;
+#[cfg(feature = "boards")]
+pub mod rig;
 #[cfg(feature = "std")]
 pub mod scene;
-#[cfg(feature = "boards")]
+#[cfg(feature = "link")]
 pub mod simulated;
+pub mod wall;
+#[cfg(feature = "std")]
+pub mod zwidth;

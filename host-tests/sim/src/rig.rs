@@ -1,9 +1,10 @@
 //! A simulated bench: the device in a hand, amplifiers that read their pins, a panel with wires that may break.
 
+use crate::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
 use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
 use palpate::device::drive::{SetPointDrive, SetPointRange};
-use palpate::device::{Counts, Kinematics, SupplyRange};
+use palpate::device::{Counts, Kinematics, StopSearch, SupplyRange};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
 use palpate::servo::{Fault, Guard, PatchWitness, Phase, ResetReason, Servo, ServoState, Unguarded};
@@ -11,17 +12,18 @@ use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, greatest_step};
 use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
-use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::cell::RefCell;
 use std::convert::Infallible;
 use std::rc::Rc;
 
+/// Of the servo, Hz.
 pub const RATE: f64 = 4_000.0;
 /// Of the simulated board's counter, Hz.
 pub const CLOCK: u32 = 170_000_000;
 /// What the counter advances each time it is looked at.
 const LOOK: u32 = 40;
 
+/// Of the servo.
 pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
     rate: RATE as f32,
     stiffness: 600.0,
@@ -32,11 +34,18 @@ pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
     body_origin: vec3(0.0, 0.0, 0.0),
 };
 
-/// A level wall through the origin, felt from above.
-pub use palpate_tool::wall::WALL;
+pub use crate::wall::WALL;
+
+/// The stops of the simulated arm, from where it hangs once nothing holds it.
+pub const STOPS: [StopSearch; 3] = [
+    StopSearch { angle: 1.55, speed: 1.0, torque: 0.2, clearance: 0.2, travel: 3.3 },
+    StopSearch { angle: 2.15, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
+    StopSearch { angle: 1.75, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
+];
 
 /// What the pins are wired to.
 pub struct World {
+    /// The device in a hand.
     pub plant: Plant,
     /// The button is pressed.
     pub button: bool,
@@ -52,6 +61,7 @@ pub struct World {
     pub measured: fn(f32) -> Option<f32>,
     /// Frames to come that are bad.
     pub bad: u32,
+    /// The kind of the bad frames.
     pub kind: BadFrame,
     /// Counts that the counters are ahead of the plant by: joints that a test turns itself.
     pub turned: [i32; 3],
@@ -61,7 +71,9 @@ pub struct World {
     pub reading: u32,
     /// Width of the set-points, as a share of their period.
     pub widths: [f64; 3],
+    /// Levels of the enable lines.
     pub enables: [bool; 3],
+    /// Level of the LED's line.
     pub light: bool,
     /// What its counter says.
     pub cycles: u32,
@@ -90,6 +102,7 @@ impl World {
     }
 }
 
+/// The world, shared by the pins that read and write it.
 pub type Shared = Rc<RefCell<World>>;
 
 /// A level that is read.
@@ -146,6 +159,7 @@ impl SetDutyCycle for Width {
     }
 }
 
+/// The counter of cycles.
 pub struct SimulatedClock(Shared);
 
 impl Counter for SimulatedClock {
@@ -219,6 +233,7 @@ impl Sensors<3> for Spoilt {
 }
 
 type Amplifier = SetPointDrive<Width, Out>;
+/// All that a board has for the loop.
 pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
 
 /// A servo that a test made, and whether it could not be made with the calibration that is kept.
@@ -240,8 +255,11 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
 
 /// The loop on the simulated bench.
 pub struct Rig<K: Kinematics<3> + 'static, G: Guard<3> + 'static = Unguarded> {
+    /// The far side of the pins.
     pub world: Shared,
+    /// The loop.
     pub bench: Bench<'static, Made<K, G>, SimulatedBoard, 3>,
+    /// Commands to the loop.
     pub mailbox: &'static Mailbox,
     records: Option<Consumer<'static, Record>>,
 }
@@ -266,6 +284,9 @@ impl HandPath for Down {
 }
 
 /// A hand that holds the probe here, once it is there.
+///
+/// # Panics
+/// If the place is out of reach.
 pub fn held_at(place: Vector) -> Plant {
     let hand = HandSettings { stiffness: 2_000.0, damping: 20.0, mass: 0.0 };
     Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Down(place)), RATE).unwrap()
@@ -334,6 +355,10 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
 }
 
 impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
+    /// A servo at the pins of a board that was reset for this reason.
+    ///
+    /// # Panics
+    /// As [`Bench::new`].
     pub fn new(
         servo: Servo<'static, SplinePatch<'static>, K, 3, G>,
         plant: Plant,
@@ -343,6 +368,7 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         Self::made(Made(servo, false), plant, settings, reset)
     }
 
+    /// As [`Rig::new`], of a servo that was made with a calibration or without.
     pub fn made(made: Made<K, G>, plant: Plant, settings: &Settings, reset: ResetReason) -> Self {
         let (world, board) = wired(&made.0, plant, settings);
         // They live as long as the test, as a board's statics do.
@@ -353,12 +379,18 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         Self { world, bench, mailbox, records: Some(records) }
     }
 
-    /// The end of the queue, for somebody else.
+    /// The receiving end of the telemetry queue.
+    ///
+    /// # Panics
+    /// If it was taken before.
     pub fn take_records(&mut self) -> Consumer<'static, Record> {
         self.records.take().unwrap()
     }
 
-    /// The last record told.
+    /// The last record that was sent.
+    ///
+    /// # Panics
+    /// If the queue's end was taken.
     pub fn last_record(&mut self) -> Option<Record> {
         let records = self.records.as_mut().unwrap();
         core::iter::from_fn(|| records.dequeue()).last()
@@ -370,11 +402,15 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         self.world.borrow_mut().advance();
     }
 
+    /// Ticks of the loop.
     pub fn ticks(&mut self, ticks: u32) {
         (0..ticks).for_each(|_| self.tick());
     }
 
-    /// Ticks, each of which gives the motors nothing.
+    /// Ticks, each of which leaves every amplifier disabled.
+    ///
+    /// # Panics
+    /// If one does not.
     #[track_caller]
     pub fn ticks_off(&mut self, ticks: u32) {
         for tick in 0..ticks {
@@ -383,6 +419,7 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         }
     }
 
+    /// Changes the far side of the pins.
     pub fn set(&self, change: impl FnOnce(&mut World)) {
         change(&mut self.world.borrow_mut());
     }
@@ -392,15 +429,20 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         self.world.borrow().enables == [false; 3]
     }
 
+    /// The servo's state.
     pub fn state(&self) -> &ServoState<3, PatchWitness, G::State> {
         self.bench.state()
     }
 
+    /// The servo's fault.
     pub fn fault(&self) -> Option<Fault> {
         self.state().fault().map(|(fault, _)| fault)
     }
 
-    /// Presses the button that was released, and waits until force is there.
+    /// Presses the released button and waits until the loop renders force.
+    ///
+    /// # Panics
+    /// If it does not within 800 ticks.
     #[track_caller]
     pub fn press_until_it_runs(&mut self) {
         self.set(|world| world.button = false);

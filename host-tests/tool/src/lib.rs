@@ -5,7 +5,6 @@ pub mod accept;
 pub mod budgets;
 pub mod cache;
 pub mod cad;
-pub mod closest;
 pub mod commands;
 pub mod commission;
 pub mod cycles;
@@ -27,10 +26,5 @@ pub mod race;
 pub mod reach;
 pub mod report;
 pub mod repository;
-pub mod rides;
 pub mod simulation;
 pub mod talk;
-pub mod wall;
-pub mod zwidth;
-
-pub use palpate_sim::devices::{self as own, preset};

@@ -1,12 +1,12 @@
 //! Tables for queries: those that ship, and others for queries beyond their reach.
 
-use crate::closest::Solver;
 use glam::DVec3;
 use palpate::body::Body;
 use palpate::math::Vec3;
 use palpate_bake::BakedBody;
 use palpate_bake::body::TableFault;
 use palpate_bake::locator::LocatorOptions;
+use palpate_truth::closest::Solver;
 
 /// A body's tables, and what the firmware has of them.
 #[derive(Debug)]

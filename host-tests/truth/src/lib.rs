@@ -3,11 +3,13 @@
 
 pub mod baselines;
 pub mod body_oracle;
+pub mod closest;
 pub mod dunes;
 pub mod generate;
 pub mod locating;
 pub mod measured;
 pub mod oracle;
+pub mod rides;
 
 /// The code in the documents: compiled and run with the doctests.
 #[cfg(doctest)]

@@ -7,6 +7,7 @@ pub mod preset;
 mod read;
 mod schema;
 mod shipped;
+mod table;
 
 pub use constant::{settings_source, source};
 pub use preset::Preset;
@@ -16,3 +17,4 @@ pub use schema::{
     MechanismEntry, MotorEntry,
 };
 pub use shipped::{file_of, protection_of};
+pub use table::{DEVICES, ShippedDevice, named, own_device};

@@ -1,13 +1,10 @@
 //! The devices that ship, one row each: what the servo knows of it, and what stands in for it in simulation.
 
-use crate::own::{self, DeviceFile, OwnDevice};
-pub use crate::preset::{Limits, Preset};
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use super::preset::Preset;
+use super::{DeviceFile, OwnDevice, file_of, protection_of};
+use crate::plant::PlantSettings;
 use palpate::device::{Protection, presets};
 use palpate::servo::recommended::{self, Recommended};
-use palpate_sim::plant::PlantSettings;
-use std::ffi::OsStr;
-use std::path::Path;
 
 /// A device that ships.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +30,7 @@ pub struct ShippedDevice {
 impl ShippedDevice {
     /// Its device file, where one's own begins; `None` with less than three joints.
     pub fn file(&self) -> Option<DeviceFile> {
-        own::file_of(self.name, self.preset, &self.plant)
+        file_of(self.name, self.preset, &self.plant)
     }
 
     /// What it is recommended to be driven with, so that the loop is not felt; `None` for one's own.
@@ -52,7 +49,7 @@ impl ShippedDevice {
 
     /// What protects it.
     pub fn protection(&self) -> Protection<3> {
-        self.constants.map_or_else(|| own::protection_of(self.name), |(_, protection)| protection)
+        self.constants.map_or_else(|| protection_of(self.name), |(_, protection)| protection)
     }
 }
 
@@ -128,62 +125,6 @@ pub fn named(name: &str) -> Option<&'static ShippedDevice> {
     DEVICES.iter().find(|device| device.name == name)
 }
 
-/// A device of the command line: one that feels surfaces, or the knob, which has one joint and feels by itself.
-#[derive(Clone, Copy, Debug)]
-pub enum Chosen {
-    /// One of [`DEVICES`], or one's own.
-    Arm(&'static ShippedDevice),
-    /// The knob ([`crate::knob`]).
-    Knob,
-}
-
-/// The knob's name on the command line.
-const KNOB: &str = "knob";
-
-/// Takes a device from the command line: by its name, or one's own from its file.
-pub fn parser() -> impl TypedValueParser<Value = Chosen> {
-    NameOrFile
-}
-
-/// A name of [`DEVICES`], or the path of a device file, which ends in `.toml`.
-#[derive(Clone, Copy, Debug)]
-struct NameOrFile;
-
-impl TypedValueParser for NameOrFile {
-    type Value = Chosen;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<Self::Value, clap::Error> {
-        let path = Path::new(value);
-        if path.extension().is_some_and(|extension| extension == "toml") {
-            let own = OwnDevice::read(path).map_err(|error| {
-                clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
-            })?;
-            return Ok(Chosen::Arm(own_device(&own, &path.display().to_string())));
-        }
-        // The names are the table's: each is found.
-        let chosen = |name: String| {
-            if name == KNOB { Ok(Chosen::Knob) } else { named(&name).map(Chosen::Arm).ok_or("no such device") }
-        };
-        let known = PossibleValuesParser::new(names()).try_map(chosen);
-        known.parse_ref(command, argument, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(names()))
-    }
-}
-
-/// The names on the command line, and what they stand for.
-fn names() -> impl Iterator<Item = PossibleValue> {
-    let arms = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
-    arms.chain([PossibleValue::new(KNOB).help("A knob on a motor with three phases: one joint, demo only")])
-}
-
 /// One's own device as a row of the table; it lives as long as the program.
 pub fn own_device(own: &OwnDevice, from: &str) -> &'static ShippedDevice {
     let mechanism = match own.preset {
@@ -198,7 +139,7 @@ pub fn own_device(own: &OwnDevice, from: &str) -> &'static ShippedDevice {
         plant: own.plant,
         assumed: "what of its inertia the file does not state is assumed",
         source: Some([mechanism, "DEVICE"]),
-        constants: Some((Box::leak(own::source(own, from).into_boxed_str()), own.protection)),
+        constants: Some((Box::leak(super::source(own, from).into_boxed_str()), own.protection)),
     }))
 }
 

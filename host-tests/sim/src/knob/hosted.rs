@@ -1,10 +1,10 @@
 //! The knob's loop compiled for the host, at the simulated dial.
 
-use super::{FROZEN, KnobServo, KnobState, MODULATION, widths};
-use palpate::device::Counts;
+use super::{FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo, widths};
+use crate::plant::{Dial, DialSettings, Fingers};
 use palpate::device::sensor::Frozen;
-use palpate::servo::{Event, Input, ResetReason};
-use palpate_sim::plant::Dial;
+use palpate::device::{CoggingMap, Counts};
+use palpate::servo::{Event, Input, Phase, ResetReason};
 
 /// The loop and the dial that it turns.
 #[derive(Clone, Debug)]
@@ -27,6 +27,46 @@ impl HostKnob {
     pub fn new(servo: KnobServo, dial: Dial) -> Self {
         let state = servo.start();
         Self { servo, state, frozen: FROZEN, dial, enable: true, damaged: false, silent: false }
+    }
+
+    /// The loop of the boards at a dial, before its first tick. The device lives as long as the program.
+    pub fn at(dial: DialSettings, cogging: Option<CoggingMap>) -> Self {
+        let servo = servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY);
+        Self::new(servo, Dial::new(dial, f64::from(SETTINGS.rate)))
+    }
+
+    /// As [`HostKnob::at`], once its rotor is aligned and its force has faded in.
+    ///
+    /// # Panics
+    /// If it does not run by then.
+    #[track_caller]
+    pub fn running(dial: DialSettings, cogging: Option<CoggingMap>) -> Self {
+        let mut knob = Self::at(dial, cogging);
+        knob.ticks(SEARCH.ticks() + 2_000);
+        let found = (knob.state.phase(), knob.state.fault());
+        assert_eq!(found, (Phase::Running, None), "{:?}", knob.state.homing().refusal());
+        knob
+    }
+
+    /// The torque on the shaft, N·m, where a clamp holds it at an angle, radians: it is brought there in 400 ticks, rests
+    /// for 400, and the torque is the mean of 100 more.
+    ///
+    /// # Panics
+    /// If the loop has faulted meanwhile.
+    pub fn held_at(&mut self, angle: f64) -> f64 {
+        let from = self.dial.angle();
+        for tick in 1..=400 {
+            self.dial.hold(Fingers::clamp(from + (angle - from) * f64::from(tick) / 400.0));
+            self.tick();
+        }
+        self.ticks(400);
+        let mut sum = 0.0;
+        for _ in 0..100 {
+            self.tick();
+            sum += self.dial.torque();
+        }
+        assert_eq!(self.state.fault(), None);
+        sum / 100.0
     }
 
     /// The same after another reset than power-on.

@@ -2,14 +2,12 @@
 //!
 //! A device is taken along the wall's normal, as a [`Slice`] of one mass; the wall is the library's own
 //! [`palpate::render::Penalty`] on the library's own velocity. [`collide`] hits the wall once, [`max_stiffness`]
-//! finds the limit, [`sweep`] makes the table, [`plot`] draws it with the passive bound ([`palpate::render::bounds`]).
+//! finds the limit, and [`sweep`] makes the table with the passive bound ([`palpate::render::bounds`]).
 
 mod collide;
-mod plot;
 mod slice;
 mod sweep;
 
 pub use collide::{Collision, Loop, Swing, Wall, collide};
-pub use plot::plot;
 pub use slice::Slice;
 pub use sweep::{DAMPINGS, DELAYS, Limit, RATES, in_words, max_stiffness, sweep};

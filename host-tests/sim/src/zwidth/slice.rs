@@ -1,9 +1,9 @@
 //! A device along one direction: what a wall's push has to move.
 
 use crate::devices::ShippedDevice;
+use crate::plant::{Amplifier, JointSettings, dot, inverse, scaled, times};
 use palpate::device::drive::Feed;
 use palpate::render::bounds::DeviceFriction;
-use palpate_sim::plant::{Amplifier, JointSettings, dot, inverse, scaled, times};
 
 /// One mass with friction, an encoder and a force source.
 #[derive(Clone, Copy, Debug, PartialEq)]

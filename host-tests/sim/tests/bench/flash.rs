@@ -1,7 +1,6 @@
 //! Flash: written while the motors are held off, and what lies there after whatever happened.
 
 use crate::orders::{NoWatchdog, Wire, parts};
-use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use palpate::body::FileError;
 use palpate::device::SerialArm;
@@ -13,6 +12,7 @@ use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, CHUNK, Command, PROTOCOL, Refused, Told, Upload, UploadError, hold};
 use palpate_bench::{Idle, Uploads, Watchdog};
 use palpate_shelf::{Bodies, Both, Kept, Pretended, PretendedFlash};
+use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use std::cell::{Cell, RefCell};
 use std::path::Path;
 

@@ -1,6 +1,5 @@
 //! Sensors that are late, absent, stuck or lying, and frames that are bad now and then.
 
-use crate::rig::{RATE, Rig, SETTINGS, WALL, settings};
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{Fault, ResetReason, Safety, Servo, StuckLimits};
@@ -8,6 +7,7 @@ use palpate::track::Controller;
 use palpate_bench::Settings;
 use palpate_bench::sensors::BadFrame;
 use palpate_sim::plant::{EncoderFault, HandPath, HandSettings, Plant, PlantSettings, Vector};
+use palpate_sim::rig::{RATE, Rig, SETTINGS, WALL, settings};
 use std::f64::consts::TAU;
 
 /// A hand that presses the probe into the wall and slides it about, 40 mm either way, a few times a second.
@@ -108,7 +108,7 @@ fn a_bridged_frame_is_not_felt() {
 #[test]
 fn nothing_is_bridged_before_the_first_counts_nor_after_a_fault() {
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
-    let mut fresh = Rig::new(servo, crate::rig::held_at([0.0; 3]), &settings(), ResetReason::PowerOn);
+    let mut fresh = Rig::new(servo, palpate_sim::rig::held_at([0.0; 3]), &settings(), ResetReason::PowerOn);
     fresh.set(|world| (world.bad, world.kind) = (1, BadFrame::Absent));
     fresh.ticks_off(1);
     assert_eq!((fresh.fault(), fresh.bench.bridged()), (Some(Fault::FrameLost), 0));

@@ -1,11 +1,11 @@
 //! A board whose servo is guarded: what protects motors and hand reaches the pins.
 
-use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
 use palpate::device::{Endurance, Protection};
 use palpate::servo::{Fault, Guard, ResetReason, Servo};
 use palpate::track::Controller;
 use palpate_sim::plant::HandSettings;
+use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
 const PRESSED: [f64; 3] = [0.0, 0.0, -0.008];
 

@@ -1,18 +1,11 @@
 //! Homing on a board: by the button, and by the motors.
 
-use crate::rig::{RATE, Rig, SETTINGS, WALL, settings};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Homing, Reference, SerialArm, StopSearch};
+use palpate::device::{Homing, Reference, SerialArm};
 use palpate::servo::{Fault, Output, Phase, ResetReason, Servo};
 use palpate::track::Controller;
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, StillHand};
-
-/// The stops of the simulated arm, from where it hangs once nothing holds it.
-pub const STOPS: [StopSearch; 3] = [
-    StopSearch { angle: 1.55, speed: 1.0, torque: 0.2, clearance: 0.2, travel: 3.3 },
-    StopSearch { angle: 2.15, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
-    StopSearch { angle: 1.75, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
-];
+use palpate_sim::rig::{RATE, Rig, SETTINGS, STOPS, WALL, settings};
 
 /// The arm with its counters at zero somewhere, as after power-on.
 fn put_down_anywhere() -> PlantSettings {

@@ -1,12 +1,12 @@
 //! What runs below the tick: heartbeat, records, and a line that is never waited for.
 
-use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{Heartbeat, ResetReason, Servo};
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver};
 use palpate::wire::{PROTOCOL, Told};
 use palpate_bench::{Idle, Port, Watchdog};
+use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
 #[derive(Default)]
 struct Counted(u32);

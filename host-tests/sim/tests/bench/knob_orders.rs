@@ -7,8 +7,8 @@ use palpate::servo::{Heartbeat, ResetReason};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, Command, Hello, PROTOCOL, Refused, Told, Upload};
 use palpate_bench::Idle;
+use palpate_sim::knob::{FEELS, LET_GO, SETTINGS};
 use palpate_sim::plant::Fingers;
-use palpate_tool::knob::{FEELS, LET_GO, SETTINGS};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

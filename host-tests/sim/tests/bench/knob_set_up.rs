@@ -6,8 +6,8 @@ use crate::knob_orders::Device;
 use palpate::commission::{Jog, JogRefusal, KEY};
 use palpate::servo::ResetReason;
 use palpate::wire::{Command, PROTOCOL, Reading, Told};
+use palpate_sim::knob::JOG;
 use palpate_sim::plant::Fingers;
-use palpate_tool::knob::JOG;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

@@ -1,6 +1,5 @@
 //! The loop of the boards, on the host: with the simulated device at its pins, and with mocks.
 
-mod acceptance;
 mod angles;
 mod calibration;
 mod flash;
@@ -8,7 +7,6 @@ mod frames;
 mod guarded;
 mod homing;
 mod idle;
-mod kept_zero;
 mod knob;
 mod knob_orders;
 mod knob_set_up;
@@ -17,7 +15,6 @@ mod panel;
 mod phases;
 mod pins;
 mod reset;
-mod rig;
 mod set_up;
 mod usb;
 mod usb_bus;

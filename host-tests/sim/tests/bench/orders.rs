@@ -1,6 +1,5 @@
 //! A host's orders on their way through main and the tick, and bodies in parts.
 
-use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::scene::{Order, SceneError, Shelf as _};
@@ -10,6 +9,7 @@ use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, CHUNK, Command, PROTOCOL, Refused, Told, Upload, UploadError};
 use palpate_bench::{Idle, Port, Uploads as _, Watchdog};
 use palpate_shelf::Bodies;
+use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use std::collections::VecDeque;
 
 #[derive(Default)]

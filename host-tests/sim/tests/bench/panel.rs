@@ -1,11 +1,11 @@
 //! Stop, ready lines and supply: what keeps the motors off, and how force comes back.
 
-use crate::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{SerialArm, SupplyRange};
 use palpate::servo::{Fault, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
 use palpate::wire::hold;
+use palpate_sim::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
 
 fn rig() -> Rig<SerialArm> {
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);

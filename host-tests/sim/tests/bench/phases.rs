@@ -1,11 +1,11 @@
 //! No board looks at the phase: in each of them the pins do what the state's output says.
 
-use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Duty, SerialArm};
 use palpate::servo::{Event, Fault, Output, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
 use palpate_bench::Passive;
+use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
 fn servo(output: SafeOutput) -> Servo<'static, palpate::patch::SplinePatch<'static>, SerialArm, 3> {
     safe(Safety { output, settle_ticks: 50, ..Safety::DEFAULT })
@@ -68,7 +68,7 @@ fn damping_after_a_fault_reaches_the_motors_and_brakes() {
             &palpate_sim::plant::PlantSettings::wooden_haptics_2016(),
             palpate_sim::plant::HandSettings::NONE,
             Box::new(palpate_sim::plant::StillHand([0.0, 0.0, 0.03])),
-            crate::rig::RATE,
+            palpate_sim::rig::RATE,
         );
         let mut rig = Rig::new(servo(output), plant.unwrap(), &settings(), ResetReason::PowerOn);
         rig.ticks(100);

@@ -1,12 +1,12 @@
 //! After a reset: what force waits for.
 
-use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{Event, Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::track::Controller;
 use palpate::wire::{Command, frame};
 use palpate_bench::{Cause, Idle, Memo, Port, ResetFlags, Watchdog};
+use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
 /// Ticks that are longer than what a button that acknowledges is held for, 50 ms.
 const HELD: u32 = 210;

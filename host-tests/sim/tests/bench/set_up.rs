@@ -1,7 +1,6 @@
 //! A device that is being set up, from the bytes on its line to the current in its motors: nothing moves without the
 //! enable button *and* the key, and whatever goes wrong lets go at once.
 
-use crate::rig::{RATE, Rig, SETTINGS, WALL, World, held_at, settings};
 use palpate::commission::{Jog, JogRefusal, KEY};
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
@@ -12,6 +11,7 @@ use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Command, Reading, Told, hold};
 use palpate_bench::{Idle, Port, Settings, Watchdog};
+use palpate_sim::rig::{RATE, Rig, SETTINGS, WALL, World, held_at, settings};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::VecDeque;

@@ -1,6 +1,5 @@
 //! A board's USB plug: packets on a mock of a bus, a host that reads or does not, a plug that is pulled.
 
-use crate::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use crate::usb_bus::Mock;
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
@@ -9,6 +8,7 @@ use palpate::track::Controller;
 use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Command, Told};
 use palpate_bench::{Idle, Port, Watchdog};
+use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate_usb::{Bytes, Cdc, Either, PACKET, Plug, TURNS};
 use std::collections::VecDeque;
 use usb_device::bus::UsbBusAllocator;

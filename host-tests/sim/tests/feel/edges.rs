@@ -20,7 +20,7 @@ const STAGE: Stage = Stage { joints: 3, stiffness: 500.0, hand: 300.0, dry: 0.07
 const STEP: f64 = 0.05 + 1e-6;
 
 fn step_block() -> BakedBody {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tool/tests/data/step_block.toml");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../suites/data/step_block.toml");
     let baked = BakedBody::new(&Model::read(&file).unwrap(), "step_block").unwrap();
     let options = baked.locator_options();
     baked.located(&options, &|_, _| ()).unwrap().0

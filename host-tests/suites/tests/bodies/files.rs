@@ -7,11 +7,9 @@ use palpate::track::{Controller, Probe};
 use palpate_bake::body::room;
 use palpate_bake::file::{self, BakedFile};
 use palpate_bake::{BakedBody, Model};
-use palpate_tool::models::SHIPPED;
 use palpate_truth::measured::{grouped, measured_if_listed};
 use sha2::{Digest as _, Sha256};
 use std::fs;
-use std::path::Path;
 
 const PROBES: u32 = 100_000;
 const TICKS: u32 = 100_000;
@@ -43,7 +41,9 @@ fn a_file_gives_the_bits_of_statics_for_every_model_that_ships() {
 }
 
 fn compare(is_wanted: &dyn Fn(&str) -> bool) {
-    for (name, text) in SHIPPED.into_iter().filter(|(name, _)| is_wanted(name)) {
+    for name in palpate_suites::models().into_iter().filter(|name| is_wanted(name)) {
+        let name = &*name;
+        let text = &*fs::read_to_string(palpate_suites::model_file(name)).unwrap();
         let begun = std::time::Instant::now();
         let scene = Scene::located(name, BakedBody::locator_options);
         let model = Model::parse(text, name).unwrap();
@@ -84,8 +84,7 @@ fn compare(is_wanted: &dyn Fn(&str) -> bool) {
         let read = BakedFile::read(&bytes).unwrap();
         assert!(file::write(read.source, &read.model, &read.body).unwrap() == bytes, "{name}: another file");
         // What the board's programs have compiled in.
-        let committed =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../boards/bodies").join(name).with_extension("palp");
+        let committed = palpate_suites::repository("boards/bodies").join(name).with_extension("palp");
         assert!(
             fs::read(committed).is_ok_and(|committed| committed == bytes) || !COMMITTED.contains(&name),
             "boards/bodies/{name}.palp has drifted: cargo palpate bake {name} --out boards/bodies/{name}.palp"

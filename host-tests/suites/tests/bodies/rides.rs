@@ -2,7 +2,7 @@
 //! tick.
 
 use crate::scene::Scene;
-use palpate_tool::rides::{Lateness, Rides};
+use palpate_truth::rides::{Lateness, Rides};
 
 /// Ticks in a row that the nearest point may be late: straight over a pole at 1 m/s it takes four.
 const LATE: u32 = 4;

@@ -1,6 +1,5 @@
 //! Devices: their mathematics against simulated ones, their sensors and drives at the pins.
 
-mod commissioning;
 mod mechanisms;
 mod own;
 mod pins;

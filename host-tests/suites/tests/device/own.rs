@@ -1,7 +1,7 @@
 //! Device files: what ships as a file is the preset, and what no device has is refused by its entry.
 
-use palpate_tool::devices::{DEVICES, Preset};
-use palpate_tool::own::{HomingEntry, OwnDevice, source};
+use palpate_sim::devices::{DEVICES, Preset};
+use palpate_sim::devices::{HomingEntry, OwnDevice, source};
 
 /// The file of WoodenHaptics, as text.
 fn text() -> String {

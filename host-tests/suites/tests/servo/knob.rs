@@ -4,14 +4,10 @@ mod faults;
 mod heat;
 mod lost_phase;
 
-use palpate::device::{CoggingMap, Duty, Refusal};
+use palpate::device::{Duty, Refusal};
 use palpate::servo::{Fault, Output, Phase};
+use palpate_sim::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, device};
 use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
-use palpate_tool::commands::demo_knob::{recorded_of, recorded_source};
-use palpate_tool::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo};
-use palpate_truth::measured::measured;
-use std::f64::consts::TAU;
-use std::path::Path;
 
 const RATE: f64 = SETTINGS.rate as f64;
 
@@ -19,111 +15,10 @@ fn dial(settings: DialSettings) -> Dial {
     Dial::new(settings, RATE)
 }
 
-fn recorded(settings: DialSettings) -> CoggingMap {
-    let (step, table) = recorded_of(settings).expect("the recording").table();
-    CoggingMap::new(step, Box::leak(table.into_boxed_slice()))
-}
-
-fn knob(settings: DialSettings, cogging: Option<CoggingMap>) -> HostKnob {
-    HostKnob::new(servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY), dial(settings))
-}
-
-/// Aligned, and force asked for long enough.
-#[track_caller]
-fn running(settings: DialSettings, cogging: Option<CoggingMap>) -> HostKnob {
-    let mut knob = knob(settings, cogging);
-    knob.ticks(SEARCH.ticks() + 2_000);
-    assert_eq!(
-        (knob.state().phase(), knob.state().fault()),
-        (Phase::Running, None),
-        "{:?}",
-        knob.state().homing().refusal()
-    );
-    knob
-}
-
-/// The torque on the shaft where a clamp holds it, once all is at rest: brought there in half a second, and the mean of
-/// an eighth of a second.
-fn held(knob: &mut HostKnob, angle: f64) -> f64 {
-    let from = knob.dial.angle();
-    for tick in 1..=400 {
-        knob.dial.hold(Fingers::clamp(from + (angle - from) * f64::from(tick) / 400.0));
-        knob.tick();
-    }
-    knob.ticks(400);
-    let mean = (0..100)
-        .map(|_| {
-            knob.tick();
-            knob.dial.torque()
-        })
-        .sum::<f64>()
-        / 100.0;
-    assert_eq!(knob.state().fault(), None);
-    mean
-}
-
-/// The greatest torque on the shaft around a quarter of a pitch from a detent, N·m, by the clamp.
-fn peak(knob: &mut HostKnob, detent: i32, side: f64) -> f64 {
-    let pitch = TAU / 24.0;
-    // The plant's sensor begins to count at 0.7 rad; a magnet off its centre moves a detent by up to 0.3°.
-    let at = |step: i32| 0.7 + (f64::from(detent) + side * (0.25 + 0.02 * f64::from(step))) * pitch;
-    (-4..=4).map(|step| -side * held(knob, at(step))).fold(f64::NEG_INFINITY, f64::max)
-}
-
-#[test]
-fn every_detent_of_a_turn_has_its_torque_on_either_side_within_two_percent_with_the_map_and_not_without() {
-    let settings = DialSettings::gimbal_knob();
-    let worst = |cogging| {
-        let mut knob = running(settings, cogging);
-        let off = |place: (i32, f64)| (peak(&mut knob, place.0, place.1) / 0.03 - 1.0).abs();
-        (-12..12).flat_map(|detent| [(detent, -1.0), (detent, 1.0)]).map(off).fold(0.0, f64::max)
-    };
-    let (with, without) = (worst(Some(recorded(settings))), worst(None));
-    measured(
-        "knob: torque of every detent of a turn, off at most, with the map of its cogging",
-        format!("{:.2}", 100.0 * with),
-    );
-    measured("knob: the same without the map", format!("{:.1}", 100.0 * without));
-    assert!(with <= 0.02, "{with}");
-    // Cogging of up to 6 of 30 mN·m: the measure sees it.
-    assert!(without > 0.1, "{without}");
-}
-
-/// Largest and root mean square torque on the shaft, N·m, at 600 places of a turn, and the map's doing apart from the
-/// motor's own.
-fn felt_cogging(knob: &mut HostKnob) -> [f64; 2] {
-    knob.choose(5);
-    let start = knob.dial.angle();
-    let (mut most, mut squares) = (0.0_f64, 0.0);
-    // Not in step with 264 a turn.
-    for place in 0..600 {
-        let torque = held(knob, start + f64::from(place) * TAU / 601.3);
-        most = most.max(torque.abs());
-        squares += torque * torque;
-    }
-    [most, (squares / 600.0_f64).sqrt()]
-}
-
-#[test]
-fn with_the_map_less_than_a_tenth_of_the_cogging_is_left() {
-    let settings = DialSettings::gimbal_knob();
-    let with = felt_cogging(&mut running(settings, Some(recorded(settings))));
-    let without = felt_cogging(&mut running(settings, None));
-    let told = |torque: f64| format!("{:.2}", 1e3 * torque);
-    measured("knob: cogging, root mean square", told(without[1]));
-    measured("knob: cogging with the map, root mean square", told(with[1]));
-    measured("knob: cogging, at most", told(without[0]));
-    measured("knob: cogging with the map, at most", told(with[0]));
-    // What is left: the finest cogging between the map's entries (a straight line through eight to a wave leaves 5 %),
-    // the sensor's counts and noise while it was recorded, and half a step of the table.
-    assert!(with[1] <= without[1] / 10.0 && with[0] <= without[0] / 10.0, "{with:?} {without:?}");
-    assert!(without[0] > 5e-3, "there is cogging: {without:?}");
-}
-
 #[test]
 fn the_alignment_is_bounded_and_needs_the_button_all_the_time() {
     let settings = DialSettings::gimbal_knob();
-    let mut knob = knob(settings, None);
+    let mut knob = HostKnob::at(settings, None);
     knob.enable = false;
     knob.ticks(1_000);
     assert_eq!((knob.state().output(), knob.state().homed()), (Output::Off, false));
@@ -153,7 +48,7 @@ fn a_hand_that_spins_the_dial_makes_the_field_that_aligns_it_no_stronger() {
     let feed = device(None).feeds[0];
     let most = feed.command(Duty::from_fraction(SEARCH.torque / device(None).motors[0].torque_at_full), 0.0);
     for rate in [50.0, -50.0] {
-        let mut knob = knob(DialSettings::gimbal_knob(), None);
+        let mut knob = HostKnob::at(DialSettings::gimbal_knob(), None);
         knob.dial.hold(Fingers { stiffness: 0.0, damping: 5e-3, aim: 0.0, rate });
         let (mut greatest, mut fastest) = (0, 0.0_f64);
         while knob.state().fault().is_none() {
@@ -173,7 +68,7 @@ fn any_angle_and_either_way_of_the_sensor_is_aligned_to_three_percent_of_the_tor
         for angle in [0.0, 0.11, 0.25, 0.42, 1.9] {
             let mut settings = DialSettings { angle, ..DialSettings::gimbal_knob() };
             settings.sensor.reversed = reversed;
-            let knob = running(settings, None);
+            let knob = HostKnob::running(settings, None);
             let [aligned] = knob.state().homing().aligned();
             assert_eq!(aligned.reversed, reversed);
             // Electrically, 11 times 0.7 rad at count zero.
@@ -187,7 +82,7 @@ fn any_angle_and_either_way_of_the_sensor_is_aligned_to_three_percent_of_the_tor
 #[test]
 fn a_sensor_that_has_frozen_is_a_fault_within_a_quarter_of_a_second_and_pulls_no_more_until_then() {
     for (when, ticks) in [("aligning", 3_000), ("running", SEARCH.ticks() + 2_000)] {
-        let mut knob = knob(DialSettings::gimbal_knob(), None);
+        let mut knob = HostKnob::at(DialSettings::gimbal_knob(), None);
         knob.ticks(ticks);
         if when == "running" {
             knob.dial.hold(Fingers::turning(0.7 + 0.06, 0.0));
@@ -211,7 +106,7 @@ fn a_sensor_that_has_frozen_is_a_fault_within_a_quarter_of_a_second_and_pulls_no
 fn an_alignment_that_cannot_be_believed_is_refused_by_name() {
     let settings = DialSettings::gimbal_knob();
     let refusal = |settings: DialSettings, fingers: Fingers| {
-        let mut knob = knob(settings, None);
+        let mut knob = HostKnob::at(settings, None);
         knob.dial.hold(fingers);
         knob.ticks(SEARCH.ticks() + 100);
         assert_eq!(knob.state().fault().map(|(fault, _)| fault), Some(Fault::Homing));
@@ -234,20 +129,10 @@ fn an_alignment_that_cannot_be_believed_is_refused_by_name() {
 }
 
 #[test]
-fn the_map_in_the_image_is_what_is_recorded_of_the_simulated_motor() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../boards/emulated/knob_cogging.rs");
-    let source = recorded_source().unwrap();
-    if std::env::var_os("PALPATE_WRITE").is_some() {
-        std::fs::write(&file, &source).unwrap();
-    }
-    assert!(std::fs::read_to_string(&file).unwrap() == source, "PALPATE_WRITE=1 writes {}", file.display());
-}
-
-#[test]
 fn a_switch_is_no_step() {
-    let mut knob = running(DialSettings::gimbal_knob(), None);
+    let mut knob = HostKnob::running(DialSettings::gimbal_knob(), None);
     // In the end stop's spring, where feels differ most.
-    held(&mut knob, 0.7 + 1.02);
+    knob.held_at(0.7 + 1.02);
     let mut different: f32 = 0.0;
     for from in 0..FEELS.len() as u8 {
         for to in 0..FEELS.len() as u8 {
@@ -277,7 +162,7 @@ fn a_switch_is_no_step() {
 fn a_dial_that_is_let_go_of_comes_to_rest_in_every_feel() {
     let settings = DialSettings::gimbal_knob();
     for (index, name) in NAMES.into_iter().enumerate() {
-        let mut knob = running(settings, None);
+        let mut knob = HostKnob::running(settings, None);
         knob.choose(index as u8);
         knob.dial.hold(Fingers::turning(0.7 + 1.2, 0.0));
         knob.ticks(2_000);

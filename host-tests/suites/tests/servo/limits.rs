@@ -7,9 +7,9 @@ use palpate::math::Vec3;
 use palpate::render::{Ease, Material};
 use palpate::servo::{Input, Rendering, Servo, Settings};
 use palpate::track::Controller;
+use palpate_sim::devices::{DEVICES, named};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
-use palpate_tool::devices::{DEVICES, named};
-use palpate_tool::zwidth::{Loop, Slice, max_stiffness};
+use palpate_sim::zwidth::{Loop, Slice, max_stiffness};
 
 const FREE: Device<SerialArm, 3> = Device { max_stiffness: 1e6, max_damping: 1e3, ..WOODEN_HAPTICS_2016 };
 

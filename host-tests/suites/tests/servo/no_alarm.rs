@@ -1,25 +1,14 @@
-//! The watch over signs calls nothing wrong where all is right: where a hand presses, and in the demo.
+//! The polarity check raises no alarm where a hand presses on a sound device.
 
 use crate::protected::{Bench, FALCON, PHANTOM, POLHEM, RATE, WOODEN_HAPTICS, settings};
 use crate::surfaces::WALL;
 use crate::touch::Press;
-use clap::Parser;
 use palpate::device::{Counts, Kinematics};
 use palpate::math::Vec3;
 use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Input, Rendering, Servo, Settings};
 use palpate::track::{Contact, Controller};
 use palpate_sim::plant::{HandSettings, Plant};
-use palpate_tool::commands::options::SceneOptions;
-use palpate_tool::commands::sim::run_on_host;
-use palpate_tool::report::Summary;
-use std::ops::RangeInclusive;
-
-#[derive(Parser)]
-struct Demo {
-    #[command(flatten)]
-    options: SceneOptions,
-}
 
 /// Presses on a wall with so many newtons, which the motors bear for ever, for 0.7 s: with the gains that the preset
 /// allows at most, and with those that the device is recommended to be driven with.
@@ -70,52 +59,4 @@ fn phantom_is_pressed_without_an_alarm() {
 #[test]
 fn falcon_is_pressed_without_an_alarm() {
     presses(&FALCON, &recommended::NOVINT_FALCON, 6.0);
-}
-
-const MODELS: [&str; 2] = ["capped_box", "ellipsoid_body"];
-
-/// Two seconds of the demo with all protection: what the hand needs for its touches.
-fn demos(device: &str, models: &[&str], seeds: RangeInclusive<u64>) {
-    for model in models {
-        let words = ["demo", "--device", device, "--model", model, "--seconds", "2", "--protected"];
-        let Demo { mut options } = Demo::parse_from(words);
-        let scene = options.scene().unwrap();
-        for seed in seeds.clone() {
-            options.seed = seed;
-            let summary = Summary::new(&run_on_host(&options, &scene).unwrap());
-            println!("{device}, {model}, seed {seed}: {:?}", summary.rows());
-            assert!(summary.fault.is_none() && summary.touches > 0, "{device}, {model}, seed {seed}: {summary}");
-            assert!(summary.largest_force > 1.0, "{device}, {model}, seed {seed}: {summary}");
-        }
-    }
-}
-
-#[test]
-fn the_protected_demo_is_felt_and_no_alarm() {
-    demos("woodenhaptics-2016", &MODELS[..1], 1..=3);
-    demos("phantom-premium", &MODELS[..1], 1..=3);
-}
-
-#[test]
-fn the_protected_demo_of_an_ellipsoid_is_felt_and_no_alarm() {
-    demos("phantom-premium", &MODELS[1..], 1..=1);
-}
-
-/// The plants of these two take longer.
-#[test]
-fn the_protected_demo_of_polhem_is_felt_and_no_alarm() {
-    demos("polhem-v2", &MODELS[..1], 1..=1);
-}
-
-#[test]
-fn the_protected_demo_of_the_falcon_is_felt_and_no_alarm() {
-    demos("falcon", &MODELS[..1], 1..=1);
-}
-
-#[test]
-#[ignore = "a minute: every device, model and seed"]
-fn every_protected_demo_is_felt_and_no_alarm() {
-    for device in ["woodenhaptics-2016", "polhem-v2", "phantom-premium", "falcon"] {
-        demos(device, &MODELS, 1..=3);
-    }
 }

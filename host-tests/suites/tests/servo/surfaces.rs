@@ -6,7 +6,7 @@ use palpate::patch::{
 };
 
 /// A level wall through the origin, felt from above.
-pub use palpate_tool::wall::WALL;
+pub use palpate_sim::wall::WALL;
 
 /// A ball's cap with its top in the origin, by stereographic projection from the opposite pole: `(u, v) ∈ [0, 1]²` is a
 /// square around the top.

@@ -1,8 +1,8 @@
 //! Which velocity estimator: noise against delay on quantised motion, and what each does for the stiffest wall.
 
 use palpate::device::{VelocityEstimator, VelocityMethod};
-use palpate_tool::devices::named;
-use palpate_tool::zwidth::{Loop, Slice, max_stiffness};
+use palpate_sim::devices::named;
+use palpate_sim::zwidth::{Loop, Slice, max_stiffness};
 use std::f64::consts::TAU;
 
 const RATE: f64 = 4_000.0;

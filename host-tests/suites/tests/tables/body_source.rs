@@ -4,12 +4,10 @@ use palpate_bake::source::{Origin, body_source};
 use palpate_bake::{BakedBody, Model, graph};
 use std::error::Error;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// The source of a body with rational faces, planes, ruled separators and poles, as firmware takes it.
 mod compiled {
-    include!("../data/half_ball.rs");
+    include!("../../data/half_ball.rs");
 }
 
 /// The upper half of a ball on a disc: four octants with a pole, and a bottom of four sectors with one.
@@ -52,12 +50,11 @@ fn baked() -> Result<(String, BakedBody), Box<dyn Error>> {
 #[test]
 fn the_compiled_source_has_the_bits_of_the_baked_body() -> Result<(), Box<dyn Error>> {
     let (source, body) = baked()?;
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/half_ball.rs");
+    let file = palpate_suites::data("half_ball.rs");
     if std::env::var_os("PALPATE_WRITE").is_some() {
         fs::write(&file, &source)?;
     }
-    let again =
-        "tests/data/half_ball.rs has drifted: PALPATE_WRITE=1 cargo test -p palpate-tool --test tables body_source";
+    let again = "data/half_ball.rs has drifted: PALPATE_WRITE=1 cargo test -p palpate-suites --test tables body_source";
     assert!(fs::read_to_string(file)? == source, "{again}");
     assert_eq!(baked()?.0, source, "the same to the byte");
     let crc = body.to_body()?.table_crc();
@@ -72,16 +69,12 @@ fn the_compiled_source_has_the_bits_of_the_baked_body() -> Result<(), Box<dyn Er
     Ok(())
 }
 
-fn model(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{name}.toml"))
-}
-
 #[test]
 fn the_graph_has_the_transitions_of_the_features() -> Result<(), Box<dyn Error>> {
     // A box: each of 12 edges between 2 faces and 2 vertices. Smooth: each of 12 edges a handing over between two
     // faces.
     for (name, transitions, vertices) in [("thin_plate", 12 * 4, 8), ("sphere_body", 12, 0)] {
-        let body = BakedBody::new(&Model::read(&model(name))?, name)?;
+        let body = BakedBody::new(&palpate_suites::model(name), name)?;
         let labels: Vec<_> = (0..6).map(|face| format!("the \"{face}\"\n")).collect();
         let text = graph::graph(&body, name, &labels);
         assert_eq!(text.matches(" -- ").count(), transitions, "{text}");
@@ -89,66 +82,5 @@ fn the_graph_has_the_transitions_of_the_features() -> Result<(), Box<dyn Error>>
         assert_eq!(text.matches("shape = box").count(), 6);
         assert!(text.contains(r#"label = "the \"3\" ""#), "{text}");
     }
-    Ok(())
-}
-
-#[test]
-fn bake_writes_source_graph_and_bytes() -> Result<(), Box<dyn Error>> {
-    let directory = tempfile::tempdir()?;
-    let [out, dot] = ["plate.rs", "plate.dot"].map(|name| directory.path().join(name));
-    let mut bake = Command::new(env!("CARGO_BIN_EXE_palpate"));
-    let run = bake.arg("bake").arg(model("thin_plate")).arg("--out").arg(&out).arg("--graph").arg(&dot);
-    let run = run.arg("--table-report").output()?;
-    assert_eq!(run.status.code(), Some(0), "certified: {}", String::from_utf8_lossy(&run.stderr));
-    let source = fs::read_to_string(out)?;
-    assert!(source.starts_with("// Baked table, not for editing: palpate bake thin_plate.toml --out plate.rs\n"));
-    assert!(source.contains("pub static BODY: palpate::body::Body") && source.contains("pub const TABLE_CRC: u32 = "));
-    syn::parse_file(&source)?;
-    assert!(fs::read_to_string(dot)?.starts_with("graph \"thin-plate\" {"));
-    let report = String::from_utf8_lossy(&run.stdout);
-    // 6 faces of 4 points, 12 lines of 2, all of 3 numbers; all separators are planes; one pair of borders.
-    for line in [
-        "coefficients          288",
-        "curves                288",
-        "separators              0",
-        "borders                 8",
-    ] {
-        assert!(report.contains(line), "{report}");
-    }
-    Ok(())
-}
-
-/// What `bake` writes, with so many threads.
-fn baked_source(name: &str, threads: &str) -> Result<(String, String), Box<dyn Error>> {
-    let directory = tempfile::tempdir()?;
-    let out = directory.path().join("out.rs");
-    let mut bake = Command::new(env!("CARGO_BIN_EXE_palpate"));
-    let run = bake.arg("bake").arg(model(name)).arg("--out").arg(&out).arg("--table-report");
-    let run = run.env("RAYON_NUM_THREADS", threads).output()?;
-    Ok((fs::read_to_string(out)?, String::from_utf8(run.stdout)?))
-}
-
-#[test]
-fn bake_writes_the_locator_the_same_on_any_number_of_cores() -> Result<(), Box<dyn Error>> {
-    let (source, report) = baked_source("capped_box", "1")?;
-    assert!(baked_source("capped_box", "3")?.0 == source);
-    let model = Model::read(&model("capped_box"))?;
-    let body = BakedBody::new(&model, "capped_box")?;
-    let options = body.locator_options();
-    let (body, located) = body.located(&options, &|_, _| ())?;
-    assert!(source.contains(&format!("pub const TABLE_CRC: u32 = {};", body.to_body()?.table_crc())));
-    assert!(body.locator.nodes.len() > 10, "{}", body.locator.nodes.len());
-    let row = |kind: &str| -> Result<usize, Box<dyn Error>> {
-        let line = report.lines().find(|line| line.trim_start().starts_with(kind)).ok_or(report.clone())?;
-        let number = line.trim_start()[kind.len()..].split_whitespace().next().ok_or("no number")?;
-        Ok(number.parse()?)
-    };
-    // The whole box in 8 KiB.
-    assert!(row("all")? <= 8192, "{report}");
-    assert_eq!(row("locator leaves")?, located.leaves);
-    let counts = located.leaves_by;
-    assert_eq!([row("proved")?, row("convex")?, row("sampled")?, row("deep")?].iter().sum::<usize>(), located.leaves);
-    assert_eq!((counts.sampled, counts.deep), (0, 0), "{report}");
-    assert_eq!(row("cold start")?, 32);
     Ok(())
 }

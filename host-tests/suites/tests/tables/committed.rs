@@ -6,9 +6,6 @@ use palpate_bake::source::{self, Origin};
 use palpate_bake::survey::Survey;
 use palpate_bake::{BakedPatch, Model};
 use std::error::Error;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// Metres: how far probes may be over a patch.
 const RANGE: f64 = 0.03;
@@ -18,38 +15,9 @@ mod table1c {
     include!("../../../../boards/bodies/table1c.rs");
 }
 
-fn host_folder() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-#[test]
-fn the_committed_tables_are_what_bake_makes_of_their_models() -> Result<(), Box<dyn Error>> {
-    // Usable, not certified, ends with 1; proved throughout, with 0.
-    for (name, code) in [("table1c", 1), ("ellipsoid", 1), ("capped_box", 0)] {
-        let directory = tempfile::tempdir()?;
-        let out = directory.path().join(name).with_extension("rs");
-        let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
-            .arg("bake")
-            .arg(host_folder().join("../models").join(name).with_extension("toml"))
-            .arg("--out")
-            .arg(&out)
-            .output()?;
-        assert_eq!(run.status.code(), Some(code), "{}", String::from_utf8_lossy(&run.stderr));
-        let committed = fs::read_to_string(host_folder().join("../../boards/bodies").join(name).with_extension("rs"))?;
-        assert!(
-            fs::read_to_string(out)? == committed,
-            "boards/bodies/{name}.rs has drifted: \
-             cargo palpate bake host-tests/models/{name}.toml --out boards/bodies/{name}.rs"
-        );
-        let left: Vec<_> = fs::read_dir(&directory)?.collect();
-        assert_eq!(left.len(), 1, "no partial file is left");
-    }
-    Ok(())
-}
-
 #[test]
 fn the_compiled_table_has_the_bits_of_the_baked_patch() -> Result<(), Box<dyn Error>> {
-    let model = Model::read(&host_folder().join("../models/table1c.toml"))?;
+    let model = palpate_suites::model("table1c");
     let patch = BakedPatch::new(&model.patches[0])?.to_patch()?;
     let compiled: &SplinePatch = &table1c::PATCHES[0];
     assert_eq!(table1c::PATCHES.len(), model.patches.len());
@@ -151,7 +119,7 @@ fn the_shapes_of_the_models_are_proved_as_they_are_known() -> Result<(), Box<dyn
         ("table1c", None, "convex: up to rounding"),
         ("table1", None, "convex: no"),
     ] {
-        let parsed = Model::read(&host_folder().join(format!("../models/{name}.toml")))?;
+        let parsed = palpate_suites::model(name);
         let baked = BakedPatch::new(&parsed.patches[0])?;
         let survey = Survey::new(&parsed.patches[0], &baked, RANGE);
         assert!(survey.convexity.to_string().starts_with(convexity), "{name}: {}", survey.convexity);
@@ -185,16 +153,6 @@ fn units_agree() -> Result<(), Box<dyn Error>> {
     let metres = in_unit("m", 0.25)?.patches;
     assert_eq!(in_unit("cm", 25.0)?.patches, metres);
     assert_eq!(in_unit("mm", 250.0)?.patches, metres);
-    Ok(())
-}
-
-#[test]
-fn check_says_usable_and_not_certified() -> Result<(), Box<dyn Error>> {
-    let file: &Path = &host_folder().join("../models/table1.toml");
-    let run = Command::new(env!("CARGO_BIN_EXE_palpate")).arg("check").arg(file).output()?;
-    let report = String::from_utf8_lossy(&run.stdout);
-    assert_eq!(run.status.code(), Some(1));
-    assert!(report.contains("usable, not certified") && report.contains("C1,C1") && report.contains("3x3"), "{report}");
     Ok(())
 }
 

@@ -1,10 +1,8 @@
 //! From a model file to the tables: what comes out, and what is refused.
 
-mod body_file;
 mod body_source;
 mod committed;
 mod flaws;
-mod from_cad;
 mod models;
 mod random_patches;
 mod second_order;

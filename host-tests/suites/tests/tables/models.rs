@@ -6,10 +6,10 @@ use palpate_truth::generate::models;
 use palpate_truth::oracle::OraclePoint;
 use std::error::Error;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../models")
+    palpate_suites::repository("host-tests/models")
 }
 
 #[test]
@@ -19,7 +19,7 @@ fn the_files_are_what_the_generator_makes() -> Result<(), Box<dyn Error>> {
         if std::env::var_os("PALPATE_WRITE").is_some() {
             fs::write(&file, &model.text)?;
         }
-        let again = "PALPATE_WRITE=1 cargo test -p palpate-tool --test tables models";
+        let again = "PALPATE_WRITE=1 cargo test -p palpate-suites --test tables models";
         assert!(fs::read_to_string(&file)? == model.text, "{} has drifted: {again}", model.file);
     }
     Ok(())

@@ -1,10 +1,6 @@
-//! Ways to spoil what lies between patches: each is refused with a message that names file and patches, exit status 2,
-//! no output.
+//! Ways to spoil the seams between patches: each is refused with a message that names file and patches.
 
-use std::error::Error;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use super::spoiled_models::baked;
 
 /// A closed box of 60 × 40 × 20, every patch a line of its own to be replaced.
 const BOX: &[(&str, &str)] = &[
@@ -123,44 +119,24 @@ const SPOILED: &[Case] = &[
     ),
 ];
 
-fn bake(directory: &Path, text: &str) -> Result<(Option<i32>, String, PathBuf), Box<dyn Error>> {
-    let (file, out) = (directory.join("spoiled.toml"), directory.join("out.rs"));
-    fs::write(&file, text)?;
-    let run = Command::new(env!("CARGO_BIN_EXE_palpate")).arg("bake").arg(&file).arg("--out").arg(&out).output()?;
-    Ok((run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned(), out))
-}
-
-fn refused(directory: &Path, text: &str, expected: &str) -> Result<(), Box<dyn Error>> {
-    let (status, message, _) = bake(directory, text)?;
-    assert!(message.contains(expected), "expected {expected:?}, got: {message}");
-    assert!(message.contains("spoiled.toml"), "{message}");
-    assert_eq!(status, Some(2), "{message}");
-    assert_eq!(fs::read_dir(directory)?.count(), 1, "nothing is written: {expected}");
-    Ok(())
+fn refused(text: &str, expected: &str) {
+    let message = baked(text).expect_err(expected);
+    assert!(message.starts_with("spoiled.toml") && message.contains(expected), "expected {expected:?}, got: {message}");
 }
 
 #[test]
-fn patches_that_do_not_fit_are_refused_by_name() -> Result<(), Box<dyn Error>> {
-    let directory = tempfile::tempdir()?;
-    let (status, message, out) = bake(directory.path(), &model(&[], &[]))?;
-    assert_eq!(status, Some(0), "certified: {message}");
-    fs::remove_file(out)?;
+fn patches_that_do_not_fit_are_refused_by_name() {
+    assert_eq!(baked(&model(&[], &[])), Ok(()));
     for (edit, more, expected) in SPOILED {
-        refused(directory.path(), &model(edit, more), expected)?;
+        refused(&model(edit, more), expected);
     }
     println!("{} spoiled bodies refused", SPOILED.len());
-    Ok(())
 }
 
 #[test]
-fn a_body_inside_out_or_without_an_inside_is_refused() -> Result<(), Box<dyn Error>> {
-    let directory = tempfile::tempdir()?;
+fn a_body_inside_out_or_without_an_inside_is_refused() {
     let inside_out = model(&[], &[]).replace("degree =", "flip = true\ndegree =");
-    refused(
-        directory.path(),
-        &inside_out,
-        "closed and inside out (its volume is -4.800e-5 m³): turn `flip` of every patch",
-    )?;
+    refused(&inside_out, "closed and inside out (its volume is -4.800e-5 m³): turn `flip` of every patch");
     // Two sheets over one square that cross in the middle: as much is above as is below.
     let sheet = |z: i32, flip: bool| {
         let row = |x: i32, z: i32| format!("[[{x}, 0, 0], [{x}, 15, {z}], [{x}, 30, 0]]");
@@ -168,5 +144,5 @@ fn a_body_inside_out_or_without_an_inside_is_refused() -> Result<(), Box<dyn Err
         format!("[[patch]]\nname = \"sheet{z}\"\nflip = {flip}\ndegree = [3, 2]\npoints = [{rows}]\n")
     };
     let sheets = format!("name = \"sheets\"\nunit = \"mm\"\n{}{}", sheet(9, false), sheet(-9, true));
-    refused(directory.path(), &sheets, "closed but encloses no volume")
+    refused(&sheets, "closed but encloses no volume");
 }

@@ -2,7 +2,6 @@
 //! variables make its runs long.
 
 mod certificates;
-mod golden;
 mod guarantee;
 mod limits;
 mod pairs;

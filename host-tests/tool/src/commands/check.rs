@@ -3,7 +3,6 @@
 use super::output::print;
 use super::progress;
 use crate::models::ModelFile;
-use crate::rides::{self, Lateness, Rides};
 use clap::Args;
 use palpate::body::EdgeKind;
 use palpate::track::{Integrator, PerformanceLimits};
@@ -13,6 +12,7 @@ use palpate_bake::flaws::{self, Flaw};
 use palpate_bake::locator::LocatorOptions;
 use palpate_bake::survey::{Regularity, Survey, Verdict};
 use palpate_bake::{BakedBody, Model, Unit};
+use palpate_truth::rides::{self, Lateness, Rides};
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -2,11 +2,11 @@
 
 use super::output::{print, write_whole};
 use super::progress;
-use crate::closest::Status;
 use crate::models::ModelFile;
 use crate::queries;
 use crate::reach::Reach;
 use clap::{Args, ValueEnum};
+use palpate_truth::closest::Status;
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -6,14 +6,13 @@ use crate::commission::{
     Device, EmulatedLine, Finding, HostLine, Key, KeyHeld, Keyboard, Lab, Line, NoKey, Person, Planted, PlantedFault,
     PortLine, RATE, SimulatedHands, World, Zero, angle, begin_within, calibration, find, find_mounting,
 };
-use crate::devices;
 use crate::firmware::{Board, Choice, Program, Progress};
 use crate::knob;
-use crate::own::{self, DeviceFile, HomingEntry, OwnDevice};
 use anyhow::{Context, bail};
 use clap::Args;
 use palpate::commission::{Calibration, JogRefusal};
 use palpate::wire::{Calibrated, Reading};
+use palpate_sim::devices::{self, DeviceFile, HomingEntry, OwnDevice};
 use palpate_sim::plant::DialSettings;
 use std::io::{IsTerminal, Write as _, stdout};
 use std::path::PathBuf;
@@ -209,7 +208,7 @@ fn lab(arguments: &Arguments, own: &OwnDevice) -> anyhow::Result<Lab> {
         Some(board) => {
             let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
             let settings = folder.path().join("settings.rs");
-            std::fs::write(&settings, own::settings_source(own, RATE))?;
+            std::fs::write(&settings, devices::settings_source(own, RATE))?;
             let choice = Choice { board, settings: Some(settings), ..Choice::default() };
             let program = Program::prepare_with(&choice, "bench", &[], &Progress::new())?;
             Box::new(EmulatedLine::start(program, &world)?)

@@ -1,9 +1,9 @@
 //! `palpate device`: the file of one's own device as the library's constant; the file of one that ships, to begin with.
 
 use crate::devices;
-use crate::own::{OwnDevice, source};
 use anyhow::{Context, bail};
 use clap::Args;
+use palpate_sim::devices::{OwnDevice, source};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -7,13 +7,13 @@ use crate::feel::table::Worst;
 use crate::feel::{Row, Wish, plot, rows, table};
 use crate::models::ModelFile;
 use crate::report::write_sections;
-use crate::zwidth::Slice;
 use anyhow::{Context, ensure};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use palpate::servo::Rendering;
 use palpate::servo::recommended::{self, Recommended};
 use palpate_sim::feel::{BANDS, Threshold, recorded};
+use palpate_sim::zwidth::Slice;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

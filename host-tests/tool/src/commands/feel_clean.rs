@@ -2,10 +2,10 @@
 
 use crate::devices::ShippedDevice;
 use crate::feel::{Clean, ENCODERS, RATES, TRIED, Wish, clean_stiffness, plot, slice};
-use crate::zwidth::in_words;
 use anyhow::Context;
 use palpate::device::VelocityMethod;
 use palpate_sim::feel::Threshold;
+use palpate_sim::zwidth::in_words;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;

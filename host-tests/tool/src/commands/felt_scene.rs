@@ -4,7 +4,6 @@ use super::progress;
 use crate::drawing::View;
 use crate::models::ModelFile;
 use crate::page::{RecordedBody, RecordedScene};
-use crate::preset::Limits as DeviceLimits;
 use anyhow::Context;
 use glam::DVec3;
 use palpate::body::Body;
@@ -14,6 +13,7 @@ use palpate::scene::{Limits, Motion, Scene};
 use palpate::track::Placement;
 use palpate_bake::source::{Origin, body_source};
 use palpate_bake::{BakedBody, Model};
+use palpate_sim::devices::preset::Limits as DeviceLimits;
 use palpate_sim::scene::{SceneFile, Shape, source};
 use std::path::Path;
 

@@ -1,17 +1,19 @@
 //! `palpate zwidth`: the greatest stiffness against damping, for a device, its rates and delays.
 
+mod plot;
 mod summary;
 mod sweeping;
 
+use plot::plot;
 use sweeping::{best, sweep_with_bar};
 
 use crate::devices::{self, DEVICES, ShippedDevice};
-use crate::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words, plot};
 use anyhow::Context;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use palpate::device::VelocityMethod;
 use palpate::render::Ease;
+use palpate_sim::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words};
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -2,8 +2,8 @@
 
 use super::finding::differs;
 use super::{Finding, Lab, Zero};
-use crate::own::{DeviceFile, HomingEntry, JointEntry};
 use anyhow::bail;
+use palpate_sim::devices::{DeviceFile, HomingEntry, JointEntry};
 use std::f64::consts::TAU;
 
 /// How far each joint is turned from the middle of the workspace, either way, rad.

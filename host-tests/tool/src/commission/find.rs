@@ -5,8 +5,8 @@ use super::motors::find_motors;
 use super::ramp::most;
 use super::torques::find_torques;
 use super::{Finding, Lab, Zero};
-use crate::own::{DeviceFile, HomingEntry, OwnDevice};
 use anyhow::Context;
+use palpate_sim::devices::{DeviceFile, HomingEntry, OwnDevice};
 
 /// Measures a device and writes what it finds into its file. What is within what a measurement can tell stays as it is.
 ///

@@ -1,9 +1,9 @@
 //! What was measured, as the device keeps it.
 
-use crate::own::{HomingEntry, OwnDevice};
-use crate::preset::Preset;
 use palpate::commission::{Calibration, JointCalibration};
 use palpate::device::{Device, ZeroOf};
+use palpate_sim::devices::preset::Preset;
+use palpate_sim::devices::{HomingEntry, OwnDevice};
 
 /// What a device of three joints keeps of a file; `None` of one with fewer.
 pub fn calibration(own: &OwnDevice) -> Option<Calibration<3>> {

@@ -3,8 +3,8 @@
 use super::encoders::angle;
 use super::ramp::{Growth, grow};
 use super::{Finding, Lab};
-use crate::own::DeviceFile;
 use anyhow::{Context, bail};
+use palpate_sim::devices::DeviceFile;
 
 /// What is taken for motion, rad: many counts, and little for whoever holds the rest.
 const MOVED: f64 = 0.01;

@@ -1,9 +1,6 @@
 //! The loop of the boards, compiled for the host, on a simulated board.
 
 use super::{Line, RATE, World};
-use crate::own::{HomingEntry, OwnDevice};
-use crate::preset::Preset;
-use crate::wall::WALL;
 use anyhow::{Context as _, bail};
 use palpate::commission::Wiring;
 use palpate::device::{Counts, Device, Duty, Homing, Kinematics, Protection, Reference};
@@ -16,6 +13,9 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Watchdog};
 use palpate_shelf::{Found, KeptCalibration, PretendedFlash};
+use palpate_sim::devices::preset::Preset;
+use palpate_sim::devices::{HomingEntry, OwnDevice};
+use palpate_sim::wall::WALL;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -2,8 +2,8 @@
 
 use super::Lab;
 use super::device::said;
-use crate::own::OwnDevice;
 use anyhow::bail;
+use palpate_sim::devices::OwnDevice;
 
 /// The greatest share of full duty that is tried: a little less than a device allows, which is four tenths, or what the
 /// motor that bears least bears for ever. Which motor is where is not known yet.

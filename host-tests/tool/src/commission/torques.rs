@@ -13,8 +13,8 @@ use super::finding::differs;
 use super::motors::away;
 use super::ramp::{Growth, duty, grow, most};
 use super::{Finding, Lab};
-use crate::own::{DeviceFile, OwnDevice};
 use anyhow::{Context as _, bail};
+use palpate_sim::devices::{DeviceFile, OwnDevice};
 use std::f64::consts::TAU;
 
 /// What the weight loads a joint with, as a share of what its motor gives by its data sheet: as much as this, and as

@@ -6,10 +6,10 @@
 
 use super::rows::{Wish, slide};
 use crate::devices::ShippedDevice;
-use crate::zwidth::{Loop, Slice, max_stiffness};
 use palpate::device::VelocityMethod;
 use palpate::servo::Rendering;
 use palpate_sim::feel::{RunError, Threshold};
+use palpate_sim::zwidth::{Loop, Slice, max_stiffness};
 
 /// Servo rates, Hz.
 pub const RATES: [f32; 5] = [1_000.0, 2_000.0, 4_000.0, 8_000.0, 10_000.0];

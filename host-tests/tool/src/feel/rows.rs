@@ -1,8 +1,6 @@
 //! Every script on a device.
 
 use crate::devices::ShippedDevice;
-use crate::preset::Preset;
-use crate::zwidth::Slice;
 use anyhow::Context;
 use palpate::body::Body;
 use palpate::device::{Device, Encoder, Kinematics};
@@ -10,8 +8,10 @@ use palpate::math::Vec3;
 use palpate::render::{Friction, Material};
 use palpate::servo::{Rendering, Servo, Settings, Surface};
 use palpate::track::Controller;
+use palpate_sim::devices::preset::Preset;
 use palpate_sim::feel::{Deed, Figures, Script, Sensation, Stage, Threshold, over_edges, record, wall};
 use palpate_sim::plant::{HandSettings, PlantSettings};
+use palpate_sim::zwidth::Slice;
 
 /// Friction of the wall where the hand pulls on the verge of slipping.
 const FRICTION: Friction = Material::WOOD.friction;

@@ -1,9 +1,14 @@
 //! What the tool's commands take, refuse and print.
 
+mod baking;
+mod body_file;
 mod cache;
 mod figures;
+mod from_cad;
+mod golden;
 mod installed;
 mod outside;
+mod protected_demo;
 mod queries;
 mod race;
 mod talking;

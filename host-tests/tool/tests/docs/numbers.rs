@@ -28,8 +28,9 @@ fn is_made(claim: &str, template: &str) -> bool {
 
 /// The claims of all tests: every literal that a call of `measured` or what leads to one could have.
 fn templates() -> Vec<String> {
-    let files = ["tests", "src"].iter().flat_map(|folder| sources(&format!("host-tests/tool/{folder}")));
-    let sources: Vec<String> = files.chain(sources("host-tests/truth")).chain(sources("host-tests/bake")).collect();
+    let crates = ["bake", "sim", "suites", "tool", "truth"];
+    let sources = crates.iter().flat_map(|folder| sources(&format!("host-tests/{folder}")));
+    let sources: Vec<String> = sources.collect();
     let texts = sources.iter().map(|file| text(file)).filter(|text| text.contains("measured"));
     let literals = |text: String| text.split('"').skip(1).map(str::to_owned).collect::<Vec<_>>();
     texts.flat_map(literals).filter(|literal| literal.len() > 10 && !literal.contains('\n')).collect()

@@ -4,14 +4,13 @@ use crate::running::is_wanted;
 use palpate::servo::{Fault, Phase};
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::{Calibrated, Record, Sensors, Told};
+use palpate_sim::devices::{self, OwnDevice};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, Vector};
 use palpate_tool::commission::{
     Device, EmulatedLine, KeyHeld, Lab, Planted, PlantedFault, RATE, SimulatedHands, World, Zero, calibration,
     find_mounting,
 };
-use palpate_tool::devices;
 use palpate_tool::firmware::{Choice, Link as _, Program, Progress};
-use palpate_tool::own::{self, OwnDevice};
 use std::io::Read as _;
 use std::process::Command;
 
@@ -92,7 +91,7 @@ fn a_board_whose_device_is_not_what_it_was_built_for_runs_right_once_it_keeps_wh
     let planted = faults.iter().fold(Planted::sound(shipped.plant), |planted, fault| planted.with(*fault));
     let folder = tempfile::tempdir().expect("a folder");
     let settings = folder.path().join("settings.rs");
-    std::fs::write(&settings, own::settings_source(&own, RATE)).expect("it is written");
+    std::fs::write(&settings, devices::settings_source(&own, RATE)).expect("it is written");
     let choice = Choice { settings: Some(settings), ..Choice::default() };
     let built = || Program::prepare_with(&choice, "bench", &[], &Progress::new()).expect("it builds");
     // As it was built.

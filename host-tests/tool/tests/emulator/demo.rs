@@ -84,7 +84,7 @@ fn a_scene_that_moves_is_felt_alike_on_the_host_and_every_board() {
 
 /// The rates at which a part from CAD is tried, from the first on, with the fault of each, and the last run's figures.
 fn felt(part: &str, first: f32) -> (Vec<(f32, Option<Fault>)>, Summary) {
-    let model = format!("{}/tests/data/{part}.toml", env!("CARGO_MANIFEST_DIR"));
+    let model = format!("{}/../suites/data/{part}.toml", env!("CARGO_MANIFEST_DIR"));
     let Demo { options } = Demo::parse_from(["demo", "--model", &model]);
     let mut scene = options.scene().expect("the part's scene");
     options.change_rate(&mut scene, first).expect("a rate");

@@ -1,7 +1,5 @@
 //! A board that is being accepted: it drives nothing, and says what it is asked.
 
-use crate::homing::STOPS;
-use crate::rig::{CLOCK, Made, RATE, SETTINGS, Shared, SimulatedBoard, WALL, World, held_at, settings, wired};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Homing, Reference, SerialArm};
 use palpate::patch::SplinePatch;
@@ -12,6 +10,9 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::accept::{Acceptance, Chip, Examiner, Stopwatch};
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Mailbox, Port, Watchdog};
+use palpate_sim::rig::{
+    CLOCK, Made, RATE, SETTINGS, STOPS, Shared, SimulatedBoard, WALL, World, held_at, settings, wired,
+};
 use palpate_tool::accept::{self, Check, Found, Plan, Report, Surroundings, Verdict, examine, expected, judge};
 use std::collections::VecDeque;
 use std::io::{self, Read, Write};

@@ -7,16 +7,16 @@ use palpate::device::{Counts, Device, Kinematics};
 use palpate::servo::{Fault, Input, Phase, Servo, Settings};
 use palpate::track::Controller;
 use palpate::wire::Calibrated;
+use palpate_sim::devices::{DEVICES, Preset, ShippedDevice};
+use palpate_sim::devices::{HomingEntry, OwnDevice};
 use palpate_sim::plant::{
     Direction, HandSettings, JointSettings, Plant, PlantSettings, TouchingPath, TouchingSettings,
 };
+use palpate_sim::wall::WALL;
 use palpate_tool::commission::{
     Device as Commissioned, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, begin_within,
     calibration, find, find_mounting,
 };
-use palpate_tool::devices::{DEVICES, Preset, ShippedDevice};
-use palpate_tool::own::{HomingEntry, OwnDevice};
-use palpate_tool::wall::WALL;
 use std::cell::RefCell;
 
 const RATE: f64 = 4_000.0;

@@ -1,17 +1,17 @@
 //! A zero that was found and kept, and a board that is reset elsewhere: homed, it has the angles that the joints have.
 
-use crate::rig::{Made, RATE, Rig, SETTINGS, WALL, settings as rig_settings};
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Device as Built, Homing, Reference, SerialArm};
 use palpate::servo::{Phase, ResetReason, Servo};
 use palpate::track::Controller;
 use palpate::wire::Calibrated;
+use palpate_sim::devices;
+use palpate_sim::devices::{HomingEntry, OwnDevice};
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings, StillHand};
+use palpate_sim::rig::{Made, RATE, Rig, SETTINGS, WALL, settings as rig_settings};
 use palpate_tool::commission::{
     Device, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, calibration, find_mounting,
 };
-use palpate_tool::devices;
-use palpate_tool::own::{HomingEntry, OwnDevice};
 use std::f64::consts::TAU;
 
 static BUILT: Built<SerialArm, 3> = DEVICE;

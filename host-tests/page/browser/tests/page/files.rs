@@ -13,7 +13,7 @@ fn a_body_is_taken_and_a_spoiled_one_is_refused_in_the_words_of_the_device() -> 
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
     // One that did not come with the page.
-    palpate(&["bake", "host-tests/tool/tests/data/rounded_box.toml", "--out", &path("own.palp")])?;
+    palpate(&["bake", "host-tests/suites/data/rounded_box.toml", "--out", &path("own.palp")])?;
     let bytes = fs::read(path("own.palp"))?;
     let state = dropped(&page, "own.palp", &bytes)?;
     ensure!(state["name"] == "own" && state["refusal"].is_null(), "{state}");

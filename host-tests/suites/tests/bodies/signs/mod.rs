@@ -8,7 +8,7 @@ mod shapes;
 
 use glam::{DVec2, DVec3};
 use palpate_bake::{BakedBody, Model};
-use palpate_tool::closest::Solver;
+use palpate_truth::closest::Solver;
 use palpate_truth::generate::Random;
 use shapes::{Shape, hull, star};
 

@@ -1,10 +1,10 @@
 //! Every fault that a knob can have, in every phase: it lets go in the same tick.
 
-use super::{SEARCH, dial, knob};
+use super::{SEARCH, dial};
 use palpate::device::{Device, Dial};
 use palpate::servo::{Event, Fault, Output, ResetReason, Safety};
+use palpate_sim::knob::{HostKnob, NAMES, TOLD_OF_SUPPLY, device, servo};
 use palpate_sim::plant::{DialSettings, Fingers, MagneticFault};
-use palpate_tool::knob::{HostKnob, NAMES, TOLD_OF_SUPPLY, device, servo};
 
 /// How a knob comes to a fault.
 enum How {
@@ -126,7 +126,7 @@ fn whatever_goes_wrong_in_whatever_phase_lets_go_in_the_same_tick() {
 fn a_reset_that_is_a_fault_drives_nothing_however_long_the_button_is_held() {
     for fault in Fault::ALL {
         let How::Reset(reason) = how(fault) else { continue };
-        let mut knob = knob(DialSettings::gimbal_knob(), None).reset_by(reason);
+        let mut knob = HostKnob::at(DialSettings::gimbal_knob(), None).reset_by(reason);
         for _ in 0..SEARCH.ticks() + 2_000 {
             knob.tick();
             assert_eq!((knob.state().output(), knob.dial.currents()), (Output::Off, [0.0; 3]), "{fault}");

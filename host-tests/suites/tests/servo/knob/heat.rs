@@ -6,8 +6,8 @@ use palpate::device::{Duty, Endurance, FieldSearch, Protection};
 use palpate::render::{Feel, Spring};
 use palpate::servo::{Guard, Knob, Phase, Servo, Settings};
 use palpate::track::Controller;
+use palpate_sim::knob::{FEELS, HostKnob, LET_GO, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, homing};
 use palpate_sim::plant::{DialSettings, Fingers, PhaseHeat, ThermalSettings};
-use palpate_tool::knob::{FEELS, HostKnob, LET_GO, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, homing};
 use palpate_truth::measured::measured;
 use std::f64::consts::TAU;
 

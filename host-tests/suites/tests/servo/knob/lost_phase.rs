@@ -1,9 +1,8 @@
 //! A phase that is lost while the knob runs. Nothing sees it, so it has to be harmless.
 
-use super::running;
 use palpate::servo::Fault;
+use palpate_sim::knob::{FEELS, HostKnob, NAMES};
 use palpate_sim::plant::{Cogging, DialSettings, Fingers};
-use palpate_tool::knob::{FEELS, NAMES};
 
 /// Full duty of torque as the amplitude of a phase, A: 0.75 A in the scale that keeps the power.
 const FULL: f64 = 0.613;
@@ -18,7 +17,7 @@ fn plain() -> DialSettings {
 #[test]
 fn with_a_phase_lost_the_torque_is_weaker_and_never_turns_its_sign() {
     for phase in 0..3 {
-        let mut knob = running(plain(), None);
+        let mut knob = HostKnob::running(plain(), None);
         // The spring.
         knob.choose(3);
         knob.dial.lose(Some(phase));
@@ -62,7 +61,7 @@ fn with_a_phase_lost_no_dial_runs_away_in_any_feel() {
     let mut stopped = 0;
     for (index, name) in NAMES.into_iter().enumerate().take(FEELS.len()) {
         for phase in 0..3 {
-            let mut knob = running(DialSettings::gimbal_knob(), None);
+            let mut knob = HostKnob::running(DialSettings::gimbal_knob(), None);
             knob.choose(index as u8);
             knob.dial.hold(Fingers::turning(0.7 + 1.2, 0.0));
             knob.ticks(2_000);

@@ -1,6 +1,6 @@
 //! The plot: greatest stiffness against damping, one panel a rate, one curve a delay, the passive bound dashed.
 
-use super::{Limit, Slice};
+use palpate_sim::zwidth::{Limit, Slice};
 use plotters::prelude::*;
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use super::sweeping::{best, sweep_with_bar};
 use crate::devices::DEVICES;
-use crate::zwidth::{Loop, Slice, in_words};
+use palpate_sim::zwidth::{Loop, Slice, in_words};
 
 /// The delay of the simulated devices, periods: a tick's duty takes effect at the next.
 const DELAY: f64 = 1.0;

@@ -1,7 +1,7 @@
 //! The sweep behind a progress bar, and the best of what it finds.
 
-use crate::zwidth::{DAMPINGS, Limit, Loop, Slice, sweep};
 use indicatif::{ProgressBar, ProgressStyle};
+use palpate_sim::zwidth::{DAMPINGS, Limit, Loop, Slice, sweep};
 
 pub(super) fn sweep_with_bar(slice: &Slice, rates: &[f64], delays: &[f64], like: Loop) -> anyhow::Result<Vec<Limit>> {
     let progress = ProgressBar::new((rates.len() * delays.len() * DAMPINGS.len()) as u64);

@@ -1,13 +1,15 @@
 //! Models of whole bodies, exact, as text of model files: those that ship in `host-tests/models` and are written by
-//! `PALPATE_WRITE=1 cargo test -p palpate-tool --test tables models`.
+//! `PALPATE_WRITE=1 cargo test -p palpate-suites --test tables models`.
 
 mod cube_sphere;
+mod cuboid;
 mod octants;
 mod plate;
 mod rounded_box;
 mod rounded_cylinder;
 mod text;
 
+pub use cuboid::{Corner, cuboid, moved};
 pub use rounded_box::rounded_box;
 
 /// A model file that ships.

@@ -11,7 +11,7 @@ const MESHED: [(&str, usize, usize); 3] =
 #[test]
 fn imported_parts_take_a_third_of_the_patches_and_bytes_of_meshed_ones() -> Result<(), Box<dyn Error>> {
     for (part, patches, bytes) in MESHED {
-        let model = format!("{}/tests/data/{part}.toml", env!("CARGO_MANIFEST_DIR"));
+        let model = format!("{}/../suites/data/{part}.toml", env!("CARGO_MANIFEST_DIR"));
         let run = Command::new(env!("CARGO_BIN_EXE_palpate")).args(["parts", &model]).output()?;
         let table = String::from_utf8(run.stdout)?;
         let row: Vec<&str> = table.lines().last().ok_or("no row")?.split('|').map(str::trim).collect();

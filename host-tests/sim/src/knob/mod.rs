@@ -1,0 +1,16 @@
+//! The boards' knob on the host: its loop at the simulated dial.
+
+mod hosted;
+#[path = "../../../../boards/knob.rs"]
+mod shared;
+
+pub use hosted::HostKnob;
+pub use shared::*;
+
+/// Angle of the simulated dial at which its sensor begins to count, radians.
+pub const DIAL_ZERO: f64 = 0.7;
+
+/// The cogging of the simulated dial's motor, as it was recorded and lies in the image.
+pub mod recorded {
+    include!("../../../../boards/emulated/knob_cogging.rs");
+}

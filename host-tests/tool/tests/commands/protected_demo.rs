@@ -1,0 +1,61 @@
+//! The demo with all protection is rendered, and raises no alarm.
+
+use clap::Parser;
+use palpate_tool::commands::options::SceneOptions;
+use palpate_tool::commands::sim::run_on_host;
+use palpate_tool::report::Summary;
+use std::ops::RangeInclusive;
+
+#[derive(Parser)]
+struct Demo {
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+const MODELS: [&str; 2] = ["capped_box", "ellipsoid_body"];
+
+/// Two seconds of the demo with all protection: what the hand needs for its touches.
+fn demos(device: &str, models: &[&str], seeds: RangeInclusive<u64>) {
+    for model in models {
+        let words = ["demo", "--device", device, "--model", model, "--seconds", "2", "--protected"];
+        let Demo { mut options } = Demo::parse_from(words);
+        let scene = options.scene().unwrap();
+        for seed in seeds.clone() {
+            options.seed = seed;
+            let summary = Summary::new(&run_on_host(&options, &scene).unwrap());
+            println!("{device}, {model}, seed {seed}: {:?}", summary.rows());
+            assert!(summary.fault.is_none() && summary.touches > 0, "{device}, {model}, seed {seed}: {summary}");
+            assert!(summary.largest_force > 1.0, "{device}, {model}, seed {seed}: {summary}");
+        }
+    }
+}
+
+#[test]
+fn the_protected_demo_is_felt_and_no_alarm() {
+    demos("woodenhaptics-2016", &MODELS[..1], 1..=3);
+    demos("phantom-premium", &MODELS[..1], 1..=3);
+}
+
+#[test]
+fn the_protected_demo_of_an_ellipsoid_is_felt_and_no_alarm() {
+    demos("phantom-premium", &MODELS[1..], 1..=1);
+}
+
+/// The plants of these two take longer.
+#[test]
+fn the_protected_demo_of_polhem_is_felt_and_no_alarm() {
+    demos("polhem-v2", &MODELS[..1], 1..=1);
+}
+
+#[test]
+fn the_protected_demo_of_the_falcon_is_felt_and_no_alarm() {
+    demos("falcon", &MODELS[..1], 1..=1);
+}
+
+#[test]
+#[ignore = "a minute: every device, model and seed"]
+fn every_protected_demo_is_felt_and_no_alarm() {
+    for device in ["woodenhaptics-2016", "polhem-v2", "phantom-premium", "falcon"] {
+        demos(device, &MODELS, 1..=3);
+    }
+}
