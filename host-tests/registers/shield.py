@@ -1,4 +1,4 @@
-"""A SimpleFOCShield on the Nucleo-G474RE, as docs/knob.md wires it."""
+"""A SimpleFOCShield on the Nucleo-G474RE, as docs/howto/knob.md wires it."""
 
 from __future__ import annotations
 

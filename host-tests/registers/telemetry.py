@@ -1,4 +1,4 @@
-"""What the loop says of itself over its serial port: records, as docs/wire.md has them."""
+"""What the loop says of itself over its serial port: records, as docs/reference/wire.md has them."""
 
 from __future__ import annotations
 

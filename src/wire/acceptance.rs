@@ -1,5 +1,5 @@
 //! What passes between a host and a device that is being accepted, motors disabled: the protocol and what each figure
-//! must be are in `docs/acceptance.md` of the repository.
+//! must be are in `docs/howto/acceptance.md` of the repository.
 
 use serde::{Deserialize, Serialize};
 

@@ -9,7 +9,7 @@
 //! In lockstep the host sends the sensors of tick `n`, the device answers with the report of tick `n`, and only then
 //! comes `n + 1`. A host that has nothing to say in a tick sends an empty frame, so that the device need not wait.
 
-#![doc = include_str!("../../docs/wire.md")]
+#![doc = include_str!("../../docs/reference/wire.md")]
 
 pub mod acceptance;
 mod dialogue;

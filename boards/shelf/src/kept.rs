@@ -115,7 +115,7 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Keeping<F, FACES, EDGE
     fn find(&self, pause: &mut dyn FnMut()) -> Result<(), FileError> {
         // SAFETY: this is main's end, which is there once and cannot be shared; nothing is written now.
         let head = unsafe { self.kept.region.first(12) };
-        // Magic, version, length: docs/body-file.md.
+        // Magic, version, length: docs/reference/body-file.md.
         let length = head.get(8..).and_then(<[u8]>::first_chunk).map_or(0, |bytes| u32::from_le_bytes(*bytes));
         self.check(length, pause)
     }

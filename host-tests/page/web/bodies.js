@@ -20,7 +20,7 @@ export const shipped = (name) => {
 
 const FACE_RECORD = 156;
 
-// docs/body-file.md, FACE and NOTE. The file has been checked: its CRC covers both.
+// docs/reference/body-file.md, FACE and NOTE. The file has been checked: its CRC covers both.
 function notesOf(bytes) {
   const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const faceRecords = section(data, "FACE");

@@ -102,8 +102,8 @@ def test_every_device_feels_the_box(device, capped_box):
 
 
 def device_file(folder, **changes):
-    """The arm in the example of docs/device-format.md, with entries changed."""
-    text = (ROOT / "docs/device-format.md").read_text().split("```toml\n")[1].split("```")[0]
+    """The arm in the example of docs/reference/device-format.md, with entries changed."""
+    text = (ROOT / "docs/reference/device-format.md").read_text().split("```toml\n")[1].split("```")[0]
     head, joint = text.split("[[joint]]")
     kinds = (("-16.0", "16.0", "[-1.6, 1.6]"), ("-12.0", "-12.0", "[-0.8, 2.2]"), ("12.0", "12.0", "[-1.2, 1.8]"))
     joints = [
@@ -196,14 +196,14 @@ def zigzag(number):
 
 
 def frame(record):
-    """COBS(message, CRC-32), 0: by docs/wire.md, not by the library."""
+    """COBS(message, CRC-32), 0: by docs/reference/wire.md, not by the library."""
     message = record + struct.pack("<I", zlib.crc32(record))
     runs = message.split(b"\0")
     return b"".join(bytes([len(run) + 1]) + run for run in runs) + b"\0"
 
 
 def record(tick, gap):
-    """The fields in the order of docs/wire.md: 1 is a record."""
+    """The fields in the order of docs/reference/wire.md: 1 is a record."""
     before = b"".join(map(varint, (1, tick, tick, 25_000_000, 7, 6250, 6251, 1800, 0)))
     state = bytes([3, 0]) + varint(0) + bytes([0]) + varint(0) + varint(0) + bytes([0]) + varint(2) + bytes([0, 2])
     return before + state + struct.pack("<7f", gap, 0.1, 0.2, 0.3, 1.0, 2.0, 3.0) + b"".join(map(zigzag, (-5, 0, 700)))

@@ -16,6 +16,6 @@ pub mod rides;
 mod documents {
     #[doc = include_str!("../../../README.md")]
     struct Readme;
-    #[doc = include_str!("../../../docs/your-device.md")]
+    #[doc = include_str!("../../../docs/howto/your-device.md")]
     struct YourDevice;
 }

@@ -1,4 +1,4 @@
-//! The rows of `docs/measured.md`, held to the tests that measure them.
+//! The rows of `docs/reference/measured.md`, held to the tests that measure them.
 //!
 //! A row is `| claim | value | unit | printed by |`. The test that has the number calls [`measured`] with the row's
 //! claim: it prints the number, and fails if the page says another. With `PALPATE_WRITE` set the page is written anew
@@ -46,7 +46,7 @@ impl Row {
 pub fn page() -> PathBuf {
     let package =
         std::env::var_os("CARGO_MANIFEST_DIR").expect("cargo runs the tests, and says where their package lies");
-    Path::new(&package).join("../../docs/measured.md")
+    Path::new(&package).join("../../docs/reference/measured.md")
 }
 
 /// All rows of the page.
@@ -54,7 +54,7 @@ pub fn page() -> PathBuf {
 /// # Panics
 /// If the page is not there.
 pub fn rows() -> Vec<Row> {
-    fs::read_to_string(page()).expect("docs/measured.md").lines().filter_map(Row::parse).collect()
+    fs::read_to_string(page()).expect("docs/reference/measured.md").lines().filter_map(Row::parse).collect()
 }
 
 /// Prints a number and holds the page's row to it.
@@ -111,14 +111,15 @@ pub fn measured_table(header: &str, rows: impl IntoIterator<Item = String>) {
     let body: String = rows.into_iter().map(|row| line(&row)).collect();
     print!("{head}{body}");
     let _one = WRITING.lock().expect("no writer has failed");
-    let text = fs::read_to_string(page()).expect("docs/measured.md");
-    let (before, rest) = text.split_once(&head).unwrap_or_else(|| panic!("docs/measured.md has no table {header:?}"));
+    let text = fs::read_to_string(page()).expect("docs/reference/measured.md");
+    let (before, rest) =
+        text.split_once(&head).unwrap_or_else(|| panic!("docs/reference/measured.md has no table {header:?}"));
     let after = rest.find("\n\n").map_or("", |end| &rest[end + 1..]);
     let anew = format!("{before}{head}{body}{after}");
     if anew != text {
         assert!(
             env::var_os("PALPATE_WRITE").is_some(),
-            "docs/measured.md has another table {header:?} (PALPATE_WRITE=1 with the same command writes it anew)"
+            "docs/reference/measured.md has another table {header:?} (PALPATE_WRITE=1 with the same command writes it anew)"
         );
         fs::write(page(), anew).expect("the page can be written");
     }
@@ -138,7 +139,7 @@ fn compare(claim: &str, found: &str) {
     println!("{claim}: {found}");
     let Some(row) = rows().into_iter().find(|row| row.claim == claim) else {
         let is_longer = LENGTHS.iter().any(|variable| env::var_os(variable).is_some());
-        assert!(is_longer, "docs/measured.md has no row {claim:?}; the number is {found}");
+        assert!(is_longer, "docs/reference/measured.md has no row {claim:?}; the number is {found}");
         return;
     };
     if row.value == found {
@@ -146,7 +147,7 @@ fn compare(claim: &str, found: &str) {
     }
     assert!(
         env::var_os("PALPATE_WRITE").is_some(),
-        "docs/measured.md says {claim}: {}, and it is {found} (PALPATE_WRITE=1 with the same command writes it anew)",
+        "docs/reference/measured.md says {claim}: {}, and it is {found} (PALPATE_WRITE=1 with the same command writes it anew)",
         row.value
     );
     write(&Row { value: found.to_owned(), ..row });

@@ -4,7 +4,7 @@
 //! The numbers are read where they lie: a body from a file is felt by the same code and at the same cost as one that
 //! was compiled in. Only faces and edges, which refer to their numbers, are built, in a [`BodyBuffer`] that the caller gives.
 //! Everything is checked first, once, in a time that the length of the file bounds. The form of the file is documented
-//! byte by byte in the repository's `docs/body-file.md`.
+//! byte by byte in the repository's `docs/reference/body-file.md`.
 
 mod error;
 mod records;

@@ -6,7 +6,7 @@ use palpate_bench::Felt;
 
 use crate::body::{KnobServo, PROTECTION, SEARCH, device, servo};
 
-/// Its motor's cogging is its own, and recorded over the line: `docs/knob.md`.
+/// Its motor's cogging is its own, and recorded over the line: `docs/howto/knob.md`.
 mod cogging {
     include!("cogging.rs");
 }

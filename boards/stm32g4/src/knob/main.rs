@@ -2,7 +2,7 @@
 //! for force and one that chooses what is felt.
 //!
 //! The loop is that of every board (`boards/bench`), in the interrupt of TIM7; here are this one's pins.
-//! `docs/knob.md` has the wiring; [`body`] is what to change first.
+//! `docs/howto/knob.md` has the wiring; [`body`] is what to change first.
 
 #![no_std]
 #![no_main]

@@ -1,4 +1,4 @@
-//! The frames that `docs/link.md` shows are those that are sent.
+//! The frames that `docs/howto/link.md` shows are those that are sent.
 
 use palpate::scene::{Order, Pose};
 use palpate::wire::frame::{MAX_FRAME, pack};
@@ -27,7 +27,7 @@ const SHOWN: [(&str, Command); 7] = [
 
 #[test]
 fn the_frames_of_the_page_are_those_that_are_sent() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/link.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/howto/link.md");
     let page = std::fs::read_to_string(path).unwrap();
     for (says, command) in SHOWN {
         let mut buffer = [0; MAX_FRAME];
@@ -35,14 +35,14 @@ fn the_frames_of_the_page_are_those_that_are_sent() {
         let bytes: Vec<String> = frame.iter().map(|byte| format!("{byte:02x}")).collect();
         let row = format!("| `{}` | {says} |", bytes.join(" "));
         println!("{row}");
-        assert!(page.contains(&row), "docs/link.md has not the row\n{row}");
+        assert!(page.contains(&row), "docs/howto/link.md has not the row\n{row}");
     }
 }
 
 /// The first block of Python on the page packs the same frames.
 #[test]
 fn the_python_of_the_page_packs_the_same_frames() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/link.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/howto/link.md");
     let page = std::fs::read_to_string(path).unwrap();
     let block = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let code = format!(

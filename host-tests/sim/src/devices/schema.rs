@@ -1,4 +1,4 @@
-//! What stands in a `device.toml`: see `docs/device-format.md`. SI units throughout.
+//! What stands in a `device.toml`: see `docs/reference/device-format.md`. SI units throughout.
 
 use serde::{Deserialize, Serialize};
 

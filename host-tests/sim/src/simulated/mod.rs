@@ -10,6 +10,6 @@ pub use hand::Hand;
 /// The code in the documents: compiled with the doctests.
 #[cfg(doctest)]
 mod documents {
-    #[doc = include_str!("../../../../docs/link.md")]
+    #[doc = include_str!("../../../../docs/howto/link.md")]
     struct Link;
 }

@@ -82,7 +82,7 @@ fn a_scene_of_one_body_at_rest_feels_as_the_body() {
     assert!(worst < 2e-6, "{worst}");
 }
 
-/// What a scene takes in RAM, as docs/scene.md says it.
+/// What a scene takes in RAM, as docs/howto/scenes.md says it.
 #[test]
 fn a_body_of_a_scene_takes_half_a_kilobyte() {
     let sizes = [

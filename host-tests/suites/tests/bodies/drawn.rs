@@ -1,5 +1,5 @@
 //! Rows of successive ticks around ten bodies that nobody tuned anything to: the errors of the distance, as they come
-//! out. The table stands in `docs/measured.md`.
+//! out. The table stands in `docs/reference/measured.md`.
 
 use crate::ring::Ring;
 use glam::DVec3;

@@ -1,6 +1,6 @@
 //! Acceptance of a board: it computes the very bits, in how many cycles, how evenly its ticks come, how well its
 //! sensors answer, and why it was reset. What each figure must be, and how to read one that is not, is in
-//! `docs/acceptance.md`.
+//! `docs/howto/acceptance.md`.
 //!
 //! [`examine`] asks the device, [`expected`] has what the host makes of the same script, [`judge`] compares, and
 //! [`Report`] says it.

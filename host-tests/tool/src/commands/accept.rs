@@ -17,7 +17,7 @@ use std::process::ExitCode;
 /// Accepts a board, motors disabled: the very bits of the host, cycles, rate and jitter, table, sensors, resets.
 ///
 /// The board runs the image of `palpate firmware --board B accept`, which has no way to drive a motor. The report says
-/// what each figure is and must be; docs/acceptance.md has the wiring and how to read a failure.
+/// what each figure is and must be; docs/howto/acceptance.md has the wiring and how to read a failure.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// The serial port the device is on, such as /dev/ttyACM0

@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 /// # Errors
 /// None of a file that was read.
 pub fn toml_of(own: &OwnDevice, head: &str) -> anyhow::Result<String> {
-    Ok(format!("# {head} SI units; see docs/device-format.md.\n\n{}", toml::to_string(&own.file)?))
+    Ok(format!("# {head} SI units; see docs/reference/device-format.md.\n\n{}", toml::to_string(&own.file)?))
 }
 
 fn write(path: &Path, text: &str) -> anyhow::Result<()> {

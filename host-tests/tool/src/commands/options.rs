@@ -36,7 +36,7 @@ const SAFETY: Safety = Safety { link_timeout: 0.1, ..Safety::DEFAULT };
 /// The scene: which surface, which device, how it is to feel, and the hand.
 #[derive(Args, Debug, Clone)]
 pub struct SceneOptions {
-    /// The surface: a model file, the name of a model that ships, or a scene file (docs/scene.md)
+    /// The surface: a model file, the name of a model that ships, or a scene file (docs/howto/scenes.md)
     #[arg(long, default_value = "capped_box")]
     pub model: PathBuf,
     /// One patch of the model, by name or index; without it, all patches joined to a body

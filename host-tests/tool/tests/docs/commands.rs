@@ -1,9 +1,9 @@
-//! `docs/commands.md` lists every command with its options, as the tool's own help has them.
+//! `docs/reference/commands.md` lists every command with its options, as the tool's own help has them.
 
 use crate::pages::{compare, palpate, text};
 use std::fmt::Write as _;
 
-const PAGE: &str = "docs/commands.md";
+const PAGE: &str = "docs/reference/commands.md";
 const HEADER: &str = "| option | default | what it does |\n|---|---|---|\n";
 
 /// The commands that the tool has.

@@ -10,7 +10,7 @@ use palpate_bake::body::{BakedCurve, BakedEdge, BakedFace, BakedSeparator, Baked
 use palpate_bake::{BakedBody, BakedCoefficients, Model, file};
 use std::fmt::Write as _;
 
-const PAGE: &str = "docs/body-file.md";
+const PAGE: &str = "docs/reference/body-file.md";
 
 /// A field as it is documented.
 struct Field {

@@ -1,5 +1,5 @@
 //! The loop's own square root, sine and cosine, and arc tangent beside `libm` and `micromath`: the table in
-//! `docs/measured.md`.
+//! `docs/reference/measured.md`.
 //!
 //! Errors are of a dense sweep on the host, where the same single-precision code gives the same bits; instructions are
 //! the Cortex-M4F's budget, counted in the emulator.
@@ -12,7 +12,7 @@ use palpate_tool::firmware::Board;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
-const PAGE: &str = "docs/measured.md";
+const PAGE: &str = "docs/reference/measured.md";
 const HEADER: &str =
     "| function | library | largest error | instructions, median | instructions, worst |\n|---|---|---|---|---|\n";
 const STEPS: i32 = 1_000_000;

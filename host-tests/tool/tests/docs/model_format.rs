@@ -1,4 +1,4 @@
-//! `docs/model-format.md`: its examples bake, and its messages are those of the tool, all of them.
+//! `docs/reference/model-format.md`: its examples bake, and its messages are those of the tool, all of them.
 
 use crate::pages::{blocks, cells, text};
 use palpate_bake::topology::SeamFault;
@@ -6,7 +6,7 @@ use palpate_bake::{Axis, BakedBody, Model, ModelError, PatchFault};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-const PAGE: &str = "docs/model-format.md";
+const PAGE: &str = "docs/reference/model-format.md";
 
 #[test]
 fn every_example_bakes() {

@@ -1,4 +1,4 @@
-//! `docs/measured.md`: each row is held by a test or a budget, and names a command that is there.
+//! `docs/reference/measured.md`: each row is held by a test or a budget, and names a command that is there.
 
 use crate::pages::{cells, sources, text};
 use palpate_tool::budgets::Budget;
@@ -50,8 +50,9 @@ fn every_row_is_claimed_by_a_test() {
 
 /// The rows of a section.
 fn rows_after(title: &str) -> Vec<Row> {
-    let page = text("docs/measured.md");
-    let section = page.split(title).nth(1).unwrap_or_else(|| panic!("docs/measured.md has no section {title:?}"));
+    let page = text("docs/reference/measured.md");
+    let section =
+        page.split(title).nth(1).unwrap_or_else(|| panic!("docs/reference/measured.md has no section {title:?}"));
     let section = section.split("\n## ").next().unwrap_or_default();
     measured::rows().into_iter().filter(|row| section.contains(&format!("| {} |", row.claim))).collect()
 }
@@ -72,7 +73,7 @@ fn counted_instructions_are_those_of_the_committed_budgets() {
 #[test]
 fn every_command_of_a_row_is_one_that_there_is() {
     let tests: String = sources("host-tests").iter().map(|file| text(file)).collect();
-    let commands = text("docs/commands.md");
+    let commands = text("docs/reference/commands.md");
     for Row { claim, command, .. } in measured::rows() {
         let command = command.trim_matches('`');
         let words: Vec<&str> = command.split_whitespace().skip_while(|word| word.starts_with("PALPATE_")).collect();
@@ -88,12 +89,12 @@ fn every_command_of_a_row_is_one_that_there_is() {
 #[test]
 fn the_models_take_the_bytes_that_were_measured() {
     let rows = measured::rows();
-    let page = text("docs/models.md");
+    let page = text("docs/reference/models.md");
     let mut count = 0;
     for row in page.lines().filter_map(cells).filter(|row| row.len() == 5 && row[2].contains(',')) {
         let claim = format!("flash of the tables of {}", row[0]);
         let measured = rows.iter().find(|row| row.claim == claim).unwrap_or_else(|| panic!("no row {claim:?}"));
-        assert_eq!(row[2], measured.value, "docs/models.md: {}", row[0]);
+        assert_eq!(row[2], measured.value, "docs/reference/models.md: {}", row[0]);
         count += 1;
     }
     assert!(count >= 7, "{count} models");

@@ -14,12 +14,14 @@ pub fn text(path: &str) -> String {
     fs::read_to_string(repository().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
+/// The folders of the book.
+pub const BOOK: [&str; 5] = ["docs", "docs/howto", "docs/reference", "docs/explanation", "docs/figures"];
+
 /// Every page, by its path in the repository.
 pub fn all() -> Vec<String> {
     let mut pages = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(str::to_owned).to_vec();
-    for folder in ["docs", "docs/figures", "boards"] {
-        pages.extend(files(folder, "md"));
-    }
+    pages.extend(BOOK.iter().flat_map(|folder| files(folder, "md")));
+    pages.extend(files("boards", "md"));
     pages.extend(["stm32g4", "pico2", "teensy41"].map(|board| format!("boards/{board}/README.md")));
     pages
 }

@@ -1,4 +1,4 @@
-//! The README: short, its output today's, its figures those of `docs/measured.md`.
+//! The README: short, its output today's, its figures those of `docs/reference/measured.md`.
 
 use crate::pages::{blocks, cells, palpate, text};
 use palpate_truth::measured;
@@ -53,8 +53,12 @@ fn the_headline_figures_are_measured_ones() {
     let rows = page.lines().skip_while(|line| !line.starts_with("| figure |")).skip(2).map_while(cells);
     let wanted = HEADLINES.iter().map(|[title, claim]| {
         let row = measured.iter().find(|row| row.claim == *claim);
-        let row = row.unwrap_or_else(|| panic!("docs/measured.md has no row {claim:?}"));
+        let row = row.unwrap_or_else(|| panic!("docs/reference/measured.md has no row {claim:?}"));
         vec![*title, &row.value, &row.unit]
     });
-    assert_eq!(rows.collect::<Vec<_>>(), wanted.collect::<Vec<_>>(), "left: README.md, right: docs/measured.md");
+    assert_eq!(
+        rows.collect::<Vec<_>>(),
+        wanted.collect::<Vec<_>>(),
+        "left: README.md, right: docs/reference/measured.md"
+    );
 }

@@ -486,7 +486,7 @@ fn every_byte_of_a_frame_is_documented() {
         ],
     );
 
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/wire.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/wire.md");
     let page = fs::read_to_string(&path).expect("the page is there");
     let command = documented(&Command::Acknowledge, &[vars("command", 2)]);
     let jog = Jog { number: 300, key: KEY, motor: 2, duty: -1_200 };
@@ -558,6 +558,6 @@ fn every_byte_of_a_frame_is_documented() {
     if env::var_os("PALPATE_WRITE").is_some() {
         fs::write(&path, &wanted).expect("the page can be written");
     } else {
-        assert!(page == wanted, "docs/wire.md is not what the library sends; it should be:\n{wanted}");
+        assert!(page == wanted, "docs/reference/wire.md is not what the library sends; it should be:\n{wanted}");
     }
 }

@@ -40,7 +40,7 @@ fn a_body_is_taken_and_a_spoiled_one_is_refused_in_the_words_of_the_device() -> 
 #[test]
 fn the_frames_of_a_device_are_read_as_the_wire_has_them() -> anyhow::Result<()> {
     let page = Page::held_still()?;
-    let wire = fs::read_to_string(repository("docs/wire.md"))?;
+    let wire = fs::read_to_string(repository("docs/reference/wire.md"))?;
     let section = wire.split("\n## ").find(|section| section.starts_with("Record")).context("no records")?;
     let frame = section.lines().find_map(|line| line.strip_prefix("Frame: `")).context("no frame")?;
     let frame: Vec<u8> = frame
