@@ -17,9 +17,9 @@ mod tables {
 const HOMING: Homing<3> = Homing::new(
     DEVICE.encoders,
     Reference::Pose(DEVICE.angles_at_zero()),
-    (0.1 * SETTINGS.rate) as u32,
+    (0.1 * SETTINGS.rate_hz) as u32,
     4,
-    (10.0 * SETTINGS.rate) as u32,
+    (10.0 * SETTINGS.rate_hz) as u32,
 )
 .when_asked();
 

@@ -26,17 +26,21 @@ pub type Surface = Scene<'static, Slot<'static, Shelf>, 1>;
 const HOMING: Homing<3> = Homing::new(
     DEVICE.encoders,
     Reference::Pose(DEVICE.angles_at_zero()),
-    (0.1 * SETTINGS.rate) as u32,
+    (0.1 * SETTINGS.rate_hz) as u32,
     4,
-    (10.0 * SETTINGS.rate) as u32,
+    (10.0 * SETTINGS.rate_hz) as u32,
 )
 .when_asked();
 
 static SLOT: Slot<'static, Shelf> = Slot::exchangeable(BODY, &SHELF);
 
 static SCENE: Surface = Scene::new(
-    Limits::of(&DEVICE, SETTINGS.rate),
-    [Part::in_slot(&SLOT, Motion::Resting(Placement::IDENTITY), Material::new(SETTINGS.stiffness, SETTINGS.damping))],
+    Limits::of(&DEVICE, SETTINGS.rate_hz),
+    [Part::in_slot(
+        &SLOT,
+        Motion::Resting(Placement::IDENTITY),
+        Material::new(SETTINGS.stiffness_n_per_m, SETTINGS.damping_n_s_per_m),
+    )],
 );
 
 /// It feels by itself, with a host or without: no host watches. One that orders is better watched

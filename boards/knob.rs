@@ -20,17 +20,17 @@ pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
 /// What its motor bears; the supply is for whoever measures it to add.
 pub const PROTECTION: Protection<1> = GIMBAL_KNOB_PROTECTION;
 /// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
-pub const SUPPLY: SupplyRange = SupplyRange { least: 10_000, most: 14_000 };
+pub const SUPPLY: SupplyRange = SupplyRange { min_mv: 10_000, max_mv: 14_000 };
 
 /// 4 kHz; stiffness and damping are the feels' own.
 pub const SETTINGS: Settings = Settings {
-    rate: 4_000.0,
-    stiffness: 1_000.0,
-    damping: 0.0,
-    max_force: 2.8,
-    velocity_corner: 150.0,
-    soft_start: 0.2,
-    body_origin: Vec3::ZERO,
+    rate_hz: 4_000.0,
+    stiffness_n_per_m: 1_000.0,
+    damping_n_s_per_m: 0.0,
+    max_force_n: 2.8,
+    velocity_corner_hz: 150.0,
+    soft_start_s: 0.2,
+    body_origin_m: Vec3::ZERO,
 };
 
 /// The device, with the cogging of its motor if that has been recorded.
@@ -39,8 +39,13 @@ pub const fn device(cogging: Option<CoggingMap>) -> Device<Dial, 1> {
 }
 
 /// The field comes up within a fifth of a second and is led round three electrical turns, half a second each.
-pub const SEARCH: FieldSearch =
-    FieldSearch { commutation: GIMBAL_KNOB_COMMUTATION, torque: 0.03, ramp_ticks: 800, turn_ticks: 2_000, turns: 1 };
+pub const SEARCH: FieldSearch = FieldSearch {
+    commutation: GIMBAL_KNOB_COMMUTATION,
+    torque_n_m: 0.03,
+    ramp_ticks: 800,
+    turn_ticks: 2_000,
+    turns: 1,
+};
 
 /// How the rotor is led round while button and key are held, to record its cogging: 6 s for an electrical turn, with 40
 /// mN·m. Faster, its inertia would count as cogging. It snaps to the field at first, so it may be faster for a moment.
@@ -52,12 +57,13 @@ pub const JOG: JogSettings =
 #[allow(dead_code)]
 pub const fn led_torque(share: f32) -> f32 {
     match GIMBAL_KNOB.feeds[0] {
-        Feed::Voltage(feed) => feed.torque_constant * share * feed.supply / feed.resistance,
+        Feed::Voltage(feed) => feed.torque_constant_n_m_per_a * share * feed.supply_v / feed.resistance_ohm,
         Feed::Current => 0.0,
     }
 }
 // No heat is counted meanwhile: what may be given is what the motor bears for ever.
-const _: () = assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full);
+const _: () =
+    assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full_n_m);
 
 /// A sensor that says the very same for a quarter of a second has frozen.
 pub const FROZEN: Frozen = Frozen::after(1_000);
@@ -70,7 +76,11 @@ const PITCH: f32 = core::f32::consts::TAU / 24.0;
 
 /// The feels, in the order of [`NAMES`].
 pub static FEELS: [Feel; 6] = [
-    Feel { detents: Some(Wave { pitch: PITCH, torque: 0.03, centre: 0.0 }), damping: 6e-4, ..Feel::FREE },
+    Feel {
+        detents: Some(Wave { pitch_rad: PITCH, torque_n_m: 0.03, centre_rad: 0.0 }),
+        damping_n_m_s_per_rad: 6e-4,
+        ..Feel::FREE
+    },
     Feel {
         clicks: Some(Detents {
             pitch: PITCH,
@@ -84,9 +94,20 @@ pub static FEELS: [Feel; 6] = [
         }),
         ..Feel::FREE
     },
-    Feel { texture: Some(Wave { pitch: PITCH / 6.0, torque: 0.01, centre: 0.0 }), damping: 6e-4, ..Feel::FREE },
-    Feel { spring: Some(Spring { stiffness: 0.06, rest: 0.0, most: 0.04 }), damping: 4e-4, ..Feel::FREE },
-    Feel { ends: Some(Ends { between: [-1.0, 1.0], stiffness: 1.2, damping: 1.5e-3 }), ..Feel::FREE },
+    Feel {
+        texture: Some(Wave { pitch_rad: PITCH / 6.0, torque_n_m: 0.01, centre_rad: 0.0 }),
+        damping_n_m_s_per_rad: 6e-4,
+        ..Feel::FREE
+    },
+    Feel {
+        spring: Some(Spring { stiffness_n_m_per_rad: 0.06, rest_rad: 0.0, max_torque_n_m: 0.04 }),
+        damping_n_m_s_per_rad: 4e-4,
+        ..Feel::FREE
+    },
+    Feel {
+        ends: Some(Ends { between_rad: [-1.0, 1.0], stiffness_n_m_per_rad: 1.2, damping_n_m_s_per_rad: 1.5e-3 }),
+        ..Feel::FREE
+    },
     Feel::FREE,
 ];
 
@@ -121,7 +142,7 @@ pub fn widths(servo: &KnobServo, state: &KnobState, modulation: &Modulation) -> 
 
 /// Of a SimpleFOCShield at 25 kHz and 12 V: half a microsecond of dead time, and a ripple as large as the current of
 /// 0.23 V.
-pub const MODULATION: Modulation = Modulation { dead_share: 0.0125, ripple_share: 0.019 };
+pub const MODULATION: Modulation = Modulation { dead_fraction: 0.0125, ripple_fraction: 0.019 };
 
 /// What is told of a tick over a link, with the widths in the place of duties: −32,767 to 32,767 for none to all of a
 /// period, and −32,768 for a stage that is disabled.

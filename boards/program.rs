@@ -59,7 +59,8 @@ mod chosen {
         /// Runs it.
         pub fn run(self) -> ! {
             let Self { messages, mut port, start, .. } = self;
-            let idle = Idle::new(&MAILBOX, messages, Heartbeat::default()).saying(SETTINGS.rate, SETTINGS.max_force);
+            let idle =
+                Idle::new(&MAILBOX, messages, Heartbeat::default()).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
             #[cfg(feature = "host")]
             let ends = crate::host::ends();
             #[cfg(feature = "host")]

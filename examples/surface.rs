@@ -40,17 +40,22 @@ static SERVO: Servo<'static, SplinePatch, SerialArm, 3> = Servo::new(
     &PATCH,
     Controller::SECOND_ORDER,
     Settings {
-        rate: 4_000.0,
-        stiffness: 800.0,
-        damping: 2.0,
-        max_force: 4.0,
-        velocity_corner: 200.0,
-        soft_start: 0.2,
-        body_origin: vec3(0.0, 0.0, 0.0),
+        rate_hz: 4_000.0,
+        stiffness_n_per_m: 800.0,
+        damping_n_s_per_m: 2.0,
+        max_force_n: 4.0,
+        velocity_corner_hz: 200.0,
+        soft_start_s: 0.2,
+        body_origin_m: vec3(0.0, 0.0, 0.0),
     },
 )
 .rendering(Rendering {
-    friction: Some(Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 }),
+    friction: Some(Friction {
+        stiffness_n_per_m: 500.0,
+        damping_n_s_per_m: 1.0,
+        static_coefficient: 0.4,
+        dynamic_coefficient: 0.3,
+    }),
     ..Rendering::PLAIN
 })
 .safety(Safety { output: SafeOutput::Damping(2.0), ..Safety::DEFAULT });

@@ -10,7 +10,7 @@ impl Wheel {
     fn turn(&mut self, duty: Duty, finger: f32) {
         const INERTIA: f32 = 2e-5;
         const FRICTION: f32 = 2e-3;
-        let torque = duty.fraction() * MOTOR.torque_at_full + finger - FRICTION * self.speed;
+        let torque = duty.fraction() * MOTOR.torque_at_full_n_m + finger - FRICTION * self.speed;
         self.speed += torque / INERTIA / RATE;
         self.angle += self.speed / RATE;
     }

@@ -38,14 +38,14 @@ pub struct JointCalibration {
     pub output: u8,
     /// Joint angle a count, radians; negative where the encoder counts the other way.
     pub radians_per_count: f32,
-    /// What `angle_at_zero` is the angle at.
+    /// What `angle_at_zero_rad` is the angle at.
     pub zero_of: ZeroOf,
     /// Joint angle there, radians: in the middle of count zero, in the pose, or at the mark.
-    pub angle_at_zero: f32,
+    pub angle_at_zero_rad: f32,
     /// Joint torque at full duty, N·m; negative where the motor turns the joint the other way.
-    pub torque_at_full: f32,
+    pub torque_at_full_n_m: f32,
     /// Dry friction, N·m.
-    pub dry_friction: f32,
+    pub dry_friction_n_m: f32,
 }
 
 /// What was found of a device: what differs from arm to arm, and not its mechanism.
@@ -71,7 +71,8 @@ impl<const JOINTS: usize> Calibration<JOINTS> {
             self.0.iter().enumerate().fold(0, |zeroes, (joint, found)| zeroes | (found.zero_of as u32) << (2 * joint));
         let head = [MAGIC, VERSION | (JOINTS as u32) << 16 | zeroes << 24, channels];
         let numbers = self.0.iter().flat_map(|joint| {
-            [joint.radians_per_count, joint.angle_at_zero, joint.torque_at_full, joint.dry_friction].map(f32::to_bits)
+            [joint.radians_per_count, joint.angle_at_zero_rad, joint.torque_at_full_n_m, joint.dry_friction_n_m]
+                .map(f32::to_bits)
         });
         for (word, value) in words.iter_mut().zip(head.into_iter().chain(numbers)) {
             *word = value;
@@ -127,9 +128,9 @@ impl<const JOINTS: usize> Calibration<JOINTS> {
                 output,
                 radians_per_count,
                 zero_of,
-                angle_at_zero,
-                torque_at_full,
-                dry_friction,
+                angle_at_zero_rad: angle_at_zero,
+                torque_at_full_n_m: torque_at_full,
+                dry_friction_n_m: dry_friction,
             };
         }
         Ok(Self(found))
@@ -195,7 +196,13 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Device<K, JOINTS> {
         let loads = self.greatest_loads();
         let mut device = *self;
         for (index, joint) in found.0.iter().enumerate() {
-            let JointCalibration { radians_per_count, angle_at_zero, torque_at_full, dry_friction, .. } = *joint;
+            let JointCalibration {
+                radians_per_count,
+                angle_at_zero_rad: angle_at_zero,
+                torque_at_full_n_m: torque_at_full,
+                dry_friction_n_m: dry_friction,
+                ..
+            } = *joint;
             let named = index as u8;
             if ![radians_per_count, angle_at_zero, torque_at_full, dry_friction].iter().all(|number| number.is_finite())
             {
@@ -204,21 +211,21 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Device<K, JOINTS> {
             if !is_within(radians_per_count, self.encoders[index].radians_per_count, ENCODER_WITHIN) {
                 return Err(CalibrationError::Encoder { joint: named });
             }
-            let [least, most] = self.joint_range[index];
+            let [least, most] = self.joint_range_rad[index];
             if angle_at_zero < least - TAU || angle_at_zero > most + TAU {
                 return Err(CalibrationError::Zero { joint: named });
             }
-            if !is_within(torque_at_full, self.motors[index].torque_at_full, TORQUE_WITHIN) {
+            if !is_within(torque_at_full, self.motors[index].torque_at_full_n_m, TORQUE_WITHIN) {
                 return Err(CalibrationError::Torque { joint: named });
             }
             let most = FRICTION_WITHIN * loads[index].unwrap_or(torque_at_full.abs());
             if !(0.0..=most).contains(&dry_friction) || dry_friction >= torque_at_full.abs() {
                 return Err(CalibrationError::Friction { joint: named });
             }
-            device.encoders[index] = Encoder { radians_per_count, angle_at_zero };
-            device.feeds[index] = fed(self.feeds[index], torque_at_full / self.motors[index].torque_at_full);
-            device.motors[index] = Motor { torque_at_full };
-            device.dry_friction[index] = dry_friction;
+            device.encoders[index] = Encoder { radians_per_count, angle_at_zero_rad: angle_at_zero };
+            device.feeds[index] = fed(self.feeds[index], torque_at_full / self.motors[index].torque_at_full_n_m);
+            device.motors[index] = Motor { torque_at_full_n_m: torque_at_full };
+            device.dry_friction_n_m[index] = dry_friction;
         }
         Ok(device)
     }
@@ -226,9 +233,9 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Device<K, JOINTS> {
     /// The torques that the greatest force can load each joint with in the middle of the joints' ranges, N·m; `None`
     /// where the mechanism is not in its workspace there.
     fn greatest_loads(&self) -> [Option<f32>; JOINTS] {
-        let pose = self.kinematics.pose(self.joint_range.map(|[least, most]| 0.5 * (least + most)));
-        let is_within = pose.singularity_margin() >= self.min_margin;
-        pose.jacobian.map(|column| is_within.then(|| self.max_force * column.length()))
+        let pose = self.kinematics.pose(self.joint_range_rad.map(|[least, most]| 0.5 * (least + most)));
+        let is_within = pose.singularity_margin() >= self.min_margin_m_per_rad;
+        pose.jacobian.map(|column| is_within.then(|| self.max_force_n * column.length()))
     }
 }
 

@@ -31,11 +31,11 @@ pub struct JogLimits<const JOINTS: usize> {
     /// The greatest duty of each motor: above dry friction and weight, below what would hurt.
     pub max_duty: [Duty; JOINTS],
     /// The greatest speed of any encoder, counts/s.
-    pub max_speed: f32,
+    pub max_speed_counts_per_s: f32,
     /// How far any encoder may go while the key is held, counts.
-    pub max_travel: u32,
+    pub max_travel_counts: u32,
     /// Seconds without a frame after which the key counts as let go.
-    pub patience: f32,
+    pub patience_s: f32,
 }
 
 /// Which limit is refused. In a `static` it is a compile error.
@@ -184,20 +184,20 @@ impl<const JOINTS: usize> Jogging<JOINTS> {
             }
             joint += 1;
         }
-        let moves = limits.max_speed > 0.0 && limits.max_speed < f32::INFINITY;
+        let moves = limits.max_speed_counts_per_s > 0.0 && limits.max_speed_counts_per_s < f32::INFINITY;
         if !moves {
             return Err(JogLimitsError::Speed);
         }
-        let waits = limits.patience * rate >= 1.0 && limits.patience <= 0.5;
+        let waits = limits.patience_s * rate >= 1.0 && limits.patience_s <= 0.5;
         if !waits {
             return Err(JogLimitsError::Patience);
         }
         let ramp = (32_768.0 / (RAMP * rate)) as i32;
         Ok(Self {
             limits,
-            patience_ticks: (limits.patience * rate) as u32,
-            counts_a_tick: limits.max_speed / rate,
-            slack: limits.max_speed * SLACK + 2.0,
+            patience_ticks: (limits.patience_s * rate) as u32,
+            counts_a_tick: limits.max_speed_counts_per_s / rate,
+            slack: limits.max_speed_counts_per_s * SLACK + 2.0,
             ramp: if ramp > 1 { ramp } else { 1 },
         })
     }
@@ -271,7 +271,7 @@ impl<const JOINTS: usize> Jogging<JOINTS> {
             let haste = state.haste[joint] + moved;
             state.haste[joint] = if haste > 0.0 { haste } else { 0.0 };
             fast |= haste > self.slack;
-            far |= counts[joint].0.abs_diff(state.from[joint].0) > self.limits.max_travel;
+            far |= counts[joint].0.abs_diff(state.from[joint].0) > self.limits.max_travel_counts;
         }
         if fast {
             self.refuse(state, JogRefusal::TooFast);

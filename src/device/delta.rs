@@ -22,26 +22,26 @@ const REFINEMENTS: usize = 3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delta {
     /// Length of a thigh, `a`, metres.
-    pub thigh: f32,
+    pub thigh_m: f32,
     /// Length of a shin, the long side of the parallelogram, `b`, metres.
-    pub shin: f32,
+    pub shin_m: f32,
     /// Length of both stubs together, metres.
-    pub stub: f32,
+    pub stub_m: f32,
     /// From the axis out to a hip, less the same from the probe to the end of a shin, metres.
-    pub reach: f32,
+    pub reach_m: f32,
     /// The same difference to the left of a leg, metres.
-    pub side: f32,
+    pub side_m: f32,
     /// Cosine and sine of each leg's direction about z.
     pub directions: [[f32; 2]; 3],
     /// The centre of the workspace, metres from the middle of the base.
-    pub workspace_centre: Vec3,
+    pub workspace_centre_m: Vec3,
     /// Which way is up, a unit vector.
     pub up: Vec3,
     /// Mass that hangs on the probe, half the shins included, kg; zero if not known.
-    pub carried_mass: f32,
+    pub carried_mass_kg: f32,
     /// Mass of a thigh, with the other half of its shin at the knee, times the distance of the centre from the hip,
     /// kg·m.
-    pub thigh_moment: f32,
+    pub thigh_moment_kg_m: f32,
 }
 
 /// A leg at one angle: the knee brought in by what the probe's plate sticks out, and its speed per radian.
@@ -68,8 +68,10 @@ impl Delta {
         Leg {
             outward,
             left,
-            knee: outward * (self.reach + self.thigh * cos) + left * self.side + vec3(0.0, 0.0, self.thigh * sin),
-            turn: vec3(0.0, 0.0, self.thigh * cos) - outward * (self.thigh * sin),
+            knee: outward * (self.reach_m + self.thigh_m * cos)
+                + left * self.side_m
+                + vec3(0.0, 0.0, self.thigh_m * sin),
+            turn: vec3(0.0, 0.0, self.thigh_m * cos) - outward * (self.thigh_m * sin),
         }
     }
 
@@ -80,7 +82,7 @@ impl Delta {
         let normal = e.cross(f);
         let square = normal.length_squared();
         let to_middle = (normal.cross(e) * f.length_squared() + f.cross(normal) * e.length_squared()) / (2.0 * square);
-        let radius = self.shin + self.stub;
+        let radius = self.shin_m + self.stub_m;
         let height = (radius * radius - to_middle.length_squared()) / square;
         // Written so that NaN takes this branch too.
         if !(height > 0.0 && height < f32::INFINITY) {
@@ -97,25 +99,26 @@ impl Delta {
         let plane = leg.outward * q.dot(leg.outward) + vec3(0.0, 0.0, q.z);
         let distance = sqrt(plane.length_squared());
         let forward = plane / distance;
-        let span = sqrt(self.shin * self.shin - sideways * sideways);
+        let span = sqrt(self.shin_m * self.shin_m - sideways * sideways);
         Gap {
-            gap: (distance - self.stub - span) * (span / self.shin),
-            shin: (forward * span + leg.left * sideways) / self.shin,
-            share: forward.dot(leg.turn) * (span / self.shin),
+            gap: (distance - self.stub_m - span) * (span / self.shin_m),
+            shin: (forward * span + leg.left * sideways) / self.shin_m,
+            share: forward.dot(leg.turn) * (span / self.shin_m),
         }
     }
 
     /// The joint angles that put the probe at a position of the device's frame, knees out; `None` where a leg does not
     /// reach. Closed form: cosine rule in each leg's plane.
     pub fn angles(&self, position: Vec3) -> Option<[f32; 3]> {
-        let probe = position + self.workspace_centre;
+        let probe = position + self.workspace_centre_m;
         let mut angles = [0.0; 3];
         for (angle, [cosine, sine]) in angles.iter_mut().zip(self.directions) {
             let leg = self.leg([cosine, sine], 0.0);
-            let (u, v) = (probe.dot(leg.outward) - self.reach, probe.dot(leg.left) - self.side);
+            let (u, v) = (probe.dot(leg.outward) - self.reach_m, probe.dot(leg.left) - self.side_m);
             let distance = sqrt(u * u + probe.z * probe.z);
-            let span = self.stub + sqrt(self.shin * self.shin - v * v);
-            let cosine = (self.thigh * self.thigh + distance * distance - span * span) / (2.0 * self.thigh * distance);
+            let span = self.stub_m + sqrt(self.shin_m * self.shin_m - v * v);
+            let cosine =
+                (self.thigh_m * self.thigh_m + distance * distance - span * span) / (2.0 * self.thigh_m * distance);
             // Written so that NaN takes this branch too.
             if !(-1.0..=1.0).contains(&cosine) {
                 return None;
@@ -151,13 +154,13 @@ impl Kinematics<3> for Delta {
             return (ProbePose::UNREACHABLE, [0.0; 3]);
         }
         let pose = ProbePose {
-            position: probe - self.workspace_centre,
+            position: probe - self.workspace_centre_m,
             jacobian: [bc * (a.share / volume), ca * (b.share / volume), ab * (c.share / volume)],
         };
-        let mut torques = pose.torques(self.up * (GRAVITY * self.carried_mass));
+        let mut torques = pose.torques(self.up * (GRAVITY * self.carried_mass_kg));
         for (torque, leg) in torques.iter_mut().zip(legs) {
             // A thigh's centre is lifted as its knee is.
-            *torque += GRAVITY * self.thigh_moment * (leg.turn.dot(self.up) / self.thigh);
+            *torque += GRAVITY * self.thigh_moment_kg_m * (leg.turn.dot(self.up) / self.thigh_m);
         }
         (pose, torques)
     }

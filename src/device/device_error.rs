@@ -41,27 +41,27 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
         let mut joint = 0;
         while joint < JOINTS {
             let encoder = &self.encoders[joint];
-            if !(is_factor(encoder.radians_per_count) && encoder.angle_at_zero.is_finite()) {
+            if !(is_factor(encoder.radians_per_count) && encoder.angle_at_zero_rad.is_finite()) {
                 return Err(DeviceError::Encoder(joint));
             }
-            if !is_factor(self.motors[joint].torque_at_full) {
+            if !is_factor(self.motors[joint].torque_at_full_n_m) {
                 return Err(DeviceError::Motor(joint));
             }
-            let friction = self.dry_friction[joint];
+            let friction = self.dry_friction_n_m[joint];
             if !(friction >= 0.0 && friction < f32::INFINITY) {
                 return Err(DeviceError::Friction(joint));
             }
-            let [least, greatest] = self.joint_range[joint];
+            let [least, greatest] = self.joint_range_rad[joint];
             if !(least < greatest && least.is_finite() && greatest.is_finite()) {
                 return Err(DeviceError::Range(joint));
             }
             joint += 1;
         }
-        let positive = is_positive(self.min_margin)
-            && is_positive(self.max_joint_rate)
-            && is_positive(self.max_force)
-            && is_positive(self.max_stiffness)
-            && is_positive(self.max_damping);
+        let positive = is_positive(self.min_margin_m_per_rad)
+            && is_positive(self.max_joint_rate_rad_per_s)
+            && is_positive(self.max_force_n)
+            && is_positive(self.max_stiffness_n_per_m)
+            && is_positive(self.max_damping_n_s_per_m);
         if positive { Ok(()) } else { Err(DeviceError::Limit) }
     }
 }
@@ -76,18 +76,18 @@ mod tests {
         assert_eq!(DEVICE.check(), Ok(()));
         for bad in [f32::NAN, f32::INFINITY, 0.0] {
             let mut device = DEVICE;
-            device.encoders[1] = Encoder { radians_per_count: bad, angle_at_zero: 0.0 };
+            device.encoders[1] = Encoder { radians_per_count: bad, angle_at_zero_rad: 0.0 };
             assert_eq!(device.check(), Err(DeviceError::Encoder(1)));
             let mut device = DEVICE;
-            device.motors[2] = Motor { torque_at_full: bad };
+            device.motors[2] = Motor { torque_at_full_n_m: bad };
             assert_eq!(device.check(), Err(DeviceError::Motor(2)));
-            assert_eq!(Device { max_force: bad, ..DEVICE }.check(), Err(DeviceError::Limit));
+            assert_eq!(Device { max_force_n: bad, ..DEVICE }.check(), Err(DeviceError::Limit));
         }
         let mut device = DEVICE;
-        device.joint_range[0] = [1.0, 1.0];
+        device.joint_range_rad[0] = [1.0, 1.0];
         assert_eq!(device.check(), Err(DeviceError::Range(0)));
         device = DEVICE;
-        device.dry_friction[0] = -0.1;
+        device.dry_friction_n_m[0] = -0.1;
         assert_eq!(device.check(), Err(DeviceError::Friction(0)));
     }
 }

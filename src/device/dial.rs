@@ -10,7 +10,7 @@ use crate::math::vec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dial {
     /// Radius of the rim, where the fingers are, `r`, metres.
-    pub radius: f32,
+    pub radius_m: f32,
     /// What cancels the motor's cogging.
     pub cogging: Option<CoggingMap>,
 }
@@ -18,7 +18,7 @@ pub struct Dial {
 impl Kinematics<1> for Dial {
     #[inline]
     fn pose(&self, [angle]: [f32; 1]) -> ProbePose<1> {
-        ProbePose { position: vec3(self.radius * angle, 0.0, 0.0), jacobian: [vec3(self.radius, 0.0, 0.0)] }
+        ProbePose { position: vec3(self.radius_m * angle, 0.0, 0.0), jacobian: [vec3(self.radius_m, 0.0, 0.0)] }
     }
 
     #[inline]

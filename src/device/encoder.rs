@@ -19,13 +19,13 @@ pub struct Encoder {
     /// Joint angle per count, radians; negative where the encoder counts the other way.
     pub radians_per_count: f32,
     /// Joint angle in the middle of count zero, radians.
-    pub angle_at_zero: f32,
+    pub angle_at_zero_rad: f32,
 }
 
 impl Encoder {
     /// An encoder of so many radians of the joint a count, whose count steps from −1 to 0 at `angle_at_line`, radians.
     pub const fn new(radians_per_count: f32, angle_at_line: f32) -> Self {
-        Self { radians_per_count, angle_at_zero: angle_at_line + 0.5 * radians_per_count }
+        Self { radians_per_count, angle_at_zero_rad: angle_at_line + 0.5 * radians_per_count }
     }
 
     /// An encoder of `counts_per_revolution` (after quadrature) on a motor geared down `ratio : 1` to the joint, whose
@@ -37,7 +37,7 @@ impl Encoder {
     /// The joint angle in the middle of a count, radians.
     #[inline]
     pub fn angle(&self, counts: Counts) -> f32 {
-        counts.0 as f32 * self.radians_per_count + self.angle_at_zero
+        counts.0 as f32 * self.radians_per_count + self.angle_at_zero_rad
     }
 }
 

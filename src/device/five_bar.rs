@@ -16,17 +16,17 @@ use crate::math::{Vec2, Vec3, sin_cos, sqrt, vec2};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FiveBar {
     /// The second crank's pivot on the x axis, metres.
-    pub second_pivot: f32,
+    pub second_pivot_m: f32,
     /// Lengths of the two cranks, metres.
-    pub cranks: [f32; 2],
+    pub cranks_m: [f32; 2],
     /// Lengths of the two rods, metres.
-    pub rods: [f32; 2],
+    pub rods_m: [f32; 2],
     /// Which way the rods bend: 1 puts the hinge left of the line from the first elbow to the second, −1 right.
     pub side: f32,
     /// The probe on the first rod, metres from its elbow towards the hinge; negative on the other side of the elbow.
-    pub tool: f32,
+    pub tool_m: f32,
     /// The centre of the workspace, metres from the first pivot.
-    pub workspace_centre: Vec2,
+    pub workspace_centre_m: Vec2,
 }
 
 /// A point of the linkage, metres, and how it moves with each crank, metres per radian.
@@ -53,10 +53,10 @@ impl FiveBar {
     #[inline]
     pub(super) fn close(&self, [first, second]: [f32; 2]) -> Option<Closed> {
         let ((sin_a, cos_a), (sin_b, cos_b)) = (sin_cos(first), sin_cos(second));
-        let ([crank_a, crank_b], [rod_a, rod_b]) = (self.cranks, self.rods);
+        let ([crank_a, crank_b], [rod_a, rod_b]) = (self.cranks_m, self.rods_m);
         let a = vec2(crank_a * cos_a, crank_a * sin_a);
         let arm_b = vec2(crank_b * cos_b, crank_b * sin_b);
-        let b = arm_b + vec2(self.second_pivot, 0.0);
+        let b = arm_b + vec2(self.second_pivot_m, 0.0);
 
         let h = b - a;
         let square = h.length_squared();
@@ -84,8 +84,8 @@ impl FiveBar {
     #[inline]
     pub(super) fn tool(&self, closed: &Closed) -> Hinge {
         let ([elbow, _], hinge) = (&closed.elbows, &closed.hinge);
-        let [rod, _] = self.rods;
-        let share = self.tool / rod;
+        let [rod, _] = self.rods_m;
+        let share = self.tool_m / rod;
         let between = |from: Vec2, to: Vec2| from + (to - from) * share;
         let ([elbow_a, elbow_b], [hinge_a, hinge_b]) = (elbow.motion, hinge.motion);
         Hinge {
@@ -103,6 +103,6 @@ impl Kinematics<2> for FiveBar {
         };
         let tool = self.tool(&closed);
         let flat = |v: Vec2| Vec3::new(v.x, v.y, 0.0);
-        ProbePose { position: flat(tool.place - self.workspace_centre), jacobian: tool.motion.map(flat) }
+        ProbePose { position: flat(tool.place - self.workspace_centre_m), jacobian: tool.motion.map(flat) }
     }
 }

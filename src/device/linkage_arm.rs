@@ -8,16 +8,16 @@ use crate::math::{Vec2, Vec3, sin_cos, vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkMass {
     /// Mass, kg; zero if not known.
-    pub mass: f32,
+    pub mass_kg: f32,
     /// The centre, metres along the link from its first hinge.
-    pub along: f32,
+    pub along_m: f32,
     /// The centre, metres to the left of that direction.
-    pub across: f32,
+    pub across_m: f32,
 }
 
 impl LinkMass {
     /// A link that weighs nothing.
-    pub const NONE: Self = Self { mass: 0.0, along: 0.0, across: 0.0 };
+    pub const NONE: Self = Self { mass_kg: 0.0, along_m: 0.0, across_m: 0.0 };
 }
 
 /// A turntable that carries an upright [`FiveBar`].
@@ -30,9 +30,9 @@ pub struct LinkageArm {
     /// The linkage in the upright plane. Its own workspace centre is not used.
     pub linkage: FiveBar,
     /// From the turntable's axis to the first crank's pivot, metres.
-    pub pivot_reach: f32,
+    pub pivot_reach_m: f32,
     /// The centre of the workspace, metres from the foot of the first crank's pivot on the axis.
-    pub workspace_centre: Vec3,
+    pub workspace_centre_m: Vec3,
     /// First crank, second crank, first rod (with all it carries, direction from its elbow to the probe), second rod
     /// (direction from its elbow to the hinge).
     pub masses: [LinkMass; 4],
@@ -45,7 +45,7 @@ impl LinkageArm {
         // A rigid link turns by `span⊥ · sweep / span²`, and its centre's height changes with the offset's own x.
         let length = span.length();
         let forward = span / length;
-        let offset = forward * link.along + left(forward) * link.across;
+        let offset = forward * link.along_m + left(forward) * link.across_m;
         let rate = |sweep: Vec2| left(span).dot(sweep) / (length * length);
         let ([start_a, start_b], [sweep_a, sweep_b]) = (start, sweep);
         [start_a.y + rate(sweep_a) * offset.x, start_b.y + rate(sweep_b) * offset.x]
@@ -54,19 +54,19 @@ impl LinkageArm {
     fn weight(&self, closed: &Closed) -> [f32; 2] {
         let [elbow_a, elbow_b] = closed.elbows;
         let (tool, hinge) = (self.linkage.tool(closed), closed.hinge);
-        let pivot_b = Vec2::new(self.linkage.second_pivot, 0.0);
+        let pivot_b = Vec2::new(self.linkage.second_pivot_m, 0.0);
         let less = |[a, b]: [Vec2; 2], [c, d]: [Vec2; 2]| [a - c, b - d];
         let fixed = [Vec2::ZERO; 2];
         let [crank_a, crank_b, rod_a, rod_b] = &self.masses;
         let lifts = [
-            (crank_a.mass, Self::lift(crank_a, fixed, elbow_a.place, elbow_a.motion)),
-            (crank_b.mass, Self::lift(crank_b, fixed, elbow_b.place - pivot_b, elbow_b.motion)),
+            (crank_a.mass_kg, Self::lift(crank_a, fixed, elbow_a.place, elbow_a.motion)),
+            (crank_b.mass_kg, Self::lift(crank_b, fixed, elbow_b.place - pivot_b, elbow_b.motion)),
             (
-                rod_a.mass,
+                rod_a.mass_kg,
                 Self::lift(rod_a, elbow_a.motion, tool.place - elbow_a.place, less(tool.motion, elbow_a.motion)),
             ),
             (
-                rod_b.mass,
+                rod_b.mass_kg,
                 Self::lift(rod_b, elbow_b.motion, hinge.place - elbow_b.place, less(hinge.motion, elbow_b.motion)),
             ),
         ];
@@ -89,11 +89,11 @@ impl Kinematics<3> for LinkageArm {
         };
         let tool = self.linkage.tool(&closed);
         let (sin_a, cos_a) = sin_cos(a);
-        let reach = self.pivot_reach + tool.place.x;
+        let reach = self.pivot_reach_m + tool.place.x;
         let stand = |v: Vec2| vec3(v.x * cos_a, v.x * sin_a, v.y);
         let [motion_b, motion_c] = tool.motion;
         let pose = ProbePose {
-            position: stand(Vec2::new(reach, tool.place.y)) - self.workspace_centre,
+            position: stand(Vec2::new(reach, tool.place.y)) - self.workspace_centre_m,
             jacobian: [vec3(-reach * sin_a, reach * cos_a, 0.0), stand(motion_b), stand(motion_c)],
         };
         let [first, second] = self.weight(&closed);

@@ -39,9 +39,7 @@ pub use paddle::Paddle;
 pub use pose::ProbePose;
 pub use protection::{Endurance, Protection, SignWatch, SupplyRange};
 pub use serial_arm::SerialArm;
-pub use velocity::{
-    AdaptiveWindow, TrackingObserver, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState, WINDOW, Window,
-};
+pub use velocity::{BetweenCounts, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState};
 
 use crate::math::saturate;
 
@@ -81,19 +79,19 @@ pub struct Device<K, const JOINTS: usize> {
     /// How each motor is fed.
     pub feeds: [drive::Feed; JOINTS],
     /// Dry friction of each joint, N·m, generously; 0 where it is not known. A joint may stick under a load below it.
-    pub dry_friction: [f32; JOINTS],
+    pub dry_friction_n_m: [f32; JOINTS],
     /// Least and greatest angle of each joint, radians: what lies outside is a sensor fault.
-    pub joint_range: [[f32; 2]; JOINTS],
+    pub joint_range_rad: [[f32; 2]; JOINTS],
     /// Below this [`ProbePose::singularity_margin`], m/rad, the device counts as outside its workspace.
-    pub min_margin: f32,
+    pub min_margin_m_per_rad: f32,
     /// The greatest believable joint speed, rad/s: what is faster is a sensor fault.
-    pub max_joint_rate: f32,
+    pub max_joint_rate_rad_per_s: f32,
     /// The greatest force the device is to be asked for, N.
-    pub max_force: f32,
+    pub max_force_n: f32,
     /// The greatest stiffness recommended for it, N/m.
-    pub max_stiffness: f32,
+    pub max_stiffness_n_per_m: f32,
     /// The greatest damping recommended for it, N·s/m.
-    pub max_damping: f32,
+    pub max_damping_n_s_per_m: f32,
 }
 
 impl<K, const JOINTS: usize> Device<K, JOINTS> {
@@ -103,7 +101,7 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
         let mut angles = [0.0; JOINTS];
         let mut joint = 0;
         while joint < JOINTS {
-            angles[joint] = self.encoders[joint].angle_at_zero;
+            angles[joint] = self.encoders[joint].angle_at_zero_rad;
             joint += 1;
         }
         angles
@@ -120,8 +118,8 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     /// enough from a singularity for forces to make sense. False for NaN.
     pub fn in_workspace(&self, angles: [f32; JOINTS]) -> bool {
         let in_range = |(angle, [least, most]): (&f32, &[f32; 2])| least <= angle && angle <= most;
-        angles.iter().zip(&self.joint_range).all(in_range)
-            && self.kinematics.pose(angles).singularity_margin() >= self.min_margin
+        angles.iter().zip(&self.joint_range_rad).all(in_range)
+            && self.kinematics.pose(angles).singularity_margin() >= self.min_margin_m_per_rad
     }
 
     /// How far the nearest joint is from the end of its range, radians, below 0 beyond it; no more than the width of
@@ -129,7 +127,7 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     #[inline]
     pub fn to_stop(&self, angles: &[f32; JOINTS]) -> f32 {
         let mut to_stop = RIM;
-        for (angle, [least, most]) in angles.iter().zip(&self.joint_range) {
+        for (angle, [least, most]) in angles.iter().zip(&self.joint_range_rad) {
             for way in [angle - least, most - angle] {
                 if way < to_stop {
                     to_stop = way;
@@ -145,8 +143,8 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     /// is less. A force times this lets go smoothly at the rim, and keeps its direction.
     #[inline]
     pub fn room(&self, to_stop: f32, pose: &ProbePose<JOINTS>) -> f32 {
-        let over = pose.margin() - self.min_margin;
-        let width = MARGIN_RIM * self.min_margin;
+        let over = pose.margin() - self.min_margin_m_per_rad;
+        let width = MARGIN_RIM * self.min_margin_m_per_rad;
         if to_stop >= RIM && over >= width {
             return 1.0;
         }

@@ -41,20 +41,20 @@ impl Duty {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor {
     /// Joint torque at full duty, N·m; negative where the motor turns the joint the other way.
-    pub torque_at_full: f32,
+    pub torque_at_full_n_m: f32,
 }
 
 impl Motor {
     /// A motor of torque constant `torque_constant` (N·m/A) whose amplifier gives `current_at_full` amperes at full
     /// duty, geared down `ratio : 1` to the joint. A negative ratio turns the direction round.
     pub const fn current_driven(torque_constant: f32, current_at_full: f32, ratio: f32) -> Self {
-        Self { torque_at_full: torque_constant * current_at_full * ratio }
+        Self { torque_at_full_n_m: torque_constant * current_at_full * ratio }
     }
 
     /// The fraction of full scale that gives a joint torque, N·m. Not limited.
     #[inline]
     pub fn fraction(&self, torque: f32) -> f32 {
-        torque / self.torque_at_full
+        torque / self.torque_at_full_n_m
     }
 }
 

@@ -11,21 +11,22 @@ use crate::math::{sin_cos, vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paddle {
     /// From the axis to the hand, `r`, metres.
-    pub handle: f32,
+    pub handle_m: f32,
     /// Mass of the paddle times the height of its centre over the axis, kg·m; zero if it is balanced or not known.
-    pub mass_moment: f32,
+    pub mass_moment_kg_m: f32,
 }
 
 impl Kinematics<1> for Paddle {
     #[inline]
     fn pose(&self, [angle]: [f32; 1]) -> ProbePose<1> {
-        ProbePose { position: vec3(self.handle * angle, 0.0, 0.0), jacobian: [vec3(self.handle, 0.0, 0.0)] }
+        ProbePose { position: vec3(self.handle_m * angle, 0.0, 0.0), jacobian: [vec3(self.handle_m, 0.0, 0.0)] }
     }
 
     #[inline]
     fn held_pose(&self, [angle]: [f32; 1]) -> (ProbePose<1>, [f32; 1]) {
         // The weight tips the paddle over; the torque that holds it goes the other way.
-        let torque = if self.mass_moment == 0.0 { 0.0 } else { -GRAVITY * self.mass_moment * sin_cos(angle).0 };
+        let torque =
+            if self.mass_moment_kg_m == 0.0 { 0.0 } else { -GRAVITY * self.mass_moment_kg_m * sin_cos(angle).0 };
         (self.pose([angle]), [torque])
     }
 }

@@ -11,7 +11,7 @@ pub struct Endurance {
     ///
     /// Where nobody states it, take one that is too short: what the model then lets through never warms the winding
     /// beyond what `continuous` does, while one that is too long would.
-    pub time_constant: f32,
+    pub time_constant_s: f32,
 }
 
 impl Endurance {
@@ -24,7 +24,7 @@ impl Endurance {
     /// the model has it warmer than it is.
     pub const fn three_phase(phase_current: f32, current_at_full: f32, time_constant: f32) -> Self {
         // The amplitude of a phase is √(2/3) of that scale's current.
-        Self { continuous: phase_current * 1.224_744_9 / current_at_full, time_constant }
+        Self { continuous: phase_current * 1.224_744_9 / current_at_full, time_constant_s: time_constant }
     }
 }
 
@@ -38,20 +38,20 @@ impl Endurance {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SupplyRange {
     /// Millivolts.
-    pub least: u32,
+    pub min_mv: u32,
     /// Millivolts: above it a braking hand has pumped the supply up.
-    pub most: u32,
+    pub max_mv: u32,
 }
 
 impl SupplyRange {
     /// Of a supply of 24 V that is on, does not break down, and is not pumped up.
-    pub const TWENTY_FOUR: Self = Self { least: 20_000, most: 30_000 };
+    pub const TWENTY_FOUR: Self = Self { min_mv: 20_000, max_mv: 30_000 };
 
     /// Whether a voltage is within, V. One that is not a number is not.
     #[inline]
     pub fn holds(self, volts: f32) -> bool {
         let millivolts = volts * 1e3;
-        self.least as f32 <= millivolts && millivolts <= self.most as f32
+        self.min_mv as f32 <= millivolts && millivolts <= self.max_mv as f32
     }
 }
 
@@ -60,7 +60,7 @@ impl SupplyRange {
 pub struct SignWatch<const JOINTS: usize> {
     /// What turns with each joint, kg·m², about as much as at the middle of the workspace: drum, links and rotor seen
     /// through its transmission.
-    pub inertia: [f32; JOINTS],
+    pub inertia_kg_m2: [f32; JOINTS],
 }
 
 /// What protects a device's motors, and the hand from them. Constant, in flash.
@@ -69,11 +69,11 @@ pub struct Protection<const JOINTS: usize> {
     /// What each motor bears.
     pub motors: [Endurance; JOINTS],
     /// The greatest speed of each joint while force is given, rad/s.
-    pub max_joint_rates: [f32; JOINTS],
+    pub max_joint_rates_rad_per_s: [f32; JOINTS],
     /// The greatest speed of the probe while force is given, m/s.
-    pub max_probe_speed: f32,
+    pub max_probe_speed_m_per_s: f32,
     /// The supply's range; `None` where no voltage is measured.
     pub supply: Option<SupplyRange>,
     /// The watch over encoders that count against their motors; `None` where the inertias are not known.
-    pub signs: Option<SignWatch<JOINTS>>,
+    pub polarity: Option<SignWatch<JOINTS>>,
 }

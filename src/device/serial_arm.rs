@@ -14,30 +14,30 @@ use crate::math::{Vec3, sin_cos, vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SerialArm {
     /// Height of the first link's axis, `A`, metres.
-    pub base_height: f32,
+    pub base_height_m: f32,
     /// Length of the first link, `B`, metres.
-    pub first_link: f32,
+    pub first_link_m: f32,
     /// Length of the second link, `C`, metres.
-    pub second_link: f32,
+    pub second_link_m: f32,
     /// The centre of the workspace, metres from the foot of the turntable.
-    pub workspace_centre: Vec3,
+    pub workspace_centre_m: Vec3,
     /// What each link lifts, as a mass at its end, kg: its own mass times the distance of its centre from its axis over
     /// its length, and for the first also all that hangs on its end. Negative where it is overbalanced; zero if not
     /// known.
-    pub end_masses: [f32; 2],
+    pub end_masses_kg: [f32; 2],
 }
 
 impl Kinematics<3> for SerialArm {
     #[inline]
     fn pose(&self, [a, b, c]: [f32; 3]) -> ProbePose<3> {
         let ((sin_a, cos_a), (sin_b, cos_b), (sin_c, cos_c)) = (sin_cos(a), sin_cos(b), sin_cos(c));
-        let (first, second) = (self.first_link, self.second_link);
+        let (first, second) = (self.first_link_m, self.second_link_m);
         let reach = first * sin_b + second * cos_c;
-        let height = self.base_height + first * cos_b - second * sin_c;
+        let height = self.base_height_m + first * cos_b - second * sin_c;
         // How reach grows with b and with c.
         let (reach_b, reach_c) = (first * cos_b, -second * sin_c);
         ProbePose {
-            position: vec3(reach * cos_a, reach * sin_a, height) - self.workspace_centre,
+            position: vec3(reach * cos_a, reach * sin_a, height) - self.workspace_centre_m,
             jacobian: [
                 vec3(-reach * sin_a, reach * cos_a, 0.0),
                 vec3(reach_b * cos_a, reach_b * sin_a, -first * sin_b),
@@ -51,7 +51,7 @@ impl Kinematics<3> for SerialArm {
         let pose = self.pose(angles);
         // A mass at the end of a link is lifted as that end is: by the Jacobian's z.
         let [_, first, second] = pose.jacobian;
-        let [first_mass, second_mass] = self.end_masses;
+        let [first_mass, second_mass] = self.end_masses_kg;
         (pose, [0.0, GRAVITY * first_mass * first.z, GRAVITY * second_mass * second.z])
     }
 }

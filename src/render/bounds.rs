@@ -9,11 +9,11 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeviceFriction {
     /// Viscous friction `b`, N·s/m.
-    pub viscous: f32,
+    pub viscous_n_s_per_m: f32,
     /// Coulomb friction `f_c`, N.
-    pub coulomb: f32,
+    pub coulomb_n: f32,
     /// One encoder count `Δ`, metres at the probe.
-    pub resolution: f32,
+    pub resolution_m: f32,
 }
 
 /// The device damping a wall asks for, N·s/m: `b > K (T/2 + t_d) + |B|`.
@@ -41,7 +41,7 @@ pub const fn passive_stiffness(device_damping: f32, damping: f32, period: f32, d
 /// J. J. Abbott and A. M. Okamura, *Effects of position quantization and sampling rate on virtual-wall passivity*, IEEE
 /// Trans. Robotics 21(5), 2005; for a wall without damping and without delay.
 pub const fn quantised_stiffness(device: DeviceFriction, period: f32) -> f32 {
-    lesser(2.0 * device.viscous / period, 2.0 * device.coulomb / device.resolution)
+    lesser(2.0 * device.viscous_n_s_per_m / period, 2.0 * device.coulomb_n / device.resolution_m)
 }
 
 impl DeviceFriction {
@@ -52,13 +52,13 @@ impl DeviceFriction {
     /// half of play: an error of a whole count at most, where a count's middle has one of half. It passes that on by no
     /// more than the integral of its impulse response's size, `∫ |ω (2 − ωt) e^{−ωt}| dt = 1 + 2 e⁻²`.
     pub const fn between_counts(self) -> Self {
-        Self { resolution: BETWEEN_COUNTS * self.resolution, ..self }
+        Self { resolution_m: BETWEEN_COUNTS * self.resolution_m, ..self }
     }
 
     /// The greatest stiffness, N/m, that meets both conditions, with the wall's damping (N·s/m) and a delay (s).
     pub const fn passive_stiffness(self, damping: f32, period: f32, delay: f32) -> f32 {
-        let sampled = passive_stiffness(self.viscous, damping, period, delay);
-        lesser(sampled, 2.0 * self.coulomb / self.resolution)
+        let sampled = passive_stiffness(self.viscous_n_s_per_m, damping, period, delay);
+        lesser(sampled, 2.0 * self.coulomb_n / self.resolution_m)
     }
 }
 
@@ -95,11 +95,11 @@ mod tests {
 
     #[test]
     fn quantisation_takes_over_where_friction_is_low() {
-        let device = DeviceFriction { viscous: 0.5, coulomb: 0.02, resolution: 50e-6 };
+        let device = DeviceFriction { viscous_n_s_per_m: 0.5, coulomb_n: 0.02, resolution_m: 50e-6 };
         // A rounding or two of each.
         let near = |a: f32, b: f32| (a / b - 1.0).abs() < 4.0 * f32::EPSILON;
         assert!(near(quantised_stiffness(device, 1e-3), 800.0));
-        assert!(near(quantised_stiffness(DeviceFriction { coulomb: 1.0, ..device }, 1e-3), 1_000.0));
+        assert!(near(quantised_stiffness(DeviceFriction { coulomb_n: 1.0, ..device }, 1e-3), 1_000.0));
         assert!(near(device.passive_stiffness(0.0, 1e-3, 0.0), 800.0));
     }
 

@@ -25,24 +25,20 @@ use crate::math::{Vec3, inverse_sqrt_from_below};
 pub struct Ease {
     /// The spring's push over which the damping comes in, N. A force and not a depth, so that a stiff wall, which is
     /// never pressed in far, keeps its damper.
-    pub onset: f32,
+    pub onset_n: f32,
     /// How fast the force may change where no motion explains it, N/s. Over an edge it ends, or turns, at this rate: at
     /// 200 N/s 1 N in 5 ms.
-    pub change: f32,
+    pub change_n_per_s: f32,
 }
 
 impl Ease {
     /// 1 N, in which a damper of 2 N·s/m on a wall of 500 N/m adds no more than 23 mN a tick at 0.3 m/s and 4 kHz,
     /// `K B v²/(onset rate)`; and 50 mN a tick there.
-    pub const SMOOTH: Self = Self { onset: 1.0, change: 200.0 };
-
-    /// For what rings when it is struck ([`super::Transient`]): three times the change, 150 mN a tick at 4 kHz, for at
-    /// 0.3 m/s the wall alone takes all of [`Self::SMOOTH`]'s.
-    pub const RINGING: Self = Self { change: 600.0, ..Self::SMOOTH };
+    pub const SMOOTH: Self = Self { onset_n: 1.0, change_n_per_s: 200.0 };
 
     /// Whether both are finite, the onset not negative, the rate positive.
     pub const fn is_valid(&self) -> bool {
-        let Self { onset, change } = *self;
+        let Self { onset_n: onset, change_n_per_s: change } = *self;
         onset >= 0.0 && onset < f32::INFINITY && change > 0.0 && change < f32::INFINITY
     }
 }
@@ -73,10 +69,10 @@ impl Eased {
     /// For a wall and a period (s).
     pub const fn new(ease: Ease, wall: &Penalty, period: f32) -> Self {
         Self {
-            damping_slope: wall.damping * wall.stiffness / ease.onset,
-            free: ease.change * period,
-            stiffness: wall.stiffness,
-            damping: wall.damping,
+            damping_slope: wall.damping_n_s_per_m * wall.stiffness_n_per_m / ease.onset_n,
+            free: ease.change_n_per_s * period,
+            stiffness: wall.stiffness_n_per_m,
+            damping: wall.damping_n_s_per_m,
         }
     }
 
@@ -84,7 +80,7 @@ impl Eased {
     #[inline]
     pub fn wall(&self, wall: &Penalty, gap: f32) -> Penalty {
         let damping = self.damping_slope * -gap;
-        if damping < wall.damping { Penalty { damping, ..*wall } } else { *wall }
+        if damping < wall.damping_n_s_per_m { Penalty { damping_n_s_per_m: damping, ..*wall } } else { *wall }
     }
 
     /// `force`, or as near to it as one step from `last` may go for this reason. What is not finite stays so: the gate
@@ -114,7 +110,7 @@ mod tests {
     use super::*;
     use crate::math::vec3;
 
-    const WALL: Penalty = Penalty { stiffness: 500.0, damping: 5.0, max_force: 5.0 };
+    const WALL: Penalty = Penalty { stiffness_n_per_m: 500.0, damping_n_s_per_m: 5.0, max_force_n: 5.0 };
     const STEP: Eased = Eased::new(Ease::SMOOTH, &WALL, 1.0 / 4_000.0);
 
     /// With nothing that explains a change.
@@ -133,15 +129,15 @@ mod tests {
         // All of it from 1 N on, which is 2 mm, without a step there; rounding of a newton and a half.
         assert!((push(-0.002, -0.1) - WALL.push(-0.002, -0.1)).abs() < 1e-6);
         assert_eq!(push(-0.003, -0.1), WALL.push(-0.003, -0.1));
-        let at_once = Eased::new(Ease { onset: 0.0, ..Ease::SMOOTH }, &WALL, 1.0 / 4_000.0);
+        let at_once = Eased::new(Ease { onset_n: 0.0, ..Ease::SMOOTH }, &WALL, 1.0 / 4_000.0);
         assert_eq!(at_once.wall(&WALL, -1e-9), WALL);
     }
 
     #[test]
     fn a_stiffer_wall_has_its_damper_as_much_earlier() {
-        let stiff = Penalty { stiffness: 5_000.0, ..WALL };
+        let stiff = Penalty { stiffness_n_per_m: 5_000.0, ..WALL };
         let step = Eased::new(Ease::SMOOTH, &stiff, 1.0 / 4_000.0);
-        assert!((step.wall(&stiff, -0.0001).damping - 2.5).abs() < 1e-6);
+        assert!((step.wall(&stiff, -0.0001).damping_n_s_per_m - 2.5).abs() < 1e-6);
         assert_eq!(step.wall(&stiff, -0.000_201), stiff);
     }
 
@@ -212,7 +208,7 @@ mod tests {
     #[test]
     fn a_flat_wall_s_own_force_passes_untouched_once_its_damper_is_there() {
         // A stiff wall behind coarse counts: the force jumps by what the counts do, as without easing.
-        let stiff = Penalty { stiffness: 5_000.0, damping: 8.0, max_force: 5.0 };
+        let stiff = Penalty { stiffness_n_per_m: 5_000.0, damping_n_s_per_m: 8.0, max_force_n: 5.0 };
         let step = Eased::new(Ease::SMOOTH, &stiff, 1.0 / 4_000.0);
         let (mut gap, mut rate, mut last) = (-0.0005, 0.0, stiff.push(-0.0005, 0.0));
         for moved in [58e-6_f32, 0.0, -116e-6, 58e-6, 58e-6, 0.0, -58e-6] {
@@ -240,7 +236,8 @@ mod tests {
             let reason =
                 Reason { moved: vec3(draw(), draw(), draw()) * 1e-4, quickened: vec3(draw(), draw(), draw()) * 2e-3 };
             // The wall's own force moves on by so much at most, whichever way.
-            let most = WALL.stiffness * reason.moved.length() + WALL.damping * reason.quickened.length();
+            let most =
+                WALL.stiffness_n_per_m * reason.moved.length() + WALL.damping_n_s_per_m * reason.quickened.length();
             let way = vec3(draw(), draw(), draw());
             let moved_on = force + way * (most / way.length().max(1.0));
             let (before, after) = ((last - force).length(), (STEP.next(moved_on, last, &reason) - moved_on).length());
@@ -262,7 +259,8 @@ mod tests {
         assert!(Ease::SMOOTH.is_valid());
         for bad in [-1.0, f32::NAN, f32::INFINITY] {
             assert!(
-                !Ease { onset: bad, ..Ease::SMOOTH }.is_valid() && !Ease { change: bad, ..Ease::SMOOTH }.is_valid()
+                !Ease { onset_n: bad, ..Ease::SMOOTH }.is_valid()
+                    && !Ease { change_n_per_s: bad, ..Ease::SMOOTH }.is_valid()
             );
         }
     }

@@ -10,33 +10,33 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
     /// From one detent to the next, radians.
-    pub pitch: f32,
+    pub pitch_rad: f32,
     /// The greatest torque, `T`, a quarter of a pitch from a detent, N·m.
-    pub torque: f32,
+    pub torque_n_m: f32,
     /// Where one of the detents is, radians.
-    pub centre: f32,
+    pub centre_rad: f32,
 }
 
 /// A spring that turns the dial back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
     /// N·m/rad.
-    pub stiffness: f32,
+    pub stiffness_n_m_per_rad: f32,
     /// Where it is at rest, radians.
-    pub rest: f32,
+    pub rest_rad: f32,
     /// Its greatest torque, N·m: beyond, it is constant.
-    pub most: f32,
+    pub max_torque_n_m: f32,
 }
 
 /// End stops: a spring and a damper beyond either.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ends {
     /// Where they are, radians.
-    pub between: [f32; 2],
+    pub between_rad: [f32; 2],
     /// N·m/rad.
-    pub stiffness: f32,
+    pub stiffness_n_m_per_rad: f32,
     /// N·m·s/rad; it only pushes, never holds.
-    pub damping: f32,
+    pub damping_n_m_s_per_rad: f32,
 }
 
 /// What a dial feels like. Its parts add up; begin with [`Feel::FREE`]. Constant, in flash.
@@ -53,7 +53,7 @@ pub struct Feel {
     /// End stops.
     pub ends: Option<Ends>,
     /// Damping everywhere, N·m·s/rad.
-    pub damping: f32,
+    pub damping_n_m_s_per_rad: f32,
 }
 
 /// Which part of a feel is refused.
@@ -87,27 +87,31 @@ const fn is_size(x: f32) -> bool {
 
 impl Wave {
     const fn is_valid(&self) -> bool {
-        self.pitch > 0.0 && self.pitch < f32::INFINITY && is_size(self.torque) && self.centre.is_finite()
+        self.pitch_rad > 0.0
+            && self.pitch_rad < f32::INFINITY
+            && is_size(self.torque_n_m)
+            && self.centre_rad.is_finite()
     }
 
     /// The torque at an angle, radians, N·m.
     #[inline]
     pub fn at(&self, angle: f32) -> f32 {
-        let pitches = (angle - self.centre) / self.pitch;
+        let pitches = (angle - self.centre_rad) / self.pitch_rad;
         // What is left after the whole ones: the cast saturates.
         let (sine, _) = sin_cos((pitches - pitches as i32 as f32) * TAU);
-        -self.torque * sine
+        -self.torque_n_m * sine
     }
 
     /// The steepest rise of the torque, N·m/rad.
     const fn stiffness(&self) -> f32 {
-        self.torque * TAU / self.pitch
+        self.torque_n_m * TAU / self.pitch_rad
     }
 }
 
 impl Feel {
     /// Nothing.
-    pub const FREE: Self = Self { detents: None, clicks: None, texture: None, spring: None, ends: None, damping: 0.0 };
+    pub const FREE: Self =
+        Self { detents: None, clicks: None, texture: None, spring: None, ends: None, damping_n_m_s_per_rad: 0.0 };
 
     /// Checks the parts.
     ///
@@ -129,17 +133,21 @@ impl Feel {
         {
             return Err(FeelError::Texture);
         }
-        if let Some(Spring { stiffness, rest, most }) = self.spring
+        if let Some(Spring { stiffness_n_m_per_rad: stiffness, rest_rad: rest, max_torque_n_m: most }) = self.spring
             && !(is_size(stiffness) && is_size(most) && rest.is_finite())
         {
             return Err(FeelError::Spring);
         }
-        if let Some(Ends { between: [least, most], stiffness, damping }) = self.ends
+        if let Some(Ends {
+            between_rad: [least, most],
+            stiffness_n_m_per_rad: stiffness,
+            damping_n_m_s_per_rad: damping,
+        }) = self.ends
             && !(least < most && least.is_finite() && most.is_finite() && is_size(stiffness) && is_size(damping))
         {
             return Err(FeelError::Ends);
         }
-        if is_size(self.damping) { Ok(()) } else { Err(FeelError::Damping) }
+        if is_size(self.damping_n_m_s_per_rad) { Ok(()) } else { Err(FeelError::Damping) }
     }
 
     /// The greatest stiffness that may be felt at once, N·m/rad.
@@ -155,22 +163,22 @@ impl Feel {
             sum += if clicks.wall_stiffness > clicks.stiffness { clicks.wall_stiffness } else { clicks.stiffness };
         }
         if let Some(spring) = &self.spring {
-            sum += spring.stiffness;
+            sum += spring.stiffness_n_m_per_rad;
         }
         if let Some(ends) = &self.ends {
-            sum += ends.stiffness;
+            sum += ends.stiffness_n_m_per_rad;
         }
         sum
     }
 
     /// The greatest damping that may be felt at once, N·m·s/rad.
     pub const fn greatest_damping(&self) -> f32 {
-        let mut sum = self.damping;
+        let mut sum = self.damping_n_m_s_per_rad;
         if let Some(clicks) = &self.clicks {
             sum += clicks.damping;
         }
         if let Some(ends) = &self.ends {
-            sum += ends.damping;
+            sum += ends.damping_n_m_s_per_rad;
         }
         sum
     }
@@ -179,16 +187,16 @@ impl Feel {
     pub const fn torque_between_ends(&self) -> f32 {
         let mut sum = 0.0;
         if let Some(wave) = &self.detents {
-            sum += wave.torque;
+            sum += wave.torque_n_m;
         }
         if let Some(wave) = &self.texture {
-            sum += wave.torque;
+            sum += wave.torque_n_m;
         }
         if let Some(clicks) = &self.clicks {
             sum += clicks.max_force;
         }
         if let Some(spring) = &self.spring {
-            sum += spring.most;
+            sum += spring.max_torque_n_m;
         }
         sum
     }
@@ -197,7 +205,7 @@ impl Feel {
     /// limited as a whole.
     #[inline]
     pub fn torque(&self, click: &mut i32, angle: f32, rate: f32) -> f32 {
-        let mut torque = -self.damping * rate;
+        let mut torque = -self.damping_n_m_s_per_rad * rate;
         if let Some(wave) = &self.detents {
             torque += wave.at(angle);
         }
@@ -208,7 +216,11 @@ impl Feel {
             torque += wave.at(angle);
         }
         if let Some(spring) = &self.spring {
-            torque += saturate(spring.stiffness * (spring.rest - angle), -spring.most, spring.most);
+            torque += saturate(
+                spring.stiffness_n_m_per_rad * (spring.rest_rad - angle),
+                -spring.max_torque_n_m,
+                spring.max_torque_n_m,
+            );
         }
         if let Some(ends) = &self.ends {
             torque += ends.torque(angle, rate);
@@ -221,12 +233,12 @@ impl Ends {
     /// The torque of the end stops, N·m: zero between them, and never outwards.
     #[inline]
     fn torque(&self, angle: f32, rate: f32) -> f32 {
-        let [least, most] = self.between;
+        let [least, most] = self.between_rad;
         if angle > most {
-            let torque = self.stiffness * (most - angle) - self.damping * rate;
+            let torque = self.stiffness_n_m_per_rad * (most - angle) - self.damping_n_m_s_per_rad * rate;
             if torque < 0.0 { torque } else { 0.0 }
         } else if angle < least {
-            let torque = self.stiffness * (least - angle) - self.damping * rate;
+            let torque = self.stiffness_n_m_per_rad * (least - angle) - self.damping_n_m_s_per_rad * rate;
             if torque > 0.0 { torque } else { 0.0 }
         } else {
             0.0
@@ -238,9 +250,9 @@ impl Ends {
 mod tests {
     use super::*;
 
-    const DETENTS: Wave = Wave { pitch: 0.25, torque: 0.03, centre: 0.1 };
-    const ENDS: Ends = Ends { between: [-1.0, 1.0], stiffness: 0.8, damping: 1e-3 };
-    const SPRING: Spring = Spring { stiffness: 0.05, rest: 0.2, most: 0.02 };
+    const DETENTS: Wave = Wave { pitch_rad: 0.25, torque_n_m: 0.03, centre_rad: 0.1 };
+    const ENDS: Ends = Ends { between_rad: [-1.0, 1.0], stiffness_n_m_per_rad: 0.8, damping_n_m_s_per_rad: 1e-3 };
+    const SPRING: Spring = Spring { stiffness_n_m_per_rad: 0.05, rest_rad: 0.2, max_torque_n_m: 0.02 };
 
     fn still(feel: &Feel, angle: f32) -> f32 {
         feel.torque(&mut 0, angle, 0.0)
@@ -285,7 +297,7 @@ mod tests {
             spring: Some(SPRING),
             ends: Some(ENDS),
             clicks: None,
-            damping: 1e-3,
+            damping_n_m_s_per_rad: 1e-3,
         };
         assert_eq!(all.check(), Ok(()));
         let sum = 2.0 * DETENTS.at(0.3) + 0.05 * -0.1 - 1e-3 * 2.0;
@@ -293,17 +305,23 @@ mod tests {
         // 2 · 0.03 · 2π/0.25 + 0.05 + 0.8.
         assert!((all.stiffness() - 2.357_964).abs() < 1e-4 && (all.torque_between_ends() - 0.08).abs() < 1e-6);
         for bad in [-1.0, f32::NAN, f32::INFINITY] {
-            let wave = Some(Wave { torque: bad, ..DETENTS });
+            let wave = Some(Wave { torque_n_m: bad, ..DETENTS });
             assert_eq!(Feel { detents: wave, ..all }.check(), Err(FeelError::Detents));
-            assert_eq!(Feel { detents: Some(Wave { pitch: bad, ..DETENTS }), ..all }.check(), Err(FeelError::Detents));
+            assert_eq!(
+                Feel { detents: Some(Wave { pitch_rad: bad, ..DETENTS }), ..all }.check(),
+                Err(FeelError::Detents)
+            );
             assert_eq!(Feel { texture: wave, ..all }.check(), Err(FeelError::Texture));
             assert_eq!(
-                Feel { spring: Some(Spring { stiffness: bad, ..SPRING }), ..all }.check(),
+                Feel { spring: Some(Spring { stiffness_n_m_per_rad: bad, ..SPRING }), ..all }.check(),
                 Err(FeelError::Spring)
             );
-            assert_eq!(Feel { ends: Some(Ends { damping: bad, ..ENDS }), ..all }.check(), Err(FeelError::Ends));
-            assert_eq!(Feel { damping: bad, ..all }.check(), Err(FeelError::Damping));
+            assert_eq!(
+                Feel { ends: Some(Ends { damping_n_m_s_per_rad: bad, ..ENDS }), ..all }.check(),
+                Err(FeelError::Ends)
+            );
+            assert_eq!(Feel { damping_n_m_s_per_rad: bad, ..all }.check(), Err(FeelError::Damping));
         }
-        assert_eq!(Feel { ends: Some(Ends { between: [1.0, -1.0], ..ENDS }), ..all }.check(), Err(FeelError::Ends));
+        assert_eq!(Feel { ends: Some(Ends { between_rad: [1.0, -1.0], ..ENDS }), ..all }.check(), Err(FeelError::Ends));
     }
 }

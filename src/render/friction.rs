@@ -11,9 +11,9 @@ use crate::math::{Vec3, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
     /// Stiffness along the surface while it sticks, N/m.
-    pub stiffness: f32,
+    pub stiffness_n_per_m: f32,
     /// Damping along the surface while it sticks, N·s/m.
-    pub damping: f32,
+    pub damping_n_s_per_m: f32,
     /// `μ_s`: tangential over normal force at which it begins to slip.
     pub static_coefficient: f32,
     /// `μ_d ≤ μ_s`: tangential over normal force while it slips.
@@ -44,8 +44,8 @@ impl Friction {
         let along = |vector: Vec3| vector - normal * vector.dot(normal);
         // The surface may have turned since: only what lies along it now counts.
         let stretch = along(anchor.point.unwrap_or(witness) - witness);
-        let damping = along(velocity) * -self.damping;
-        let pull = stretch * self.stiffness + damping;
+        let damping = along(velocity) * -self.damping_n_s_per_m;
+        let pull = stretch * self.stiffness_n_per_m + damping;
         let coefficient = if anchor.slips { self.dynamic_coefficient } else { self.static_coefficient };
         let most = coefficient * push;
         let squared = pull.length_squared();
@@ -59,14 +59,15 @@ impl Friction {
         let slide = self.dynamic_coefficient * push;
         let scale = slide / sqrt(squared);
         let pull = if scale.is_finite() { pull * scale } else { Vec3::ZERO };
-        let reach = if self.stiffness > 0.0 { 1.0 / self.stiffness } else { 0.0 };
+        let reach = if self.stiffness_n_per_m > 0.0 { 1.0 / self.stiffness_n_per_m } else { 0.0 };
         *anchor = Anchor { point: Some(witness + pull * reach), slips: true };
         pull
     }
 
     /// Whether all four are finite and not negative, and `μ_d ≤ μ_s`.
     pub const fn is_valid(&self) -> bool {
-        let Self { stiffness, damping, static_coefficient, dynamic_coefficient } = *self;
+        let Self { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, static_coefficient, dynamic_coefficient } =
+            *self;
         let finite = stiffness < f32::INFINITY && damping < f32::INFINITY && static_coefficient < f32::INFINITY;
         finite
             && stiffness >= 0.0
@@ -81,8 +82,12 @@ mod tests {
     use super::*;
     use crate::math::vec3;
 
-    const STEEL: Friction =
-        Friction { stiffness: 500.0, damping: 0.0, static_coefficient: 0.5, dynamic_coefficient: 0.3 };
+    const STEEL: Friction = Friction {
+        stiffness_n_per_m: 500.0,
+        damping_n_s_per_m: 0.0,
+        static_coefficient: 0.5,
+        dynamic_coefficient: 0.3,
+    };
 
     fn at(x: f32) -> Vec3 {
         vec3(x, 0.0, 0.0)
@@ -127,7 +132,7 @@ mod tests {
     #[test]
     fn the_cone_holds_whatever_comes() {
         let mut anchor = Anchor::default();
-        let friction = Friction { damping: 5.0, ..STEEL };
+        let friction = Friction { damping_n_s_per_m: 5.0, ..STEEL };
         let mut slipped = 0;
         for step in 0..10_000 {
             let (sine, cosine) = crate::math::sin_cos(step as f32 * 0.013);

@@ -10,16 +10,16 @@ use super::Friction;
 /// use palpate::servo::{Rendering, Settings};
 ///
 /// const WOOD: Material = Material::WOOD;
-/// let settings = Settings { stiffness: WOOD.stiffness, damping: WOOD.damping, ..Settings::default() };
+/// let settings = Settings { stiffness_n_per_m: WOOD.stiffness_n_per_m, damping_n_s_per_m: WOOD.damping_n_s_per_m, ..Settings::default() };
 /// let rendering = Rendering { friction: Some(WOOD.friction), ..Rendering::SMOOTH };
-/// assert!(rendering.check(settings.stiffness, 1.0 / settings.rate).is_ok());
+/// assert!(rendering.check(settings.stiffness_n_per_m, 1.0 / settings.rate_hz).is_ok());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// N/m.
-    pub stiffness: f32,
+    pub stiffness_n_per_m: f32,
     /// N·s/m.
-    pub damping: f32,
+    pub damping_n_s_per_m: f32,
     /// Along the surface.
     pub friction: Friction,
 }
@@ -27,23 +27,38 @@ pub struct Material {
 impl Material {
     /// Soft, well damped, and it holds.
     pub const RUBBER: Self = Self {
-        stiffness: 300.0,
-        damping: 2.0,
-        friction: Friction { stiffness: 300.0, damping: 1.0, static_coefficient: 0.8, dynamic_coefficient: 0.7 },
+        stiffness_n_per_m: 300.0,
+        damping_n_s_per_m: 2.0,
+        friction: Friction {
+            stiffness_n_per_m: 300.0,
+            damping_n_s_per_m: 1.0,
+            static_coefficient: 0.8,
+            dynamic_coefficient: 0.7,
+        },
     };
 
     /// As stiff as no step between two ticks at 4 kHz exceeds 50 mN up to 0.3 m/s: a spring's own is `K v/f`.
     pub const WOOD: Self = Self {
-        stiffness: 500.0,
-        damping: 2.0,
-        friction: Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 },
+        stiffness_n_per_m: 500.0,
+        damping_n_s_per_m: 2.0,
+        friction: Friction {
+            stiffness_n_per_m: 500.0,
+            damping_n_s_per_m: 1.0,
+            static_coefficient: 0.4,
+            dynamic_coefficient: 0.3,
+        },
     };
 
     /// Twice as stiff, and slippery: its spring steps by more than 50 mN from 0.2 m/s on.
     pub const STEEL: Self = Self {
-        stiffness: 1_000.0,
-        damping: 2.0,
-        friction: Friction { stiffness: 800.0, damping: 1.0, static_coefficient: 0.2, dynamic_coefficient: 0.15 },
+        stiffness_n_per_m: 1_000.0,
+        damping_n_s_per_m: 2.0,
+        friction: Friction {
+            stiffness_n_per_m: 800.0,
+            damping_n_s_per_m: 1.0,
+            static_coefficient: 0.2,
+            dynamic_coefficient: 0.15,
+        },
     };
 }
 
@@ -55,12 +70,12 @@ mod tests {
     fn each_has_friction_that_makes_sense_and_each_is_stiffer_than_the_last() {
         let all = [Material::RUBBER, Material::WOOD, Material::STEEL];
         assert!(all.iter().all(|material| material.friction.is_valid()));
-        assert!(all.windows(2).all(|pair| pair[0].stiffness < pair[1].stiffness));
+        assert!(all.windows(2).all(|pair| pair[0].stiffness_n_per_m < pair[1].stiffness_n_per_m));
     }
 
     #[test]
     fn wood_is_the_stiffest_whose_spring_alone_keeps_to_fifty_millinewtons_a_tick() {
-        let step = |material: Material| material.stiffness * 0.3 / 4_000.0;
+        let step = |material: Material| material.stiffness_n_per_m * 0.3 / 4_000.0;
         assert!(step(Material::WOOD) < 0.05 && step(Material::STEEL) > 0.05);
     }
 }

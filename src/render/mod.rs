@@ -2,8 +2,7 @@
 //!
 //! [`crate::track::Contact`] says whether the surface is touched. [`Penalty`] says how it pushes back, [`Friction`] how
 //! it holds along the surface, [`Texture`] what is added; [`Coupling`] puts a virtual tool between probe and surface.
-//! [`Ease`] keeps it from clicking, [`Transient`] lets what is hard ring. Then the force passes the limits of [`limit`]
-//! and, if asked for, [`Passivity`]. [`bounds`] says beforehand what a device can bear; [`Feel`] is what a dial feels
+//! [`Ease`] keeps it from clicking. Then the force passes the limits of [`limit`] and, if configured, [`Passivity`]. [`bounds`] says beforehand what a device can bear; [`Feel`] is what a dial feels
 //! like, with [`Detents`] that click.
 
 pub mod bounds;
@@ -18,7 +17,6 @@ mod passivity;
 mod penalty;
 mod press;
 mod texture;
-mod transient;
 
 pub use coupling::{Coupling, Tool};
 pub use ease::{Ease, Eased, Reason};
@@ -30,4 +28,3 @@ pub use passivity::{Energy, Motion, Passivity};
 pub use penalty::Penalty;
 pub use press::Press;
 pub use texture::{Texture, Touch, grating};
-pub use transient::{Ring, Struck, Transient};

@@ -20,13 +20,13 @@ use crate::math::{Vec3, saturate, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passivity {
     /// `b`: viscous friction the device has at least, N·s/m. 0 is the careful choice.
-    pub device_damping: f32,
+    pub device_damping_n_s_per_m: f32,
     /// `f_c`: dry friction the device has at least, N. 0 is the careful choice.
-    pub device_friction: f32,
+    pub device_friction_n: f32,
     /// The greatest `α`, N·s/m: more damping than the device bears does harm.
-    pub max_damping: f32,
+    pub max_damping_n_s_per_m: f32,
     /// `Δ`: how far the probe seems to move when every encoder counts one, m.
-    pub resolution: f32,
+    pub resolution_m: f32,
 }
 
 /// What observer and controller remember.
@@ -61,14 +61,14 @@ pub struct Motion {
 impl Passivity {
     /// The quantum, J, of a surface with this greatest force, N.
     pub const fn quantum(&self, max_force: f32) -> f32 {
-        max_force * self.resolution
+        max_force * self.resolution_m
     }
 
     /// Books the move of the last period under the force that was held in it, N.
     #[inline]
     pub fn observe(&self, energy: &mut Energy, held: Vec3, motion: &Motion) {
         let squared = motion.moved.length_squared();
-        let friction = self.device_damping * squared * motion.rate + self.device_friction * sqrt(squared);
+        let friction = self.device_damping_n_s_per_m * squared * motion.rate + self.device_friction_n * sqrt(squared);
         energy.stored = saturate(energy.stored + friction - held.dot(motion.moved), -f32::MAX, f32::MAX);
     }
 
@@ -84,13 +84,13 @@ impl Passivity {
         let quantum = self.quantum(max_force);
         let mut passive = force;
         let squared = motion.velocity.length_squared();
-        let power = force.dot(motion.velocity) - self.device_damping * squared;
+        let power = force.dot(motion.velocity) - self.device_damping_n_s_per_m * squared;
         let deficit = -0.5 * quantum - energy.stored + power / motion.rate;
         if deficit > 0.0 && squared > 0.0 {
-            energy.damping = saturate(deficit * motion.rate / squared, 0.0, self.max_damping);
+            energy.damping = saturate(deficit * motion.rate / squared, 0.0, self.max_damping_n_s_per_m);
             passive -= motion.velocity * energy.damping;
         }
-        let reach = sqrt(motion.moved.length_squared()) + self.resolution;
+        let reach = sqrt(motion.moved.length_squared()) + self.resolution_m;
         let most = saturate((energy.stored + quantum) / reach, 0.0, max_force);
         energy.cut = passive.length_squared() > most * most && most < max_force;
         saturated(passive, most)
@@ -98,7 +98,12 @@ impl Passivity {
 
     /// Whether all four are finite and not negative, and the resolution is above zero.
     pub const fn is_valid(&self) -> bool {
-        let Self { device_damping, device_friction, max_damping, resolution } = *self;
+        let Self {
+            device_damping_n_s_per_m: device_damping,
+            device_friction_n: device_friction,
+            max_damping_n_s_per_m: max_damping,
+            resolution_m: resolution,
+        } = *self;
         let finite = device_damping < f32::INFINITY && device_friction < f32::INFINITY;
         let bounded = max_damping < f32::INFINITY && resolution < f32::INFINITY;
         let signs = device_damping >= 0.0 && device_friction >= 0.0 && max_damping >= 0.0 && resolution > 0.0;
@@ -110,8 +115,12 @@ impl Passivity {
 mod tests {
     use super::*;
 
-    const CONTROL: Passivity =
-        Passivity { device_damping: 0.0, device_friction: 0.0, max_damping: 50.0, resolution: 2e-5 };
+    const CONTROL: Passivity = Passivity {
+        device_damping_n_s_per_m: 0.0,
+        device_friction_n: 0.0,
+        max_damping_n_s_per_m: 50.0,
+        resolution_m: 2e-5,
+    };
     const GREATEST: f32 = 5.0;
 
     fn motion(moved: f32) -> Motion {
@@ -125,7 +134,7 @@ mod tests {
         assert!((energy.stored - 2e-3).abs() < 1e-9);
         CONTROL.observe(&mut energy, Vec3::Z * 3.0, &motion(0.001));
         assert!((energy.stored + 1e-3).abs() < 1e-9);
-        let rough = Passivity { device_damping: 0.5, device_friction: 0.2, ..CONTROL };
+        let rough = Passivity { device_damping_n_s_per_m: 0.5, device_friction_n: 0.2, ..CONTROL };
         rough.observe(&mut energy, Vec3::ZERO, &motion(0.001));
         // 0.5 N·s/m at 1 m/s over 1 mm, and 0.2 N over it.
         assert!((energy.stored + 0.3e-3).abs() < 1e-9);
@@ -147,7 +156,7 @@ mod tests {
         for debt in [0.0, 0.3, 0.6, 0.9, 1.0] {
             let mut energy = Energy { stored: -debt * quantum, ..Energy::default() };
             let force = CONTROL.control(&mut energy, Vec3::Z * 5.0, &motion(0.0), true, GREATEST);
-            CONTROL.observe(&mut energy, force, &motion(CONTROL.resolution));
+            CONTROL.observe(&mut energy, force, &motion(CONTROL.resolution_m));
             // Rounding of 1e-4 J.
             assert!(energy.stored >= -quantum * (1.0 + 1e-6), "{debt}: {energy:?}");
             assert_eq!(energy.cut, debt > 0.0);

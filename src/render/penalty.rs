@@ -6,12 +6,12 @@ use crate::math::saturate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty {
     /// Stiffness, N/m.
-    pub stiffness: f32,
+    pub stiffness_n_per_m: f32,
     /// Damping, N·s/m. A sampled wall is passive only with the device's own damping above `stiffness · period / 2 +
     /// damping` (Colgate and Schenkel).
-    pub damping: f32,
+    pub damping_n_s_per_m: f32,
     /// The greatest force, N.
-    pub max_force: f32,
+    pub max_force_n: f32,
 }
 
 impl Penalty {
@@ -20,8 +20,8 @@ impl Penalty {
     #[inline]
     pub fn push(&self, gap: f32, gap_rate: f32) -> f32 {
         if gap < 0.0 {
-            let spring_and_damper = -self.stiffness * gap - self.damping * gap_rate;
-            saturate(spring_and_damper, 0.0, self.max_force)
+            let spring_and_damper = -self.stiffness_n_per_m * gap - self.damping_n_s_per_m * gap_rate;
+            saturate(spring_and_damper, 0.0, self.max_force_n)
         } else {
             0.0
         }
@@ -32,7 +32,7 @@ impl Penalty {
 mod tests {
     use super::*;
 
-    const WALL: Penalty = Penalty { stiffness: 1_000.0, damping: 5.0, max_force: 5.0 };
+    const WALL: Penalty = Penalty { stiffness_n_per_m: 1_000.0, damping_n_s_per_m: 5.0, max_force_n: 5.0 };
 
     #[test]
     fn the_wall_pushes_and_never_pulls() {

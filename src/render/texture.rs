@@ -25,7 +25,7 @@ pub struct Texture {
     /// The extra force on the probe, N. Called in the tick while the surface is touched: it must not wait or panic.
     pub force: fn(&Touch) -> Vec3,
     /// The extra force is scaled down to this share of the normal force, so that it goes to zero with it.
-    pub max_share: f32,
+    pub max_fraction: f32,
 }
 
 impl Texture {
@@ -34,7 +34,7 @@ impl Texture {
     pub fn bounded(&self, touch: &Touch) -> Vec3 {
         let force = (self.force)(touch);
         let squared = force.length_squared();
-        let most = self.max_share * touch.push;
+        let most = self.max_fraction * touch.push;
         if squared <= most * most {
             return force;
         }
@@ -75,10 +75,10 @@ mod tests {
             (|_| Vec3::X * f32::INFINITY, Vec3::ZERO),
             (|_| Vec3::X * 1e30, Vec3::ZERO),
         ] {
-            let found = Texture { force, max_share: 0.25 }.bounded(&TOUCH);
+            let found = Texture { force, max_fraction: 0.25 }.bounded(&TOUCH);
             assert!((found - expected).length() < 1e-6, "{found} {expected}");
         }
-        let off = Texture { force: |_| Vec3::X, max_share: 0.25 }.bounded(&Touch { push: 0.0, ..TOUCH });
+        let off = Texture { force: |_| Vec3::X, max_fraction: 0.25 }.bounded(&Touch { push: 0.0, ..TOUCH });
         assert_eq!(off, Vec3::ZERO);
     }
 

@@ -90,12 +90,12 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
             return self.place(state, index, placement);
         };
         let (before, after) = (state.parts[index].frame, Frame::new(&placement));
-        let radius = if sphere.radius < f32::INFINITY { sphere.radius } else { 0.0 };
+        let radius = if sphere.radius_m < f32::INFINITY { sphere.radius_m } else { 0.0 };
         let turned = [0, 1, 2].map(|axis| (after.axes[axis] - before.axes[axis]).length_squared());
-        let moved = after.point_to_scene(sphere.centre) - before.point_to_scene(sphere.centre);
+        let moved = after.point_to_scene(sphere.centre_m) - before.point_to_scene(sphere.centre_m);
         // A turn takes the axes together no less far than any unit vector.
         let way = moved.length() + radius * sqrt(turned[0] + turned[1] + turned[2]);
-        if way <= LATE * self.limits.max_speed / self.limits.rate && is_rigid(&placement) {
+        if way <= LATE * self.limits.max_speed_m_per_s / self.limits.rate_hz && is_rigid(&placement) {
             (state.parts[index].frame, state.parts[index].way) = (after, 0);
             return Ok(());
         }
@@ -120,7 +120,7 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         };
         let frame = self.may_move(index, &frame.placement(), [velocity, angular_velocity], seconds)?;
         // Saturates: some days at 100 kHz.
-        (state.parts[index].frame, state.parts[index].way) = (frame, (seconds * self.limits.rate) as u32);
+        (state.parts[index].frame, state.parts[index].way) = (frame, (seconds * self.limits.rate_hz) as u32);
         if state.parts[index].way == 0 {
             state.parts[index].rest_here();
         }
@@ -143,10 +143,10 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
             return Err(SceneError::Placement(number));
         }
         let frame = Frame::new(&Placement { velocity, angular_velocity, ..*here });
-        let radius = if part.sphere.radius < f32::INFINITY { part.sphere.radius } else { 0.0 };
-        let middle = frame.velocity_at(frame.point_to_scene(part.sphere.centre));
+        let radius = if part.sphere.radius_m < f32::INFINITY { part.sphere.radius_m } else { 0.0 };
+        let middle = frame.velocity_at(frame.point_to_scene(part.sphere.centre_m));
         let fastest = middle.length() + radius * angular_velocity.length();
-        if fastest <= self.limits.max_speed { Ok(frame) } else { Err(SceneError::TooFast(number)) }
+        if fastest <= self.limits.max_speed_m_per_s { Ok(frame) } else { Err(SceneError::TooFast(number)) }
     }
 
     /// Switches groups on and off: those of these bits, group 0 the lowest. What was felt of a body that is now off

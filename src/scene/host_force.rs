@@ -30,22 +30,22 @@ impl HostForce {
     /// Asks for a force, for [`HOLD`] seconds.
     pub fn push(&mut self, limits: &Limits, force: Vec3) -> Result<(), SceneError> {
         // Not finite is not within either.
-        let is_within = force.length() <= limits.max_force;
+        let is_within = force.length() <= limits.max_force_n;
         if is_within {
             // At most 10,000, at 100 kHz.
-            (self.asked, self.stands) = (force, (HOLD * limits.rate) as u32);
+            (self.asked, self.stands) = (force, (HOLD * limits.rate_hz) as u32);
         }
         if is_within { Ok(()) } else { Err(SceneError::Force) }
     }
 
     /// Asks for another limit of all force.
     pub fn set_limit(&mut self, limits: &Limits, force: f32) -> Result<(), SceneError> {
-        if !(force >= 0.0 && force <= limits.max_force) {
+        if !(force >= 0.0 && force <= limits.max_force_n) {
             return Err(SceneError::Force);
         }
         self.limit = force;
         // Two bodies and the host: more there never is.
-        self.most = if self.most < f32::INFINITY { self.most } else { 3.0 * limits.max_force };
+        self.most = if self.most < f32::INFINITY { self.most } else { 3.0 * limits.max_force_n };
         Ok(())
     }
 
@@ -86,10 +86,16 @@ mod tests {
     use super::*;
     use crate::math::vec3;
 
-    const LIMITS: Limits =
-        Limits { max_stiffness: 1e3, max_damping: 5.0, max_force: 4.0, let_go: 80.0, rate: 4_000.0, max_speed: 2.0 };
+    const LIMITS: Limits = Limits {
+        max_stiffness_n_per_m: 1e3,
+        max_damping_n_s_per_m: 5.0,
+        max_force_n: 4.0,
+        release_n_per_s: 80.0,
+        rate_hz: 4_000.0,
+        max_speed_m_per_s: 2.0,
+    };
     /// What may change in a tick, N.
-    const STEP: f32 = LIMITS.let_go / LIMITS.rate;
+    const STEP: f32 = LIMITS.release_n_per_s / LIMITS.rate_hz;
 
     #[test]
     fn a_force_comes_stands_and_goes_without_a_step() {

@@ -6,30 +6,49 @@ use crate::device::Device;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// The greatest stiffness that a body may be given, N/m.
-    pub max_stiffness: f32,
+    pub max_stiffness_n_per_m: f32,
     /// The greatest damping, N·s/m.
-    pub max_damping: f32,
+    pub max_damping_n_s_per_m: f32,
     /// The greatest force of a body, N.
-    pub max_force: f32,
+    pub max_force_n: f32,
     /// How much of a force that is no longer backed by a body is let go of in a second, N/s; a force that a switch
     /// brings comes up as fast.
-    pub let_go: f32,
+    pub release_n_per_s: f32,
     /// Ticks a second.
-    pub rate: f32,
+    pub rate_hz: f32,
     /// No body is met faster than this, m/s: by the tool's speed and its own. It says how long a body that is far off
     /// need not be looked at.
-    pub max_speed: f32,
+    pub max_speed_m_per_s: f32,
 }
 
 impl Limits {
     /// Those of a device, at a servo rate: no more force than it has, let go of in 50 ms; bodies met at up to 2 m/s.
     pub const fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>, rate: f32) -> Self {
-        let Device { max_stiffness, max_damping, max_force, .. } = *device;
-        Self { max_stiffness, max_damping, max_force, let_go: 20.0 * max_force, rate, max_speed: 2.0 }
+        let Device {
+            max_stiffness_n_per_m: max_stiffness,
+            max_damping_n_s_per_m: max_damping,
+            max_force_n: max_force,
+            ..
+        } = *device;
+        Self {
+            max_stiffness_n_per_m: max_stiffness,
+            max_damping_n_s_per_m: max_damping,
+            max_force_n: max_force,
+            release_n_per_s: 20.0 * max_force,
+            rate_hz: rate,
+            max_speed_m_per_s: 2.0,
+        }
     }
 
     pub(super) const fn is_valid(&self) -> bool {
-        let Self { max_stiffness, max_damping, max_force, let_go, rate, max_speed } = *self;
+        let Self {
+            max_stiffness_n_per_m: max_stiffness,
+            max_damping_n_s_per_m: max_damping,
+            max_force_n: max_force,
+            release_n_per_s: let_go,
+            rate_hz: rate,
+            max_speed_m_per_s: max_speed,
+        } = *self;
         max_stiffness > 0.0
             && max_damping >= 0.0
             && max_force > 0.0

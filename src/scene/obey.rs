@@ -59,8 +59,8 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
             Order::Harden { body, stiffness, damping } => self.harden(state, usize::from(body), stiffness, damping),
             Order::Rub { body, friction } => {
                 let friction = friction.map(|[stiffness, damping, static_coefficient, dynamic_coefficient]| Friction {
-                    stiffness,
-                    damping,
+                    stiffness_n_per_m: stiffness,
+                    damping_n_s_per_m: damping,
                     static_coefficient,
                     dynamic_coefficient,
                 });

@@ -24,9 +24,9 @@ pub enum Motion {
 #[derive(Clone, Copy, Debug)]
 pub struct Material {
     /// Stiffness, N/m.
-    pub stiffness: f32,
+    pub stiffness_n_per_m: f32,
     /// Damping, N·s/m.
-    pub damping: f32,
+    pub damping_n_s_per_m: f32,
     /// Dry friction.
     pub friction: Option<Friction>,
     /// Texture on top; it is asked in the body's own frame.
@@ -36,7 +36,7 @@ pub struct Material {
 impl Material {
     /// A spring and a damper.
     pub const fn new(stiffness: f32, damping: f32) -> Self {
-        Self { stiffness, damping, friction: None, texture: None }
+        Self { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, friction: None, texture: None }
     }
 }
 
@@ -44,9 +44,9 @@ impl Material {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     /// Metres.
-    pub centre: Vec3,
+    pub centre_m: Vec3,
     /// Metres.
-    pub radius: f32,
+    pub radius_m: f32,
 }
 
 /// A body of the scene.
@@ -76,8 +76,8 @@ impl<'a, 'b> Part<'a, Body<'b>> {
     /// `√3` times its size. A smaller one that you know is a better one.
     pub const fn new(body: &'a Body<'b>, motion: Motion, material: Material) -> Self {
         let sphere = match body.vertices() {
-            [first, ..] => Sphere { centre: first.point, radius: 1.732_051 * body.size() },
-            [] => Sphere { centre: Vec3::ZERO, radius: f32::INFINITY },
+            [first, ..] => Sphere { centre_m: first.point, radius_m: 1.732_051 * body.size() },
+            [] => Sphere { centre_m: Vec3::ZERO, radius_m: f32::INFINITY },
         };
         Self { surface: body, motion, material, sphere, group: 0 }
     }
@@ -101,7 +101,7 @@ impl<S> Part<'_, S> {
     }
 
     pub(super) const fn is_held(&self) -> bool {
-        finite(self.sphere.centre) && self.sphere.radius >= 0.0
+        finite(self.sphere.centre_m) && self.sphere.radius_m >= 0.0
     }
 }
 
@@ -159,8 +159,8 @@ impl<W: Tracked> PartState<W> {
             normal: Vec3::ZERO,
             velocity: Vec3::ZERO,
             force: Vec3::ZERO,
-            stiffness: part.material.stiffness,
-            damping: part.material.damping,
+            stiffness: part.material.stiffness_n_per_m,
+            damping: part.material.damping_n_s_per_m,
             friction: part.material.friction,
             way: 0,
             seen: 0,
@@ -230,9 +230,18 @@ impl<W: Tracked> PartState<W> {
         for number in [self.gap, self.stiffness, self.damping] {
             take(number.to_bits());
         }
-        let slippery = Friction { stiffness: 0.0, damping: 0.0, static_coefficient: 0.0, dynamic_coefficient: 0.0 };
-        let Friction { stiffness, damping, static_coefficient, dynamic_coefficient } =
-            self.friction.unwrap_or(slippery);
+        let slippery = Friction {
+            stiffness_n_per_m: 0.0,
+            damping_n_s_per_m: 0.0,
+            static_coefficient: 0.0,
+            dynamic_coefficient: 0.0,
+        };
+        let Friction {
+            stiffness_n_per_m: stiffness,
+            damping_n_s_per_m: damping,
+            static_coefficient,
+            dynamic_coefficient,
+        } = self.friction.unwrap_or(slippery);
         for number in [stiffness, damping, static_coefficient, dynamic_coefficient] {
             take(number.to_bits());
         }

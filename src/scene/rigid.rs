@@ -31,25 +31,25 @@ pub struct RigidBody {
     /// Where it starts, and how it moves then.
     pub start: Placement,
     /// kg.
-    pub mass: f32,
+    pub mass_kg: f32,
     /// Moments of inertia about axes through the centre of mass along those of the body's frame, kg·m²: these must be
     /// principal ones.
-    pub inertia: Vec3,
+    pub inertia_kg_m2: Vec3,
     /// The centre of mass in the body's frame, metres.
-    pub centre: Vec3,
+    pub centre_m: Vec3,
     /// How it may move.
     pub joint: Joint,
     /// Acceleration of gravity, m/s².
-    pub gravity: Vec3,
+    pub gravity_m_per_s2: Vec3,
     /// What the air takes, N·s/m.
-    pub damping: f32,
+    pub damping_n_s_per_m: f32,
     /// What it takes of turning, N·m·s/rad.
-    pub angular_damping: f32,
+    pub angular_damping_n_m_s_per_rad: f32,
     /// What pulls the centre of mass back.
     pub tether: Option<Tether>,
     /// What turns a [`Joint::Free`] or [`Joint::Hinge`] body back to how it started, N·m/rad for small angles; the
     /// torque is that times the sine of the angle.
-    pub angular_stiffness: f32,
+    pub angular_stiffness_n_m_per_rad: f32,
 }
 
 /// How a body may move.
@@ -75,13 +75,13 @@ pub enum Joint {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tether {
     /// The middle, metres.
-    pub anchor: Vec3,
+    pub anchor_m: Vec3,
     /// How far it is slack to either side along each axis, metres.
-    pub slack: Vec3,
+    pub slack_m: Vec3,
     /// N/m.
-    pub stiffness: f32,
+    pub stiffness_n_per_m: f32,
     /// N·s/m, everywhere.
-    pub damping: f32,
+    pub damping_n_s_per_m: f32,
 }
 
 /// How a free body moves.
@@ -113,22 +113,22 @@ impl RigidBody {
     pub const fn new(start: Placement, mass: f32, inertia: Vec3) -> Self {
         Self {
             start,
-            mass,
-            inertia,
-            centre: Vec3::ZERO,
+            mass_kg: mass,
+            inertia_kg_m2: inertia,
+            centre_m: Vec3::ZERO,
             joint: Joint::Free,
-            gravity: Vec3::ZERO,
-            damping: 0.0,
-            angular_damping: 0.0,
+            gravity_m_per_s2: Vec3::ZERO,
+            damping_n_s_per_m: 0.0,
+            angular_damping_n_m_s_per_rad: 0.0,
             tether: None,
-            angular_stiffness: 0.0,
+            angular_stiffness_n_m_per_rad: 0.0,
         }
     }
 
     /// Before the first tick.
     pub fn rest(&self) -> Moving {
         let Placement { origin, velocity, angular_velocity, .. } = self.start;
-        let arm = self.start.direction_to_a(self.centre);
+        let arm = self.start.direction_to_a(self.centre_m);
         let position = origin + arm;
         let (velocity, momentum) = match self.joint {
             Joint::Free => (velocity + angular_velocity.cross(arm), self.momentum(&self.start, angular_velocity)),
@@ -140,7 +140,7 @@ impl RigidBody {
             }
         };
         let along = self.start.direction_to_b(momentum);
-        let turning = along.dot(along / self.inertia);
+        let turning = along.dot(along / self.inertia_kg_m2);
         Moving { orientation: quaternion(&self.start.axes), position, velocity, momentum, turning }
     }
 
@@ -168,12 +168,12 @@ impl RigidBody {
         let mut frame = Frame {
             axes,
             pivot: state.position,
-            offset: -self.centre,
+            offset: -self.centre_m,
             velocity: Vec3::ZERO,
             angular_velocity: Vec3::ZERO,
         };
         frame.angular_velocity = match self.joint {
-            Joint::Free => frame.to_scene(frame.to_body(state.momentum) / self.inertia),
+            Joint::Free => frame.to_scene(frame.to_body(state.momentum) / self.inertia_kg_m2),
             Joint::Hinge { axis, pivot } => state.momentum * (1.0 / self.hinge_inertia(axis, pivot)),
             Joint::Fixed | Joint::Slider(_) => Vec3::ZERO,
         };
@@ -187,16 +187,17 @@ impl RigidBody {
         let turning = 0.5 * placement.angular_velocity.dot(state.momentum);
         let kinetic = match self.joint {
             Joint::Hinge { .. } => turning,
-            _ => 0.5 * self.mass * state.velocity.length_squared() + turning,
+            _ => 0.5 * self.mass_kg * state.velocity.length_squared() + turning,
         };
-        let mut potential = -self.mass * self.gravity.dot(state.position - self.start.point_to_a(self.centre));
+        let mut potential =
+            -self.mass_kg * self.gravity_m_per_s2.dot(state.position - self.start.point_to_a(self.centre_m));
         if let Some(tether) = &self.tether
             && !matches!(self.joint, Joint::Hinge { .. })
         {
-            potential += 0.5 * tether.stiffness * tether.stretch(state.position).length_squared();
+            potential += 0.5 * tether.stiffness_n_per_m * tether.stretch(state.position).length_squared();
         }
         let [x, y, z, _] = self.turned(state);
-        kinetic + potential + 2.0 * self.angular_stiffness * vec3(x, y, z).length_squared()
+        kinetic + potential + 2.0 * self.angular_stiffness_n_m_per_rad * vec3(x, y, z).length_squared()
     }
 
     /// By how much a unit force along `direction` at `point` of the world moves that point along it, per kg⁻¹: the
@@ -206,7 +207,7 @@ impl RigidBody {
             Joint::Fixed => 0.0,
             Joint::Slider(axis) => {
                 let along = axis.dot(direction);
-                along * along / self.mass
+                along * along / self.mass_kg
             }
             Joint::Hinge { axis, pivot } => {
                 let lever = axis.dot((point - pivot).cross(direction));
@@ -214,21 +215,21 @@ impl RigidBody {
             }
             Joint::Free => {
                 let lever = frame.to_body((point - state.position).cross(direction));
-                1.0 / self.mass + lever.dot(lever / self.inertia)
+                1.0 / self.mass_kg + lever.dot(lever / self.inertia_kg_m2)
             }
         }
     }
 
     /// No less than [`Self::mobility`] anywhere within `radius` of a point of the body's frame.
     pub(super) const fn max_mobility(&self, point: Vec3, radius: f32) -> f32 {
-        let Vec3 { x, y, z, .. } = self.centre;
+        let Vec3 { x, y, z, .. } = self.centre_m;
         let reach = radius + (point.x - x).abs() + (point.y - y).abs() + (point.z - z).abs();
-        let least = least(self.inertia.x, least(self.inertia.y, self.inertia.z));
-        1.0 / self.mass + reach * reach / least
+        let least = least(self.inertia_kg_m2.x, least(self.inertia_kg_m2.y, self.inertia_kg_m2.z));
+        1.0 / self.mass_kg + reach * reach / least
     }
 
     pub(super) const fn is_valid(&self) -> bool {
-        let Vec3 { x, y, z, .. } = self.inertia;
+        let Vec3 { x, y, z, .. } = self.inertia_kg_m2;
         let has_axis = match self.joint {
             Joint::Free | Joint::Fixed => true,
             Joint::Slider(axis) => is_unit(axis),
@@ -236,7 +237,12 @@ impl RigidBody {
         };
         let tethered = match &self.tether {
             None => true,
-            Some(Tether { anchor, slack, stiffness, damping }) => {
+            Some(Tether {
+                anchor_m: anchor,
+                slack_m: slack,
+                stiffness_n_per_m: stiffness,
+                damping_n_s_per_m: damping,
+            }) => {
                 finite(*anchor)
                     && is_size(slack.x)
                     && is_size(slack.y)
@@ -245,46 +251,46 @@ impl RigidBody {
                     && is_size(*damping)
             }
         };
-        let heavy = self.mass > 0.0 && x > 0.0 && y > 0.0 && z > 0.0 && finite(self.inertia);
+        let heavy = self.mass_kg > 0.0 && x > 0.0 && y > 0.0 && z > 0.0 && finite(self.inertia_kg_m2);
         heavy
-            && self.mass < f32::INFINITY
-            && finite(self.centre)
-            && finite(self.gravity)
+            && self.mass_kg < f32::INFINITY
+            && finite(self.centre_m)
+            && finite(self.gravity_m_per_s2)
             && has_axis
             && tethered
-            && is_size(self.damping)
-            && is_size(self.angular_damping)
-            && is_size(self.angular_stiffness)
+            && is_size(self.damping_n_s_per_m)
+            && is_size(self.angular_damping_n_m_s_per_rad)
+            && is_size(self.angular_stiffness_n_m_per_rad)
             && is_rigid(&self.start)
     }
 
     /// The centre of mass, along a line or every way.
     fn travel(&self, state: &mut Moving, axis: Option<Vec3>, push: Vec3, period: f32) {
-        let mut force = push + self.gravity * self.mass;
-        let mut damping = self.damping;
+        let mut force = push + self.gravity_m_per_s2 * self.mass_kg;
+        let mut damping = self.damping_n_s_per_m;
         if let Some(tether) = &self.tether {
-            force -= tether.stretch(state.position) * tether.stiffness;
-            damping += tether.damping + 0.5 * period * tether.stiffness;
+            force -= tether.stretch(state.position) * tether.stiffness_n_per_m;
+            damping += tether.damping_n_s_per_m + 0.5 * period * tether.stiffness_n_per_m;
         }
         if let Some(axis) = axis {
             force = axis * axis.dot(force);
         }
         // Half the change: what a rounded factor does to it evens out over a swing; of the mean itself it would not.
-        let change = (force - state.velocity * damping) * (1.0 / (2.0 * self.mass / period + damping));
+        let change = (force - state.velocity * damping) * (1.0 / (2.0 * self.mass_kg / period + damping));
         state.position += (state.velocity + change) * period;
         state.velocity += change * 2.0;
     }
 
     /// The body about its centre of mass.
     fn turn(&self, state: &mut Moving, torque: Vec3, period: f32) {
-        let inertia = self.inertia;
+        let inertia = self.inertia_kg_m2;
         let frame = of_axes(axes(&state.orientation));
         let mut torque = torque;
-        if self.angular_stiffness > 0.0 {
+        if self.angular_stiffness_n_m_per_rad > 0.0 {
             let [x, y, z, scalar] = self.turned(state);
-            torque -= vec3(x, y, z) * (2.0 * self.angular_stiffness * scalar);
+            torque -= vec3(x, y, z) * (2.0 * self.angular_stiffness_n_m_per_rad * scalar);
         }
-        let damping = self.angular_damping + 0.5 * period * self.angular_stiffness;
+        let damping = self.angular_damping_n_m_s_per_rad + 0.5 * period * self.angular_stiffness_n_m_per_rad;
         let momentum = frame.to_body(state.momentum);
         let torque = frame.to_body(torque);
         let inertial = inertia * (2.0 / period);
@@ -309,22 +315,22 @@ impl RigidBody {
     fn swing(&self, state: &mut Moving, axis: Vec3, pivot: Vec3, push: &Wrench, period: f32) {
         let inertia = self.hinge_inertia(axis, pivot);
         let arm = state.position - pivot;
-        let weight = self.gravity * self.mass;
+        let weight = self.gravity_m_per_s2 * self.mass_kg;
         let mut torque = axis.dot(push.torque + arm.cross(push.force + weight));
         // The second derivative of the weight's potential is at most `m g r`.
         let steep = sqrt(weight.length_squared() * arm.length_squared());
-        if self.angular_stiffness > 0.0 {
+        if self.angular_stiffness_n_m_per_rad > 0.0 {
             let [x, y, z, scalar] = self.turned(state);
-            torque -= axis.dot(vec3(x, y, z)) * (2.0 * self.angular_stiffness * scalar);
+            torque -= axis.dot(vec3(x, y, z)) * (2.0 * self.angular_stiffness_n_m_per_rad * scalar);
         }
-        let damping = self.angular_damping + 0.5 * period * (self.angular_stiffness + steep);
+        let damping = self.angular_damping_n_m_s_per_rad + 0.5 * period * (self.angular_stiffness_n_m_per_rad + steep);
         let rate = axis.dot(state.momentum) / inertia;
         let change = (torque - damping * rate) / (2.0 * inertia / period + damping);
         state.momentum += axis * (2.0 * inertia * change);
         state.orientation = turned_by(axis * (0.5 * period * (rate + change)), &state.orientation);
         let turned = of_axes(axes(&state.orientation));
         // From where it started, so that it never drifts off the pivot.
-        let start = self.start.direction_to_b(self.start.point_to_a(self.centre) - pivot);
+        let start = self.start.direction_to_b(self.start.point_to_a(self.centre_m) - pivot);
         state.position = pivot + turned.to_scene(start);
         state.velocity = (axis * (rate + 2.0 * change)).cross(state.position - pivot);
     }
@@ -338,12 +344,12 @@ impl RigidBody {
 
     fn hinge_inertia(&self, axis: Vec3, pivot: Vec3) -> f32 {
         let along = self.start.direction_to_b(axis);
-        let arm = axis.cross(self.start.point_to_a(self.centre) - pivot);
-        (along * along).dot(self.inertia) + self.mass * arm.length_squared()
+        let arm = axis.cross(self.start.point_to_a(self.centre_m) - pivot);
+        (along * along).dot(self.inertia_kg_m2) + self.mass_kg * arm.length_squared()
     }
 
     fn momentum(&self, placement: &Placement, angular_velocity: Vec3) -> Vec3 {
-        placement.direction_to_a(placement.direction_to_b(angular_velocity) * self.inertia)
+        placement.direction_to_a(placement.direction_to_b(angular_velocity) * self.inertia_kg_m2)
     }
 }
 
@@ -351,9 +357,9 @@ impl Tether {
     /// How far beyond the slack, metres.
     #[inline]
     fn stretch(&self, position: Vec3) -> Vec3 {
-        let off = position - self.anchor;
+        let off = position - self.anchor_m;
         let beyond = |off: f32, slack: f32| off - saturate(off, -slack, slack);
-        vec3(beyond(off.x, self.slack.x), beyond(off.y, self.slack.y), beyond(off.z, self.slack.z))
+        vec3(beyond(off.x, self.slack_m.x), beyond(off.y, self.slack_m.y), beyond(off.z, self.slack_m.z))
     }
 }
 

@@ -48,13 +48,13 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         let mut index = 0;
         while index < N {
             let Part { material, group, .. } = &scene.parts[index];
-            let stiffness = [material.stiffness, scene.stiffest_beside(index)];
-            if let Err(error) = scene.check(index, stiffness, material.damping, material.friction.as_ref()) {
+            let stiffness = [material.stiffness_n_per_m, scene.stiffest_beside(index)];
+            if let Err(error) = scene.check(index, stiffness, material.damping_n_s_per_m, material.friction.as_ref()) {
                 return Err(error);
             }
             let number = index as u8;
             if let Some(texture) = &material.texture
-                && !(texture.max_share >= 0.0 && texture.max_share <= 1.0)
+                && !(texture.max_fraction >= 0.0 && texture.max_fraction <= 1.0)
             {
                 return Err(SceneError::Texture(number));
             }
@@ -106,7 +106,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         let mut stiffest = 0.0;
         let mut beside = 0;
         while beside < N {
-            let its = self.parts[beside].material.stiffness;
+            let its = self.parts[beside].material.stiffness_n_per_m;
             if beside != index && its > stiffest {
                 stiffest = its;
             }
@@ -126,10 +126,10 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
     ) -> Result<(), SceneError> {
         let number = index as u8;
         let Part { motion, sphere, .. } = &self.parts[index];
-        if !(stiffness >= 0.0 && stiffness + beside <= self.limits.max_stiffness) {
+        if !(stiffness >= 0.0 && stiffness + beside <= self.limits.max_stiffness_n_per_m) {
             return Err(SceneError::Stiffness(number));
         }
-        if !(damping >= 0.0 && damping <= self.limits.max_damping) {
+        if !(damping >= 0.0 && damping <= self.limits.max_damping_n_s_per_m) {
             return Err(SceneError::Damping(number));
         }
         if let Some(friction) = friction
@@ -141,17 +141,17 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
             return Err(SceneError::Motion(number));
         }
         if let Motion::Free(body) = motion {
-            let period = 1.0 / self.limits.rate;
+            let period = 1.0 / self.limits.rate_hz;
             let (mut hold, mut drag) = (stiffness, damping);
             if let Some(friction) = friction {
-                if friction.damping < 0.5 * period * friction.stiffness {
+                if friction.damping_n_s_per_m < 0.5 * period * friction.stiffness_n_per_m {
                     return Err(SceneError::Slack(number));
                 }
-                hold += friction.stiffness;
-                drag += friction.damping;
+                hold += friction.stiffness_n_per_m;
+                drag += friction.damping_n_s_per_m;
             }
             // An explicit damper that takes more than all of the velocity in a tick would throw it back.
-            let light = (hold * period + drag) * period * body.max_mobility(sphere.centre, sphere.radius) <= 1.0;
+            let light = (hold * period + drag) * period * body.max_mobility(sphere.centre_m, sphere.radius_m) <= 1.0;
             if !light {
                 return Err(SceneError::Light(number));
             }
@@ -213,10 +213,10 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         };
         if N > 2 {
             // A witness point that has been left behind by an eighth of the body's size is searched for anew.
-            let clear = (position - sphere.centre).length() - sphere.radius - tip_radius;
-            let most = sphere.radius * (1.0 / 32.0);
+            let clear = (position - sphere.centre_m).length() - sphere.radius_m - tip_radius;
+            let most = sphere.radius_m * (1.0 / 32.0);
             let clear = saturate(clear, 0.0, if most < f32::INFINITY { most } else { 0.0 });
-            part.rests = (clear * self.limits.rate / self.limits.max_speed) as u32;
+            part.rests = (clear * self.limits.rate_hz / self.limits.max_speed_m_per_s) as u32;
         }
         rejected
     }
@@ -268,8 +268,11 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         let point = part.witness.witness().surface.point;
         let mut push = 0.0;
         if part.contact == Contact::Touching && !part.unexplained {
-            let penalty =
-                Penalty { stiffness: part.stiffness, damping: part.damping, max_force: self.limits.max_force };
+            let penalty = Penalty {
+                stiffness_n_per_m: part.stiffness,
+                damping_n_s_per_m: part.damping,
+                max_force_n: self.limits.max_force_n,
+            };
             push = penalty.push(part.gap, part.velocity.dot(part.normal));
             if let Motion::Free(body) = motion {
                 // What the spring gives with the body in the middle of the tick, not at its start.
@@ -278,7 +281,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
                 let towards = part.frame.velocity_at(at).dot(normal);
                 let half = 0.5 * period;
                 let yielding = 1.0 + half * mobility * (part.stiffness * half + part.damping);
-                push = saturate((push + part.stiffness * half * towards) / yielding, 0.0, self.limits.max_force);
+                push = saturate((push + part.stiffness * half * towards) / yielding, 0.0, self.limits.max_force_n);
             }
         }
         let witness = part.witness.witness();
@@ -355,7 +358,7 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
         if state.switched {
             (state.left_over, state.switched) = (state.backed - force, false);
         }
-        let let_go = self.limits.let_go * period;
+        let let_go = self.limits.release_n_per_s * period;
         if state.left_over != Vec3::ZERO {
             state.left_over -= limit::saturated(state.left_over, let_go);
         }

@@ -64,7 +64,7 @@ impl<'a, H> Part<'a, Slot<'a, H>> {
     pub const fn in_slot(slot: &'a Slot<'a, H>, motion: Motion, material: Material) -> Self {
         let sphere = match slot.shelf {
             None => Part::new(slot.baked, motion, material).sphere,
-            Some(_) => Sphere { centre: Vec3::ZERO, radius: f32::INFINITY },
+            Some(_) => Sphere { centre_m: Vec3::ZERO, radius_m: f32::INFINITY },
         };
         Self { surface: slot, motion, material, sphere, group: 0 }
     }

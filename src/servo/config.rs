@@ -70,31 +70,40 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         settings: Settings,
     ) -> Result<Self, SettingsError> {
         const { assert!(JOINTS >= 1 && JOINTS <= 3, "a device has one to three joints") };
-        if let Err(error) = settings.check(device.max_stiffness, device.max_damping) {
+        if let Err(error) = settings.check(device.max_stiffness_n_per_m, device.max_damping_n_s_per_m) {
             return Err(error);
         }
-        let period = 1.0 / settings.rate;
-        let max_force = if settings.max_force < device.max_force { settings.max_force } else { device.max_force };
+        let period = 1.0 / settings.rate_hz;
+        let max_force =
+            if settings.max_force_n < device.max_force_n { settings.max_force_n } else { device.max_force_n };
         let servo = Self {
             device,
             surface,
             controller,
-            penalty: Penalty { stiffness: settings.stiffness, damping: settings.damping, max_force },
+            penalty: Penalty {
+                stiffness_n_per_m: settings.stiffness_n_per_m,
+                damping_n_s_per_m: settings.damping_n_s_per_m,
+                max_force_n: max_force,
+            },
             // Any: the rendering below sets them.
             estimators: [VelocityEstimator::new(Rendering::PLAIN.velocity, 1.0, 1.0, 0.0); JOINTS],
             rendering: Rendering::PLAIN,
             safety: Safety::DEFAULT,
             homing: None,
             settings,
-            rate: settings.rate,
+            rate: settings.rate_hz,
             period,
-            max_move: device.max_joint_rate * period,
+            max_move: device.max_joint_rate_rad_per_s * period,
             max_growth: f32::INFINITY,
             eased: None,
             // A fade no longer than a tick is no fade.
-            fade_step: if settings.soft_start > period { period / settings.soft_start } else { 1.0 },
+            fade_step: if settings.soft_start_s > period { period / settings.soft_start_s } else { 1.0 },
             link_ticks: u32::MAX,
-            contact_watch: ContactWatch::new(Safety::DEFAULT.contact, max_force / settings.stiffness, settings.rate),
+            contact_watch: ContactWatch::new(
+                Safety::DEFAULT.contact,
+                max_force / settings.stiffness_n_per_m,
+                settings.rate_hz,
+            ),
             guard: Unguarded,
         };
         Ok(servo.set_rendering(Rendering::PLAIN))
@@ -130,12 +139,16 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         self,
         protection: Protection<JOINTS>,
     ) -> Result<Servo<'a, S, K, JOINTS, Guarded<JOINTS>>, ProtectionError> {
-        let guard =
-            match Guarded::try_new(protection, &self.device.motors, self.device.dry_friction, self.rate, &self.penalty)
-            {
-                Ok(guard) => guard,
-                Err(error) => return Err(error),
-            };
+        let guard = match Guarded::try_new(
+            protection,
+            &self.device.motors,
+            self.device.dry_friction_n_m,
+            self.rate,
+            &self.penalty,
+        ) {
+            Ok(guard) => guard,
+            Err(error) => return Err(error),
+        };
         Ok(Servo {
             device: self.device,
             surface: self.surface,
@@ -185,7 +198,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
     /// # Errors
     /// The choice that is refused.
     pub const fn try_rendering(self, rendering: Rendering) -> Result<Self, RenderingError> {
-        match rendering.check(self.penalty.stiffness, self.period) {
+        match rendering.check(self.penalty.stiffness_n_per_m, self.period) {
             Ok(()) => Ok(self.set_rendering(rendering)),
             Err(error) => Err(error),
         }
@@ -212,10 +225,10 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
         while joint < JOINTS {
             let count = self.device.encoders[joint].radians_per_count;
             self.estimators[joint] =
-                VelocityEstimator::new(rendering.velocity, self.settings.velocity_corner, self.rate, count);
+                VelocityEstimator::new(rendering.velocity, self.settings.velocity_corner_hz, self.rate, count);
             joint += 1;
         }
-        self.max_growth = rendering.max_slew * self.period;
+        self.max_growth = rendering.max_slew_n_per_s * self.period;
         self.eased = match rendering.ease {
             Some(ease) => Some(Eased::new(ease, &self.penalty, self.period)),
             None => None,
@@ -229,11 +242,11 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
     /// # Errors
     /// The limit that is refused.
     pub const fn try_safety(mut self, safety: Safety) -> Result<Self, SafetyError> {
-        match safety.check(self.device.max_damping) {
+        match safety.check(self.device.max_damping_n_s_per_m) {
             Ok(()) => {
                 // The cast saturates: ∞ is 2³² ticks, which is never.
-                self.link_ticks = (safety.link_timeout * self.rate) as u32;
-                let full_force_depth = self.penalty.max_force / self.penalty.stiffness;
+                self.link_ticks = (safety.link_timeout_s * self.rate) as u32;
+                let full_force_depth = self.penalty.max_force_n / self.penalty.stiffness_n_per_m;
                 self.contact_watch = ContactWatch::new(safety.contact, full_force_depth, self.rate);
                 self.safety = safety;
                 Ok(self)
@@ -288,7 +301,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
     {
         let homing = self.homing.map(|homing| homing.of_encoders(device.encoders));
         let rendering = self.rendering;
-        let guard = self.guard.of_motors(&device.motors, &device.dry_friction);
+        let guard = self.guard.of_motors(&device.motors, &device.dry_friction_n_m);
         Servo { device, homing, guard, ..self }.set_rendering(rendering)
     }
 
@@ -317,7 +330,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
             settled: 0,
             homed: !self.safety.wait_for_homing && self.homing.is_none(),
             homing: HomingState::default(),
-            angles_at_zero: self.device.encoders.map(|encoder| encoder.angle_at_zero),
+            angles_at_zero: self.device.encoders.map(|encoder| encoder.angle_at_zero_rad),
             table_check,
             rejected_steps: 0,
             lost_contact: LostContact::default(),
@@ -362,16 +375,21 @@ mod tests {
     #[test]
     fn settings_become_what_the_tick_needs() {
         let with = |max_force, stiffness| {
-            let settings = Settings { rate: 4_000.0, max_force, stiffness, ..Settings::DEFAULT };
+            let settings = Settings {
+                rate_hz: 4_000.0,
+                max_force_n: max_force,
+                stiffness_n_per_m: stiffness,
+                ..Settings::DEFAULT
+            };
             Servo::try_new(&DEVICE, &WALL, Controller::SECOND_ORDER, settings).unwrap()
         };
-        assert_eq!(with(1.0, 20.0).penalty.max_force, 1.0);
+        assert_eq!(with(1.0, 20.0).penalty.max_force_n, 1.0);
         // No more than the device bears.
-        assert_eq!(with(1_000.0, 20.0).penalty.max_force, DEVICE.max_force);
+        assert_eq!(with(1_000.0, 20.0).penalty.max_force_n, DEVICE.max_force_n);
         // 1 N at 20 N/m is 5 cm deep: contact is lost at twice that.
         assert_eq!(with(1.0, 20.0).contact_watch.max_depth, 0.1);
         let limits = ContactLimits { depth: 4.0, ..ContactLimits::DEFAULT };
-        let safety = Safety { link_timeout: 0.05, contact: Some(limits), ..Safety::DEFAULT };
+        let safety = Safety { link_timeout_s: 0.05, contact: Some(limits), ..Safety::DEFAULT };
         let careful = with(1.0, 20.0).try_safety(safety).unwrap();
         assert_eq!((careful.link_ticks, careful.contact_watch.max_depth), (200, 0.2));
     }

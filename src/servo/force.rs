@@ -35,7 +35,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
                 coupling.force(&tool, state.probe, motion.velocity)
             }
         };
-        let faded = limit::saturated(felt * (state.fade * state.room), self.penalty.max_force);
+        let faded = limit::saturated(felt * (state.fade * state.room), self.penalty.max_force_n);
         let slewed = if self.guard.share(&state.guard) < 1.0 {
             // What is withheld cannot grow out of what was given, and once it may be given the guard lets it come
             // slowly.
@@ -52,7 +52,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         };
         let Some(passivity) = &self.rendering.passivity else { return slewed };
         let touching = state.contact() == Contact::Touching || self.rendering.coupling.is_some();
-        passivity.control(&mut state.energy, slewed, motion, touching, self.penalty.max_force)
+        passivity.control(&mut state.energy, slewed, motion, touching, self.penalty.max_force_n)
     }
 
     /// The surface's force on what touches it, N.

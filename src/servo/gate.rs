@@ -133,7 +133,7 @@ fn least_scale(scale: f32, [asked, carried]: [f32; 2]) -> f32 {
 mod tests {
     use super::*;
 
-    const MOTORS: [Motor; 3] = [Motor { torque_at_full: 1.0 }; 3];
+    const MOTORS: [Motor; 3] = [Motor { torque_at_full_n_m: 1.0 }; 3];
     const NONE: [f32; 3] = [0.0; 3];
 
     #[test]
@@ -208,15 +208,15 @@ mod tests {
             (seed >> 8) as f32 / (1 << 23) as f32 * size - size
         };
         for _ in 0..1_000_000 {
-            let motors = [(); 3].map(|()| Motor { torque_at_full: draw(3.0) });
-            let torques = motors.map(|motor| motor.torque_at_full * draw(4.0));
-            let weight = motors.map(|motor| motor.torque_at_full * draw(1.5));
+            let motors = [(); 3].map(|()| Motor { torque_at_full_n_m: draw(3.0) });
+            let torques = motors.map(|motor| motor.torque_at_full_n_m * draw(4.0));
+            let weight = motors.map(|motor| motor.torque_at_full_n_m * draw(1.5));
             let bounds = [1.0, 0.999_999_94, draw(1.0).abs()];
-            let limits = core::array::from_fn(|joint| bounds[joint] * motors[joint].torque_at_full.abs());
+            let limits = core::array::from_fn(|joint| bounds[joint] * motors[joint].torque_at_full_n_m.abs());
             let (duties, scale) = gate_within(true, &motors, torques, weight, limits).unwrap();
             let is_heavy = weight.iter().zip(limits).any(|(weight, limit)| weight.abs() > limit);
             for (joint, duty) in duties.iter().enumerate() {
-                let wanted = (torques[joint] * scale + weight[joint]) / motors[joint].torque_at_full;
+                let wanted = (torques[joint] * scale + weight[joint]) / motors[joint].torque_at_full_n_m;
                 // Half a step of duty, and roundings of numbers up to 4.
                 assert!(is_heavy || (duty.fraction() - wanted).abs() < 1.7e-5, "{duty:?} {wanted}");
                 assert!(duty.fraction().abs() <= bounds[joint] + 1.6e-5, "{duty:?} {bounds:?}");

@@ -90,8 +90,8 @@ impl Knob {
     /// # Errors
     /// The first number that is refused.
     pub const fn try_new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Result<Self, KnobError> {
-        let radius = device.kinematics.radius;
-        let most = device.max_force * radius;
+        let radius = device.kinematics.radius_m;
+        let most = device.max_force_n * radius;
         if feels.is_empty() || feels.len() > 256 {
             return Err(KnobError::Feels);
         }
@@ -102,8 +102,8 @@ impl Knob {
                 return Err(KnobError::Feel(error));
             }
             // Asked so that a number that is none is refused.
-            let bears_stiffness = feel.stiffness() <= device.max_stiffness * radius * radius;
-            let bears_damping = feel.greatest_damping() <= device.max_damping * radius * radius;
+            let bears_stiffness = feel.stiffness() <= device.max_stiffness_n_per_m * radius * radius;
+            let bears_damping = feel.greatest_damping() <= device.max_damping_n_s_per_m * radius * radius;
             let bears_torque = feel.torque_between_ends() <= most;
             if !bears_stiffness {
                 return Err(KnobError::Stiffness);
@@ -189,7 +189,7 @@ impl Surface for Knob {
             state.torque = saturate(wanted + state.left_over, -self.most, self.most);
             state.gap = match &feel.ends {
                 Some(ends) => {
-                    let [below, above] = [angle - ends.between[0], ends.between[1] - angle];
+                    let [below, above] = [angle - ends.between_rad[0], ends.between_rad[1] - angle];
                     self.radius * if below < above { below } else { above }
                 }
                 None => 0.0,
@@ -271,9 +271,16 @@ mod tests {
 
     static FEELS: [Feel; 4] = [
         Feel::FREE,
-        Feel { detents: Some(Wave { pitch: 0.25, torque: 0.03, centre: 0.0 }), damping: 5e-4, ..Feel::FREE },
-        Feel { spring: Some(Spring { stiffness: 0.1, rest: 0.0, most: 0.05 }), ..Feel::FREE },
-        Feel { ends: Some(Ends { between: [-0.5, 0.5], stiffness: 1.0, damping: 1e-3 }), ..Feel::FREE },
+        Feel {
+            detents: Some(Wave { pitch_rad: 0.25, torque_n_m: 0.03, centre_rad: 0.0 }),
+            damping_n_m_s_per_rad: 5e-4,
+            ..Feel::FREE
+        },
+        Feel { spring: Some(Spring { stiffness_n_m_per_rad: 0.1, rest_rad: 0.0, max_torque_n_m: 0.05 }), ..Feel::FREE },
+        Feel {
+            ends: Some(Ends { between_rad: [-0.5, 0.5], stiffness_n_m_per_rad: 1.0, damping_n_m_s_per_rad: 1e-3 }),
+            ..Feel::FREE
+        },
     ];
     const LET_GO: f32 = 1.0;
     const PERIOD: f32 = 1e-3;
@@ -315,10 +322,10 @@ mod tests {
             extern crate std;
             Knob::try_new(&GIMBAL_KNOB, std::boxed::Box::leak(std::boxed::Box::new([feel])), LET_GO).unwrap_err()
         }
-        let wave = |pitch, torque| Some(Wave { pitch, torque, centre: 0.0 });
+        let wave = |pitch, torque| Some(Wave { pitch_rad: pitch, torque_n_m: torque, centre_rad: 0.0 });
         assert_eq!(refused(Feel { detents: wave(0.25, 0.07), ..Feel::FREE }), KnobError::Stiffness);
         assert_eq!(refused(Feel { detents: wave(2.5, 0.07), ..Feel::FREE }), KnobError::Torque);
-        assert_eq!(refused(Feel { damping: 4e-3, ..Feel::FREE }), KnobError::Damping);
+        assert_eq!(refused(Feel { damping_n_m_s_per_rad: 4e-3, ..Feel::FREE }), KnobError::Damping);
         assert_eq!(refused(Feel { detents: wave(0.0, 0.01), ..Feel::FREE }), KnobError::Feel(FeelError::Detents));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &[], LET_GO), Err(KnobError::Feels));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &FEELS, 0.0), Err(KnobError::LetGo));

@@ -18,23 +18,27 @@ pub struct ContactLimits {
     pub depth: f32,
     /// Metres up to which any depth is taken for contact: a stiff wall that is struck gives way by more than its
     /// greatest force asks for.
-    pub min_depth: f32,
+    pub min_depth_m: f32,
     /// Seconds over which the force fades out.
-    pub fade: f32,
+    pub fade_s: f32,
     /// How many events may follow each other, none later than [`Self::quiet`] after the one before; one more is a
     /// fault.
     pub max_in_a_row: u32,
     /// Seconds after which an event is forgotten.
-    pub quiet: f32,
+    pub quiet_s: f32,
 }
 
 impl ContactLimits {
     /// Twice the depth of the greatest force, for beyond it the wall has given all it has, and no less than 10 mm; 5 ms
     /// of fading, which no hand takes for a blow; three events within a second of each other.
-    pub const DEFAULT: Self = Self { depth: 2.0, min_depth: 0.01, fade: 0.005, max_in_a_row: 3, quiet: 1.0 };
+    pub const DEFAULT: Self = Self { depth: 2.0, min_depth_m: 0.01, fade_s: 0.005, max_in_a_row: 3, quiet_s: 1.0 };
 
     pub(super) const fn is_valid(&self) -> bool {
-        self.depth > 1.0 && self.min_depth >= 0.0 && self.fade >= 0.0 && self.fade < f32::INFINITY && self.quiet >= 0.0
+        self.depth > 1.0
+            && self.min_depth_m >= 0.0
+            && self.fade_s >= 0.0
+            && self.fade_s < f32::INFINITY
+            && self.quiet_s >= 0.0
     }
 }
 
@@ -54,7 +58,7 @@ pub(super) struct ContactWatch {
 impl ContactWatch {
     pub(super) const fn new(limits: Option<ContactLimits>, full_force_depth: f32, rate: f32) -> Self {
         match limits {
-            Some(ContactLimits { depth, min_depth, fade, max_in_a_row, quiet }) => Self {
+            Some(ContactLimits { depth, min_depth_m: min_depth, fade_s: fade, max_in_a_row, quiet_s: quiet }) => Self {
                 max_depth: if depth * full_force_depth < min_depth { min_depth } else { depth * full_force_depth },
                 fade_step: if fade * rate > 1.0 { 1.0 / (fade * rate) } else { 1.0 },
                 max_in_a_row,

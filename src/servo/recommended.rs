@@ -16,8 +16,8 @@ use crate::device::presets;
 /// use palpate::servo::recommended;
 ///
 /// const TOUCH: recommended::Recommended = recommended::PHANTOM_PREMIUM;
-/// assert!(TOUCH.settings.check(DEVICE.max_stiffness, DEVICE.max_damping).is_ok());
-/// assert!(TOUCH.rendering.check(TOUCH.settings.stiffness, 1.0 / TOUCH.settings.rate).is_ok());
+/// assert!(TOUCH.settings.check(DEVICE.max_stiffness_n_per_m, DEVICE.max_damping_n_s_per_m).is_ok());
+/// assert!(TOUCH.rendering.check(TOUCH.settings.stiffness_n_per_m, 1.0 / TOUCH.settings.rate_hz).is_ok());
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Recommended {
@@ -31,12 +31,12 @@ pub struct Recommended {
 const fn wall(stiffness: f32, damping: f32, max_force: f32) -> Recommended {
     Recommended {
         settings: Settings {
-            rate: 4_000.0,
-            stiffness,
-            damping,
-            max_force,
-            velocity_corner: 80.0,
-            soft_start: 0.1,
+            rate_hz: 4_000.0,
+            stiffness_n_per_m: stiffness,
+            damping_n_s_per_m: damping,
+            max_force_n: max_force,
+            velocity_corner_hz: 80.0,
+            soft_start_s: 0.1,
             ..Settings::DEFAULT
         },
         rendering: Rendering::SMOOTH,
@@ -44,29 +44,35 @@ const fn wall(stiffness: f32, damping: f32, max_force: f32) -> Recommended {
 }
 
 /// For [`presets::WOODEN_HAPTICS_2016`]. Its counts are felt even at 200 N/m if they are taken as they are.
-pub const WOODEN_HAPTICS_2016: Recommended = wall(500.0, 2.0, presets::WOODEN_HAPTICS_2016.max_force);
+pub const WOODEN_HAPTICS_2016: Recommended = wall(500.0, 2.0, presets::WOODEN_HAPTICS_2016.max_force_n);
 
 /// For [`presets::POLHEM_V2`]. Its friction hides its counts: the smooth rendering is for contact and edges.
-pub const POLHEM_V2: Recommended = wall(500.0, 2.0, presets::POLHEM_V2.max_force);
+pub const POLHEM_V2: Recommended = wall(500.0, 2.0, presets::POLHEM_V2.max_force_n);
 
 /// For [`presets::PHANTOM_PREMIUM`]: softer, for its friction is too little to hide that a believed position lags
 /// behind by a count where a joint turns back: at 500 N/m that is felt, if barely.
-pub const PHANTOM_PREMIUM: Recommended = wall(400.0, 2.0, presets::PHANTOM_PREMIUM.max_force);
+pub const PHANTOM_PREMIUM: Recommended = wall(400.0, 2.0, presets::PHANTOM_PREMIUM.max_force_n);
 
 /// For [`presets::NOVINT_FALCON`]: softer, for its third of a kilogram swings ahead of a hand that draws it at 0.3 m/s
 /// and comes to the wall at 0.41, where a spring of 500 N/m steps by 51 mN in a tick.
-pub const NOVINT_FALCON: Recommended = wall(400.0, 2.0, presets::NOVINT_FALCON.max_force);
+pub const NOVINT_FALCON: Recommended = wall(400.0, 2.0, presets::NOVINT_FALCON.max_force_n);
 
 /// For [`presets::HAPLY_2DIY_V3`]: as stiff and as damped as the device is recommended for.
-pub const HAPLY_2DIY_V3: Recommended =
-    wall(presets::HAPLY_2DIY_V3.max_stiffness, presets::HAPLY_2DIY_V3.max_damping, presets::HAPLY_2DIY_V3.max_force);
+pub const HAPLY_2DIY_V3: Recommended = wall(
+    presets::HAPLY_2DIY_V3.max_stiffness_n_per_m,
+    presets::HAPLY_2DIY_V3.max_damping_n_s_per_m,
+    presets::HAPLY_2DIY_V3.max_force_n,
+);
 
 /// For [`presets::HAPLY_KIT_V1`]: as stiff and as damped as the device is recommended for.
-pub const HAPLY_KIT_V1: Recommended =
-    wall(presets::HAPLY_KIT_V1.max_stiffness, presets::HAPLY_KIT_V1.max_damping, presets::HAPLY_KIT_V1.max_force);
+pub const HAPLY_KIT_V1: Recommended = wall(
+    presets::HAPLY_KIT_V1.max_stiffness_n_per_m,
+    presets::HAPLY_KIT_V1.max_damping_n_s_per_m,
+    presets::HAPLY_KIT_V1.max_force_n,
+);
 
 /// For [`presets::HAPKIT`].
-pub const HAPKIT: Recommended = wall(500.0, 2.0, presets::HAPKIT.max_force);
+pub const HAPKIT: Recommended = wall(500.0, 2.0, presets::HAPKIT.max_force_n);
 
 #[cfg(test)]
 mod tests {
@@ -77,10 +83,10 @@ mod tests {
         macro_rules! taken {
             ($($name:ident),*) => { $({
                 let (Recommended { settings, rendering }, device) = ($name, presets::$name);
-                assert_eq!(settings.check(device.max_stiffness, device.max_damping), Ok(()));
-                assert_eq!(rendering.check(settings.stiffness, 1.0 / settings.rate), Ok(()));
-                assert!(settings.max_force <= device.max_force);
-                assert!(settings.stiffness * 0.3 / settings.rate < 0.05);
+                assert_eq!(settings.check(device.max_stiffness_n_per_m, device.max_damping_n_s_per_m), Ok(()));
+                assert_eq!(rendering.check(settings.stiffness_n_per_m, 1.0 / settings.rate_hz), Ok(()));
+                assert!(settings.max_force_n <= device.max_force_n);
+                assert!(settings.stiffness_n_per_m * 0.3 / settings.rate_hz < 0.05);
             })* };
         }
         taken!(WOODEN_HAPTICS_2016, POLHEM_V2, PHANTOM_PREMIUM, NOVINT_FALCON, HAPLY_2DIY_V3, HAPLY_KIT_V1, HAPKIT);

@@ -21,7 +21,7 @@ pub struct Rendering {
     /// once, and the settings' stiffness should be that of the stiffest: a spring that is stiffer is held back.
     pub ease: Option<Ease>,
     /// How fast the force may grow, N/s. It may always fall at once.
-    pub max_slew: f32,
+    pub max_slew_n_per_s: f32,
     /// Whether the motors carry the weight of the device's own links, as far as its kinematics knows it.
     ///
     /// The torques that do come on top of the force's, last before the gate, which gives them what they need first.
@@ -29,7 +29,7 @@ pub struct Rendering {
     /// lifted by a step. They are no part of [`super::ServoState::force`], nor of what the greatest force, the slew
     /// limit and the passivity control look at: they are conservative, and give back what they took. At the rim of the
     /// workspace they stay. Without [`super::Phase::Running`], and so after any fault, they are zero.
-    pub carries_weight: bool,
+    pub compensates_gravity: bool,
 }
 
 /// Which choice is refused. In a `static` it is a compile error.
@@ -65,8 +65,8 @@ impl Rendering {
         coupling: None,
         passivity: None,
         ease: None,
-        max_slew: f32::INFINITY,
-        carries_weight: true,
+        max_slew_n_per_s: f32::INFINITY,
+        compensates_gravity: true,
     };
 
     /// As little to feel as there can be of counts, ticks and edges: position between counts, and [`Ease::SMOOTH`].
@@ -89,7 +89,7 @@ impl Rendering {
             return Err(RenderingError::Friction);
         }
         if let Some(texture) = &self.texture
-            && !(texture.max_share >= 0.0 && texture.max_share <= 1.0)
+            && !(texture.max_fraction >= 0.0 && texture.max_fraction <= 1.0)
         {
             return Err(RenderingError::Texture);
         }
@@ -108,7 +108,7 @@ impl Rendering {
         {
             return Err(RenderingError::Ease);
         }
-        let grows = self.max_slew > 0.0;
+        let grows = self.max_slew_n_per_s > 0.0;
         if grows { Ok(()) } else { Err(RenderingError::Slew) }
     }
 }
@@ -126,11 +126,19 @@ mod tests {
 
     const STIFFNESS: f32 = 1_000.0;
     const PERIOD: f32 = 1e-3;
-    const FRICTION: Friction =
-        Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 };
-    const COUPLING: Coupling = Coupling { stiffness: 500.0, damping: 3.0, mass: 0.01 };
-    const PASSIVITY: Passivity =
-        Passivity { device_damping: 0.1, device_friction: 0.01, max_damping: 8.0, resolution: 1e-4 };
+    const FRICTION: Friction = Friction {
+        stiffness_n_per_m: 500.0,
+        damping_n_s_per_m: 1.0,
+        static_coefficient: 0.4,
+        dynamic_coefficient: 0.3,
+    };
+    const COUPLING: Coupling = Coupling { stiffness_n_per_m: 500.0, damping_n_s_per_m: 3.0, mass_kg: 0.01 };
+    const PASSIVITY: Passivity = Passivity {
+        device_damping_n_s_per_m: 0.1,
+        device_friction_n: 0.01,
+        max_damping_n_s_per_m: 8.0,
+        resolution_m: 1e-4,
+    };
 
     fn refused(rendering: Rendering, error: RenderingError) {
         assert_eq!(rendering.check(STIFFNESS, PERIOD), Err(error), "{rendering:?}");
@@ -138,59 +146,62 @@ mod tests {
 
     #[test]
     fn each_choice_that_cannot_be_felt_is_refused_by_its_name() {
-        let texture = Texture { force: |_| Vec3::ZERO, max_share: 1.0 };
+        let texture = Texture { force: |_| Vec3::ZERO, max_fraction: 1.0 };
         let all = Rendering {
             friction: Some(FRICTION),
             texture: Some(texture),
             coupling: Some(COUPLING),
             passivity: Some(PASSIVITY),
-            max_slew: 100.0,
+            max_slew_n_per_s: 100.0,
             ..Rendering::PLAIN
         };
         assert_eq!(Rendering::PLAIN.check(STIFFNESS, PERIOD), Ok(()));
         assert_eq!(all.check(STIFFNESS, PERIOD), Ok(()));
         for bad in [-1.0, f32::NAN, f32::INFINITY] {
             for friction in [
-                Friction { stiffness: bad, ..FRICTION },
-                Friction { damping: bad, ..FRICTION },
+                Friction { stiffness_n_per_m: bad, ..FRICTION },
+                Friction { damping_n_s_per_m: bad, ..FRICTION },
                 Friction { static_coefficient: bad, ..FRICTION },
                 Friction { dynamic_coefficient: bad, ..FRICTION },
             ] {
                 refused(Rendering { friction: Some(friction), ..all }, RenderingError::Friction);
             }
-            let coarse = Texture { max_share: bad, ..texture };
+            let coarse = Texture { max_fraction: bad, ..texture };
             refused(Rendering { texture: Some(coarse), ..all }, RenderingError::Texture);
             for coupling in [
-                Coupling { stiffness: bad, ..COUPLING },
-                Coupling { damping: bad, ..COUPLING },
-                Coupling { mass: bad, ..COUPLING },
+                Coupling { stiffness_n_per_m: bad, ..COUPLING },
+                Coupling { damping_n_s_per_m: bad, ..COUPLING },
+                Coupling { mass_kg: bad, ..COUPLING },
             ] {
                 refused(Rendering { coupling: Some(coupling), ..all }, RenderingError::Coupling);
             }
             for passivity in [
-                Passivity { device_damping: bad, ..PASSIVITY },
-                Passivity { device_friction: bad, ..PASSIVITY },
-                Passivity { max_damping: bad, ..PASSIVITY },
-                Passivity { resolution: bad, ..PASSIVITY },
+                Passivity { device_damping_n_s_per_m: bad, ..PASSIVITY },
+                Passivity { device_friction_n: bad, ..PASSIVITY },
+                Passivity { max_damping_n_s_per_m: bad, ..PASSIVITY },
+                Passivity { resolution_m: bad, ..PASSIVITY },
             ] {
                 refused(Rendering { passivity: Some(passivity), ..all }, RenderingError::Passivity);
             }
         }
-        let hasty = Ease { change: 0.0, ..Ease::SMOOTH };
+        let hasty = Ease { change_n_per_s: 0.0, ..Ease::SMOOTH };
         refused(Rendering { ease: Some(hasty), ..all }, RenderingError::Ease);
         assert!([Rendering::SMOOTH, Rendering::EASED].iter().all(|kind| kind.check(STIFFNESS, PERIOD).is_ok()));
         // Slipping must not hold more than sticking.
         let sticky = Friction { dynamic_coefficient: 0.41, ..FRICTION };
         refused(Rendering { friction: Some(sticky), ..all }, RenderingError::Friction);
-        let still = Passivity { resolution: 0.0, ..PASSIVITY };
+        let still = Passivity { resolution_m: 0.0, ..PASSIVITY };
         refused(Rendering { passivity: Some(still), ..all }, RenderingError::Passivity);
-        refused(Rendering { texture: Some(Texture { max_share: 1.01, ..texture }), ..all }, RenderingError::Texture);
+        refused(Rendering { texture: Some(Texture { max_fraction: 1.01, ..texture }), ..all }, RenderingError::Texture);
         // (500 + 1,000) N/m · 1 ms² < 2 m asks for 0.75 g.
-        refused(Rendering { coupling: Some(Coupling { mass: 7.4e-4, ..COUPLING }), ..all }, RenderingError::Coupling);
-        let light = Rendering { coupling: Some(Coupling { mass: 7.6e-4, ..COUPLING }), ..all };
+        refused(
+            Rendering { coupling: Some(Coupling { mass_kg: 7.4e-4, ..COUPLING }), ..all },
+            RenderingError::Coupling,
+        );
+        let light = Rendering { coupling: Some(Coupling { mass_kg: 7.6e-4, ..COUPLING }), ..all };
         assert_eq!(light.check(STIFFNESS, PERIOD), Ok(()));
         for max_slew in [0.0, -1.0, f32::NAN] {
-            refused(Rendering { max_slew, ..all }, RenderingError::Slew);
+            refused(Rendering { max_slew_n_per_s: max_slew, ..all }, RenderingError::Slew);
         }
     }
 }

@@ -29,7 +29,7 @@ pub struct StuckLimits {
     /// The least load, as a multiple of the joint's [`crate::device::Device::dry_friction`]; at least 1.
     pub load: f32,
     /// How far another joint moves meanwhile, radians.
-    pub travel: f32,
+    pub travel_rad: f32,
 }
 
 impl StuckLimits {
@@ -38,7 +38,7 @@ impl StuckLimits {
     /// where it is over 0.5 rad under its own friction and over 0.28 rad under three times that, but never over 0.01
     /// rad under five times; a joint of a device with little friction turns back while another goes on for 0.27 rad at
     /// most, of Polhem's short crank.
-    pub const DEFAULT: Self = Self { load: 5.0, travel: 0.6 };
+    pub const DEFAULT: Self = Self { load: 5.0, travel_rad: 0.6 };
 }
 
 /// Limits and reactions of the loop. Begin with [`Safety::DEFAULT`].
@@ -50,7 +50,7 @@ pub struct Safety {
     /// How many ticks in a row may overrun before it is a fault.
     pub max_overruns: u32,
     /// Seconds of silence after which the host's link is lost; infinite where no host watches.
-    pub link_timeout: f32,
+    pub link_timeout_s: f32,
     /// Ticks of believable sensors before the loop is armed.
     pub settle_ticks: u32,
     /// Whether the loop waits for [`super::Event::Homed`] before it is armed.
@@ -87,7 +87,7 @@ impl Safety {
     pub const DEFAULT: Self = Self {
         output: SafeOutput::Zero,
         max_overruns: 0,
-        link_timeout: f32::INFINITY,
+        link_timeout_s: f32::INFINITY,
         settle_ticks: 1,
         wait_for_homing: false,
         stuck: Some(StuckLimits::DEFAULT),
@@ -106,11 +106,11 @@ impl Safety {
                 return Err(SafetyError::Damping);
             }
         }
-        let lasts = self.link_timeout > 0.0;
+        let lasts = self.link_timeout_s > 0.0;
         if !lasts {
             return Err(SafetyError::LinkTimeout);
         }
-        if let Some(StuckLimits { load, travel }) = self.stuck {
+        if let Some(StuckLimits { load, travel_rad: travel }) = self.stuck {
             let sensible = load >= 1.0 && travel > 0.0;
             if !sensible {
                 return Err(SafetyError::Stuck);
@@ -146,13 +146,13 @@ mod tests {
         for (link_timeout, good) in
             [(1e-3, true), (f32::INFINITY, true), (0.0, false), (-1.0, false), (f32::NAN, false)]
         {
-            let safety = Safety { link_timeout, ..Safety::DEFAULT };
+            let safety = Safety { link_timeout_s: link_timeout, ..Safety::DEFAULT };
             assert_eq!(safety.check(MAX_DAMPING), if good { Ok(()) } else { Err(SafetyError::LinkTimeout) });
         }
         for (load, travel, good) in
             [(1.0, 0.1, true), (0.99, 0.1, false), (5.0, 0.0, false), (f32::NAN, 0.1, false), (5.0, f32::NAN, false)]
         {
-            let safety = Safety { stuck: Some(StuckLimits { load, travel }), ..Safety::DEFAULT };
+            let safety = Safety { stuck: Some(StuckLimits { load, travel_rad: travel }), ..Safety::DEFAULT };
             assert_eq!(
                 safety.check(MAX_DAMPING),
                 if good { Ok(()) } else { Err(SafetyError::Stuck) },

@@ -24,7 +24,7 @@ where
     let mut angles = [0.0; JOINTS];
     let encoders = device.encoders.iter().zip(state.angles_at_zero);
     for ((angle, (encoder, angle_at_zero)), count) in angles.iter_mut().zip(encoders).zip(counts) {
-        *angle = Encoder { angle_at_zero, ..*encoder }.angle(count);
+        *angle = Encoder { angle_at_zero_rad: angle_at_zero, ..*encoder }.angle(count);
     }
     let to_stop = device.to_stop(&angles);
     let in_range = to_stop >= 0.0;

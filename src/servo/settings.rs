@@ -7,20 +7,20 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Servo rate, Hz.
-    pub rate: f32,
+    pub rate_hz: f32,
     /// Stiffness of the surface, N/m.
-    pub stiffness: f32,
+    pub stiffness_n_per_m: f32,
     /// Damping of the surface, N·s/m.
-    pub damping: f32,
+    pub damping_n_s_per_m: f32,
     /// The greatest force, N. The device's own limit applies as well.
-    pub max_force: f32,
+    pub max_force_n: f32,
     /// Corner frequency of the velocity filter, Hz.
-    pub velocity_corner: f32,
+    pub velocity_corner_hz: f32,
     /// Seconds over which the force is faded in after force was asked for.
-    pub soft_start: f32,
+    pub soft_start_s: f32,
     /// Where the origin of the body's tables lies in the device's frame, metres. Baked source says with `CENTRE` where
     /// that lies in the model.
-    pub body_origin: Vec3,
+    pub body_origin_m: Vec3,
 }
 
 /// Which setting is refused. In a `static` it is a compile error.
@@ -54,13 +54,13 @@ impl Settings {
     /// 1 kHz, a soft wall and little force, within what every device that ships takes; the body's origin in that of the
     /// device.
     pub const DEFAULT: Self = Self {
-        rate: 1_000.0,
-        stiffness: 200.0,
-        damping: 0.5,
-        max_force: 1.0,
-        velocity_corner: 100.0,
-        soft_start: 0.2,
-        body_origin: Vec3::ZERO,
+        rate_hz: 1_000.0,
+        stiffness_n_per_m: 200.0,
+        damping_n_s_per_m: 0.5,
+        max_force_n: 1.0,
+        velocity_corner_hz: 100.0,
+        soft_start_s: 0.2,
+        body_origin_m: Vec3::ZERO,
     };
 
     /// Checks the settings against a device's greatest stiffness (N/m) and damping (N·s/m).
@@ -68,25 +68,25 @@ impl Settings {
     /// # Errors
     /// The first setting that is refused.
     pub const fn check(&self, max_stiffness: f32, max_damping: f32) -> Result<(), SettingsError> {
-        if !within(self.rate, 1.0, 100_000.0) {
+        if !within(self.rate_hz, 1.0, 100_000.0) {
             return Err(SettingsError::Rate);
         }
-        if !within(self.stiffness, 0.0, max_stiffness) {
+        if !within(self.stiffness_n_per_m, 0.0, max_stiffness) {
             return Err(SettingsError::Stiffness);
         }
-        if !within(self.damping, 0.0, max_damping) {
+        if !within(self.damping_n_s_per_m, 0.0, max_damping) {
             return Err(SettingsError::Damping);
         }
-        if !within(self.max_force, 0.0, f32::MAX) {
+        if !within(self.max_force_n, 0.0, f32::MAX) {
             return Err(SettingsError::MaxForce);
         }
-        if !within(self.velocity_corner, f32::MIN_POSITIVE, f32::MAX) {
+        if !within(self.velocity_corner_hz, f32::MIN_POSITIVE, f32::MAX) {
             return Err(SettingsError::VelocityCorner);
         }
-        if !within(self.soft_start, 0.0, f32::MAX) {
+        if !within(self.soft_start_s, 0.0, f32::MAX) {
             return Err(SettingsError::SoftStart);
         }
-        let origin = self.body_origin;
+        let origin = self.body_origin_m;
         if !(origin.x.is_finite() && origin.y.is_finite() && origin.z.is_finite()) {
             return Err(SettingsError::BodyOrigin);
         }
@@ -113,42 +113,42 @@ mod tests {
     #[test]
     fn the_default_is_taken_by_every_device_that_ships_and_what_no_loop_can_have_by_none() {
         let limits = [
-            [presets::WOODEN_HAPTICS_2016.max_stiffness, presets::WOODEN_HAPTICS_2016.max_damping],
-            [presets::POLHEM_V2.max_stiffness, presets::POLHEM_V2.max_damping],
-            [presets::NOVINT_FALCON.max_stiffness, presets::NOVINT_FALCON.max_damping],
-            [presets::HAPKIT.max_stiffness, presets::HAPKIT.max_damping],
-            [presets::HAPLY_2DIY_V3.max_stiffness, presets::HAPLY_2DIY_V3.max_damping],
-            [presets::HAPLY_KIT_V1.max_stiffness, presets::HAPLY_KIT_V1.max_damping],
-            [presets::PHANTOM_PREMIUM.max_stiffness, presets::PHANTOM_PREMIUM.max_damping],
+            [presets::WOODEN_HAPTICS_2016.max_stiffness_n_per_m, presets::WOODEN_HAPTICS_2016.max_damping_n_s_per_m],
+            [presets::POLHEM_V2.max_stiffness_n_per_m, presets::POLHEM_V2.max_damping_n_s_per_m],
+            [presets::NOVINT_FALCON.max_stiffness_n_per_m, presets::NOVINT_FALCON.max_damping_n_s_per_m],
+            [presets::HAPKIT.max_stiffness_n_per_m, presets::HAPKIT.max_damping_n_s_per_m],
+            [presets::HAPLY_2DIY_V3.max_stiffness_n_per_m, presets::HAPLY_2DIY_V3.max_damping_n_s_per_m],
+            [presets::HAPLY_KIT_V1.max_stiffness_n_per_m, presets::HAPLY_KIT_V1.max_damping_n_s_per_m],
+            [presets::PHANTOM_PREMIUM.max_stiffness_n_per_m, presets::PHANTOM_PREMIUM.max_damping_n_s_per_m],
         ];
         for [max_stiffness, max_damping] in limits {
             assert_eq!(Settings::DEFAULT.check(max_stiffness, max_damping), Ok(()));
             for bad in [-1.0, f32::NAN, f32::INFINITY] {
                 let spoilt = [
-                    (Settings { rate: bad, ..Settings::DEFAULT }, SettingsError::Rate),
-                    (Settings { stiffness: bad, ..Settings::DEFAULT }, SettingsError::Stiffness),
-                    (Settings { damping: bad, ..Settings::DEFAULT }, SettingsError::Damping),
-                    (Settings { max_force: bad, ..Settings::DEFAULT }, SettingsError::MaxForce),
-                    (Settings { velocity_corner: bad, ..Settings::DEFAULT }, SettingsError::VelocityCorner),
-                    (Settings { soft_start: bad, ..Settings::DEFAULT }, SettingsError::SoftStart),
+                    (Settings { rate_hz: bad, ..Settings::DEFAULT }, SettingsError::Rate),
+                    (Settings { stiffness_n_per_m: bad, ..Settings::DEFAULT }, SettingsError::Stiffness),
+                    (Settings { damping_n_s_per_m: bad, ..Settings::DEFAULT }, SettingsError::Damping),
+                    (Settings { max_force_n: bad, ..Settings::DEFAULT }, SettingsError::MaxForce),
+                    (Settings { velocity_corner_hz: bad, ..Settings::DEFAULT }, SettingsError::VelocityCorner),
+                    (Settings { soft_start_s: bad, ..Settings::DEFAULT }, SettingsError::SoftStart),
                 ];
                 for (settings, error) in spoilt {
                     assert_eq!(settings.check(max_stiffness, max_damping), Err(error));
                 }
             }
-            let stiff = Settings { stiffness: max_stiffness * 1.001, ..Settings::DEFAULT };
+            let stiff = Settings { stiffness_n_per_m: max_stiffness * 1.001, ..Settings::DEFAULT };
             assert_eq!(stiff.check(max_stiffness, max_damping), Err(SettingsError::Stiffness));
-            let damped = Settings { damping: max_damping * 1.001, ..Settings::DEFAULT };
+            let damped = Settings { damping_n_s_per_m: max_damping * 1.001, ..Settings::DEFAULT };
             assert_eq!(damped.check(max_stiffness, max_damping), Err(SettingsError::Damping));
         }
         for (rate, good) in [(0.999, false), (1.0, true), (100_000.0, true), (100_100.0, false), (0.0, false)] {
-            assert_eq!(Settings { rate, ..Settings::DEFAULT }.check(1e3, 1e1).is_ok(), good, "{rate} Hz");
+            assert_eq!(Settings { rate_hz: rate, ..Settings::DEFAULT }.check(1e3, 1e1).is_ok(), good, "{rate} Hz");
         }
-        let still = Settings { velocity_corner: 0.0, ..Settings::DEFAULT };
+        let still = Settings { velocity_corner_hz: 0.0, ..Settings::DEFAULT };
         assert_eq!(still.check(1e3, 1e1), Err(SettingsError::VelocityCorner));
         for bad in [f32::NAN, f32::INFINITY] {
             for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
-                let away = Settings { body_origin: axis * bad, ..Settings::DEFAULT };
+                let away = Settings { body_origin_m: axis * bad, ..Settings::DEFAULT };
                 assert_eq!(away.check(1e3, 1e1), Err(SettingsError::BodyOrigin));
             }
         }

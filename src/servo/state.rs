@@ -107,14 +107,7 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         for velocity in &self.velocities {
             match velocity {
                 VelocityState::LowPass(velocity) => hash.floats([*velocity]),
-                VelocityState::Tracking { lag, velocity } | VelocityState::BetweenCounts { lag, velocity } => {
-                    hash.floats([*lag, *velocity])
-                }
-                VelocityState::AdaptiveWindow(window) => {
-                    let (moves, places) = window.parts();
-                    hash.floats(moves);
-                    hash.words(places.map(u32::from));
-                }
+                VelocityState::BetweenCounts { lag, velocity } => hash.floats([*lag, *velocity]),
             }
         }
         hash.words([self.stillness.turn]);

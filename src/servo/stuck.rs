@@ -36,7 +36,10 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
         self.turn = joint as u32 + 1;
         let bears = || felt[joint].abs() > limits.load * friction[joint] && friction[joint] > 0.0;
         if counts[joint] == self.counts[joint] && bears() {
-            return angles.iter().zip(self.since[joint]).any(|(angle, since)| (angle - since).abs() > limits.travel);
+            return angles
+                .iter()
+                .zip(self.since[joint])
+                .any(|(angle, since)| (angle - since).abs() > limits.travel_rad);
         }
         self.counts[joint] = counts[joint];
         self.since[joint] = *angles;
@@ -48,7 +51,7 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
 mod tests {
     use super::*;
 
-    const LIMITS: StuckLimits = StuckLimits { load: 2.0, travel: 0.2 };
+    const LIMITS: StuckLimits = StuckLimits { load: 2.0, travel_rad: 0.2 };
 
     /// The tick at which it is found, the second joint moving by 0.001 rad a tick and the first as told.
     fn found(first: impl Fn(u32) -> i32, felt: f32, friction: f32) -> Option<u32> {

@@ -177,12 +177,12 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         }
         let between = matches!(self.rendering.velocity, VelocityMethod::BetweenCounts);
         let angles = if between { state.believed_angles() } else { state.angles };
-        let (pose, weight) = if self.rendering.carries_weight {
+        let (pose, weight) = if self.rendering.compensates_gravity {
             self.device.kinematics.held_pose(angles)
         } else {
             (self.device.kinematics.pose(angles), [0.0; JOINTS])
         };
-        let probe = pose.position - self.settings.body_origin;
+        let probe = pose.position - self.settings.body_origin_m;
         let moved = if first { Vec3::ZERO } else { probe - state.probe };
         let velocity = pose.velocity(state.rates);
         // The sum of all six is finite only where each is.
@@ -238,7 +238,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         }
         if let Some(limits) = self.safety.stuck
             && !self.guard.is_busy(&state.guard)
-            && state.stillness.is_broken(limits, &self.device.dry_friction, &counts, &state.angles, &felt)
+            && state.stillness.is_broken(limits, &self.device.dry_friction_n_m, &counts, &state.angles, &felt)
         {
             return Err(Fault::JointStuck);
         }
@@ -274,7 +274,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             HomingProgress::Refused(_) => Err(Fault::Homing),
             HomingProgress::Done(encoders) => {
                 state.homed = true;
-                state.angles_at_zero = encoders.map(|encoder| encoder.angle_at_zero);
+                state.angles_at_zero = encoders.map(|encoder| encoder.angle_at_zero_rad);
                 // The angles jump.
                 self.begin_anew(state);
                 Ok(Torques::NONE)
@@ -321,7 +321,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     ) -> [f32; JOINTS] {
         state.force = match self.safety.output {
             SafeOutput::Zero => Vec3::ZERO,
-            SafeOutput::Damping(damping) => limit::saturated(velocity * -damping, self.penalty.max_force),
+            SafeOutput::Damping(damping) => limit::saturated(velocity * -damping, self.penalty.max_force_n),
         };
         pose.torques(state.force)
     }

@@ -88,7 +88,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         records: Producer<'a, Record>,
         mailbox: &'a Mailbox,
     ) -> Self {
-        let rate = felt.servo().settings().rate;
+        let rate = felt.servo().settings().rate_hz;
         Self {
             board,
             state: felt.servo().start_after(reset),

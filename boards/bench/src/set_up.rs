@@ -51,10 +51,10 @@ impl JogSettings {
         }
         JogLimits {
             max_duty: [most; JOINTS],
-            max_speed: self.rate / coarsest,
+            max_speed_counts_per_s: self.rate / coarsest,
             // The cast saturates.
-            max_travel: (self.travel / coarsest) as u32,
-            patience: self.patience,
+            max_travel_counts: (self.travel / coarsest) as u32,
+            patience_s: self.patience,
         }
     }
 }

@@ -38,7 +38,7 @@ fn main() -> ! {
     let stopwatch = Instructions::new(&BOARD, peripherals.SYST);
     let mut examiner = Examiner::new(&This, &settings, Chip { core, reset }, &MAILBOX, ticks, stopwatch);
     let mut port = Uart::new(&BOARD);
-    BOARD.start_timer(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate_hz);
     // Nothing here can be reset: what would fail goes on.
     loop {
         let _ = examiner.step(&mut port, &mut NoWatchdog);

@@ -43,10 +43,11 @@ fn main() -> ! {
     let (kept, found) = KeptCalibration::find(flash, &BUILT, None);
     let felt = Measured::try_new(found);
     free(|section| HANDED_OVER.borrow(section).set(felt.map(|felt| (felt, producer))));
-    let mut idle =
-        Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate, SETTINGS.max_force).calibrating(&kept);
+    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default())
+        .saying(SETTINGS.rate_hz, SETTINGS.max_force_n)
+        .calibrating(&kept);
     let mut port = Uart::new(&BOARD);
-    BOARD.start_timer(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate_hz);
     loop {
         idle.step(&mut port, &mut NoWatchdog);
     }
@@ -65,6 +66,6 @@ fn TIMER0() {
     } else if let Some((felt, records)) = free(|section| HANDED_OVER.borrow(section).take()) {
         let pins = Pins::new(&BOARD, FifoLink::open());
         *LOOP = Some(Bench::new(felt, pins, &Settings::new(BOARD.clock), BOARD.reset_reason(), records, &MAILBOX));
-        BOARD.start_timer(SETTINGS.rate);
+        BOARD.start_timer(SETTINGS.rate_hz);
     }
 }

@@ -12,7 +12,7 @@ use static_cell::StaticCell;
 
 #[entry]
 fn main() -> ! {
-    BOARD.start_timer(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate_hz);
     loop {
         cortex_m::asm::wfi();
     }
@@ -32,6 +32,6 @@ fn TIMER0() {
     } else {
         *SERVO_LOOP =
             Peripherals::take().and_then(|core| PLACE.try_init(ServoLoop::new(&BOARD, FifoLink::open(), core.SYST)));
-        BOARD.start_timer(SETTINGS.rate);
+        BOARD.start_timer(SETTINGS.rate_hz);
     }
 }

@@ -15,7 +15,7 @@ use static_cell::StaticCell;
 
 #[entry]
 fn main() -> ! {
-    BOARD.start_timer(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate_hz);
     loop {
         cortex_m::asm::wfi();
     }
@@ -34,6 +34,6 @@ fn TIMER0() {
     } else {
         *KNOB_LOOP =
             Peripherals::take().and_then(|core| PLACE.try_init(KnobLoop::new(&BOARD, FifoLink::open(), core.SYST)));
-        BOARD.start_timer(SETTINGS.rate);
+        BOARD.start_timer(SETTINGS.rate_hz);
     }
 }

@@ -42,7 +42,7 @@ static SHELF: Shelf = Both(&BODIES, &KEPT);
 static SLOTS: [Slot<Shelf>; 2] = [Slot::fixed(tables::SURFACE), Slot::exchangeable(tables::SURFACE, &SHELF)];
 /// Side by side, the second to the right of the first.
 static SCENE: Surface = Scene::new(
-    Limits::of(&DEVICE, SETTINGS.rate),
+    Limits::of(&DEVICE, SETTINGS.rate_hz),
     [
         Part::in_slot(&SLOTS[0], Motion::Resting(Placement::IDENTITY), Material::new(500.0, 1.5)),
         Part::in_slot(
@@ -56,7 +56,7 @@ static SCENE: Surface = Scene::new(
 /// A host that falls silent for ten seconds is gone: the emulator's line takes the host's own time, while emulated time
 /// goes on. On a board it would be a tenth of a second.
 static SERVO: Servo<'static, Surface, Mechanism, 3> = Servo::new(&DEVICE, &SCENE, Controller::SECOND_ORDER, SETTINGS)
-    .safety(Safety { link_timeout: 10.0, ..Safety::DEFAULT });
+    .safety(Safety { link_timeout_s: 10.0, ..Safety::DEFAULT });
 
 struct This;
 
@@ -87,7 +87,7 @@ fn main() -> ! {
     let (producer, records) = QUEUE.split();
     free(|section| HANDED_OVER.borrow(section).set(Some(producer)));
     let uploads = BODIES.main();
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate, SETTINGS.max_force);
+    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
     if let Some(uploads) = &uploads {
         idle = idle.taking(uploads);
     }
@@ -96,7 +96,7 @@ fn main() -> ! {
         idle = idle.keeping(keeping);
     }
     let mut port = Uart::new(&BOARD);
-    BOARD.start_timer(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate_hz);
     loop {
         idle.step(&mut port, &mut NoWatchdog);
     }
@@ -114,6 +114,6 @@ fn TIMER0() {
     } else if let Some(records) = free(|section| HANDED_OVER.borrow(section).take()) {
         let pins = Pins::new(&BOARD, FifoLink::open());
         *LOOP = Some(Bench::new(This, pins, &Settings::new(BOARD.clock), BOARD.reset_reason(), records, &MAILBOX));
-        BOARD.start_timer(SETTINGS.rate);
+        BOARD.start_timer(SETTINGS.rate_hz);
     }
 }

@@ -21,7 +21,7 @@ fn main() -> ! {
     // Only changes matter: no record in between.
     let mut records = recorded::hand_over(&BOARD, QUEUE, u32::MAX);
     let mut changes = Changes::default();
-    BOARD.start_timer(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate_hz);
     loop {
         match records.dequeue() {
             Some(record) => changes.log(&record),

@@ -42,7 +42,7 @@ fn main() -> ! {
         // SAFETY: as above.
         unsafe { lowest.add(index).write_volatile(PAINT) };
     }
-    BOARD.start_timer(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate_hz);
     while TICKS_DONE.load(Relaxed) < TICKS {
         cortex_m::asm::wfi();
     }

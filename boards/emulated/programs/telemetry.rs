@@ -26,7 +26,7 @@ fn main() -> ! {
     let mut records = recorded::hand_over(&BOARD, QUEUE, TICKS_PER_RECORD);
     let mut line = UartLink::new(&BOARD);
     let mut buffer = [0; MAX_FRAME];
-    BOARD.start_timer(SETTINGS.rate);
+    BOARD.start_timer(SETTINGS.rate_hz);
     loop {
         // No sleep: the emulator, left asleep, lets every other tick of the timer pass.
         let Some(record) = records.dequeue() else { continue };
@@ -49,6 +49,6 @@ fn TIMER0() {
         servo_loop.tick();
     } else {
         *SERVO_LOOP = RecordedLoop::take(&BOARD, FifoLink::open).and_then(|made| PLACE.try_init(made));
-        BOARD.start_timer(SETTINGS.rate);
+        BOARD.start_timer(SETTINGS.rate_hz);
     }
 }

@@ -58,7 +58,7 @@ pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller
 
 /// A motor that is always too warm.
 #[cfg(feature = "protected")]
-const WARM: Endurance = Endurance { continuous: 0.001, time_constant: 600.0 };
+const WARM: Endurance = Endurance { continuous: 0.001, time_constant_s: 600.0 };
 
 /// What protects it. Where it is counted, joints stay on trial: to an inertia that no knock moves, a path says nothing
 /// of signs. On trial nothing is folded back, so where that is counted, the path gives way to knocks until all joints
@@ -67,11 +67,11 @@ const WARM: Endurance = Endurance { continuous: 0.001, time_constant: 600.0 };
 const fn protection() -> Protection<3> {
     if cfg!(feature = "counted") {
         Protection {
-            supply: Some(SupplyRange { least: 20_000, most: 28_000 }),
-            signs: if cfg!(feature = "folded") {
-                settings::PROTECTION.signs
+            supply: Some(SupplyRange { min_mv: 20_000, max_mv: 28_000 }),
+            polarity: if cfg!(feature = "folded") {
+                settings::PROTECTION.polarity
             } else {
-                Some(SignWatch { inertia: [1e3; 3] })
+                Some(SignWatch { inertia_kg_m2: [1e3; 3] })
             },
             motors: if cfg!(feature = "folded") { [WARM; 3] } else { settings::PROTECTION.motors },
             ..settings::PROTECTION

@@ -28,7 +28,7 @@ static DEVICE: Device<Dial, 1> = device(if cfg!(feature = "uncompensated") { Non
 /// Everything the loop knows, in flash.
 pub static SERVO: KnobServo = servo(&DEVICE, SEARCH, TOLD_OF_SUPPLY);
 
-const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate);
+const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate_hz);
 
 /// What a tick of the knob is, and what is counted: the loop, and the widths of the three phases.
 #[inline(never)]

@@ -20,7 +20,7 @@ const FRAMES_PER_TICK: u32 = 4;
 
 /// From the sensors in hand to the duties applied; waiting for the host does not count, for a real device has its
 /// sensors by it.
-const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate);
+const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate_hz);
 
 /// The servo loop over a link.
 pub struct ServoLoop<L> {

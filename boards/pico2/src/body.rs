@@ -35,11 +35,11 @@ pub const PROTECTION: Protection<3> = WOODEN_HAPTICS_2016_PROTECTION;
 
 /// 4 kHz and 600 N/m are well inside what the device takes.
 pub const SETTINGS: Settings = Settings {
-    rate: 4_000.0,
-    stiffness: 600.0,
-    damping: 2.0,
-    max_force: 5.0,
-    velocity_corner: 200.0,
-    soft_start: 0.2,
-    body_origin: vec3(-0.05, -0.05, -0.06),
+    rate_hz: 4_000.0,
+    stiffness_n_per_m: 600.0,
+    damping_n_s_per_m: 2.0,
+    max_force_n: 5.0,
+    velocity_corner_hz: 200.0,
+    soft_start_s: 0.2,
+    body_origin_m: vec3(-0.05, -0.05, -0.06),
 };

@@ -77,8 +77,9 @@ pub fn set_up(
         pins.gpio6.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
         pins.gpio7.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
     ];
-    let steps =
-        DEVICE.encoders.map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate, SETTINGS.rate, BENCH.bad_frames));
+    let steps = DEVICE
+        .encoders
+        .map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames));
     let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, CLOCK), steps);
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();

@@ -8,7 +8,7 @@ use crate::chip::CLOCK;
 
 /// Counts of the slice a tick; 16 bits hold it down to 2,289 Hz.
 const PERIOD: u16 = {
-    let counts = CLOCK as f32 / SETTINGS.rate;
+    let counts = CLOCK as f32 / SETTINGS.rate_hz;
     assert!(counts <= 65_536.0, "the rate is too low for a slice without divider");
     (counts - 1.0) as u16
 };

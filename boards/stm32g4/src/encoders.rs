@@ -58,7 +58,7 @@ impl Encoders {
 /// The greatest step between two readings of each input, counts.
 pub fn steps(felt: &This) -> [i32; 3] {
     let device = felt.servo().device();
-    let step = |encoder| greatest_step(&encoder, device.max_joint_rate, SETTINGS.rate, BENCH.bad_frames);
+    let step = |encoder| greatest_step(&encoder, device.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames);
     felt.wiring().inputs(device.encoders.map(step))
 }
 

@@ -24,7 +24,7 @@ const FREQUENCY: u32 = 2_000;
 /// As the amplifiers are configured.
 pub const RANGE: SetPointRange = SetPointRange::TEN_TO_NINETY;
 /// Two periods of a width.
-pub const DWELL: u8 = (2.0 * SETTINGS.rate / FREQUENCY as f32) as u8 + 1;
+pub const DWELL: u8 = (2.0 * SETTINGS.rate_hz / FREQUENCY as f32) as u8 + 1;
 
 /// The outputs, at no width until the first command or release.
 pub fn outputs(timer: TIM1, pins: (PA8<AF6>, PA9<AF6>, PA10<AF6>), rcc: &mut Rcc) -> Outputs {

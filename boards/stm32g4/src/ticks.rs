@@ -7,7 +7,7 @@ use stm32g4xx_hal::timer::{CountDownTimer, Event, Timer};
 
 use crate::body::SETTINGS;
 
-const PERIOD_MICROSECONDS: u32 = (1e6 / SETTINGS.rate) as u32;
+const PERIOD_MICROSECONDS: u32 = (1e6 / SETTINGS.rate_hz) as u32;
 
 /// It, running.
 pub struct Ticks {

@@ -17,7 +17,7 @@ const NEAR: u16 = 38;
 /// Looks that are longer than that.
 const LOOKS: u32 = 1_000;
 /// Two periods of a width, in ticks: how long a reversal stays at no current.
-pub const DWELL: u8 = (2.0 * SETTINGS.rate / 2_000.0) as u8 + 1;
+pub const DWELL: u8 = (2.0 * SETTINGS.rate_hz / 2_000.0) as u8 + 1;
 
 /// Output A of a submodule.
 pub struct PulseWidth {

@@ -77,8 +77,9 @@ pub fn set_up(
 
     let mut bus = board::lpspi(lpspi4, LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 }, 8_000_000);
     bus.set_mode(MODE_1);
-    let steps =
-        DEVICE.encoders.map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate, SETTINGS.rate, BENCH.bad_frames));
+    let steps = DEVICE
+        .encoders
+        .map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames));
     let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, ARM_FREQUENCY), steps);
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();

@@ -7,7 +7,7 @@ use teensy4_bsp::hal::pit::{Channel::Chan0, Pit};
 use crate::body::SETTINGS;
 
 /// Counts of the periodic timer a tick.
-const PERIOD: u32 = (PERCLK_FREQUENCY as f32 / SETTINGS.rate) as u32;
+const PERIOD: u32 = (PERCLK_FREQUENCY as f32 / SETTINGS.rate_hz) as u32;
 
 /// It, running.
 pub struct Ticks {

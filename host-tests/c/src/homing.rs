@@ -34,12 +34,20 @@ impl HomingNumbers {
     /// The homing of a device with these encoders.
     pub fn homing<const JOINTS: usize>(&self, encoders: [Encoder; JOINTS]) -> Result<Homing<JOINTS>, Status> {
         let mut angles = [0.0; JOINTS];
-        let mut stops = [StopSearch { angle: 0.0, speed: 0.0, torque: 0.0, clearance: 0.0, travel: 0.0 }; JOINTS];
+        let mut stops =
+            [StopSearch { angle_rad: 0.0, speed_rad_per_s: 0.0, torque_n_m: 0.0, clearance_rad: 0.0, travel_rad: 0.0 };
+                JOINTS];
         // No device has more than three joints: the numbers reach.
         for ((angle, stop), given) in angles.iter_mut().zip(&mut stops).zip(&self.joints) {
             let ReferenceNumbers { angle: at, speed, torque, clearance, travel } = *given;
             *angle = at;
-            *stop = StopSearch { angle: at, speed, torque, clearance, travel };
+            *stop = StopSearch {
+                angle_rad: at,
+                speed_rad_per_s: speed,
+                torque_n_m: torque,
+                clearance_rad: clearance,
+                travel_rad: travel,
+            };
         }
         let reference = match self.by {
             1 => Reference::Pose(angles),

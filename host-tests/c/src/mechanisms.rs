@@ -91,7 +91,13 @@ impl MechanismNumbers for SerialArmNumbers {
         finite(&workspace_centre)?;
         finite(&end_masses)?;
         let workspace_centre = Vec3::from_array(workspace_centre);
-        Ok(SerialArm { base_height, first_link, second_link, workspace_centre, end_masses })
+        Ok(SerialArm {
+            base_height_m: base_height,
+            first_link_m: first_link,
+            second_link_m: second_link,
+            workspace_centre_m: workspace_centre,
+            end_masses_kg: end_masses,
+        })
     }
 }
 
@@ -106,7 +112,18 @@ impl MechanismNumbers for DeltaNumbers {
         finite(&workspace_centre)?;
         finite(&up)?;
         let (workspace_centre, up) = (Vec3::from_array(workspace_centre), Vec3::from_array(up));
-        Ok(Delta { thigh, shin, stub, reach, side, directions, workspace_centre, up, carried_mass, thigh_moment })
+        Ok(Delta {
+            thigh_m: thigh,
+            shin_m: shin,
+            stub_m: stub,
+            reach_m: reach,
+            side_m: side,
+            directions,
+            workspace_centre_m: workspace_centre,
+            up,
+            carried_mass_kg: carried_mass,
+            thigh_moment_kg_m: thigh_moment,
+        })
     }
 }
 
@@ -118,7 +135,14 @@ impl MechanismNumbers for FiveBarNumbers {
         finite(&[second_pivot, side, tool, x, y])?;
         finite(&cranks)?;
         finite(&rods)?;
-        Ok(FiveBar { second_pivot, cranks, rods, side, tool, workspace_centre: vec2(x, y) })
+        Ok(FiveBar {
+            second_pivot_m: second_pivot,
+            cranks_m: cranks,
+            rods_m: rods,
+            side,
+            tool_m: tool,
+            workspace_centre_m: vec2(x, y),
+        })
     }
 }
 
@@ -131,9 +155,13 @@ impl MechanismNumbers for LinkageArmNumbers {
         finite(self.masses.as_flattened())?;
         Ok(LinkageArm {
             linkage: self.linkage.mechanism()?,
-            pivot_reach: self.pivot_reach,
-            workspace_centre: Vec3::from_array(self.workspace_centre),
-            masses: self.masses.map(|[mass, along, across]| LinkMass { mass, along, across }),
+            pivot_reach_m: self.pivot_reach,
+            workspace_centre_m: Vec3::from_array(self.workspace_centre),
+            masses: self.masses.map(|[mass, along, across]| LinkMass {
+                mass_kg: mass,
+                along_m: along,
+                across_m: across,
+            }),
         })
     }
 }
@@ -144,6 +172,6 @@ impl MechanismNumbers for PaddleNumbers {
     fn mechanism(&self) -> Result<Paddle, Status> {
         let Self { handle, mass_moment } = *self;
         finite(&[handle, mass_moment])?;
-        Ok(Paddle { handle, mass_moment })
+        Ok(Paddle { handle_m: handle, mass_moment_kg_m: mass_moment })
     }
 }

@@ -94,7 +94,14 @@ impl VoltageNumbers {
         if !(supply > 0.0 && resistance > 0.0 && (0.0..=1.0).contains(&back_emf_share)) {
             return Err(Status::DeviceMotor);
         }
-        let feed = VoltageFeed { supply, resistance, torque_constant, current_at_full, ratio, back_emf_share };
+        let feed = VoltageFeed {
+            supply_v: supply,
+            resistance_ohm: resistance,
+            torque_constant_n_m_per_a: torque_constant,
+            current_at_full_a: current_at_full,
+            ratio,
+            back_emf_fraction: back_emf_share,
+        };
         Ok(Feed::Voltage(feed))
     }
 }
@@ -105,24 +112,24 @@ impl DeviceNumbers {
         const { assert!(JOINTS <= 3) };
         let mut device = Device {
             kinematics,
-            encoders: [Encoder { radians_per_count: 1.0, angle_at_zero: 0.0 }; JOINTS],
-            motors: [Motor { torque_at_full: 1.0 }; JOINTS],
+            encoders: [Encoder { radians_per_count: 1.0, angle_at_zero_rad: 0.0 }; JOINTS],
+            motors: [Motor { torque_at_full_n_m: 1.0 }; JOINTS],
             feeds: [Feed::Current; JOINTS],
-            dry_friction: [0.0; JOINTS],
-            joint_range: [[0.0; 2]; JOINTS],
-            min_margin: self.min_margin,
-            max_joint_rate: self.max_joint_rate,
-            max_force: self.max_force,
-            max_stiffness: self.max_stiffness,
-            max_damping: self.max_damping,
+            dry_friction_n_m: [0.0; JOINTS],
+            joint_range_rad: [[0.0; 2]; JOINTS],
+            min_margin_m_per_rad: self.min_margin,
+            max_joint_rate_rad_per_s: self.max_joint_rate,
+            max_force_n: self.max_force,
+            max_stiffness_n_per_m: self.max_stiffness,
+            max_damping_n_s_per_m: self.max_damping,
         };
         for (index, joint) in self.joints.iter().take(JOINTS).enumerate() {
             device.encoders[index] =
-                Encoder { radians_per_count: joint.radians_per_count, angle_at_zero: joint.angle_at_zero };
-            device.motors[index] = Motor { torque_at_full: joint.torque_at_full };
+                Encoder { radians_per_count: joint.radians_per_count, angle_at_zero_rad: joint.angle_at_zero };
+            device.motors[index] = Motor { torque_at_full_n_m: joint.torque_at_full };
             device.feeds[index] = joint.feed.feed()?;
-            device.dry_friction[index] = joint.dry_friction;
-            device.joint_range[index] = [joint.least_angle, joint.greatest_angle];
+            device.dry_friction_n_m[index] = joint.dry_friction;
+            device.joint_range_rad[index] = [joint.least_angle, joint.greatest_angle];
         }
         device.check()?;
         Ok(device)
@@ -131,12 +138,12 @@ impl DeviceNumbers {
 
 impl SettingsNumbers {
     const DEFAULT: Self = Self {
-        rate: Settings::DEFAULT.rate,
-        stiffness: Settings::DEFAULT.stiffness,
-        damping: Settings::DEFAULT.damping,
-        max_force: Settings::DEFAULT.max_force,
-        velocity_corner: Settings::DEFAULT.velocity_corner,
-        soft_start: Settings::DEFAULT.soft_start,
+        rate: Settings::DEFAULT.rate_hz,
+        stiffness: Settings::DEFAULT.stiffness_n_per_m,
+        damping: Settings::DEFAULT.damping_n_s_per_m,
+        max_force: Settings::DEFAULT.max_force_n,
+        velocity_corner: Settings::DEFAULT.velocity_corner_hz,
+        soft_start: Settings::DEFAULT.soft_start_s,
         body_origin: [0.0; 3],
         friction_stiffness: 0.0,
         friction_damping: 0.0,
@@ -152,7 +159,7 @@ impl SettingsNumbers {
         device_friction: 0.0,
         max_slew: f32::INFINITY,
         safe_damping: 0.0,
-        link_timeout: Safety::DEFAULT.link_timeout,
+        link_timeout: Safety::DEFAULT.link_timeout_s,
         max_overruns: Safety::DEFAULT.max_overruns,
         settle_ticks: Safety::DEFAULT.settle_ticks,
         wait_for_homing: 0,
@@ -162,40 +169,43 @@ impl SettingsNumbers {
     /// Rate, stiffness and the like.
     pub fn settings(&self) -> Settings {
         Settings {
-            rate: self.rate,
-            stiffness: self.stiffness,
-            damping: self.damping,
-            max_force: self.max_force,
-            velocity_corner: self.velocity_corner,
-            soft_start: self.soft_start,
-            body_origin: Vec3::from_array(self.body_origin),
+            rate_hz: self.rate,
+            stiffness_n_per_m: self.stiffness,
+            damping_n_s_per_m: self.damping,
+            max_force_n: self.max_force,
+            velocity_corner_hz: self.velocity_corner,
+            soft_start_s: self.soft_start,
+            body_origin_m: Vec3::from_array(self.body_origin),
         }
     }
 
     /// How the surface feels.
     pub fn rendering(&self) -> Result<Rendering, Status> {
         let friction = Friction {
-            stiffness: self.friction_stiffness,
-            damping: self.friction_damping,
+            stiffness_n_per_m: self.friction_stiffness,
+            damping_n_s_per_m: self.friction_damping,
             static_coefficient: self.friction_static,
             dynamic_coefficient: self.friction_dynamic,
         };
         let slips_freely = self.friction_static == 0.0 && self.friction_dynamic == 0.0;
-        let coupling =
-            Coupling { stiffness: self.coupling_stiffness, damping: self.coupling_damping, mass: self.coupling_mass };
+        let coupling = Coupling {
+            stiffness_n_per_m: self.coupling_stiffness,
+            damping_n_s_per_m: self.coupling_damping,
+            mass_kg: self.coupling_mass,
+        };
         let passivity = Passivity {
-            device_damping: self.device_damping,
-            device_friction: self.device_friction,
-            max_damping: self.passivity_damping,
-            resolution: self.passivity_resolution,
+            device_damping_n_s_per_m: self.device_damping,
+            device_friction_n: self.device_friction,
+            max_damping_n_s_per_m: self.passivity_damping,
+            resolution_m: self.passivity_resolution,
         };
         Ok(Rendering {
             friction: if slips_freely { None } else { Some(friction) },
             texture: texture(self.texture_share)?,
             coupling: if self.coupling_mass == 0.0 { None } else { Some(coupling) },
             passivity: if self.passivity_damping == 0.0 { None } else { Some(passivity) },
-            max_slew: self.max_slew,
-            carries_weight: self.leave_weight == 0,
+            max_slew_n_per_s: self.max_slew,
+            compensates_gravity: self.leave_weight == 0,
             ..Rendering::PLAIN
         })
     }
@@ -206,7 +216,7 @@ impl SettingsNumbers {
         Safety {
             output,
             max_overruns: self.max_overruns,
-            link_timeout: self.link_timeout,
+            link_timeout_s: self.link_timeout,
             settle_ticks: self.settle_ticks,
             wait_for_homing: self.wait_for_homing != 0,
             ..Safety::DEFAULT

@@ -76,26 +76,27 @@ impl<const JOINTS: usize> Guarding<JOINTS> for ProtectionNumbers {
 impl ProtectionNumbers {
     fn protection<const JOINTS: usize>(&self) -> Protection<JOINTS> {
         let mut protection = Protection {
-            motors: [Endurance { continuous: 0.0, time_constant: 0.0 }; JOINTS],
-            max_joint_rates: [0.0; JOINTS],
-            max_probe_speed: self.max_probe_speed,
+            motors: [Endurance { continuous: 0.0, time_constant_s: 0.0 }; JOINTS],
+            max_joint_rates_rad_per_s: [0.0; JOINTS],
+            max_probe_speed_m_per_s: self.max_probe_speed,
             supply: None,
-            signs: None,
+            polarity: None,
         };
-        let mut signs = SignWatch { inertia: [0.0; JOINTS] };
+        let mut signs = SignWatch { inertia_kg_m2: [0.0; JOINTS] };
         // No device has more than three joints: the numbers reach.
-        let joints = protection.motors.iter_mut().zip(&mut protection.max_joint_rates).zip(&mut signs.inertia);
+        let joints =
+            protection.motors.iter_mut().zip(&mut protection.max_joint_rates_rad_per_s).zip(&mut signs.inertia_kg_m2);
         let numbers = self.motors.iter().zip(&self.max_joint_rates).zip(&self.inertia);
         for (((motor, rate), inertia), ((given, max_rate), given_inertia)) in joints.zip(numbers) {
-            *motor = Endurance { continuous: given.continuous, time_constant: given.time_constant };
+            *motor = Endurance { continuous: given.continuous, time_constant_s: given.time_constant };
             *rate = *max_rate;
             *inertia = *given_inertia;
         }
         if self.watch_signs != 0 {
-            protection.signs = Some(signs);
+            protection.polarity = Some(signs);
         }
         if self.watch_supply != 0 {
-            protection.supply = Some(SupplyRange { least: self.least_supply, most: self.most_supply });
+            protection.supply = Some(SupplyRange { min_mv: self.least_supply, max_mv: self.most_supply });
         }
         protection
     }

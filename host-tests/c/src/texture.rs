@@ -40,7 +40,7 @@ pub fn texture(max_share: f32) -> Result<Option<Texture>, Status> {
     if FORCE.load(Ordering::Acquire).is_null() {
         return Err(Status::SettingsTexture);
     }
-    Ok(Some(Texture { force: asked, max_share }))
+    Ok(Some(Texture { force: asked, max_fraction: max_share }))
 }
 
 fn asked(touch: &Touched) -> Vec3 {

@@ -128,9 +128,14 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// As [`Self::order`].
     pub fn rub(&mut self, body: u8, friction: Option<Friction>) -> Result<(), Error> {
-        let friction = friction.map(|Friction { stiffness, damping, static_coefficient, dynamic_coefficient }| {
-            [stiffness, damping, static_coefficient, dynamic_coefficient]
-        });
+        let friction = friction.map(
+            |Friction {
+                 stiffness_n_per_m: stiffness,
+                 damping_n_s_per_m: damping,
+                 static_coefficient,
+                 dynamic_coefficient,
+             }| { [stiffness, damping, static_coefficient, dynamic_coefficient] },
+        );
         self.order(Order::Rub { body, friction })
     }
 

@@ -138,17 +138,17 @@ impl Stage {
 
 fn servo(device: &'static Device<Slides, 3>, felt: &'static Felt, choices: &Choices) -> Result<Loop, String> {
     let settings = Settings {
-        rate: choices.rate,
-        stiffness: choices.stiffness,
-        damping: choices.damping,
-        max_force: device.max_force,
-        velocity_corner: 150.0,
-        soft_start: 0.1,
-        body_origin: Vec3::ZERO,
+        rate_hz: choices.rate,
+        stiffness_n_per_m: choices.stiffness,
+        damping_n_s_per_m: choices.damping,
+        max_force_n: device.max_force_n,
+        velocity_corner_hz: 150.0,
+        soft_start_s: 0.1,
+        body_origin_m: Vec3::ZERO,
     };
     let friction = Friction {
-        stiffness: choices.stiffness,
-        damping: 1.0,
+        stiffness_n_per_m: choices.stiffness,
+        damping_n_s_per_m: 1.0,
         static_coefficient: choices.friction,
         dynamic_coefficient: 0.75 * choices.friction,
     };

@@ -44,7 +44,15 @@ impl Run {
         let scene = if scene.is_empty() { None } else { Some(SceneNumbers::of(scene)?) };
         Some(Self {
             on: Recorded::of(device)?,
-            settings: Settings { rate, stiffness, damping, max_force, velocity_corner, soft_start, body_origin },
+            settings: Settings {
+                rate_hz: rate,
+                stiffness_n_per_m: stiffness,
+                damping_n_s_per_m: damping,
+                max_force_n: max_force,
+                velocity_corner_hz: velocity_corner,
+                soft_start_s: soft_start,
+                body_origin_m: body_origin,
+            },
             link_timeout,
             scene,
         })
@@ -124,7 +132,7 @@ where
     S::Witness: Send,
 {
     let device: &'static Device<Mechanism, 3> = Box::leak(Box::new(run.on.device));
-    let safety = Safety { link_timeout: run.link_timeout, ..Safety::DEFAULT };
+    let safety = Safety { link_timeout_s: run.link_timeout, ..Safety::DEFAULT };
     let servo =
         Servo::try_new(device, surface, Controller::SECOND_ORDER, run.settings).map_err(|error| error.to_string())?;
     if let Some(protection) = run.on.protection {

@@ -24,18 +24,18 @@ pub fn slides(size: f32) -> Device<Slides, 3> {
     Device {
         kinematics: Slides,
         // The pose at count zero is exact: there is no line to be in the middle of.
-        encoders: [Encoder { radians_per_count: size / 262_144.0, angle_at_zero: 0.0 }; 3],
-        motors: [Motor { torque_at_full: GREATEST_FORCE }; 3],
+        encoders: [Encoder { radians_per_count: size / 262_144.0, angle_at_zero_rad: 0.0 }; 3],
+        motors: [Motor { torque_at_full_n_m: GREATEST_FORCE }; 3],
         feeds: [Feed::Current; 3],
-        dry_friction: [0.0; 3],
+        dry_friction_n_m: [0.0; 3],
         // The rim of 0.05 is one of radians: the slides have none.
-        joint_range: [[-reach - 1.0, reach + 1.0]; 3],
-        min_margin: 0.01,
+        joint_range_rad: [[-reach - 1.0, reach + 1.0]; 3],
+        min_margin_m_per_rad: 0.01,
         // A mouse jumps.
-        max_joint_rate: f32::MAX,
-        max_force: GREATEST_FORCE,
-        max_stiffness: 10_000.0,
-        max_damping: 50.0,
+        max_joint_rate_rad_per_s: f32::MAX,
+        max_force_n: GREATEST_FORCE,
+        max_stiffness_n_per_m: 10_000.0,
+        max_damping_n_s_per_m: 50.0,
     }
 }
 
@@ -51,6 +51,6 @@ pub fn counts_at(device: &Device<Slides, 3>, place: Vec3) -> [i32; 3] {
 
 /// The force that duties give on the slides, N.
 pub fn force_of(device: &Device<Slides, 3>, duties: [f32; 3]) -> Vec3 {
-    let [x, y, z] = core::array::from_fn(|joint| duties[joint] * device.motors[joint].torque_at_full);
+    let [x, y, z] = core::array::from_fn(|joint| duties[joint] * device.motors[joint].torque_at_full_n_m);
     vec3(x, y, z)
 }

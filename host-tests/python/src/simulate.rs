@@ -20,7 +20,7 @@ const STANDBY: f32 = 0.1;
 /// The longest run: an hour of a hand's path is 86 MB.
 const LONGEST: f64 = 3_600.0;
 /// The limits of a loop with a host at its link, which is gone when it is silent for 100 ms.
-const SAFETY: Safety = Safety { link_timeout: 0.1, ..Safety::DEFAULT };
+const SAFETY: Safety = Safety { link_timeout_s: 0.1, ..Safety::DEFAULT };
 /// Steps along each parameter of the grid on which a body's bounding box is taken.
 const GRID: u16 = 16;
 
@@ -90,20 +90,20 @@ pub fn run<K: Kinematics<3>>(
         return Err(Refusal::Settings(format!("{seconds} s at {rate} Hz is not a number of ticks that can be run")));
     }
     let settings = Settings {
-        rate: wishes.rate,
-        stiffness: wishes.stiffness.unwrap_or(STIFFNESS.min(device.max_stiffness)),
-        damping: wishes.damping.unwrap_or(DAMPING.min(device.max_damping)),
-        max_force: wishes.max_force,
-        velocity_corner: wishes.velocity_corner,
-        soft_start: wishes.soft_start,
-        body_origin: wishes.origin.map_or_else(|| -middle(body), |origin| origin.as_vec3()),
+        rate_hz: wishes.rate,
+        stiffness_n_per_m: wishes.stiffness.unwrap_or(STIFFNESS.min(device.max_stiffness_n_per_m)),
+        damping_n_s_per_m: wishes.damping.unwrap_or(DAMPING.min(device.max_damping_n_s_per_m)),
+        max_force_n: wishes.max_force,
+        velocity_corner_hz: wishes.velocity_corner,
+        soft_start_s: wishes.soft_start,
+        body_origin_m: wishes.origin.map_or_else(|| -middle(body), |origin| origin.as_vec3()),
     };
-    let [most_stiffness, most_damping] = [device.max_stiffness, device.max_damping];
+    let [most_stiffness, most_damping] = [device.max_stiffness_n_per_m, device.max_damping_n_s_per_m];
     let bound = |says: &dyn std::fmt::Display| {
         Refusal::Settings(format!("{says}: this device takes up to {most_stiffness} N/m and {most_damping} N·s/m"))
     };
     let servo = Servo::try_new(device, body, Controller::SECOND_ORDER, settings).map_err(|error| bound(&error))?;
-    let mut plant = plant(device, simulated, body, settings.body_origin, wishes)?;
+    let mut plant = plant(device, simulated, body, settings.body_origin_m, wishes)?;
     let refused = |says: &dyn std::fmt::Display| Refusal::Settings(says.to_string());
     let samples = if wishes.protected {
         let servo = servo.try_protect(protection).map_err(|error| refused(&error))?;

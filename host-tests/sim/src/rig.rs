@@ -25,22 +25,22 @@ const LOOK: u32 = 40;
 
 /// Of the servo.
 pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
-    rate: RATE as f32,
-    stiffness: 600.0,
-    damping: 2.0,
-    max_force: 5.0,
-    velocity_corner: 200.0,
-    soft_start: 0.1,
-    body_origin: vec3(0.0, 0.0, 0.0),
+    rate_hz: RATE as f32,
+    stiffness_n_per_m: 600.0,
+    damping_n_s_per_m: 2.0,
+    max_force_n: 5.0,
+    velocity_corner_hz: 200.0,
+    soft_start_s: 0.1,
+    body_origin_m: vec3(0.0, 0.0, 0.0),
 };
 
 pub use crate::wall::WALL;
 
 /// The stops of the simulated arm, from where it hangs once nothing holds it.
 pub const STOPS: [StopSearch; 3] = [
-    StopSearch { angle: 1.55, speed: 1.0, torque: 0.2, clearance: 0.2, travel: 3.3 },
-    StopSearch { angle: 2.15, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
-    StopSearch { angle: 1.75, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
+    StopSearch { angle_rad: 1.55, speed_rad_per_s: 1.0, torque_n_m: 0.2, clearance_rad: 0.2, travel_rad: 3.3 },
+    StopSearch { angle_rad: 2.15, speed_rad_per_s: 0.8, torque_n_m: 0.5, clearance_rad: 0.2, travel_rad: 0.5 },
+    StopSearch { angle_rad: 1.75, speed_rad_per_s: 0.8, torque_n_m: 0.5, clearance_rad: 0.2, travel_rad: 0.5 },
 ];
 
 /// What the pins are wired to.
@@ -320,8 +320,9 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
     let world = Rc::new(RefCell::new(world));
     let of = || Rc::clone(&world);
     let device = servo.device();
-    let steps =
-        device.encoders.map(|encoder| greatest_step(&encoder, device.max_joint_rate, RATE as f32, settings.bad_frames));
+    let steps = device
+        .encoders
+        .map(|encoder| greatest_step(&encoder, device.max_joint_rate_rad_per_s, RATE as f32, settings.bad_frames));
     let enables: [fn(&mut World, bool); 3] = [
         |world, level| world.enables[0] = level,
         |world, level| world.enables[1] = level,

@@ -61,16 +61,16 @@ fn scenes_come_back_in_every_bit() {
     let free = |joint| {
         Movement::Free(RigidBody {
             joint,
-            centre: vec3(0.001, 0.002, 0.003),
-            gravity: vec3(0.0, 0.0, -9.81),
-            damping: 0.5,
-            angular_damping: 2e-3,
-            angular_stiffness: 1.5,
+            centre_m: vec3(0.001, 0.002, 0.003),
+            gravity_m_per_s2: vec3(0.0, 0.0, -9.81),
+            damping_n_s_per_m: 0.5,
+            angular_damping_n_m_s_per_rad: 2e-3,
+            angular_stiffness_n_m_per_rad: 1.5,
             tether: Some(Tether {
-                anchor: vec3(1.0, 2.0, 3.0),
-                slack: vec3(4.0, 5.0, 6.0),
-                stiffness: 7.0,
-                damping: 8.0,
+                anchor_m: vec3(1.0, 2.0, 3.0),
+                slack_m: vec3(4.0, 5.0, 6.0),
+                stiffness_n_per_m: 7.0,
+                damping_n_s_per_m: 8.0,
             }),
             ..RigidBody::new(start, 0.2, vec3(1e-4, 2e-4, 3e-4))
         })
@@ -85,18 +85,29 @@ fn scenes_come_back_in_every_bit() {
         free(Joint::Slider(vec3(0.0, 0.6, 0.8))),
         free(Joint::Hinge { axis: vec3(0.0, 0.6, 0.8), pivot: vec3(0.1, 0.2, 0.3) }),
     ];
-    let friction = Friction { stiffness: 600.0, damping: 1.0, static_coefficient: 0.5, dynamic_coefficient: 0.4 };
+    let friction = Friction {
+        stiffness_n_per_m: 600.0,
+        damping_n_s_per_m: 1.0,
+        static_coefficient: 0.5,
+        dynamic_coefficient: 0.4,
+    };
     let entries = (0..).zip(movements).map(|(body, movement)| Entry {
         body,
         movement,
         stiffness: 400.0 + body as f32,
         damping: 1.5,
         friction: (body % 2 == 0).then_some(friction),
-        sphere: Sphere { centre: vec3(0.1, 0.2, 0.3), radius: 0.05 },
+        sphere: Sphere { centre_m: vec3(0.1, 0.2, 0.3), radius_m: 0.05 },
         group: body as u8,
     });
-    let limits =
-        Limits { max_stiffness: 1e3, max_damping: 5.0, max_force: 4.0, let_go: 80.0, rate: 4e3, max_speed: 2.0 };
+    let limits = Limits {
+        max_stiffness_n_per_m: 1e3,
+        max_damping_n_s_per_m: 5.0,
+        max_force_n: 4.0,
+        release_n_per_s: 80.0,
+        rate_hz: 4e3,
+        max_speed_m_per_s: 2.0,
+    };
     let scene = SceneNumbers { limits, entries: entries.collect() };
     let numbers = scene.numbers();
     assert_eq!(text(&scene), text(&SceneNumbers::of(&numbers).unwrap()));

@@ -9,9 +9,9 @@ fn kept() -> Calibration<3> {
         output: [0, 2, 1][joint],
         radians_per_count: DEVICE.encoders[joint].radians_per_count,
         zero_of: [ZeroOf::Pose, ZeroOf::Mark, ZeroOf::Count][joint],
-        angle_at_zero: DEVICE.encoders[joint].angle_at_zero,
-        torque_at_full: DEVICE.motors[joint].torque_at_full,
-        dry_friction: DEVICE.dry_friction[joint],
+        angle_at_zero_rad: DEVICE.encoders[joint].angle_at_zero_rad,
+        torque_at_full_n_m: DEVICE.motors[joint].torque_at_full_n_m,
+        dry_friction_n_m: DEVICE.dry_friction_n_m[joint],
     }))
 }
 
@@ -65,33 +65,33 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
     let with = |change: fn(&mut JointCalibration)| {
         let mut found = kept();
         change(&mut found.0[1]);
-        DEVICE.calibrated(&found).map(|device| (device.encoders[1], device.motors[1], device.dry_friction[1]))
+        DEVICE.calibrated(&found).map(|device| (device.encoders[1], device.motors[1], device.dry_friction_n_m[1]))
     };
-    let [encoder, motor] = [DEVICE.encoders[1].radians_per_count, DEVICE.motors[1].torque_at_full];
+    let [encoder, motor] = [DEVICE.encoders[1].radians_per_count, DEVICE.motors[1].torque_at_full_n_m];
     // The wrong way round, four times as coarse, zero elsewhere: what commissioning is for.
     let found = with(|joint| {
         joint.radians_per_count *= -4.0;
-        joint.torque_at_full *= -0.6;
-        (joint.angle_at_zero, joint.dry_friction) = (-0.4, 0.03);
+        joint.torque_at_full_n_m *= -0.6;
+        (joint.angle_at_zero_rad, joint.dry_friction_n_m) = (-0.4, 0.03);
     });
-    let measured = Encoder { radians_per_count: -4.0 * encoder, angle_at_zero: -0.4 };
-    assert_eq!(found, Ok((measured, Motor { torque_at_full: -0.6 * motor }, 0.03)));
+    let measured = Encoder { radians_per_count: -4.0 * encoder, angle_at_zero_rad: -0.4 };
+    assert_eq!(found, Ok((measured, Motor { torque_at_full_n_m: -0.6 * motor }, 0.03)));
     let refused: [(Spoil, CalibrationError); 15] = [
         (|joint| joint.radians_per_count *= 5.1, CalibrationError::Encoder { joint: 1 }),
         (|joint| joint.radians_per_count *= -0.19, CalibrationError::Encoder { joint: 1 }),
         (|joint| joint.radians_per_count = 0.0, CalibrationError::Encoder { joint: 1 }),
         (|joint| joint.radians_per_count = f32::NAN, CalibrationError::NotFinite { joint: 1 }),
         // The range is -0.8 to 2.2.
-        (|joint| joint.angle_at_zero = -7.1, CalibrationError::Zero { joint: 1 }),
-        (|joint| joint.angle_at_zero = 8.5, CalibrationError::Zero { joint: 1 }),
-        (|joint| joint.angle_at_zero = f32::INFINITY, CalibrationError::NotFinite { joint: 1 }),
-        (|joint| joint.torque_at_full *= 2.01, CalibrationError::Torque { joint: 1 }),
-        (|joint| joint.torque_at_full *= -0.49, CalibrationError::Torque { joint: 1 }),
-        (|joint| joint.torque_at_full = f32::NEG_INFINITY, CalibrationError::NotFinite { joint: 1 }),
-        (|joint| joint.dry_friction = -0.01, CalibrationError::Friction { joint: 1 }),
-        (|joint| joint.dry_friction = 1.0, CalibrationError::Friction { joint: 1 }),
+        (|joint| joint.angle_at_zero_rad = -7.1, CalibrationError::Zero { joint: 1 }),
+        (|joint| joint.angle_at_zero_rad = 8.5, CalibrationError::Zero { joint: 1 }),
+        (|joint| joint.angle_at_zero_rad = f32::INFINITY, CalibrationError::NotFinite { joint: 1 }),
+        (|joint| joint.torque_at_full_n_m *= 2.01, CalibrationError::Torque { joint: 1 }),
+        (|joint| joint.torque_at_full_n_m *= -0.49, CalibrationError::Torque { joint: 1 }),
+        (|joint| joint.torque_at_full_n_m = f32::NEG_INFINITY, CalibrationError::NotFinite { joint: 1 }),
+        (|joint| joint.dry_friction_n_m = -0.01, CalibrationError::Friction { joint: 1 }),
+        (|joint| joint.dry_friction_n_m = 1.0, CalibrationError::Friction { joint: 1 }),
         // An eighth of 5 N on 205 mm is 0.128 N·m.
-        (|joint| joint.dry_friction = 0.13, CalibrationError::Friction { joint: 1 }),
+        (|joint| joint.dry_friction_n_m = 0.13, CalibrationError::Friction { joint: 1 }),
         (|joint| joint.input = 1, CalibrationError::Channels),
         (|joint| joint.output = 3, CalibrationError::Channels),
     ];
@@ -102,19 +102,19 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
 
 /// What a feed gives back of the back-EMF, V, at a rate of 2 rad/s.
 fn made_up_for(feed: Feed) -> f32 {
-    let Feed::Voltage(VoltageFeed { supply, .. }) = feed else { panic!("a bridge") };
+    let Feed::Voltage(VoltageFeed { supply_v: supply, .. }) = feed else { panic!("a bridge") };
     feed.command(Duty::ZERO, 2.0).fraction() * supply
 }
 
 #[test]
 fn back_emf_is_made_up_for_the_way_a_motor_was_found_to_turn_and_never_by_more_than_was_built() {
     const FEED: VoltageFeed = VoltageFeed {
-        supply: 12.0,
-        resistance: 5.0,
-        torque_constant: 0.05,
-        current_at_full: 2.0,
+        supply_v: 12.0,
+        resistance_ohm: 5.0,
+        torque_constant_n_m_per_a: 0.05,
+        current_at_full_a: 2.0,
         ratio: -10.0,
-        back_emf_share: 0.8,
+        back_emf_fraction: 0.8,
     };
     let mut built = DEVICE;
     built.feeds = [Feed::Voltage(FEED); 3];
@@ -124,7 +124,7 @@ fn back_emf_is_made_up_for_the_way_a_motor_was_found_to_turn_and_never_by_more_t
         let size = 0.5 * 4.0_f32.powf(step as f32 / 30.0);
         for factor in [size, -size] {
             let mut found = kept();
-            found.0[1].torque_at_full *= factor;
+            found.0[1].torque_at_full_n_m *= factor;
             let device = built.calibrated(&found).unwrap();
             let now = made_up_for(device.feeds[1]) / before;
             // A motor that turns the other way has its back-EMF the other way.

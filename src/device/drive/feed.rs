@@ -27,18 +27,18 @@ impl Feed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VoltageFeed {
     /// Voltage at full duty of the bridge, V.
-    pub supply: f32,
+    pub supply_v: f32,
     /// Resistance of winding, brushes and bridge, `R`, ohms.
-    pub resistance: f32,
+    pub resistance_ohm: f32,
     /// Torque constant, `k`, N·m/A, which is the back-EMF constant in V·s/rad.
-    pub torque_constant: f32,
+    pub torque_constant_n_m_per_a: f32,
     /// Current that full duty of torque stands for, A.
-    pub current_at_full: f32,
+    pub current_at_full_a: f32,
     /// Turns of the motor for one of the joint, `N`; negative where it turns the other way.
     pub ratio: f32,
     /// How much of the back-EMF is made up for, 0 to 1. Short of 1, so that an error in `k` or in the rate cannot drive
     /// the motor on; what is left brakes.
-    pub back_emf_share: f32,
+    pub back_emf_fraction: f32,
 }
 
 impl VoltageFeed {
@@ -52,12 +52,12 @@ impl VoltageFeed {
     /// dial's speeds next to no current either.
     pub const fn three_phase(supply: f32, phase_resistance: f32, rpm_per_volt: f32, current_at_full: f32) -> Self {
         Self {
-            supply: supply * core::f32::consts::FRAC_1_SQRT_2,
-            resistance: phase_resistance,
-            torque_constant: 30.0 / (core::f32::consts::PI * rpm_per_volt) * core::f32::consts::FRAC_1_SQRT_2,
-            current_at_full,
+            supply_v: supply * core::f32::consts::FRAC_1_SQRT_2,
+            resistance_ohm: phase_resistance,
+            torque_constant_n_m_per_a: 30.0 / (core::f32::consts::PI * rpm_per_volt) * core::f32::consts::FRAC_1_SQRT_2,
+            current_at_full_a: current_at_full,
             ratio: 1.0,
-            back_emf_share: 0.8,
+            back_emf_fraction: 0.8,
         }
     }
 
@@ -68,9 +68,9 @@ impl VoltageFeed {
         if !joint_rate.is_finite() {
             return Duty::ZERO;
         }
-        let current = torque.fraction() * self.current_at_full;
-        let back_emf = self.torque_constant * self.ratio * joint_rate * self.back_emf_share;
-        Duty::from_fraction((self.resistance * current + back_emf) / self.supply)
+        let current = torque.fraction() * self.current_at_full_a;
+        let back_emf = self.torque_constant_n_m_per_a * self.ratio * joint_rate * self.back_emf_fraction;
+        Duty::from_fraction((self.resistance_ohm * current + back_emf) / self.supply_v)
     }
 }
 
@@ -79,12 +79,12 @@ mod tests {
     use super::*;
 
     const FEED: VoltageFeed = VoltageFeed {
-        supply: 12.0,
-        resistance: 5.0,
-        torque_constant: 0.05,
-        current_at_full: 2.0,
+        supply_v: 12.0,
+        resistance_ohm: 5.0,
+        torque_constant_n_m_per_a: 0.05,
+        current_at_full_a: 2.0,
         ratio: -10.0,
-        back_emf_share: 1.0,
+        back_emf_fraction: 1.0,
     };
 
     #[test]

@@ -14,15 +14,15 @@ pub struct Modulation {
     /// The share of a pulse-width period in which neither switch of a leg conducts, at each change: dead time times
     /// frequency. The current then goes through a diode, and the phase lacks that share of the supply against its
     /// current; it is made up for. Zero for what is not known.
-    pub dead_share: f32,
+    pub dead_fraction: f32,
     /// The phase voltage, as a share of the supply, whose current is as large as half of its ripple. Below it the
     /// current has both signs within a period, and less and less of the dead time shows.
-    pub ripple_share: f32,
+    pub ripple_fraction: f32,
 }
 
 impl Modulation {
     /// Switches without dead time.
-    pub const IDEAL: Self = Self { dead_share: 0.0, ripple_share: 1.0 };
+    pub const IDEAL: Self = Self { dead_fraction: 0.0, ripple_fraction: 1.0 };
 
     /// The pulse widths, shares of a period, 0 to 1.
     ///
@@ -46,7 +46,7 @@ impl Modulation {
         }
         let middle = 0.5 - 0.5 * (lowest + highest);
         phases.map(|phase| {
-            let made_up = self.dead_share * saturate(phase / self.ripple_share, -1.0, 1.0);
+            let made_up = self.dead_fraction * saturate(phase / self.ripple_fraction, -1.0, 1.0);
             saturate(phase + middle + made_up, 0.0, 1.0)
         })
     }
@@ -87,10 +87,10 @@ mod tests {
     fn dead_time_is_made_up_for_with_the_sign_of_each_phase() {
         let field = Field { angle: ElectricalAngle(0), duty: Duty(8_000) };
         let plain = Modulation::IDEAL.widths(field);
-        let made_up = Modulation { dead_share: 0.01, ripple_share: 0.02 }.widths(field);
+        let made_up = Modulation { dead_fraction: 0.01, ripple_fraction: 0.02 }.widths(field);
         for (phase, sign) in [1.0, -1.0, -1.0].into_iter().enumerate() {
             assert!((made_up[phase] - plain[phase] - sign * 0.01).abs() < 1e-6, "{phase}");
         }
-        assert_eq!(Modulation { dead_share: 0.01, ripple_share: 0.02 }.widths(Field::default()), [0.5; 3]);
+        assert_eq!(Modulation { dead_fraction: 0.01, ripple_fraction: 0.02 }.widths(Field::default()), [0.5; 3]);
     }
 }

@@ -19,7 +19,7 @@ pub struct FieldSearch {
     /// How the counts go with the poles.
     pub commutation: Commutation,
     /// Torque of the field on a rotor a quarter turn behind it, N·m: well above dry friction and cogging.
-    pub torque: f32,
+    pub torque_n_m: f32,
     /// Ticks within which it comes up.
     pub ramp_ticks: u32,
     /// Ticks of an electrical turn.
@@ -61,7 +61,7 @@ pub(super) enum Led {
 
 impl FieldSearch {
     pub(super) const fn is_valid(&self) -> bool {
-        let finite = self.torque > 0.0 && self.torque < f32::INFINITY;
+        let finite = self.torque_n_m > 0.0 && self.torque_n_m < f32::INFINITY;
         let timed = self.ramp_ticks > 0 && self.turn_ticks >= 64 && self.turns > 0;
         // So that ticks do not leave their bits.
         finite
@@ -109,7 +109,7 @@ impl FieldSearch {
         if tick >= self.ticks() {
             return self.finish(sweep, counts);
         }
-        Led::Drive(self.torque * share)
+        Led::Drive(self.torque_n_m * share)
     }
 
     /// Counts that the rotor goes in so many electrical turns.
@@ -184,7 +184,7 @@ mod tests {
 
     const SEARCH: FieldSearch = FieldSearch {
         commutation: Commutation { counts_per_turn: 16_384, pole_pairs: 7 },
-        torque: 0.02,
+        torque_n_m: 0.02,
         ramp_ticks: 100,
         turn_ticks: 1_000,
         turns: 1,
@@ -207,7 +207,7 @@ mod tests {
             let turns = way * (rotor - zero) / core::f64::consts::TAU / pole_pairs;
             match SEARCH.step(&mut sweep, Counts((turns * 16_384.0).floor() as i32)) {
                 Led::Drive(torque) => {
-                    assert!(torque <= SEARCH.torque);
+                    assert!(torque <= SEARCH.torque_n_m);
                     let next = f64::from(SEARCH.field(&sweep).radians());
                     // Unwrapped.
                     unwrapped += (next - field + core::f64::consts::PI).rem_euclid(core::f64::consts::TAU)
@@ -255,8 +255,8 @@ mod tests {
     fn numbers_that_make_no_sense_are_told() {
         assert!(SEARCH.is_valid());
         for bad in [
-            FieldSearch { torque: f32::NAN, ..SEARCH },
-            FieldSearch { torque: 0.0, ..SEARCH },
+            FieldSearch { torque_n_m: f32::NAN, ..SEARCH },
+            FieldSearch { torque_n_m: 0.0, ..SEARCH },
             FieldSearch { ramp_ticks: 0, ..SEARCH },
             FieldSearch { turn_ticks: 10, ..SEARCH },
             FieldSearch { turns: 0, ..SEARCH },

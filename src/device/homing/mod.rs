@@ -151,7 +151,7 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         let mut homing = Self { encoders, ..self };
         match &mut homing.reference {
             Reference::Pose(angles) | Reference::Index(angles) => {
-                *angles = encoders.map(|encoder| encoder.angle_at_zero);
+                *angles = encoders.map(|encoder| encoder.angle_at_zero_rad);
             }
             Reference::KnownPose { angles, counts, .. } => {
                 for ((angle, encoder), counts) in angles.iter_mut().zip(&encoders).zip(counts) {

@@ -9,16 +9,16 @@ use crate::math::saturate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopSearch {
     /// Joint angle at the stop, radians.
-    pub angle: f32,
+    pub angle_rad: f32,
     /// Speed towards the stop, rad/s; its sign is the way. Beyond four times this the search is refused.
-    pub speed: f32,
+    pub speed_rad_per_s: f32,
     /// The greatest torque, N·m: above dry friction and weight, below what would hurt.
-    pub torque: f32,
+    pub torque_n_m: f32,
     /// How far it moves away first, radians. Make it all of the way to the other stop, less a little, to prove that
     /// nothing is in between.
-    pub clearance: f32,
+    pub clearance_rad: f32,
     /// How far the stop may be from there, radians: beyond there is none.
-    pub travel: f32,
+    pub travel_rad: f32,
 }
 
 /// Seconds in which the torque grows to its limit where the joint does not move.
@@ -72,10 +72,15 @@ pub(super) struct Joint {
 
 impl StopSearch {
     pub(super) const fn is_valid(&self) -> bool {
-        let finite = self.angle.is_finite() && self.speed.is_finite() && self.torque.is_finite();
+        let finite = self.angle_rad.is_finite() && self.speed_rad_per_s.is_finite() && self.torque_n_m.is_finite();
         // A way without an end would be searched until the time is over.
-        let ends = self.clearance.is_finite() && self.travel.is_finite();
-        finite && ends && self.speed != 0.0 && self.torque > 0.0 && self.clearance > 0.0 && self.travel > 0.0
+        let ends = self.clearance_rad.is_finite() && self.travel_rad.is_finite();
+        finite
+            && ends
+            && self.speed_rad_per_s != 0.0
+            && self.torque_n_m > 0.0
+            && self.clearance_rad > 0.0
+            && self.travel_rad > 0.0
     }
 
     /// One tick. Still is: within `still_counts` of one reading for `still_ticks` ticks under full torque.
@@ -85,27 +90,28 @@ impl StopSearch {
             (search.from, search.anchor) = (Some(counts), counts);
             return Seek::Drive(0.0);
         };
-        let wanted = if search.cleared { self.speed } else { -self.speed };
+        let wanted = if search.cleared { self.speed_rad_per_s } else { -self.speed_rad_per_s };
         let forward = if wanted > 0.0 { 1.0 } else { -1.0 };
         let moved = counts.0.wrapping_sub(from.0) as f32 * encoder.radians_per_count * forward;
-        if moved < -ASTRAY || rate * forward < -HASTE * self.speed.abs() {
+        if moved < -ASTRAY || rate * forward < -HASTE * self.speed_rad_per_s.abs() {
             return Seek::Refused(Refusal::WrongDirection);
         }
-        if rate.abs() > HASTE * self.speed.abs() {
+        if rate.abs() > HASTE * self.speed_rad_per_s.abs() {
             return Seek::Refused(Refusal::TooFast);
         }
-        if search.cleared && moved > self.travel {
+        if search.cleared && moved > self.travel_rad {
             return Seek::Refused(Refusal::NoStop);
         }
-        if !search.cleared && moved >= self.clearance {
+        if !search.cleared && moved >= self.clearance_rad {
             *search = Search { from: Some(counts), cleared: true, anchor: counts, ..Search::default() };
             return Seek::Drive(0.0);
         }
 
         // Full torque at rest in RAMP seconds; a joint that moves as fast as asked for gets what it needs for that.
-        let share = (wanted - rate) / self.speed.abs();
-        search.grown = saturate(search.grown + share * self.torque * (period / RAMP), -self.torque, self.torque);
-        let presses = search.grown * forward >= 0.99 * self.torque;
+        let share = (wanted - rate) / self.speed_rad_per_s.abs();
+        search.grown =
+            saturate(search.grown + share * self.torque_n_m * (period / RAMP), -self.torque_n_m, self.torque_n_m);
+        let presses = search.grown * forward >= 0.99 * self.torque_n_m;
         if presses && counts.0.abs_diff(search.anchor.0) <= still_counts {
             search.still = search.still.saturating_add(1);
         } else {
@@ -114,7 +120,7 @@ impl StopSearch {
         if search.still >= still_ticks {
             return if search.cleared { Seek::Found(counts) } else { Seek::Refused(Refusal::Jammed) };
         }
-        Seek::Drive(saturate(search.grown + share * self.torque * AT_ONCE, -self.torque, self.torque))
+        Seek::Drive(saturate(search.grown + share * self.torque_n_m * AT_ONCE, -self.torque_n_m, self.torque_n_m))
     }
 
     /// Every bit of the state.
@@ -129,7 +135,8 @@ impl StopSearch {
 mod tests {
     use super::*;
 
-    const SEARCH: StopSearch = StopSearch { angle: 0.5, speed: 1.0, torque: 0.2, clearance: 0.1, travel: 1.0 };
+    const SEARCH: StopSearch =
+        StopSearch { angle_rad: 0.5, speed_rad_per_s: 1.0, torque_n_m: 0.2, clearance_rad: 0.1, travel_rad: 1.0 };
 
     /// Steps a joint that is said to be at these counts, mrad, at these rates, rad/s; gives what ended it, and the
     /// tick.
@@ -137,14 +144,14 @@ mod tests {
         let mut search = Search::default();
         (0..5_000).find_map(|tick| {
             let joint = Joint {
-                encoder: Encoder { radians_per_count: 1e-3, angle_at_zero: 9.0 },
+                encoder: Encoder { radians_per_count: 1e-3, angle_at_zero_rad: 9.0 },
                 counts: Counts(place(tick)),
                 rate: rate(tick),
                 period: 1e-3,
             };
             match SEARCH.step(&mut search, &joint, 100, 1) {
                 Seek::Drive(torque) => {
-                    assert!(torque.abs() <= SEARCH.torque, "{torque}");
+                    assert!(torque.abs() <= SEARCH.torque_n_m, "{torque}");
                     None
                 }
                 Seek::Found(Counts(count)) => Some((tick, Ok(count))),
@@ -190,8 +197,8 @@ mod tests {
     fn a_search_without_an_end_is_none() {
         assert!(SEARCH.is_valid());
         for endless in [f32::INFINITY, f32::NAN] {
-            assert!(!StopSearch { clearance: endless, ..SEARCH }.is_valid());
-            assert!(!StopSearch { travel: endless, ..SEARCH }.is_valid());
+            assert!(!StopSearch { clearance_rad: endless, ..SEARCH }.is_valid());
+            assert!(!StopSearch { travel_rad: endless, ..SEARCH }.is_valid());
         }
     }
 }

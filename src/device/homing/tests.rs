@@ -100,15 +100,21 @@ fn each_joint_passes_its_index_once_or_is_refused() {
 fn with_encoders_that_were_measured_each_way_of_homing_has_the_angles_that_they_have() {
     // The second joint's encoder was found finer and the other way round, and zero elsewhere.
     let found = [Encoder::geared(1_000.0, 1.0, 0.3), Encoder::geared(1_000.0, 2.5, -0.7)];
-    let stop = |angle| StopSearch { angle, speed: 1.0, torque: 0.1, clearance: 0.1, travel: 1.0 };
+    let stop = |angle| StopSearch {
+        angle_rad: angle,
+        speed_rad_per_s: 1.0,
+        torque_n_m: 0.1,
+        clearance_rad: 0.1,
+        travel_rad: 1.0,
+    };
     let search = FieldSearch {
         commutation: Commutation { counts_per_turn: 1_000, pole_pairs: 7 },
-        torque: 0.02,
+        torque_n_m: 0.02,
         ramp_ticks: 10,
         turn_ticks: 64,
         turns: 1,
     };
-    let (zeroes, counts) = (found.map(|encoder| encoder.angle_at_zero), [Counts(100), Counts(-100)]);
+    let (zeroes, counts) = (found.map(|encoder| encoder.angle_at_zero_rad), [Counts(100), Counts(-100)]);
     for (built, expected) in [
         // What was measured is the angle in the pose, or at the mark.
         (Reference::Pose(ANGLES), Reference::Pose(zeroes)),

@@ -8,7 +8,7 @@ use crate::device::{Aligned, Counts, ElectricalAngle, Encoder};
 
 /// Joint angle at zero counts, if the joint is at `angle` at `counts`.
 fn calibrated(encoder: Encoder, angle: f32, counts: Counts) -> Encoder {
-    Encoder { angle_at_zero: angle - counts.0 as f32 * encoder.radians_per_count, ..encoder }
+    Encoder { angle_at_zero_rad: angle - counts.0 as f32 * encoder.radians_per_count, ..encoder }
 }
 
 impl<const JOINTS: usize> Homing<JOINTS> {
@@ -33,7 +33,7 @@ impl<const JOINTS: usize> Homing<JOINTS> {
                 Reference::Pose(angles) | Reference::KnownPose { angles, .. } | Reference::Index(angles) => {
                     angles[joint]
                 }
-                Reference::Stops(searches) => searches[joint].angle,
+                Reference::Stops(searches) => searches[joint].angle_rad,
                 // Nothing is found out about angles.
                 Reference::Fields(_) => continue,
             };

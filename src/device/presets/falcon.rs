@@ -28,27 +28,27 @@ const RATIO: f32 = 0.110 / 0.014_25;
 /// the grip. Weigh yours: a grip that rises or sinks by itself says by how much they are wrong.
 pub const NOVINT_FALCON: Device<Delta, 3> = Device {
     kinematics: Delta {
-        thigh: 0.060,
-        shin: 0.102_5,
-        stub: 0.011_25 + 0.011_25,
-        reach: 0.040 - 0.014_43,
-        side: -0.023_09 + 0.025,
+        thigh_m: 0.060,
+        shin_m: 0.102_5,
+        stub_m: 0.011_25 + 0.011_25,
+        reach_m: 0.040 - 0.014_43,
+        side_m: -0.023_09 + 0.025,
         directions: [[-SIN_15, COS_15], [COS_15, -SIN_15], [-HALF_ROOT, -HALF_ROOT]],
-        workspace_centre: vec3(0.0, 0.0, 0.120),
+        workspace_centre_m: vec3(0.0, 0.0, 0.120),
         up: vec3(0.0, 1.0, 0.0),
-        carried_mass: 0.150 + 1.5 * 0.015,
-        thigh_moment: 0.060 * 0.020 + 0.5 * 0.015 * 0.060,
+        carried_mass_kg: 0.150 + 1.5 * 0.015,
+        thigh_moment_kg_m: 0.060 * 0.020 + 0.5 * 0.015 * 0.060,
     },
     encoders: [Encoder::geared(1_280.0, RATIO, 35.0 * core::f32::consts::PI / 180.0); 3],
-    motors: [Motor { torque_at_full: 0.53 }; 3],
+    motors: [Motor { torque_at_full_n_m: 0.53 }; 3],
     feeds: [Feed::Current; 3],
-    dry_friction: [0.05; 3],
-    joint_range: [[-0.75, 1.3]; 3],
-    min_margin: 0.010,
-    max_joint_rate: 60.0,
-    max_force: 8.9,
-    max_stiffness: 2_000.0,
-    max_damping: 5.0,
+    dry_friction_n_m: [0.05; 3],
+    joint_range_rad: [[-0.75, 1.3]; 3],
+    min_margin_m_per_rad: 0.010,
+    max_joint_rate_rad_per_s: 60.0,
+    max_force_n: 8.9,
+    max_stiffness_n_per_m: 2_000.0,
+    max_damping_n_s_per_m: 5.0,
 };
 
 #[cfg(test)]
@@ -62,7 +62,7 @@ mod tests {
         let delta = NOVINT_FALCON.kinematics;
         let pose = delta.pose(delta.angles(Vec3::ZERO).unwrap());
         for axis in [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)] {
-            let torques = pose.torques(axis * NOVINT_FALCON.max_force);
+            let torques = pose.torques(axis * NOVINT_FALCON.max_force_n);
             assert!(torques.iter().all(|torque| torque.abs() <= 0.53), "{axis}: {torques:?}");
         }
     }

@@ -16,17 +16,17 @@ const FEED: VoltageFeed = VoltageFeed::three_phase(12.0, 7.5, 80.0, CURRENT_AT_F
 /// motor needs 5.6 of the 8.5 V that the stage gives at most. Assumed: friction, and the greatest stiffness and
 /// damping, which the simulated knob takes. The cogging is each motor's own: record it ([`crate::device::CoggingMap`]).
 pub const GIMBAL_KNOB: Device<Dial, 1> = Device {
-    kinematics: Dial { radius: 0.02, cogging: None },
+    kinematics: Dial { radius_m: 0.02, cogging: None },
     encoders: [Encoder::geared(COUNTS, 1.0, 0.0)],
-    motors: [Motor::current_driven(FEED.torque_constant, CURRENT_AT_FULL, 1.0)],
+    motors: [Motor::current_driven(FEED.torque_constant_n_m_per_a, CURRENT_AT_FULL, 1.0)],
     feeds: [Feed::Voltage(FEED)],
-    dry_friction: [2e-3],
-    joint_range: [[-200.0, 200.0]],
-    min_margin: 0.01,
-    max_joint_rate: 120.0,
-    max_force: 2.8,
-    max_stiffness: 4_000.0,
-    max_damping: 8.0,
+    dry_friction_n_m: [2e-3],
+    joint_range_rad: [[-200.0, 200.0]],
+    min_margin_m_per_rad: 0.01,
+    max_joint_rate_rad_per_s: 120.0,
+    max_force_n: 2.8,
+    max_stiffness_n_per_m: 4_000.0,
+    max_damping_n_s_per_m: 8.0,
 };
 
 /// How the sensor of [`GIMBAL_KNOB`] goes with the motor's poles.
@@ -43,10 +43,10 @@ pub const GIMBAL_KNOB_COMMUTATION: Commutation = Commutation { counts_per_turn: 
 /// sees at every start which way the counts go when the motor turns. The supply is for whoever measures it to add.
 pub const GIMBAL_KNOB_PROTECTION: Protection<1> = Protection {
     motors: [Endurance::three_phase(0.4, CURRENT_AT_FULL, 20.0)],
-    max_joint_rates: [60.0],
-    max_probe_speed: 1.2,
+    max_joint_rates_rad_per_s: [60.0],
+    max_probe_speed_m_per_s: 1.2,
     supply: None,
-    signs: None,
+    polarity: None,
 };
 
 #[cfg(test)]
@@ -57,12 +57,12 @@ mod tests {
 
     #[test]
     fn the_greatest_force_is_within_the_motor_and_the_motor_within_its_supply() {
-        let [torque] = GIMBAL_KNOB.kinematics.pose([0.0]).torques(vec3(GIMBAL_KNOB.max_force, 0.0, 0.0));
+        let [torque] = GIMBAL_KNOB.kinematics.pose([0.0]).torques(vec3(GIMBAL_KNOB.max_force_n, 0.0, 0.0));
         let [motor] = GIMBAL_KNOB.motors;
         assert!(motor.fraction(torque) <= 1.0, "{}", motor.fraction(torque));
         // 60/(2π · 80) V·s/rad between two wires, over √2.
-        assert!((FEED.torque_constant - 0.084_4).abs() < 1e-4, "{}", FEED.torque_constant);
-        const { assert!(FEED.resistance * CURRENT_AT_FULL < FEED.supply) };
+        assert!((FEED.torque_constant_n_m_per_a - 0.084_4).abs() < 1e-4, "{}", FEED.torque_constant_n_m_per_a);
+        const { assert!(FEED.resistance_ohm * CURRENT_AT_FULL < FEED.supply_v) };
         assert!(GIMBAL_KNOB_COMMUTATION.is_valid());
     }
 
@@ -72,6 +72,6 @@ mod tests {
         // 0.75 A, √(2/3) of which is the amplitude.
         let squared = 2.0 / 3.0 * (continuous * CURRENT_AT_FULL) * (continuous * CURRENT_AT_FULL);
         assert!((squared - 0.4 * 0.4).abs() < 1e-6, "{squared}");
-        assert!(continuous * GIMBAL_KNOB.motors[0].torque_at_full > 0.04);
+        assert!(continuous * GIMBAL_KNOB.motors[0].torque_at_full_n_m > 0.04);
     }
 }

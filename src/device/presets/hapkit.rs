@@ -13,25 +13,25 @@ const RATIO: f32 = 0.073_152 / 0.004_191;
 /// Assumed: the winding (10 Ω and 0.025 N·m/A on 12 V give those 0.03 N·m at standstill), directions (counts and duty
 /// rise towards x), greatest stiffness and damping; the paddle's weight is not known and left out.
 pub const HAPKIT: Device<Paddle, 1> = Device {
-    kinematics: Paddle { handle: 0.065_659, mass_moment: 0.0 },
+    kinematics: Paddle { handle_m: 0.065_659, mass_moment_kg_m: 0.0 },
     encoders: [Encoder::new(core::f32::consts::PI / 18.0 / 726.6, 0.0)],
     motors: [Motor::current_driven(0.025, 1.2, RATIO)],
     feeds: [Feed::Voltage(VoltageFeed {
-        supply: 12.0,
-        resistance: 10.0,
-        torque_constant: 0.025,
-        current_at_full: 1.2,
+        supply_v: 12.0,
+        resistance_ohm: 10.0,
+        torque_constant_n_m_per_a: 0.025,
+        current_at_full_a: 1.2,
         ratio: RATIO,
-        back_emf_share: 0.8,
+        back_emf_fraction: 0.8,
     })],
-    dry_friction: [2e-3],
-    joint_range: [[-0.8, 0.8]],
+    dry_friction_n_m: [2e-3],
+    joint_range_rad: [[-0.8, 0.8]],
     // The only margin a lever has is its own length: a quarter above, all of the force is given.
-    min_margin: 0.05,
-    max_joint_rate: 35.0,
-    max_force: 7.9,
-    max_stiffness: 500.0,
-    max_damping: 2.0,
+    min_margin_m_per_rad: 0.05,
+    max_joint_rate_rad_per_s: 35.0,
+    max_force_n: 7.9,
+    max_stiffness_n_per_m: 500.0,
+    max_damping_n_s_per_m: 2.0,
 };
 
 #[cfg(test)]

@@ -17,11 +17,11 @@ use core::f32::consts::FRAC_PI_2;
 /// count moves.
 pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
-        base_height: 0.0,
-        first_link: 0.209_55,
-        second_link: 0.169_545,
-        workspace_centre: vec3(0.209_55, 0.0, -0.169_545),
-        end_masses: [
+        base_height_m: 0.0,
+        first_link_m: 0.209_55,
+        second_link_m: 0.169_545,
+        workspace_centre_m: vec3(0.209_55, 0.0, -0.169_545),
+        end_masses_kg: [
             (0.209_55 * 0.026_22 - 0.035_188_75 * 0.267_84 + 0.104_777_39 * 0.026_146) / 0.209_55,
             (0.052_378_92 * 0.026_22 - 0.051_535_41 * 0.215_42 + 0.031_75 * 0.026_146) / 0.169_545,
         ],
@@ -37,11 +37,11 @@ pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
         Motor::current_driven(0.023_4, 5.5, -11.2),
     ],
     feeds: [Feed::Current; 3],
-    dry_friction: [0.01; 3],
-    joint_range: [[-1.58, 1.58], [-0.51, 3.74], [-2.17, 2.08]],
-    min_margin: 0.05,
-    max_joint_rate: 25.0,
-    max_force: 6.5,
-    max_stiffness: 1_500.0,
-    max_damping: 5.0,
+    dry_friction_n_m: [0.01; 3],
+    joint_range_rad: [[-1.58, 1.58], [-0.51, 3.74], [-2.17, 2.08]],
+    min_margin_m_per_rad: 0.05,
+    max_joint_rate_rad_per_s: 25.0,
+    max_force_n: 6.5,
+    max_stiffness_n_per_m: 1_500.0,
+    max_damping_n_s_per_m: 5.0,
 };

@@ -24,20 +24,20 @@ const ENCODERS: [Encoder; 3] = {
 pub const POLHEM_V2: Device<LinkageArm, 3> = Device {
     kinematics: LinkageArm {
         linkage: FiveBar {
-            second_pivot: -0.034,
-            cranks: [0.165, 0.025],
-            rods: [0.034, 0.190],
+            second_pivot_m: -0.034,
+            cranks_m: [0.165, 0.025],
+            rods_m: [0.034, 0.190],
             side: -1.0,
-            tool: -0.130_8,
-            workspace_centre: Vec2::ZERO,
+            tool_m: -0.130_8,
+            workspace_centre_m: Vec2::ZERO,
         },
-        pivot_reach: 0.017,
-        workspace_centre: vec3(0.204_5, 0.0, 0.032_5),
+        pivot_reach_m: 0.017,
+        workspace_centre_m: vec3(0.204_5, 0.0, 0.032_5),
         masses: [
-            LinkMass { mass: 0.157_64, along: 0.030_123, across: 0.000_484 },
-            LinkMass { mass: 0.077_33, along: -0.004_086, across: 0.001_911 },
-            LinkMass { mass: 0.112_65, along: 0.061_701, across: 0.000_576 },
-            LinkMass { mass: 0.097_67, along: 0.087_765, across: 0.001_978 },
+            LinkMass { mass_kg: 0.157_64, along_m: 0.030_123, across_m: 0.000_484 },
+            LinkMass { mass_kg: 0.077_33, along_m: -0.004_086, across_m: 0.001_911 },
+            LinkMass { mass_kg: 0.112_65, along_m: 0.061_701, across_m: 0.000_576 },
+            LinkMass { mass_kg: 0.097_67, along_m: 0.087_765, across_m: 0.001_978 },
         ],
     },
     encoders: ENCODERS,
@@ -50,13 +50,13 @@ pub const POLHEM_V2: Device<LinkageArm, 3> = Device {
         ]
     },
     feeds: [Feed::Current; 3],
-    dry_friction: [0.01; 3],
-    joint_range: [[-2.2, 2.2], [0.2, 2.4], [1.0, 4.3]],
-    min_margin: 0.025,
-    max_joint_rate: 40.0,
-    max_force: 5.0,
-    max_stiffness: 2_000.0,
-    max_damping: 5.0,
+    dry_friction_n_m: [0.01; 3],
+    joint_range_rad: [[-2.2, 2.2], [0.2, 2.4], [1.0, 4.3]],
+    min_margin_m_per_rad: 0.025,
+    max_joint_rate_rad_per_s: 40.0,
+    max_force_n: 5.0,
+    max_stiffness_n_per_m: 2_000.0,
+    max_damping_n_s_per_m: 5.0,
 };
 
 /// Where [`POLHEM_V2`] is put down to be calibrated: the source's offsets of 8,312, −10,366 and 19,764 counts, as
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn the_reference_pose_is_within_the_joint_range() {
         let Reference::Pose(angles) = POLHEM_V2_REFERENCE else { panic!() };
-        for (angle, [least, most]) in angles.into_iter().zip(POLHEM_V2.joint_range) {
+        for (angle, [least, most]) in angles.into_iter().zip(POLHEM_V2.joint_range_rad) {
             assert!((least..most).contains(&angle), "{angles:?}");
         }
     }

@@ -17,11 +17,11 @@ use crate::math::vec3;
 /// moves. The joint range and the greatest rate are ours: wide enough for its workspace and for a hand at 3 m/s.
 pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
-        base_height: 0.080,
-        first_link: 0.205,
-        second_link: 0.245,
-        workspace_centre: vec3(0.220, 0.0, 0.080),
-        end_masses: [0.170 * 0.051 / 0.205 + 0.110, 0.110 * 0.091 / 0.245],
+        base_height_m: 0.080,
+        first_link_m: 0.205,
+        second_link_m: 0.245,
+        workspace_centre_m: vec3(0.220, 0.0, 0.080),
+        end_masses_kg: [0.170 * 0.051 / 0.205 + 0.110, 0.110 * 0.091 / 0.245],
     },
     encoders: [
         Encoder::geared(2_000.0, -16.0, 0.0),
@@ -34,13 +34,13 @@ pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
         Motor::current_driven(0.0259, 3.0, 12.0),
     ],
     feeds: [Feed::Current; 3],
-    dry_friction: [0.01; 3],
-    joint_range: [[-1.6, 1.6], [-0.8, 2.2], [-1.2, 1.8]],
-    min_margin: 0.05,
-    max_joint_rate: 25.0,
-    max_force: 5.0,
-    max_stiffness: 1_000.0,
-    max_damping: 8.0,
+    dry_friction_n_m: [0.01; 3],
+    joint_range_rad: [[-1.6, 1.6], [-0.8, 2.2], [-1.2, 1.8]],
+    min_margin_m_per_rad: 0.05,
+    max_joint_rate_rad_per_s: 25.0,
+    max_force_n: 5.0,
+    max_stiffness_n_per_m: 1_000.0,
+    max_damping_n_s_per_m: 8.0,
 };
 
 #[cfg(test)]
@@ -67,7 +67,7 @@ mod tests {
         assert!(pose.position.length() < 1e-3, "{}", pose.position);
         // 5 N × 0.205 m × cos 0.344 along x ask the first link for 0.965 N·m; 12 × 3 A × 0.0259 N·m/A are 0.932 N·m.
         for (axis, load) in [(vec3(1.0, 0.0, 0.0), 1.035), (vec3(0.0, 1.0, 0.0), 0.885), (vec3(0.0, 0.0, 1.0), 0.809)] {
-            let torques = pose.torques(axis * WOODEN_HAPTICS_2016.max_force);
+            let torques = pose.torques(axis * WOODEN_HAPTICS_2016.max_force_n);
             let fractions: [f32; 3] =
                 core::array::from_fn(|joint| WOODEN_HAPTICS_2016.motors[joint].fraction(torques[joint]));
             let largest = fractions.into_iter().fold(0.0, |most: f32, fraction: f32| most.max(fraction.abs()));

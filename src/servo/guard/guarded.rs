@@ -80,13 +80,13 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
         }
         Ok(Self {
             heat,
-            max_joint_rates: protection.max_joint_rates,
-            max_squared_speed: protection.max_probe_speed * protection.max_probe_speed,
+            max_joint_rates: protection.max_joint_rates_rad_per_s,
+            max_squared_speed: protection.max_probe_speed_m_per_s * protection.max_probe_speed_m_per_s,
             supply: match protection.supply {
                 Some(range) => Some(SupplyWatch::new(range, rate)),
                 None => None,
             },
-            signs: match protection.signs {
+            signs: match protection.polarity {
                 Some(watch) => Some(Signs::new(&watch, dry_friction, rate, penalty)),
                 None => None,
             },

@@ -71,14 +71,14 @@ impl HeatModel {
     /// # Panics
     /// Never; numbers that make no sense were refused before ([`super::ProtectionError`]).
     pub(super) const fn new(
-        Endurance { continuous, time_constant }: Endurance,
+        Endurance { continuous, time_constant_s: time_constant }: Endurance,
         motor: Motor,
         rate: f32,
         turns: usize,
     ) -> Self {
         // From turn to turn is far shorter than the time constant: the share is that time over the constant.
         let share = turns as f32 * 4_294_967_296.0 / (time_constant * rate);
-        Self::bearing(share as i32, continuous, motor.torque_at_full.abs())
+        Self::bearing(share as i32, continuous, motor.torque_at_full_n_m.abs())
     }
 
     /// Of a motor that bears this share of full scale for ever, of which the torque is `full`, N·m.
@@ -91,7 +91,7 @@ impl HeatModel {
     /// The same of a motor of another torque. One that is stronger may be so because its amplifier gives more current
     /// than it should: it bears no more for ever than was known. One that is weaker bears no more current.
     pub(super) fn of_motor(self, motor: Motor) -> Self {
-        let full = motor.torque_at_full.abs();
+        let full = motor.torque_at_full_n_m.abs();
         let continuous = if full > self.full { self.continuous * self.full / full } else { self.continuous };
         Self::bearing(self.share, continuous, full)
     }
@@ -145,8 +145,8 @@ mod tests {
     use super::*;
     use crate::device::Duty;
 
-    const MOTOR: Motor = Motor { torque_at_full: -2.0 };
-    const MODEL: HeatModel = HeatModel::new(Endurance { continuous: 0.3, time_constant: 5.0 }, MOTOR, 4_000.0, 1);
+    const MOTOR: Motor = Motor { torque_at_full_n_m: -2.0 };
+    const MODEL: HeatModel = HeatModel::new(Endurance { continuous: 0.3, time_constant_s: 5.0 }, MOTOR, 4_000.0, 1);
 
     fn square(Duty(duty): Duty) -> u32 {
         u32::from(duty.unsigned_abs()).pow(2)
@@ -197,17 +197,17 @@ mod tests {
 
     #[test]
     fn a_motor_found_stronger_bears_no_more_and_one_found_weaker_no_more_current() {
-        let strong = MODEL.of_motor(Motor { torque_at_full: 4.0 });
+        let strong = MODEL.of_motor(Motor { torque_at_full_n_m: 4.0 });
         assert!((strong.start().limit - MODEL.start().limit).abs() < 1e-6, "0.6 N·m of either");
         let hot = Heat((0.15 * 0.15 * FULL) as i32);
         assert!((strong.bound(hot) - 0.15).abs() < 1e-5 && (strong.bound(Heat(hot.0 / 2)) - 1.0).abs() < 1e-5);
-        let weak = MODEL.of_motor(Motor { torque_at_full: 1.0 });
+        let weak = MODEL.of_motor(Motor { torque_at_full_n_m: 1.0 });
         assert!((weak.start().limit - 0.3).abs() < 1e-6, "{weak:?}");
     }
 
     #[test]
     fn an_amplifier_that_cannot_overheat_the_motor_is_never_bounded() {
-        let strong = HeatModel::new(Endurance { continuous: 1.1, time_constant: 5.0 }, MOTOR, 4_000.0, 3);
+        let strong = HeatModel::new(Endurance { continuous: 1.1, time_constant_s: 5.0 }, MOTOR, 4_000.0, 3);
         assert_eq!(strong.start().limit, 2.0);
         assert_eq!(strong.bound(Heat(FULL as i32)), 1.0);
     }

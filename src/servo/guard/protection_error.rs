@@ -36,27 +36,27 @@ pub(super) const fn check<const JOINTS: usize>(
         if !bears {
             return Err(ProtectionError::Continuous);
         }
-        let lasts = motor.time_constant * rate >= 100.0 && motor.time_constant <= 600.0;
+        let lasts = motor.time_constant_s * rate >= 100.0 && motor.time_constant_s <= 600.0;
         if !lasts {
             return Err(ProtectionError::TimeConstant);
         }
-        let moves = protection.max_joint_rates[joint] > 0.0;
+        let moves = protection.max_joint_rates_rad_per_s[joint] > 0.0;
         if !moves {
             return Err(ProtectionError::Speed);
         }
-        if let Some(signs) = &protection.signs {
-            let turns = signs.inertia[joint] > 0.0 && signs.inertia[joint] < f32::INFINITY;
+        if let Some(signs) = &protection.polarity {
+            let turns = signs.inertia_kg_m2[joint] > 0.0 && signs.inertia_kg_m2[joint] < f32::INFINITY;
             if !turns {
                 return Err(ProtectionError::Inertia);
             }
         }
         joint += 1;
     }
-    let moves = protection.max_probe_speed > 0.0;
+    let moves = protection.max_probe_speed_m_per_s > 0.0;
     if !moves {
         return Err(ProtectionError::Speed);
     }
-    if let Some(SupplyRange { least, most }) = protection.supply
+    if let Some(SupplyRange { min_mv: least, max_mv: most }) = protection.supply
         && least >= most
     {
         return Err(ProtectionError::Supply);

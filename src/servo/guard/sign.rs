@@ -190,18 +190,18 @@ impl<const JOINTS: usize> Signs<JOINTS> {
         let time = slot / rate;
         // A knock begins a tick after its slot.
         let knock = (slot - 1.0) / rate;
-        let mut yields = watch.inertia;
+        let mut yields = watch.inertia_kg_m2;
         let mut joint = 0;
         while joint < JOINTS {
-            yields[joint] = 0.5 * knock * knock / watch.inertia[joint];
+            yields[joint] = 0.5 * knock * knock / watch.inertia_kg_m2[joint];
             joint += 1;
         }
         Self {
             yields,
             friction,
             way: 0.5 * SPEED * knock,
-            force: ON_TRIAL * penalty.max_force,
-            asked: (ASKED * ON_TRIAL * penalty.max_force) * (ASKED * ON_TRIAL * penalty.max_force),
+            force: ON_TRIAL * penalty.max_force_n,
+            asked: (ASKED * ON_TRIAL * penalty.max_force_n) * (ASKED * ON_TRIAL * penalty.max_force_n),
             slot: slot as u16,
             rest: (REST / time) as u16,
             rise: 1.0 / (RISE * rate),
@@ -334,10 +334,10 @@ mod tests {
     /// Whether each joint of a device moves far enough when it knocks in the middle of its workspace, though it sticks
     /// as much as a calibration may say.
     fn sees<K: Kinematics<3>>(device: &Device<K, 3>, protection: &Protection<3>, middle: [f32; 3]) {
-        let penalty = Penalty { stiffness: 600.0, damping: 2.0, max_force: device.max_force };
-        let of_range = device.kinematics.pose(device.joint_range.map(|[least, most]| 0.5 * (least + most)));
-        let friction = of_range.jacobian.map(|column| FRICTION_WITHIN * device.max_force * column.length());
-        let signs = Signs::new(&protection.signs.expect("watched"), friction, 4_000.0, &penalty);
+        let penalty = Penalty { stiffness_n_per_m: 600.0, damping_n_s_per_m: 2.0, max_force_n: device.max_force_n };
+        let of_range = device.kinematics.pose(device.joint_range_rad.map(|[least, most]| 0.5 * (least + most)));
+        let friction = of_range.jacobian.map(|column| FRICTION_WITHIN * device.max_force_n * column.length());
+        let signs = Signs::new(&protection.polarity.expect("watched"), friction, 4_000.0, &penalty);
         for (joint, column) in device.kinematics.pose(middle).jacobian.into_iter().enumerate() {
             let reach = column.length();
             let most = (signs.force * reach).min(signs.way / (signs.yields[joint] * reach) + friction[joint]);

@@ -21,7 +21,7 @@ impl SupplyWatch {
     /// A measurement: the fault if it is outside of the range. `age` counts ticks since the last one.
     pub(super) fn measured(&self, age: &mut u32, millivolts: u32) -> Result<(), Fault> {
         *age = 0;
-        let good = self.range.least <= millivolts && millivolts <= self.range.most;
+        let good = self.range.min_mv <= millivolts && millivolts <= self.range.max_mv;
         if good { Ok(()) } else { Err(Fault::Supply) }
     }
 

@@ -56,7 +56,7 @@ impl<'a, W: Stopwatch> Examiner<'a, W> {
             core: chip.core,
             clock: settings.clock,
             counted: W::COUNTED,
-            rate: felt.servo().settings().rate,
+            rate: felt.servo().settings().rate_hz,
             reset: chip.reset as u8,
             table: TableCheck::read(surface),
             baked: surface.baked_crc().unwrap_or(0),

@@ -46,7 +46,7 @@ impl<'a, F: Felt<JOINTS>, B: Passive<JOINTS>, const JOINTS: usize> Acceptance<'a
         queue: Producer<'a, Ticks>,
         mailbox: &'a Mailbox,
     ) -> Self {
-        let rate = felt.servo().settings().rate;
+        let rate = felt.servo().settings().rate_hz;
         // A reset that is a fault is told, and stops nothing here: there is no force that it could keep away.
         let reset = if reset.fault().is_some() { ResetReason::Unknown } else { reset };
         Self {

@@ -30,13 +30,13 @@ pub type ServoOf<K, S = SplinePatch<'static>, G = Unguarded> = Servo<'static, S,
 
 const fn settings(body_origin: Vec3) -> Settings {
     Settings {
-        rate: 4_000.0,
-        stiffness: 600.0,
-        damping: 2.0,
-        max_force: 5.0,
-        velocity_corner: 200.0,
-        soft_start: 0.2,
-        body_origin,
+        rate_hz: 4_000.0,
+        stiffness_n_per_m: 600.0,
+        damping_n_s_per_m: 2.0,
+        max_force_n: 5.0,
+        velocity_corner_hz: 200.0,
+        soft_start_s: 0.2,
+        body_origin_m: body_origin,
     }
 }
 
@@ -46,27 +46,30 @@ const CAPPED_BOX_AT: Settings = settings(vec3(-0.03, -0.02, -0.015));
 const ELLIPSOID_AT: Settings = settings(vec3(0.0, 0.0, -0.02));
 
 const FRICTION: Friction =
-    Friction { stiffness: 800.0, damping: 1.0, static_coefficient: 0.6, dynamic_coefficient: 0.4 };
-const PASSIVITY: Passivity =
-    Passivity { device_damping: 0.1, device_friction: 0.01, max_damping: 8.0, resolution: 1e-4 };
+    Friction { stiffness_n_per_m: 800.0, damping_n_s_per_m: 1.0, static_coefficient: 0.6, dynamic_coefficient: 0.4 };
+const PASSIVITY: Passivity = Passivity {
+    device_damping_n_s_per_m: 0.1,
+    device_friction_n: 0.01,
+    max_damping_n_s_per_m: 8.0,
+    resolution_m: 1e-4,
+};
 
 /// Spring and damper alone; contact that no motion explains is a fault at once.
 pub static PLAIN: ServoOf<SerialArm> =
     Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT).safety(Safety {
-        link_timeout: 0.05,
+        link_timeout_s: 0.05,
         contact: Some(ContactLimits { max_in_a_row: 0, ..ContactLimits::DEFAULT }),
         ..Safety::DEFAULT
     });
 
-/// Friction, texture, passivity, the window's velocity; homing, the table's check, damping after a fault.
+/// Friction, texture, passivity; homing, the table's check, damping after a fault.
 pub static RICH: ServoOf<SerialArm> =
     Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT)
         .rendering(Rendering {
-            velocity: VelocityMethod::AdaptiveWindow,
             friction: Some(FRICTION),
-            texture: Some(Texture { force: |touch| grating(touch, 100.0, 0.3), max_share: 0.2 }),
+            texture: Some(Texture { force: |touch| grating(touch, 100.0, 0.3), max_fraction: 0.2 }),
             passivity: Some(PASSIVITY),
-            max_slew: 200.0,
+            max_slew_n_per_s: 200.0,
             ..Rendering::PLAIN
         })
         .safety(Safety {
@@ -79,8 +82,8 @@ pub static RICH: ServoOf<SerialArm> =
 /// A virtual tool on a rational patch, felt with a delta.
 pub static COUPLED: ServoOf<Delta> =
     Servo::new(&NOVINT_FALCON, &ellipsoid::PATCHES[0], Controller::SECOND_ORDER, ELLIPSOID_AT).rendering(Rendering {
-        velocity: VelocityMethod::Tracking,
-        coupling: Some(Coupling { stiffness: 500.0, damping: 3.0, mass: 0.02 }),
+        velocity: VelocityMethod::BetweenCounts,
+        coupling: Some(Coupling { stiffness_n_per_m: 500.0, damping_n_s_per_m: 3.0, mass_kg: 0.02 }),
         friction: Some(FRICTION),
         ..Rendering::PLAIN
     });
@@ -92,14 +95,14 @@ pub static WATCHFUL: ServoOf<LinkageArm> =
         .rendering(Rendering::SMOOTH)
         .safety(Safety {
             max_overruns: 1,
-            stuck: Some(StuckLimits { load: 1.0, travel: 0.1 }),
+            stuck: Some(StuckLimits { load: 1.0, travel_rad: 0.1 }),
             contact: None,
             ..Safety::DEFAULT
         });
 
 const WEAK: Device<SerialArm, 3> = Device {
     // Next to nothing: the duty for any torque is infinite.
-    motors: [Motor { torque_at_full: 1e-44 }; 3],
+    motors: [Motor { torque_at_full_n_m: 1e-44 }; 3],
     ..WOODEN_HAPTICS_2016
 };
 
@@ -108,7 +111,7 @@ pub static BROKEN: ServoOf<SerialArm> =
     Servo::new(&WEAK, &ellipsoid::PATCHES[0], Controller::SECOND_ORDER, ELLIPSOID_AT);
 
 const SHORT_SHINNED: Device<Delta, 3> =
-    Device { kinematics: Delta { shin: 0.055, ..NOVINT_FALCON.kinematics }, ..NOVINT_FALCON };
+    Device { kinematics: Delta { shin_m: 0.055, ..NOVINT_FALCON.kinematics }, ..NOVINT_FALCON };
 
 /// Shins so short that the legs cannot meet everywhere.
 pub static SHORT: ServoOf<Delta> =
@@ -130,9 +133,9 @@ pub static BODY: ServoOf<SerialArm, Body> =
 /// All protection on, with motors that are soon warm, and a supply that nobody measures for long.
 pub static GUARDED: ServoOf<SerialArm, SplinePatch, Guarded<3>> =
     Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT).protect(Protection {
-        motors: [Endurance { continuous: 0.1, time_constant: 0.1 }; 3],
-        max_joint_rates: [6.0; 3],
-        supply: Some(SupplyRange { least: 20_000, most: 28_000 }),
+        motors: [Endurance { continuous: 0.1, time_constant_s: 0.1 }; 3],
+        max_joint_rates_rad_per_s: [6.0; 3],
+        supply: Some(SupplyRange { min_mv: 20_000, max_mv: 28_000 }),
         ..WOODEN_HAPTICS_2016_PROTECTION
     });
 

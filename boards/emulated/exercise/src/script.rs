@@ -80,7 +80,7 @@ impl Script {
     pub fn new(seed: u32, encoders: &[Encoder; 3], reach: [[f32; 2]; 3]) -> Self {
         let mut places = [(0, 0); 3];
         for ((place, encoder), ends) in places.iter_mut().zip(encoders).zip(reach) {
-            let [a, b] = ends.map(|angle| ((angle - encoder.angle_at_zero) / encoder.radians_per_count) as i32);
+            let [a, b] = ends.map(|angle| ((angle - encoder.angle_at_zero_rad) / encoder.radians_per_count) as i32);
             *place = (a.min(b), a.abs_diff(b));
         }
         let mut script = Self {

@@ -17,12 +17,12 @@ use crate::timer::InstructionCounter;
 
 /// Ticks of each path.
 const TICKS: u32 = 50_000;
-const RATE: f32 = SETTINGS.rate;
+const RATE: f32 = SETTINGS.rate_hz;
 const MATERIAL: Material = Material::new(300.0, 1.0);
 const LIMITS: Limits = Limits::of(&DEVICE, RATE);
 /// The middle of the box, in its frame, and the ball that holds it.
 const MIDDLE: Vec3 = vec3(0.03, 0.02, 0.017);
-const SPHERE: Sphere = Sphere { centre: MIDDLE, radius: 0.04 };
+const SPHERE: Sphere = Sphere { centre_m: MIDDLE, radius_m: 0.04 };
 
 const fn part(motion: Motion) -> Part<'static, Body<'static>> {
     Part { sphere: SPHERE, ..Part::new(&BODY, motion, MATERIAL) }
@@ -39,13 +39,13 @@ const fn turning(start: Placement, pivot: Vec3) -> Motion {
 
 /// 200 g on a spring in the air.
 const fn free() -> Motion {
-    let tether = Tether { anchor: MIDDLE, slack: Vec3::ZERO, stiffness: 400.0, damping: 2.0 };
+    let tether = Tether { anchor_m: MIDDLE, slack_m: Vec3::ZERO, stiffness_n_per_m: 400.0, damping_n_s_per_m: 2.0 };
     let body = RigidBody::new(Placement::IDENTITY, 0.2, vec3(4.2e-5, 7.5e-5, 8.7e-5));
     Motion::Free(RigidBody {
-        centre: MIDDLE,
-        gravity: vec3(0.0, 0.0, -9.81),
-        angular_stiffness: 1.0,
-        angular_damping: 1e-3,
+        centre_m: MIDDLE,
+        gravity_m_per_s2: vec3(0.0, 0.0, -9.81),
+        angular_stiffness_n_m_per_rad: 1.0,
+        angular_damping_n_m_s_per_rad: 1e-3,
         tether: Some(tether),
         ..body
     })
@@ -133,11 +133,11 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut state = SERVO.start();
     let mut walk = Walk::start();
     for _ in 0..APPROACH {
-        walk.counts(probe(0) + SETTINGS.body_origin);
+        walk.counts(probe(0) + SETTINGS.body_origin_m);
     }
     let (mut ticks, mut both, mut touched) = (Tally::new(), Tally::new(), 0);
     for index in 0..TICKS {
-        let position = probe(index) + SETTINGS.body_origin;
+        let position = probe(index) + SETTINGS.body_origin_m;
         let input = black_box(Input::Sensors { counts: walk.counts(position), enable: true });
         SERVO.note(&mut state, Event::LinkAlive);
         let ((), instructions) = counter.count(|| tick(&mut state, input));

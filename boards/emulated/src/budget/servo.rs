@@ -41,7 +41,7 @@ pub(super) struct Walk {
 impl Walk {
     /// Where the encoders begin.
     pub(super) fn start() -> Self {
-        Self { angles: DEVICE.encoders.map(|encoder| encoder.angle_at_zero) }
+        Self { angles: DEVICE.encoders.map(|encoder| encoder.angle_at_zero_rad) }
     }
 
     /// One step of Newton's method a tick, from the last tick's angles: the path moves a tenth of a millimetre in
@@ -58,7 +58,7 @@ impl Walk {
             counts.iter_mut().zip(&mut self.angles).zip(change).zip(&DEVICE.encoders)
         {
             *angle += scale * change;
-            *count = Counts(((*angle - encoder.angle_at_zero) / encoder.radians_per_count) as i32);
+            *count = Counts(((*angle - encoder.angle_at_zero_rad) / encoder.radians_per_count) as i32);
         }
         counts
     }
@@ -75,7 +75,7 @@ impl GivesWay {
     fn counts(&mut self, state: &State, mut counts: [Counts; 3]) -> [Counts; 3] {
         let is_on_trial = state.guard().joints_seen() != [true; 3];
         for joint in 0..3 {
-            let push = f32::from(state.duties()[joint].0.signum()) * DEVICE.motors[joint].torque_at_full.signum();
+            let push = f32::from(state.duties()[joint].0.signum()) * DEVICE.motors[joint].torque_at_full_n_m.signum();
             self.0[joint] += if is_on_trial { 6.5e-5 * push } else { 0.0 };
             counts[joint].0 += (self.0[joint] / DEVICE.encoders[joint].radians_per_count) as i32;
         }
@@ -87,14 +87,14 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut state = SERVO.start();
     let mut walk = Walk::start();
     for _ in 0..APPROACH {
-        walk.counts(probe(0) + SETTINGS.body_origin);
+        walk.counts(probe(0) + SETTINGS.body_origin_m);
     }
     let mut ticks = Tally::new();
     #[cfg(feature = "folded")]
     let mut gives_way = GivesWay([0.0; 3]);
     let (mut touched, mut met) = (0, [0_u32; 3]);
     for index in 0..TICKS {
-        let position = probe(index) + SETTINGS.body_origin;
+        let position = probe(index) + SETTINGS.body_origin_m;
         let counts = walk.counts(position);
         #[cfg(feature = "folded")]
         let counts = gives_way.counts(&state, counts);

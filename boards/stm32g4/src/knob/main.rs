@@ -95,7 +95,7 @@ fn main() -> ! {
     let bus = (a.pa5.into_alternate(), a.pa6.into_alternate(), a.pa7.into_alternate());
     // The next divider that there is makes 5.3 MHz; of 8 MHz the HAL would make 10.6, and the sensor takes 10.
     let bus = chip.SPI1.spi(bus, MODE_1, 5.MHz(), &mut rcc);
-    let step = greatest_step(&DEVICE.encoders[0], DEVICE.max_joint_rate, SETTINGS.rate, BENCH.bad_frames);
+    let step = greatest_step(&DEVICE.encoders[0], DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames);
     let mut sensor = Angles::new(bus, [select], CycleDelay::new(cycles, CLOCK), [step]);
     // If it does not start the loop says so, tick by tick.
     let _ = sensor.start();
@@ -130,7 +130,7 @@ fn main() -> ! {
         core.NVIC.set_priority(Interrupt::TIM7, 0);
         NVIC::unmask(Interrupt::TIM7);
     }
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate, SETTINGS.max_force);
+    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
     loop {
         idle.step(&mut port, &mut watchdog);
         choice.look(&MAILBOX);

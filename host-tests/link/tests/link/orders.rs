@@ -82,8 +82,15 @@ fn every_order_is_done() -> Result<(), Error> {
     device.harden(0, 100.0, 1.0)?;
     let soft = for_seconds(&mut device, 0.5).force[2];
     assert!(soft < 0.5 * firm && soft > 0.1, "{soft} after {firm}");
-    device
-        .rub(0, Some(Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.8, dynamic_coefficient: 0.6 }))?;
+    device.rub(
+        0,
+        Some(Friction {
+            stiffness_n_per_m: 500.0,
+            damping_n_s_per_m: 1.0,
+            static_coefficient: 0.8,
+            dynamic_coefficient: 0.6,
+        }),
+    )?;
     hand.goes_to([0.05, 0.02, 0.025]);
     let rubbed = for_seconds(&mut device, 0.3).force[0];
     device.rub(0, None)?;

@@ -51,8 +51,8 @@ pub fn settings_source(own: &OwnDevice, rate: f32) -> String {
     let (stiffness, damping, force) = (0.5 * limits.stiffness, 0.5 * limits.damping, limits.force);
     format!(
         "{}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
-         rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    max_force: {force:?},\n    \
-         velocity_corner: 200.0,\n    soft_start: 0.2,\n    body_origin: palpate::math::vec3(-0.03, -0.02, \
+         rate_hz: {rate:?},\n    stiffness_n_per_m: {stiffness:?},\n    damping_n_s_per_m: {damping:?},\n    max_force_n: {force:?},\n    \
+         velocity_corner_hz: 200.0,\n    soft_start_s: 0.2,\n    body_origin_m: palpate::math::vec3(-0.03, -0.02, \
          -0.015),\n}};\n/// Its limits.\npub const SAFETY: palpate::servo::Safety = palpate::servo::Safety::DEFAULT;\n",
         source(own, &own.file.name),
     )
@@ -89,15 +89,15 @@ fn feeds(feeds: &[Feed; 3]) -> String {
 }
 
 fn constants<K: Debug>(text: &mut String, mechanism: &str, device: &Device<K, 3>, protection: &Protection<3>) {
-    let Device { kinematics, encoders, motors, dry_friction, joint_range, .. } = device;
-    let Device { min_margin, max_joint_rate, max_force, max_stiffness, max_damping, .. } = device;
+    let Device { kinematics, encoders, motors, dry_friction_n_m, joint_range_rad, min_margin_m_per_rad, .. } = device;
+    let Device { max_joint_rate_rad_per_s, max_force_n, max_stiffness_n_per_m, max_damping_n_s_per_m, .. } = device;
     let _ = write!(
         text,
         "pub use palpate::device::{mechanism} as Mechanism;\n\n\
          /// The device.\npub const DEVICE: palpate::device::Device<Mechanism, 3> = palpate::device::Device {{\n    \
-         kinematics: {},\n    encoders: {},\n    motors: {},\n    feeds: {},\n    dry_friction: {dry_friction:?},\n    \
-         joint_range: {joint_range:?},\n    min_margin: {min_margin:?},\n    max_joint_rate: {max_joint_rate:?},\n    \
-         max_force: {max_force:?},\n    max_stiffness: {max_stiffness:?},\n    max_damping: {max_damping:?},\n}};\n\
+         kinematics: {},\n    encoders: {},\n    motors: {},\n    feeds: {},\n    dry_friction_n_m: {dry_friction_n_m:?},\n    \
+         joint_range_rad: {joint_range_rad:?},\n    min_margin_m_per_rad: {min_margin_m_per_rad:?},\n    max_joint_rate_rad_per_s: {max_joint_rate_rad_per_s:?},\n    \
+         max_force_n: {max_force_n:?},\n    max_stiffness_n_per_m: {max_stiffness_n_per_m:?},\n    max_damping_n_s_per_m: {max_damping_n_s_per_m:?},\n}};\n\
          const _: () = assert!(DEVICE.check().is_ok(), \"no device has these numbers\");\n\n\
          /// What protects it.\n#[allow(dead_code)]\npub const PROTECTION: palpate::device::Protection<3> = {};\n",
         literal(kinematics),

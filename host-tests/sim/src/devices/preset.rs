@@ -31,7 +31,11 @@ pub struct Limits {
 
 impl Limits {
     fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>) -> Self {
-        Self { force: device.max_force, stiffness: device.max_stiffness, damping: device.max_damping }
+        Self {
+            force: device.max_force_n,
+            stiffness: device.max_stiffness_n_per_m,
+            damping: device.max_damping_n_s_per_m,
+        }
     }
 }
 

@@ -193,11 +193,11 @@ fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
             let device = device(
                 file,
                 SerialArm {
-                    base_height: *base_height as f32,
-                    first_link: *first_link as f32,
-                    second_link: *second_link as f32,
-                    workspace_centre: vec3(x, y, z),
-                    end_masses: end_masses.map(|mass| mass as f32),
+                    base_height_m: *base_height as f32,
+                    first_link_m: *first_link as f32,
+                    second_link_m: *second_link as f32,
+                    workspace_centre_m: vec3(x, y, z),
+                    end_masses_kg: end_masses.map(|mass| mass as f32),
                 },
             );
             (Preset::SerialArm(Box::leak(Box::new(device))), device.check())
@@ -208,19 +208,19 @@ fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
                 file,
                 LinkageArm {
                     linkage: FiveBar {
-                        second_pivot: arm.second_pivot as f32,
-                        cranks: arm.cranks.map(|length| length as f32),
-                        rods: arm.rods.map(|length| length as f32),
+                        second_pivot_m: arm.second_pivot as f32,
+                        cranks_m: arm.cranks.map(|length| length as f32),
+                        rods_m: arm.rods.map(|length| length as f32),
                         side: arm.side as f32,
-                        tool: arm.tool as f32,
-                        workspace_centre: Vec2::ZERO,
+                        tool_m: arm.tool as f32,
+                        workspace_centre_m: Vec2::ZERO,
                     },
-                    pivot_reach: arm.pivot_reach as f32,
-                    workspace_centre: vec3(x, y, z),
+                    pivot_reach_m: arm.pivot_reach as f32,
+                    workspace_centre_m: vec3(x, y, z),
                     masses: arm.masses.unwrap_or_default().map(|link| LinkMass {
-                        mass: link.mass as f32,
-                        along: link.along as f32,
-                        across: link.across as f32,
+                        mass_kg: link.mass as f32,
+                        along_m: link.along as f32,
+                        across_m: link.across as f32,
                     }),
                 },
             );
@@ -230,16 +230,16 @@ fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
             let device = device(
                 file,
                 Delta {
-                    thigh: *thigh as f32,
-                    shin: *shin as f32,
-                    stub: *stub as f32,
-                    reach: *reach as f32,
-                    side: *side as f32,
+                    thigh_m: *thigh as f32,
+                    shin_m: *shin as f32,
+                    stub_m: *stub as f32,
+                    reach_m: *reach as f32,
+                    side_m: *side as f32,
                     directions: legs.map(|leg| [leg.cos() as f32, leg.sin() as f32]),
-                    workspace_centre: vec3(0.0, 0.0, *workspace_depth as f32),
+                    workspace_centre_m: vec3(0.0, 0.0, *workspace_depth as f32),
                     up: vec3(0.0, 1.0, 0.0),
-                    carried_mass: *carried_mass as f32,
-                    thigh_moment: *thigh_moment as f32,
+                    carried_mass_kg: *carried_mass as f32,
+                    thigh_moment_kg_m: *thigh_moment as f32,
                 },
             );
             (Preset::Delta(Box::leak(Box::new(device))), device.check())
@@ -267,22 +267,22 @@ fn device<K>(file: &DeviceFile, kinematics: K) -> Device<K, 3> {
             let motor = &joint.motor;
             motor.bridge.map_or(Feed::Current, |bridge| {
                 Feed::Voltage(VoltageFeed {
-                    supply: bridge.supply as f32,
-                    resistance: bridge.resistance as f32,
-                    torque_constant: motor.torque_constant as f32,
-                    current_at_full: motor.current_at_full as f32,
+                    supply_v: bridge.supply as f32,
+                    resistance_ohm: bridge.resistance as f32,
+                    torque_constant_n_m_per_a: motor.torque_constant as f32,
+                    current_at_full_a: motor.current_at_full as f32,
                     ratio: motor.ratio as f32,
-                    back_emf_share: bridge.back_emf_share as f32,
+                    back_emf_fraction: bridge.back_emf_share as f32,
                 })
             })
         }),
-        dry_friction: each(file, |joint| joint.friction as f32),
-        joint_range: each(file, |joint| joint.range.map(|angle| angle as f32)),
-        min_margin: limits.min_margin as f32,
-        max_joint_rate: limits.max_joint_rate as f32,
-        max_force: limits.max_force as f32,
-        max_stiffness: limits.max_stiffness as f32,
-        max_damping: limits.max_damping as f32,
+        dry_friction_n_m: each(file, |joint| joint.friction as f32),
+        joint_range_rad: each(file, |joint| joint.range.map(|angle| angle as f32)),
+        min_margin_m_per_rad: limits.min_margin as f32,
+        max_joint_rate_rad_per_s: limits.max_joint_rate as f32,
+        max_force_n: limits.max_force as f32,
+        max_stiffness_n_per_m: limits.max_stiffness as f32,
+        max_damping_n_s_per_m: limits.max_damping as f32,
     }
 }
 
@@ -291,14 +291,14 @@ fn protection(file: &DeviceFile) -> Protection<3> {
     Protection {
         motors: each(file, |joint| Endurance {
             continuous: (joint.motor.continuous_current / joint.motor.current_at_full) as f32,
-            time_constant: joint.motor.time_constant as f32,
+            time_constant_s: joint.motor.time_constant as f32,
         }),
-        max_joint_rates: each(file, |joint| joint.motor.max_rate as f32),
-        max_probe_speed: file.limits.max_probe_speed as f32,
+        max_joint_rates_rad_per_s: each(file, |joint| joint.motor.max_rate as f32),
+        max_probe_speed_m_per_s: file.limits.max_probe_speed as f32,
         supply: None,
-        signs: inertias
+        polarity: inertias
             .iter()
             .all(Option::is_some)
-            .then(|| SignWatch { inertia: inertias.map(|inertia| inertia.unwrap_or_default() as f32) }),
+            .then(|| SignWatch { inertia_kg_m2: inertias.map(|inertia| inertia.unwrap_or_default() as f32) }),
     }
 }

@@ -20,28 +20,28 @@ pub fn file_of(name: &str, preset: Preset, plant: &PlantSettings) -> Option<Devi
         Preset::SerialArm(device) => {
             let arm = device.kinematics;
             let mechanism = MechanismEntry::SerialArm {
-                base_height: decimal(arm.base_height),
-                first_link: decimal(arm.first_link),
-                second_link: decimal(arm.second_link),
-                workspace_centre: arm.workspace_centre.to_array().map(decimal),
-                end_masses: arm.end_masses.map(decimal),
+                base_height: decimal(arm.base_height_m),
+                first_link: decimal(arm.first_link_m),
+                second_link: decimal(arm.second_link_m),
+                workspace_centre: arm.workspace_centre_m.to_array().map(decimal),
+                end_masses: arm.end_masses_kg.map(decimal),
             };
             (mechanism, rest(name, plant, device))
         }
         Preset::LinkageArm(device) => {
             let arm = device.kinematics;
             let mechanism = MechanismEntry::LinkageArm(LinkageEntry {
-                second_pivot: decimal(arm.linkage.second_pivot),
-                cranks: arm.linkage.cranks.map(decimal),
-                rods: arm.linkage.rods.map(decimal),
+                second_pivot: decimal(arm.linkage.second_pivot_m),
+                cranks: arm.linkage.cranks_m.map(decimal),
+                rods: arm.linkage.rods_m.map(decimal),
                 side: decimal(arm.linkage.side),
-                tool: decimal(arm.linkage.tool),
-                pivot_reach: decimal(arm.pivot_reach),
-                workspace_centre: arm.workspace_centre.to_array().map(decimal),
+                tool: decimal(arm.linkage.tool_m),
+                pivot_reach: decimal(arm.pivot_reach_m),
+                workspace_centre: arm.workspace_centre_m.to_array().map(decimal),
                 masses: Some(arm.masses.map(|link| MassEntry {
-                    mass: decimal(link.mass),
-                    along: decimal(link.along),
-                    across: decimal(link.across),
+                    mass: decimal(link.mass_kg),
+                    along: decimal(link.along_m),
+                    across: decimal(link.across_m),
                 })),
             });
             (mechanism, rest(name, plant, device))
@@ -49,15 +49,15 @@ pub fn file_of(name: &str, preset: Preset, plant: &PlantSettings) -> Option<Devi
         Preset::Delta(device) => {
             let delta = device.kinematics;
             let mechanism = MechanismEntry::Delta {
-                thigh: decimal(delta.thigh),
-                shin: decimal(delta.shin),
-                stub: decimal(delta.stub),
-                reach: decimal(delta.reach),
-                side: decimal(delta.side),
+                thigh: decimal(delta.thigh_m),
+                shin: decimal(delta.shin_m),
+                stub: decimal(delta.stub_m),
+                reach: decimal(delta.reach_m),
+                side: decimal(delta.side_m),
                 legs: delta.directions.map(|[cosine, sine]| f64::from(sine).atan2(f64::from(cosine))),
-                workspace_depth: decimal(delta.workspace_centre.z),
-                carried_mass: decimal(delta.carried_mass),
-                thigh_moment: decimal(delta.thigh_moment),
+                workspace_depth: decimal(delta.workspace_centre_m.z),
+                carried_mass: decimal(delta.carried_mass_kg),
+                thigh_moment: decimal(delta.thigh_moment_kg_m),
             };
             (mechanism, rest(name, plant, device))
         }
@@ -97,33 +97,33 @@ fn rest<K>(name: &str, settings: &PlantSettings, device: &Device<K, 3>) -> (Limi
             current_at_full: plant.current_at_full,
             ratio: sign(plant.motor_direction) * plant.ratio,
             continuous_current: decimal(endurance.continuous) * plant.current_at_full,
-            time_constant: decimal(endurance.time_constant),
-            max_rate: decimal(protection.max_joint_rates[index]),
+            time_constant: decimal(endurance.time_constant_s),
+            max_rate: decimal(protection.max_joint_rates_rad_per_s[index]),
             bridge: match device.feeds[index] {
                 Feed::Current => None,
                 Feed::Voltage(feed) => Some(BridgeEntry {
-                    supply: decimal(feed.supply),
-                    resistance: decimal(feed.resistance),
-                    back_emf_share: decimal(feed.back_emf_share),
+                    supply: decimal(feed.supply_v),
+                    resistance: decimal(feed.resistance_ohm),
+                    back_emf_share: decimal(feed.back_emf_fraction),
                 }),
             },
         };
         JointEntry {
             name: names[index].to_owned(),
-            range: device.joint_range[index].map(decimal),
-            friction: decimal(device.dry_friction[index]),
-            inertia: protection.signs.map(|signs| decimal(signs.inertia[index])),
+            range: device.joint_range_rad[index].map(decimal),
+            friction: decimal(device.dry_friction_n_m[index]),
+            inertia: protection.polarity.map(|signs| decimal(signs.inertia_kg_m2[index])),
             encoder,
             motor,
         }
     });
     let limits = LimitsEntry {
-        min_margin: decimal(device.min_margin),
-        max_joint_rate: decimal(device.max_joint_rate),
-        max_force: decimal(device.max_force),
-        max_stiffness: decimal(device.max_stiffness),
-        max_damping: decimal(device.max_damping),
-        max_probe_speed: decimal(protection.max_probe_speed),
+        min_margin: decimal(device.min_margin_m_per_rad),
+        max_joint_rate: decimal(device.max_joint_rate_rad_per_s),
+        max_force: decimal(device.max_force_n),
+        max_stiffness: decimal(device.max_stiffness_n_per_m),
+        max_damping: decimal(device.max_damping_n_s_per_m),
+        max_probe_speed: decimal(protection.max_probe_speed_m_per_s),
     };
     (limits, joints.collect())
 }

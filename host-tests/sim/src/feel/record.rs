@@ -62,7 +62,7 @@ pub fn record<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize>(
     hand: HandSettings,
     script: &Script,
 ) -> Result<Recording, RunError> {
-    let rate = f64::from(servo.settings().rate);
+    let rate = f64::from(servo.settings().rate_hz);
     let mut plant = Plant::new(plant, hand, Box::new(script.path.clone()), rate)?;
     let mut state = servo.start();
     let count = (script.path.end() * rate).ceil() as usize;

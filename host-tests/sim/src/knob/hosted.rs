@@ -32,7 +32,7 @@ impl HostKnob {
     /// The loop of the boards at a dial, before its first tick. The device lives as long as the program.
     pub fn at(dial: DialSettings, cogging: Option<CoggingMap>) -> Self {
         let servo = servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY);
-        Self::new(servo, Dial::new(dial, f64::from(SETTINGS.rate)))
+        Self::new(servo, Dial::new(dial, f64::from(SETTINGS.rate_hz)))
     }
 
     /// As [`HostKnob::at`], once its rotor is aligned and its force has faded in.

@@ -18,20 +18,35 @@ pub struct Recorded {
 impl Recorded {
     /// A device, whichever its mechanism.
     pub fn new<K: Copy + Into<Mechanism>>(of: &Device<K, 3>, protection: Option<Protection<3>>) -> Self {
-        let Device { kinematics, encoders, motors, feeds, dry_friction, joint_range, .. } = *of;
-        let Device { min_margin, max_joint_rate, max_force, max_stiffness, max_damping, .. } = *of;
+        let Device {
+            kinematics,
+            encoders,
+            motors,
+            feeds,
+            dry_friction_n_m: dry_friction,
+            joint_range_rad: joint_range,
+            ..
+        } = *of;
+        let Device {
+            min_margin_m_per_rad: min_margin,
+            max_joint_rate_rad_per_s: max_joint_rate,
+            max_force_n: max_force,
+            max_stiffness_n_per_m: max_stiffness,
+            max_damping_n_s_per_m: max_damping,
+            ..
+        } = *of;
         let device = Device {
             kinematics: kinematics.into(),
             encoders,
             motors,
             feeds,
-            dry_friction,
-            joint_range,
-            min_margin,
-            max_joint_rate,
-            max_force,
-            max_stiffness,
-            max_damping,
+            dry_friction_n_m: dry_friction,
+            joint_range_rad: joint_range,
+            min_margin_m_per_rad: min_margin,
+            max_joint_rate_rad_per_s: max_joint_rate,
+            max_force_n: max_force,
+            max_stiffness_n_per_m: max_stiffness,
+            max_damping_n_s_per_m: max_damping,
         };
         Self { device, protection }
     }
@@ -53,21 +68,28 @@ impl Recorded {
     fn walk(&mut self, walk: &mut impl Walk) {
         let Self { device, protection } = self;
         device.kinematics.walk(walk);
-        for Encoder { radians_per_count, angle_at_zero } in &mut device.encoders {
+        for Encoder { radians_per_count, angle_at_zero_rad: angle_at_zero } in &mut device.encoders {
             walk.number(radians_per_count);
             walk.number(angle_at_zero);
         }
-        for Motor { torque_at_full } in &mut device.motors {
+        for Motor { torque_at_full_n_m: torque_at_full } in &mut device.motors {
             walk.number(torque_at_full);
         }
         for feed in &mut device.feeds {
             of_feed(walk, feed);
         }
-        walk.numbers(&mut device.dry_friction);
-        for range in &mut device.joint_range {
+        walk.numbers(&mut device.dry_friction_n_m);
+        for range in &mut device.joint_range_rad {
             walk.numbers(range);
         }
-        let Device { min_margin, max_joint_rate, max_force, max_stiffness, max_damping, .. } = device;
+        let Device {
+            min_margin_m_per_rad: min_margin,
+            max_joint_rate_rad_per_s: max_joint_rate,
+            max_force_n: max_force,
+            max_stiffness_n_per_m: max_stiffness,
+            max_damping_n_s_per_m: max_damping,
+            ..
+        } = device;
         for number in [min_margin, max_joint_rate, max_force, max_stiffness, max_damping] {
             walk.number(number);
         }
@@ -78,35 +100,35 @@ impl Recorded {
 const VACANT: Recorded = Recorded {
     device: Device {
         kinematics: Mechanism::VACANT,
-        encoders: [Encoder { radians_per_count: 0.0, angle_at_zero: 0.0 }; 3],
-        motors: [Motor { torque_at_full: 0.0 }; 3],
+        encoders: [Encoder { radians_per_count: 0.0, angle_at_zero_rad: 0.0 }; 3],
+        motors: [Motor { torque_at_full_n_m: 0.0 }; 3],
         feeds: [Feed::Current; 3],
-        dry_friction: [0.0; 3],
-        joint_range: [[0.0; 2]; 3],
-        min_margin: 0.0,
-        max_joint_rate: 0.0,
-        max_force: 0.0,
-        max_stiffness: 0.0,
-        max_damping: 0.0,
+        dry_friction_n_m: [0.0; 3],
+        joint_range_rad: [[0.0; 2]; 3],
+        min_margin_m_per_rad: 0.0,
+        max_joint_rate_rad_per_s: 0.0,
+        max_force_n: 0.0,
+        max_stiffness_n_per_m: 0.0,
+        max_damping_n_s_per_m: 0.0,
     },
     protection: None,
 };
 
 const UNPROTECTED: Protection<3> = Protection {
-    motors: [Endurance { continuous: 0.0, time_constant: 0.0 }; 3],
-    max_joint_rates: [0.0; 3],
-    max_probe_speed: 0.0,
+    motors: [Endurance { continuous: 0.0, time_constant_s: 0.0 }; 3],
+    max_joint_rates_rad_per_s: [0.0; 3],
+    max_probe_speed_m_per_s: 0.0,
     supply: None,
-    signs: None,
+    polarity: None,
 };
 
 const UNFED: VoltageFeed = VoltageFeed {
-    supply: 0.0,
-    resistance: 0.0,
-    torque_constant: 0.0,
-    current_at_full: 0.0,
+    supply_v: 0.0,
+    resistance_ohm: 0.0,
+    torque_constant_n_m_per_a: 0.0,
+    current_at_full_a: 0.0,
     ratio: 0.0,
-    back_emf_share: 0.0,
+    back_emf_fraction: 0.0,
 };
 
 fn of_feed(walk: &mut impl Walk, feed: &mut Feed) {
@@ -115,7 +137,14 @@ fn of_feed(walk: &mut impl Walk, feed: &mut Feed) {
         Feed::Voltage(voltage) => Some(*voltage),
     };
     walk.maybe(&mut voltage, UNFED, |walk, voltage| {
-        let VoltageFeed { supply, resistance, torque_constant, current_at_full, ratio, back_emf_share } = voltage;
+        let VoltageFeed {
+            supply_v: supply,
+            resistance_ohm: resistance,
+            torque_constant_n_m_per_a: torque_constant,
+            current_at_full_a: current_at_full,
+            ratio,
+            back_emf_fraction: back_emf_share,
+        } = voltage;
         for number in [supply, resistance, torque_constant, current_at_full, ratio, back_emf_share] {
             walk.number(number);
         }
@@ -124,16 +153,24 @@ fn of_feed(walk: &mut impl Walk, feed: &mut Feed) {
 }
 
 fn of_protection(walk: &mut impl Walk, protection: &mut Protection<3>) {
-    let Protection { motors, max_joint_rates, max_probe_speed, supply, signs } = protection;
-    for Endurance { continuous, time_constant } in motors {
+    let Protection {
+        motors,
+        max_joint_rates_rad_per_s: max_joint_rates,
+        max_probe_speed_m_per_s: max_probe_speed,
+        supply,
+        polarity: signs,
+    } = protection;
+    for Endurance { continuous, time_constant_s: time_constant } in motors {
         walk.number(continuous);
         walk.number(time_constant);
     }
     walk.numbers(max_joint_rates);
     walk.number(max_probe_speed);
-    walk.maybe(supply, SupplyRange { least: 0, most: 0 }, |walk, SupplyRange { least, most }| {
+    walk.maybe(supply, SupplyRange { min_mv: 0, max_mv: 0 }, |walk, SupplyRange { min_mv: least, max_mv: most }| {
         *least = walk.count(*least);
         *most = walk.count(*most);
     });
-    walk.maybe(signs, SignWatch { inertia: [0.0; 3] }, |walk, SignWatch { inertia }| walk.numbers(inertia));
+    walk.maybe(signs, SignWatch { inertia_kg_m2: [0.0; 3] }, |walk, SignWatch { inertia_kg_m2: inertia }| {
+        walk.numbers(inertia)
+    });
 }

@@ -52,38 +52,38 @@ impl Kinematics<3> for Mechanism {
 }
 
 const SERIAL: SerialArm = SerialArm {
-    base_height: 0.0,
-    first_link: 0.0,
-    second_link: 0.0,
-    workspace_centre: Vec3::ZERO,
-    end_masses: [0.0; 2],
+    base_height_m: 0.0,
+    first_link_m: 0.0,
+    second_link_m: 0.0,
+    workspace_centre_m: Vec3::ZERO,
+    end_masses_kg: [0.0; 2],
 };
 
 const LINKAGE: LinkageArm = LinkageArm {
     linkage: FiveBar {
-        second_pivot: 0.0,
-        cranks: [0.0; 2],
-        rods: [0.0; 2],
+        second_pivot_m: 0.0,
+        cranks_m: [0.0; 2],
+        rods_m: [0.0; 2],
         side: 0.0,
-        tool: 0.0,
-        workspace_centre: Vec2::ZERO,
+        tool_m: 0.0,
+        workspace_centre_m: Vec2::ZERO,
     },
-    pivot_reach: 0.0,
-    workspace_centre: Vec3::ZERO,
-    masses: [LinkMass { mass: 0.0, along: 0.0, across: 0.0 }; 4],
+    pivot_reach_m: 0.0,
+    workspace_centre_m: Vec3::ZERO,
+    masses: [LinkMass { mass_kg: 0.0, along_m: 0.0, across_m: 0.0 }; 4],
 };
 
 const DELTA: Delta = Delta {
-    thigh: 0.0,
-    shin: 0.0,
-    stub: 0.0,
-    reach: 0.0,
-    side: 0.0,
+    thigh_m: 0.0,
+    shin_m: 0.0,
+    stub_m: 0.0,
+    reach_m: 0.0,
+    side_m: 0.0,
     directions: [[0.0; 2]; 3],
-    workspace_centre: Vec3::ZERO,
+    workspace_centre_m: Vec3::ZERO,
     up: Vec3::ZERO,
-    carried_mass: 0.0,
-    thigh_moment: 0.0,
+    carried_mass_kg: 0.0,
+    thigh_moment_kg_m: 0.0,
 };
 
 impl Mechanism {
@@ -115,7 +115,13 @@ impl Mechanism {
 // Each takes its struct apart whole: a field that is added and forgotten here does not compile.
 
 fn serial(walk: &mut impl Walk, arm: &mut SerialArm) {
-    let SerialArm { base_height, first_link, second_link, workspace_centre, end_masses } = arm;
+    let SerialArm {
+        base_height_m: base_height,
+        first_link_m: first_link,
+        second_link_m: second_link,
+        workspace_centre_m: workspace_centre,
+        end_masses_kg: end_masses,
+    } = arm;
     for length in [base_height, first_link, second_link] {
         walk.number(length);
     }
@@ -124,8 +130,15 @@ fn serial(walk: &mut impl Walk, arm: &mut SerialArm) {
 }
 
 fn linkage(walk: &mut impl Walk, arm: &mut LinkageArm) {
-    let LinkageArm { linkage, pivot_reach, workspace_centre, masses } = arm;
-    let FiveBar { second_pivot, cranks, rods, side, tool, workspace_centre: middle } = linkage;
+    let LinkageArm { linkage, pivot_reach_m: pivot_reach, workspace_centre_m: workspace_centre, masses } = arm;
+    let FiveBar {
+        second_pivot_m: second_pivot,
+        cranks_m: cranks,
+        rods_m: rods,
+        side,
+        tool_m: tool,
+        workspace_centre_m: middle,
+    } = linkage;
     walk.number(second_pivot);
     walk.numbers(cranks);
     walk.numbers(rods);
@@ -135,7 +148,7 @@ fn linkage(walk: &mut impl Walk, arm: &mut LinkageArm) {
     walk.flat(middle);
     walk.number(pivot_reach);
     walk.vector(workspace_centre);
-    for LinkMass { mass, along, across } in masses {
+    for LinkMass { mass_kg: mass, along_m: along, across_m: across } in masses {
         for number in [mass, along, across] {
             walk.number(number);
         }
@@ -143,7 +156,18 @@ fn linkage(walk: &mut impl Walk, arm: &mut LinkageArm) {
 }
 
 fn delta(walk: &mut impl Walk, of: &mut Delta) {
-    let Delta { thigh, shin, stub, reach, side, directions, workspace_centre, up, carried_mass, thigh_moment } = of;
+    let Delta {
+        thigh_m: thigh,
+        shin_m: shin,
+        stub_m: stub,
+        reach_m: reach,
+        side_m: side,
+        directions,
+        workspace_centre_m: workspace_centre,
+        up,
+        carried_mass_kg: carried_mass,
+        thigh_moment_kg_m: thigh_moment,
+    } = of;
     for length in [thigh, shin, stub, reach, side] {
         walk.number(length);
     }

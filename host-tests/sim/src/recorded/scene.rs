@@ -66,8 +66,14 @@ pub struct Turn {
     pub rate: f32,
 }
 
-const NO_LIMITS: Limits =
-    Limits { max_stiffness: 0.0, max_damping: 0.0, max_force: 0.0, let_go: 0.0, rate: 0.0, max_speed: 0.0 };
+const NO_LIMITS: Limits = Limits {
+    max_stiffness_n_per_m: 0.0,
+    max_damping_n_s_per_m: 0.0,
+    max_force_n: 0.0,
+    release_n_per_s: 0.0,
+    rate_hz: 0.0,
+    max_speed_m_per_s: 0.0,
+};
 
 const VACANT: Entry = Entry {
     body: 0,
@@ -75,13 +81,15 @@ const VACANT: Entry = Entry {
     stiffness: 0.0,
     damping: 0.0,
     friction: None,
-    sphere: Sphere { centre: Vec3::ZERO, radius: 0.0 },
+    sphere: Sphere { centre_m: Vec3::ZERO, radius_m: 0.0 },
     group: 0,
 };
 
-const FRICTION: Friction = Friction { stiffness: 0.0, damping: 0.0, static_coefficient: 0.0, dynamic_coefficient: 0.0 };
+const FRICTION: Friction =
+    Friction { stiffness_n_per_m: 0.0, damping_n_s_per_m: 0.0, static_coefficient: 0.0, dynamic_coefficient: 0.0 };
 
-const TETHER: Tether = Tether { anchor: Vec3::ZERO, slack: Vec3::ZERO, stiffness: 0.0, damping: 0.0 };
+const TETHER: Tether =
+    Tether { anchor_m: Vec3::ZERO, slack_m: Vec3::ZERO, stiffness_n_per_m: 0.0, damping_n_s_per_m: 0.0 };
 
 /// No scene has more parts.
 const MOST: u32 = 32;
@@ -103,11 +111,18 @@ impl SceneNumbers {
 
     /// Its parts, each with its body; `None` where there is no such body.
     pub fn parts(&self, bodies: &[&'static Body<'static>]) -> Option<Vec<Part<'static, Body<'static>>>> {
-        self.entries.iter().map(|entry| entry.part(self.limits.rate, bodies)).collect()
+        self.entries.iter().map(|entry| entry.part(self.limits.rate_hz, bodies)).collect()
     }
 
     fn walk(&mut self, walk: &mut impl Walk) {
-        let Limits { max_stiffness, max_damping, max_force, let_go, rate, max_speed } = &mut self.limits;
+        let Limits {
+            max_stiffness_n_per_m: max_stiffness,
+            max_damping_n_s_per_m: max_damping,
+            max_force_n: max_force,
+            release_n_per_s: let_go,
+            rate_hz: rate,
+            max_speed_m_per_s: max_speed,
+        } = &mut self.limits;
         for number in [max_stiffness, max_damping, max_force, let_go, rate, max_speed] {
             walk.number(number);
         }
@@ -135,13 +150,18 @@ impl Entry {
         walk.number(stiffness);
         walk.number(damping);
         walk.maybe(friction, FRICTION, |walk, friction| {
-            let Friction { stiffness, damping, static_coefficient, dynamic_coefficient } = friction;
+            let Friction {
+                stiffness_n_per_m: stiffness,
+                damping_n_s_per_m: damping,
+                static_coefficient,
+                dynamic_coefficient,
+            } = friction;
             for number in [stiffness, damping, static_coefficient, dynamic_coefficient] {
                 walk.number(number);
             }
         });
-        walk.vector(&mut sphere.centre);
-        walk.number(&mut sphere.radius);
+        walk.vector(&mut sphere.centre_m);
+        walk.number(&mut sphere.radius_m);
         *group = walk.count((*group).into()) as u8;
     }
 }
@@ -210,8 +230,22 @@ fn placement(walk: &mut impl Walk, of: &mut Placement) {
 }
 
 fn rigid(walk: &mut impl Walk, body: &mut RigidBody) {
-    let RigidBody { start, mass, inertia, centre, joint: of_joint, gravity, .. } = body;
-    let RigidBody { damping, angular_damping, tether, angular_stiffness, .. } = body;
+    let RigidBody {
+        start,
+        mass_kg: mass,
+        inertia_kg_m2: inertia,
+        centre_m: centre,
+        joint: of_joint,
+        gravity_m_per_s2: gravity,
+        ..
+    } = body;
+    let RigidBody {
+        damping_n_s_per_m: damping,
+        angular_damping_n_m_s_per_rad: angular_damping,
+        tether,
+        angular_stiffness_n_m_per_rad: angular_stiffness,
+        ..
+    } = body;
     placement(walk, start);
     walk.number(mass);
     walk.vector(inertia);
@@ -222,7 +256,8 @@ fn rigid(walk: &mut impl Walk, body: &mut RigidBody) {
         walk.number(number);
     }
     walk.maybe(tether, TETHER, |walk, tether| {
-        let Tether { anchor, slack, stiffness, damping } = tether;
+        let Tether { anchor_m: anchor, slack_m: slack, stiffness_n_per_m: stiffness, damping_n_s_per_m: damping } =
+            tether;
         walk.vector(anchor);
         walk.vector(slack);
         walk.number(stiffness);

@@ -34,7 +34,7 @@ impl Shape {
 impl SceneFile {
     /// The scene's limits: those of a device, with what the file says.
     pub fn limits(&self, of_device: Limits) -> Limits {
-        Limits { let_go: self.let_go.unwrap_or(of_device.let_go), ..of_device }
+        Limits { release_n_per_s: self.let_go.unwrap_or(of_device.release_n_per_s), ..of_device }
     }
 
     /// A scene of the file's bodies, in its order.
@@ -49,7 +49,7 @@ impl SceneFile {
         limits: Limits,
         bodies: &[(&'static Body<'static>, Shape)],
     ) -> Result<Scene<'static, Body<'static>, N>, SceneFileError> {
-        let parts = self.parts(limits.rate, bodies);
+        let parts = self.parts(limits.rate_hz, bodies);
         let parts = <[_; N]>::try_from(parts).unwrap_or_else(|_| panic!("not {N} bodies"));
         Scene::try_new(self.limits(limits), parts).map_err(|error| {
             let index = match error {
@@ -70,13 +70,13 @@ impl SceneFile {
 
     /// The scene as a recording carries it; `which` says of each part which of the recorded bodies it is.
     pub fn numbers(&self, limits: Limits, bodies: &[(&'static Body<'static>, Shape)], which: &[u32]) -> SceneNumbers {
-        let parts = self.parts(limits.rate, bodies);
+        let parts = self.parts(limits.rate_hz, bodies);
         let entries = self.body.iter().zip(bodies).zip(parts.iter().zip(which));
         let entries = entries.map(|((entry, (_, shape)), (part, which))| Entry {
             body: *which,
             movement: entry.movement(shape),
-            stiffness: part.material.stiffness,
-            damping: part.material.damping,
+            stiffness: part.material.stiffness_n_per_m,
+            damping: part.material.damping_n_s_per_m,
             friction: part.material.friction,
             sphere: part.sphere,
             group: part.group,
@@ -94,16 +94,21 @@ impl SceneFile {
 impl BodyEntry {
     fn part(&self, rate: f32, body: &'static Body<'static>, shape: &Shape) -> Part<'static, Body<'static>> {
         let friction = self.friction.map(|friction| Friction {
-            stiffness: friction.stiffness,
-            damping: friction.damping,
+            stiffness_n_per_m: friction.stiffness,
+            damping_n_s_per_m: friction.damping,
             static_coefficient: friction.static_coefficient,
             dynamic_coefficient: friction.dynamic_coefficient,
         });
         Part {
             surface: body,
             motion: self.movement(shape).at(rate),
-            material: Material { stiffness: self.stiffness, damping: self.damping, friction, texture: None },
-            sphere: Sphere { centre: single(shape.middle()), radius: shape.radius() },
+            material: Material {
+                stiffness_n_per_m: self.stiffness,
+                damping_n_s_per_m: self.damping,
+                friction,
+                texture: None,
+            },
+            sphere: Sphere { centre_m: single(shape.middle()), radius_m: shape.radius() },
             group: self.group,
         }
     }
@@ -132,9 +137,9 @@ impl BodyEntry {
             let middle = single(shape.middle());
             return Movement::Free(RigidBody {
                 start,
-                mass: free.mass,
-                inertia,
-                centre: middle,
+                mass_kg: free.mass,
+                inertia_kg_m2: inertia,
+                centre_m: middle,
                 joint: match free.joint {
                     None => Joint::Free,
                     Some(JointEntry::Fixed) => Joint::Fixed,
@@ -143,16 +148,16 @@ impl BodyEntry {
                         Joint::Hinge { axis: unit(axis), pivot: single(metres(about)) }
                     }
                 },
-                gravity: Vec3::from_array(free.gravity),
-                damping: free.damping,
-                angular_damping: free.angular_damping,
+                gravity_m_per_s2: Vec3::from_array(free.gravity),
+                damping_n_s_per_m: free.damping,
+                angular_damping_n_m_s_per_rad: free.angular_damping,
                 tether: free.spring.map(|spring| Tether {
-                    anchor: start.point_to_a(middle),
-                    slack: single(metres(spring.slack)),
-                    stiffness: spring.stiffness,
-                    damping: spring.damping,
+                    anchor_m: start.point_to_a(middle),
+                    slack_m: single(metres(spring.slack)),
+                    stiffness_n_per_m: spring.stiffness,
+                    damping_n_s_per_m: spring.damping,
                 }),
-                angular_stiffness: free.angular_stiffness,
+                angular_stiffness_n_m_per_rad: free.angular_stiffness,
             });
         }
         if self.turns.is_none() && self.sways.is_none() {

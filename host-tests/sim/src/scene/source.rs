@@ -24,7 +24,14 @@ pub fn source(
         let _ = writeln!(text, "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}", file.body[index].model);
     }
     let count = tables.len();
-    let Limits { max_stiffness, max_damping, max_force, let_go, rate, max_speed } = file.limits(limits);
+    let Limits {
+        max_stiffness_n_per_m: max_stiffness,
+        max_damping_n_s_per_m: max_damping,
+        max_force_n: max_force,
+        release_n_per_s: let_go,
+        rate_hz: rate,
+        max_speed_m_per_s: max_speed,
+    } = file.limits(limits);
     let _ = writeln!(
         text,
         "/// What is felt.\npub type Surface = palpate::scene::Scene<'static, palpate::body::Body<'static>, {count}>;\n\
@@ -32,15 +39,15 @@ pub fn source(
          palpate::scene::Limits {{ max_stiffness: {max_stiffness:?}, max_damping: {max_damping:?}, \
          max_force: {max_force:?}, let_go: {let_go:?}, rate: {rate:?}, max_speed: {max_speed:?} }},\n    ["
     );
-    let entries = file.body.iter().zip(bodies).zip(file.parts(limits.rate, bodies));
+    let entries = file.body.iter().zip(bodies).zip(file.parts(limits.rate_hz, bodies));
     for (index, ((entry, (_, shape)), part)) in entries.enumerate() {
-        let (centre, radius) = (vector(part.sphere.centre), part.sphere.radius);
+        let (centre, radius) = (vector(part.sphere.centre_m), part.sphere.radius_m);
         let _ = writeln!(
             text,
             "        palpate::scene::Part {{ surface: &body_{}::BODY, motion: {}, material: {}, \
              sphere: palpate::scene::Sphere {{ centre: {centre}, radius: {radius:?} }}, group: {} }},",
             first(index),
-            motion(&entry.movement(shape), limits.rate),
+            motion(&entry.movement(shape), limits.rate_hz),
             material(&part),
             part.group
         );
@@ -70,13 +77,16 @@ fn material(part: &Part<'static, Body<'static>>) -> String {
             format!(
                 "Some(palpate::render::Friction {{ stiffness: {:?}, damping: {:?}, static_coefficient: {:?}, \
                  dynamic_coefficient: {:?} }})",
-                friction.stiffness, friction.damping, friction.static_coefficient, friction.dynamic_coefficient
+                friction.stiffness_n_per_m,
+                friction.damping_n_s_per_m,
+                friction.static_coefficient,
+                friction.dynamic_coefficient
             )
         },
     );
     format!(
         "palpate::scene::Material {{ friction: {friction}, ..palpate::scene::Material::new({:?}, {:?}) }}",
-        material.stiffness, material.damping
+        material.stiffness_n_per_m, material.damping_n_s_per_m
     )
 }
 
@@ -104,7 +114,7 @@ fn motion(movement: &Movement, rate: f32) -> String {
             };
             let tether = body.tether.map_or_else(
                 || "None".to_owned(),
-                |Tether { anchor, slack, stiffness, damping }| {
+                |Tether { anchor_m: anchor, slack_m: slack, stiffness_n_per_m: stiffness, damping_n_s_per_m: damping }| {
                     format!(
                         "Some(palpate::scene::Tether {{ anchor: {}, slack: {}, stiffness: {stiffness:?}, damping: {damping:?} }})",
                         vector(anchor),
@@ -117,13 +127,13 @@ fn motion(movement: &Movement, rate: f32) -> String {
                  centre: {}, joint: palpate::scene::Joint::{joint}, gravity: {}, damping: {:?}, \
                  angular_damping: {:?}, tether: {tether}, angular_stiffness: {:?} }})",
                 placement(&body.start),
-                body.mass,
-                vector(body.inertia),
-                vector(body.centre),
-                vector(body.gravity),
-                body.damping,
-                body.angular_damping,
-                body.angular_stiffness
+                body.mass_kg,
+                vector(body.inertia_kg_m2),
+                vector(body.centre_m),
+                vector(body.gravity_m_per_s2),
+                body.damping_n_s_per_m,
+                body.angular_damping_n_m_s_per_rad,
+                body.angular_stiffness_n_m_per_rad
             )
         }
     }

@@ -192,16 +192,16 @@ impl Simulated {
         let parts = [Part::in_slot(&slots[0], place(0.0), material), Part::in_slot(&slots[1], place(BESIDE), material)];
         let scene = kept(Scene::try_new(Limits::of(&WOODEN_HAPTICS_2016, RATE as f32), parts)?);
         let settings = Settings {
-            rate: RATE as f32,
-            stiffness: 400.0,
-            damping: 1.5,
-            max_force: 5.0,
-            velocity_corner: 200.0,
-            soft_start: 0.1,
-            body_origin: -Vec3::from_array(MIDDLE),
+            rate_hz: RATE as f32,
+            stiffness_n_per_m: 400.0,
+            damping_n_s_per_m: 1.5,
+            max_force_n: 5.0,
+            velocity_corner_hz: 200.0,
+            soft_start_s: 0.1,
+            body_origin_m: -Vec3::from_array(MIDDLE),
         };
         let servo = Servo::try_new(&WOODEN_HAPTICS_2016, scene, Controller::SECOND_ORDER, settings)?
-            .try_safety(Safety { link_timeout: kind.link_timeout, ..Safety::DEFAULT })?;
+            .try_safety(Safety { link_timeout_s: kind.link_timeout, ..Safety::DEFAULT })?;
         let hand = Hand::at(ABOVE, MIDDLE.map(f64::from));
         let grip = HandSettings::default();
         let path = Box::new(hand.clone());
@@ -212,7 +212,7 @@ impl Simulated {
         let pins = Pins { plant, hand: hand.clone(), duties: [0; 3] };
         let loop_settings = palpate_bench::Settings::new(CLOCK);
         let bench = Bench::new(Made(servo), pins, &loop_settings, kind.reset, producer, mailbox);
-        let mut idle = Idle::new(mailbox, records, Heartbeat::default()).saying(settings.rate, settings.max_force);
+        let mut idle = Idle::new(mailbox, records, Heartbeat::default()).saying(settings.rate_hz, settings.max_force_n);
         if kind.takes_bodies {
             let main: &'static dyn Uploads = kept(memory.main().context("its memory is handed out once")?);
             idle = idle.taking(main);

@@ -51,7 +51,7 @@ impl Loop {
     pub fn delay(&self, slice: &Slice) -> f64 {
         let observer = match self.velocity {
             VelocityMethod::BetweenCounts => f64::from(between_counts_delay(self.corner as f32)),
-            VelocityMethod::LowPass | VelocityMethod::AdaptiveWindow | VelocityMethod::Tracking => 0.0,
+            VelocityMethod::LowPass => 0.0,
         };
         self.delay_periods / self.rate + slice.time_constant + observer
     }
@@ -61,7 +61,7 @@ impl Loop {
     pub fn passive_stiffness(&self, slice: &Slice, damping: f64) -> f64 {
         let friction = match self.velocity {
             VelocityMethod::BetweenCounts => slice.friction().between_counts(),
-            VelocityMethod::LowPass | VelocityMethod::AdaptiveWindow | VelocityMethod::Tracking => slice.friction(),
+            VelocityMethod::LowPass => slice.friction(),
         };
         f64::from(friction.passive_stiffness(damping as f32, 1.0 / self.rate as f32, self.delay(slice) as f32))
     }
@@ -106,8 +106,11 @@ pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) ->
     let encoder = Encoder::new(slice.resolution as f32, 0.0);
     let estimator =
         VelocityEstimator::new(servo.velocity, servo.corner as f32, servo.rate as f32, slice.resolution as f32);
-    let penalty =
-        Penalty { stiffness: wall.stiffness as f32, damping: wall.damping as f32, max_force: slice.max_force as f32 };
+    let penalty = Penalty {
+        stiffness_n_per_m: wall.stiffness as f32,
+        damping_n_s_per_m: wall.damping as f32,
+        max_force_n: slice.max_force as f32,
+    };
     let eased = servo.ease.map(|ease| Eased::new(ease, &penalty, 1.0 / servo.rate as f32));
     let delay = (servo.delay_periods * SUB_STEPS as f64).round() as u64;
     let decay = (-step / slice.time_constant).exp();
@@ -138,7 +141,7 @@ pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) ->
             let [push, given, moved, quickened] = [push, given, moved, rate - before].map(|along| Vec3::Z * along);
             eased.next(push, given, &Reason { moved, quickened }).z
         });
-        let duty = Duty::from_fraction(given / penalty.max_force);
+        let duty = Duty::from_fraction(given / penalty.max_force_n);
         under_way.push_back((tick * SUB_STEPS + delay, f64::from(duty.fraction()) * slice.max_force));
         for sub_step in tick * SUB_STEPS..(tick + 1) * SUB_STEPS {
             while let Some(&(arrival, arrived)) = under_way.front()

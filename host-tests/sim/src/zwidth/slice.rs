@@ -67,9 +67,9 @@ impl Slice {
     /// What the library's bounds want to know.
     pub fn friction(&self) -> DeviceFriction {
         DeviceFriction {
-            viscous: self.viscous as f32,
-            coulomb: self.coulomb as f32,
-            resolution: self.resolution as f32,
+            viscous_n_s_per_m: self.viscous as f32,
+            coulomb_n: self.coulomb as f32,
+            resolution_m: self.resolution as f32,
         }
     }
 }
@@ -79,7 +79,7 @@ fn force_source(joint: &JointSettings, feed: &Feed, current_loop: f64) -> (f64, 
     match (joint.amplifier, feed) {
         (Amplifier::Voltage(winding), Feed::Voltage(feed)) => {
             let constant = joint.torque_constant * joint.ratio;
-            let left = 1.0 - f64::from(feed.back_emf_share);
+            let left = 1.0 - f64::from(feed.back_emf_fraction);
             (winding.inductance / winding.resistance, left * constant * constant / winding.resistance)
         }
         _ => (current_loop, 0.0),

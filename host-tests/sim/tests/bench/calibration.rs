@@ -109,9 +109,9 @@ fn joints() -> [JointCalibration; 3] {
         output: joint as u8,
         radians_per_count: DEVICE.encoders[joint].radians_per_count,
         zero_of: ZeroOf::Count,
-        angle_at_zero: DEVICE.encoders[joint].angle_at_zero + [0.0, 0.01, 0.0][joint],
-        torque_at_full: DEVICE.motors[joint].torque_at_full * [1.0, 1.0, 0.8][joint],
-        dry_friction: 0.02,
+        angle_at_zero_rad: DEVICE.encoders[joint].angle_at_zero_rad + [0.0, 0.01, 0.0][joint],
+        torque_at_full_n_m: DEVICE.motors[joint].torque_at_full_n_m * [1.0, 1.0, 0.8][joint],
+        dry_friction_n_m: 0.02,
     })
 }
 
@@ -244,9 +244,9 @@ fn it_is_kept_by_a_device_that_is_set_up_and_used_after_the_reset() {
     let mut device = Device::new(&page);
     assert_eq!(device.calibrated, Some(Calibrated::Kept { crc }));
     let loop_device = device.rig.bench.felt().0.device();
-    assert_eq!(loop_device.encoders[1].angle_at_zero, DEVICE.encoders[1].angle_at_zero + 0.01);
-    assert_eq!(loop_device.motors[2].torque_at_full, DEVICE.motors[2].torque_at_full * 0.8);
-    assert_eq!(device.rig.state().angles_at_zero()[1], DEVICE.encoders[1].angle_at_zero + 0.01);
+    assert_eq!(loop_device.encoders[1].angle_at_zero_rad, DEVICE.encoders[1].angle_at_zero_rad + 0.01);
+    assert_eq!(loop_device.motors[2].torque_at_full_n_m, DEVICE.motors[2].torque_at_full_n_m * 0.8);
+    assert_eq!(device.rig.state().angles_at_zero()[1], DEVICE.encoders[1].angle_at_zero_rad + 0.01);
     device.rig.press_until_it_runs();
     // Forgotten: what it was built with.
     assert_eq!(Device::set_up(&page).keep(None), None);
@@ -361,8 +361,8 @@ fn what_cannot_be_this_device_is_refused_by_its_joint_and_what_is_kept_stays() {
     let wrong: [(Spoil, CalibrationError); 5] = [
         (|joints| joints[2].zero_of = ZeroOf::Pose, CalibrationError::ZeroOf { joint: 2 }),
         (|joints| joints[2].radians_per_count *= 8.0, CalibrationError::Encoder { joint: 2 }),
-        (|joints| joints[0].torque_at_full = f32::NAN, CalibrationError::NotFinite { joint: 0 }),
-        (|joints| joints[1].torque_at_full *= 0.3, CalibrationError::Torque { joint: 1 }),
+        (|joints| joints[0].torque_at_full_n_m = f32::NAN, CalibrationError::NotFinite { joint: 0 }),
+        (|joints| joints[1].torque_at_full_n_m *= 0.3, CalibrationError::Torque { joint: 1 }),
         (|joints| joints[1].output = 2, CalibrationError::Channels),
     ];
     for (change, error) in wrong {
@@ -379,7 +379,7 @@ fn whenever_the_power_goes_there_is_the_whole_calibration_or_none() {
     assert_eq!(Kept::find(old.clone(), &DEVICE, NOT_HOMED).0.keep(Some(&joints())), Ok(()));
     let kept = Calibrated::Kept { crc: Calibration(joints()).crc() };
     let mut other = joints();
-    other[0].dry_friction = 0.03;
+    other[0].dry_friction_n_m = 0.03;
     let anew = Calibrated::Kept { crc: Calibration(other).crc() };
     // One erasure, and eight double words.
     for left in 0..=9 {
@@ -500,12 +500,12 @@ fn no_fuzzed_calibration_moves_a_motor_or_leaves_half_a_record() {
             match which >> 2 & 7 {
                 0 => joint.radians_per_count = number,
                 1 => joint.radians_per_count = -joint.radians_per_count,
-                2 => joint.angle_at_zero = number,
-                3 => joint.torque_at_full = number,
-                4 => joint.dry_friction = number,
+                2 => joint.angle_at_zero_rad = number,
+                3 => joint.torque_at_full_n_m = number,
+                4 => joint.dry_friction_n_m = number,
                 5 => joint.input = bits as u8 & 3,
                 6 => joint.output = bits as u8,
-                _ => joint.angle_at_zero += (bits % 7) as f32 - 3.0,
+                _ => joint.angle_at_zero_rad += (bits % 7) as f32 - 3.0,
             }
         }
         let joints = (draw & 60 != 0).then_some(joints);

@@ -279,7 +279,7 @@ fn a_device_that_is_set_up_writes_no_flash() {
 
 #[test]
 fn a_loop_that_watches_its_link_waits_for_its_host_and_then_misses_it() {
-    let mut device = Device::new(Safety { link_timeout: 0.05, ..Safety::DEFAULT });
+    let mut device = Device::new(Safety { link_timeout_s: 0.05, ..Safety::DEFAULT });
     device.ticks_off(10);
     device.rig.set(|world| world.button = true);
     // Nobody was lost that was never there.

@@ -29,7 +29,7 @@ fn let_go<G: Guard<3> + 'static>(
 #[test]
 fn a_device_that_is_let_go_under_force_is_disabled_in_the_tick_that_sees_it() {
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
-    let slow = Protection { max_probe_speed: 0.3, signs: None, ..WOODEN_HAPTICS_2016_PROTECTION };
+    let slow = Protection { max_probe_speed_m_per_s: 0.3, polarity: None, ..WOODEN_HAPTICS_2016_PROTECTION };
     assert_eq!(let_go(servo.protect(slow)), Some(Fault::Overspeed));
     assert_eq!(let_go(servo), None, "without a guard nobody looks");
 }
@@ -39,8 +39,8 @@ fn a_motor_that_is_warm_is_given_less_at_its_pin() {
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
     // Warm from the start, as after any reset.
     let continuous = 0.05;
-    let motors = [Endurance { continuous, time_constant: 16.0 }; 3];
-    let servo = servo.protect(Protection { motors, signs: None, ..WOODEN_HAPTICS_2016_PROTECTION });
+    let motors = [Endurance { continuous, time_constant_s: 16.0 }; 3];
+    let servo = servo.protect(Protection { motors, polarity: None, ..WOODEN_HAPTICS_2016_PROTECTION });
     let mut rig = Rig::new(servo, held_at(PRESSED), &settings(), ResetReason::PowerOn);
     rig.press_until_it_runs();
     assert!(servo.guard().folds(rig.state().guard()));

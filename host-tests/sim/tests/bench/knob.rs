@@ -146,7 +146,7 @@ impl Rig {
     /// Of this dial.
     pub fn with(dial: DialSettings, reset: ResetReason) -> Self {
         let world = World {
-            dial: palpate_sim::plant::Dial::new(dial, f64::from(SETTINGS.rate)),
+            dial: palpate_sim::plant::Dial::new(dial, f64::from(SETTINGS.rate_hz)),
             button: false,
             stop_open: false,
             ready: [true; 2],
@@ -186,7 +186,7 @@ impl Rig {
         let mut world = self.world.borrow_mut();
         let widths = world.enabled.then(|| world.widths.map(|width| f64::from(width) / f64::from(STEPS)));
         world.dial.advance(widths);
-        world.cycles = world.cycles.wrapping_add(CLOCK / SETTINGS.rate as u32 / 2);
+        world.cycles = world.cycles.wrapping_add(CLOCK / SETTINGS.rate_hz as u32 / 2);
     }
 
     pub fn ticks(&mut self, ticks: u32) {

@@ -24,7 +24,7 @@ pub struct Device {
 impl Device {
     pub fn new(mut rig: Rig) -> Self {
         let idle = Idle::new(rig.mailbox, rig.take_records(), Heartbeat::default());
-        let idle = idle.saying(SETTINGS.rate, SETTINGS.max_force);
+        let idle = idle.saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
         Self { rig, idle, wire: Wire::default(), receiver: Receiver::new(), told: Vec::new() }
     }
 
@@ -144,7 +144,7 @@ fn no_order_makes_a_step_in_torque() {
         }
         (least, most) = (least.min(before), most.max(before));
     }
-    let step = LET_GO / SETTINGS.rate;
+    let step = LET_GO / SETTINGS.rate_hz;
     assert!(most - least > 10.0 * (2.0 * noise + step), "feels differ: {least} {most}, noise {noise}");
     let mut random = Pcg64::seed_from_u64(18);
     let (mut before, mut chosen) = (torque(&device), [0_u32; FEELS.len()]);

@@ -174,12 +174,12 @@ fn a_bridge_that_gives_a_voltage_is_told_the_voltage_of_the_duty() {
     let amps = 3.0;
     let voltage = |ohms| {
         Feed::Voltage(VoltageFeed {
-            supply: 24.0,
-            resistance: ohms,
-            torque_constant: 0.0259,
-            current_at_full: amps,
+            supply_v: 24.0,
+            resistance_ohm: ohms,
+            torque_constant_n_m_per_a: 0.0259,
+            current_at_full_a: amps,
             ratio: 16.0,
-            back_emf_share: 0.8,
+            back_emf_fraction: 0.8,
         })
     };
     static FED: OnceLock<palpate::device::Device<SerialArm, 3>> = OnceLock::new();
@@ -243,7 +243,7 @@ fn no_joint_goes_further_or_faster_than_is_said_however_coarse_its_encoder() {
 #[test]
 fn no_motor_is_jogged_with_more_than_every_motor_bears_for_ever() {
     // Which motor is on which output is not known yet, and nobody counts the heat.
-    let endurance = |continuous| Endurance { continuous, time_constant: 16.0 };
+    let endurance = |continuous| Endurance { continuous, time_constant_s: 16.0 };
     let motors = [1.1, 0.22, 0.5].map(endurance);
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
         .protect(Protection { motors, ..WOODEN_HAPTICS_2016_PROTECTION });

@@ -341,7 +341,7 @@ fn a_plug_that_is_pulled_is_a_link_that_is_lost() {
     let (mock, plug) = plug();
     let mut line = Either::new(plug, Uart::default());
     open(&mock, &mut line);
-    let mut rig = rig(Safety { link_timeout: 0.05, ..Safety::DEFAULT });
+    let mut rig = rig(Safety { link_timeout_s: 0.05, ..Safety::DEFAULT });
     let mut idle = Idle::new(rig.mailbox, rig.take_records(), Heartbeat::default());
     let mut tick = |rig: &mut Rig<SerialArm>| {
         rig.tick();

@@ -15,13 +15,13 @@ mod capped_box {
 /// The middle of the box.
 const AT: Vec3 = vec3(-0.03, -0.02, -0.016);
 const SETTINGS: Settings = Settings {
-    rate: 4_000.0,
-    stiffness: 1_000.0,
-    damping: 2.0,
-    max_force: 5.0,
-    velocity_corner: 150.0,
-    soft_start: 0.1,
-    body_origin: Vec3::ZERO,
+    rate_hz: 4_000.0,
+    stiffness_n_per_m: 1_000.0,
+    damping_n_s_per_m: 2.0,
+    max_force_n: 5.0,
+    velocity_corner_hz: 150.0,
+    soft_start_s: 0.1,
+    body_origin_m: Vec3::ZERO,
 };
 const STAGE: Stage = Stage { joints: 3, stiffness: 1_000.0, hand: 300.0, dry: 0.08, max_force: 5.0 };
 
@@ -41,7 +41,9 @@ fn on_the_wall(settings: Settings, like: impl Fn(&Deed) -> bool) -> Vec<(Script,
 fn a_damper_meets_the_speed_at_once_and_that_is_the_step_at_contact() {
     let fast = |deed: &Deed| matches!(deed, Deed::Approach(speed) if *speed == 0.3);
     for damping in [0.0, 2.0] {
-        let [(_, recording)] = &on_the_wall(Settings { damping, ..SETTINGS }, fast)[..] else { panic!("one script") };
+        let [(_, recording)] = &on_the_wall(Settings { damping_n_s_per_m: damping, ..SETTINGS }, fast)[..] else {
+            panic!("one script")
+        };
         let step = recording.steps().contact;
         // In a tick the probe moves on by 75 µm, give or take a count of 58 µm in each of two joints, at 1 N/mm; and
         // the damper takes 0.3 m/s, give or take what counts make of it: 44 mm/s.
@@ -68,7 +70,7 @@ fn in_front_of_the_wall_there_is_no_force_at_all_and_on_it_stiffness_times_depth
 #[test]
 fn what_an_edge_takes_away_at_once_is_found_as_a_step() {
     let body: &Body<'_> = &capped_box::BODY;
-    let settings = Settings { body_origin: AT, ..SETTINGS };
+    let settings = Settings { body_origin_m: AT, ..SETTINGS };
     let servo = Servo::try_new(&WOODEN_HAPTICS_2016, body, Controller::SECOND_ORDER, settings).unwrap();
     let scripts = over_edges(body, AT, &STAGE);
     assert!(scripts.iter().any(|script| matches!(script.deed, Deed::Across(Some(_)))));

@@ -22,18 +22,19 @@ fn slide(rate: f32, stiffness: f32, finer: f64, (velocity, corner): (VelocityMet
     plant.joints.iter_mut().for_each(|joint| joint.counts_per_turn *= finer);
     // The same steps of integration at every rate.
     plant.sub_steps = (80_000.0 / f64::from(rate)).round() as u32;
-    let encoders = WOODEN_HAPTICS_2016.encoders.map(|Encoder { radians_per_count, angle_at_zero }| {
-        Encoder::new(radians_per_count / finer as f32, angle_at_zero - 0.5 * radians_per_count)
-    });
-    let device = Device { encoders, max_stiffness: f32::MAX, ..WOODEN_HAPTICS_2016 };
+    let encoders =
+        WOODEN_HAPTICS_2016.encoders.map(|Encoder { radians_per_count, angle_at_zero_rad: angle_at_zero }| {
+            Encoder::new(radians_per_count / finer as f32, angle_at_zero - 0.5 * radians_per_count)
+        });
+    let device = Device { encoders, max_stiffness_n_per_m: f32::MAX, ..WOODEN_HAPTICS_2016 };
     let settings = Settings {
-        rate,
-        stiffness,
-        damping: 2.0,
-        max_force: 5.0,
-        velocity_corner: corner,
-        soft_start: 0.1,
-        body_origin: Vec3::ZERO,
+        rate_hz: rate,
+        stiffness_n_per_m: stiffness,
+        damping_n_s_per_m: 2.0,
+        max_force_n: 5.0,
+        velocity_corner_hz: corner,
+        soft_start_s: 0.1,
+        body_origin_m: Vec3::ZERO,
     };
     let stage = Stage { joints: 3, stiffness: f64::from(stiffness), hand: 300.0, dry: 0.076, max_force: 5.0 };
     let servo = Servo::try_new(&device, wall(3), Controller::SECOND_ORDER, settings).unwrap();

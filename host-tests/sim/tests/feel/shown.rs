@@ -41,12 +41,12 @@ impl<K: Kinematics<3> + Copy> Bench<'_, K> {
         let body: &Body<'_> = &capped_box::BODY;
         let stage = Stage {
             joints: 3,
-            stiffness: f64::from(settings.stiffness),
+            stiffness: f64::from(settings.stiffness_n_per_m),
             hand: 300.0,
             dry: self.dry,
-            max_force: f64::from(settings.max_force),
+            max_force: f64::from(settings.max_force_n),
         };
-        let on_body = Settings { body_origin: CAPPED_BOX_AT, ..settings };
+        let on_body = Settings { body_origin_m: CAPPED_BOX_AT, ..settings };
         let threshold = Threshold::approximate();
         let flat = Servo::try_new(device, wall(3), Controller::SECOND_ORDER, settings).unwrap();
         let edged = Servo::try_new(device, body, Controller::SECOND_ORDER, on_body).unwrap();
@@ -86,7 +86,7 @@ impl<K: Kinematics<3> + Copy> Bench<'_, K> {
                 Deed::Rest | Deed::Slide => {
                     assert!(sensation.is_below(), "{}: {sensation:?}", script.name);
                     // Of the depth that the loop believes. While it slides its force lags the ripple that is left.
-                    let asked = f64::from(self.touch.settings.stiffness) * figures.depth;
+                    let asked = f64::from(self.touch.settings.stiffness_n_per_m) * figures.depth;
                     assert!((figures.force / asked - 1.0).abs() < 0.02, "{}: {figures:?}", script.name);
                 }
                 Deed::Hover => assert!(recording.ticks.iter().all(|tick| tick.force == [0.0; 3]), "{}", script.name),

@@ -14,7 +14,7 @@ fn block(start: Placement) -> RigidBody {
     let (a, b, c) = (0.06_f32, 0.04_f32, 0.03_f32);
     let mass = 0.1;
     let inertia = vec3(b * b + c * c, a * a + c * c, a * a + b * b) * (mass / 12.0);
-    RigidBody { centre: single(MIDDLE), ..RigidBody::new(start, mass, inertia) }
+    RigidBody { centre_m: single(MIDDLE), ..RigidBody::new(start, mass, inertia) }
 }
 
 fn moving(velocity: Vec3, angular_velocity: Vec3) -> Placement {
@@ -36,7 +36,7 @@ fn keep(body: &RigidBody, ticks: u32, mut push: impl FnMut(u32, &palpate::scene:
     let mut state = body.rest();
     let mut placement = body.placement(&state);
     let mut came_in = f64::from(body.energy(&state));
-    let mut momentum = double(state.velocity()) * f64::from(body.mass);
+    let mut momentum = double(state.velocity()) * f64::from(body.mass_kg);
     let mut books = Books { excess: f64::NEG_INFINITY, momentum: 0.0, left: 0.0 };
     for tick in 0..ticks {
         let (force, arm) = push(tick, &state);
@@ -49,11 +49,11 @@ fn keep(body: &RigidBody, ticks: u32, mut push: impl FnMut(u32, &palpate::scene:
         let [a, b, c] = next.axes.map(double);
         let now = double(state.position()) + a * before.x + b * before.y + c * before.z;
         came_in += double(force).dot(now - at);
-        momentum += (double(force) + double(body.gravity) * f64::from(body.mass)) * f64::from(PERIOD);
+        momentum += (double(force) + double(body.gravity_m_per_s2) * f64::from(body.mass_kg)) * f64::from(PERIOD);
         placement = next;
         let energy = f64::from(body.energy(&state));
         books.excess = books.excess.max(energy - came_in);
-        let off = double(state.velocity()) * f64::from(body.mass) - momentum;
+        let off = double(state.velocity()) * f64::from(body.mass_kg) - momentum;
         books.momentum = books.momentum.max(off.length());
         books.left = energy / came_in;
     }
@@ -93,7 +93,7 @@ fn is_passive(name: &str, body: &RigidBody, seed: u64, strength: f64) {
         greatest = greatest.max(f64::from(body.energy(state)));
         (single(force), vec3(0.02, -0.01, 0.01))
     });
-    let pull = body.tether.map_or(0.0, |tether| (2.0 * f64::from(tether.stiffness) * greatest).sqrt());
+    let pull = body.tether.map_or(0.0, |tether| (2.0 * f64::from(tether.stiffness_n_per_m) * greatest).sqrt());
     let quantum = pull * 4e-9 + greatest * 1.2e-7;
     println!(
         "{name}: energy above what came in by at most {:.1e} J of {greatest:.2e} ({:.1} quanta), at the end {:.3} of it",
@@ -108,25 +108,40 @@ fn is_passive(name: &str, body: &RigidBody, seed: u64, strength: f64) {
 fn shoved_at_random_no_body_gives_more_than_it_was_given() {
     let start = moving(Vec3::ZERO, vec3(1.0, 2.0, 3.0));
     // The air takes what turns it beyond some 20 rad/s.
-    let block = |start| RigidBody { angular_damping: 5e-4, ..block(start) };
-    let room = Tether { anchor: vec3(0.03, 0.02, 0.015), slack: Vec3::splat(0.05), stiffness: 2_000.0, damping: 0.0 };
-    let spring = Tether { slack: Vec3::ZERO, stiffness: 300.0, ..room };
-    let free = RigidBody { damping: 0.05, ..block(start) };
+    let block = |start| RigidBody { angular_damping_n_m_s_per_rad: 5e-4, ..block(start) };
+    let room = Tether {
+        anchor_m: vec3(0.03, 0.02, 0.015),
+        slack_m: Vec3::splat(0.05),
+        stiffness_n_per_m: 2_000.0,
+        damping_n_s_per_m: 0.0,
+    };
+    let spring = Tether { slack_m: Vec3::ZERO, stiffness_n_per_m: 300.0, ..room };
+    let free = RigidBody { damping_n_s_per_m: 0.05, ..block(start) };
     is_passive("free", &free, 1, 0.5);
-    is_passive("in a room", &RigidBody { tether: Some(room), gravity: vec3(0.0, 0.0, -9.81), ..block(start) }, 2, 0.5);
-    is_passive("on a spring", &RigidBody { tether: Some(spring), angular_stiffness: 0.05, ..block(start) }, 3, 0.5);
+    is_passive(
+        "in a room",
+        &RigidBody { tether: Some(room), gravity_m_per_s2: vec3(0.0, 0.0, -9.81), ..block(start) },
+        2,
+        0.5,
+    );
+    is_passive(
+        "on a spring",
+        &RigidBody { tether: Some(spring), angular_stiffness_n_m_per_rad: 0.05, ..block(start) },
+        3,
+        0.5,
+    );
     // Far stiffer than a tick can follow: √(10⁶/0.1) rad/s is 0.8 rad a tick.
-    let stiff = Tether { stiffness: 1e6, ..spring };
+    let stiff = Tether { stiffness_n_per_m: 1e6, ..spring };
     is_passive("on a stiff spring", &RigidBody { tether: Some(stiff), ..block(start) }, 4, 0.5);
     let axis = vec3(0.48, 0.6, 0.64);
     is_passive("slider", &RigidBody { joint: Joint::Slider(axis), tether: Some(spring), ..block(start) }, 5, 0.5);
     let hinge = Joint::Hinge { axis, pivot: vec3(0.0, 0.01, 0.05) };
-    is_passive("hinge", &RigidBody { joint: hinge, gravity: vec3(0.0, 0.0, -9.81), ..block(start) }, 6, 0.2);
+    is_passive("hinge", &RigidBody { joint: hinge, gravity_m_per_s2: vec3(0.0, 0.0, -9.81), ..block(start) }, 6, 0.2);
 }
 
 #[test]
 fn momentum_is_what_the_pushes_gave() {
-    let body = RigidBody { gravity: vec3(0.0, 0.0, -9.81), ..block(moving(Vec3::ZERO, Vec3::ZERO)) };
+    let body = RigidBody { gravity_m_per_s2: vec3(0.0, 0.0, -9.81), ..block(moving(Vec3::ZERO, Vec3::ZERO)) };
     let mut random = Random::new(7);
     let books = keep(&body, TICKS, |_, state| {
         // What keeps it from falling for ever, and a shove.
@@ -143,9 +158,15 @@ fn momentum_is_what_the_pushes_gave() {
 #[test]
 fn pressed_into_a_corner_it_neither_drifts_nor_explodes() {
     let start = Placement { origin: single(-MIDDLE), ..Placement::IDENTITY };
-    let room = Tether { anchor: Vec3::ZERO, slack: Vec3::splat(0.005), stiffness: 500.0, damping: 0.2 };
+    let room =
+        Tether { anchor_m: Vec3::ZERO, slack_m: Vec3::splat(0.005), stiffness_n_per_m: 500.0, damping_n_s_per_m: 0.2 };
     for (stiffness, damping) in [(200.0, 0.5), (600.0, 1.0), (1_500.0, 2.0)] {
-        let body = RigidBody { tether: Some(room), angular_stiffness: 0.2, angular_damping: 1e-4, ..block(start) };
+        let body = RigidBody {
+            tether: Some(room),
+            angular_stiffness_n_m_per_rad: 0.2,
+            angular_damping_n_m_s_per_rad: 1e-4,
+            ..block(start)
+        };
         let part = part(Motion::Free(body), Material::new(stiffness, damping));
         let scene = Scene::try_new(LIMITS, [part]).unwrap();
         let mut state = scene.rest();
@@ -182,7 +203,7 @@ fn pressed_into_a_corner_it_neither_drifts_nor_explodes() {
 #[test]
 fn a_block_too_light_for_its_stiffness_is_refused() {
     use palpate::scene::SceneError;
-    let light = RigidBody { mass: 1e-5, ..block(Placement::IDENTITY) };
+    let light = RigidBody { mass_kg: 1e-5, ..block(Placement::IDENTITY) };
     let part = part(Motion::Free(light), Material::new(600.0, 1.0));
     assert_eq!(Scene::try_new(LIMITS, [part]).unwrap_err(), SceneError::Light(0));
 }
@@ -190,7 +211,8 @@ fn a_block_too_light_for_its_stiffness_is_refused() {
 /// The damper that a spring pulled at a tick's start needs: without it this one, 0.8 rad a tick, explodes.
 #[test]
 fn a_spring_that_no_tick_can_follow_never_gains() {
-    let tether = Tether { anchor: single(MIDDLE), slack: Vec3::ZERO, stiffness: 1e6, damping: 0.0 };
+    let tether =
+        Tether { anchor_m: single(MIDDLE), slack_m: Vec3::ZERO, stiffness_n_per_m: 1e6, damping_n_s_per_m: 0.0 };
     let body = RigidBody { tether: Some(tether), ..block(moving(vec3(0.3, -0.2, 0.1), Vec3::ZERO)) };
     let mut state = body.rest();
     let energy = body.energy(&state);

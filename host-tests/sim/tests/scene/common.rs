@@ -20,13 +20,19 @@ pub const MIDDLE: DVec3 = DVec3::new(0.03, 0.02, 0.015);
 pub const RATE: f32 = 4_000.0;
 pub const PERIOD: f32 = 1.0 / RATE;
 
-pub const LIMITS: Limits =
-    Limits { max_stiffness: 2_000.0, max_damping: 5.0, max_force: 5.0, let_go: 100.0, rate: RATE, max_speed: 2.0 };
+pub const LIMITS: Limits = Limits {
+    max_stiffness_n_per_m: 2_000.0,
+    max_damping_n_s_per_m: 5.0,
+    max_force_n: 5.0,
+    release_n_per_s: 100.0,
+    rate_hz: RATE,
+    max_speed_m_per_s: 2.0,
+};
 pub const MATERIAL: Material = Material::new(600.0, 1.0);
 
 /// The box, with the ball that holds it: half the diagonal of 60 × 40 × 34 mm about (30, 20, 17) mm is 39.9 mm.
 pub const fn part(motion: Motion, material: Material) -> Part<'static, Body<'static>> {
-    Part { sphere: Sphere { centre: vec3(0.03, 0.02, 0.017), radius: 0.04 }, ..Part::new(&BOX, motion, material) }
+    Part { sphere: Sphere { centre_m: vec3(0.03, 0.02, 0.017), radius_m: 0.04 }, ..Part::new(&BOX, motion, material) }
 }
 
 /// Seeded numbers.

@@ -16,7 +16,7 @@ fn the_scene_that_ships_is_what_it_says() {
     assert!(matches!(parts[0].motion, Motion::Prescribed(_)) && matches!(parts[1].motion, Motion::Prescribed(_)));
     let Motion::Free(block) = parts[2].motion else { panic!("the block is free") };
     // A block of 60 × 40 × 33.5 mm and 200 g, about its longest side.
-    assert!((block.inertia.x - 0.2 * (0.04 * 0.04 + 0.0335 * 0.0335) / 12.0).abs() < 1e-9);
+    assert!((block.inertia_kg_m2.x - 0.2 * (0.04 * 0.04 + 0.0335 * 0.0335) / 12.0).abs() < 1e-9);
     file.scene::<3>(LIMITS, &bodies).unwrap();
     let text = source(&file, LIMITS, &bodies, &["tables".to_owned(), "tables".to_owned(), "tables".to_owned()]);
     assert_eq!(text.matches("mod body_").count(), 1, "tables of one model are there once");

@@ -11,16 +11,16 @@ use palpate::servo::{Input, Phase, Rendering, Servo, Settings};
 use palpate::track::{Contact, Controller, Placement};
 
 const SETTINGS: Settings = Settings {
-    rate: 4_000.0,
-    stiffness: 600.0,
-    damping: 1.0,
-    max_force: 5.0,
-    velocity_corner: 200.0,
-    soft_start: 0.05,
-    body_origin: vec3(-0.03, -0.02, -0.015),
+    rate_hz: 4_000.0,
+    stiffness_n_per_m: 600.0,
+    damping_n_s_per_m: 1.0,
+    max_force_n: 5.0,
+    velocity_corner_hz: 200.0,
+    soft_start_s: 0.05,
+    body_origin_m: vec3(-0.03, -0.02, -0.015),
 };
 const FRICTION: Friction =
-    Friction { stiffness: 800.0, damping: 1.0, static_coefficient: 0.6, dynamic_coefficient: 0.4 };
+    Friction { stiffness_n_per_m: 800.0, damping_n_s_per_m: 1.0, static_coefficient: 0.6, dynamic_coefficient: 0.4 };
 
 /// Joint counts on slow strokes through the box.
 fn strokes(ticks: usize) -> Vec<[Counts; 3]> {
@@ -35,7 +35,9 @@ fn strokes(ticks: usize) -> Vec<[Counts; 3]> {
         let angles: [f64; 3] = core::array::from_fn(|joint| from[joint] + share * (to[joint] - from[joint]));
         counts.push(core::array::from_fn(|joint| {
             let encoder = &DEVICE.encoders[joint];
-            Counts(((angles[joint] - f64::from(encoder.angle_at_zero)) / f64::from(encoder.radians_per_count)) as i32)
+            Counts(
+                ((angles[joint] - f64::from(encoder.angle_at_zero_rad)) / f64::from(encoder.radians_per_count)) as i32,
+            )
         }));
         at += 1;
         if at == 1_500 {
@@ -52,10 +54,13 @@ fn a_scene_of_one_body_at_rest_feels_as_the_body() {
         LIMITS,
         [part(
             Motion::Resting(Placement::IDENTITY),
-            Material { friction: Some(FRICTION), ..Material::new(SETTINGS.stiffness, SETTINGS.damping) },
+            Material {
+                friction: Some(FRICTION),
+                ..Material::new(SETTINGS.stiffness_n_per_m, SETTINGS.damping_n_s_per_m)
+            },
         )],
     );
-    let rendering = Rendering { max_slew: 400.0, ..Rendering::PLAIN };
+    let rendering = Rendering { max_slew_n_per_s: 400.0, ..Rendering::PLAIN };
     let alone: Servo<Body, SerialArm, 3> = Servo::new(&DEVICE, &BOX, Controller::SECOND_ORDER, SETTINGS)
         .rendering(Rendering { friction: Some(FRICTION), ..rendering });
     let scene = Servo::new(&DEVICE, &RESTING, Controller::SECOND_ORDER, SETTINGS).rendering(rendering);

@@ -122,7 +122,7 @@ fn no_order_steps_the_force() {
         }
         last = force;
     }
-    let limit = 3.0 * f64::from(LIMITS.let_go * PERIOD);
+    let limit = 3.0 * f64::from(LIMITS.release_n_per_s * PERIOD);
     println!(
         "{given} orders, {refused} refused, {felt} while a force was felt, touched {touched} of {tick} ticks: {worst:.4} \
          N a tick, of {limit:.4} N of bodies, host and limit together"
@@ -188,7 +188,7 @@ fn a_force_of_the_host_s_fades_when_it_is_no_longer_asked_for() {
     let push = Order::Push { force: [0.0, 2.0, 0.0] };
     scene.obey(&mut state, &push).unwrap();
     // 2 N at 100 N/s.
-    let up = (2.0 / LIMITS.let_go * RATE) as u32 + 1;
+    let up = (2.0 / LIMITS.release_n_per_s * RATE) as u32 + 1;
     assert_eq!(follow(&mut state, up), Vec3::new(0.0, 2.0, 0.0));
     assert_eq!(follow(&mut state, (HOLD * RATE) as u32 + up), Vec3::ZERO);
     // Asked for again and again it stays.

@@ -68,7 +68,7 @@ fn no_switch_changes_the_force_by_more_than_is_let_go_of_in_a_tick() {
         }
         last = force;
     }
-    let limit = f64::from(LIMITS.let_go * PERIOD);
+    let limit = f64::from(LIMITS.release_n_per_s * PERIOD);
     println!("{done} switches {kinds:?}, touched {touched} of {tick} ticks: {worst:.4} N a tick of {limit:.4} N");
     // Rounding of forces up to 5 N.
     assert!(worst <= limit + 1e-6, "{worst}");

@@ -102,7 +102,7 @@ fn brush(
         let probe = from + (to - from) * (tick as f32 / ticks as f32);
         let step = body.step(controller, &mut state, Probe::at(probe), PERIOD);
         // As the loop does: a stroke that runs through the body lengthwise is no contact that a wall could explain.
-        let is_given_up = step.unexplained || -state.gap > ContactLimits::DEFAULT.min_depth;
+        let is_given_up = step.unexplained || -state.gap > ContactLimits::DEFAULT.min_depth_m;
         if is_given_up {
             body.lose(&mut state);
         }

@@ -29,8 +29,12 @@ fn the_file_of_a_device_that_ships_reads_back_as_its_constant() {
         let ((encoders, motors), (expected_encoders, expected_motors)) = (parts(own.preset), parts(shipped.preset));
         for joint in 0..3 {
             assert!(close(encoders[joint].radians_per_count, expected_encoders[joint].radians_per_count));
-            assert!((encoders[joint].angle_at_zero - expected_encoders[joint].angle_at_zero).abs() < 1e-6);
-            assert!(close(motors[joint].torque_at_full, expected_motors[joint].torque_at_full), "{}", shipped.name);
+            assert!((encoders[joint].angle_at_zero_rad - expected_encoders[joint].angle_at_zero_rad).abs() < 1e-6);
+            assert!(
+                close(motors[joint].torque_at_full_n_m, expected_motors[joint].torque_at_full_n_m),
+                "{}",
+                shipped.name
+            );
         }
         let rust = source(&own, "my.toml");
         syn::parse_file(&rust).expect("it is Rust");

@@ -33,7 +33,7 @@ fn workspace() -> impl Iterator<Item = ([f32; 3], [f64; 3])> {
 fn the_workspace_lies_within_the_joint_range() {
     let mut count = 0;
     for (angles, _) in workspace() {
-        for (angle, [least, most]) in angles.into_iter().zip(DEVICE.joint_range) {
+        for (angle, [least, most]) in angles.into_iter().zip(DEVICE.joint_range_rad) {
             assert!((least..most).contains(&angle), "{angles:?}");
         }
         count += 1;

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 const RATE: f64 = 4_000.0;
 const PROTECTION: Protection<3> =
-    Protection { supply: Some(SupplyRange { least: 20_000, most: 28_000 }), ..WOODEN_HAPTICS_2016_PROTECTION };
+    Protection { supply: Some(SupplyRange { min_mv: 20_000, max_mv: 28_000 }), ..WOODEN_HAPTICS_2016_PROTECTION };
 
 /// From 4 mm above the wall to 8 mm below it, again and again.
 struct UpAndDown;
@@ -30,17 +30,17 @@ impl HandPath for UpAndDown {
 fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
     let device = &WOODEN_HAPTICS_2016;
     let settings = Settings {
-        rate: RATE as f32,
-        stiffness: device.max_stiffness,
-        damping: device.max_damping,
-        max_force: device.max_force,
-        velocity_corner: 200.0,
-        soft_start: 0.1,
-        body_origin: Vec3::ZERO,
+        rate_hz: RATE as f32,
+        stiffness_n_per_m: device.max_stiffness_n_per_m,
+        damping_n_s_per_m: device.max_damping_n_s_per_m,
+        max_force_n: device.max_force_n,
+        velocity_corner_hz: 200.0,
+        soft_start_s: 0.1,
+        body_origin_m: Vec3::ZERO,
     };
     let servo = Servo::new(device, &WALL, Controller::SECOND_ORDER, settings)
         // A wrong motor makes of the weight that it carries a load, and the arm falls through the wall.
-        .rendering(Rendering { carries_weight: !wrong, ..Rendering::PLAIN })
+        .rendering(Rendering { compensates_gravity: !wrong, ..Rendering::PLAIN })
         .safety(Safety { output: SafeOutput::Damping(4.0), ..Safety::DEFAULT })
         .protect(PROTECTION);
     let mut plant = PlantSettings::wooden_haptics_2016();

@@ -29,7 +29,7 @@ fn assert_safe(state: &ServoState<3>, output: SafeOutput, believable: bool) {
         return;
     }
     let torques = [0, 1, 2].map(|joint| {
-        state.duties()[joint].fraction() * WOODEN_HAPTICS_2016.motors[joint].torque_at_full * state.rates()[joint]
+        state.duties()[joint].fraction() * WOODEN_HAPTICS_2016.motors[joint].torque_at_full_n_m * state.rates()[joint]
     });
     let power: f32 = torques.iter().sum();
     // Half a step of duty on each of three joints: 1.5e-5 of 1.24 N·m each, times the rates.
@@ -77,10 +77,10 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
         let servo = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS).safety(safety(output));
         let trace = Trace::record(&servo, 7);
         let strict = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS)
-            .safety(Safety { stuck: Some(StuckLimits { travel: 1e-4, ..StuckLimits::DEFAULT }), ..safety(output) });
-        let shallow = Servo::new(&device, &patch, Controller::SECOND_ORDER, Settings { max_force: 1e-4, ..SETTINGS })
+            .safety(Safety { stuck: Some(StuckLimits { travel_rad: 1e-4, ..StuckLimits::DEFAULT }), ..safety(output) });
+        let shallow = Servo::new(&device, &patch, Controller::SECOND_ORDER, Settings { max_force_n: 1e-4, ..SETTINGS })
             .safety(Safety {
-                contact: Some(ContactLimits { max_in_a_row: 0, min_depth: 0.0, ..ContactLimits::DEFAULT }),
+                contact: Some(ContactLimits { max_in_a_row: 0, min_depth_m: 0.0, ..ContactLimits::DEFAULT }),
                 ..safety(output)
             });
         let mut bench =

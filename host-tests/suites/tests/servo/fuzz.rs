@@ -14,27 +14,40 @@ use rand_pcg::Pcg64;
 
 /// Motors that give NaN, whatever the torque.
 const BROKEN: Device<SerialArm, 3> = Device {
-    motors: [Motor { torque_at_full: 0.0 }, Motor { torque_at_full: f32::NAN }, Motor { torque_at_full: 1e-38 }],
+    motors: [
+        Motor { torque_at_full_n_m: 0.0 },
+        Motor { torque_at_full_n_m: f32::NAN },
+        Motor { torque_at_full_n_m: 1e-38 },
+    ],
     ..WOODEN_HAPTICS_2016
 };
 
 fn renderings() -> Vec<Rendering> {
-    let friction = Friction { stiffness: 800.0, damping: 1.0, static_coefficient: 0.6, dynamic_coefficient: 0.4 };
+    let friction = Friction {
+        stiffness_n_per_m: 800.0,
+        damping_n_s_per_m: 1.0,
+        static_coefficient: 0.6,
+        dynamic_coefficient: 0.4,
+    };
     let wild = |touch: &palpate::render::Touch| vec3(1.0 / touch.velocity.x, touch.push * 1e30, f32::NAN);
-    let passivity = Passivity { device_damping: 0.1, device_friction: 0.01, max_damping: 8.0, resolution: 1e-4 };
+    let passivity = Passivity {
+        device_damping_n_s_per_m: 0.1,
+        device_friction_n: 0.01,
+        max_damping_n_s_per_m: 8.0,
+        resolution_m: 1e-4,
+    };
     vec![
         Rendering::PLAIN,
         Rendering {
-            velocity: VelocityMethod::AdaptiveWindow,
             friction: Some(friction),
-            texture: Some(Texture { force: |touch| grating(touch, 100.0, 0.3), max_share: 0.2 }),
-            max_slew: 200.0,
+            texture: Some(Texture { force: |touch| grating(touch, 100.0, 0.3), max_fraction: 0.2 }),
+            max_slew_n_per_s: 200.0,
             ..Rendering::PLAIN
         },
         Rendering {
-            velocity: VelocityMethod::Tracking,
-            texture: Some(Texture { force: wild, max_share: 0.5 }),
-            coupling: Some(Coupling { stiffness: 500.0, damping: 3.0, mass: 0.02 }),
+            velocity: VelocityMethod::BetweenCounts,
+            texture: Some(Texture { force: wild, max_fraction: 0.5 }),
+            coupling: Some(Coupling { stiffness_n_per_m: 500.0, damping_n_s_per_m: 3.0, mass_kg: 0.02 }),
             friction: Some(friction),
             passivity: Some(passivity),
             ..Rendering::PLAIN
@@ -62,8 +75,8 @@ fn fuzz<P: Patch>(
 ) -> Tally {
     // The wall lies where counts of zero put the probe, so that a walk about zero touches it: height 285 mm less 80 mm,
     // reach 245 mm less 220.
-    let settings = Settings { body_origin: vec3(0.025, 0.0, 0.205), ..SETTINGS };
-    let stuck = Some(StuckLimits { load: 1.0, travel: 0.2 });
+    let settings = Settings { body_origin_m: vec3(0.025, 0.0, 0.205), ..SETTINGS };
+    let stuck = Some(StuckLimits { load: 1.0, travel_rad: 0.2 });
     let safety = Safety { output, stuck, ..Safety::DEFAULT };
     let servo = Servo::try_new(device, patch, Controller::SECOND_ORDER, settings).unwrap();
     let servo = servo.try_rendering(rendering).unwrap().try_safety(safety).unwrap();

@@ -29,10 +29,10 @@ impl HandPath for Down {
 /// A hand that holds the probe in a wall, as deep as its greatest force reaches, for 25 s.
 fn stays_cool<K: Kinematics<3>>(bench: &Bench<K>) {
     let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings(bench.device, Vec3::ZERO))
-        .protect(Protection { signs: None, ..bench.protection });
+        .protect(Protection { polarity: None, ..bench.protection });
     let hand = HandSettings { stiffness: 20_000.0, damping: 100.0, mass: 0.0 };
     // Deeper than its greatest force is, and not so deep that contact is lost.
-    let deep = 1.3 * f64::from(bench.device.max_force / bench.device.max_stiffness);
+    let deep = 1.3 * f64::from(bench.device.max_force_n / bench.device.max_stiffness_n_per_m);
     let path = Down { speed: 0.01, from: 0.002 };
     let mut plant = Plant::new(&bench.plant, hand, Box::new(Hold(path, deep)), RATE).unwrap();
     let mut motors = bench.heat.map(Thermal::cold);
@@ -96,7 +96,7 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
                 bench.device,
                 &WALL,
                 Controller::SECOND_ORDER,
-                Settings { rate: LAW_RATE as f32, ..settings(bench.device, Vec3::ZERO) },
+                Settings { rate_hz: LAW_RATE as f32, ..settings(bench.device, Vec3::ZERO) },
             )
             .protect(bench.protection);
             // The law alone, for hours: the loop's own state, told what the motors were given.
@@ -110,7 +110,7 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
                     worn = palpate::servo::Guard::<3>::start(servo.guard());
                 }
                 last_on = is_on;
-                let bound = worn.limits()[joint] / bench.device.motors[joint].torque_at_full.abs();
+                let bound = worn.limits()[joint] / bench.device.motors[joint].torque_at_full_n_m.abs();
                 let mut duties = [Duty::ZERO; 3];
                 duties[joint] = Duty::from_fraction(if is_on { bound } else { 0.0 });
                 palpate::servo::Guard::<3>::given(servo.guard(), &mut worn, &duties);
@@ -130,7 +130,7 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
 #[test]
 fn a_motor_warms_by_what_it_is_given_in_every_tick_and_not_only_in_its_turn() {
     let servo = Servo::new(&PHANTOM_PREMIUM, &WALL, Controller::SECOND_ORDER, settings(&PHANTOM_PREMIUM, Vec3::ZERO))
-        .protect(Protection { signs: None, ..PHANTOM_PREMIUM_PROTECTION });
+        .protect(Protection { polarity: None, ..PHANTOM_PREMIUM_PROTECTION });
     let endurance = PHANTOM_PREMIUM_PROTECTION.motors[0];
     for phase in 0..3 {
         let mut state = palpate::servo::Guard::<3>::start(servo.guard());
@@ -140,7 +140,7 @@ fn a_motor_warms_by_what_it_is_given_in_every_tick_and_not_only_in_its_turn() {
             palpate::servo::Guard::<3>::given(servo.guard(), &mut state, &duties);
             for (warmth, duty) in warmth.iter_mut().zip(duties) {
                 let square = (f64::from(duty.0) / 32_767.0).powi(2);
-                *warmth += (square - *warmth) / (f64::from(endurance.time_constant) * RATE);
+                *warmth += (square - *warmth) / (f64::from(endurance.time_constant_s) * RATE);
             }
         }
         for (heat, expected) in state.heat().into_iter().zip(warmth) {
@@ -170,8 +170,8 @@ fn a_motor_that_warms_up_is_felt_as_less_force_and_not_as_a_step() {
 fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
     let servo =
         Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO));
-    let slow = Protection { max_probe_speed: 0.3, signs: None, ..WOODEN_HAPTICS_2016_PROTECTION };
-    let slow_joints = Protection { max_joint_rates: [2.0; 3], max_probe_speed: 1e3, ..slow };
+    let slow = Protection { max_probe_speed_m_per_s: 0.3, polarity: None, ..WOODEN_HAPTICS_2016_PROTECTION };
+    let slow_joints = Protection { max_joint_rates_rad_per_s: [2.0; 3], max_probe_speed_m_per_s: 1e3, ..slow };
     for (servo, is_fast) in [(servo.protect(slow), 0), (servo.protect(slow_joints), 1)] {
         let path = Hold(Down { speed: 0.05, from: 0.002 }, 0.008);
         let mut plant = Plant::new(
@@ -193,7 +193,8 @@ fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
         assert_eq!(state.fault().map(|(fault, _)| fault), Some(Fault::Overspeed), "{is_fast}");
     }
     // Without force a hand may move it as fast as it likes.
-    let servo = servo.protect(Protection { max_probe_speed: 1e-3, max_joint_rates: [1e-3; 3], ..slow });
+    let servo =
+        servo.protect(Protection { max_probe_speed_m_per_s: 1e-3, max_joint_rates_rad_per_s: [1e-3; 3], ..slow });
     let mut plant = Plant::new(
         &PlantSettings::wooden_haptics_2016(),
         HandSettings::default(),
@@ -213,7 +214,7 @@ fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
 fn a_supply_out_of_range_or_that_nobody_measures_is_a_fault() {
     let servo =
         Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO));
-    let range = Some(SupplyRange { least: 20_000, most: 28_000 });
+    let range = Some(SupplyRange { min_mv: 20_000, max_mv: 28_000 });
     let servo = servo.protect(Protection { supply: range, ..WOODEN_HAPTICS_2016_PROTECTION });
     let ends = |measured: &dyn Fn(u32) -> Option<u32>| {
         let mut state = servo.start();
@@ -240,9 +241,9 @@ fn a_motor_that_was_found_weaker_is_bounded_by_its_own_torque() {
     let servo =
         Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO))
             .protect(WOODEN_HAPTICS_2016_PROTECTION);
-    let weaker = WOODEN_HAPTICS_2016.motors.map(|motor| Motor { torque_at_full: -0.5 * motor.torque_at_full });
+    let weaker = WOODEN_HAPTICS_2016.motors.map(|motor| Motor { torque_at_full_n_m: -0.5 * motor.torque_at_full_n_m });
     let device = Device { motors: weaker, ..WOODEN_HAPTICS_2016 };
     let limits = servo.calibrated(&device).start().guard().limits();
-    assert_eq!(limits, weaker.map(|motor| motor.torque_at_full.abs()));
-    assert_eq!(servo.start().guard().limits(), WOODEN_HAPTICS_2016.motors.map(|motor| motor.torque_at_full.abs()));
+    assert_eq!(limits, weaker.map(|motor| motor.torque_at_full_n_m.abs()));
+    assert_eq!(servo.start().guard().limits(), WOODEN_HAPTICS_2016.motors.map(|motor| motor.torque_at_full_n_m.abs()));
 }

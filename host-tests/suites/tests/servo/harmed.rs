@@ -80,13 +80,13 @@ pub fn device() -> Device<Poisoned, 3> {
         encoders: preset.encoders,
         motors: preset.motors,
         feeds: preset.feeds,
-        dry_friction: preset.dry_friction,
-        min_margin: preset.min_margin,
-        joint_range: preset.joint_range,
-        max_joint_rate: preset.max_joint_rate,
-        max_force: preset.max_force,
-        max_stiffness: preset.max_stiffness,
-        max_damping: preset.max_damping,
+        dry_friction_n_m: preset.dry_friction_n_m,
+        min_margin_m_per_rad: preset.min_margin_m_per_rad,
+        joint_range_rad: preset.joint_range_rad,
+        max_joint_rate_rad_per_s: preset.max_joint_rate_rad_per_s,
+        max_force_n: preset.max_force_n,
+        max_stiffness_n_per_m: preset.max_stiffness_n_per_m,
+        max_damping_n_s_per_m: preset.max_damping_n_s_per_m,
     }
 }
 
@@ -100,7 +100,7 @@ pub fn safety(output: SafeOutput) -> Safety {
     Safety {
         output,
         max_overruns: 0,
-        link_timeout: LINK_TICKS as f32 / RATE as f32,
+        link_timeout_s: LINK_TICKS as f32 / RATE as f32,
         settle_ticks: 200,
         wait_for_homing: true,
         checks_tables: true,

@@ -12,9 +12,9 @@ use std::f32::consts::PI;
 
 /// The stops of the simulated arm, from where it hangs once nothing holds it.
 const ARM_STOPS: [StopSearch; 3] = [
-    StopSearch { angle: 1.55, speed: 1.0, torque: 0.2, clearance: 0.2, travel: 3.3 },
-    StopSearch { angle: 2.15, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
-    StopSearch { angle: 1.75, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
+    StopSearch { angle_rad: 1.55, speed_rad_per_s: 1.0, torque_n_m: 0.2, clearance_rad: 0.2, travel_rad: 3.3 },
+    StopSearch { angle_rad: 2.15, speed_rad_per_s: 0.8, torque_n_m: 0.5, clearance_rad: 0.2, travel_rad: 0.5 },
+    StopSearch { angle_rad: 1.75, speed_rad_per_s: 0.8, torque_n_m: 0.5, clearance_rad: 0.2, travel_rad: 0.5 },
 ];
 
 /// What homing needs at most, ticks: each joint a few seconds.
@@ -113,7 +113,7 @@ fn an_arm_finds_its_stops_and_then_its_angles() {
             let off = (f64::from(state.angles()[joint]) - plant.angles()[joint]).abs();
             // The stop yields 1 mrad a N·m, of which the weight adds 0.3; and both readings, there and here, are a
             // count.
-            let bound = f64::from(ARM_STOPS[joint].torque + 0.3) * 1e-3
+            let bound = f64::from(ARM_STOPS[joint].torque_n_m + 0.3) * 1e-3
                 + 1.1 * f64::from(encoders[joint].radians_per_count.abs());
             assert!(off < bound, "joint {joint}: {off} rad off, bound {bound}");
         }
@@ -127,14 +127,26 @@ fn an_arm_finds_its_stops_and_then_its_angles() {
 #[test]
 fn a_pantograph_finds_the_stops_its_source_states() {
     let stops = [
-        StopSearch { angle: 168.0 * PI / 180.0, speed: 1.0, torque: 0.04, clearance: 0.15, travel: 1.5 },
-        StopSearch { angle: 12.0 * PI / 180.0, speed: -1.0, torque: 0.04, clearance: 0.15, travel: 1.5 },
+        StopSearch {
+            angle_rad: 168.0 * PI / 180.0,
+            speed_rad_per_s: 1.0,
+            torque_n_m: 0.04,
+            clearance_rad: 0.15,
+            travel_rad: 1.5,
+        },
+        StopSearch {
+            angle_rad: 12.0 * PI / 180.0,
+            speed_rad_per_s: -1.0,
+            torque_n_m: 0.04,
+            clearance_rad: 0.15,
+            travel_rad: 1.5,
+        },
     ];
     let servo = Servo::new(
         &HAPLY_2DIY_V3,
         &WALL,
         Controller::SECOND_ORDER,
-        palpate::servo::Settings { stiffness: 200.0, damping: 0.5, ..SETTINGS },
+        palpate::servo::Settings { stiffness_n_per_m: 200.0, damping_n_s_per_m: 0.5, ..SETTINGS },
     )
     .homing(homing(&HAPLY_2DIY_V3, stops, TICKS));
     let mut settings = PlantSettings::haply_2diy_v3();
@@ -148,7 +160,7 @@ fn a_pantograph_finds_the_stops_its_source_states() {
         run.speed
     );
     assert_eq!((run.state.fault(), run.state.homed()), (None, true), "{:?}", run.state.homing());
-    let off = f64::from(run.state.angles_at_zero()[0] - HAPLY_2DIY_V3.encoders[0].angle_at_zero) + 0.8;
+    let off = f64::from(run.state.angles_at_zero()[0] - HAPLY_2DIY_V3.encoders[0].angle_at_zero_rad) + 0.8;
     let count = f64::from(HAPLY_2DIY_V3.encoders[0].radians_per_count);
     assert!(off.abs() < 1.1 * count, "{off} rad, a count is {count}");
 }

@@ -81,7 +81,7 @@ impl Bench<'_> {
             Fault::JointStuck => {
                 // Five times dry friction is a load; twice that, so that it still is one when this count stays behind.
                 let felt = self.device.kinematics.pose(state.angles()).torques(state.force())[joint];
-                if felt.abs() < 10.0 * self.device.dry_friction[joint] || state.counts().is_none() {
+                if felt.abs() < 10.0 * self.device.dry_friction_n_m[joint] || state.counts().is_none() {
                     return Seen::Not; // without load a joint may rest
                 }
                 // The last count again, while the other joints come a count a tick: twice three ticks, for one joint is

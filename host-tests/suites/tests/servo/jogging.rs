@@ -8,7 +8,8 @@ use rand_pcg::Pcg64;
 
 const RATE: f32 = 4_000.0;
 const MOST: Duty = Duty(6_000);
-const LIMITS: JogLimits<3> = JogLimits { max_duty: [MOST; 3], max_speed: 4_000.0, max_travel: 10_000, patience: 0.1 };
+const LIMITS: JogLimits<3> =
+    JogLimits { max_duty: [MOST; 3], max_speed_counts_per_s: 4_000.0, max_travel_counts: 10_000, patience_s: 0.1 };
 const STILL: Option<[Counts; 3]> = Some([Counts(0); 3]);
 
 fn jogging() -> Jogging<3> {
@@ -107,7 +108,7 @@ fn what_ends_a_jog_stands_until_the_key_is_let_go() {
         (JogRefusal::TooFar, |tick| tick as i32 / 2, 0),
         (JogRefusal::NoMotor, |_| 0, 3),
     ] {
-        let limits = JogLimits { max_travel: 200, ..LIMITS };
+        let limits = JogLimits { max_travel_counts: 200, ..LIMITS };
         let jogging = if refusal == JogRefusal::TooFar { Jogging::try_new(limits, RATE).unwrap() } else { jogging };
         let (mut state, mut number) = (JogState::default(), 0);
         jogging.tick(&mut state, STILL, true);

@@ -9,7 +9,7 @@ use palpate::servo::{Fault, Output, Phase};
 use palpate_sim::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, device};
 use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
 
-const RATE: f64 = SETTINGS.rate as f64;
+const RATE: f64 = SETTINGS.rate_hz as f64;
 
 fn dial(settings: DialSettings) -> Dial {
     Dial::new(settings, RATE)
@@ -39,14 +39,14 @@ fn the_alignment_is_bounded_and_needs_the_button_all_the_time() {
     knob.ticks(10);
     assert!(knob.state().homed() && knob.state().fault().is_none());
     // Its torque is at most the search's, on a rotor that stands across its field; a tenth for back-EMF.
-    assert!(torque > 1e-3 && torque <= 1.1 * f64::from(SEARCH.torque), "{torque}");
+    assert!(torque > 1e-3 && torque <= 1.1 * f64::from(SEARCH.torque_n_m), "{torque}");
 }
 
 /// A hand that spins the dial meanwhile: what it adds is its own speed's, and the field stays as weak as it was.
 #[test]
 fn a_hand_that_spins_the_dial_makes_the_field_that_aligns_it_no_stronger() {
     let feed = device(None).feeds[0];
-    let most = feed.command(Duty::from_fraction(SEARCH.torque / device(None).motors[0].torque_at_full), 0.0);
+    let most = feed.command(Duty::from_fraction(SEARCH.torque_n_m / device(None).motors[0].torque_at_full_n_m), 0.0);
     for rate in [50.0, -50.0] {
         let mut knob = HostKnob::at(DialSettings::gimbal_knob(), None);
         knob.dial.hold(Fingers { stiffness: 0.0, damping: 5e-3, aim: 0.0, rate });
@@ -144,7 +144,7 @@ fn a_switch_is_no_step() {
             let after = knob.state().witness().torque();
             // What comes later is `servo/knob.rs`'s own test, without the sensor's noise. A rounding; a feel that was
             // felt already has that noise.
-            let step = LET_GO / SETTINGS.rate + 1e-6;
+            let step = LET_GO / SETTINGS.rate_hz + 1e-6;
             assert!(from == to || (after - before).abs() <= step, "{from} to {to}: {before} {after}");
             assert_eq!(knob.state().witness().feel(), to);
             knob.ticks(800);

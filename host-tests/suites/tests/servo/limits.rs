@@ -11,7 +11,8 @@ use palpate_sim::devices::{DEVICES, named};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use palpate_sim::zwidth::{Loop, Slice, max_stiffness};
 
-const FREE: Device<SerialArm, 3> = Device { max_stiffness: 1e6, max_damping: 1e3, ..WOODEN_HAPTICS_2016 };
+const FREE: Device<SerialArm, 3> =
+    Device { max_stiffness_n_per_m: 1e6, max_damping_n_s_per_m: 1e3, ..WOODEN_HAPTICS_2016 };
 
 /// Comes down at 50 mm/s from 2 mm above to 20 mm below, and stays.
 struct Hit;
@@ -29,17 +30,17 @@ impl HandPath for Hit {
 /// hardly damps.
 fn swing(stiffness: f32, damping: f32, rate: f64) -> f64 {
     let settings = Settings {
-        rate: rate as f32,
-        stiffness,
-        damping,
-        max_force: 5.0,
-        velocity_corner: 200.0,
-        soft_start: 0.0,
-        body_origin: Vec3::ZERO,
+        rate_hz: rate as f32,
+        stiffness_n_per_m: stiffness,
+        damping_n_s_per_m: damping,
+        max_force_n: 5.0,
+        velocity_corner_hz: 200.0,
+        soft_start_s: 0.0,
+        body_origin_m: Vec3::ZERO,
     };
     // 40 N/m and 20 mm: 0.8 N. The links' weight helps: it is not carried.
     let servo = Servo::new(&FREE, &WALL, Controller::SECOND_ORDER, settings)
-        .rendering(Rendering { carries_weight: false, ..Rendering::PLAIN });
+        .rendering(Rendering { compensates_gravity: false, ..Rendering::PLAIN });
     let hand = HandSettings { stiffness: 40.0, damping: 0.1, mass: 0.0 };
     let mut plant = Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Hit), rate).unwrap();
     let mut state = servo.start();
@@ -104,8 +105,8 @@ fn a_smooth_wall_holds_wherever_its_bound_says_so() {
 fn a_smooth_wall_of_what_is_recommended_comes_to_rest_on_every_device() {
     for device in &DEVICES {
         let limits = device.preset.limits();
-        let stiffness = f64::from(Material::WOOD.stiffness.min(limits.stiffness));
-        let damping = f64::from(Material::WOOD.damping.min(limits.damping));
+        let stiffness = f64::from(Material::WOOD.stiffness_n_per_m.min(limits.stiffness));
+        let damping = f64::from(Material::WOOD.damping_n_s_per_m.min(limits.damping));
         let limit = max_stiffness(&Slice::of(device), damping, &smooth(4_000.0));
         println!("{}: {stiffness} N/m and {damping} N·s/m, and holds to {limit:.0} N/m", device.name);
         // As above: the mass depends on the pose, and what the slice holds the arm holds to a half.

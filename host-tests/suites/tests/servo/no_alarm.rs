@@ -14,28 +14,31 @@ use palpate_sim::plant::{HandSettings, Plant};
 /// allows at most, and with those that the device is recommended to be driven with.
 fn presses<K: Kinematics<3>>(bench: &Bench<K>, recommended: &Recommended, push: f64) {
     let most = settings(bench.device, Vec3::ZERO);
-    let felt = Settings { body_origin: Vec3::ZERO, ..recommended.settings };
+    let felt = Settings { body_origin_m: Vec3::ZERO, ..recommended.settings };
     for (settings, rendering) in [(most, Rendering::PLAIN), (felt, recommended.rendering)] {
         let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings)
             .rendering(rendering)
             .protect(bench.protection);
         let hand = HandSettings::default();
         // What the wall yields and what the hand does.
-        let depth = push / f64::from(settings.stiffness) + push / hand.stiffness;
+        let depth = push / f64::from(settings.stiffness_n_per_m) + push / hand.stiffness;
         let path = Press { point: [0.0; 3], normal: [0.0, 0.0, 1.0], depth };
         let mut plant = Plant::new(&bench.plant, hand, Box::new(path), RATE).unwrap();
         let mut state = servo.start();
         let mut seen_at = None;
         for tick in 0..2_800 {
             servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
-            assert_eq!(state.fault(), None, "{} at {} N/m", bench.name, settings.stiffness);
+            assert_eq!(state.fault(), None, "{} at {} N/m", bench.name, settings.stiffness_n_per_m);
             plant.advance(state.duties().map(|duty| duty.0));
             if state.guard().joints_seen() == [true; 3] {
                 seen_at = seen_at.or(Some(f64::from(tick) / RATE));
             }
         }
         let force = state.force().length();
-        println!("{:<20} {} N/m: all joints seen at {seen_at:?} s, {force:.2} N", bench.name, settings.stiffness);
+        println!(
+            "{:<20} {} N/m: all joints seen at {seen_at:?} s, {force:.2} N",
+            bench.name, settings.stiffness_n_per_m
+        );
         assert!(seen_at.is_some() && state.contact() == Contact::Touching, "{}", bench.name);
         assert!(f64::from(force) > 0.5 * push, "{}: {force} N", bench.name);
     }

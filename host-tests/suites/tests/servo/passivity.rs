@@ -14,7 +14,8 @@ const RATE: f64 = 4_000.0;
 const RESOLUTION: f32 = 94e-6;
 
 /// The arm without the preset's limits on gains.
-const FREE: Device<SerialArm, 3> = Device { max_stiffness: 100_000.0, max_damping: 100.0, ..WOODEN_HAPTICS_2016 };
+const FREE: Device<SerialArm, 3> =
+    Device { max_stiffness_n_per_m: 100_000.0, max_damping_n_s_per_m: 100.0, ..WOODEN_HAPTICS_2016 };
 
 #[derive(Debug)]
 struct Tally {
@@ -28,13 +29,13 @@ struct Tally {
 /// Touches the wall for 10 s.
 fn touch(kind: Rendering, stiffness: f32, damping: f32, viscous: f64, control: Passivity, seed: u64) -> Tally {
     let settings = Settings {
-        rate: RATE as f32,
-        stiffness,
-        damping,
-        max_force: 5.0,
-        velocity_corner: if matches!(kind.velocity, VelocityMethod::BetweenCounts) { 80.0 } else { 200.0 },
-        soft_start: 0.05,
-        body_origin: Vec3::ZERO,
+        rate_hz: RATE as f32,
+        stiffness_n_per_m: stiffness,
+        damping_n_s_per_m: damping,
+        max_force_n: 5.0,
+        velocity_corner_hz: if matches!(kind.velocity, VelocityMethod::BetweenCounts) { 80.0 } else { 200.0 },
+        soft_start_s: 0.05,
+        body_origin_m: Vec3::ZERO,
     };
     let rendering = Rendering { passivity: Some(control), ..kind };
     let servo = Servo::new(&FREE, &WALL, Controller::SECOND_ORDER, settings).rendering(rendering);
@@ -63,7 +64,12 @@ fn touch(kind: Rendering, stiffness: f32, damping: f32, viscous: f64, control: P
 #[test]
 fn in_passive_settings_it_is_idle() {
     // Bearings of 0.1 N·m·s on levers of at most 0.3 m: more than 1.1 N·s/m at the probe, in any direction.
-    let control = Passivity { device_damping: 1.1, device_friction: 0.0, max_damping: 20.0, resolution: RESOLUTION };
+    let control = Passivity {
+        device_damping_n_s_per_m: 1.1,
+        device_friction_n: 0.0,
+        max_damping_n_s_per_m: 20.0,
+        resolution_m: RESOLUTION,
+    };
     // b > K (T/2 + t_d) + B, a period and 0.15 ms of delay: 0.9 > 300 · 0.525 ms + 0.3; and where the position is that
     // between counts, 0.5 ms more: 0.9 > 300 · 1.025 ms + 0.3.
     for (kind, seed) in [Rendering::PLAIN, Rendering::EASED, Rendering::SMOOTH]
@@ -81,7 +87,12 @@ fn in_passive_settings_it_is_idle() {
 #[test]
 fn no_wall_ever_owes_more_than_a_quantum() {
     // Far beyond the passive bound, up to walls that would not hold by themselves.
-    let control = Passivity { device_damping: 0.0, device_friction: 0.0, max_damping: 30.0, resolution: RESOLUTION };
+    let control = Passivity {
+        device_damping_n_s_per_m: 0.0,
+        device_friction_n: 0.0,
+        max_damping_n_s_per_m: 30.0,
+        resolution_m: RESOLUTION,
+    };
     let mut active = 0;
     for (stiffness, damping) in [(600.0, 0.0), (1_000.0, 0.0), (1_000.0, 2.0), (3_000.0, 0.0), (6_000.0, 0.0)] {
         for (seed, kind) in [(0, Rendering::PLAIN), (1, Rendering::PLAIN), (2, Rendering::SMOOTH)] {

@@ -55,12 +55,12 @@ pub const FALCON: Bench<Delta> = Bench {
 /// The gains that the preset recommends at most.
 pub fn settings<K>(device: &Device<K, 3>, body_origin: Vec3) -> Settings {
     Settings {
-        rate: RATE as f32,
-        stiffness: device.max_stiffness,
-        damping: device.max_damping,
-        max_force: device.max_force,
-        velocity_corner: 200.0,
-        soft_start: 0.1,
-        body_origin,
+        rate_hz: RATE as f32,
+        stiffness_n_per_m: device.max_stiffness_n_per_m,
+        damping_n_s_per_m: device.max_damping_n_s_per_m,
+        max_force_n: device.max_force_n,
+        velocity_corner_hz: 200.0,
+        soft_start_s: 0.1,
+        body_origin_m: body_origin,
     }
 }

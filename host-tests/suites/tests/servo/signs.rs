@@ -83,7 +83,7 @@ struct Harm {
 /// The force at a probe that is held, N, of these duties: `F` with `Jᵀ F = τ`, by Cramer's rule.
 fn pressed<K: Kinematics<3>>(bench: &Bench<K>, angles: [f32; 3], duties: [Duty; 3]) -> f64 {
     let columns = bench.device.kinematics.pose(angles).jacobian.map(|column| column.to_array().map(f64::from));
-    let torque = |joint: usize| f64::from(duties[joint].fraction() * bench.device.motors[joint].torque_at_full);
+    let torque = |joint: usize| f64::from(duties[joint].fraction() * bench.device.motors[joint].torque_at_full_n_m);
     let cross = |[a, b, c]: Vector, [x, y, z]: Vector| [b * z - c * y, c * x - a * z, a * y - b * x];
     let [a, b, c] = columns;
     let normals = [cross(b, c), cross(c, a), cross(a, b)];
@@ -110,7 +110,7 @@ fn runs_away<K: Kinematics<3>>(bench: &Bench<K>, wrong: [bool; 3], speed: f64) -
             harm.told = harm.told.or(Some((tick as f64 / RATE / APPROACH) as usize));
             break;
         }
-        let most = 0.25 * f64::from(bench.device.max_force);
+        let most = 0.25 * f64::from(bench.device.max_force_n);
         let (told, pressed) = (f64::from(state.force().length()), pressed(bench, state.angles(), state.duties()));
         assert!(told <= most && pressed <= most, "{} {wrong:?}: {told} N, {pressed} N", bench.name);
         // What the motors have moved the probe by, up to now: the other plant's hand is alone.

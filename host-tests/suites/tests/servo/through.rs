@@ -40,14 +40,15 @@ fn a_hand_that_goes_through_a_thin_plate_is_named_within_ten_milliseconds() {
     let (baked, _) = baked.located(&options, &|_, _| ()).unwrap();
     let body = baked.to_body().unwrap();
     // The middle of its top over the middle of the workspace.
-    let settings = Settings { stiffness: 1_000.0, max_force: 5.0, body_origin: vec3(-0.03, -0.02, 0.02), ..SETTINGS };
+    let settings =
+        Settings { stiffness_n_per_m: 1_000.0, max_force_n: 5.0, body_origin_m: vec3(-0.03, -0.02, 0.02), ..SETTINGS };
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &body, Controller::SECOND_ORDER, settings);
     let device = PlantSettings::wooden_haptics_2016();
     let path = Through { top: [0.0, 0.0, 0.022], depth: 0.046 };
     let mut plant = Plant::new(&device, HandSettings::default(), Box::new(path), RATE).unwrap();
     let mut state = servo.start();
-    let limit = f64::from(ContactLimits::DEFAULT.depth * settings.max_force / settings.stiffness);
-    let limit = limit.max(f64::from(ContactLimits::DEFAULT.min_depth));
+    let limit = f64::from(ContactLimits::DEFAULT.depth * settings.max_force_n / settings.stiffness_n_per_m);
+    let limit = limit.max(f64::from(ContactLimits::DEFAULT.min_depth_m));
     let (mut beyond, mut named, mut greatest) = (None, None, 0.0_f32);
     for tick in 0..TICKS {
         servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });

@@ -89,7 +89,7 @@ fn press<P: Patch, K: Kinematics<3>>(
     let servo = Servo::new(bench.device, patch, Controller::SECOND_ORDER, settings).rendering(rendering);
     let witness = Witness::at(patch, u, v);
     let normal = witness.normal(patch).unwrap();
-    let origin = settings.body_origin;
+    let origin = settings.body_origin_m;
     let path = Press { point: wide(witness.surface.point + origin), normal: wide(normal), depth: aim };
     let device = bench.plant;
     let mut plant = Plant::new(&device, HandSettings::default(), Box::new(path), RATE).unwrap();
@@ -129,28 +129,28 @@ fn press<P: Patch, K: Kinematics<3>>(
         depth += f64::from((oracle.surface.point - place).dot(normal)) / LAST as f64;
     }
     let swing = (0..3).map(|joint| highest[joint] - lowest[joint]).max().unwrap();
-    Held { ratio: force / (f64::from(settings.stiffness) * depth), swing, depth, force }
+    Held { ratio: force / (f64::from(settings.stiffness_n_per_m) * depth), swing, depth, force }
 }
 
 /// Presses on a wall, a cap and table1c at [`PLACES`], with the stiffness and damping that the preset recommends at
 /// most, and with softer ones in the middle.
 fn touches_cleanly<K: Kinematics<3>>(bench: &Bench<K>, softer: &[(f32, f32)]) {
-    let recommended = (bench.device.max_stiffness, bench.device.max_damping);
+    let recommended = (bench.device.max_stiffness_n_per_m, bench.device.max_damping_n_s_per_m);
     let presses =
         PLACES.iter().map(|place| (*place, recommended)).chain(softer.iter().map(|gains| (PLACES[0], *gains)));
     let table = table1c();
     let cap = Cap { radius: 0.06 };
     let base = Settings {
-        rate: RATE as f32,
-        stiffness: 0.0,
-        damping: 0.0,
-        max_force: f32::MAX,
-        velocity_corner: 200.0,
-        soft_start: 0.1,
-        body_origin: Vec3::ZERO,
+        rate_hz: RATE as f32,
+        stiffness_n_per_m: 0.0,
+        damping_n_s_per_m: 0.0,
+        max_force_n: f32::MAX,
+        velocity_corner_hz: 200.0,
+        soft_start_s: 0.1,
+        body_origin_m: Vec3::ZERO,
     };
     // The middle of table1c, 8 cm by 10 cm by 6.5 cm, at the middle of the workspace.
-    let middle = Settings { body_origin: vec3(-0.05, -0.05, -0.065), ..base };
+    let middle = Settings { body_origin_m: vec3(-0.05, -0.05, -0.065), ..base };
     let mut worst: f64 = 0.0;
     println!(
         "{}\n{:<10}{:>10}{:>10}{:>12}{:>12}{:>10}{:>8}",
@@ -160,7 +160,7 @@ fn touches_cleanly<K: Kinematics<3>>(bench: &Bench<K>, softer: &[(f32, f32)]) {
         {
             // What the wall yields and what the hand does.
             let aim = bench.push / f64::from(stiffness) + bench.push / HandSettings::default().stiffness;
-            let gains = |settings| Settings { stiffness, damping, ..settings };
+            let gains = |settings| Settings { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, ..settings };
             for (name, held) in [
                 ("wall", press(bench, &WALL, gains(base), Rendering::PLAIN, place, aim)),
                 ("cap", press(bench, &cap, gains(base), Rendering::PLAIN, place, aim)),
@@ -213,9 +213,14 @@ fn falcon_presses_with_stiffness_times_depth_and_no_limit_cycle() {
 
 #[test]
 fn through_a_virtual_coupling_both_springs_share_the_depth() {
-    let settings = Settings { stiffness: 1_000.0, ..crate::traces::SETTINGS };
-    let coupling = Coupling { stiffness: 1_500.0, damping: 3.0, mass: 0.02 };
-    let friction = Friction { stiffness: 500.0, damping: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 };
+    let settings = Settings { stiffness_n_per_m: 1_000.0, ..crate::traces::SETTINGS };
+    let coupling = Coupling { stiffness_n_per_m: 1_500.0, damping_n_s_per_m: 3.0, mass_kg: 0.02 };
+    let friction = Friction {
+        stiffness_n_per_m: 500.0,
+        damping_n_s_per_m: 1.0,
+        static_coefficient: 0.4,
+        dynamic_coefficient: 0.3,
+    };
     for friction in [None, Some(friction)] {
         let rendering = Rendering { coupling: Some(coupling), friction, ..Rendering::PLAIN };
         let held = press(&WOODEN_HAPTICS, &WALL, settings, rendering, [0.5, 0.5], 0.016);
@@ -229,13 +234,13 @@ fn through_a_virtual_coupling_both_springs_share_the_depth() {
 /// mm inside the wall.
 fn enabled_inside(soft_start: f32) -> (f64, f32) {
     let settings = Settings {
-        rate: RATE as f32,
-        stiffness: 1_000.0,
-        damping: 2.0,
-        max_force: 5.0,
-        velocity_corner: 200.0,
-        soft_start,
-        body_origin: Vec3::ZERO,
+        rate_hz: RATE as f32,
+        stiffness_n_per_m: 1_000.0,
+        damping_n_s_per_m: 2.0,
+        max_force_n: 5.0,
+        velocity_corner_hz: 200.0,
+        soft_start_s: soft_start,
+        body_origin_m: Vec3::ZERO,
     };
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings);
     let path = Press { point: [0.0; 3], normal: [0.0, 0.0, 1.0], depth: 0.004 };
@@ -277,7 +282,7 @@ fn force_asked_for_inside_the_wall_does_not_kick() {
 /// A probe that begins inside feels nothing until it has been in front, whatever the settings.
 #[test]
 fn a_start_inside_the_wall_gives_no_force() {
-    let settings = Settings { soft_start: 0.0, ..crate::traces::SETTINGS };
+    let settings = Settings { soft_start_s: 0.0, ..crate::traces::SETTINGS };
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings);
     let mut state: ServoState<3> = servo.start();
     // 6 mm under the wall at the middle of the workspace.

@@ -9,13 +9,13 @@ use palpate_sim::plant::{HandSettings, Plant, PlantSettings, TouchingPath, Touch
 pub const RATE: f64 = 4_000.0;
 
 pub const SETTINGS: Settings = Settings {
-    rate: RATE as f32,
-    stiffness: 600.0,
-    damping: 2.0,
-    max_force: 5.0,
-    velocity_corner: 200.0,
-    soft_start: 0.05,
-    body_origin: palpate::math::vec3(0.0, 0.0, 0.0),
+    rate_hz: RATE as f32,
+    stiffness_n_per_m: 600.0,
+    damping_n_s_per_m: 2.0,
+    max_force_n: 5.0,
+    velocity_corner_hz: 200.0,
+    soft_start_s: 0.05,
+    body_origin_m: palpate::math::vec3(0.0, 0.0, 0.0),
 };
 
 /// Force is asked for in the middle of the second.

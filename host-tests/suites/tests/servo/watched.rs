@@ -12,7 +12,7 @@ fn a_stuck_encoder_is_found_while_the_others_go_on() {
     // The turntable sweeps over the wall under load while the first link's encoder says the same again and again.
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
         // Half the usual way: the wall ends after 0.4 rad.
-        .safety(Safety { stuck: Some(StuckLimits { travel: 0.3, ..StuckLimits::DEFAULT }), ..Safety::DEFAULT });
+        .safety(Safety { stuck: Some(StuckLimits { travel_rad: 0.3, ..StuckLimits::DEFAULT }), ..Safety::DEFAULT });
     let mut state = servo.start();
     let counts = |tick: i32| {
         // At (0.22, 0) over the foot, 3 mm below the wall, sweeping 0.5 rad a second; the second link's count lives on.

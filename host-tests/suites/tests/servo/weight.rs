@@ -27,9 +27,9 @@ fn drifts<K: Kinematics<3>>(
         device,
         &WALL,
         Controller::SECOND_ORDER,
-        palpate::servo::Settings { body_origin: vec3(0.0, 0.0, 0.5), ..SETTINGS },
+        palpate::servo::Settings { body_origin_m: vec3(0.0, 0.0, 0.5), ..SETTINGS },
     )
-    .rendering(Rendering { carries_weight, ..Rendering::PLAIN });
+    .rendering(Rendering { compensates_gravity: carries_weight, ..Rendering::PLAIN });
     let mut plant = Plant::new(&plant, HandSettings::default(), Box::new(StillHand(place)), RATE).unwrap();
     let mut state = servo.start();
     let mut run = |plant: &mut Plant, ticks: u32| {

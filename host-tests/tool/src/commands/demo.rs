@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     let replay = replay.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy());
     let subtitle = format!("{} of {}, {}", scene.felt.name(), scene.model_name(), run.on);
-    let net = scene.felt.net(scene.settings.rate);
+    let net = scene.felt.net(scene.settings.rate_hz);
     let page =
         Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, net: &net, replay };
     write_page(&page, &arguments.report)?;
@@ -153,7 +153,7 @@ fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> an
     let mut plant = arguments.scene.plant(scene)?;
     let mut emulator = firmware.start(transport)?;
     let bar = progress::ticks(scene.ticks);
-    let rate = f64::from(scene.settings.rate);
+    let rate = f64::from(scene.settings.rate_hz);
     let trace = simulation::run(&mut emulator, &mut plant, rate, scene.ticks, scene.enable_at, |done| bar.tell(done))?;
     drop(bar);
     // As a device would carry it: files of the host are the emulator's.

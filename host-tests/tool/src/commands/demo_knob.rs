@@ -86,7 +86,7 @@ pub fn on_board(board: Board, compensated: bool) -> anyhow::Result<Run> {
 
 /// Pitch, radians, and torque, N·m, of the first feel's detents.
 fn detents() -> (f64, f64) {
-    FEELS[0].detents.map_or((1.0, 1.0), |wave| (f64::from(wave.pitch), f64::from(wave.torque)))
+    FEELS[0].detents.map_or((1.0, 1.0), |wave| (f64::from(wave.pitch_rad), f64::from(wave.torque_n_m)))
 }
 
 fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
@@ -108,7 +108,7 @@ fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
         },
     );
     let mut figures = vec![
-        ("ticks", format!("{} at {} Hz", turned.len(), crate::knob::SETTINGS.rate)),
+        ("ticks", format!("{} at {} Hz", turned.len(), crate::knob::SETTINGS.rate_hz)),
         ("rotor aligned", aligned.map_or_else(|| "no".to_owned(), |tick| format!("after {:.2} s", turned[tick].time))),
         (
             "detents",

@@ -109,9 +109,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         println!(
             "{}: {} N/m, {} N·s/m, {} kHz; steps and ripple in mN",
             device.name,
-            settings.stiffness,
-            settings.damping,
-            settings.rate / 1_000.0
+            settings.stiffness_n_per_m,
+            settings.damping_n_s_per_m,
+            settings.rate_hz / 1_000.0
         );
         let rows = rows(device, body, &wish, &threshold)?;
         println!("{}", table::text(&rows));
@@ -128,9 +128,9 @@ fn wish(arguments: &Arguments, device: &ShippedDevice) -> Wish {
     let Recommended { settings, rendering } = recommended;
     Wish {
         rate: arguments.rate,
-        stiffness: arguments.stiffness.unwrap_or(settings.stiffness),
-        damping: arguments.damping.unwrap_or(settings.damping),
-        corner: arguments.velocity_corner.unwrap_or(settings.velocity_corner),
+        stiffness: arguments.stiffness.unwrap_or(settings.stiffness_n_per_m),
+        damping: arguments.damping.unwrap_or(settings.damping_n_s_per_m),
+        corner: arguments.velocity_corner.unwrap_or(settings.velocity_corner_hz),
         rendering: arguments.rendering.map_or(rendering, Kind::rendering),
     }
 }

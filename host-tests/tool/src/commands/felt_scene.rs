@@ -91,12 +91,12 @@ impl FeltScene {
         let DeviceLimits { force, stiffness, damping } = device;
         let max_force = if max_force < force { max_force } else { force };
         Limits {
-            max_stiffness: stiffness,
-            max_damping: damping,
-            max_force,
-            let_go: 20.0 * max_force,
-            rate,
-            max_speed: 2.0,
+            max_stiffness_n_per_m: stiffness,
+            max_damping_n_s_per_m: damping,
+            max_force_n: max_force,
+            release_n_per_s: 20.0 * max_force,
+            rate_hz: rate,
+            max_speed_m_per_s: 2.0,
         }
     }
 

@@ -103,7 +103,7 @@ fn watch_emulator(arguments: &Arguments, board: Board, view: &mut View) -> anyho
     let (mut emulator, mut line) = program.start_with_telemetry()?;
     line.set_read_timeout(Some(PATIENCE))?;
     let mut plant = arguments.scene.plant(&scene)?;
-    let (rate, ticks, enable_at) = (f64::from(scene.settings.rate), scene.ticks, scene.enable_at);
+    let (rate, ticks, enable_at) = (f64::from(scene.settings.rate_hz), scene.ticks, scene.enable_at);
     let driver = std::thread::spawn(move || {
         let start = Instant::now();
         let pace = |done: u32| {

@@ -31,7 +31,7 @@ const DAMPING: f32 = 2.0;
 pub const RATES: [f32; 4] = [4_000.0, 3_000.0, 2_000.0, 1_000.0];
 
 /// The limits of a loop with a host at its link, which is gone when it is silent for 100 ms.
-const SAFETY: Safety = Safety { link_timeout: 0.1, ..Safety::DEFAULT };
+const SAFETY: Safety = Safety { link_timeout_s: 0.1, ..Safety::DEFAULT };
 
 /// The scene: which surface, which device, how it is to feel, and the hand.
 #[derive(Args, Debug, Clone)]
@@ -126,18 +126,18 @@ impl SceneOptions {
         }
         let limits = device.preset.limits();
         let settings = Settings {
-            rate: self.rate.unwrap_or(RATES[0]),
-            stiffness: self.stiffness.unwrap_or(STIFFNESS.min(limits.stiffness)),
-            damping: self.damping.unwrap_or(DAMPING.min(limits.damping)),
-            max_force: self.max_force,
-            velocity_corner: self.velocity_corner,
-            soft_start: self.soft_start,
-            body_origin,
+            rate_hz: self.rate.unwrap_or(RATES[0]),
+            stiffness_n_per_m: self.stiffness.unwrap_or(STIFFNESS.min(limits.stiffness)),
+            damping_n_s_per_m: self.damping.unwrap_or(DAMPING.min(limits.damping)),
+            max_force_n: self.max_force,
+            velocity_corner_hz: self.velocity_corner,
+            soft_start_s: self.soft_start,
+            body_origin_m: body_origin,
         };
         settings
             .check(limits.stiffness, limits.damping)
             .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
-        let [ticks, enable_at] = self.ticks(settings.rate)?;
+        let [ticks, enable_at] = self.ticks(settings.rate_hz)?;
         let protection = self.protected.then(|| device.protection());
         Ok(Scene { file, centre, felt, device, settings, protection, ticks, enable_at })
     }
@@ -158,7 +158,7 @@ impl SceneOptions {
     /// If that is no number of ticks that can be run.
     pub fn change_rate(&self, scene: &mut Scene, rate: f32) -> anyhow::Result<()> {
         [scene.ticks, scene.enable_at] = self.ticks(rate)?;
-        scene.settings.rate = rate;
+        scene.settings.rate_hz = rate;
         Ok(())
     }
 
@@ -168,7 +168,7 @@ impl SceneOptions {
     /// What the plant refuses.
     pub fn plant(&self, scene: &Scene) -> anyhow::Result<Plant> {
         let places = scene.felt.places();
-        let origin = scene.settings.body_origin.as_dvec3();
+        let origin = scene.settings.body_origin_m.as_dvec3();
         let point_and_normal = move |u, v| {
             let (point, normal) = places(u, v);
             ((point + origin).to_array(), normal.to_array())
@@ -183,7 +183,7 @@ impl SceneOptions {
                 anyhow::Error::new(error).context("the hand finds no path")
             }
         })?;
-        Plant::new(&scene.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate))
+        Plant::new(&scene.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate_hz))
             .context("the simulated device cannot start here (move the model with --at)")
     }
 }
@@ -246,7 +246,7 @@ impl Scene {
             device: self.device.name,
             numbers: &self.recorded_device()?,
             settings: &self.settings,
-            link_timeout: SAFETY.link_timeout,
+            link_timeout: SAFETY.link_timeout_s,
             enable_at: self.enable_at,
         };
         Ok(Recording::new(trace, on, of))
@@ -280,7 +280,7 @@ impl Scene {
 
     /// What the bodies of a scene share on this device.
     fn limits(&self) -> Limits {
-        FeltScene::limits(self.device.preset.limits(), self.settings.max_force, self.settings.rate)
+        FeltScene::limits(self.device.preset.limits(), self.settings.max_force_n, self.settings.rate_hz)
     }
 
     /// What is felt as the source file that an image is built with.
@@ -306,9 +306,17 @@ impl Scene {
     /// The loop's settings and device as the source file that an image is built with. Every number reads back as the
     /// same `f32`.
     pub fn settings_source(&self) -> String {
-        let Settings { rate, stiffness, damping, max_force, velocity_corner, soft_start, body_origin } = self.settings;
+        let Settings {
+            rate_hz: rate,
+            stiffness_n_per_m: stiffness,
+            damping_n_s_per_m: damping,
+            max_force_n: max_force,
+            velocity_corner_hz: velocity_corner,
+            soft_start_s: soft_start,
+            body_origin_m: body_origin,
+        } = self.settings;
         let [x, y, z] = body_origin.to_array();
-        let link_timeout = SAFETY.link_timeout;
+        let link_timeout = SAFETY.link_timeout_s;
         // A scene has three joints.
         let [mechanism, device] = self.device.source.unwrap_or_default();
         let shipped = format!(
@@ -317,10 +325,10 @@ impl Scene {
         let constants = self.device.constants.map_or(shipped.as_str(), |(source, _)| source);
         format!(
             "{constants}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
-             rate: {rate:?},\n    stiffness: {stiffness:?},\n    damping: {damping:?},\n    \
-             max_force: {max_force:?},\n    velocity_corner: {velocity_corner:?},\n    \
-             soft_start: {soft_start:?},\n    body_origin: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n/// Its limits.\n\
-             pub const SAFETY: palpate::servo::Safety =\n    palpate::servo::Safety {{ link_timeout: {link_timeout:?}, ..palpate::servo::Safety::DEFAULT }};\n"
+             rate_hz: {rate:?},\n    stiffness_n_per_m: {stiffness:?},\n    damping_n_s_per_m: {damping:?},\n    \
+             max_force_n: {max_force:?},\n    velocity_corner_hz: {velocity_corner:?},\n    \
+             soft_start_s: {soft_start:?},\n    body_origin_m: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n/// Its limits.\n\
+             pub const SAFETY: palpate::servo::Safety =\n    palpate::servo::Safety {{ link_timeout_s: {link_timeout:?}, ..palpate::servo::Safety::DEFAULT }};\n"
         )
     }
 }

@@ -17,10 +17,10 @@ pub fn in_time<R>(
     trace: impl Fn(&R) -> &Trace,
 ) -> anyhow::Result<R> {
     let mut done = run(scene)?;
-    while let Some((tick, rate)) = lower(scene.settings.rate, options.rate, Summary::new(trace(&done)).fault) {
+    while let Some((tick, rate)) = lower(scene.settings.rate_hz, options.rate, Summary::new(trace(&done)).fault) {
         eprintln!(
             "at {} Hz tick {tick} takes longer than the board has: again at {rate} Hz (--rate)",
-            scene.settings.rate
+            scene.settings.rate_hz
         );
         options.change_rate(scene, rate)?;
         done = run(scene)?;

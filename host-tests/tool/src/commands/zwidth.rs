@@ -43,8 +43,6 @@ pub struct Arguments {
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Velocity {
     LowPass,
-    AdaptiveWindow,
-    Tracking,
     BetweenCounts,
 }
 
@@ -52,8 +50,6 @@ impl Velocity {
     fn method(self) -> VelocityMethod {
         match self {
             Self::LowPass => VelocityMethod::LowPass,
-            Self::AdaptiveWindow => VelocityMethod::AdaptiveWindow,
-            Self::Tracking => VelocityMethod::Tracking,
             Self::BetweenCounts => VelocityMethod::BetweenCounts,
         }
     }

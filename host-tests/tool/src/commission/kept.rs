@@ -26,8 +26,8 @@ fn of<K>(own: &OwnDevice, device: &Device<K, 3>) -> Calibration<3> {
             HomingEntry::Index => ZeroOf::Mark,
             HomingEntry::None => ZeroOf::Count,
         },
-        angle_at_zero: device.encoders[joint].angle_at_zero,
-        torque_at_full: device.motors[joint].torque_at_full,
-        dry_friction: device.dry_friction[joint],
+        angle_at_zero_rad: device.encoders[joint].angle_at_zero_rad,
+        torque_at_full_n_m: device.motors[joint].torque_at_full_n_m,
+        dry_friction_n_m: device.dry_friction_n_m[joint],
     }))
 }

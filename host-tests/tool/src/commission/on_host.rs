@@ -187,13 +187,13 @@ fn started<K: Kinematics<3> + Copy>(
     flash: &'static Flash,
 ) -> anyhow::Result<Started> {
     let settings = Settings {
-        rate: RATE,
-        stiffness: 0.5 * built.max_stiffness,
-        damping: 0.5 * built.max_damping,
-        max_force: built.max_force,
-        velocity_corner: 200.0,
-        soft_start: 0.2,
-        body_origin: vec3(0.0, 0.0, -1.0),
+        rate_hz: RATE,
+        stiffness_n_per_m: 0.5 * built.max_stiffness_n_per_m,
+        damping_n_s_per_m: 0.5 * built.max_damping_n_s_per_m,
+        max_force_n: built.max_force_n,
+        velocity_corner_hz: 200.0,
+        soft_start_s: 0.2,
+        body_origin_m: vec3(0.0, 0.0, -1.0),
     };
     let writer = flash.writer().context("its flash has a writer already")?;
     let servo = Servo::try_new(built, &WALL, Controller::SECOND_ORDER, settings)?.try_protect(protection)?;

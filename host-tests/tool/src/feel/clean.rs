@@ -96,7 +96,7 @@ pub fn clean_stiffness(
         corner: f64::from(corner),
         ease: wish.rendering.ease,
     };
-    let damping = f64::from(wish.settings(device).damping);
+    let damping = f64::from(wish.settings(device).damping_n_s_per_m);
     let slice = slice(device, finer);
     Ok(Clean { rate: wish.rate, finer, clean, method, corner, stable: max_stiffness(&slice, damping, &servo) })
 }

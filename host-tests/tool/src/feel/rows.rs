@@ -42,13 +42,13 @@ impl Wish {
     pub fn settings(&self, device: &ShippedDevice) -> Settings {
         let limits = device.preset.limits();
         Settings {
-            rate: self.rate,
-            stiffness: self.stiffness.min(limits.stiffness),
-            damping: self.damping.min(limits.damping),
-            max_force: limits.force,
-            velocity_corner: self.corner,
-            soft_start: 0.1,
-            body_origin: Vec3::ZERO,
+            rate_hz: self.rate,
+            stiffness_n_per_m: self.stiffness.min(limits.stiffness),
+            damping_n_s_per_m: self.damping.min(limits.damping),
+            max_force_n: limits.force,
+            velocity_corner_hz: self.corner,
+            soft_start_s: 0.1,
+            body_origin_m: Vec3::ZERO,
         }
     }
 }
@@ -96,7 +96,7 @@ pub fn rows(
 /// # Errors
 /// Settings that are refused, a start out of reach, a fault of the loop.
 pub fn slide(device: &ShippedDevice, wish: &Wish, finer: f64, threshold: &Threshold) -> anyhow::Result<Sensation> {
-    let settings = Settings { stiffness: wish.stiffness, ..wish.settings(device) };
+    let settings = Settings { stiffness_n_per_m: wish.stiffness, ..wish.settings(device) };
     let bench = Bench { shipped: device, wish, threshold, settings };
     match device.preset {
         Preset::SerialArm(arm) => bench.slide(arm, finer),
@@ -115,7 +115,7 @@ fn with_finer<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
 ) -> (Device<K, JOINTS>, PlantSettings) {
     let mut plant = *plant;
     plant.joints.iter_mut().for_each(|joint| joint.counts_per_turn *= factor);
-    let encoders = device.encoders.map(|Encoder { radians_per_count, angle_at_zero }| {
+    let encoders = device.encoders.map(|Encoder { radians_per_count, angle_at_zero_rad: angle_at_zero }| {
         Encoder::new(radians_per_count / factor as f32, angle_at_zero - 0.5 * radians_per_count)
     });
     (Device { encoders, ..*device }, plant)
@@ -132,10 +132,10 @@ impl Bench<'_> {
     fn stage(&self, joints: usize) -> Stage {
         Stage {
             joints,
-            stiffness: f64::from(self.settings.stiffness),
+            stiffness: f64::from(self.settings.stiffness_n_per_m),
             hand: HandSettings::default().stiffness,
             dry: Slice::of(self.shipped).coulomb,
-            max_force: f64::from(self.settings.max_force),
+            max_force: f64::from(self.settings.max_force_n),
         }
     }
 
@@ -146,7 +146,7 @@ impl Bench<'_> {
     ) -> anyhow::Result<Vec<Row>> {
         let mut rows = self.on_the_wall(device)?;
         if let Some((body, origin)) = body {
-            let settings = Settings { body_origin: origin, ..self.settings };
+            let settings = Settings { body_origin_m: origin, ..self.settings };
             for script in over_edges(body, origin, &self.stage(3)) {
                 rows.push(self.row(device, &self.shipped.plant, body, settings, script)?);
             }
@@ -180,12 +180,12 @@ impl Bench<'_> {
         let friction = (script.deed == Deed::Verge).then_some(FRICTION);
         let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, settings)?
             .try_rendering(Rendering { friction, ..self.wish.rendering })?;
-        let sub_steps = (SUB_STEPS_A_SECOND / f64::from(settings.rate)).round() as u32;
+        let sub_steps = (SUB_STEPS_A_SECOND / f64::from(settings.rate_hz)).round() as u32;
         let plant = PlantSettings { sub_steps: sub_steps.max(LEAST_SUB_STEPS), ..*plant };
         let recording = record(&servo, &plant, HandSettings::default(), &script)?;
         let figures = recording.figures(script.looked_at, self.threshold);
         let steady = matches!(script.deed, Deed::Rest | Deed::Slide | Deed::Approach(_)) && figures.depth > 0.0;
-        let asked = f64::from(settings.stiffness) * figures.depth;
+        let asked = f64::from(settings.stiffness_n_per_m) * figures.depth;
         let turn = match script.deed {
             Deed::Across(Some(normals)) => recording.turn(normals, script.looked_at),
             _ => None,
@@ -199,7 +199,7 @@ impl Bench<'_> {
         finer: f64,
     ) -> anyhow::Result<Sensation> {
         let (device, plant) = with_finer(device, &self.shipped.plant, finer);
-        let device = Device { max_stiffness: f32::MAX, ..device };
+        let device = Device { max_stiffness_n_per_m: f32::MAX, ..device };
         let scripts = self.stage(JOINTS).on_the_wall();
         let Some(script) = scripts.into_iter().rfind(|script| script.deed == Deed::Slide) else {
             return Ok(Sensation::NONE);

@@ -37,7 +37,7 @@ pub struct SharedKnob(Arc<Mutex<KnobWorld>>);
 impl SharedKnob {
     /// A dial at rest.
     pub fn new(settings: DialSettings) -> Self {
-        let dial = palpate_sim::plant::Dial::new(settings, f64::from(SETTINGS.rate));
+        let dial = palpate_sim::plant::Dial::new(settings, f64::from(SETTINGS.rate_hz));
         Self(Arc::new(Mutex::new(KnobWorld { dial, enable: false })))
     }
 

@@ -52,7 +52,7 @@ pub fn turn(
     mut exchange: impl FnMut(&Sensors) -> Result<Report, LinkError>,
     mut progress: impl FnMut(u32),
 ) -> Result<Vec<Turned>, LinkError> {
-    let mut dial = Dial::new(settings, f64::from(SETTINGS.rate));
+    let mut dial = Dial::new(settings, f64::from(SETTINGS.rate_hz));
     let mut turned = Vec::with_capacity(TICKS as usize);
     for tick in 0..TICKS {
         let (feel, way) = grip(&mut dial, tick);
@@ -85,7 +85,7 @@ fn grip(dial: &mut Dial, tick: u32) -> (u8, Option<usize>) {
         }
         return (FEELS.len() as u8 - 1, None);
     }
-    let rate = FAR / f64::from(WAY) * f64::from(SETTINGS.rate);
+    let rate = FAR / f64::from(WAY) * f64::from(SETTINGS.rate_hz);
     let start = DIAL_ZERO - 0.5 * FAR;
     let (aim, rate, way) = match within.checked_sub(BETWEEN) {
         None => {

@@ -109,7 +109,15 @@ pub struct Loop<'a> {
 impl Recording {
     /// Of a run.
     pub fn new(trace: &Trace, on: &str, of: Loop<'_>) -> Self {
-        let Settings { rate, stiffness, damping, max_force, velocity_corner, soft_start, body_origin } = *of.settings;
+        let Settings {
+            rate_hz: rate,
+            stiffness_n_per_m: stiffness,
+            damping_n_s_per_m: damping,
+            max_force_n: max_force,
+            velocity_corner_hz: velocity_corner,
+            soft_start_s: soft_start,
+            body_origin_m: body_origin,
+        } = *of.settings;
         let [x, y, z] = body_origin.to_array();
         Self {
             palpate: "recording".to_owned(),

@@ -22,27 +22,33 @@ struct Demo {
 }
 
 const PROTECTION: Protection<3> =
-    Protection { supply: Some(SupplyRange { least: 20_000, most: 30_000 }), ..WOODEN_HAPTICS_2016_PROTECTION };
+    Protection { supply: Some(SupplyRange { min_mv: 20_000, max_mv: 30_000 }), ..WOODEN_HAPTICS_2016_PROTECTION };
 
 /// The numbers of arm, device and protection in the order of the header's structures.
 pub fn numbers() -> Vec<f32> {
     let device = &WOODEN_HAPTICS_2016;
     let arm = device.kinematics;
-    let mut all = vec![arm.base_height, arm.first_link, arm.second_link];
-    all.extend(arm.workspace_centre.to_array());
-    all.extend(arm.end_masses);
+    let mut all = vec![arm.base_height_m, arm.first_link_m, arm.second_link_m];
+    all.extend(arm.workspace_centre_m.to_array());
+    all.extend(arm.end_masses_kg);
     for joint in 0..3 {
         assert_eq!(device.feeds[joint], Feed::Current, "its feed has no numbers");
-        let (encoder, [least, greatest]) = (device.encoders[joint], device.joint_range[joint]);
-        all.extend([encoder.radians_per_count, encoder.angle_at_zero, device.motors[joint].torque_at_full]);
-        all.extend([device.dry_friction[joint], least, greatest]);
+        let (encoder, [least, greatest]) = (device.encoders[joint], device.joint_range_rad[joint]);
+        all.extend([encoder.radians_per_count, encoder.angle_at_zero_rad, device.motors[joint].torque_at_full_n_m]);
+        all.extend([device.dry_friction_n_m[joint], least, greatest]);
         all.extend([0.0; 6]);
     }
-    all.extend([device.min_margin, device.max_joint_rate, device.max_force, device.max_stiffness, device.max_damping]);
-    all.extend(PROTECTION.motors.iter().flat_map(|motor| [motor.continuous, motor.time_constant]));
-    all.extend(PROTECTION.max_joint_rates);
-    all.push(PROTECTION.max_probe_speed);
-    all.extend(PROTECTION.signs.expect("the watch over signs").inertia);
+    all.extend([
+        device.min_margin_m_per_rad,
+        device.max_joint_rate_rad_per_s,
+        device.max_force_n,
+        device.max_stiffness_n_per_m,
+        device.max_damping_n_s_per_m,
+    ]);
+    all.extend(PROTECTION.motors.iter().flat_map(|motor| [motor.continuous, motor.time_constant_s]));
+    all.extend(PROTECTION.max_joint_rates_rad_per_s);
+    all.push(PROTECTION.max_probe_speed_m_per_s);
+    all.extend(PROTECTION.polarity.expect("the watch over signs").inertia_kg_m2);
     all
 }
 
@@ -59,25 +65,30 @@ fn in_rust(counts: &[[i32; 3]], enable_at: usize) -> (u32, u32, bool) {
 
 fn in_rust_on(body: &Body<'_>, counts: &[[i32; 3]], enable_at: usize) -> (u32, u32, bool) {
     let settings = Settings {
-        rate: 4_000.0,
-        stiffness: 1_000.0,
-        damping: 2.0,
-        max_force: 5.0,
-        velocity_corner: 150.0,
-        soft_start: 0.1,
-        body_origin: vec3(-0.03, -0.02, -0.01675),
+        rate_hz: 4_000.0,
+        stiffness_n_per_m: 1_000.0,
+        damping_n_s_per_m: 2.0,
+        max_force_n: 5.0,
+        velocity_corner_hz: 150.0,
+        soft_start_s: 0.1,
+        body_origin_m: vec3(-0.03, -0.02, -0.01675),
     };
     let rendering = Rendering {
-        texture: Some(Texture { force: bowl, max_share: 0.2 }),
-        coupling: Some(Coupling { stiffness: 800.0, damping: 4.0, mass: 0.05 }),
-        passivity: Some(Passivity { device_damping: 0.5, device_friction: 0.01, max_damping: 4.0, resolution: 1e-4 }),
+        texture: Some(Texture { force: bowl, max_fraction: 0.2 }),
+        coupling: Some(Coupling { stiffness_n_per_m: 800.0, damping_n_s_per_m: 4.0, mass_kg: 0.05 }),
+        passivity: Some(Passivity {
+            device_damping_n_s_per_m: 0.5,
+            device_friction_n: 0.01,
+            max_damping_n_s_per_m: 4.0,
+            resolution_m: 1e-4,
+        }),
         ..Rendering::PLAIN
     };
     let servo = Servo::try_new(&WOODEN_HAPTICS_2016, body, Controller::SECOND_ORDER, settings)
         .expect("settings")
         .try_rendering(rendering)
         .expect("rendering")
-        .try_safety(Safety { link_timeout: 0.1, ..Safety::DEFAULT })
+        .try_safety(Safety { link_timeout_s: 0.1, ..Safety::DEFAULT })
         .expect("safety")
         .try_protect(PROTECTION)
         .expect("protection");

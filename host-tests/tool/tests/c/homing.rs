@@ -17,9 +17,9 @@ const RATE: f32 = 4_000.0;
 const STILL: [u32; 2] = [400, 2];
 /// The stops of the simulated arm, from where it hangs once nothing holds it.
 const STOPS: [StopSearch; 3] = [
-    StopSearch { angle: 1.55, speed: 1.0, torque: 0.2, clearance: 0.2, travel: 3.3 },
-    StopSearch { angle: 2.15, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
-    StopSearch { angle: 1.75, speed: 0.8, torque: 0.5, clearance: 0.2, travel: 0.5 },
+    StopSearch { angle_rad: 1.55, speed_rad_per_s: 1.0, torque_n_m: 0.2, clearance_rad: 0.2, travel_rad: 3.3 },
+    StopSearch { angle_rad: 2.15, speed_rad_per_s: 0.8, torque_n_m: 0.5, clearance_rad: 0.2, travel_rad: 0.5 },
+    StopSearch { angle_rad: 1.75, speed_rad_per_s: 0.8, torque_n_m: 0.5, clearance_rad: 0.2, travel_rad: 0.5 },
 ];
 
 /// A way of homing, its number in the header, and how many ticks it may take.
@@ -37,14 +37,27 @@ impl Way {
 
     /// As the header's structure has it.
     fn bytes(&self) -> Vec<u8> {
-        let none = |angle| StopSearch { angle, speed: 0.0, torque: 0.0, clearance: 0.0, travel: 0.0 };
+        let none = |angle| StopSearch {
+            angle_rad: angle,
+            speed_rad_per_s: 0.0,
+            torque_n_m: 0.0,
+            clearance_rad: 0.0,
+            travel_rad: 0.0,
+        };
         let joints = match self.reference {
             Reference::Pose(angles) | Reference::Index(angles) => angles.map(none),
             Reference::Stops(stops) => stops,
             _ => panic!("not in C"),
         };
         let mut words = vec![self.by, STILL[0], STILL[1], self.timeout, 0];
-        for StopSearch { angle, speed, torque, clearance, travel } in joints {
+        for StopSearch {
+            angle_rad: angle,
+            speed_rad_per_s: speed,
+            torque_n_m: torque,
+            clearance_rad: clearance,
+            travel_rad: travel,
+        } in joints
+        {
             words.extend([angle, speed, torque, clearance, travel].map(f32::to_bits));
         }
         bytemuck::cast_slice(&words).to_vec()
@@ -65,13 +78,13 @@ struct Run {
 /// The loop in Rust against the simulated arm, its counters at zero somewhere, as after power-on.
 fn in_rust(body: &Body<'_>, way: &Way, ticks: usize) -> Run {
     let settings = Settings {
-        rate: RATE,
-        stiffness: 1_000.0,
-        damping: 2.0,
-        max_force: 5.0,
-        velocity_corner: 150.0,
-        soft_start: 0.1,
-        body_origin: vec3(-0.03, -0.02, -0.01675),
+        rate_hz: RATE,
+        stiffness_n_per_m: 1_000.0,
+        damping_n_s_per_m: 2.0,
+        max_force_n: 5.0,
+        velocity_corner_hz: 150.0,
+        soft_start_s: 0.1,
+        body_origin_m: vec3(-0.03, -0.02, -0.01675),
     };
     let servo: Servo<'_, _, SerialArm, 3> =
         Servo::try_new(&WOODEN_HAPTICS_2016, body, Controller::SECOND_ORDER, settings).expect("settings");

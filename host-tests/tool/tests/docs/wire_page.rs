@@ -275,9 +275,9 @@ fn calibrate() -> String {
         output: joint,
         radians_per_count: 0.000_25,
         zero_of: ZeroOf::Pose,
-        angle_at_zero: 0.5,
-        torque_at_full: -0.9,
-        dry_friction: 0.01,
+        angle_at_zero_rad: 0.5,
+        torque_at_full_n_m: -0.9,
+        dry_friction_n_m: 0.01,
     };
     let joints = [joint(0), joint(1), joint(2)];
     let mut fields = vec![vars("command", 8), vars("number", 303), field("is_kept", "flag", 1, vec![1])];
@@ -286,9 +286,9 @@ fn calibrate() -> String {
         fields.push(byte("output", joint.output));
         fields.push(floats("radians_per_count", &[joint.radians_per_count]));
         fields.push(vars("zero_of", joint.zero_of as u32));
-        fields.push(floats("angle_at_zero", &[joint.angle_at_zero]));
-        fields.push(floats("torque_at_full", &[joint.torque_at_full]));
-        fields.push(floats("dry_friction", &[joint.dry_friction]));
+        fields.push(floats("angle_at_zero", &[joint.angle_at_zero_rad]));
+        fields.push(floats("torque_at_full", &[joint.torque_at_full_n_m]));
+        fields.push(floats("dry_friction", &[joint.dry_friction_n_m]));
     }
     documented(&Command::Calibrate { number: 303, joints: Some(joints) }, &fields)
 }

@@ -19,7 +19,7 @@ struct Demo {
 
 fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
     let mut plant = options.plant(scene).expect("the plant starts");
-    run(link, &mut plant, f64::from(scene.settings.rate), scene.ticks, scene.enable_at, |_| ())
+    run(link, &mut plant, f64::from(scene.settings.rate_hz), scene.ticks, scene.enable_at, |_| ())
         .expect("no frame is lost")
 }
 
@@ -92,7 +92,7 @@ fn felt(part: &str, first: f32) -> (Vec<(f32, Option<Fault>)>, Summary) {
     let run = |scene: &Scene| {
         let firmware = prepare(Board::M4, scene, &Progress::new()).expect("the image builds");
         let run = trace(&options, scene, &mut firmware.start(Transport::Fifo).expect("the emulator starts"));
-        tried.push((scene.settings.rate, Summary::new(&run).fault.map(|(fault, _)| fault)));
+        tried.push((scene.settings.rate_hz, Summary::new(&run).fault.map(|(fault, _)| fault)));
         Ok(run)
     };
     let last = in_time(&options, &mut scene, run, |run| run).expect("rates that can be run");

@@ -78,13 +78,13 @@ fn runs_on<K: Kinematics<3>>(
     seconds: u32,
 ) -> (Option<Fault>, f64, f32) {
     let settings = Settings {
-        rate: RATE as f32,
-        stiffness: 600.0,
-        damping: 2.0,
-        max_force: device.max_force,
-        velocity_corner: 200.0,
-        soft_start: 0.1,
-        body_origin: palpate::math::Vec3::ZERO,
+        rate_hz: RATE as f32,
+        stiffness_n_per_m: 600.0,
+        damping_n_s_per_m: 2.0,
+        max_force_n: device.max_force_n,
+        velocity_corner_hz: 200.0,
+        soft_start_s: 0.1,
+        body_origin_m: palpate::math::Vec3::ZERO,
     };
     let servo = Servo::new(device, &WALL, Controller::SECOND_ORDER, settings).protect(own.protection);
     let touching = TouchingSettings { duration: 4.0, touches: 4, press_depth: [0.004, 0.008], ..Default::default() };

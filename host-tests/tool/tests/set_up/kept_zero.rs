@@ -95,7 +95,7 @@ fn a_zero_kept_of_the_marks_is_found_again_by_moving_each_joint_past_its_mark_an
     file.homing = HomingEntry::Index;
     let own = OwnDevice::new(file, "by marks").expect("a device");
     let device = kept(&own, planted, Zero::Index);
-    let marks = device.encoders.map(|encoder| f64::from(encoder.angle_at_zero));
+    let marks = device.encoders.map(|encoder| f64::from(encoder.angle_at_zero_rad));
     let start = marks.map(|mark| mark - 0.05);
     let mut rig = reset_elsewhere(&planted, start, Reference::Index(BUILT.angles_at_zero()), device);
     rig.ticks_off(400);

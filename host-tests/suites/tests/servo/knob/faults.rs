@@ -58,8 +58,8 @@ const LINK_TICKS: u32 = 40;
 const RANGE: [f32; 2] = [-2.0, 2.0];
 
 fn watched(settings: DialSettings) -> HostKnob {
-    let device: &'static Device<Dial, 1> = Box::leak(Box::new(Device { joint_range: [RANGE], ..device(None) }));
-    let safety = Safety { link_timeout: LINK_TICKS as f32 / super::SETTINGS.rate, ..Safety::DEFAULT };
+    let device: &'static Device<Dial, 1> = Box::leak(Box::new(Device { joint_range_rad: [RANGE], ..device(None) }));
+    let safety = Safety { link_timeout_s: LINK_TICKS as f32 / super::SETTINGS.rate_hz, ..Safety::DEFAULT };
     HostKnob::new(servo(device, SEARCH, TOLD_OF_SUPPLY).safety(safety), dial(settings))
 }
 

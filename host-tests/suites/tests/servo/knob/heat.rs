@@ -16,12 +16,16 @@ const WINDINGS: [ThermalSettings; 2] =
     [PhaseHeat::GIMBAL_MOTOR, ThermalSettings { winding_time_constant: 20.0, ..PhaseHeat::GIMBAL_MOTOR }];
 
 /// All that a feel may ask for, N·m.
-const ALL: f32 = GIMBAL_KNOB.max_force * GIMBAL_KNOB.kinematics.radius;
+const ALL: f32 = GIMBAL_KNOB.max_force_n * GIMBAL_KNOB.kinematics.radius_m;
 
 /// A knob that asks for this torque wherever it is held, running and rested: given all that it asks for.
 fn asking(torque: f32) -> HostKnob {
     let feel = Feel {
-        spring: Some(Spring { stiffness: 1.0, rest: 100.0 * torque.signum(), most: torque.abs() }),
+        spring: Some(Spring {
+            stiffness_n_m_per_rad: 1.0,
+            rest_rad: 100.0 * torque.signum(),
+            max_torque_n_m: torque.abs(),
+        }),
         ..Feel::FREE
     };
     let feels = Box::leak(Box::new([feel]));
@@ -51,7 +55,7 @@ fn held(mut knob: HostKnob, angle: f64, seconds: f64, motor: ThermalSettings) ->
         knob.tick();
     }
     assert_eq!((knob.state().phase(), knob.state().fault()), (Phase::Running, None));
-    let radius = f64::from(GIMBAL_KNOB.kinematics.radius);
+    let radius = f64::from(GIMBAL_KNOB.kinematics.radius_m);
     let torque = |knob: &HostKnob| f64::from(knob.state().force().x) * radius;
     let (first, mut last) = (torque(&knob), torque(&knob));
     let mut motor = PhaseHeat::cold(motor);
@@ -109,7 +113,7 @@ const LAW_RATE: f64 = 500.0;
 /// So many seconds on and off, with a reset before each time on or without.
 fn allowed(endurance: Endurance, motor: ThermalSettings, (on, off, reset): (f64, f64, bool)) -> f64 {
     let knob = Box::leak(Box::new(Knob::new(&GIMBAL_KNOB, &FEELS, LET_GO)));
-    let settings = Settings { rate: LAW_RATE as f32, ..SETTINGS };
+    let settings = Settings { rate_hz: LAW_RATE as f32, ..SETTINGS };
     let device = Box::leak(Box::new(device(None)));
     let protection = Protection { motors: [endurance], ..TOLD_OF_SUPPLY };
     let servo = Servo::new(device, knob, Controller::SECOND_ORDER, settings).protect(protection);
@@ -124,7 +128,7 @@ fn allowed(endurance: Endurance, motor: ThermalSettings, (on, off, reset): (f64,
         }
         was_on = is_on;
         let [limit] = worn.limits();
-        let bound = limit / GIMBAL_KNOB.motors[0].torque_at_full.abs();
+        let bound = limit / GIMBAL_KNOB.motors[0].torque_at_full_n_m.abs();
         let duty = Duty::from_fraction(if is_on { bound } else { 0.0 });
         servo.guard().given(&mut worn, &[duty]);
         let current = f64::from(duty.fraction()) * amplitude;
@@ -154,16 +158,16 @@ fn no_pattern_of_holding_letting_go_and_resetting_warms_the_worst_phase_too_much
 
 #[test]
 fn to_count_what_three_phases_have_on_average_would_burn_the_worst_of_them() {
-    let [Endurance { continuous, time_constant }] = TOLD_OF_SUPPLY.motors;
+    let [Endurance { continuous, time_constant_s: time_constant }] = TOLD_OF_SUPPLY.motors;
     // Half of the square of the amplitude, as of a rotor that turns.
-    let shared = Endurance { continuous: continuous * core::f32::consts::SQRT_2, time_constant };
+    let shared = Endurance { continuous: continuous * core::f32::consts::SQRT_2, time_constant_s: time_constant };
     let hottest = allowed(shared, PhaseHeat::GIMBAL_MOTOR, HELD);
     assert!(hottest > PhaseHeat::GIMBAL_MOTOR.greatest, "{hottest} °C");
 }
 
 #[test]
 fn the_alignment_gives_no_more_than_the_motor_bears_for_ever() {
-    let FieldSearch { torque, .. } = SEARCH;
+    let FieldSearch { torque_n_m: torque, .. } = SEARCH;
     let [endurance] = TOLD_OF_SUPPLY.motors;
-    assert!(torque <= endurance.continuous * GIMBAL_KNOB.motors[0].torque_at_full);
+    assert!(torque <= endurance.continuous * GIMBAL_KNOB.motors[0].torque_at_full_n_m);
 }
