@@ -1,12 +1,10 @@
-//! The documents, held to the code: what they say of commands, files, messages, frames, numbers and pictures is what
-//! there is.
+//! Compares the documents with the code: commands, files, messages, frames, numbers and pictures.
 //!
-//! `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs` writes anew what can be written.
+//! `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs` writes the generated parts.
 
-mod columns;
+mod byte_tables;
 mod commands;
 mod file_page;
-mod imports;
 mod links;
 mod mathematics;
 mod model_format;
