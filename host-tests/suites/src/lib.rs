@@ -1,6 +1,6 @@
 //! Files that several suites read.
 
-use palpate_bake::Model;
+use palpate_bake::{BakedBody, Model};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -20,6 +20,14 @@ pub fn model_file(name: &str) -> PathBuf {
 /// If there is none of this name.
 pub fn model(name: &str) -> Model {
     Model::read(&model_file(name)).expect("a model that ships")
+}
+
+/// The body of a model that ships, without its locator.
+///
+/// # Panics
+/// If there is none of this name.
+pub fn body(name: &str) -> BakedBody {
+    BakedBody::new(&model(name), name).expect("a body that ships")
 }
 
 /// The names of all models that ship.

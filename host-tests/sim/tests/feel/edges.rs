@@ -8,7 +8,7 @@ use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Rendering, Servo, Settings, Surface};
 use palpate::track::Controller;
 use palpate_bake::{BakedBody, Model};
-use palpate_sim::feel::{Deed, Recording, Script, Stage, Threshold, Tick, over_edges, record, wall};
+use palpate_sim::feel::{Deed, Recording, Script, Stage, Threshold, Tick, over_edges, record};
 use palpate_sim::plant::{HandSettings, PlantSettings, Vector};
 use std::path::Path;
 

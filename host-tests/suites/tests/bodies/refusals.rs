@@ -6,14 +6,12 @@ use palpate::body::{Body, Feature, Separator, Side};
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SecondDerivativeBounds};
 use palpate::track::{Controller, FirstOrder, Outcome, Probe};
-use palpate_bake::{BakedBody, BakedCoefficients, Model};
-use std::path::Path;
+use palpate_bake::{BakedBody, BakedCoefficients};
 
 const PERIOD: f32 = 1.0 / 4_000.0;
 
 fn baked(name: &str) -> BakedBody {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models").join(format!("{name}.toml"));
-    let baked = BakedBody::new(&Model::read(&path).unwrap(), name).unwrap();
+    let baked = palpate_suites::body(name);
     let options = baked.locator_options();
     baked.located(&options, &|_, _| ()).unwrap().0
 }
@@ -104,8 +102,7 @@ fn an_edge_is_not_left_for_its_vertex_before_both_faces_have_declined() {
 
 /// A ball whose seams gape: every second face lies a twentieth of the radius farther out.
 fn gaping() -> Body<'static> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/sphere_body.toml");
-    let baked = BakedBody::new(&Model::read(&path).unwrap(), "sphere_body").unwrap();
+    let baked = palpate_suites::body("sphere_body");
     let options = baked.locator_options();
     let mut baked = baked.located_for(&[glam::DVec3::new(0.0, 0.0, 0.1)], &options, &|_, _| ()).unwrap();
     for face in baked.faces.iter_mut().step_by(2) {

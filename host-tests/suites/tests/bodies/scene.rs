@@ -13,7 +13,6 @@ use palpate_truth::measured::{grouped, measured};
 use palpate_truth::oracle::{ClosestPoint, OraclePoint};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::{Mutex, OnceLock};
 
 pub struct Scene {
@@ -62,8 +61,7 @@ impl Scene {
     }
 
     pub fn located(name: &'static str, options: impl Fn(&BakedBody) -> LocatorOptions) -> Self {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models").join(format!("{name}.toml"));
-        Self::of_model(name, &Model::read(&path).unwrap(), options)
+        Self::of_model(name, &palpate_suites::model(name), options)
     }
 
     /// A model as text, with the locator that suits it.

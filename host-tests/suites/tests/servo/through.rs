@@ -6,9 +6,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::math::{Vec3, vec3};
 use palpate::servo::{ContactLimits, Input, Servo, Settings};
 use palpate::track::{Contact, Controller};
-use palpate_bake::{BakedBody, Model};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
-use std::path::Path;
 
 const RATE: f64 = 4_000.0;
 /// Half a second on the way through, and as long at the end of it.
@@ -34,8 +32,7 @@ impl HandPath for Through {
 
 #[test]
 fn a_hand_that_goes_through_a_thin_plate_is_named_within_ten_milliseconds() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/thin_plate.toml");
-    let baked = BakedBody::new(&Model::read(&file).unwrap(), "thin_plate").unwrap();
+    let baked = palpate_suites::body("thin_plate");
     let options = baked.locator_options();
     let (baked, _) = baked.located(&options, &|_, _| ()).unwrap();
     let body = baked.to_body().unwrap();

@@ -4,15 +4,11 @@ use palpate_bake::body::BakedSide;
 use palpate_bake::split::{self, Cut, Piece};
 use palpate_bake::topology::{Border, Topology};
 use palpate_bake::{BakedBody, Model, NurbsPatch};
+use palpate_suites::model;
 use palpate_truth::generate::Random;
 use palpate_truth::oracle::OraclePoint;
 use std::error::Error;
 use std::f64::consts::FRAC_1_SQRT_2;
-use std::path::Path;
-
-fn read(name: &str) -> Result<Model, Box<dyn Error>> {
-    Ok(Model::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{name}.toml")))?)
-}
 
 fn farthest(piece: &Piece, whole: &NurbsPatch) -> f64 {
     let grid = || (0..=12).map(|k| f64::from(k) / 12.0);
@@ -28,7 +24,7 @@ fn both_parts_are_the_patch_and_share_a_border_to_the_last_bit() -> Result<(), B
     let mut random = Random::new(4);
     // Degrees 1 to 4, with and without inner knots, polynomial and rational.
     for name in ["table1", "table1c", "sphere_body", "ellipsoid_poles", "thin_plate", "capped_box", "cylinder"] {
-        let whole = read(name)?.patches.swap_remove(0);
+        let whole = model(name).patches.swap_remove(0);
         // At random, and at an inner knot of Table I.
         for at in [random.between(0.05, 0.95), random.between(0.05, 0.95), 0.5, 1.0 / 3.0] {
             for axis in [0, 1] {
@@ -56,7 +52,7 @@ fn both_parts_are_the_patch_and_share_a_border_to_the_last_bit() -> Result<(), B
 #[test]
 fn a_cut_runs_on_through_the_neighbours() -> Result<(), Box<dyn Error>> {
     for (name, pieces_after) in [("capped_box", 10), ("sphere_body", 10), ("ellipsoid_body", 10)] {
-        let model = read(name)?;
+        let model = model(name);
         let whole = Piece::whole(&model);
         let topology = split::topology(&whole, &model, name)?;
         // Once around a belt of four faces.
@@ -116,7 +112,7 @@ fn a_pole_of_half_a_turn_is_cut_in_two() -> Result<(), Box<dyn Error>> {
     assert_eq!(pieces.len(), 2);
     assert_eq!(pieces[0].source.upper, [0.5, 1.0]);
     // The octants' sectors are right angles and stay whole.
-    let model = read("ellipsoid_poles")?;
+    let model = model("ellipsoid_poles");
     assert_eq!(split::prepared(&model, "ellipsoid_poles.toml")?, Piece::whole(&model));
     Ok(())
 }

@@ -5,18 +5,13 @@ use palpate::body::{Aligned, Body, BodyBuffer, Edge, FILE_VERSION, Face, FileErr
 use palpate::math::vec3;
 use palpate::track::{Controller, Probe};
 use palpate_bake::file::{self, BakedFile};
-use palpate_bake::{BakedBody, Model};
 use palpate_truth::generate::Random;
 use palpate_truth::measured::{grouped, measured};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 fn baked(name: &str) -> Vec<u32> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{name}.toml"));
-    let model = Model::read(&path).expect(name);
-    let body = BakedBody::new(&model, name).expect(name);
-    let bytes = file::write([7; 32], &model, &body).expect(name);
+    let bytes = file::write([7; 32], &palpate_suites::model(name), &palpate_suites::body(name)).expect(name);
     bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
 }
 

@@ -6,19 +6,14 @@ use palpate::math::Vec3;
 use palpate::patch::crc32;
 use palpate::patch::{Orientation, TableError};
 use palpate_bake::body::{BakedBody, BakedCurve, BakedSeparator, BakedSide, TableFault};
-use palpate_bake::{BakedCoefficients, BakedPatch, Model};
+use palpate_bake::{BakedCoefficients, BakedPatch};
+use palpate_suites::body;
 use std::error::Error;
-use std::path::PathBuf;
 use std::sync::LazyLock;
 
-fn bake(file: &str) -> BakedBody {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{file}.toml"));
-    BakedBody::new(&Model::read(&path).expect(file), file).expect(file)
-}
-
-static BOX: LazyLock<BakedBody> = LazyLock::new(|| bake("capped_box"));
+static BOX: LazyLock<BakedBody> = LazyLock::new(|| body("capped_box"));
 /// Rational, with poles.
-static POLES: LazyLock<BakedBody> = LazyLock::new(|| bake("ellipsoid_poles"));
+static POLES: LazyLock<BakedBody> = LazyLock::new(|| body("ellipsoid_poles"));
 
 fn separator(body: &mut BakedBody, face: usize, side: usize) -> &mut BakedSeparator {
     match &mut body.faces[face].sides[side] {

@@ -2,11 +2,10 @@
 
 use palpate::body::{EdgeKind, Separator, Side};
 use palpate::patch::Patch as _;
+use palpate_bake::BakedBody;
 use palpate_bake::body::BakedSide;
 use palpate_bake::topology::Border;
-use palpate_bake::{BakedBody, Model};
 use std::error::Error;
-use std::path::PathBuf;
 use std::sync::LazyLock;
 
 /// What is known of a model.
@@ -74,12 +73,7 @@ const KNOWN: &[Known] = &[
 
 /// Every known model, baked once.
 static BODIES: LazyLock<Vec<BakedBody>> =
-    LazyLock::new(|| KNOWN.iter().map(|known| bake(known.file).expect(known.file)).collect());
-
-fn bake(file: &str) -> Result<BakedBody, Box<dyn Error>> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{file}.toml"));
-    Ok(BakedBody::new(&Model::read(&path)?, &format!("{file}.toml"))?)
-}
+    LazyLock::new(|| KNOWN.iter().map(|known| palpate_suites::body(known.file)).collect());
 
 const KINDS: [EdgeKind; 5] = [EdgeKind::Convex, EdgeKind::Smooth, EdgeKind::Reflex, EdgeKind::Mixed, EdgeKind::Open];
 

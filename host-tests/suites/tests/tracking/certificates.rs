@@ -4,7 +4,6 @@ use palpate_bake::certificate::{Certificate, Finding};
 use palpate_bake::survey::{Survey, Verdict};
 use palpate_bake::{BakedPatch, Model};
 use std::error::Error;
-use std::path::Path;
 
 /// Metres.
 const RANGE: f64 = 0.03;
@@ -23,8 +22,7 @@ fn one(points: &str, degree: &str) -> Result<(Model, Survey), Box<dyn Error>> {
 
 #[test]
 fn every_face_of_the_capped_box_is_certified() -> Result<(), Box<dyn Error>> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/capped_box.toml");
-    for survey in surveys(&Model::read(&file)?)? {
+    for survey in surveys(&palpate_suites::model("capped_box"))? {
         assert_eq!(survey.verdict, Verdict::Certified, "{:?}", survey.reasons);
         assert!(survey.reasons.is_empty(), "{:?}", survey.reasons);
         assert_eq!(survey.certificate.proved_range, RANGE);

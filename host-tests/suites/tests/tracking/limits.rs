@@ -6,10 +6,9 @@ use palpate::patch::{Curvature, Patch as _, SplinePatch};
 use palpate::track::{
     Controller, FeedForward, FirstOrder, Gain, Integrator, Outcome, PerformanceLimits, Probe, Witness,
 };
-use palpate_bake::{BakedPatch, Model, NurbsPatch};
+use palpate_bake::{BakedPatch, NurbsPatch};
 use palpate_truth::measured::measured;
 use palpate_truth::oracle::{Oracle, OraclePoint};
-use std::path::Path;
 
 /// A model of this repository: the surface, and its table.
 struct Body {
@@ -20,8 +19,7 @@ struct Body {
 
 impl Body {
     fn load(name: &'static str) -> Self {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{name}.toml"));
-        let surface = Model::read(&path).expect("the model is good").patches.swap_remove(0);
+        let surface = palpate_suites::model(name).patches.swap_remove(0);
         let patch = BakedPatch::new(&surface).expect("it bakes").to_patch().expect("the table is good");
         Self { name, surface, patch }
     }
