@@ -39,6 +39,8 @@ enum Command {
     Talk(talk::Arguments),
     Zwidth(zwidth::Arguments),
     Race(race::Arguments),
+    #[command(hide = true)]
+    RunTest(test::RunTestArguments),
     View(page::ViewArguments),
 }
 
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         Command::Talk(arguments) => talk::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),
         Command::Race(arguments) => race::run(&arguments),
+        Command::RunTest(arguments) => test::run_test(&arguments),
         Command::View(arguments) => page::view(&arguments),
     };
     // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).

@@ -1,7 +1,7 @@
 //! `palpate cycles`: what the hot path may take on real cores, estimated from the instructions that the emulator
 //! executes.
 
-use crate::cycles::{Core, Figure, estimate};
+use crate::cycles::{Core, Figure, ROOTS, estimate};
 use crate::firmware::{Board, Progress};
 use clap::Args;
 use std::process::ExitCode;
@@ -29,7 +29,7 @@ pub fn run(_: &Arguments) -> anyhow::Result<ExitCode> {
     for (board, core, chip, clock) in
         [(Board::M4, Core::M4, "STM32G474", 170e6), (Board::M7, Core::M7, "i.MX RT1062", 600e6)]
     {
-        let found = estimate(board, core, &Progress::new())?;
+        let found = estimate(board, core, &ROOTS, &Progress::new())?;
         println!("{}: estimated cycles; microseconds on a {chip} at {} MHz", board.core(), clock / 1e6);
         println!(
             "  {:<28}{:>13}{:>15}{:>13}{:>15}{:>15}",

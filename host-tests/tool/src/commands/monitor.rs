@@ -1,4 +1,4 @@
-//! `palpate monitor`: what a running device tells of itself, live.
+//! `palpate monitor`: the telemetry of a running device, live.
 
 use super::demo::write_tables;
 use super::options::SceneOptions;
@@ -17,41 +17,48 @@ use std::time::{Duration, Instant};
 
 /// Shows rate, jitter, phase, force and faults of a running device, and records them.
 ///
-/// On a terminal one line is kept up to date; elsewhere there is a line every second and at each change. It ends when
-/// the line is closed, after --seconds, or with Ctrl-C.
+/// On a terminal one line is updated in place; elsewhere a line is printed every second and at each change of phase or
+/// fault. Ends when the line is closed, after --for seconds, or with Ctrl-C.
 #[derive(Args, Debug)]
+// The scene is the emulated board's alone: a device at a port has its own.
+#[command(mut_group("SceneOptions", |scene| scene.requires("emulator")))]
 pub struct Arguments {
-    /// The serial port the device is on, such as /dev/ttyACM0
-    #[arg(long, required_unless_present = "emulator", conflicts_with = "emulator")]
-    port: Option<String>,
-    /// The port's speed
-    #[arg(long, default_value_t = 500_000)]
-    baud: u32,
-    /// Sends the device a command first
-    #[arg(long, value_enum, value_name = "COMMAND", conflicts_with = "emulator")]
-    send: Option<Sent>,
-    /// An emulated board with a simulated hand, instead of a device
-    #[arg(long, value_enum)]
-    emulator: Option<Board>,
     /// Records everything to this CSV file
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
-    /// Keeps every byte of the line in this file, as it came
+    /// Records the line's bytes, unchanged, to this file
     #[arg(long, value_name = "OUT")]
     raw: Option<PathBuf>,
-    /// Stops after this many seconds
+    /// Seconds to run; until the line closes if not given
     #[arg(long = "for", value_name = "SECONDS")]
     ends_after: Option<f64>,
-    #[command(flatten)]
+    /// Serial port of the device, such as /dev/ttyACM0
+    #[arg(
+        long,
+        required_unless_present = "emulator",
+        conflicts_with = "emulator",
+        help_heading = "A device at a port"
+    )]
+    port: Option<String>,
+    /// Speed of the port, baud
+    #[arg(long, default_value_t = 500_000, requires = "port", help_heading = "A device at a port")]
+    baud: u32,
+    /// Command to send to the device first
+    #[arg(long, value_enum, value_name = "COMMAND", requires = "port", help_heading = "A device at a port")]
+    send: Option<Sent>,
+    /// Emulated board with a simulated hand, instead of a device
+    #[arg(long, value_enum, help_heading = "An emulated board")]
+    emulator: Option<Board>,
+    #[command(flatten, next_help_heading = "An emulated board")]
     scene: SceneOptions,
 }
 
-/// What can be sent to a device that runs by itself.
+/// A command for a device that runs by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Sent {
-    /// Stop; latched
+    /// Stops the device; latched
     Stop,
-    /// Go on after a reset by the watchdog or a brown-out
+    /// Resumes after a reset by the watchdog or a brown-out
     Acknowledge,
 }
 
@@ -66,7 +73,7 @@ impl Sent {
 
 /// How long to wait for bytes before looking at the clock.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// How often a terminal's line is written anew, and a line elsewhere.
+/// How often a terminal's line is updated, and how often a line is printed elsewhere.
 const REFRESH: Duration = Duration::from_millis(100);
 const LINE: Duration = Duration::from_secs(1);
 
@@ -81,7 +88,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     } else if let Some(path) = &arguments.port {
         let port = serialport::new(path, arguments.baud).timeout(PATIENCE).open();
         let mut port = port.with_context(|| format!("cannot open the serial port {path}"))?;
-        // A device at its own USB plug tells while this is up. Not every system raises it; not every port has it.
+        // A device at its own USB plug sends while this is up. Not every system raises it; not every port has it.
         let _ = port.write_data_terminal_ready(true);
         if let Some(sent) = arguments.send {
             let mut buffer = [0; MAX_FRAME];
@@ -242,5 +249,44 @@ impl View {
         }
         println!("{records} records, {lost} lost on the line, {damaged} of them damaged, {resets} resets");
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Arguments;
+    use clap::{Args as _, Command};
+
+    fn is_taken(line: &str) -> bool {
+        Arguments::augment_args(Command::new("monitor")).try_get_matches_from(line.split(' ')).is_ok()
+    }
+
+    #[test]
+    fn each_kind_of_device_takes_its_own_options_only() {
+        for line in
+            ["monitor --port /dev/ttyACM0 --baud 115200 --send stop --for 3", "monitor --emulator m4 --seconds 3"]
+        {
+            assert!(is_taken(line), "{line}");
+        }
+        for line in [
+            "monitor",
+            "monitor --port /dev/ttyACM0 --seconds 3",
+            "monitor --port /dev/ttyACM0 --model capped_box",
+            "monitor --emulator m4 --baud 115200",
+            "monitor --emulator m4 --send stop",
+            "monitor --emulator m4 --port /dev/ttyACM0",
+        ] {
+            assert!(!is_taken(line), "{line}");
+        }
+    }
+
+    #[test]
+    fn the_help_names_no_option_that_does_not_exist() {
+        let mut command = Arguments::augment_args(Command::new("monitor"));
+        let long: Vec<String> = command.get_arguments().filter_map(|a| Some(format!("--{}", a.get_long()?))).collect();
+        let help = command.render_long_help().to_string();
+        for word in help.split(|letter: char| letter != '-' && !letter.is_alphanumeric()) {
+            assert!(!word.starts_with("--") || word == "--help" || long.iter().any(|name| name == word), "{word}");
+        }
     }
 }

@@ -3,11 +3,14 @@
 use crate::firmware::{self, Board, Choice, Progress, Transport, WITH_FIRMWARE};
 use crate::in_c::{self, WITH_C};
 use crate::in_python;
+use crate::own_copy::OwnCopy;
 use crate::page;
 use crate::repository;
+use crate::timed_tests::{self, Times};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
-use std::env;
+use std::ffi::OsString;
+use std::path::Path;
 use std::process::{Command, ExitCode};
 
 /// What `--quick` asks of `cargo test`: an argument a line. `.ci/quick` reads the same file.
@@ -50,67 +53,92 @@ enum Suite {
     Python,
 }
 
+/// Runs a program for `cargo test`, with the time of each test.
+#[derive(Args, Debug)]
+pub struct RunTestArguments {
+    program: OsString,
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    arguments: Vec<OsString>,
+}
+
+/// Runs a test program, as `cargo palpate test` asks cargo to.
+///
+/// # Errors
+/// If it does not start.
+pub fn run_test(arguments: &RunTestArguments) -> anyhow::Result<ExitCode> {
+    let status = timed_tests::run_test(&arguments.program, &arguments.arguments)?;
+    if status.code().is_none() {
+        eprintln!("{}: {status}", arguments.program.display());
+    }
+    Ok(status.code().map_or(ExitCode::FAILURE, |code| ExitCode::from(code as u8)))
+}
+
 /// Runs the command.
 ///
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let progress = Progress::new();
-    if arguments.page {
-        let browser = page::Browser::set_up(&progress).context("the tests of the page cannot run")?;
-        return on_page(&browser, &arguments.cargo_test);
-    }
     if arguments.python {
         return in_python::test(&arguments.cargo_test);
     }
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    firmware::without_outer_cargo(&mut cargo);
-    cargo.current_dir(repository::root()?).arg("test").env_remove(WITH_FIRMWARE);
-    cargo.env_remove(WITH_C);
-    if arguments.c {
-        progress.say(&in_c::set_up(&progress)?);
-        cargo.args(["-p", "palpate-tool", "--test", "c"]);
-    } else if arguments.quick {
-        cargo.args(quick());
+    let progress = Progress::new();
+    let tool = OwnCopy::new()?;
+    let mut times = Times::default();
+    let outcome = if arguments.page {
+        let browser = page::Browser::set_up(&progress).context("the tests of the page cannot run")?;
+        on_page(&browser, tool.path(), &mut times, &arguments.cargo_test)
     } else {
-        // All suites, also after one that failed: one run says all that is wrong.
-        cargo.args(["--workspace", "--no-fail-fast"]);
+        suites(arguments, tool.path(), &mut times, &progress)
+    };
+    let slowest = times.slowest();
+    if !slowest.is_empty() {
+        println!("\nthe slowest tests:\n{slowest}");
     }
-    cargo.args(&arguments.cargo_test);
+    outcome
+}
+
+/// Everything but the page or the wheel alone.
+fn suites(arguments: &Arguments, tool: &Path, times: &mut Times, progress: &Progress) -> anyhow::Result<ExitCode> {
+    let root = repository::root()?;
     let is_asked_for = |suite: Suite| !arguments.without.contains(&suite);
     let with_c = !arguments.without_emulator && !arguments.quick && is_asked_for(Suite::C) && in_c::has_compiler();
-    if arguments.c || with_c {
-        cargo.env(WITH_C, "1");
-    } else if !arguments.quick && is_asked_for(Suite::C) {
+    let with_firmware = !arguments.without_emulator && !arguments.quick && !arguments.c;
+    if arguments.c {
+        progress.say(&in_c::set_up(progress)?);
+    } else if !with_c && !arguments.quick && is_asked_for(Suite::C) {
         progress.say("left out: the C library; `cargo palpate test --c` sets up what it needs");
     }
-    if !arguments.without_emulator && !arguments.quick && !arguments.c {
+    if with_firmware {
         for board in Board::ALL {
-            firmware::build_all(board, &progress)
+            set_up(board, progress)
                 .context("the tests on the emulated boards cannot run (--without-emulator leaves them out)")?;
-            let ready = firmware::prepare(&Choice { board, ..Choice::default() }, &progress)
-                .context("the tests on the emulated boards cannot run (--without-emulator leaves them out)")?;
-            progress.say(&format!("{}: {}", board.core(), ready.qemu.version));
-            for transport in [Transport::Uart, Transport::Fifo] {
-                let image = ready.images.of(transport);
-                progress.say(&format!(
-                    "image {}: {} bytes of flash, {} bytes of RAM",
-                    transport.binary(),
-                    image.flash,
-                    image.ram
-                ));
-            }
         }
-        cargo.env(WITH_FIRMWARE, "1");
     }
-    let status = cargo.status().with_context(|| format!("{cargo:?}"))?;
+    let status = times.cargo_test(tool, |cargo| {
+        cargo.current_dir(root).env_remove(WITH_FIRMWARE).env_remove(WITH_C);
+        if arguments.c {
+            cargo.args(["-p", "palpate-tool", "--test", "c"]);
+        } else if arguments.quick {
+            cargo.args(quick());
+        } else {
+            // All suites, also after one that failed: one run reports all failures.
+            cargo.args(["--workspace", "--no-fail-fast"]);
+        }
+        cargo.args(&arguments.cargo_test);
+        if arguments.c || with_c {
+            cargo.env(WITH_C, "1");
+        }
+        if with_firmware {
+            cargo.env(WITH_FIRMWARE, "1");
+        }
+    })?;
     // Words for one suite are no words for another.
     let is_whole =
         ![arguments.quick, arguments.without_emulator, arguments.c].contains(&true) && arguments.cargo_test.is_empty();
     let mut all = vec![if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE }];
     if is_whole && is_asked_for(Suite::Page) {
         if let Some(browser) = page::Browser::at_hand() {
-            all.push(on_page(&browser, &[])?);
+            all.push(on_page(&browser, tool, times, &[])?);
         } else {
             progress.say("left out: the page for the browser; `cargo palpate test --page` sets up what it needs");
         }
@@ -125,17 +153,29 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(if all.iter().all(|code| *code == ExitCode::SUCCESS) { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
+/// Builds the images of an emulated board and reports their sizes.
+fn set_up(board: Board, progress: &Progress) -> anyhow::Result<()> {
+    firmware::build_all(board, progress)?;
+    let ready = firmware::prepare(&Choice { board, ..Choice::default() }, progress)?;
+    progress.say(&format!("{}: {}", board.core(), ready.qemu.version));
+    for transport in [Transport::Uart, Transport::Fifo] {
+        let image = ready.images.of(transport);
+        let [flash, ram] = [image.flash, image.ram];
+        progress.say(&format!("image {}: {flash} bytes of flash, {ram} bytes of RAM", transport.binary()));
+    }
+    Ok(())
+}
+
 /// The tests of the page, in its own workspace: nobody else needs what drives a browser.
-fn on_page(browser: &page::Browser, words: &[String]) -> anyhow::Result<ExitCode> {
+fn on_page(browser: &page::Browser, tool: &Path, times: &mut Times, words: &[String]) -> anyhow::Result<ExitCode> {
     let root = repository::root()?;
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    firmware::without_outer_cargo(&mut cargo);
-    cargo.args(["test", "--locked", "--package", "palpate-page-browser", "--manifest-path"]);
-    cargo.arg(root.join("host-tests/page/Cargo.toml")).arg("--target-dir").arg(root.join("target/page"));
-    cargo.env("PALPATE_TOOL", env::current_exe()?).env("PALPATE_CHROMIUM", browser.path());
-    // One browser at a time: each draws on all cores.
-    cargo.args(["--", "--test-threads=1", "--nocapture"]).args(words);
-    let status = cargo.status().with_context(|| format!("{cargo:?}"))?;
+    let status = times.cargo_test(tool, |cargo: &mut Command| {
+        cargo.args(["--locked", "--package", "palpate-page-browser", "--manifest-path"]);
+        cargo.arg(root.join("host-tests/page/Cargo.toml")).arg("--target-dir").arg(root.join("target/page"));
+        cargo.env("PALPATE_TOOL", tool).env("PALPATE_CHROMIUM", browser.path());
+        // One browser at a time: each draws on all cores.
+        cargo.args(["--", "--test-threads=1", "--nocapture"]).args(words);
+    })?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 

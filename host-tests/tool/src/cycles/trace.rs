@@ -1,7 +1,7 @@
 //! The instructions that a call executes, in their order, as the emulator logs them.
 
 use super::model::{Core, Cost, Cycles};
-use super::{Calls, ROOTS, Root};
+use super::{Calls, Root};
 use crate::firmware::{Board, Program, Progress, SetUpError};
 use crate::proof::{Code, CodeError, Flow, Tree};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -36,19 +36,24 @@ struct Window {
     executed: Vec<u64>,
 }
 
-/// Runs the program that counts on a board until each of [`ROOTS`] was called often enough, and gives what the calls
-/// took on its core.
+/// Runs the program that counts on a board until each of these roots was called often enough, and gives the
+/// instructions and cycles of the calls on its core.
 ///
 /// # Errors
 /// What cannot be built, run or read.
-pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Root, Calls)>, TraceError> {
+pub fn estimate(
+    board: Board,
+    core: Core,
+    roots: &[Root],
+    progress: &Progress,
+) -> Result<Vec<(Root, Calls)>, TraceError> {
     let program = Program::prepare(board, "budget", &[], progress)?;
     let code = Code::read(&program.image.elf)?;
     let (mut functions, mut wanted) = (BTreeMap::new(), Vec::new());
-    let mut roots = HashSet::new();
-    for root in &ROOTS {
+    let mut starts = HashSet::new();
+    for root in roots {
         let function = code.named(root.function)?;
-        roots.insert(function.address);
+        starts.insert(function.address);
         wanted.push((function.address, root.skip + root.take));
         functions.extend(Tree::new(&code, function).functions().map(|function| (function.address, function)));
     }
@@ -83,7 +88,7 @@ pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Ro
             {
                 returned(&mut open, &mut finished);
             }
-            if roots.contains(&address) && open.iter().all(|window| window.root != address) {
+            if starts.contains(&address) && open.iter().all(|window| window.root != address) {
                 open.push(Window { root: address, depth: 0, executed: Vec::new() });
             }
             for window in &mut open {
@@ -108,7 +113,7 @@ pub fn estimate(board: Board, core: Core, progress: &Progress) -> Result<Vec<(Ro
         }
     }
     child.wait()?;
-    ROOTS
+    roots
         .iter()
         .map(|root| {
             let address = code.named(root.function)?.address;

@@ -6,6 +6,7 @@ mod agreement;
 mod bench;
 mod budgets;
 mod commissioning;
+mod cycles;
 mod demo;
 mod faults;
 mod image;
