@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 /// fault. Ends when the line is closed, after --for seconds, or with Ctrl-C.
 #[derive(Args, Debug)]
 // The scene is the emulated board's alone: a device at a port has its own.
-#[command(mut_group("SceneOptions", |scene| scene.requires("emulator")))]
+#[command(mut_group("SceneOptions", |scene| scene.conflicts_with("port")))]
 pub struct Arguments {
     /// Records everything to this CSV file
     #[arg(long, value_name = "OUT")]
@@ -41,10 +41,10 @@ pub struct Arguments {
     )]
     port: Option<String>,
     /// Speed of the port, baud
-    #[arg(long, default_value_t = 500_000, requires = "port", help_heading = "A device at a port")]
+    #[arg(long, default_value_t = 500_000, conflicts_with = "emulator", help_heading = "A device at a port")]
     baud: u32,
     /// Command to send to the device first
-    #[arg(long, value_enum, value_name = "COMMAND", requires = "port", help_heading = "A device at a port")]
+    #[arg(long, value_enum, value_name = "COMMAND", conflicts_with = "emulator", help_heading = "A device at a port")]
     send: Option<Sent>,
     /// Emulated board with a simulated hand, instead of a device
     #[arg(long, value_enum, help_heading = "An emulated board")]
