@@ -47,6 +47,14 @@ pub use transport::Transport;
 /// The variable that makes the tests use the emulated board; `palpate test` sets it once everything is set up.
 pub const WITH_FIRMWARE: &str = "PALPATE_FIRMWARE";
 
+/// The variable that makes tests of one core run on every core: `.ci/long` sets it.
+pub const EVERY_CORE: &str = "PALPATE_EVERY_CORE";
+
+/// The cores that every image is built for: the first, or all in a long run.
+pub fn cores() -> &'static [Board] {
+    if std::env::var_os(EVERY_CORE).is_some() { &Board::ALL } else { &Board::ALL[..1] }
+}
+
 /// All that is needed to run the firmware: an emulator and the images.
 #[derive(Debug)]
 pub struct Firmware {

@@ -58,11 +58,18 @@ impl SetUpError {
 }
 
 /// Cargo tells the programs it runs about the package and toolchain it runs them for. A cargo run from here works for
-/// another package, perhaps with another toolchain: it keeps only what the user said about network and registries, and
-/// whether to build step by step, for a build that is told otherwise than the one before does everything anew.
+/// another package, perhaps with another toolchain: it keeps the user's settings of network and registries, and those of
+/// the build itself, because cargo builds everything again where they differ.
 pub fn without_outer_cargo(command: &mut Command) -> &mut Command {
-    const KEPT: [&str; 6] =
-        ["CARGO_HOME", "CARGO_HTTP_", "CARGO_INCREMENTAL", "CARGO_NET_", "CARGO_REGISTR", "CARGO_TERM_"];
+    const KEPT: [&str; 7] = [
+        "CARGO_HOME",
+        "CARGO_HTTP_",
+        "CARGO_INCREMENTAL",
+        "CARGO_NET_",
+        "CARGO_PROFILE_DEV_",
+        "CARGO_REGISTR",
+        "CARGO_TERM_",
+    ];
     for name in env::vars_os().filter_map(|(name, _)| name.into_string().ok()) {
         let is_cargo = name == "CARGO" || name.starts_with("CARGO_") || name.starts_with("RUSTC");
         let is_other = ["RUSTFLAGS", "RUSTDOCFLAGS", "LD_LIBRARY_PATH", "OUT_DIR"].contains(&name.as_str());

@@ -1,6 +1,6 @@
 //! `palpate accept` on the emulated boards: it passes, and it finds what is planted in the image or in its timer.
 
-use crate::running::is_wanted;
+use crate::running::{boards, is_wanted};
 use object::{Object, ObjectSection, ObjectSymbol};
 use palpate_tool::accept;
 use palpate_tool::firmware::{Board, Program};
@@ -72,7 +72,7 @@ fn one_wrong_bit_in_the_code_is_found_and_the_lap_that_it_spoils_is_named() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    for board in Board::ALL {
+    for &board in boards() {
         let program = accept::prepared(board, &[]).unwrap();
         // The first sum in the kinematics of the delta becomes a difference: VADD.F32 and VSUB.F32 differ in one bit
         // (Arm architecture reference manual, "VADD (floating-point)", encoding T2).
@@ -99,7 +99,7 @@ fn one_wrong_bit_in_the_tables_is_found() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    for board in Board::ALL {
+    for &board in boards() {
         let program = accept::prepared(board, &[]).unwrap();
         let image = changed(&program, folder.path(), &["palpate_emulated", "tables", "6FACE_2"], |table| {
             let middle = table.len() / 2;
@@ -115,7 +115,7 @@ fn a_late_tick_is_found() {
     if !is_wanted("a_late_tick_is_found") {
         return;
     }
-    for board in Board::ALL {
+    for &board in boards() {
         let program = accept::prepared(board, &["planted-late"]).unwrap();
         let (status, report) = accepted(board, &program.image.elf);
         // One tick of a thousand, by 12 or 15 of 250 microseconds.

@@ -1,7 +1,7 @@
 //! The demo's own scene, whole: the host's loop and the firmware's agree bit for bit, tick by tick, while each drives
 //! the plant with its own duties.
 
-use crate::running::is_wanted;
+use crate::running::{boards, is_wanted};
 use clap::Parser;
 use palpate::servo::Fault;
 use palpate_tool::commands::demo::prepare;
@@ -74,7 +74,7 @@ fn a_scene_that_moves_is_felt_alike_on_the_host_and_every_board() {
         return;
     }
     let scene = format!("{}/../scenes/turntable.toml", env!("CARGO_MANIFEST_DIR"));
-    for board in Board::ALL {
+    for &board in boards() {
         let arguments = ["demo", "--model", &scene, "--rate", "3000", "--seconds", "3"];
         let [there, _] = traces_on(board, &arguments).map(|trace| Summary::new(&trace));
         assert!(there.touches > 0 && there.fault.is_none(), "{board:?}: {there}");

@@ -1,9 +1,8 @@
 //! The knob's image: on every core the same bits as on the host, and it lets go.
 
-use crate::running::is_wanted;
+use crate::running::{boards, is_wanted};
 use palpate::servo::{Fault, Phase};
 use palpate_tool::commands::demo_knob::{hash, on_board, on_host};
-use palpate_tool::firmware::Board;
 
 #[test]
 fn the_knob_turns_alike_on_every_core_and_on_the_host_and_lets_go_when_its_magnet_slips() {
@@ -11,7 +10,7 @@ fn the_knob_turns_alike_on_every_core_and_on_the_host_and_lets_go_when_its_magne
         return;
     }
     let host = on_host(true).expect("the loop runs").turned;
-    for board in Board::ALL {
+    for &board in boards() {
         let device = on_board(board, true).expect("the image runs").turned;
         assert_eq!(device.len(), host.len());
         for (there, here) in device.iter().zip(&host) {

@@ -20,6 +20,13 @@ pub fn is_wanted(test: &str) -> bool {
     wanted
 }
 
+/// The boards of a test that builds an image of its own for each: one core, or every core in a long run.
+///
+/// Bits, image sizes and the proofs of the plain image are compared on every core in every run.
+pub fn boards() -> &'static [Board] {
+    firmware::cores()
+}
+
 /// The firmware of the first board, ready to start; `None` where the tests are run without.
 pub fn firmware(test: &str) -> Option<Firmware> {
     firmware_of(Board::default(), test)
