@@ -1,11 +1,11 @@
 //! A patch as the target has it: the table, in `f32`.
 
-use super::axis::Axis;
-use super::coefficients::BakedCoefficients;
 use super::error::{ModelError, PatchFault};
 use super::model::Model;
 use super::patch::NurbsPatch;
 use super::{bounds, shape, spline};
+use crate::patch::Axis;
+use crate::spline::BakedCoefficients;
 use palpate::patch::{Coefficients, Orientation, ShapeBounds, SplinePatch, TableError};
 
 /// The table of one patch.

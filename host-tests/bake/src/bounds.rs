@@ -20,7 +20,7 @@
 //! patch has a crease (it is only C⁰) there is no second derivative and the bound says nothing *about the crease*.
 
 use super::bernstein::Bernstein;
-use super::coefficients::BakedCoefficients;
+use crate::spline::BakedCoefficients;
 use palpate::patch::{SecondDerivativeBounds, ThirdDerivativeBounds, span_centre};
 
 /// How far a bound may lie above the supremum.

@@ -11,7 +11,7 @@
 
 use super::bernstein::Bernstein;
 use super::form::{Form, eigenvalues, symmetric};
-use super::tracked::Tracked;
+use crate::bernstein::Tracked;
 use palpate::patch::SecondDerivativeBounds;
 
 /// Lower and upper bounds, or the least and greatest of sampled values, over some of the patch.

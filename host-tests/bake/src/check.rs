@@ -1,9 +1,9 @@
 //! What stands in a file, and the checks that make a patch of it.
 
-use super::axis::Axis;
 use super::error::PatchFault;
-use super::knots;
 use super::patch::NurbsPatch;
+use crate::patch::Axis;
+use crate::patch::{bezier, borders};
 use glam::DVec3;
 use palpate::patch::{MAX_DEGREE, MAX_SPANS};
 use serde::Deserialize;
@@ -66,11 +66,11 @@ impl NurbsPatch {
                 _ if count <= degree => Err(PatchFault::TooFewPoints { axis, count, degree }),
                 Some(knots) => check_knots(knots, axis, count, degree),
                 None if count != degree + 1 => Err(PatchFault::BezierPoints { axis, count, degree }),
-                None => Ok(knots::bezier(degree)),
+                None => Ok(bezier(degree)),
             }
         });
         let knots = [knots_u?, knots_v?];
-        let [u, v] = [0, 1].map(|axis| knots::borders(&knots[axis], degree[axis]).len() - 1);
+        let [u, v] = [0, 1].map(|axis| borders(&knots[axis], degree[axis]).len() - 1);
         if u * v > MOST_CELLS {
             return Err(PatchFault::TooManyCells { u, v, limit: MOST_CELLS });
         }
@@ -158,7 +158,7 @@ fn check_knots(knots: Vec<f64>, axis: Axis, points: usize, degree: usize) -> Res
         }
     }
     let mapped: Vec<f64> = knots.iter().map(|knot| (knot - first) / width).collect();
-    let borders = knots::borders(&mapped, degree);
+    let borders = borders(&mapped, degree);
     if borders.len() - 1 > MAX_SPANS {
         return Err(PatchFault::TooManySpans { axis, count: borders.len() - 1 });
     }

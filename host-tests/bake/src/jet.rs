@@ -1,7 +1,7 @@
 //! A patch with its first and second derivatives, in double precision, by de Boor's triangle: what the bake measures of
 //! a patch. Deliberately another way than the oracle's sums of basis functions, so that one error cannot be in both.
 
-use crate::patch::NurbsPatch;
+use crate::patch::{Axis, NurbsPatch};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
 /// A point of a patch with all derivatives up to the second (its 2-jet); metres per unit of parameter, and per unit
@@ -116,5 +116,40 @@ impl<'a> Triangle<'a> {
             }
         }
         [points[p], first, second]
+    }
+}
+
+// A patch on a grid, as its size and its shape are looked at.
+
+impl NurbsPatch {
+    /// The largest side of the bounding box of a grid of points on the patch, 8 to a span, metres.
+    pub fn size(&self) -> f64 {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        self.for_each_sample(8, |_, surface| {
+            low = low.min(surface.point);
+            high = high.max(surface.point);
+            true
+        });
+        (high - low).max_element()
+    }
+
+    /// Evaluates a grid of `steps` intervals a span, borders included, until `visit` says false.
+    pub(super) fn for_each_sample(&self, steps: usize, mut visit: impl FnMut([f64; 2], &Jet) -> bool) {
+        let parameters = |axis| {
+            let borders = self.borders(axis);
+            let inside = |pair: &[f64]| {
+                let (left, width) = (pair[0], pair[1] - pair[0]);
+                (0..steps).map(move |step| left + width * step as f64 / steps as f64)
+            };
+            borders.windows(2).flat_map(inside).chain([1.0]).collect::<Vec<_>>()
+        };
+        let along_v = parameters(Axis::V);
+        for u in parameters(Axis::U) {
+            for &v in &along_v {
+                if !visit([u, v], &Jet::of(self, u, v)) {
+                    return;
+                }
+            }
+        }
     }
 }

@@ -6,7 +6,6 @@
 //! once to `f32`) → [`bounds`] and [`shape`] (what is proved of those very `f32` numbers) → [`BakedPatch`] → [`source`]
 //! (Rust). [`survey`] says what is known of a patch and what is not.
 
-mod axis;
 mod baked;
 mod bernstein;
 pub mod body;
@@ -15,38 +14,32 @@ mod build_script;
 mod cell;
 pub mod certificate;
 mod check;
-mod coefficients;
 mod convexity;
 mod error;
 pub mod file;
 pub mod flaws;
 mod form;
-mod frame;
 pub mod graph;
 mod jet;
-mod knots;
 pub mod locator;
 mod model;
 pub mod parallel;
 mod patch;
 mod random;
-mod sampling;
 pub mod shape;
 pub mod sides;
 pub mod source;
 pub mod spline;
 pub mod split;
 pub mod survey;
-mod syntax;
 pub mod topology;
-mod tracked;
 
-pub use axis::Axis;
 pub use baked::BakedPatch;
 pub use body::{BakedBody, LocatorTable};
 pub use build_script::{Bake, BakeError};
-pub use coefficients::BakedCoefficients;
 pub use error::{ModelError, PatchFault};
 pub use model::{Model, Unit};
+pub use patch::Axis;
 pub use patch::NurbsPatch;
 pub use random::Random;
+pub use spline::BakedCoefficients;

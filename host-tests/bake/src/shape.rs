@@ -15,7 +15,7 @@
 
 use super::bounds::local_range;
 use super::cell::{Extremes, FormCell};
-use super::coefficients::BakedCoefficients;
+use crate::spline::BakedCoefficients;
 use palpate::patch::{Curvature, Orientation, SecondDerivativeBounds, ShapeBounds};
 use std::collections::VecDeque;
 

@@ -1,10 +1,10 @@
 //! What is known of a baked patch, and what is not.
 
-use super::axis::Axis;
 use super::baked::BakedPatch;
 use super::certificate::{Certificate, Cut};
 use super::convexity::{Convexity, POLE, convexity};
 use super::patch::NurbsPatch;
+use crate::patch::Axis;
 use palpate::patch::ShapeBounds;
 use std::fmt;
 

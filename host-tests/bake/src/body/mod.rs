@@ -2,27 +2,24 @@
 
 mod border;
 mod bytes;
-mod convexity;
 mod curve;
-mod locator;
-mod polynomial;
-mod separator;
 
-pub use bytes::{BodyBytes, room};
-pub use curve::BakedCurve;
-pub use locator::LocatorTable;
-pub use separator::BakedSeparator;
-
-use super::error::ModelError;
-use super::locator::{LocatorError, LocatorOptions, LocatorReport, StoredSurface, extent};
-use super::model::Model;
-use super::patch::NurbsPatch;
-use super::split::{Piece, Provenance};
-use super::topology::{Border, BorderRole, SeamFault, Sense, Topology, bounding_box};
-use super::{BakedPatch, PatchFault, parallel, spline};
+use crate::convexity::{Convexity, convexity};
+use crate::error::ModelError;
+use crate::locator::{self, BakedLocator, LocatorError, LocatorOptions, LocatorReport, Seams, StoredSurface, extent};
+use crate::model::Model;
+use crate::patch::NurbsPatch;
+use crate::split::{Piece, Provenance};
+use crate::topology::{Border, BorderRole, SeamFault, Sense, Topology, bounding_box};
+use crate::{Axis, BakedPatch, PatchFault, parallel, spline};
 use border::BorderSpans;
+pub use bytes::{BodyBytes, room};
+pub use curve::{BakedCurve, BakedSeparator};
 use glam::DVec3;
-use palpate::body::{Body, BodyError, Edge, EdgeFace, EdgeKind, Face, MAX_FACES, Side, Spoke, Vertex};
+use palpate::body::{
+    Body, BodyError, Candidate, Edge, EdgeFace, EdgeKind, Face, GRID, LEAF, Locator, MAX_FACES, Side, Spoke, Vertex,
+};
+use palpate::math::Vec3;
 use palpate::patch::TableError;
 use thiserror::Error;
 
@@ -191,7 +188,7 @@ impl BakedBody {
         };
         let bake = |index: usize, patch: &NurbsPatch| BakedPatch::new(patch).map_err(patch_fault(index));
         let baked = parallel::map(&patches, bake).into_iter().collect::<Result<Vec<_>, _>>()?;
-        let is_convex = convexity::is_convex(&topology, &patches, &baked);
+        let is_convex = is_convex(&topology, &patches, &baked);
         let spans: Vec<_> = patches
             .iter()
             .enumerate()
@@ -331,4 +328,95 @@ fn vertices(topology: &Topology) -> (Vec<Vertex>, Vec<Spoke>) {
         vertices.push(Vertex { point: vertex.point.as_vec3(), outward, first_spoke, spokes: count, is_open });
     }
     (vertices, spokes)
+}
+
+// Whether a body is convex, as far as its features say.
+
+/// See [`crate::body::BakedBody::new`] for what it takes, and what of it is proved.
+fn is_convex(topology: &Topology, patches: &[NurbsPatch], baked: &[BakedPatch]) -> bool {
+    let edges = topology.edges.iter().all(|edge| matches!(edge.kind, EdgeKind::Convex | EdgeKind::Smooth));
+    let face = |(patch, baked): (&NurbsPatch, &BakedPatch)| {
+        // A plane is straight all over, whatever its parameters do at a pole.
+        is_plane(patch) || matches!(convexity(patch, baked), Convexity::Proved | Convexity::UpToRounding(_))
+    };
+    edges && topology.is_closed() && topology.components() == 1 && patches.iter().zip(baked).all(face)
+}
+
+/// Of the size: nine digits of a model file leave no more.
+const FLAT: f64 = 1e-8;
+
+/// Whether all control points lie in one plane, and with them, as means of them, all points.
+fn is_plane(patch: &NurbsPatch) -> bool {
+    let first = patch.points[0];
+    let far = |a: &&DVec3, b: &&DVec3| a.distance(first).total_cmp(&b.distance(first));
+    let Some(second) = patch.points.iter().max_by(far) else { return false };
+    let along = (*second - first).normalize_or_zero();
+    let across = |point: &DVec3| along.cross(*point - first);
+    let Some(normal) = patch.points.iter().map(across).max_by(|a, b| a.length().total_cmp(&b.length())) else {
+        return false;
+    };
+    let normal = normal.normalize_or_zero();
+    patch.points.iter().all(|point| (*point - first).dot(normal).abs() <= FLAT * patch.size())
+}
+
+// The locator that needs no proof: every face is a candidate everywhere.
+
+/// [`palpate::body::Locator`] with the numbers owned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LocatorTable {
+    /// The lower corner of the root cube, metres.
+    pub corner: Vec3,
+    /// The root cube's side, metres.
+    pub side: f32,
+    /// Inner nodes.
+    pub nodes: Vec<[u16; 8]>,
+    /// Packed candidates.
+    pub entries: Vec<u32>,
+}
+
+impl LocatorTable {
+    /// One node whose cells all list the whole of every face: complete for any probe, and nothing is said of convexity.
+    /// The cube holds the body with half its size to spare on every side.
+    pub fn of_everything(faces: usize, low: [f64; 3], high: [f64; 3]) -> Self {
+        let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
+        let corner = Vec3::from_array([0, 1, 2].map(|axis| (0.5 * (low[axis] + high[axis]) - size) as f32));
+        let all = [GRID as u8; 2];
+        let entry = |face: usize| Candidate {
+            face: face as u16,
+            lower: [0; 2],
+            upper: all,
+            convex: false,
+            more: face + 1 < faces,
+        };
+        let entries = (0..faces).map(|face| entry(face).pack()).collect();
+        Self { corner, side: (2.0 * size) as f32, nodes: vec![[LEAF; 8]], entries }
+    }
+
+    /// The locator of these faces, proved cell by cell as far as it goes; see [`locator`].
+    fn of_faces(
+        faces: &[BakedFace],
+        size: f64,
+        options: &LocatorOptions,
+        wanted: Option<&[DVec3]>,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> Result<(Self, LocatorReport), LocatorError> {
+        let patches: Vec<BakedPatch> = faces.iter().map(|face| face.patch.clone()).collect();
+        let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
+        let seams = Seams::find(&surfaces, options.seam * size);
+        let creases: Vec<_> =
+            faces.iter().map(|face| [Axis::U, Axis::V].map(|axis| face.surface.creases(axis))).collect();
+        let baked = locator::bake(&patches, seams, &creases, options, wanted, progress)?;
+        let BakedLocator { corner, side, nodes, entries, report } = baked;
+        Ok((Self { corner, side, nodes, entries }, report))
+    }
+
+    /// The locator as the firmware has it; its numbers stay allocated for good.
+    pub fn to_locator(&self) -> Locator<'static> {
+        Locator {
+            corner: self.corner,
+            side: self.side,
+            nodes: self.nodes.clone().leak(),
+            entries: self.entries.clone().leak(),
+        }
+    }
 }

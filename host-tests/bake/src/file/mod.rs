@@ -4,13 +4,11 @@
 //! each face is from and how smooth its knots leave it, is in the notes. From both [`BakedFile::read`] makes what
 //! baking the model makes: but its surfaces in double precision are those of the stored numbers.
 
-mod fault;
 mod notes;
 mod read;
-mod surface;
 mod write;
 
-pub use fault::FileFault;
+pub use notes::FileFault;
 pub use notes::{FaceNotes, Notes};
 pub use read::BakedFile;
 pub use write::write;

@@ -1,10 +1,11 @@
 //! The notes of a file: what its body is called, and where its faces are from.
 
-use super::fault::FileFault;
-use crate::axis::Axis;
-use crate::body::BakedBody;
+use crate::body::{BakedBody, TableFault};
 use crate::model::{Model, Unit};
+use crate::patch::Axis;
 use crate::split::Provenance;
+use palpate::body::FileError;
+use thiserror::Error;
 
 /// What a host knows of a body beside its tables.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,4 +161,35 @@ impl<'a> Rest<'a> {
         let zeros = self.take(self.at.next_multiple_of(4) - self.at)?;
         if zeros.iter().all(|byte| *byte == 0) { Ok(()) } else { Err(wrong) }
     }
+}
+
+// Why there is no file.
+
+/// Why there is no file, or none that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum FileFault {
+    /// The library refuses the file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The library refuses the tables.
+    #[error(transparent)]
+    Table(#[from] TableFault),
+    /// The notes are not what they should be.
+    #[error("the notes for the host (section NOTE) are malformed at byte {at}")]
+    Notes {
+        /// Where, from the section's first byte.
+        at: usize,
+    },
+    /// A weight of a face is not positive: it is no NURBS patch.
+    #[error("face {face} has a weight that is not positive")]
+    Weight {
+        /// The face.
+        face: usize,
+    },
+    /// Beyond what a file can hold.
+    #[error("the tables are too large for a file: {bytes} bytes")]
+    TooLarge {
+        /// How many bytes there would be.
+        bytes: usize,
+    },
 }

@@ -1,6 +1,6 @@
 //! The bytes of a file.
 
-use super::fault::FileFault;
+use super::notes::FileFault;
 use super::notes::Notes;
 use crate::BakedCoefficients;
 use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, BakedSide};

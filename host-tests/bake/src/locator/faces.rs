@@ -1,16 +1,16 @@
 //! The faces of a body as the locator's search sees them.
 
-use super::field::{Part, Probes};
-use super::piece::{Piece, Span};
-use super::rectangle::Rectangle;
-use super::samples::{Sample, Samples};
-use super::seams::{BorderCorner, BorderSide, Seams, at_corner};
-use super::stored::StoredSurface;
+use super::osculating::Osculating;
+use super::piece::{Part, Piece, Probes, Span};
+use super::stored::{BorderCorner, BorderSide, Sample, Samples, Seams, StoredSurface, at_corner};
 use crate::BakedPatch;
+use crate::bernstein::Tracked;
 use crate::bounds::local_range;
-use crate::tracked::Tracked;
 use glam::DVec3;
+use palpate::body::{Candidate, GRID};
+use palpate::math::Vec3;
 use palpate::patch::SplinePatch;
+use std::ops::Range;
 
 /// All faces.
 pub(crate) struct Faces {
@@ -334,7 +334,7 @@ impl Query<'_> {
 
     fn leaves_vertex(&self, vertex: u32, faces: &Faces) -> bool {
         let members = &faces.seams.vertices[vertex as usize];
-        let far = |member: &super::seams::BorderCorner| {
+        let far = |member: &super::stored::BorderCorner| {
             faces
                 .corner_span(member.face, member.corner)
                 .is_some_and(|piece| self.is_far(piece, Part::Corner(member.corner), 0..9))
@@ -366,5 +366,134 @@ pub(super) fn free_of_poles(piece: &Piece, axis: usize) -> Part {
         [true, false] => Part::Without(sides[0] as u8),
         [false, true] => Part::Without(sides[1] as u8),
         _ => Part::Inside,
+    }
+}
+
+// Rectangles of parameters on the grid of a list's entries.
+
+/// A rectangle on the grid: least and greatest step along `u` and `v`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Rectangle {
+    pub lower: [u8; 2],
+    pub upper: [u8; 2],
+}
+
+impl Rectangle {
+    /// The least one that holds a rectangle of parameters.
+    pub(super) fn around([low, high]: [[f64; 2]; 2]) -> Self {
+        let grid = f64::from(GRID);
+        // A rectangle that ends on the grid, as all borders do, ends there; anything else is rounded outward by more
+        // than rounding.
+        Self {
+            lower: low.map(|x| (x * grid + if x == 1.0 { 0.0 } else { -1e-9 }).floor().max(0.0) as u8),
+            upper: high.map(|x| (x * grid + if x == 0.0 { 0.0 } else { 1e-9 }).ceil().min(grid) as u8),
+        }
+    }
+
+    pub(super) fn hull(&self, other: &Self) -> Self {
+        Self {
+            lower: [0, 1].map(|axis| self.lower[axis].min(other.lower[axis])),
+            upper: [0, 1].map(|axis| self.upper[axis].max(other.upper[axis])),
+        }
+    }
+
+    pub(crate) fn parameters(&self) -> [[f64; 2]; 2] {
+        [self.lower, self.upper].map(|corner| corner.map(|step| f64::from(step) / f64::from(GRID)))
+    }
+}
+
+// The regions of a cell as places where descents may begin, in groups that lie together.
+
+/// Starts of a group: those that came from one part of a face follow each other.
+const TOGETHER: usize = 12;
+
+/// All of them.
+pub(super) struct Starts {
+    starts: Vec<Start>,
+    groups: Vec<Group>,
+}
+
+/// A region.
+pub(super) struct Start {
+    /// Its rectangle with a step of the grid around it, so that a descent may leave it for a neighbour's minimum.
+    pub candidate: Candidate,
+    near: Osculating,
+}
+
+/// Some of them in a ball, metres.
+struct Group {
+    centre: Vec3,
+    radius: f32,
+    starts: Range<usize>,
+}
+
+impl Starts {
+    pub(super) fn new(faces: &Faces, regions: &[Region<'_>]) -> Self {
+        let starts: Vec<_> = regions.iter().map(|region| Start::new(faces, region)).collect();
+        let first = (0..starts.len()).step_by(TOGETHER);
+        let groups = first.map(|first| Group::of(&starts, first..(first + TOGETHER).min(starts.len()))).collect();
+        Self { starts, groups }
+    }
+
+    /// The distance of the one that is nearest to a probe, metres; `None` if none is nearer than `distance`.
+    pub(super) fn nearest(&self, distance: f32, probe: Vec3) -> Option<f32> {
+        let mut nearest = distance;
+        for group in &self.groups {
+            if group.is_within(nearest, probe) {
+                for start in &self.starts[group.starts.clone()] {
+                    if start.near.is_within(nearest, probe) {
+                        nearest = nearest.min(start.near.distance(probe));
+                    }
+                }
+            }
+        }
+        (nearest < distance).then_some(nearest)
+    }
+
+    /// Those nearer than a distance, with theirs, the nearest first.
+    pub(super) fn nearer(&self, distance: f32, probe: Vec3) -> Vec<(f32, &Start)> {
+        let groups = self.groups.iter().filter(|group| group.is_within(distance, probe));
+        let starts = groups.flat_map(|group| &self.starts[group.starts.clone()]);
+        let within = starts.filter(|start| start.near.is_within(distance, probe));
+        let mut nearer: Vec<_> =
+            within.map(|start| (start.near.distance(probe), start)).filter(|(to, _)| *to < distance).collect();
+        nearer.sort_by(|a, b| a.0.total_cmp(&b.0));
+        nearer
+    }
+}
+
+impl Start {
+    fn new(faces: &Faces, region: &Region<'_>) -> Self {
+        let face = region.face(faces);
+        let rectangle = region.rectangle(faces);
+        let Rectangle { lower, upper } = Rectangle::around(rectangle);
+        let candidate = Candidate {
+            face,
+            lower: lower.map(|step| step.saturating_sub(1)),
+            upper: upper.map(|step| (step + 1).min(GRID as u8)),
+            convex: false,
+            more: false,
+        };
+        let surface = &faces.surfaces[usize::from(face)];
+        let near = match region {
+            Region::Inside(piece) => piece.near(surface),
+            Region::Side { .. } | Region::Vertex(_) => Osculating::new(surface, rectangle),
+        };
+        Self { candidate, near }
+    }
+}
+
+impl Group {
+    fn of(all: &[Start], starts: Range<usize>) -> Self {
+        let middles = || all[starts.clone()].iter().map(|start| start.near.middle);
+        let centre = middles().sum::<Vec3>() / starts.len() as f32;
+        let reach = all[starts.clone()].iter().map(|start| start.near.middle.distance(centre) + start.near.radius);
+        Self { centre, radius: reach.fold(0.0, f32::max), starts }
+    }
+
+    /// Whether any of it may be nearer than a distance.
+    fn is_within(&self, distance: f32, probe: Vec3) -> bool {
+        let reach = distance + self.radius;
+        reach > 0.0 && self.centre.distance_squared(probe) < reach * reach
     }
 }

@@ -1,8 +1,8 @@
 //! The list of a cell: what is left of the body, in rectangles that have one minimum each.
 
-use super::faces::{Faces, Query, Region};
-use super::rectangle::Rectangle;
+use super::faces::{Faces, Query, Rectangle, Region};
 use super::unique::{Minima, Proof, Subject, nearest};
+use glam::DVec3;
 use palpate::body::Candidate;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
@@ -170,4 +170,43 @@ fn components<'a>(regions: Vec<Region<'a>>, faces: &Faces) -> Vec<Vec<Region<'a>
         groups.push(joined);
     }
     groups
+}
+
+// The octree that a search leaves behind.
+
+/// Where a cell lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The surface may pass through it, or it is inside within the depth that counts.
+    Near,
+    /// All of it is outside.
+    Outside,
+    /// All of it is deeper inside than `LocatorOptions::inside`.
+    Deep,
+}
+
+/// A leaf of the octree.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leaf {
+    pub centre: DVec3,
+    /// Half of the cell's side, metres.
+    pub half: f64,
+    pub depth: usize,
+    pub kind: Kind,
+    /// The worst of its entries.
+    pub minima: Minima,
+    pub proved: bool,
+}
+
+/// The tree: inner nodes in order of depth, leaves with their lists.
+pub(super) struct Octree {
+    pub nodes: Vec<[Child; 8]>,
+    pub leaves: Vec<(Leaf, Vec<Entry>)>,
+}
+
+/// A child of a node, by index.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Child {
+    Node(usize),
+    Leaf(usize),
 }

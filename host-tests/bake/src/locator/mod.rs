@@ -15,35 +15,29 @@
 //! lost, or as *sampled*.
 
 mod faces;
-pub(crate) mod field;
 mod list;
 mod octree;
 mod options;
 mod osculating;
 mod piece;
-mod rectangle;
 mod sampled;
-mod samples;
-mod seams;
-mod starts;
 mod stored;
 mod tables;
 mod territory;
-mod tree;
 mod unique;
 
+pub use list::Kind;
 pub use options::{LocatorError, LocatorOptions};
-pub use seams::{BorderCorner, BorderSide, Seams};
+pub use stored::{BorderCorner, BorderSide, Seams};
 pub use stored::{Minimum, StoredPoint, StoredSurface};
 pub use tables::{BakedLocator, LeafCounts, LocatorReport};
 pub(crate) use territory::Territory;
-pub use tree::Kind;
 
 use super::BakedPatch;
 use faces::Faces;
-use field::Probes;
 use glam::DVec3;
 use octree::Search;
+use piece::Probes;
 
 /// An octree is not made coarser than this to fit its indices.
 const LEAST_DEPTH: usize = 3;

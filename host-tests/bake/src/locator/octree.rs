@@ -3,14 +3,14 @@
 //! First all lists, then samples of those that are not proved: samples take most of the time, and of lists that do not
 //! fit the tables' indices none is taken.
 
+use super::faces::Rectangle;
 use super::faces::{Faces, Query, Reference, Region};
-use super::field::Probes;
+use super::list::{Child, Kind, Leaf, Octree};
 use super::list::{Entry, Lister};
 use super::options::LocatorOptions;
-use super::rectangle::Rectangle;
+use super::piece::Probes;
 use super::sampled::{self, Fault, Sampler, Sampling};
 use super::tables::{StoredLists, list};
-use super::tree::{Child, Kind, Leaf, Octree};
 use super::unique::nearest;
 use glam::DVec3;
 use palpate::body::{LEAF, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};

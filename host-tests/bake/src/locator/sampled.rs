@@ -3,10 +3,10 @@
 //!
 //! A list is searched with the firmware's own code: in `f32`, by its own steps and with its own bound of them.
 
+use super::faces::Starts;
 use super::faces::{Faces, Region};
-use super::field::Probes;
 use super::list::Entry;
-use super::starts::Starts;
+use super::piece::Probes;
 use super::tables;
 use crate::random::Random;
 use glam::DVec3;

@@ -145,3 +145,209 @@ fn descent(here: &StoredPoint, difference: DVec3, gradient: [f64; 2], held: [boo
         }
     }
 }
+
+// Which borders of faces coincide: what the locator needs to know of a body's features.
+
+/// A side of a face: `u = 0`, `u = 1`, `v = 0`, `v = 1` are 0 to 3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BorderSide {
+    /// The face.
+    pub face: u16,
+    /// Its side.
+    pub side: u8,
+    /// Whether it runs against the first side of its seam.
+    pub reversed: bool,
+}
+
+/// A corner of a face: bit 0 for `u = 1`, bit 1 for `v = 1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BorderCorner {
+    /// The face.
+    pub face: u16,
+    /// Its corner.
+    pub corner: u8,
+}
+
+/// The seams of a body. The first member of each owns it: its candidates stand for all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Seams {
+    /// Border curves with the sides that lie on them: one if open.
+    pub edges: Vec<Vec<BorderSide>>,
+    /// Points with the corners that lie on them; a side that is one point brings both its corners.
+    pub vertices: Vec<Vec<BorderCorner>>,
+    /// For each face, which sides are one point.
+    pub poles: Vec<[bool; 4]>,
+}
+
+/// Parameters of a point of a side, `t` along it.
+pub(super) fn on_side(side: u8, t: f64) -> [f64; 2] {
+    match side {
+        0 => [0.0, t],
+        1 => [1.0, t],
+        2 => [t, 0.0],
+        _ => [t, 1.0],
+    }
+}
+
+/// Parameters of a corner.
+pub(super) fn at_corner(corner: u8) -> [f64; 2] {
+    [f64::from(corner & 1), f64::from(corner >> 1)]
+}
+
+impl Seams {
+    /// Finds the borders that coincide within `tolerance`, metres, by comparing 9 points of each.
+    pub fn find(faces: &[StoredSurface], tolerance: f64) -> Self {
+        const SAMPLES: usize = 9;
+        let points = |face: usize, side: u8| -> [DVec3; SAMPLES] {
+            std::array::from_fn(|k| faces[face].evaluate(on_side(side, k as f64 / (SAMPLES - 1) as f64)).point)
+        };
+        let same = |a: &[DVec3; SAMPLES], b: &mut dyn Iterator<Item = &DVec3>| {
+            a.iter().zip(b).all(|(a, b)| a.distance(*b) <= tolerance)
+        };
+        let mut edges: Vec<(Vec<BorderSide>, [DVec3; SAMPLES])> = Vec::new();
+        let mut vertices: Vec<(Vec<BorderCorner>, DVec3)> = Vec::new();
+        let mut poles = vec![[false; 4]; faces.len()];
+        for face in 0..faces.len() {
+            for side in 0..4_u8 {
+                let line = points(face, side);
+                if line.iter().all(|point| point.distance(line[0]) <= tolerance) {
+                    poles[face][usize::from(side)] = true;
+                    continue;
+                }
+                let member = |reversed| BorderSide { face: face as u16, side, reversed };
+                let found = edges.iter_mut().find_map(|(members, other)| {
+                    let forward = same(&line, &mut other.iter());
+                    (forward || same(&line, &mut other.iter().rev())).then_some((members, !forward))
+                });
+                match found {
+                    Some((members, reversed)) => members.push(member(reversed)),
+                    None => edges.push((vec![member(false)], line)),
+                }
+            }
+            for corner in 0..4_u8 {
+                let point = faces[face].evaluate(at_corner(corner)).point;
+                let member = BorderCorner { face: face as u16, corner };
+                match vertices.iter_mut().find(|(_, other)| other.distance(point) <= tolerance) {
+                    Some((members, _)) => members.push(member),
+                    None => vertices.push((vec![member], point)),
+                }
+            }
+        }
+        Self {
+            edges: edges.into_iter().map(|(members, _)| members).collect(),
+            vertices: vertices.into_iter().map(|(members, _)| members).collect(),
+            poles,
+        }
+    }
+}
+
+// Points of all faces in a tree of boxes, for the one nearest to a probe.
+
+/// Intervals of the grid on each face.
+const INTERVALS: usize = 16;
+/// Intervals of a leaf of the tree: a block of the grid.
+const BLOCK: usize = 4;
+
+/// Grids of points on all faces.
+pub(super) struct Samples {
+    points: Vec<Sample>,
+    /// The root first; a node's second half begins where it says.
+    nodes: Vec<Node>,
+}
+
+/// A point of a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    pub face: u16,
+    pub parameters: [f64; 2],
+    pub point: DVec3,
+}
+
+/// A box with what is in it.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    low: DVec3,
+    high: DVec3,
+    holds: Holds,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Holds {
+    /// The next node, and the one of this index.
+    Nodes(usize),
+    /// A range of the points.
+    Points(usize, usize),
+}
+
+impl Samples {
+    pub(super) fn new(surfaces: &[StoredSurface]) -> Self {
+        let mut points = Vec::new();
+        let mut blocks = Vec::new();
+        for (face, surface) in surfaces.iter().enumerate() {
+            for block in 0..(INTERVALS / BLOCK) * (INTERVALS / BLOCK) {
+                let first = [block / (INTERVALS / BLOCK), block % (INTERVALS / BLOCK)].map(|index| index * BLOCK);
+                let begin = points.len();
+                points.extend((0..(BLOCK + 1) * (BLOCK + 1)).map(|index| {
+                    let steps = [first[0] + index / (BLOCK + 1), first[1] + index % (BLOCK + 1)];
+                    let parameters = steps.map(|step| step as f64 / INTERVALS as f64);
+                    Sample { face: face as u16, parameters, point: surface.evaluate(parameters).point }
+                }));
+                let [low, high] = bounds(points[begin..].iter().map(|sample| [sample.point; 2]));
+                blocks.push(Node { low, high, holds: Holds::Points(begin, points.len()) });
+            }
+        }
+        let mut nodes = Vec::with_capacity(2 * blocks.len());
+        build(&mut nodes, &mut blocks);
+        Self { points, nodes }
+    }
+
+    /// The nearest one; `None` if there are no faces.
+    pub(super) fn nearest(&self, query: DVec3) -> Option<&Sample> {
+        let mut best: Option<(f64, &Sample)> = None;
+        let mut open = vec![0];
+        while let Some(index) = open.pop() {
+            let node = self.nodes.get(index)?;
+            let away = |node: &Node| query.distance_squared(query.clamp(node.low, node.high));
+            if best.is_some_and(|(least, _)| away(node) >= least) {
+                continue;
+            }
+            match node.holds {
+                Holds::Points(begin, end) => {
+                    for sample in &self.points[begin..end] {
+                        let squared = sample.point.distance_squared(query);
+                        if best.is_none_or(|(least, _)| squared < least) {
+                            best = Some((squared, sample));
+                        }
+                    }
+                }
+                Holds::Nodes(second) => {
+                    let first_is_nearer = away(&self.nodes[index + 1]) <= away(&self.nodes[second]);
+                    open.extend(if first_is_nearer { [second, index + 1] } else { [index + 1, second] });
+                }
+            }
+        }
+        best.map(|(_, sample)| sample)
+    }
+}
+
+/// Halves blocks along the longest side of their box, in the order of their middles.
+fn build(nodes: &mut Vec<Node>, blocks: &mut [Node]) {
+    match blocks {
+        [] => return,
+        [block] => return nodes.push(*block),
+        _ => {}
+    }
+    let [low, high] = bounds(blocks.iter().map(|block| [block.low, block.high]));
+    let axis = (high - low).max_position();
+    blocks.sort_by(|a, b| (a.low[axis] + a.high[axis]).total_cmp(&(b.low[axis] + b.high[axis])));
+    let index = nodes.len();
+    nodes.push(Node { low, high, holds: Holds::Nodes(0) });
+    let (first, second) = blocks.split_at_mut(blocks.len() / 2);
+    build(nodes, first);
+    nodes[index].holds = Holds::Nodes(nodes.len());
+    build(nodes, second);
+}
+
+fn bounds(boxes: impl Iterator<Item = [DVec3; 2]>) -> [DVec3; 2] {
+    boxes.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], [a, b]| [low.min(a), high.max(b)])
+}

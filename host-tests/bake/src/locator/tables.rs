@@ -1,7 +1,7 @@
 //! Tables of the target from the octree: lists that are equal, or the end of another, are stored once.
 
+use super::list::{Child, Kind, Octree};
 use super::options::{LocatorError, LocatorOptions};
-use super::tree::{Child, Kind, Octree};
 use super::unique::Minima;
 use palpate::body::{LEAF, Locator};
 use palpate::math::Vec3;

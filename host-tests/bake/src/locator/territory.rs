@@ -1,10 +1,10 @@
 //! The space over one patch, and whether every probe there has one nearest point on it.
 
+use super::faces::Rectangle;
 use super::faces::{Faces, Query};
-use super::field::{Part, Probes};
 use super::piece::Piece;
-use super::rectangle::Rectangle;
-use super::seams::Seams;
+use super::piece::{Part, Probes};
+use super::stored::Seams;
 use super::stored::StoredSurface;
 use super::unique::Subject;
 use crate::BakedPatch;

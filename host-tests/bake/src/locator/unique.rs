@@ -12,10 +12,10 @@
 //!
 //! A crease inside the rectangle is never passed.
 
+use super::faces::Rectangle;
 use super::faces::{Faces, Query, Region};
-use super::field::{Field, Part, Probes};
+use super::piece::{Field, Part, Probes};
 use super::piece::{LEVELS, Piece};
-use super::rectangle::Rectangle;
 use glam::DVec3;
 
 /// What is proved of the minima on a rectangle, best first.

@@ -1,7 +1,8 @@
 //! The tokens of a body.
 
-use super::number::{number, rows};
-use super::{Origin, patch, pretty};
+use super::joined;
+use super::{Origin, pretty};
+use super::{number, rows};
 use crate::BakedCoefficients;
 use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, BakedSide};
 use palpate::body::{EdgeFace, EdgeKind, Spoke, Vertex};
@@ -121,7 +122,7 @@ fn lists(body: &BakedBody, breaks: &Breaks) -> TokenStream {
 
 fn face(index: usize, face: &BakedFace, breaks: &Breaks) -> TokenStream {
     let [breaks_u, breaks_v] = face.patch.breaks.each_ref().map(|of| breaks.name(of));
-    let patch = patch::joined([breaks_u, breaks_v, format_ident!("FACE_{index}")], &face.patch);
+    let patch = joined([breaks_u, breaks_v, format_ident!("FACE_{index}")], &face.patch);
     let sides = face.sides.iter().enumerate().map(|(side, of)| match of {
         BakedSide::Pole { vertex } => {
             let vertex = Literal::u16_unsuffixed(*vertex);

@@ -4,17 +4,16 @@
 //! decimal that reads back as the same `f32`. Nobody needs all of what a file makes public: that is no dead code.
 
 mod body;
-mod number;
-mod patch;
 
-pub use body::{SourceError, body_source};
-
+use crate::BakedCoefficients;
 use crate::baked::BakedPatch;
 use crate::body::BakedBody;
 use crate::model::Model;
+pub use body::{SourceError, body_source};
 use glam::DVec3;
-use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use palpate::patch::Orientation;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
 use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
 
@@ -52,7 +51,7 @@ impl Origin<'_> {
     /// The constant that says where the tables' frame lies.
     fn centre(&self) -> TokenStream {
         // It has few enough bits to be exact.
-        let [x, y, z] = self.centre.as_vec3().to_array().map(number::number);
+        let [x, y, z] = self.centre.as_vec3().to_array().map(number);
         quote! {
             /// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
             /// tables. With the model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
@@ -70,11 +69,11 @@ pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String
     let mut source = origin.header();
     for (index, patch) in patches.iter().enumerate() {
         let name = patch.name.as_deref().map_or_else(|| "unnamed".to_owned(), |name| format!("{name:?}"));
-        let _ = write!(source, "\n// Patch {index}, {name}.\n{}", pretty(patch::numbers(index, patch))?);
+        let _ = write!(source, "\n// Patch {index}, {name}.\n{}", pretty(numbers(index, patch))?);
     }
     let count = Literal::usize_unsuffixed(patches.len());
     let tables = patches.iter().enumerate().map(|(index, patch)| {
-        let table = patch::table(index, patch);
+        let table = table(index, patch);
         // The first is felt by itself: it carries its CRC.
         if index == 0 { quote!(#table.with_crc(TABLE_CRC)) } else { table }
     });
@@ -121,4 +120,109 @@ fn pretty(tokens: TokenStream) -> Result<String, syn::Error> {
 /// A file name may hold anything; a comment ends with its line.
 fn one_line(name: &str) -> String {
     name.chars().map(|letter| if letter.is_control() { '?' } else { letter }).collect()
+}
+
+// Numbers as tokens.
+
+/// Rows of numbers.
+fn rows<const D: usize>(entries: &[[f32; D]]) -> Vec<TokenStream> {
+    let row = |entry: &[f32; D]| {
+        let numbers = entry.iter().copied().map(number);
+        quote!([#(#numbers),*])
+    };
+    entries.iter().map(row).collect()
+}
+
+/// A number with its sign, shortest form. Exponents keep very small ones short. A bound may be infinite.
+fn number(value: f32) -> TokenStream {
+    if value.is_infinite() {
+        return if value > 0.0 { quote!(f32::INFINITY) } else { quote!(f32::NEG_INFINITY) };
+    }
+    let magnitude = value.abs();
+    let digits = if magnitude == 0.0 || (1e-4..1e7).contains(&magnitude) {
+        format!("{magnitude:?}")
+    } else {
+        format!("{magnitude:e}")
+    };
+    // A finite float prints as a literal of Rust.
+    let literal: Literal = digits.parse().unwrap_or_else(|_| Literal::f32_unsuffixed(magnitude));
+    if value.is_sign_negative() { quote!(-#literal) } else { quote!(#literal) }
+}
+
+// The tokens of one patch.
+
+/// The numbers of one patch, as private statics.
+fn numbers(index: usize, patch: &BakedPatch) -> TokenStream {
+    let [breaks_u, breaks_v, coefficients] = names(index);
+    let [borders_u, borders_v] = patch.breaks.each_ref().map(|breaks| breaks.iter().copied().map(number));
+    let [count_u, count_v] = patch.breaks.each_ref().map(|breaks| Literal::usize_unsuffixed(breaks.len()));
+    let (count, components, entries) = match &patch.coefficients {
+        BakedCoefficients::Polynomial(entries) => (entries.len(), 3_usize, rows(entries)),
+        BakedCoefficients::Rational(entries) => (entries.len(), 4_usize, rows(entries)),
+    };
+    let [count, components] = [count, components].map(Literal::usize_unsuffixed);
+    quote! {
+        #[rustfmt::skip]
+        static #breaks_u: [f32; #count_u] = [#(#borders_u),*];
+        #[rustfmt::skip]
+        static #breaks_v: [f32; #count_v] = [#(#borders_v),*];
+        #[rustfmt::skip]
+        static #coefficients: [[f32; #components]; #count] = [#(#entries),*];
+    }
+}
+
+/// The call that checks and joins them.
+fn table(index: usize, patch: &BakedPatch) -> TokenStream {
+    joined(names(index), patch)
+}
+
+/// The call with the names of the borders along `u` and `v` and of the coefficients.
+fn joined([breaks_u, breaks_v, coefficients]: [Ident; 3], patch: &BakedPatch) -> TokenStream {
+    let [degree_u, degree_v] = patch.degree.map(Literal::u8_unsuffixed);
+    let kind = match &patch.coefficients {
+        BakedCoefficients::Polynomial(_) => quote!(Polynomial),
+        BakedCoefficients::Rational(_) => quote!(Rational),
+    };
+    let derivatives = patch.shape.second_derivatives;
+    let [uu, uv, vv] = [derivatives.uu, derivatives.uv, derivatives.vv].map(number);
+    let third = patch.shape.third_derivatives;
+    let [uuu, uuv, uvv, vvv] = [third.uuu, third.uuv, third.uvv, third.vvv].map(number);
+    let [jump_uu, jump_vv] = [third.jump_uu, third.jump_vv].map(number);
+    let [least, greatest] = [patch.shape.curvature.min, patch.shape.curvature.max].map(number);
+    let [min_stretch, max_stretch] = [patch.shape.min_stretch, patch.shape.max_stretch].map(number);
+    let max_bend = number(patch.shape.max_bend);
+    let orientation = match patch.orientation {
+        Orientation::Outward => quote!(Outward),
+        Orientation::Inward => quote!(Inward),
+    };
+    let size = number(patch.size);
+    quote! {
+        palpate::patch::SplinePatch::from_table(
+            [#degree_u, #degree_v],
+            &#breaks_u,
+            &#breaks_v,
+            palpate::patch::Coefficients::#kind(&#coefficients),
+            palpate::patch::ShapeBounds {
+                second_derivatives: palpate::patch::SecondDerivativeBounds { uu: #uu, uv: #uv, vv: #vv },
+                third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                    uuu: #uuu,
+                    uuv: #uuv,
+                    uvv: #uvv,
+                    vvv: #vvv,
+                    jump_uu: #jump_uu,
+                    jump_vv: #jump_vv,
+                },
+                curvature: palpate::patch::Curvature { min: #least, max: #greatest },
+                min_stretch: #min_stretch,
+                max_stretch: #max_stretch,
+                max_bend: #max_bend,
+            },
+            palpate::patch::Orientation::#orientation,
+            #size,
+        )
+    }
+}
+
+fn names(index: usize) -> [Ident; 3] {
+    ["BREAKS_U", "BREAKS_V", "COEFFICIENTS"].map(|kind| format_ident!("PATCH_{index}_{kind}"))
 }

@@ -5,9 +5,6 @@ use crate::jet::Jet;
 use glam::DVec3;
 use std::fmt;
 
-/// Points nearer than this, in sizes of the body, are one.
-pub const TOLERANCE: f64 = 1e-6;
-
 /// One border of one patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Border {

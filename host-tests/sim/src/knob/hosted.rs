@@ -1,6 +1,8 @@
 //! The knob's loop compiled for the host, at the simulated dial.
 
-use super::{FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo, widths};
+use super::shared::{
+    FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo, widths,
+};
 use crate::plant::{Dial, DialSettings, Fingers};
 use palpate::device::sensor::Frozen;
 use palpate::device::{CoggingMap, Counts};

@@ -1,29 +1,25 @@
 //! The device.
 
 use crate::plant::{HandSettings, Plant, PlantSettings};
+use crate::simulated::board::{AtPins, CLOCK_HZ, SimulatedBench, SimulatedBoard};
 use crate::simulated::hand::Hand;
 use anyhow::Context as _;
 use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, FileHead};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Counts, Duty, SerialArm};
+use palpate::device::{Counts, Duty, ElectricalAngle, SerialArm};
 use palpate::math::{Vec3, vec3};
 use palpate::scene::{Limits, Material, Motion, Part, Scene, Slot};
-use palpate::servo::{Heartbeat, ResetReason, Safety, Servo, Settings, Unguarded};
+use palpate::servo::{ResetReason, Safety, Servo, Settings, Unguarded};
 use palpate::track::{Controller, Placement};
-use palpate::wire::Record;
-use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::BadFrame;
-use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Uploads, Watchdog};
+use palpate_bench::{Felt, Panel, Uploads};
 use palpate_link::Line;
 use palpate_shelf::{Bodies, Both, Kept, PretendedFlash};
-use std::collections::VecDeque;
 use std::io;
 use std::time::{Duration, Instant};
 
 /// Ticks a second.
 const RATE: u32 = 4_000;
-/// Of the simulated board's counter, Hz.
-const CLOCK: u32 = 100_000_000;
 /// Bytes that a line of 500,000 baud carries in a tick, either way.
 const BYTES: u32 = 12;
 /// The second box is so far to the side of the first, metres: 20 mm are between them.
@@ -54,72 +50,29 @@ impl Felt<3> for Made {
     }
 }
 
-/// A board whose pins are the simulated device's.
-struct Pins {
+/// The arm in a hand, at the board's pins.
+struct AtArm {
     plant: Plant,
     hand: Hand,
-    duties: [i16; 3],
 }
 
-impl Board<3> for Pins {
-    fn drive(&mut self, duties: [Duty; 3]) -> Result<(), NotObeyed> {
-        self.duties = duties.map(|duty| duty.0);
-        Ok(())
-    }
-}
-
-impl Passive<3> for Pins {
-    fn now(&self) -> u32 {
-        0
-    }
-
-    fn acknowledge(&mut self) {}
-
+impl AtPins<3> for AtArm {
     fn panel(&mut self) -> Panel {
         Panel { enable: self.hand.is_enabling(), stop: false, ready: true, supply: None }
     }
 
-    fn read(&mut self) -> Result<[Counts; 3], BadFrame> {
+    fn counts(&mut self) -> Result<[Counts; 3], BadFrame> {
         Ok(self.plant.counts().map(Counts))
     }
 
-    fn release(&mut self) -> Result<(), NotObeyed> {
-        self.duties = [0; 3];
-        Ok(())
+    fn advance(&mut self, _: Option<[ElectricalAngle; 3]>, duties: Option<[Duty; 3]>) {
+        self.plant.advance(duties.unwrap_or_default().map(|duty| duty.0));
     }
-
-    fn show(&mut self, _: bool) {}
-}
-
-/// The serial port, both ends.
-#[derive(Default)]
-struct Wire {
-    to_device: VecDeque<u8>,
-    from_device: Vec<u8>,
-}
-
-impl Port for Wire {
-    fn send(&mut self, byte: u8) -> bool {
-        self.from_device.push(byte);
-        true
-    }
-
-    fn receive(&mut self) -> Option<u8> {
-        self.to_device.pop_front()
-    }
-}
-
-struct NoWatchdog;
-
-impl Watchdog for NoWatchdog {
-    fn feed(&mut self) {}
 }
 
 /// A line to the boards' loop in this very program. The device lives while it is listened to; its time is its own.
 pub struct Simulated {
-    bench: Bench<'static, Made, Pins, 3>,
-    idle: Idle<'static>,
-    wire: Wire,
+    board: SimulatedBoard<SimulatedBench<Made, AtArm, 3>>,
     hand: Hand,
     flash: &'static InFlash,
     ticks: u32,
@@ -206,23 +159,19 @@ impl Simulated {
         let grip = HandSettings::default();
         let path = Box::new(hand.clone());
         let plant = Plant::new(&PlantSettings::wooden_haptics_2016(), grip, path, f64::from(RATE))?;
-        let mailbox: &'static Mailbox = kept(Mailbox::new());
-        let queue: &'static mut Queue<Record, 16> = Box::leak(Box::new(Queue::new()));
-        let (producer, records) = queue.split();
-        let pins = Pins { plant, hand: hand.clone(), duties: [0; 3] };
-        let loop_settings = palpate_bench::Settings::new(CLOCK);
-        let bench = Bench::new(Made(servo), pins, &loop_settings, kind.reset, producer, mailbox);
-        let mut idle = Idle::new(mailbox, records, Heartbeat::default()).saying(settings.rate_hz, settings.max_force_n);
+        let world = AtArm { plant, hand: hand.clone() };
+        let loop_settings = palpate_bench::Settings::new(CLOCK_HZ);
+        let mut board = SimulatedBoard::new(Made(servo), world, &loop_settings, kind.reset);
+        board.idle = board.idle.saying(settings.rate_hz, settings.max_force_n);
         if kind.takes_bodies {
             let main: &'static dyn Uploads = kept(memory.main().context("its memory is handed out once")?);
-            idle = idle.taking(main);
+            board.idle = board.idle.taking(main);
         }
         let keeping: &'static dyn Uploads = kept(keeping);
         if kind.keeps_bodies {
-            idle = idle.keeping(keeping);
+            board.idle = board.idle.keeping(keeping);
         }
-        let wire = Wire::default();
-        Ok(Self { bench, idle, wire, hand, flash, ticks: 0, began: Instant::now(), is_paced: false })
+        Ok(Self { board, hand, flash, ticks: 0, began: Instant::now(), is_paced: false })
     }
 
     /// No faster than the clock on the wall.
@@ -245,16 +194,11 @@ impl Simulated {
 
     /// What the motors are told.
     pub fn duties(&mut self) -> [i16; 3] {
-        self.bench.board().duties
+        self.board.bench.board().duties.unwrap_or_default().map(|duty| duty.0)
     }
 
     fn tick(&mut self) {
-        self.bench.tick();
-        let pins = self.bench.board();
-        pins.plant.advance(pins.duties);
-        for _ in 0..BYTES {
-            self.idle.step(&mut self.wire, &mut NoWatchdog);
-        }
+        self.board.tick(BYTES);
         self.ticks += 1;
     }
 
@@ -270,25 +214,25 @@ impl Line for Simulated {
     }
 
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.wire.to_device.extend(bytes);
+        self.board.wire.to_device.extend(bytes);
         Ok(())
     }
 
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
         let began = self.passed();
         // What comes in the tick after it was asked for in vain is there the next time.
-        if wait.is_zero() && self.wire.from_device.is_empty() {
+        if wait.is_zero() && self.board.wire.from_device.is_empty() {
             self.tick();
             return Ok(0);
         }
-        while self.wire.from_device.is_empty() && self.passed() - began < wait {
+        while self.board.wire.from_device.is_empty() && self.passed() - began < wait {
             self.tick();
         }
         if self.is_paced {
             std::thread::sleep((self.began + self.passed()).saturating_duration_since(Instant::now()));
         }
-        let came = self.wire.from_device.len().min(buffer.len());
-        for (place, byte) in buffer.iter_mut().zip(self.wire.from_device.drain(..came)) {
+        let came = self.board.wire.from_device.len().min(buffer.len());
+        for (place, byte) in buffer.iter_mut().zip(self.board.wire.from_device.drain(..came)) {
             *place = byte;
         }
         Ok(came)

@@ -1,7 +1,6 @@
 //! A calibration in flash: written while the device is set up and nothing moves, whole or not at all; believed after a
 //! reset only if it can be this device's.
 
-use crate::orders::{NoWatchdog, Wire};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use palpate::commission::{Calibration, CalibrationError, Jog, JointCalibration, KEY};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
@@ -13,6 +12,7 @@ use palpate::wire::{Answer, Calibrated, Command, KeepError, PROTOCOL, Reading, R
 use palpate_bench::{Calibrations as _, Idle};
 use palpate_shelf::KeptCalibration;
 use palpate_sim::rig::{Made, Rig, SETTINGS, WALL, held_at, settings};
+use palpate_sim::simulated::{NoWatchdog, Wire};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use std::cell::{Cell, RefCell};

@@ -1,6 +1,6 @@
 //! Flash: written while the motors are held off, and what lies there after whatever happened.
 
-use crate::orders::{NoWatchdog, Wire, parts};
+use crate::orders::parts;
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use palpate::body::FileError;
 use palpate::device::SerialArm;
@@ -13,6 +13,7 @@ use palpate::wire::{Answer, CHUNK, Command, PROTOCOL, Refused, Told, Upload, Upl
 use palpate_bench::{Idle, Uploads, Watchdog};
 use palpate_shelf::{Bodies, Both, Kept, Pretended, PretendedFlash};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
+use palpate_sim::simulated::{NoWatchdog, Wire};
 use std::cell::{Cell, RefCell};
 use std::path::Path;
 

@@ -1,7 +1,6 @@
 //! A host at the knob's line: it chooses what is felt, and nothing that it says makes a step or drives by itself.
 
 use crate::knob::Rig;
-use crate::orders::{NoWatchdog, Wire};
 use palpate::scene::{Order, Pose, SceneError};
 use palpate::servo::{Heartbeat, ResetReason};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
@@ -9,6 +8,7 @@ use palpate::wire::{Answer, Command, Hello, PROTOCOL, Refused, Told, Upload};
 use palpate_bench::Idle;
 use palpate_sim::knob::{FEELS, LET_GO, SETTINGS};
 use palpate_sim::plant::Fingers;
+use palpate_sim::simulated::{NoWatchdog, Wire};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

@@ -7,33 +7,10 @@ use palpate::servo::{Heartbeat, ResetReason, Servo};
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, CHUNK, Command, PROTOCOL, Refused, Told, Upload, UploadError};
-use palpate_bench::{Idle, Port, Uploads as _, Watchdog};
+use palpate_bench::{Idle, Uploads as _};
 use palpate_shelf::Bodies;
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
-use std::collections::VecDeque;
-
-#[derive(Default)]
-pub struct Wire {
-    pub to_device: VecDeque<u8>,
-    pub from_device: Vec<u8>,
-}
-
-impl Port for Wire {
-    fn send(&mut self, byte: u8) -> bool {
-        self.from_device.push(byte);
-        true
-    }
-
-    fn receive(&mut self) -> Option<u8> {
-        self.to_device.pop_front()
-    }
-}
-
-pub struct NoWatchdog;
-
-impl Watchdog for NoWatchdog {
-    fn feed(&mut self) {}
-}
+use palpate_sim::simulated::{NoWatchdog, Wire};
 
 /// A device that feels a wall: nothing that can be ordered.
 struct Device {

@@ -10,36 +10,12 @@ use palpate::servo::{Fault, Guard, Heartbeat, Phase, ResetReason, SafeOutput, Sa
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Command, Reading, Told, hold};
-use palpate_bench::{Idle, Port, Settings, Watchdog};
+use palpate_bench::{Idle, Settings};
 use palpate_sim::rig::{RATE, Rig, SETTINGS, WALL, World, held_at, settings};
+use palpate_sim::simulated::{NoWatchdog, Wire};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
-use std::collections::VecDeque;
 use std::sync::OnceLock;
-
-/// A line whose bytes are all there at once.
-#[derive(Default)]
-struct Wire {
-    to_device: VecDeque<u8>,
-    from_device: Vec<u8>,
-}
-
-impl Port for Wire {
-    fn send(&mut self, byte: u8) -> bool {
-        self.from_device.push(byte);
-        true
-    }
-
-    fn receive(&mut self) -> Option<u8> {
-        self.to_device.pop_front()
-    }
-}
-
-struct NoWatchdog;
-
-impl Watchdog for NoWatchdog {
-    fn feed(&mut self) {}
-}
 
 /// The whole device side: interrupt, main and line.
 struct Device<G: Guard<3> + 'static = Unguarded> {

@@ -1,6 +1,6 @@
 //! Input, sign, ratio and zero of each encoder: from two known angles of each joint.
 
-use super::finding::differs;
+use super::lab::differs;
 use super::{Finding, Lab, Zero};
 use anyhow::bail;
 use palpate_sim::devices::{DeviceFile, HomingEntry, JointEntry};

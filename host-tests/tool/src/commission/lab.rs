@@ -1,9 +1,10 @@
 //! A device, and whoever stands at it.
 
-use super::{Device, Hands};
+use super::Device;
 use anyhow::bail;
 use clap::ValueEnum;
 use palpate::wire::Marked;
+use std::fmt;
 
 /// The servo rate of a device that is simulated, Hz.
 pub const RATE: f32 = 4_000.0;
@@ -81,4 +82,64 @@ impl Lab {
         }
         bail!("the joints do not come to rest: hold them against something that does not give")
     }
+}
+
+// What was found to be other than the file had it.
+
+/// A sentence: the joint, what, and by how much.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding(pub String);
+
+impl fmt::Display for Finding {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.0)
+    }
+}
+
+/// Whether a number is off by more than this share of what the file says.
+pub(super) fn differs(found: f64, before: f64, share: f64) -> bool {
+    (found - before).abs() > share * before.abs()
+}
+
+// Whoever stands at the device.
+
+/// What a person does at the bench, or a simulation of one.
+pub trait Hands {
+    /// Puts the joints at these angles, rad, by jig, stop or protractor, and holds them.
+    ///
+    /// # Errors
+    /// Nobody is there any more.
+    fn place(&mut self, angles: [f64; 3]) -> anyhow::Result<()>;
+
+    /// Holds the device in the pose in which it is homed, which its file has at these angles, rad.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<()>;
+
+    /// Moves one joint slowly past its index mark to where these angles have it, rad, and holds the others.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn pass(&mut self, joint: usize, angles: [f64; 3]) -> anyhow::Result<()>;
+
+    /// Lets one joint rest against a support where it is, so that its motor can move it only one way, `towards` rising
+    /// angles (1) or falling ones (−1); goes on holding the others.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()>;
+
+    /// Makes a known weight pull at the probe, over a pulley where it must, along this force, N; none for zero. How
+    /// much it is, N.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn pull(&mut self, force: [f64; 3]) -> anyhow::Result<f64>;
+
+    /// Presses the device's enable button and goes on holding it, or lets it go.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn enable(&mut self, pressed: bool) -> anyhow::Result<()>;
 }

@@ -3,24 +3,20 @@
 use super::{Line, RATE, World};
 use anyhow::{Context as _, bail};
 use palpate::commission::Wiring;
-use palpate::device::{Counts, Device, Duty, Homing, Kinematics, Protection, Reference};
+use palpate::device::{Counts, Device, Duty, ElectricalAngle, Homing, Kinematics, Protection, Reference};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Guarded, Heartbeat, ResetReason, Servo, Settings};
+use palpate::servo::{Guarded, ResetReason, Servo, Settings};
 use palpate::track::Controller;
-use palpate::wire::Record;
-use palpate::wire::telemetry::Queue;
 use palpate_bench::sensors::BadFrame;
-use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Watchdog};
+use palpate_bench::{Felt, Panel};
 use palpate_shelf::{Found, KeptCalibration, PretendedFlash};
 use palpate_sim::devices::preset::Preset;
 use palpate_sim::devices::{HomingEntry, OwnDevice};
+use palpate_sim::simulated::{AtPins, CLOCK_HZ, SimulatedBoard, Ticks};
 use palpate_sim::wall::WALL;
-use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Of the simulated board's counter, Hz.
-const CLOCK: u32 = 100_000_000;
 /// Ticks that the device runs while the line is looked at: two milliseconds.
 const TICKS: u32 = 8;
 /// Bytes that a line of 500,000 baud carries in a tick, either way, with time to spare.
@@ -54,37 +50,21 @@ impl<K: Kinematics<3> + 'static> Felt<3> for Made<K> {
     }
 }
 
-/// A board whose pins are the simulated device's.
-struct SimulatedBoard {
-    world: Arc<Mutex<World>>,
-    duties: [i16; 3],
-}
+/// The simulated bench, at the board's pins.
+struct AtBench(Arc<Mutex<World>>);
 
-impl SimulatedBoard {
+impl AtBench {
     fn world(&self) -> MutexGuard<'_, World> {
-        self.world.lock().unwrap_or_else(PoisonError::into_inner)
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Board<3> for SimulatedBoard {
-    fn drive(&mut self, duties: [Duty; 3]) -> Result<(), NotObeyed> {
-        self.duties = duties.map(|duty| duty.0);
-        Ok(())
-    }
-}
-
-impl Passive<3> for SimulatedBoard {
-    fn now(&self) -> u32 {
-        0
-    }
-
-    fn acknowledge(&mut self) {}
-
+impl AtPins<3> for AtBench {
     fn panel(&mut self) -> Panel {
         Panel { enable: self.world().enable, stop: false, ready: true, supply: None }
     }
 
-    fn read(&mut self) -> Result<[Counts; 3], BadFrame> {
+    fn counts(&mut self) -> Result<[Counts; 3], BadFrame> {
         Ok(self.world().counts().map(Counts))
     }
 
@@ -92,60 +72,17 @@ impl Passive<3> for SimulatedBoard {
         self.world().take_marks().map(|mark| mark.map(Counts))
     }
 
-    fn release(&mut self) -> Result<(), NotObeyed> {
-        self.duties = [0; 3];
-        Ok(())
-    }
-
-    fn show(&mut self, _: bool) {}
-}
-
-/// A tick of a device, whatever its mechanism.
-trait Ticks {
-    /// A tick, and a period of the simulated device.
-    fn tick(&mut self);
-}
-
-impl<K: Kinematics<3> + 'static> Ticks for Bench<'static, Made<K>, SimulatedBoard, 3> {
-    fn tick(&mut self) {
-        Bench::tick(self);
-        let duties = self.board().duties;
-        self.board().world().advance(duties);
+    fn advance(&mut self, _: Option<[ElectricalAngle; 3]>, duties: Option<[Duty; 3]>) {
+        self.world().advance(duties.unwrap_or_default().map(|duty| duty.0));
     }
 }
 
-/// The serial port, both ends.
-#[derive(Default)]
-struct Bytes {
-    to_device: VecDeque<u8>,
-    from_device: Vec<u8>,
-}
-
-impl Port for Bytes {
-    fn send(&mut self, byte: u8) -> bool {
-        self.from_device.push(byte);
-        true
-    }
-
-    fn receive(&mut self) -> Option<u8> {
-        self.to_device.pop_front()
-    }
-}
-
-struct NoWatchdog;
-
-impl Watchdog for NoWatchdog {
-    fn feed(&mut self) {}
-}
-
-/// The loop and what runs below it.
-type Started = (Box<dyn Ticks>, Idle<'static>);
+/// A board, whatever the mechanism at its pins.
+type Started = SimulatedBoard<Box<dyn Ticks>>;
 
 /// A line to the loop of the boards in this very program.
 pub struct HostLine {
-    bench: Box<dyn Ticks>,
-    idle: Idle<'static>,
-    bytes: Bytes,
+    board: Started,
     flash: &'static Flash,
     start: Box<dyn Fn(&'static Flash) -> anyhow::Result<Started>>,
 }
@@ -173,8 +110,8 @@ impl HostLine {
         let flash: &'static Flash = Box::leak(Box::new(Flash::new()));
         let world = Arc::clone(world);
         let start = Box::new(move |flash| started((device, protection), homing, &world, flash));
-        let (bench, idle) = start(flash)?;
-        Ok(Self { bench, idle, bytes: Bytes::default(), flash, start })
+        let board = start(flash)?;
+        Ok(Self { board, flash, start })
     }
 }
 
@@ -211,36 +148,29 @@ fn started<K: Kinematics<3> + Copy>(
     if homing != HomingEntry::None {
         world.lock().unwrap_or_else(PoisonError::into_inner).begin_to_count();
     }
-    let board = SimulatedBoard { world: Arc::clone(world), duties: [0; 3] };
-    let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
-    let queue: &'static mut Queue<Record, 16> = Box::leak(Box::new(Queue::new()));
-    let (producer, records) = queue.split();
-    let settings = palpate_bench::Settings::new(CLOCK);
-    let bench = Bench::new(made, board, &settings, ResetReason::PowerOn, producer, mailbox);
-    let idle = Idle::new(mailbox, records, Heartbeat::default()).calibrating(Box::leak(Box::new(kept)));
-    Ok((Box::new(bench), idle))
+    let settings = palpate_bench::Settings::new(CLOCK_HZ);
+    let SimulatedBoard { bench, idle, wire } =
+        SimulatedBoard::new(made, AtBench(Arc::clone(world)), &settings, ResetReason::PowerOn);
+    let idle = idle.calibrating(Box::leak(Box::new(kept)));
+    Ok(SimulatedBoard { bench: Box::new(bench), idle, wire })
 }
 
 impl Line for HostLine {
     fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
-        self.bytes.to_device.extend(bytes);
+        self.board.wire.to_device.extend(bytes);
         Ok(())
     }
 
     fn receive(&mut self) -> anyhow::Result<Vec<u8>> {
         for _ in 0..TICKS {
-            self.bench.tick();
-            for _ in 0..BYTES {
-                self.idle.step(&mut self.bytes, &mut NoWatchdog);
-            }
+            self.board.tick(BYTES);
         }
-        Ok(std::mem::take(&mut self.bytes.from_device))
+        Ok(std::mem::take(&mut self.board.wire.from_device))
     }
 
     fn reset(&mut self) -> anyhow::Result<bool> {
         self.flash = Box::leak(Box::new(self.flash.after_reset()));
-        (self.bench, self.idle) = (self.start)(self.flash)?;
-        self.bytes = Bytes::default();
+        self.board = (self.start)(self.flash)?;
         Ok(true)
     }
 }

@@ -9,9 +9,9 @@
 
 use super::device::said;
 use super::encoders::angle;
-use super::finding::differs;
+use super::lab::differs;
 use super::motors::away;
-use super::ramp::{Growth, duty, grow, most};
+use super::motors::{Growth, duty, grow, most};
 use super::{Finding, Lab};
 use anyhow::{Context as _, bail};
 use palpate_sim::devices::{DeviceFile, OwnDevice};

@@ -1,7 +1,7 @@
 //! Figure 7 as the paper draws it.
 
 use super::attraction::{Basin, Run, STARTS, Target, start_grid};
-use super::comparison::{Comparison, DRAWN};
+use super::attraction::{Comparison, DRAWN};
 use super::page::{Axes, THICK, THIN, dot, page, scene, sight, view_of};
 use super::subject::Subject;
 use crate::drawing::{BLUE_INK, Drawing, DrawingResult, RED_INK, View};

@@ -1,13 +1,17 @@
 //! All figures of a patch: files of drawings and numbers, and the lines of the table.
 
+use super::attraction::{Comparison, DRAWN};
 use super::attraction::{Contender, seeded_targets, start_grid};
-use super::comparison::{Comparison, DRAWN};
+use super::invariance::draw_passage;
 use super::invariance::{self, Passage};
+use super::rate::draw_rates;
 use super::rate::{Lag, Rate};
 use super::subject::Subject;
 use super::tour::Touring;
+use super::tour::{draw_regions, draw_tour};
 use super::tracking::{self, Configuration, Limit};
-use super::{attraction_plot, invariance_plot, rate, rate_plot, tour_plot, tracking_plot};
+use super::tracking::{draw_limits, draw_tracking};
+use super::{attraction_plot, rate};
 use anyhow::ensure;
 use palpate::track::Integrator;
 use std::fmt::Write as _;
@@ -77,7 +81,7 @@ pub fn body_sheet(touring: &Touring) -> anyhow::Result<Sheet> {
     let owners: std::collections::BTreeSet<u16> =
         slices.iter().flat_map(|slice| slice.cells.iter().flatten().flatten()).map(|feature| feature.code()).collect();
     sheet.row("figure 3", format!("{} regions in two slices", owners.len()));
-    sheet.files.push((format!("{}-figure3.svg", touring.name), tour_plot::draw_regions(&slices)?));
+    sheet.files.push((format!("{}-figure3.svg", touring.name), draw_regions(&slices)?));
     let samples = touring.tour();
     let features: Vec<_> = samples.chunk_by(|a, b| a.feature == b.feature).collect();
     let settled = samples.iter().skip(100).map(|sample| sample.excess).fold(0.0, f64::max);
@@ -93,7 +97,7 @@ pub fn body_sheet(touring: &Touring) -> anyhow::Result<Sheet> {
         let time = sample.time;
         writeln!(csv, "{time:.3},{qx:.5},{qy:.5},{qz:.5},{px:.5},{py:.5},{pz:.5},{feature},{u:.7},{v:.7},{excess:.7}")?;
     }
-    sheet.files.push((format!("{}-figure9.svg", touring.name), tour_plot::draw_tour(touring, &samples)?));
+    sheet.files.push((format!("{}-figure9.svg", touring.name), draw_tour(touring, &samples)?));
     sheet.files.push((format!("{}-figure9.csv", touring.name), csv));
     Ok(sheet)
 }
@@ -120,7 +124,7 @@ fn invariance(subject: &Subject, progress: impl FnMut(usize, usize)) -> anyhow::
     sheet.row("  |psi_u|, |psi_v|", format!("{}, {}", rises(0), rises(1)));
     sheet.row("  largest rise of ‖ΔR‖", format!("{:.1e} m", passage.largest_rise()));
     sheet.row("  second order", format!("at rest after {} ticks", passage.second_order.len() - 1));
-    sheet.files.push((format!("{}-figure6.svg", subject.name), invariance_plot::draw(subject, &passage)?));
+    sheet.files.push((format!("{}-figure6.svg", subject.name), draw_passage(subject, &passage)?));
     sheet.files.push((format!("{}-figure6.csv", subject.name), csv));
     Ok(sheet)
 }
@@ -223,9 +227,9 @@ fn tracking(subject: &Subject) -> anyhow::Result<Sheet> {
             format!("a tick leaves ‖Ψ‖ = {most:.1e} at most, from 0.1 s to {} s", tracking::MOTION),
         );
     }
-    sheet.files.push((format!("{}-figure8.svg", subject.name), tracking_plot::draw(subject, &runs, &certified)?));
+    sheet.files.push((format!("{}-figure8.svg", subject.name), draw_tracking(subject, &runs, &certified)?));
     sheet.files.push((format!("{}-figure8.csv", subject.name), csv));
-    sheet.files.push((format!("{}-figure8-limits.svg", subject.name), tracking_plot::draw_limits(&limits, &rest)?));
+    sheet.files.push((format!("{}-figure8-limits.svg", subject.name), draw_limits(&limits, &rest)?));
     let mut csv = "integrator,curvature_times_distance,predicted_per_s,measured_per_s\n".to_owned();
     for Limit { integrator, product, predicted, measured } in &limits {
         writeln!(csv, "{integrator:?},{product:.1},{predicted:.2},{measured:.2}")?;
@@ -264,6 +268,6 @@ fn rates(subject: &Subject) -> anyhow::Result<Sheet> {
         writeln!(csv, "{speed:.4},{first:.3e},{second:.3e}")?;
     }
     sheet.files.push((format!("{}-lag.csv", subject.name), csv));
-    sheet.files.push((format!("{}-rate.svg", subject.name), rate_plot::draw(&rates, &lags)?));
+    sheet.files.push((format!("{}-rate.svg", subject.name), draw_rates(&rates, &lags)?));
     Ok(sheet)
 }

@@ -2,10 +2,9 @@
 
 pub mod cogging;
 mod on_host;
-mod recording;
 pub mod turning;
 
 pub use cogging::Recording;
+pub use cogging::record;
 pub use on_host::{KnobLine, KnobWorld, SharedKnob};
 pub use palpate_sim::knob::*;
-pub use recording::record;

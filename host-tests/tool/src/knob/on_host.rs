@@ -5,17 +5,13 @@ use crate::commission::{Hands, Line};
 use anyhow::bail;
 use palpate::device::drive::Field;
 use palpate::device::{Counts, Dial, Duty, ElectricalAngle};
-use palpate::servo::{Guarded, Heartbeat, Knob, ResetReason};
-use palpate::wire::Record;
-use palpate::wire::telemetry::Queue;
+use palpate::servo::{Guarded, Knob, ResetReason};
 use palpate_bench::sensors::BadFrame;
-use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Settings, Watchdog};
+use palpate_bench::{Felt, Panel, Settings};
 use palpate_sim::plant::DialSettings;
-use std::collections::VecDeque;
+use palpate_sim::simulated::{AtPins, CLOCK_HZ, SimulatedBench, SimulatedBoard};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Of the simulated board's counter, Hz.
-const CLOCK: u32 = 100_000_000;
 /// Ticks that the device runs while the line is looked at: two milliseconds.
 const TICKS: u32 = 8;
 /// Bytes that a line of 500,000 baud carries in a tick, either way, with time to spare.
@@ -86,110 +82,47 @@ impl Felt<1> for This {
     }
 }
 
-struct SimulatedBoard {
-    knob: SharedKnob,
-    aim: Option<ElectricalAngle>,
-    widths: Option<[f64; 3]>,
-}
+impl AtPins<1> for SharedKnob {
+    fn panel(&mut self) -> Panel {
+        Panel { enable: self.world().enable, stop: false, ready: true, supply: None }
+    }
 
-impl Board<1> for SimulatedBoard {
-    fn aim(&mut self, [field]: [ElectricalAngle; 1]) {
-        self.aim = Some(field);
+    fn counts(&mut self) -> Result<[Counts; 1], BadFrame> {
+        self.world().dial.counts().map(|counts| [Counts(counts)]).ok_or(BadFrame::Absent)
     }
 
     /// As the stage of the boards does it ([`palpate::device::drive::ThreePhase`]).
-    fn drive(&mut self, [duty]: [Duty; 1]) -> Result<(), NotObeyed> {
-        let angle = self.aim.ok_or(NotObeyed)?;
-        self.widths = Some(MODULATION.widths(Field { angle, duty }).map(f64::from));
-        Ok(())
+    fn advance(&mut self, fields: Option<[ElectricalAngle; 1]>, duties: Option<[Duty; 1]>) {
+        let field = fields.zip(duties).map(|([angle], [duty])| Field { angle, duty });
+        self.world().dial.advance(field.map(|field| MODULATION.widths(field).map(f64::from)));
     }
-}
-
-impl Passive<1> for SimulatedBoard {
-    fn now(&self) -> u32 {
-        0
-    }
-
-    fn acknowledge(&mut self) {}
-
-    fn panel(&mut self) -> Panel {
-        Panel { enable: self.knob.world().enable, stop: false, ready: true, supply: None }
-    }
-
-    fn read(&mut self) -> Result<[Counts; 1], BadFrame> {
-        self.knob.world().dial.counts().map(|counts| [Counts(counts)]).ok_or(BadFrame::Absent)
-    }
-
-    fn release(&mut self) -> Result<(), NotObeyed> {
-        (self.aim, self.widths) = (None, None);
-        Ok(())
-    }
-
-    fn show(&mut self, _: bool) {}
-}
-
-/// The serial port, both ends.
-#[derive(Default)]
-struct Bytes {
-    to_device: VecDeque<u8>,
-    from_device: Vec<u8>,
-}
-
-impl Port for Bytes {
-    fn send(&mut self, byte: u8) -> bool {
-        self.from_device.push(byte);
-        true
-    }
-
-    fn receive(&mut self) -> Option<u8> {
-        self.to_device.pop_front()
-    }
-}
-
-struct NoWatchdog;
-
-impl Watchdog for NoWatchdog {
-    fn feed(&mut self) {}
 }
 
 /// A line to the knob's loop in this very program.
 pub struct KnobLine {
-    bench: Bench<'static, This, SimulatedBoard, 1>,
-    idle: Idle<'static>,
-    bytes: Bytes,
+    board: SimulatedBoard<SimulatedBench<This, SharedKnob, 1>>,
 }
 
 impl KnobLine {
     /// The knob's loop, without a map, at this dial.
     pub fn new(knob: &SharedKnob) -> Self {
-        // They live as long as the program, as a board's statics do.
-        let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
-        let queue: &'static mut Queue<Record, 16> = Box::leak(Box::new(Queue::new()));
+        // It lives as long as the program, as a board's statics do.
         let servo = servo(Box::leak(Box::new(device(None))), SEARCH, PROTECTION);
-        let board = SimulatedBoard { knob: knob.clone(), aim: None, widths: None };
-        let (producer, records) = queue.split();
-        let settings = Settings { jog: Some(JOG), ..Settings::new(CLOCK) };
-        let bench = Bench::new(This(servo), board, &settings, ResetReason::PowerOn, producer, mailbox);
-        let idle = Idle::new(mailbox, records, Heartbeat::default());
-        Self { bench, idle, bytes: Bytes::default() }
+        let settings = Settings { jog: Some(JOG), ..Settings::new(CLOCK_HZ) };
+        Self { board: SimulatedBoard::new(This(servo), knob.clone(), &settings, ResetReason::PowerOn) }
     }
 }
 
 impl Line for KnobLine {
     fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
-        self.bytes.to_device.extend(bytes);
+        self.board.wire.to_device.extend(bytes);
         Ok(())
     }
 
     fn receive(&mut self) -> anyhow::Result<Vec<u8>> {
         for _ in 0..TICKS {
-            self.bench.tick();
-            let board = self.bench.board();
-            board.knob.world().dial.advance(board.widths);
-            for _ in 0..BYTES {
-                self.idle.step(&mut self.bytes, &mut NoWatchdog);
-            }
+            self.board.tick(BYTES);
         }
-        Ok(std::mem::take(&mut self.bytes.from_device))
+        Ok(std::mem::take(&mut self.board.wire.from_device))
     }
 }

@@ -1,6 +1,6 @@
 //! The report as one HTML file that needs nothing beside it.
 
-use super::page::Page;
+use super::Page;
 use super::plots;
 use anyhow::Context;
 use std::fmt::Write as _;

@@ -1,6 +1,6 @@
 //! The plots of a run, as SVG text.
 
-use super::page::Page;
+use super::Page;
 use super::summary::norm;
 use crate::drawing::{BLUE_INK, RED_INK, SURFACE_INK, View, draw, equal_scale, thinned};
 use crate::simulation::Trace;

@@ -7,8 +7,7 @@
 
 mod asked;
 mod console;
-mod emulated;
 
 pub use asked::{Asked, Misunderstood};
+pub use console::Emulated;
 pub use console::{Console, Step};
-pub use emulated::Emulated;

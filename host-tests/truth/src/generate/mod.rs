@@ -5,10 +5,9 @@
 //! straight out from a point of the patch is that point.
 
 pub mod bodies;
-mod fit;
 pub mod models;
 mod shapes;
 
-pub use fit::fit;
 pub use palpate_bake::Random;
+pub use shapes::fit;
 pub use shapes::{ConvexPatch, Kind};
