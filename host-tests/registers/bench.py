@@ -13,7 +13,7 @@ from machine import Machine
 HOMING, A_WHILE = 500, 60
 # More than the 50 ms for which stop is held, and let go of, by somebody who acknowledges.
 HELD = 250
-# Memo::new in boards/bench/src/reset.rs.
+# Memo::new in boards/src/reset.rs.
 MARK, OF_RUNNING, OF_PANIC, OF_EXCEPTION = 0x70A1_9A00, 1, 2, 3
 
 

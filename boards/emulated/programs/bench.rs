@@ -12,6 +12,7 @@ use palpate::device::Device;
 use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Producer, Queue};
+use palpate_bench::store::KeptCalibration;
 use palpate_bench::{Bench, Idle, Mailbox, Settings};
 use palpate_emulated::board::BOARD;
 use palpate_emulated::body::{DEVICE, Mechanism, SETTINGS};
@@ -21,7 +22,6 @@ use palpate_emulated::link_uart::Uart;
 use palpate_emulated::measured::Measured;
 use palpate_emulated::pins::{NoWatchdog, Pins};
 use palpate_emulated::vectors::interrupt;
-use palpate_shelf::KeptCalibration;
 
 type Loop = Bench<'static, Measured, Pins<FifoLink>, 3>;
 

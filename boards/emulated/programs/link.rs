@@ -15,6 +15,7 @@ use palpate::servo::{Heartbeat, Safety, Servo, Unguarded};
 use palpate::track::{Controller, Placement};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Producer, Queue};
+use palpate_bench::store::{Bodies, Both, Kept, PretendedFlash};
 use palpate_bench::{Bench, Felt, Idle, Mailbox, Settings};
 use palpate_emulated::board::BOARD;
 use palpate_emulated::body::{DEVICE, Mechanism, SETTINGS};
@@ -22,7 +23,6 @@ use palpate_emulated::link_semihosting::FifoLink;
 use palpate_emulated::link_uart::Uart;
 use palpate_emulated::pins::{NoWatchdog, Pins};
 use palpate_emulated::vectors::interrupt;
-use palpate_shelf::{Bodies, Both, Kept, PretendedFlash};
 
 mod tables {
     include!(env!("PALPATE_BODY_FILE"));

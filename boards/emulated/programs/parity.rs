@@ -10,6 +10,6 @@ use semihosting::println;
 
 #[entry]
 fn main() -> ! {
-    palpate_exercise::run(&mut |name, tally| println!("{name} {tally}"));
+    palpate_bench::exercise::run(&mut |name, tally| println!("{name} {tally}"));
     semihosting::process::exit(0)
 }

@@ -12,11 +12,11 @@ use cortex_m_rt::entry;
 use palpate::servo::Tracked;
 use palpate::wire::Report;
 use palpate::wire::frame::{self, MAX_FRAME};
+use palpate_bench::exercise::laps::WOODEN_HAPTICS_REACH;
+use palpate_bench::exercise::script::Script;
 use palpate_emulated::board::BOARD;
 use palpate_emulated::body::{self, SERVO, SETTINGS, State};
 use palpate_emulated::vectors::interrupt;
-use palpate_exercise::laps::WOODEN_HAPTICS_REACH;
-use palpate_exercise::script::Script;
 use semihosting::println;
 use static_cell::StaticCell;
 

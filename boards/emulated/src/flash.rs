@@ -2,7 +2,7 @@
 //! flash, and a file of the host, beside its FIFOs, from one start of the emulator to the next.
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
-use palpate_shelf::{Broken, Pretended, PretendedFlash};
+use palpate_bench::store::{Broken, Pretended, PretendedFlash};
 use semihosting::fs::{File, OpenOptions};
 use semihosting::io::{Read, Write};
 

@@ -1,8 +1,5 @@
 //! The knob on an emulated board: the sensor comes in a frame, the widths of three phases go out in one.
 
-#[path = "../../knob.rs"]
-mod shared;
-
 /// The cogging of the simulated motor, as it was recorded.
 mod cogging {
     include!("../knob_cogging.rs");
@@ -18,8 +15,10 @@ use palpate::wire::frame::{self, MAX_FRAME, Received};
 use crate::board::Board;
 use crate::link::Link;
 use crate::timer::{INSTRUCTIONS_PER_SECOND, InstructionCounter};
-pub use shared::SETTINGS;
-use shared::{FROZEN, KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, device, report, servo, widths};
+pub use palpate_bench::knob::SETTINGS;
+use palpate_bench::knob::{
+    FROZEN, KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, device, report, servo, widths,
+};
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends.
 const SILENT_TICKS: u32 = 5;

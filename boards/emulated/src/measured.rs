@@ -4,7 +4,7 @@ use palpate::commission::Wiring;
 use palpate::device::Device;
 use palpate::servo::Servo;
 use palpate_bench::Felt;
-use palpate_shelf::Found;
+use palpate_bench::store::Found;
 use static_cell::StaticCell;
 
 use crate::body::{Chosen, Felt as Surface, Loop, Mechanism, SERVO};

@@ -2,9 +2,9 @@
 
 use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::HBridge;
+use palpate_bench::cortex::Cycles;
 use palpate_bench::sensors::Angles;
 use palpate_bench::{CycleDelay, Parts, Switched};
-use palpate_cortex::Cycles;
 use rp235x_hal::gpio::{
     DynPinId, FunctionSio, FunctionSpi, Pin, PullDown, PullNone, PullUp, SioInput, SioOutput, bank0,
 };

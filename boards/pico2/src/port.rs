@@ -28,9 +28,9 @@ impl<P: ValidUartPinout<UART0>> Port for Uart<P> {
 const RESETS: u32 = 0x01ff_ffff & !(0b11 << 2);
 
 /// The chip's watchdog.
-pub struct Bowl(rp235x_hal::Watchdog);
+pub struct ChipWatchdog(rp235x_hal::Watchdog);
 
-impl Bowl {
+impl ChipWatchdog {
     /// Starts it, for 20 ms.
     pub fn start(mut watchdog: rp235x_hal::Watchdog) -> Self {
         watchdog.start(20.millis());
@@ -47,7 +47,7 @@ impl Bowl {
     }
 }
 
-impl Watchdog for Bowl {
+impl Watchdog for ChipWatchdog {
     #[inline]
     fn feed(&mut self) {
         self.0.feed();

@@ -4,10 +4,10 @@ use cortex_m::peripheral::NVIC;
 use palpate::device::SupplyRange;
 use palpate::device::drive::HBridge;
 use palpate::wire::telemetry::Queue;
+use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Angles, greatest_step};
+use palpate_bench::usb::{Cdc, Either, Plain};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings, Switched};
-use palpate_cortex::Cycles;
-use palpate_usb::{Cdc, Either, Plain};
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock, init_clocks_and_plls};
 use rp235x_hal::fugit::RateExtU32;
@@ -18,13 +18,11 @@ use rp235x_hal::spi::Spi;
 use rp235x_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
 use rp235x_hal::{Sio, Watchdog};
 
-use crate::body::{DEVICE, SETTINGS};
+use crate::body::{DEVICE, SETTINGS, This};
 use crate::chip::{CLOCK, CRYSTAL};
-use crate::felt::This;
-use crate::program::{self, Below, Loop, Message};
 use crate::supply::Volts;
 use crate::ticks::Ticks;
-use crate::{chip, pins, port, supply, usb};
+use crate::{Loop, Message, SHARED, chip, pins, port, supply, usb};
 
 /// What the loop of the boards is told of this one.
 pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
@@ -34,7 +32,7 @@ pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), .
 pub fn set_up(
     queue: &'static mut Queue<Message, 16>,
     servo_loop: &'static mut Option<Loop>,
-) -> Below<impl Port, impl FnOnce() -> port::Bowl> {
+) -> Below<Message, impl Port, impl FnOnce() -> port::ChipWatchdog> {
     let (Some(mut core), Some(mut chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
@@ -111,10 +109,11 @@ pub fn set_up(
     let Ok(plug) = Cdc::try_new(bus, Plain) else { panic!("it is a device that USB allows") };
     let port = Either::new(plug, port::Uart(uart));
     let (producer, messages) = queue.split();
-    program::HANDED_OVER.give(servo_loop.insert(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX)));
+    let made = Loop::new(This, board, &BENCH, reset, producer, &SHARED.mailbox);
+    SHARED.hand_over(servo_loop.insert(made));
     chip::remember(Cause::Running);
     let start = move || {
-        let watchdog = port::Bowl::start(watchdog);
+        let watchdog = port::ChipWatchdog::start(watchdog);
         // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
         unsafe {
             core.NVIC.set_priority(Interrupt::PWM_IRQ_WRAP_0, 0);

@@ -10,7 +10,7 @@ use palpate_bench::{Cause, Memo};
 use stm32g4xx_hal::gpio::{Output, PB13, PB14, PB15, PC0, PC1, PC2};
 use stm32g4xx_hal::stm32::{GPIOA, GPIOC, TIM1};
 
-use crate::chip::MEMO;
+use palpate_stm32g4::MEMO;
 
 /// The enable pins, low.
 pub type Enables = (PC0<Output>, PC1<Output>, PC2<Output>);

@@ -22,3 +22,11 @@ pub const SETTINGS: Settings = Settings {
     soft_start_s: 0.2,
     body_origin_m: vec3(-0.05, -0.05, -0.06),
 };
+
+/// The body: `cargo palpate firmware --board stm32g4 --body MODEL build --release` puts another one here.
+pub mod tables {
+    include!(env!("PALPATE_BODY_FILE"));
+}
+
+#[cfg(not(feature = "host"))]
+palpate_bench::arm!(tables::Surface = tables::SURFACE, DEVICE, SETTINGS, PROTECTION);

@@ -7,10 +7,6 @@ use stm32g4xx_hal::gpio::{AF1, AF2, PA0, PA1, PB6, PB7, PB9, PB10, PC6, PC7, PC8
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
 use stm32g4xx_hal::stm32::{TIM2, TIM3, TIM4};
 
-use crate::body::SETTINGS;
-use crate::felt::This;
-use crate::set_up::BENCH;
-
 /// The pins, A, B and index of each encoder, already given to their timers.
 pub type Pins = ((PA0<AF1>, PA1<AF1>, PB10<AF1>), (PC6<AF2>, PC7<AF2>, PC8<AF2>), (PB6<AF2>, PB7<AF2>, PB9<AF2>));
 
@@ -55,10 +51,11 @@ impl Encoders {
     }
 }
 
-/// The greatest step between two readings of each input, counts.
-pub fn steps(felt: &This) -> [i32; 3] {
-    let device = felt.servo().device();
-    let step = |encoder| greatest_step(&encoder, device.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames);
+/// The maximum step between two readings of each input, counts. `bad_frames` in a row are bridged.
+pub fn steps(felt: &impl Felt<3>, bad_frames: u32) -> [i32; 3] {
+    let servo = felt.servo();
+    let device = servo.device();
+    let step = |encoder| greatest_step(&encoder, device.max_joint_rate_rad_per_s, servo.settings().rate_hz, bad_frames);
     felt.wiring().inputs(device.encoders.map(step))
 }
 

@@ -1,7 +1,7 @@
 //! palpate on a Nucleo-G474RE: three encoders, three current amplifiers, a button that asks for force.
 //!
 //! The servo runs in the interrupt of TIM7, which nothing can delay; below it `main` sends telemetry and feeds the
-//! watchdog. What both do is the loop of every board (`boards/bench`); here are this one's clocks, pins and memory. The
+//! watchdog. What both do is the loop of every board (`boards/src`); here are this one's clocks, pins and memory. The
 //! README has the wiring; [`body`] is what to change first.
 
 #![no_std]
@@ -9,38 +9,41 @@
 
 mod amplifiers;
 mod body;
-mod chip;
 mod encoders;
-#[cfg_attr(feature = "host", path = "host/felt.rs")]
-#[cfg_attr(not(feature = "host"), path = "../../felt.rs")]
-mod felt;
 #[cfg(feature = "host")]
 mod host;
-mod port;
-#[path = "../../program.rs"]
-mod program;
-#[cfg(feature = "analog")]
-#[path = "voltage.rs"]
-mod set_points;
 #[cfg(not(feature = "analog"))]
-#[path = "pulse_width.rs"]
-mod set_points;
+mod pulse_width;
 mod set_up;
-mod supply;
-mod ticks;
+#[cfg(feature = "analog")]
+mod voltage;
 
 use cortex_m_rt::entry;
 use palpate::wire::telemetry::Queue;
+use palpate_bench::cortex::{Shared, Ticking};
 use stm32g4xx_hal::stm32::interrupt;
 
-use crate::program::{Loop, Message};
+#[cfg(not(feature = "host"))]
+use crate::body::This;
+#[cfg(feature = "host")]
+use crate::host::This;
 use crate::set_up::Board;
+
+/// The loop, or with the feature `accept` the tick of a board that is being accepted: it has no way to drive a motor.
+#[cfg(not(feature = "accept"))]
+type Loop = palpate_bench::Bench<'static, This, Board, 3>;
+#[cfg(feature = "accept")]
+type Loop = palpate_bench::accept::Acceptance<'static, This, Board, 3>;
+/// Its telemetry.
+type Message = <Loop as Ticking>::Message;
+
+static SHARED: Shared<Loop> = Shared::new();
 
 #[interrupt]
 fn TIM7() {
     static mut TAKEN: Option<&'static mut Loop> = None;
 
-    program::tick(TAKEN);
+    SHARED.tick(TAKEN);
 }
 
 #[entry]
@@ -48,5 +51,11 @@ fn main() -> ! {
     static mut QUEUE: Queue<Message, 16> = Queue::new();
     static mut LOOP: Option<Loop> = None;
 
-    set_up::set_up(QUEUE, LOOP).run()
+    let below = set_up::set_up(QUEUE, LOOP);
+    #[cfg(feature = "accept")]
+    below.examine(&SHARED.mailbox, &This, &set_up::BENCH);
+    #[cfg(all(not(feature = "accept"), not(feature = "host")))]
+    below.run(&SHARED.mailbox, &body::SETTINGS, &());
+    #[cfg(all(not(feature = "accept"), feature = "host"))]
+    below.run(&SHARED.mailbox, &body::SETTINGS, &host::ends());
 }

@@ -3,30 +3,30 @@
 use cortex_m::peripheral::NVIC;
 use palpate::device::SupplyRange;
 use palpate::wire::telemetry::Queue;
+use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::Counters;
 use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Port, Settings};
-use palpate_cortex::Cycles;
+use palpate_stm32g4::{CLOCK, Iwdg, MEMO, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals};
 use stm32g4xx_hal::time::ExtU32;
 
-use crate::chip::{CLOCK, MEMO};
-use crate::encoders::Encoders;
-#[cfg(feature = "host")]
-use crate::host;
-use crate::program::{self, Below, Loop, Message};
-use crate::set_points::{Drives, Light};
-use crate::supply::Volts;
-use crate::ticks::Ticks;
-use crate::{amplifiers, chip, encoders, felt, port, set_points};
+use crate::body::SETTINGS;
+use crate::encoders::{self, Encoders};
+#[cfg(not(feature = "analog"))]
+use crate::pulse_width as set_points;
+#[cfg(feature = "analog")]
+use crate::voltage as set_points;
+use crate::{Loop, Message, SHARED, amplifiers};
+use set_points::{Drives, Light};
 
 /// What the loop of the boards is told of this one.
 pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
 
-/// When the watchdog bites, ms: with a host after the 25 ms that a page of flash takes to be erased, motors held off.
-const BITES: u32 = if cfg!(feature = "host") { 40 } else { 20 };
+/// The watchdog's timeout, ms: with a host after the 25 ms that a page of flash takes to be erased, motors held off.
+const TIMEOUT_MS: u32 = if cfg!(feature = "host") { 40 } else { 20 };
 
 type Pin = AnyPin<Input>;
 /// What the loop runs on.
@@ -37,12 +37,12 @@ pub type Board = Parts<Cycles, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, P
 pub fn set_up(
     queue: &'static mut Queue<Message, 16>,
     servo_loop: &'static mut Option<Loop>,
-) -> Below<impl Port, impl FnOnce() -> port::Bowl> {
+) -> Below<Message, impl Port, impl FnOnce() -> Iwdg> {
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
     amplifiers::motors_off();
-    let (mut rcc, flags) = chip::start(chip.RCC, chip.PWR, &chip.FLASH);
+    let (mut rcc, flags) = start(chip.RCC, chip.PWR, &chip.FLASH);
     let reset = flags.reason(MEMO.read());
     let cycles = Cycles::start(&mut core.DCB, core.DWT);
     let (a, b, c) = (chip.GPIOA.split(&mut rcc), chip.GPIOB.split(&mut rcc), chip.GPIOC.split(&mut rcc));
@@ -79,15 +79,15 @@ pub fn set_up(
     );
     let encoders = Encoders::new((chip.TIM2, chip.TIM3, chip.TIM4), pins, &mut rcc);
     #[cfg(feature = "host")]
-    let felt = felt::on(host::find(chip.FLASH, felt::homed_by()));
+    let felt = crate::host::find(chip.FLASH);
     #[cfg(not(feature = "host"))]
-    let felt = felt::This;
-    let port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
+    let felt = crate::body::This;
+    let port = open_port(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
 
     let board = Parts {
         counter: cycles,
-        timer: Ticks::start(chip.TIM7, &rcc),
-        sensors: Counters::new(encoders, encoders::steps(&felt)),
+        timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
+        sensors: Counters::new(encoders, encoders::steps(&felt, BENCH.bad_frames)),
         drives,
         lines: Lines {
             // The blue button: high while pressed.
@@ -104,17 +104,18 @@ pub fn set_up(
         light,
     };
     let (producer, messages) = queue.split();
-    program::HANDED_OVER.give(servo_loop.insert(Loop::new(felt, board, &BENCH, reset, producer, &program::MAILBOX)));
+    let made = Loop::new(felt, board, &BENCH, reset, producer, &SHARED.mailbox);
+    SHARED.hand_over(servo_loop.insert(made));
     MEMO.write(Memo::new(Cause::Running));
-    let start = move || {
+    let start_ticks = move || {
         let mut watchdog = IndependentWatchdog::new(chip.IWDG);
-        watchdog.start(BITES.millis());
+        watchdog.start(TIMEOUT_MS.millis());
         // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
         unsafe {
             core.NVIC.set_priority(Interrupt::TIM7, 0);
             NVIC::unmask(Interrupt::TIM7);
         }
-        port::Bowl(watchdog)
+        Iwdg(watchdog)
     };
-    Below { messages, cycles, reset, port, start }
+    Below { messages, cycles, reset, port, start: start_ticks }
 }

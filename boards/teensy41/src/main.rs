@@ -1,7 +1,7 @@
 //! palpate on a Teensy 4.1: three magnetic angle sensors, three current amplifiers, a button that asks for force.
 //!
 //! The servo runs in the interrupt of the periodic timer (PIT), which nothing can delay. Below it `main` sends
-//! telemetry and feeds the watchdog. What both do is the loop of every board (`boards/bench`); here are this one's
+//! telemetry and feeds the watchdog. What both do is the loop of every board (`boards/src`); here are this one's
 //! clocks, pins and memory ([`set_up`]). The README has the wiring; [`body`] is what to change first, `build.rs` the
 //! memory map.
 
@@ -10,14 +10,7 @@
 
 mod body;
 mod chip;
-#[path = "../../felt.rs"]
-mod felt;
-#[cfg(feature = "host")]
-#[path = "../../host_memory.rs"]
-mod host;
 mod port;
-#[path = "../../program.rs"]
-mod program;
 mod pulse_width;
 mod set_up;
 mod supply;
@@ -25,18 +18,28 @@ mod ticks;
 mod usb;
 mod watchdog;
 
+use crate::body::This;
+use crate::set_up::Board;
 use imxrt_rt::{entry, interrupt};
 use palpate::wire::telemetry::Queue;
+use palpate_bench::cortex::{Shared, Ticking};
 use teensy4_bsp::interrupt;
 
-use crate::program::{Loop, Message};
-use crate::set_up::Board;
+/// The loop, or with the feature `accept` the tick of a board that is being accepted: it has no way to drive a motor.
+#[cfg(not(feature = "accept"))]
+type Loop = palpate_bench::Bench<'static, This, Board, 3>;
+#[cfg(feature = "accept")]
+type Loop = palpate_bench::accept::Acceptance<'static, This, Board, 3>;
+/// Its telemetry.
+type Message = <Loop as Ticking>::Message;
+
+static SHARED: Shared<Loop> = Shared::new();
 
 #[interrupt]
 fn PIT() {
     static mut TAKEN: Option<&'static mut Loop> = None;
 
-    program::tick(TAKEN);
+    SHARED.tick(TAKEN);
 }
 
 #[entry]
@@ -44,5 +47,9 @@ fn main() -> ! {
     static mut QUEUE: Queue<Message, 16> = Queue::new();
     static mut LOOP: Option<Loop> = None;
 
-    set_up::set_up(QUEUE, LOOP).run()
+    let below = set_up::set_up(QUEUE, LOOP);
+    #[cfg(feature = "accept")]
+    below.examine(&SHARED.mailbox, &This, &set_up::BENCH);
+    #[cfg(not(feature = "accept"))]
+    below.run(&SHARED.mailbox, &body::SETTINGS, &body::offers());
 }

@@ -4,10 +4,10 @@ use cortex_m::peripheral::NVIC;
 use palpate::device::SupplyRange;
 use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::wire::telemetry::Queue;
+use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Angles, greatest_step};
+use palpate_bench::usb::{Cdc, Either};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings};
-use palpate_cortex::Cycles;
-use palpate_usb::{Cdc, Either};
 use teensy4_bsp::Interrupt;
 use teensy4_bsp::board::{self, ARM_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
@@ -15,14 +15,12 @@ use teensy4_bsp::hal::gpio::{Input, Output};
 use teensy4_bsp::hal::iomuxc::{self, Config, Hysteresis, PullKeeper};
 use teensy4_bsp::hal::lpspi::MODE_1;
 
-use crate::body::{DEVICE, SETTINGS};
-use crate::felt::This;
-use crate::program::{self, Below, Loop, Message};
+use crate::body::{DEVICE, SETTINGS, This};
 use crate::pulse_width::{DWELL, PulseWidth};
 use crate::supply::Volts;
 use crate::ticks::Ticks;
-use crate::watchdog::Bowl;
-use crate::{chip, port, usb};
+use crate::watchdog::Rtwdog;
+use crate::{Loop, Message, SHARED, chip, port, usb};
 
 /// What the loop of the boards is told of this one.
 pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(ARM_FREQUENCY) };
@@ -37,7 +35,7 @@ pub type Board = Parts<Cycles, Ticks, Sensors, [Amplifier; 3], Input, Input, Inp
 pub fn set_up(
     queue: &'static mut Queue<Message, 16>,
     servo_loop: &'static mut Option<Loop>,
-) -> Below<impl Port, impl FnOnce() -> Bowl> {
+) -> Below<Message, impl Port, impl FnOnce() -> Rtwdog> {
     let Some(mut core) = cortex_m::Peripherals::take() else {
         panic!("the peripherals are taken here and nowhere else")
     };
@@ -110,11 +108,12 @@ pub fn set_up(
     };
     let board = Parts { counter: cycles, timer: Ticks::start(pit), sensors, drives, lines, light };
     let (producer, messages) = queue.split();
-    program::HANDED_OVER.give(servo_loop.insert(Loop::new(This, board, &BENCH, reset, producer, &program::MAILBOX)));
+    let made = Loop::new(This, board, &BENCH, reset, producer, &SHARED.mailbox);
+    SHARED.hand_over(servo_loop.insert(made));
     chip::remember(Cause::Running);
     let start = move || {
         // SAFETY: nothing else uses it.
-        let watchdog = Bowl::start(unsafe { imxrt_ral::rtwdog::RTWDOG::instance() });
+        let watchdog = Rtwdog::start(unsafe { imxrt_ral::rtwdog::RTWDOG::instance() });
         // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
         unsafe {
             core.NVIC.set_priority(Interrupt::PIT, 0);

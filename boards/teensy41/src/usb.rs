@@ -7,7 +7,7 @@
 use cortex_m::singleton;
 use imxrt_ral::read_reg;
 use imxrt_ral::usb::USB1;
-use palpate_usb::{Chip, PACKET};
+use palpate_bench::usb::{Chip, PACKET};
 use teensy4_bsp::usbd::{BusAdapter, EndpointMemory, EndpointState, Instances, Speed};
 use usb_device::bus::UsbBusAllocator;
 

@@ -13,9 +13,9 @@ const PATIENCE: u32 = 655;
 const LOOKS: u32 = 1_000_000;
 
 /// The running watchdog.
-pub struct Bowl(RTWDOG);
+pub struct Rtwdog(RTWDOG);
 
-impl Bowl {
+impl Rtwdog {
     /// Starts it, for good, and reads back what it took.
     ///
     /// # Panics
@@ -36,7 +36,7 @@ impl Bowl {
     }
 }
 
-impl Watchdog for Bowl {
+impl Watchdog for Rtwdog {
     #[inline]
     fn feed(&mut self) {
         // One word is one feed.

@@ -253,7 +253,7 @@ pub extern "C" fn basin_row(face: u32, x: f32, y: f32, z: f32, u: f32, columns: 
 #[unsafe(no_mangle)]
 pub extern "C" fn exercise() {
     let mut text = String::new();
-    palpate_exercise::run(&mut |name, tally| {
+    palpate_bench::exercise::run(&mut |name, tally| {
         // A string takes all that is written.
         let _ = writeln!(text, "{name} {tally}");
     });

@@ -1,11 +1,10 @@
 //! A button that chooses the next feel.
 
 use embedded_hal::digital::InputPin;
+use palpate_bench::cortex::Cycles;
+use palpate_bench::knob::FEELS;
 use palpate_bench::{Counter, Mailbox};
-use palpate_cortex::Cycles;
-
-use crate::body::FEELS;
-use crate::chip::CLOCK;
+use palpate_stm32g4::CLOCK;
 
 /// How long a press must last to count, in cycles: 20 ms.
 const STEADY: u32 = CLOCK / 50;

@@ -4,7 +4,7 @@ use palpate::device::{Device, Dial};
 use palpate::servo::{Guarded, Knob};
 use palpate_bench::Felt;
 
-use crate::body::{KnobServo, PROTECTION, SEARCH, device, servo};
+use palpate_bench::knob::{KnobServo, PROTECTION, SEARCH, device, servo};
 
 /// Its motor's cogging is its own, and recorded over the line: `docs/howto/knob.md`.
 mod cogging {

@@ -1,26 +1,15 @@
 //! A knob on a Nucleo-G474RE: a SimpleFOCShield with a gimbal motor, a magnetic sensor behind it, a button that asks
 //! for force and one that chooses what is felt.
 //!
-//! The loop is that of every board (`boards/bench`), in the interrupt of TIM7; here are this one's pins.
-//! `docs/howto/knob.md` has the wiring; [`body`] is what to change first.
+//! The loop is that of every board (`boards/src`), in the interrupt of TIM7; here are this one's
+//! pins. `docs/howto/knob.md` has the wiring; `palpate_bench::knob` is the file to change first.
 
 #![no_std]
 #![no_main]
 
-#[path = "../../../knob.rs"]
-#[allow(dead_code)]
-mod body;
-#[path = "../chip.rs"]
-mod chip;
 mod choice;
 mod felt;
-#[path = "../port.rs"]
-mod port;
 mod stage;
-#[path = "../supply.rs"]
-mod supply;
-#[path = "../ticks.rs"]
-mod ticks;
 
 use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
@@ -29,9 +18,11 @@ use palpate::device::drive::NoPin;
 use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
+use palpate_bench::cortex::{Cycles, Shared};
+use palpate_bench::knob::{FROZEN, JOG, SETTINGS, SUPPLY};
 use palpate_bench::sensors::{Angles, Watched, greatest_step};
-use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Mailbox, Memo, Parts, Settings};
-use palpate_cortex::{Cycles, HandOver};
+use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Memo, Parts, Settings};
+use palpate_stm32g4::{CLOCK, Iwdg, MEMO, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
@@ -39,13 +30,9 @@ use stm32g4xx_hal::spi::Spi;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, SPI1, interrupt};
 use stm32g4xx_hal::time::{ExtU32, RateExtU32};
 
-use crate::body::{FROZEN, JOG, SETTINGS, SUPPLY};
-use crate::chip::{CLOCK, MEMO};
 use crate::choice::Choice;
 use crate::felt::{DEVICE, This};
 use crate::stage::Stage;
-use crate::supply::Volts;
-use crate::ticks::Ticks;
 
 const BENCH: Settings = Settings { supply: Some(SUPPLY), jog: Some(JOG), ..Settings::new(CLOCK) };
 
@@ -55,21 +42,13 @@ type Sensor = Watched<Angles<Bus, PB6<Output>, CycleDelay<Cycles>, 1>, 1>;
 type Board = Parts<Cycles, Ticks, Sensor, [Stage; 1], Pin, Pin, Pin, Volts, NoPin, 2>;
 type Loop = Bench<'static, This, Board, 1>;
 
-/// The loop on its way from main to the interrupt, and what passes between them afterwards.
-static HANDED_OVER: HandOver<&'static mut Loop> = HandOver::new();
-static MAILBOX: Mailbox = Mailbox::new();
+static SHARED: Shared<Loop> = Shared::new();
 
 #[interrupt]
 fn TIM7() {
-    // Taken at the first tick: from then on no lock is needed.
     static mut TAKEN: Option<&'static mut Loop> = None;
 
-    if TAKEN.is_none() {
-        *TAKEN = HANDED_OVER.take();
-    }
-    if let Some(servo_loop) = TAKEN {
-        servo_loop.tick();
-    }
+    SHARED.tick(TAKEN);
 }
 
 #[entry]
@@ -81,7 +60,7 @@ fn main() -> ! {
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
-    let (mut rcc, flags) = chip::start(chip.RCC, chip.PWR, &chip.FLASH);
+    let (mut rcc, flags) = start(chip.RCC, chip.PWR, &chip.FLASH);
     let reset = flags.reason(MEMO.read());
     let cycles = Cycles::start(&mut core.DCB, core.DWT);
     let (a, b, c) = (chip.GPIOA.split(&mut rcc), chip.GPIOB.split(&mut rcc), chip.GPIOC.split(&mut rcc));
@@ -99,12 +78,12 @@ fn main() -> ! {
     let mut sensor = Angles::new(bus, [select], CycleDelay::new(cycles, CLOCK), [step]);
     // If it does not start the loop says so, tick by tick.
     let _ = sensor.start();
-    let mut port = port::open(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
+    let mut port = open_port(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
     let mut delay = CycleDelay::new(cycles, CLOCK);
 
     let board = Parts {
         counter: cycles,
-        timer: Ticks::start(chip.TIM7, &rcc),
+        timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
         sensors: Watched::new(sensor, FROZEN),
         drives: [stage],
         lines: Lines {
@@ -121,18 +100,19 @@ fn main() -> ! {
     };
     let mut choice = Choice::new(a.pa10.into_pull_up_input(), cycles);
     let (producer, records) = QUEUE.split();
-    HANDED_OVER.give(LOOP.insert(Bench::new(This, board, &BENCH, reset, producer, &MAILBOX)));
+    SHARED.hand_over(LOOP.insert(Bench::new(This, board, &BENCH, reset, producer, &SHARED.mailbox)));
     MEMO.write(Memo::new(Cause::Running));
-    let mut watchdog = port::Bowl(IndependentWatchdog::new(chip.IWDG));
+    let mut watchdog = Iwdg(IndependentWatchdog::new(chip.IWDG));
     watchdog.0.start(20.millis());
     // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
     unsafe {
         core.NVIC.set_priority(Interrupt::TIM7, 0);
         NVIC::unmask(Interrupt::TIM7);
     }
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
+    let mut idle =
+        Idle::new(&SHARED.mailbox, records, Heartbeat::default()).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
     loop {
         idle.step(&mut port, &mut watchdog);
-        choice.look(&MAILBOX);
+        choice.look(&SHARED.mailbox);
     }
 }

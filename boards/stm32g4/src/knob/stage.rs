@@ -9,8 +9,8 @@ use stm32g4xx_hal::rcc::Rcc;
 use stm32g4xx_hal::stm32::{GPIOA, TIM2, TIM3};
 use stm32g4xx_hal::time::RateExtU32;
 
-use crate::body::MODULATION;
-use crate::chip::MEMO;
+use palpate_bench::knob::MODULATION;
+use palpate_stm32g4::MEMO;
 
 type Width<T, C> = Pwm<T, C, ComplementaryImpossible, ActiveHigh, ActiveHigh>;
 /// The stage.

@@ -1,11 +1,9 @@
 //! The boards' knob on the host: its loop at the simulated dial.
 
 mod hosted;
-#[path = "../../../../boards/knob.rs"]
-mod shared;
 
 pub use hosted::HostKnob;
-pub use shared::*;
+pub use palpate_bench::knob::*;
 
 /// Angle of the simulated dial at which its sensor begins to count, radians.
 pub const DIAL_ZERO: f64 = 0.7;

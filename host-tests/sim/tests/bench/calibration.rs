@@ -9,8 +9,8 @@ use palpate::servo::{Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, S
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, Calibrated, Command, KeepError, PROTOCOL, Reading, Refused, Told, Upload, hold};
+use palpate_bench::store::KeptCalibration;
 use palpate_bench::{Calibrations as _, Idle};
-use palpate_shelf::KeptCalibration;
 use palpate_sim::rig::{Made, Rig, SETTINGS, WALL, held_at, settings};
 use palpate_sim::simulated::{NoWatchdog, Wire};
 use rand::{Rng, SeedableRng};

@@ -10,8 +10,8 @@ use palpate::servo::{Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, S
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, CHUNK, Command, PROTOCOL, Refused, Told, Upload, UploadError, hold};
+use palpate_bench::store::{Bodies, Both, Kept, Pretended, PretendedFlash};
 use palpate_bench::{Idle, Uploads, Watchdog};
-use palpate_shelf::{Bodies, Both, Kept, Pretended, PretendedFlash};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate_sim::simulated::{NoWatchdog, Wire};
 use std::cell::{Cell, RefCell};

@@ -7,8 +7,8 @@ use palpate::servo::{Heartbeat, ResetReason, Servo};
 use palpate::track::Controller;
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, CHUNK, Command, PROTOCOL, Refused, Told, Upload, UploadError};
+use palpate_bench::store::Bodies;
 use palpate_bench::{Idle, Uploads as _};
-use palpate_shelf::Bodies;
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 use palpate_sim::simulated::{NoWatchdog, Wire};
 

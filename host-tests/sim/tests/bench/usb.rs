@@ -7,9 +7,9 @@ use palpate::servo::{Fault, Heartbeat, ResetReason, Safety, Servo};
 use palpate::track::Controller;
 use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Command, Told};
+use palpate_bench::usb::{Bytes, Cdc, Either, PACKET, Plug, TURNS};
 use palpate_bench::{Idle, Port, Watchdog};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
-use palpate_usb::{Bytes, Cdc, Either, PACKET, Plug, TURNS};
 use std::collections::VecDeque;
 use usb_device::bus::UsbBusAllocator;
 

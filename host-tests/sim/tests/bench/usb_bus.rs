@@ -1,6 +1,6 @@
 //! A bus that is a mock, and the host at its other end.
 
-use palpate_usb::Chip;
+use palpate_bench::usb::Chip;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard};
 use usb_device::UsbDirection::In;

@@ -13,8 +13,8 @@ use anyhow::Context;
 pub use examine::{DeviceLine, Found, GREETING, Plan, examine};
 pub use judge::{Surroundings, judge};
 use palpate::wire::acceptance::Counted;
-use palpate_exercise::Runner;
-use palpate_exercise::tally::Tally;
+use palpate_bench::exercise::Runner;
+use palpate_bench::exercise::tally::Tally;
 use std::fmt::{self, Display, Formatter};
 use std::time::Duration;
 
@@ -122,7 +122,7 @@ impl Runner for Lines {
 /// Runs the script here, of each lap at most so many ticks.
 pub fn expected(most: u32) -> Vec<ExpectedLine> {
     let mut lines = Lines::default();
-    palpate_exercise::run_by(&mut lines, most);
+    palpate_bench::exercise::run_by(&mut lines, most);
     lines.0
 }
 

@@ -111,7 +111,7 @@ fn shipped() -> anyhow::Result<Vec<Shown>> {
 /// What the script of the emulated boards comes to.
 fn script() -> String {
     let mut text = String::new();
-    palpate_exercise::run(&mut |name, tally| text += &format!("{name} {tally}\n"));
+    palpate_bench::exercise::run(&mut |name, tally| text += &format!("{name} {tally}\n"));
     text
 }
 

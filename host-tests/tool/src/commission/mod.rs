@@ -5,7 +5,7 @@
 //!               └─ Hands: whoever stands at it   │ World: the simulated device, and what was planted in it
 //! ```
 //!
-//! The device's side is the loop of every board (`boards/bench`), wherever it runs. [`find`] asks the [`Lab`] for what
+//! The device's side is the loop of every board (`boards/src`), wherever it runs. [`find`] asks the [`Lab`] for what
 //! it needs and writes what it finds into the file. A motor moves only while the [`Key`] is held.
 
 pub(crate) mod device;

@@ -169,9 +169,7 @@ pub fn report(board: BenchBoard, kind: Kind, image: &Path) -> Result<String, Set
     let tables: Vec<(u64, u64)> = file
         .symbols()
         .filter(|symbol| {
-            symbol
-                .name()
-                .is_ok_and(|name| rustc_demangle::demangle(name).to_string().contains("felt::chosen::tables::"))
+            symbol.name().is_ok_and(|name| rustc_demangle::demangle(name).to_string().contains("body::tables::"))
         })
         .map(|symbol| (symbol.address(), symbol.size()))
         .collect();

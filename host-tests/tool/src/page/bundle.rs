@@ -20,7 +20,7 @@ pub struct Given {
     pub first: String,
     /// The bodies to choose from.
     pub bodies: Vec<Shown>,
-    /// What the million ticks of `palpate_exercise` come to on the host, and so on every board that is tested.
+    /// What the million ticks of `palpate_bench::exercise` come to on the host, and so on every board that is tested.
     pub script: String,
     /// A run to be shown at once.
     pub recording: Option<Recording>,

@@ -2,7 +2,7 @@
 
 use crate::running::is_wanted;
 use palpate::servo::{Fault, Phase};
-use palpate_exercise::tally::Tally;
+use palpate_bench::exercise::tally::Tally;
 use palpate_tool::firmware::{Board, Pace, Program, Progress};
 use std::io::{Write, stderr};
 use std::thread;
@@ -11,7 +11,7 @@ use std::time::Instant;
 /// What the host prints, and the tallies.
 fn on_host() -> (String, Vec<Tally>) {
     let (mut lines, mut tallies) = (String::new(), Vec::new());
-    palpate_exercise::run(&mut |name, tally| {
+    palpate_bench::exercise::run(&mut |name, tally| {
         lines += &format!("{name} {tally}\n");
         tallies.push(*tally);
     });
@@ -34,7 +34,7 @@ fn every_core_and_the_host_agree_in_every_bit_of_a_million_ticks() {
                 let core = program.image.board.core();
                 assert_eq!(&board, host, "{core} and the host differ");
                 let seconds = start.elapsed().as_secs_f64();
-                let _ = writeln!(stderr(), "{core}: {} ticks agree, {seconds:.0} s", palpate_exercise::TICKS);
+                let _ = writeln!(stderr(), "{core}: {} ticks agree, {seconds:.0} s", palpate_bench::exercise::TICKS);
             });
         }
     });
@@ -43,7 +43,7 @@ fn every_core_and_the_host_agree_in_every_bit_of_a_million_ticks() {
 #[test]
 fn the_million_ticks_visit_every_mode_phase_and_fault() {
     let (_, tallies) = on_host();
-    assert_eq!(tallies.len() as u32, palpate_exercise::TICKS / palpate_exercise::TICKS_PER_LINE);
+    assert_eq!(tallies.len() as u32, palpate_bench::exercise::TICKS / palpate_bench::exercise::TICKS_PER_LINE);
     let all = |of: fn(&Tally) -> u32| tallies.iter().map(of).fold(0, |all, bits| all | bits);
     assert_eq!(all(|tally| tally.modes), 0b111_1110, "modes");
     // No tick ends in the phase before the first tick.

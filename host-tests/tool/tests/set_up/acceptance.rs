@@ -223,7 +223,7 @@ fn nothing_is_driven_whatever_is_pressed_and_whatever_the_servo_asks_for() {
     }
     for servo in [arm, searches, damps] {
         let (world, mut tick, _) = start(servo, ResetReason::PowerOn);
-        let (mut asked, mut random) = (0, palpate_exercise::random::Random::new(7));
+        let (mut asked, mut random) = (0, palpate_bench::exercise::random::Random::new(7));
         for _ in 0..20_000 {
             {
                 let mut world = world.borrow_mut();

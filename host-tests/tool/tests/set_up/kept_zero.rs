@@ -52,7 +52,7 @@ fn reset_elsewhere(
     reference: Reference<3>,
     device: &'static Built<SerialArm, 3>,
 ) -> Rig<SerialArm> {
-    // As the boards have it (boards/hosted.rs).
+    // As the boards have it (boards/src/arm.rs).
     let homing = Homing::try_new(BUILT.encoders, reference, (0.1 * RATE) as u32, 4, 40_000).expect("homing");
     let servo = Servo::new(&BUILT, &WALL, Controller::SECOND_ORDER, SETTINGS).homing(homing.when_asked());
     let mut settings = planted.plant;

@@ -13,7 +13,7 @@ fn the_million_ticks_of_the_boards_come_to_the_same_and_their_time_is_told() -> 
     let page = Page::held_still()?;
     let mut script = String::new();
     let began = Instant::now();
-    palpate_exercise::run(&mut |name, tally| script += &format!("{name} {tally}\n"));
+    palpate_bench::exercise::run(&mut |name, tally| script += &format!("{name} {tally}\n"));
     let native = began.elapsed();
     let shown = page.ask(
         "palpate.verify().then((same) => ({ same, hash: document.getElementById('hash').textContent, \

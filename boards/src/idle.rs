@@ -1,0 +1,269 @@
+//! What runs below the tick: main's loop.
+
+use crate::calibrations::Calibrating;
+use crate::mailbox::Plain;
+use crate::outbox::Outbox;
+use crate::taking::Taking;
+use crate::{Calibrations, Mailbox, Uploads};
+use palpate::servo::Heartbeat;
+use palpate::wire::frame::{Received, Receiver};
+use palpate::wire::telemetry::Consumer;
+use palpate::wire::{Answer, Command, Hello, PROTOCOL, Record, Refused, Told};
+
+/// A serial port that is never waited for.
+pub trait Port {
+    /// Sends a byte; false if there is no room for it now.
+    fn send(&mut self, byte: u8) -> bool;
+
+    /// A byte that came.
+    fn receive(&mut self) -> Option<u8>;
+}
+
+/// The hardware's watchdog.
+pub trait Watchdog {
+    /// Feeds it.
+    fn feed(&mut self);
+}
+
+/// Memory that a board offers to its host.
+pub trait Offers {
+    /// The same loop with that memory.
+    fn offer<'a>(&'a self, idle: Idle<'a>) -> Idle<'a>;
+}
+
+/// None.
+impl Offers for () {
+    fn offer<'a>(&'a self, idle: Idle<'a>) -> Idle<'a> {
+        idle
+    }
+}
+
+/// RAM for bodies.
+impl<U: Uploads> Offers for Option<U> {
+    fn offer<'a>(&'a self, idle: Idle<'a>) -> Idle<'a> {
+        match self {
+            Some(memory) => idle.taking(memory),
+            None => idle,
+        }
+    }
+}
+
+/// Feeds the watchdog while ticks go on, sends telemetry, takes commands.
+pub struct Idle<'a> {
+    mailbox: &'a Mailbox,
+    records: Consumer<'a, Record>,
+    heartbeat: Heartbeat,
+    receiver: Receiver<Command>,
+    outbox: Outbox,
+    taking: Taking<'a>,
+    calibrating: Calibrating<'a>,
+    /// What the device says of itself.
+    hello: Hello,
+    /// Whether that is still to be said.
+    greets: bool,
+    /// And how it is calibrated.
+    tells_calibration: bool,
+    /// Whether a host of this version has said hello.
+    is_greeted: bool,
+    /// The number of an order that is on its way through the tick, which answers it.
+    awaits: Option<u16>,
+    /// The answer to the last order: one that comes again, because this was lost, is not done again.
+    last: Option<Answer>,
+    /// An answer that is still to be given. A host that does not wait for it loses it to the next.
+    answer: Option<Answer>,
+}
+
+impl<'a> Idle<'a> {
+    /// The other end of the loop's queue and mailbox.
+    pub const fn new(mailbox: &'a Mailbox, records: Consumer<'a, Record>, heartbeat: Heartbeat) -> Self {
+        Self {
+            mailbox,
+            records,
+            heartbeat,
+            receiver: Receiver::new(),
+            outbox: Outbox::new(),
+            taking: Taking::nothing(),
+            calibrating: Calibrating::nothing(),
+            hello: Hello {
+                protocol: PROTOCOL,
+                rate: 0.0,
+                max_force: 0.0,
+                room: 0,
+                faces: 0,
+                edges: 0,
+                flash: 0,
+                kept: 0,
+            },
+            greets: true,
+            tells_calibration: false,
+            is_greeted: false,
+            awaits: None,
+            last: None,
+            answer: None,
+        }
+    }
+
+    /// Says of itself the loop's rate (Hz) and its greatest force (N).
+    #[must_use]
+    pub const fn saying(mut self, rate: f32, max_force: f32) -> Self {
+        (self.hello.rate, self.hello.max_force) = (rate, max_force);
+        self
+    }
+
+    /// Takes bodies that come over the line.
+    #[must_use]
+    pub fn taking(mut self, uploads: &'a dyn Uploads) -> Self {
+        (self.hello.room, self.hello.faces, self.hello.edges) = uploads.room();
+        self.taking.memory = Some(uploads);
+        self
+    }
+
+    /// Keeps bodies in flash. What it says of faces and edges is the least of this and of [`Self::taking`]'s.
+    #[must_use]
+    pub fn keeping(mut self, flash: &'a dyn Uploads) -> Self {
+        let (bytes, faces, edges) = flash.room();
+        self.hello.flash = bytes;
+        if self.hello.room == 0 {
+            (self.hello.faces, self.hello.edges) = (faces, edges);
+        } else {
+            (self.hello.faces, self.hello.edges) = (self.hello.faces.min(faces), self.hello.edges.min(edges));
+        }
+        self.taking.flash = Some(flash);
+        self
+    }
+
+    /// Keeps a calibration in flash.
+    #[must_use]
+    pub const fn calibrating(mut self, flash: &'a dyn Calibrations) -> Self {
+        self.calibrating.flash = Some(flash);
+        self
+    }
+
+    /// A moment of it: at most a byte each way. Call it for ever.
+    pub fn step(&mut self, port: &mut impl Port, watchdog: &mut impl Watchdog) {
+        feed(&mut self.heartbeat, self.mailbox, watchdog);
+        if self.awaits.is_some()
+            && let Some(answer) = self.mailbox.take_answer()
+        {
+            (self.awaits, self.last, self.answer) = (None, Some(answer), Some(answer));
+        }
+        if let Some(answer) = self.taking.wait(self.mailbox, &mut || feed(&mut self.heartbeat, self.mailbox, watchdog))
+        {
+            self.answer = Some(answer);
+        }
+        if let Some(answer) = self.calibrating.wait(self.mailbox) {
+            self.answer = Some(answer);
+        }
+        if let Some(byte) = port.receive()
+            && let Some(Received::Message(command)) = self.receiver.feed(byte)
+        {
+            self.take(command, watchdog);
+        }
+        if self.outbox.is_empty() {
+            match self.next() {
+                Some(told) => self.outbox.put(&told),
+                None => return,
+            }
+        }
+        self.outbox.step(port);
+    }
+
+    fn take(&mut self, command: Command, watchdog: &mut impl Watchdog) {
+        match command {
+            Command::Alive => self.mailbox.put(Plain::Alive),
+            Command::Stop => self.mailbox.put(Plain::Stop),
+            Command::Acknowledge => self.mailbox.put(Plain::Acknowledge),
+            Command::SetUp => self.mailbox.put(Plain::SetUp),
+            Command::Jog(jog) => self.mailbox.put_jog(jog),
+            Command::Hello { protocol } => {
+                // Another host begins to count anew.
+                (self.greets, self.is_greeted, self.last) = (true, protocol == PROTOCOL, None);
+                self.calibrating.forget_answer();
+                if self.is_greeted {
+                    self.mailbox.put(Plain::Alive);
+                }
+            }
+            Command::Order { number, .. } | Command::Upload { number, .. } | Command::Calibrate { number, .. }
+                if !self.is_greeted =>
+            {
+                self.answer = Some(Answer { number, refused: Some(Refused::Hello) });
+            }
+            Command::Order { number, .. } if self.awaits == Some(number) => {}
+            Command::Order { number, .. } if self.awaits.is_some() => {
+                self.answer = Some(Answer { number, refused: Some(Refused::Busy) });
+            }
+            Command::Order { number, .. } if self.last.is_some_and(|last| last.number == number) => {
+                self.answer = self.last;
+            }
+            Command::Order { number, order } => {
+                self.mailbox.put(Plain::Alive);
+                self.mailbox.put_order(number, &order);
+                self.awaits = Some(number);
+            }
+            // On its way, or done before: not again.
+            Command::Calibrate { .. } if self.calibrating.is_asked() => {}
+            Command::Calibrate { number, .. } if self.calibrating.answered(number).is_some() => {
+                self.answer = self.calibrating.answered(number);
+            }
+            Command::Calibrate { number, joints } => {
+                self.mailbox.put(Plain::Alive);
+                let answer = self.calibrating.take((number, joints), self.mailbox);
+                if answer.is_some() {
+                    self.answer = answer;
+                }
+            }
+            Command::Upload { number, .. } if self.calibrating.is_asked() => {
+                self.answer = Some(Answer { number, refused: Some(Refused::Busy) });
+            }
+            Command::Upload { number, part } => {
+                self.mailbox.put(Plain::Alive);
+                let mut pause = || feed(&mut self.heartbeat, self.mailbox, watchdog);
+                let answer = self.taking.take(number, &part, self.mailbox, &mut pause);
+                // A check may have taken long: the host was heard all the same.
+                self.mailbox.put(Plain::Alive);
+                if answer.is_some() {
+                    self.answer = answer;
+                }
+            }
+        }
+    }
+
+    /// What is said next: answers first, records in their order, then the newest reading or view.
+    fn next(&mut self) -> Option<Told> {
+        if self.greets {
+            (self.greets, self.tells_calibration) = (false, true);
+            self.hello.kept = self.taking.kept();
+            return Some(Told::Hello(self.hello));
+        }
+        if self.tells_calibration {
+            self.tells_calibration = false;
+            if let Some(flash) = self.calibrating.flash {
+                return Some(Told::Calibrated(flash.in_use()));
+            }
+        }
+        if let Some(answer) = self.answer.take() {
+            return Some(Told::Answer(answer));
+        }
+        if let Some(record) = self.records.dequeue() {
+            return Some(Told::Record(record));
+        }
+        if let Some(marked) = self.mailbox.take_marked() {
+            return Some(Told::Marked(marked));
+        }
+        if let Some(reading) = self.mailbox.take_reading() {
+            return Some(Told::Reading(reading));
+        }
+        let view = self.mailbox.take_view();
+        if self.is_greeted {
+            self.mailbox.look();
+        }
+        view.map(Told::View)
+    }
+}
+
+/// Feeds the watchdog while ticks go on.
+fn feed(heartbeat: &mut Heartbeat, mailbox: &Mailbox, watchdog: &mut impl Watchdog) {
+    if heartbeat.may_feed(mailbox.ticks()) {
+        watchdog.feed();
+    }
+}

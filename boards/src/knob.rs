@@ -1,0 +1,151 @@
+//! The knob of the boards: its device, how its rotor is aligned, and the table of what it feels like. The file to
+//! change first.
+
+use crate::JogSettings;
+use palpate::device::drive::{Feed, Field, Modulation};
+use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION, GIMBAL_KNOB_PROTECTION};
+use palpate::device::sensor::Frozen;
+use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Protection, Reference, SupplyRange};
+use palpate::math::Vec3;
+use palpate::render::{Detents, Ends, Feel, Spring, Wave};
+use palpate::servo::{GuardState, Guarded, Knob, KnobWitness, Output, Servo, ServoState, Settings};
+use palpate::track::Controller;
+use palpate::wire::Report;
+
+/// The loop of a knob.
+pub type KnobServo = Servo<'static, Knob, Dial, 1, Guarded<1>>;
+/// What it keeps between two ticks.
+pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
+
+/// What its motor bears; the supply is for whoever measures it to add.
+pub const PROTECTION: Protection<1> = GIMBAL_KNOB_PROTECTION;
+/// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
+pub const SUPPLY: SupplyRange = SupplyRange { min_mv: 10_000, max_mv: 14_000 };
+
+/// 4 kHz; stiffness and damping are the feels' own.
+pub const SETTINGS: Settings = Settings {
+    rate_hz: 4_000.0,
+    stiffness_n_per_m: 1_000.0,
+    damping_n_s_per_m: 0.0,
+    max_force_n: 2.8,
+    velocity_corner_hz: 150.0,
+    soft_start_s: 0.2,
+    body_origin_m: Vec3::ZERO,
+};
+
+/// The device, with the cogging of its motor if that has been recorded.
+pub const fn device(cogging: Option<CoggingMap>) -> Device<Dial, 1> {
+    Device { kinematics: Dial { cogging, ..GIMBAL_KNOB.kinematics }, ..GIMBAL_KNOB }
+}
+
+/// The field comes up within a fifth of a second and is led round three electrical turns, half a second each.
+pub const SEARCH: FieldSearch = FieldSearch {
+    commutation: GIMBAL_KNOB_COMMUTATION,
+    torque_n_m: 0.03,
+    ramp_ticks: 800,
+    turn_ticks: 2_000,
+    turns: 1,
+};
+
+/// How the rotor is led round while button and key are held, to record its cogging: 6 s for an electrical turn, with 40
+/// mN·m. Faster, its inertia would count as cogging. It snaps to the field at first, so it may be faster for a moment.
+pub const JOG: JogSettings =
+    JogSettings { share: 0.42, rate: 20.0, travel: 9.0, patience: 0.1, turn_ticks: Some(24_000) };
+
+/// The torque of a field that is led with this duty of voltage on a rotor a quarter turn behind it, N·m.
+pub const fn led_torque(share: f32) -> f32 {
+    match GIMBAL_KNOB.feeds[0] {
+        Feed::Voltage(feed) => feed.torque_constant_n_m_per_a * share * feed.supply_v / feed.resistance_ohm,
+        Feed::Current => 0.0,
+    }
+}
+// No heat is counted meanwhile: what may be given is what the motor bears for ever.
+const _: () =
+    assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full_n_m);
+
+/// A sensor that says the very same for a quarter of a second has frozen.
+pub const FROZEN: Frozen = Frozen::after(1_000);
+
+/// Torque that is let go of in a second when another feel is chosen, N·m: all of it in a twentieth.
+pub const LET_GO: f32 = 1.2;
+
+/// 15°.
+const PITCH: f32 = core::f32::consts::TAU / 24.0;
+
+/// The feels, in the order of [`NAMES`].
+pub static FEELS: [Feel; 6] = [
+    Feel {
+        detents: Some(Wave { pitch_rad: PITCH, torque_n_m: 0.03, centre_rad: 0.0 }),
+        damping_n_m_s_per_rad: 6e-4,
+        ..Feel::FREE
+    },
+    Feel {
+        clicks: Some(Detents {
+            pitch: PITCH,
+            stiffness: 0.2,
+            damping: 6e-4,
+            snap: 0.55,
+            first: -5,
+            last: 5,
+            wall_stiffness: 0.8,
+            max_force: 0.05,
+        }),
+        ..Feel::FREE
+    },
+    Feel {
+        texture: Some(Wave { pitch_rad: PITCH / 6.0, torque_n_m: 0.01, centre_rad: 0.0 }),
+        damping_n_m_s_per_rad: 6e-4,
+        ..Feel::FREE
+    },
+    Feel {
+        spring: Some(Spring { stiffness_n_m_per_rad: 0.06, rest_rad: 0.0, max_torque_n_m: 0.04 }),
+        damping_n_m_s_per_rad: 4e-4,
+        ..Feel::FREE
+    },
+    Feel {
+        ends: Some(Ends { between_rad: [-1.0, 1.0], stiffness_n_m_per_rad: 1.2, damping_n_m_s_per_rad: 1.5e-3 }),
+        ..Feel::FREE
+    },
+    Feel::FREE,
+];
+
+/// What the feels are called; a board does not tell.
+pub const NAMES: [&str; FEELS.len()] = ["detents", "clicks", "texture", "spring", "end stops", "free"];
+
+/// How the rotor is aligned: while the button is held, and begun anew where it is let go of, for as long as eight times
+/// take.
+pub const fn homing(search: FieldSearch) -> Homing<1> {
+    Homing::new(GIMBAL_KNOB.encoders, Reference::Fields([search]), 1, 0, 8 * search.ticks())
+}
+
+/// The loop of a device with this protection, aligned by a search.
+pub const fn servo(device: &'static Device<Dial, 1>, search: FieldSearch, protection: Protection<1>) -> KnobServo {
+    // It lives as long as the loop: a constant of its own.
+    static KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, LET_GO);
+    Servo::new(device, &KNOB, Controller::SECOND_ORDER, SETTINGS).protect(protection).homing(homing(search))
+}
+
+/// The protection of a loop that is told of its supply ([`SUPPLY`]).
+pub const TOLD_OF_SUPPLY: Protection<1> = Protection { supply: Some(SUPPLY), ..PROTECTION };
+
+/// The pulse widths that a state asks for; `None` disables the stage.
+#[inline]
+pub fn widths(servo: &KnobServo, state: &KnobState, modulation: &Modulation) -> Option<[f32; 3]> {
+    let Output::Drive([duty]) = state.output() else { return None };
+    let [angle] = servo.fields(state)?;
+    Some(modulation.widths(Field { angle, duty }))
+}
+
+/// Of a SimpleFOCShield at 25 kHz and 12 V: half a microsecond of dead time, and a ripple as large as the current of
+/// 0.23 V.
+pub const MODULATION: Modulation = Modulation { dead_fraction: 0.0125, ripple_fraction: 0.019 };
+
+/// What is told of a tick over a link, with the widths in the place of duties: −32,767 to 32,767 for none to all of a
+/// period, and −32,768 for a stage that is disabled.
+pub fn report(state: &KnobState, widths: Option<[f32; 3]>, instructions: u32) -> Report {
+    let duties = match widths {
+        Some(widths) => widths.map(|width| ((width - 0.5) * 65_534.0) as i16),
+        None => [i16::MIN; 3],
+    };
+    Report { duties, ..Report::new(state, instructions) }
+}

@@ -1,0 +1,147 @@
+//! Flash for a body from a host, and for what commissioning found: the second bank, which can be written while the
+//! program is read from the first. There is no RAM to spare for two more bodies.
+
+#[cfg(feature = "accept")]
+compile_error!("an image that is accepted takes no host's orders: one feature or the other");
+
+mod flash;
+
+use core::sync::atomic::{AtomicBool, Ordering};
+use palpate::commission::Wiring;
+use palpate::device::{Device, SerialArm};
+use palpate::scene::Slot;
+use palpate::wire::Upload;
+use palpate_bench::cortex::{HandOver, bearing_nmi};
+use palpate_bench::store::{Found, Keeping, Kept, KeptCalibration, Region};
+use palpate_bench::{ArmServo, Felt, Idle, Offers, OneSlot, Uploads as _, arm_servo, one_slot};
+use static_cell::StaticCell;
+use stm32g4xx_hal::stm32::FLASH;
+
+use self::flash::{BODY_BYTES, Bank2, START};
+use crate::body::{DEVICE, PROTECTION, SETTINGS, tables};
+
+/// Faces and edges of some 60 patches: more RAM for them would be less for the code of the tick.
+const FACES: usize = 64;
+const EDGES: usize = 160;
+
+/// Where the body lies that is kept.
+type Store = Kept<FACES, EDGES>;
+
+// SAFETY: of the chip's second bank, which nothing of this program lies in (`regions/hosted.x`) and only `Bank2`
+// writes.
+static STORE: Store = Kept::new(unsafe { Region::new(START as *const u32, BODY_BYTES) });
+
+/// One patch alone is no body: choose a model of one.
+static SLOT: Slot<Store> = Slot::exchangeable(tables::SURFACE, &STORE);
+static SCENE: OneSlot<Store> = one_slot(&SLOT, &DEVICE, &SETTINGS);
+
+/// What is refused does not compile.
+const SERVO: ArmServo<OneSlot<Store>> = arm_servo(&DEVICE, &SCENE, SETTINGS, PROTECTION);
+
+/// The servo on the device as commissioning found it: in RAM, made at each start.
+pub struct This {
+    servo: ArmServo<OneSlot<Store>>,
+    wiring: Wiring<3>,
+    is_miscalibrated: bool,
+}
+
+impl Felt<3> for This {
+    type Surface = OneSlot<Store>;
+    type Mechanism = SerialArm;
+    type Guard = palpate::servo::Guarded<3>;
+
+    #[inline(always)]
+    fn servo(&self) -> &ArmServo<OneSlot<Store>> {
+        &self.servo
+    }
+
+    #[inline(always)]
+    fn wiring(&self) -> Wiring<3> {
+        self.wiring
+    }
+
+    #[inline(always)]
+    fn is_miscalibrated(&self) -> bool {
+        self.is_miscalibrated
+    }
+}
+
+type End = Keeping<Bank2, FACES, EDGES>;
+
+type Calibration = KeptCalibration<Bank2, SerialArm, 3>;
+
+/// Main's ends on their way to where they are used.
+static FOUND: HandOver<End> = HandOver::new();
+static CALIBRATION: HandOver<Calibration> = HandOver::new();
+
+/// Looks for a body that was kept, and for a calibration: before the loop is made, which is made with the one and feels
+/// the other from the first tick on. Without either, the device is as it was built. A chip that was set to one bank
+/// keeps none. Words that the power went in the middle of are no body, and are erased; and no calibration, which is
+/// reported.
+///
+/// # Panics
+/// The second time.
+pub fn find(flash: FLASH) -> This {
+    static FOUND_DEVICE: StaticCell<Device<SerialArm, 3>> = StaticCell::new();
+
+    let built = Found { device: DEVICE, wiring: Wiring::STRAIGHT, is_miscalibrated: false };
+    let Found { device, wiring, is_miscalibrated } = kept(flash).unwrap_or(built);
+    This { servo: SERVO.calibrated(FOUND_DEVICE.init(device)), wiring, is_miscalibrated }
+}
+
+fn kept(flash: FLASH) -> Option<Found<SerialArm, 3>> {
+    let [bodies, calibration] = Bank2::try_new(flash)?;
+    let ((kept, found), is_damaged) = watched(|| Calibration::find(calibration, &DEVICE, SERVO.zero_of()));
+    let (kept, found) = if is_damaged { kept.damaged() } else { (kept, found) };
+    CALIBRATION.give(kept);
+    let (end, is_damaged) = watched(|| STORE.main(bodies, &mut || ()));
+    // What was found wrong is said by what is kept: nothing. What cannot be erased is not looked at again.
+    if let Some((end, _)) = end
+        && (!is_damaged || end.put(&Upload::Begin { bytes: 0 }, &mut || ()).is_ok())
+    {
+        FOUND.give(end);
+    }
+    Some(found)
+}
+
+/// Main's ends of both.
+pub struct Ends(Option<End>, Option<Calibration>);
+
+/// Main's ends, once.
+pub fn ends() -> Ends {
+    Ends(FOUND.take(), CALIBRATION.take())
+}
+
+impl Offers for Ends {
+    fn offer<'a>(&'a self, mut idle: Idle<'a>) -> Idle<'a> {
+        if let Some(flash) = &self.0 {
+            idle = idle.keeping(flash);
+        }
+        match &self.1 {
+            Some(flash) => idle.calibrating(flash),
+            None => idle,
+        }
+    }
+}
+
+/// Whether a word of the second bank could not be read: the power went while it was written or erased.
+static DAMAGED: AtomicBool = AtomicBool::new(false);
+
+/// Does something in which such words may be read, and says whether any was.
+fn watched<T>(work: impl FnOnce() -> T) -> (T, bool) {
+    let done = bearing_nmi(is_damage, work);
+    (done, DAMAGED.swap(false, Ordering::SeqCst))
+}
+
+/// The chip tells of a word whose checksum is beyond mending by an NMI (RM0440, 3.3.4). Any other one is a stop.
+fn is_damage() -> bool {
+    // SAFETY: reads a register, and clears a flag by writing it as one.
+    let flash = unsafe { &*FLASH::ptr() };
+    let eccr = flash.eccr().read();
+    let is_word = eccr.eccd().bit_is_set() && eccr.bk_ecc().bit_is_set();
+    if is_word {
+        DAMAGED.store(true, Ordering::SeqCst);
+        flash.eccr().modify(|_, w| w.eccd().set_bit());
+    }
+    is_word
+}

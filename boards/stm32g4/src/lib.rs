@@ -1,0 +1,168 @@
+//! The chip of a Nucleo-G474RE, as both of its programs use it: the arm (`main.rs`) and the knob (`knob/main.rs`).
+
+#![no_std]
+
+use embedded_hal::delay::DelayNs;
+use palpate_bench::cortex::MemoCell;
+use palpate_bench::{Divider, Port, ResetFlags, Supply, Watchdog};
+use stm32g4xx_hal::adc::config::{AdcConfig, ClockMode, SampleTime};
+use stm32g4xx_hal::adc::{Adc, AdcClaim, AdcCommonExt, Configured};
+use stm32g4xx_hal::gpio::{AF7, Analog, PA2, PA3, PB1};
+use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
+use stm32g4xx_hal::prelude::*;
+use stm32g4xx_hal::pwr::VoltageScale;
+use stm32g4xx_hal::rcc::{Config, PllConfig, PllMDiv, PllNMul, PllRDiv, PllSrc, Rcc};
+use stm32g4xx_hal::serial::{FullConfig, Serial};
+use stm32g4xx_hal::stm32::{ADC1, ADC12_COMMON, FLASH, PWR, RCC, TIM7, USART2};
+use stm32g4xx_hal::time::ExtU32;
+use stm32g4xx_hal::timer::{CountDownTimer, Event, Timer};
+
+// Clocks, power and reset, as the reference manual (RM0440) requires.
+
+/// 16 MHz / 4 · 85 / 2: the most that the chip takes.
+pub const CLOCK: u32 = 170_000_000;
+
+/// What was left to be known after the next reset. Used, whatever the compiler thinks that it knows of its first value.
+#[unsafe(link_section = ".uninit.MEMO")]
+#[used]
+pub static MEMO: MemoCell = MemoCell::new();
+
+/// Sets the clocks, and gives why the chip was reset.
+pub fn start(rcc: RCC, power: PWR, flash: &FLASH) -> (Rcc, ResetFlags) {
+    // The power interface answers only once it has its clock, which the HAL does not give it: without it, the boost
+    // that 170 MHz need would not be set.
+    rcc.apb1enr1().modify(|_, w| w.pwren().set_bit());
+    // Read back, for the clock takes two cycles.
+    let _ = rcc.apb1enr1().read();
+    // The pull-downs by which a dead battery asks a USB-C supply for power hang on PB6 and PB4; with them, what is on
+    // PA9 and PA10 pulls at an encoder's line.
+    power.cr3().modify(|_, w| w.ucpd1_dbdis().set_bit());
+    // Instructions and tables that stay in flash are cached, and fetched ahead.
+    flash.acr().modify(|_, w| w.icen().set_bit().dcen().set_bit().prften().set_bit());
+
+    let power = power.constrain().vos(VoltageScale::Range1 { enable_boost: true }).freeze();
+    let pll = PllConfig {
+        mux: PllSrc::HSI,
+        m: PllMDiv::DIV_4,
+        n: PllNMul::MUL_85,
+        r: Some(PllRDiv::DIV_2),
+        ..PllConfig::default()
+    };
+    let mut rcc = rcc.freeze(Config::pll().pll_cfg(pll), power);
+    let flags = rcc.get_reset_reason();
+    rcc.clear_reset_reason();
+    let flags = ResetFlags {
+        // Raised at power-on too.
+        power: flags.brown_out,
+        watchdog: flags.independent_watchdog || flags.window_watchdog,
+        software: flags.software,
+        pin: flags.reset_pin,
+        ..ResetFlags::default()
+    };
+    (rcc, flags)
+}
+
+/// The port of the board's own USB, 500,000 baud: 170 MHz / 340.
+pub struct Usart(Serial<USART2, PA2<AF7>, PA3<AF7>>);
+
+/// Opens it.
+///
+/// # Panics
+/// If the clock could not make the rate: it can.
+pub fn open_port(port: USART2, out: PA2<AF7>, back: PA3<AF7>, rcc: &mut Rcc) -> Usart {
+    let Ok(serial) = port.usart(out, back, FullConfig::default().baudrate(500_000.bps()), rcc) else {
+        panic!("170 MHz make 500,000 baud")
+    };
+    Usart(serial)
+}
+
+impl Port for Usart {
+    #[inline]
+    fn send(&mut self, byte: u8) -> bool {
+        let Self(_) = self;
+        // SAFETY: nobody else uses the registers of the port that this owns.
+        let port = unsafe { &*USART2::ptr() };
+        let is_free = port.isr().read().txe().bit_is_set();
+        if is_free {
+            // SAFETY: nine bits, of which eight are used.
+            port.tdr().write(|w| unsafe { w.tdr().bits(u16::from(byte)) });
+        }
+        is_free
+    }
+
+    #[inline]
+    fn receive(&mut self) -> Option<u8> {
+        // SAFETY: as above.
+        let port = unsafe { &*USART2::ptr() };
+        // A byte that nobody took in time keeps all later ones out until this.
+        port.icr().write(|w| w.orecf().clear_bit_by_one());
+        let has_come = port.isr().read().rxne().bit_is_set();
+        has_come.then(|| port.rdr().read().rdr().bits() as u8)
+    }
+}
+
+/// The independent watchdog.
+pub struct Iwdg(pub IndependentWatchdog);
+
+impl Watchdog for Iwdg {
+    #[inline]
+    fn feed(&mut self) {
+        self.0.feed();
+    }
+}
+
+/// 12 bits of 3.3 V, behind 100 kΩ and 10 kΩ.
+const DIVIDER: Divider = Divider::new(4_095, 3.3, 100e3, 10e3);
+
+/// The converter and its pin.
+pub struct Volts {
+    converter: Adc<ADC1, Configured>,
+    pin: PB1<Analog>,
+}
+
+impl Volts {
+    /// The converter, calibrated and configured.
+    pub fn new(
+        converter: ADC1,
+        common: ADC12_COMMON,
+        pin: PB1<Analog>,
+        delay: &mut impl DelayNs,
+        rcc: &mut Rcc,
+    ) -> Self {
+        // 42.5 MHz. The HAL's default is the core's clock, undivided, which is more than the 60 MHz that the converter
+        // takes, and a panic.
+        let common = common.claim(ClockMode::AdcHclkDiv4, rcc);
+        Self { converter: common.claim_and_configure(converter, AdcConfig::default(), delay), pin }
+    }
+}
+
+impl Supply for Volts {
+    /// About 1 µs: one conversion of 12 bits, of 37 cycles.
+    #[inline]
+    fn volts(&mut self) -> Option<f32> {
+        let reading = self.converter.convert(&self.pin, SampleTime::Cycles_24_5);
+        Some(DIVIDER.volts(reading))
+    }
+}
+
+/// The timer that raises ticks (TIM7), running.
+pub struct Ticks {
+    timer: CountDownTimer<TIM7>,
+}
+
+impl Ticks {
+    /// Starts the timer at `rate_hz`; its interrupt is still masked.
+    pub fn start(timer: TIM7, rate_hz: f32, rcc: &Rcc) -> Self {
+        let period_us = (1e6 / rate_hz) as u32;
+        let mut timer = Timer::new(timer, &rcc.clocks).start_count_down(period_us.micros());
+        timer.listen(Event::TimeOut);
+        Self { timer }
+    }
+}
+
+impl palpate_bench::Timer for Ticks {
+    #[inline]
+    fn acknowledge(&mut self) {
+        self.timer.clear_interrupt(Event::TimeOut);
+    }
+}
