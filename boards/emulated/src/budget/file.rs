@@ -13,7 +13,7 @@ static CAPPED_BOX: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../bodies/ca
 static SPHERE: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../bodies/sphere_body.palp"));
 
 #[inline(never)]
-fn load<'a>(bytes: &'a [u8], room: Room<'a>, pause: &mut dyn FnMut()) -> Result<Body<'a>, FileError> {
+fn load<'a>(bytes: &'a [u8], room: BodyBuffer<'a>, pause: &mut dyn FnMut()) -> Result<Body<'a>, FileError> {
     Body::from_bytes_with(bytes, room, pause)
 }
 
@@ -39,7 +39,7 @@ fn counted<'a>(
     counter: &mut InstructionCounter,
     name: &str,
     bytes: &'a [u8],
-    room: Room<'a>,
+    room: BodyBuffer<'a>,
 ) -> Result<Body<'a>, &'static str> {
     let bytes = black_box(bytes);
     let (body, instructions) = counter.count(|| load(bytes, room, &mut || ()));
@@ -49,7 +49,7 @@ fn counted<'a>(
 
 /// The longest that a watchdog waits while a file is loaded.
 #[inline(never)]
-fn longest_stage<'a>(counter: &InstructionCounter, name: &str, bytes: &'a [u8], room: Room<'a>) {
+fn longest_stage<'a>(counter: &InstructionCounter, name: &str, bytes: &'a [u8], room: BodyBuffer<'a>) {
     let (mut last, mut longest) = (0, 0);
     let begun = counter.started();
     let mut pause = || {
