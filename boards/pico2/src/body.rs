@@ -16,12 +16,12 @@ use palpate_bench::{OneSlot, one_slot, store::RamStore};
 /// A motor's bridge: Maxon RE30 for 24 V, 0.611 Ω by its data sheet and 0.1 Ω for the bridge, which is ours to guess.
 const fn feed(ratio: f32) -> Feed {
     Feed::Voltage(VoltageFeed {
-        supply: 24.0,
-        resistance: 0.711,
-        torque_constant: 0.0259,
-        current_at_full: 3.0,
+        supply_v: 24.0,
+        resistance_ohm: 0.711,
+        torque_constant_n_m_per_a: 0.0259,
+        current_at_full_a: 3.0,
         ratio,
-        back_emf_share: 0.8,
+        back_emf_fraction: 0.8,
     })
 }
 

@@ -12,16 +12,9 @@ use palpate::scene::{Limits, Material, Motion, Part, Scene, Slot};
 use palpate::servo::{ResetReason, Safety, Servo, Settings, Unguarded};
 use palpate::track::{Controller, Placement};
 use palpate_bench::sensors::BadFrame;
-<<<<<<< HEAD
+use palpate_bench::store::{Bodies, Both, Kept, PretendedFlash};
 use palpate_bench::{Felt, Panel, Uploads};
 use palpate_link::Line;
-use palpate_bench::store::{Bodies, Both, Kept, PretendedFlash};
-=======
-use palpate_bench::store::{Bodies, Both, Kept, PretendedFlash};
-use palpate_bench::{Bench, Board, Felt, Idle, Mailbox, NotObeyed, Panel, Passive, Port, Uploads, Watchdog};
-use palpate_link::Line;
-use std::collections::VecDeque;
->>>>>>> 7a75d9d (boards: make one workspace of ten manifests)
 use std::io;
 use std::time::{Duration, Instant};
 
