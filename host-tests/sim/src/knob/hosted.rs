@@ -1,12 +1,12 @@
 //! The knob's loop compiled for the host, at the simulated dial.
 
-use super::shared::{
-    FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo, widths,
-};
 use crate::plant::{Dial, DialSettings, Fingers};
 use palpate::device::sensor::Frozen;
 use palpate::device::{CoggingMap, Counts};
 use palpate::servo::{Event, Input, Phase, ResetReason};
+use palpate_bench::knob::{
+    FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo, widths,
+};
 
 /// The loop and the dial that it turns.
 #[derive(Clone, Debug)]
