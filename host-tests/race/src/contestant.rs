@@ -1,16 +1,8 @@
-//! What takes part in the race.
+//! A contestant of the race.
 
-use crate::scene::Scene;
+use crate::scene::{Probe, Scene};
 
-/// A query point, metres, in both precisions: nobody pays for the conversion.
-#[derive(Clone, Copy, Debug)]
-pub struct Probe {
-    pub single: [f32; 3],
-    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers look at it"))]
-    pub double: [f64; 3],
-}
-
-/// What a contestant says.
+/// The answer of a contestant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Answer {
     /// It gave up.

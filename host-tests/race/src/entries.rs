@@ -1,7 +1,7 @@
 //! Who takes part, in the order of the table. A new contestant is a file with one or two functions, and its lines here.
 
-use crate::contestant::{Answer, Contestant, Enter, Probe};
-use crate::scene::Scene;
+use crate::contestant::{Answer, Contestant, Enter};
+use crate::scene::{Probe, Scene};
 use crate::{newton, ours};
 #[cfg(feature = "peers")]
 use crate::{parry, truck};

@@ -1,7 +1,7 @@
 //! Running a contestant over all probes: by the clock, or query by query for an instruction counter.
 
-use crate::contestant::{Answer, Contestant, Enter, Probe};
-use crate::scene::Scene;
+use crate::contestant::{Answer, Contestant, Enter};
+use crate::scene::{Probe, Scene};
 use std::hint::black_box;
 use std::time::Instant;
 

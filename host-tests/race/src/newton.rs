@@ -3,10 +3,10 @@
 //!
 //! Both answer with parameters: the evaluation at the answer, which a force needs, is not asked of them.
 
-use crate::contestant::{Answer, Contestant, Probe};
+use crate::contestant::{Answer, Contestant};
 use crate::horner::{Biquadratic, Derivatives};
 use crate::ours;
-use crate::scene::Scene;
+use crate::scene::{Probe, Scene};
 use palpate::math::Vec3;
 
 /// A cold start looks at the patch at the centres of so many cells along each parameter.

@@ -3,8 +3,8 @@
 //! It answers with parameters, as Newton's methods do, so that all are judged alike. The point and both tangents there,
 //! which a force needs, are evaluated while tracking, and in the count.
 
-use crate::contestant::{Answer, Contestant, Probe};
-use crate::scene::Scene;
+use crate::contestant::{Answer, Contestant};
+use crate::scene::{Probe, Scene};
 use palpate::body::Body;
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};

@@ -1,8 +1,8 @@
 //! `parry3d`: the patch as a triangle mesh with a bounding volume hierarchy, and as the convex hull of samples.
 
-use crate::contestant::{Answer, Contestant, Probe};
+use crate::contestant::{Answer, Contestant};
 use crate::horner::Biquadratic;
-use crate::scene::Scene;
+use crate::scene::{Probe, Scene};
 use anyhow::Context as _;
 use parry3d::math::Vector;
 use parry3d::query::PointQuery;

@@ -1,7 +1,6 @@
 //! The scene: one polynomial patch, as control points and as palpate's tables, and the probes. Lines of `key value
 //! value …`, metres; numbers are printed so that reading them gives the same bits.
 
-use crate::contestant::Probe;
 use anyhow::{Context as _, ensure};
 use palpate::body::{Body, Edge, EdgeFace, EdgeKind, Face, Locator, Separator, Side, SplineCurve, Vertex};
 use palpate::math::Vec3;
@@ -12,7 +11,15 @@ use std::collections::HashMap;
 use std::fs;
 use std::str::FromStr;
 
-/// What all contestants get.
+/// A query point, metres, in both precisions, so that no contestant's time includes a conversion.
+#[derive(Clone, Copy, Debug)]
+pub struct Probe {
+    pub single: [f32; 3],
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers look at it"))]
+    pub double: [f64; 3],
+}
+
+/// The input of every contestant.
 #[derive(Debug)]
 pub struct Scene {
     /// Knots along `u` and `v`.

@@ -1,9 +1,9 @@
 //! `truck-geometry`: Newton's method on B-splines in double precision; without a hint from the nearest of 51 × 51
 //! samples.
 
-use crate::contestant::{Answer, Contestant, Probe};
+use crate::contestant::{Answer, Contestant};
 use crate::ours;
-use crate::scene::Scene;
+use crate::scene::{Probe, Scene};
 use truck_geometry::prelude::{BSplineSurface, KnotVec, Point3, SPHint2D, SearchNearestParameter as _};
 
 /// As in truck's own use of it.
