@@ -4,13 +4,12 @@
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Counts, Duty, SerialArm};
 use palpate::math::vec3;
-use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
 use palpate::render::Friction;
 use palpate::servo::{Event, Input, Phase, Rendering, SafeOutput, Safety, Servo, Settings};
 use palpate::track::Controller;
 
 /// A shallow bowl, 10 cm square: z = 2 (x² + y²) in metres. `cargo palpate bake` writes such tables from your model.
-static BREAKS: [f32; 2] = [0.0, 1.0];
 static BOWL: [[f32; 3]; 9] = [
     [0.0, 0.0, 0.0],
     [0.0, 0.1, 0.0],
@@ -22,17 +21,17 @@ static BOWL: [[f32; 3]; 9] = [
     [0.0; 3],
     [0.0; 3],
 ];
-const TABLE: SplinePatch = SplinePatch::from_table(
-    [2, 2],
-    &BREAKS,
-    &BREAKS,
-    Coefficients::Polynomial(&BOWL),
-    ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.04, uv: 0.0, vv: 0.04 }),
-    Orientation::Outward,
-    0.1,
-);
-/// With its CRC, which the loop checks over and over: here the compiler computes it.
-static PATCH: SplinePatch = TABLE.with_crc(TABLE.table_crc());
+static PATCH: SplinePatch = SplineTable {
+    degree: [2, 2],
+    breaks_u: &[0.0, 1.0],
+    breaks_v: &[0.0, 1.0],
+    coefficients: Coefficients::Polynomial(&BOWL),
+    shape: ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.04, uv: 0.0, vv: 0.04 }),
+    orientation: Orientation::Outward,
+    size_m: 0.1,
+    crc: None,
+}
+.checked();
 
 /// All of it is checked when it is compiled, and lies in flash.
 static SERVO: Servo<'static, SplinePatch, SerialArm, 3> = Servo::new(

@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake capped_box.toml --out capped_box.rs
-// Table format 6. SHA-256 of the model file: 21e70fde5e93324ff67d2d8e8050f949f102ea8475d56dd65d5be85ec60a6a0b
+// Table format 7. SHA-256 of the model file: 21e70fde5e93324ff67d2d8e8050f949f102ea8475d56dd65d5be85ec60a6a0b
 // A body of 6 faces, 12 edges and 8 vertices. CRC-32 of its numbers: a9d065db
 
 // Span borders.
@@ -247,12 +247,12 @@ static EDGE_11: [[f32; 3]; 2] = [[0.0, 0.02, 0.0], [0.0, -0.04, 0.0]];
 #[rustfmt::skip]
 static FACES: [palpate::body::Face; 6] = [
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [3, 3],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Polynomial(&FACE_0),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [3, 3],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Polynomial(&FACE_0),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.064,
                     uv: 0.008000003,
@@ -274,9 +274,11 @@ static FACES: [palpate::body::Face; 6] = [
                 max_stretch: 0.004844992,
                 max_bend: 31.43603,
             },
-            palpate::patch::Orientation::Outward,
-            0.06,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.06,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 0,
@@ -329,12 +331,12 @@ static FACES: [palpate::body::Face; 6] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [3, 3],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Polynomial(&FACE_1),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [3, 3],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Polynomial(&FACE_1),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.06400001,
                     uv: 0.03200001,
@@ -356,9 +358,11 @@ static FACES: [palpate::body::Face; 6] = [
                 max_stretch: 0.004719708,
                 max_bend: 59.20362,
             },
-            palpate::patch::Orientation::Outward,
-            0.06,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.06,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 4,
@@ -399,12 +403,12 @@ static FACES: [palpate::body::Face; 6] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [3, 3],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Polynomial(&FACE_2),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [3, 3],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Polynomial(&FACE_2),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.048000004,
                     uv: 0.024000004,
@@ -426,9 +430,11 @@ static FACES: [palpate::body::Face; 6] = [
                 max_stretch: 0.0022981395,
                 max_bend: 78.805695,
             },
-            palpate::patch::Orientation::Outward,
-            0.04,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.04,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 5,
@@ -469,12 +475,12 @@ static FACES: [palpate::body::Face; 6] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [3, 3],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Polynomial(&FACE_3),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [3, 3],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Polynomial(&FACE_3),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.06400001,
                     uv: 0.03200001,
@@ -496,9 +502,11 @@ static FACES: [palpate::body::Face; 6] = [
                 max_stretch: 0.004719708,
                 max_bend: 59.20362,
             },
-            palpate::patch::Orientation::Outward,
-            0.06,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.06,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 7,
@@ -539,12 +547,12 @@ static FACES: [palpate::body::Face; 6] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [3, 3],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Polynomial(&FACE_4),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [3, 3],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Polynomial(&FACE_4),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.048000004,
                     uv: 0.024000004,
@@ -566,9 +574,11 @@ static FACES: [palpate::body::Face; 6] = [
                 max_stretch: 0.0022981395,
                 max_bend: 78.805695,
             },
-            palpate::patch::Orientation::Outward,
-            0.04,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.04,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 9,
@@ -609,12 +619,12 @@ static FACES: [palpate::body::Face; 6] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [3, 3],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Polynomial(&FACE_5),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [3, 3],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Polynomial(&FACE_5),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 6.467655e-10,
                     uv: 4.6765362e-11,
@@ -636,9 +646,11 @@ static FACES: [palpate::body::Face; 6] = [
                 max_stretch: 0.0036,
                 max_bend: 4.0519654e-7,
             },
-            palpate::patch::Orientation::Outward,
-            0.06,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.06,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 6,
@@ -1250,22 +1262,23 @@ pub const TABLE_CRC: u32 = 2849007067;
 /// The body.
 #[allow(dead_code, long_running_const_eval)]
 #[rustfmt::skip]
-pub static BODY: palpate::body::Body = palpate::body::Body::from_tables(
-        &FACES,
-        &EDGES,
-        &VERTICES,
-        &SPOKES,
-        palpate::body::Locator {
-            corner: palpate::math::vec3(-0.03, -0.04, -0.04325),
-            side: 0.12,
-            nodes: &NODES,
-            entries: &ENTRIES,
-        },
-        0.06,
-        true,
-    )
-    .with_crc(TABLE_CRC);
-/// What is felt.
+pub static BODY: palpate::body::Body = palpate::body::BodyTables {
+    faces: &FACES,
+    edges: &EDGES,
+    vertices: &VERTICES,
+    spokes: &SPOKES,
+    locator: palpate::body::Locator {
+        corner: palpate::math::vec3(-0.03, -0.04, -0.04325),
+        side: 0.12,
+        nodes: &NODES,
+        entries: &ENTRIES,
+    },
+    size_m: 0.06,
+    is_convex: true,
+    crc: Some(TABLE_CRC),
+}
+    .checked();
+/// The type of the surface.
 #[allow(dead_code)]
 pub type Surface = palpate::body::Body<'static>;
 /// The body.

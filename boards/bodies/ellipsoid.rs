@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake ellipsoid.toml --out ellipsoid.rs
-// Table format 6. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
+// Table format 7. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
 
 // Patch 0, "cap".
 #[rustfmt::skip]
@@ -20,42 +20,43 @@ static PATCH_0_COEFFICIENTS: [[f32; 4]; 9] = [
 ];
 
 /// All patches of the model, in the order of its file.
-#[allow(dead_code)]
+#[allow(dead_code, long_running_const_eval)]
 #[rustfmt::skip]
 pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
-    palpate::patch::SplinePatch::from_table(
-            [2, 2],
-            &PATCH_0_BREAKS_U,
-            &PATCH_0_BREAKS_V,
-            palpate::patch::Coefficients::Rational(&PATCH_0_COEFFICIENTS),
-            palpate::patch::ShapeBounds {
-                second_derivatives: palpate::patch::SecondDerivativeBounds {
-                    uu: 0.18266162,
-                    uv: 0.07750345,
-                    vv: 0.14129409,
-                },
-                third_derivatives: palpate::patch::ThirdDerivativeBounds {
-                    uuu: 0.7256523,
-                    uuv: 0.18439472,
-                    uvv: 0.24201487,
-                    vvv: 0.5475642,
-                    jump_uu: 1.7300898e-7,
-                    jump_vv: 1.3054948e-7,
-                },
-                curvature: palpate::patch::Curvature {
-                    min: 7.9618325,
-                    max: 43.74316,
-                },
-                min_stretch: 0.0018785878,
-                max_stretch: 0.014551159,
-                max_bend: 123.56153,
+    palpate::patch::SplineTable {
+        degree: [2, 2],
+        breaks_u: &PATCH_0_BREAKS_U,
+        breaks_v: &PATCH_0_BREAKS_V,
+        coefficients: palpate::patch::Coefficients::Rational(&PATCH_0_COEFFICIENTS),
+        shape: palpate::patch::ShapeBounds {
+            second_derivatives: palpate::patch::SecondDerivativeBounds {
+                uu: 0.18266162,
+                uv: 0.07750345,
+                vv: 0.14129409,
             },
-            palpate::patch::Orientation::Outward,
-            0.096,
-        )
-        .with_crc(TABLE_CRC),
+            third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                uuu: 0.7256523,
+                uuv: 0.18439472,
+                uvv: 0.24201487,
+                vvv: 0.5475642,
+                jump_uu: 1.7300898e-7,
+                jump_vv: 1.3054948e-7,
+            },
+            curvature: palpate::patch::Curvature {
+                min: 7.9618325,
+                max: 43.74316,
+            },
+            min_stretch: 0.0018785878,
+            max_stretch: 0.014551159,
+            max_bend: 123.56153,
+        },
+        orientation: palpate::patch::Orientation::Outward,
+        size_m: 0.096,
+        crc: Some(TABLE_CRC),
+    }
+        .checked(),
 ];
-/// What is felt.
+/// The type of the surface.
 #[allow(dead_code)]
 pub type Surface = palpate::patch::SplinePatch<'static>;
 /// The first patch.

@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake table1c.toml --out table1c.rs
-// Table format 6. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
+// Table format 7. SHA-256 of the model file: 668530816185a611a71cfead6cb364236b8674232ce642dbeb8effb2de5e210d
 
 // Patch 0, "S".
 #[rustfmt::skip]
@@ -92,42 +92,43 @@ static PATCH_0_COEFFICIENTS: [[f32; 3]; 81] = [
 ];
 
 /// All patches of the model, in the order of its file.
-#[allow(dead_code)]
+#[allow(dead_code, long_running_const_eval)]
 #[rustfmt::skip]
 pub static PATCHES: [palpate::patch::SplinePatch; 1] = [
-    palpate::patch::SplinePatch::from_table(
-            [2, 2],
-            &PATCH_0_BREAKS_U,
-            &PATCH_0_BREAKS_V,
-            palpate::patch::Coefficients::Polynomial(&PATCH_0_COEFFICIENTS),
-            palpate::patch::ShapeBounds {
-                second_derivatives: palpate::patch::SecondDerivativeBounds {
-                    uu: 0.50911695,
-                    uv: 7.01481e-10,
-                    vv: 0.45000005,
-                },
-                third_derivatives: palpate::patch::ThirdDerivativeBounds {
-                    uuu: 0.0,
-                    uuv: 2.0109108e-7,
-                    uvv: 2.0109108e-7,
-                    vvv: 0.0,
-                    jump_uu: 0.45000005,
-                    jump_vv: 0.45891178,
-                },
-                curvature: palpate::patch::Curvature {
-                    min: -2.959249e-10,
-                    max: 70.97095,
-                },
-                min_stretch: 0.0035884618,
-                max_stretch: 0.079200014,
-                max_bend: 131.06499,
+    palpate::patch::SplineTable {
+        degree: [2, 2],
+        breaks_u: &PATCH_0_BREAKS_U,
+        breaks_v: &PATCH_0_BREAKS_V,
+        coefficients: palpate::patch::Coefficients::Polynomial(&PATCH_0_COEFFICIENTS),
+        shape: palpate::patch::ShapeBounds {
+            second_derivatives: palpate::patch::SecondDerivativeBounds {
+                uu: 0.50911695,
+                uv: 7.01481e-10,
+                vv: 0.45000005,
             },
-            palpate::patch::Orientation::Inward,
-            0.1,
-        )
-        .with_crc(TABLE_CRC),
+            third_derivatives: palpate::patch::ThirdDerivativeBounds {
+                uuu: 0.0,
+                uuv: 2.0109108e-7,
+                uvv: 2.0109108e-7,
+                vvv: 0.0,
+                jump_uu: 0.45000005,
+                jump_vv: 0.45891178,
+            },
+            curvature: palpate::patch::Curvature {
+                min: -2.959249e-10,
+                max: 70.97095,
+            },
+            min_stretch: 0.0035884618,
+            max_stretch: 0.079200014,
+            max_bend: 131.06499,
+        },
+        orientation: palpate::patch::Orientation::Inward,
+        size_m: 0.1,
+        crc: Some(TABLE_CRC),
+    }
+        .checked(),
 ];
-/// What is felt.
+/// The type of the surface.
 #[allow(dead_code)]
 pub type Surface = palpate::patch::SplinePatch<'static>;
 /// The first patch.

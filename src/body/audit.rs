@@ -1,7 +1,7 @@
 //! When the tracker does not follow: the search for a start, after a jump too, and the rolling audit.
 
 use super::feature::Feature;
-use super::search::{Located, Rival, Search};
+use super::search::{Best, Rival, Search};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
@@ -78,7 +78,7 @@ impl Body<'_> {
 
     /// Sets the witness point down where the search has ended, if `½ ‖P − Q‖²` is below `nearer` there, m², or it is
     /// located for the first time. One evaluation.
-    fn set_down(&self, state: &mut BodyWitness, found: &Located, probe: Vec3, nearer: f32, step: &mut BodyStep) {
+    fn set_down(&self, state: &mut BodyWitness, found: &Best, probe: Vec3, nearer: f32, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(found.face)) else { return };
         let reached = face.patch.evaluate_apart(found.parameters);
         step.evaluations += 1;

@@ -9,7 +9,8 @@ use super::candidate_search::{
 use super::feature::Face;
 use super::locator::{Candidate, GRID};
 use super::table::Body;
-use crate::math::Vec3;
+use crate::math::{Vec3, sqrt};
+use crate::patch::{Patch as _, SplinePatch};
 
 /// Evaluations that a search may cost on any body.
 pub const MAX_EVALUATIONS: u16 = 512;
@@ -18,7 +19,7 @@ pub const MAX_EVALUATIONS_CONVEX: u16 = 32;
 
 /// A search between two evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Search {
+pub(super) struct Search {
     descending: CandidateSearch,
     /// Index of the entry that is being searched.
     entry: u16,
@@ -35,10 +36,10 @@ pub struct Search {
 
 /// The nearest so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Best {
-    face: u16,
-    parameters: [f32; 2],
-    half_squared: f32,
+pub(super) struct Best {
+    pub face: u16,
+    pub parameters: [f32; 2],
+    pub half_squared: f32,
 }
 
 /// The tracker's point, which the audit tries to beat.
@@ -64,19 +65,41 @@ impl Rival {
     }
 }
 
-/// The closest point of a body, as the locator found it.
+/// The closest point of a body to a probe, from a query without history ([`Body::locate`]).
+///
+/// ```
+/// # use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face};
+/// # use palpate::math::vec3;
+/// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
+/// # let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
+/// # let body = Body::from_bytes(&FILE.0, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
+/// // 10 mm beside a box of 60 mm × 40 mm.
+/// let located = body.locate(vec3(-0.01, 0.02, 0.01));
+/// assert!(located.complete && (located.distance() - 0.01).abs() < 1e-7);
+/// assert_eq!(located.point.x, 0.0);
+/// # Ok::<(), palpate::body::FileError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Located {
     /// Index of the face.
     pub face: u16,
     /// `(u, v)` on it.
     pub parameters: [f32; 2],
-    /// `½ ‖P − Q‖²`, m².
-    pub half_squared: f32,
-    /// Evaluations spent.
+    /// The point, metres, in the frame of the body's tables.
+    pub point: Vec3,
+    /// Evaluations of patches that the search needed.
     pub evaluations: u16,
-    /// Whether every candidate was searched to its end. Otherwise the evaluations were used up.
+    /// Whether the search reached the end of every candidate. Otherwise it used up its evaluations, and another point
+    /// may be nearer.
     pub complete: bool,
+    distance_squared: f32,
+}
+
+impl Located {
+    /// Distance from the probe to the point, metres; not negative, inside a body neither.
+    pub fn distance(&self) -> f32 {
+        sqrt(self.distance_squared)
+    }
 }
 
 impl Search {
@@ -182,16 +205,10 @@ impl Search {
         }
     }
 
-    /// What was found, once the search is done.
+    /// The nearest point, once the search has ended.
     #[inline]
-    pub fn found(&self) -> Option<Located> {
-        self.ended.map(|complete| self.located(complete))
-    }
-
-    /// The nearest so far.
-    fn located(&self, complete: bool) -> Located {
-        let Best { face, parameters, half_squared } = self.best;
-        Located { face, parameters, half_squared, evaluations: self.evaluations, complete }
+    pub fn found(&self) -> Option<Best> {
+        self.ended.map(|_| self.best)
     }
 }
 
@@ -224,7 +241,12 @@ impl Body<'_> {
         if is_on_grid(search.best.parameters) {
             self.go_beyond_rectangle(&mut search, probe);
         }
-        search.located(search.ended.unwrap_or(false))
+        let Best { face, parameters, .. } = search.best;
+        let patch = self.faces.get(usize::from(face)).map_or(&SplinePatch::VACANT, |face| &face.patch);
+        let point = patch.evaluate(parameters[0], parameters[1]).point;
+        let distance_squared = (point - probe).length_squared();
+        let Search { evaluations, ended, .. } = search;
+        Located { face, parameters, point, evaluations, complete: ended.unwrap_or(false), distance_squared }
     }
 
     /// A minimum on the border of a rectangle is none of its face: the list does not hold all, as it may not beyond the

@@ -4,8 +4,8 @@ use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Ver
 use super::locator::{Candidate, LEAF, Locator, MAX_FACES};
 use crate::math::Vec3;
 use crate::track::Contact;
+use core::fmt;
 use core::num::NonZeroU32;
-use thiserror::Error;
 
 /// A body of several patches: features, the surfaces that separate their Voronoi regions, and a locator.
 #[derive(Clone, Copy, Debug)]
@@ -26,78 +26,149 @@ pub struct Body<'a> {
     pub(super) baked_crc: Option<NonZeroU32>,
 }
 
-/// Why a body's tables are refused. In a `static` it is a compile error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+/// The tables of a body, before their checks: [`BodyTables::checked`] makes the [`Body`].
+///
+/// `cargo palpate bake` and `palpate_bake::Bake` write them from a model; [`Body::from_bytes`] reads them from a file.
+/// [`Body`] has an example.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyTables<'a> {
+    /// The faces, 1 to [`MAX_FACES`].
+    pub faces: &'a [Face<'a>],
+    /// The border curves of the faces.
+    pub edges: &'a [Edge<'a>],
+    /// The points where edges meet.
+    pub vertices: &'a [Vertex],
+    /// The ends of edges at all vertices.
+    pub spokes: &'a [Spoke],
+    /// The octree for the global start.
+    pub locator: Locator<'a>,
+    /// Largest side of the bounding box, metres.
+    pub size_m: f32,
+    /// Whether a probe outside has no local minimum of the distance but the closest point (theory §8).
+    pub is_convex: bool,
+    /// CRC-32 of all words of the tables ([`Body::table_crc`]) if a host has computed it: the check compares it.
+    pub crc: Option<u32>,
+}
+
+/// Error in the tables of a body. In a `static` it is a compile error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum BodyError {
     /// There is no face, or more than [`MAX_FACES`].
-    #[error("a body has 1 to 1024 faces")]
     Faces,
-    /// A side names an edge or a vertex that is not there, or its separator is not finite or of the wrong length.
-    #[error("side {side} of face {face} names no edge or vertex of the body, or its separator is malformed")]
+    /// A side names an edge or a vertex that does not exist, or its separator is not finite or of the wrong length.
     Side {
-        /// The face.
+        /// Index of the face.
         face: u16,
-        /// Which side.
+        /// Which of its sides.
         side: u8,
     },
-    /// An edge's curve is malformed or one of its bounds negative, or it names a face or vertex that is not there, or
+    /// An edge's curve is malformed or one of its bounds negative, or it names a face or vertex that does not exist, or
     /// one of its faces does not refer back to it.
-    #[error("edge {edge} has a malformed curve or does not fit its faces and vertices")]
     Edge {
-        /// The edge.
+        /// Index of the edge.
         edge: u16,
     },
-    /// A vertex is not finite, or its spokes are not there.
-    #[error("vertex {vertex} is not finite or names spokes that are not there")]
+    /// A vertex is not finite, or its spokes do not exist.
     Vertex {
-        /// The vertex.
+        /// Index of the vertex.
         vertex: u16,
     },
     /// A spoke names no edge, or its direction is not finite.
-    #[error("spoke {spoke} names no edge of the body or is not finite")]
     Spoke {
-        /// Its index.
+        /// Index of the spoke.
         spoke: u16,
     },
     /// The root cube is not finite, or there is no node.
-    #[error("the locator's cube must be finite and have a root")]
     LocatorCube,
     /// A node names a node before itself or past the end, or an entry past the end.
-    #[error("locator node {node} names a child that is not there")]
     LocatorNode {
-        /// The node.
+        /// Index of the node.
         node: u16,
     },
     /// An entry names no face, its rectangle is empty, or a list runs past the end.
-    #[error("locator entry {entry} names no face, has no rectangle or no end")]
     LocatorEntry {
-        /// The entry.
+        /// Index of the entry.
         entry: u16,
     },
     /// The size is not positive and finite.
-    #[error("the size must be positive and finite")]
     Size,
+    /// The CRC-32 of the words is not the given one: a number has changed since the tables were baked.
+    Crc,
 }
 
-impl<'a> Body<'a> {
-    /// Checks the tables and takes them. `is_convex` says that no closest point but the global one exists for a probe
-    /// outside (theory §8); `size` is the largest side of the bounding box, metres.
+impl BodyError {
+    /// The message without indices: the field, and its requirement.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Faces => "faces: a body has 1 to 1024",
+            Self::Side { .. } => "sides: a side names no edge or vertex of the body, or its separator is malformed",
+            Self::Edge { .. } => "edges: an edge has a malformed curve or does not fit its faces and vertices",
+            Self::Vertex { .. } => "vertices: a vertex is not finite or names spokes that do not exist",
+            Self::Spoke { .. } => "spokes: a spoke names no edge of the body or is not finite",
+            Self::LocatorCube => "locator: the cube must be finite and have a root",
+            Self::LocatorNode { .. } => "locator: a node names a child that does not exist",
+            Self::LocatorEntry { .. } => "locator: an entry names no face, has no rectangle or no end",
+            Self::Size => "size_m: must be positive and finite",
+            Self::Crc => "crc: the tables' numbers are not those that were baked",
+        }
+    }
+}
+
+impl fmt::Display for BodyError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.message())?;
+        match self {
+            Self::Side { face, side } => write!(formatter, " (face {face}, side {side})"),
+            Self::Edge { edge: index }
+            | Self::Vertex { vertex: index }
+            | Self::Spoke { spoke: index }
+            | Self::LocatorNode { node: index }
+            | Self::LocatorEntry { entry: index } => write!(formatter, " (number {index})"),
+            Self::Faces | Self::LocatorCube | Self::Size | Self::Crc => Ok(()),
+        }
+    }
+}
+
+impl core::error::Error for BodyError {}
+
+impl<'a> BodyTables<'a> {
+    /// The body, with its CRC, for a `static`.
+    ///
+    /// # Panics
+    /// At compile time, with [`BodyError::message`].
+    pub const fn checked(self) -> Body<'a> {
+        match self.try_checked() {
+            Ok(body) => body,
+            Err(error) => panic!("{}", error.message()),
+        }
+    }
+
+    /// Checks the tables, and their CRC if one is given. The body carries the CRC of its words: the servo loop compares
+    /// flash with it (see [`crate::servo::Safety::checks_tables`]).
     ///
     /// # Errors
-    /// The first thing wrong.
-    pub const fn try_new(
-        faces: &'a [Face<'a>],
-        edges: &'a [Edge<'a>],
-        vertices: &'a [Vertex],
-        spokes: &'a [Spoke],
-        locator: Locator<'a>,
-        size: f32,
-        is_convex: bool,
-    ) -> Result<Self, BodyError> {
+    /// The first error in the tables.
+    pub const fn try_checked(self) -> Result<Body<'a>, BodyError> {
+        let body = match self.try_checked_without_crc() {
+            Ok(body) => body,
+            Err(error) => return Err(error),
+        };
+        let found = body.table_crc();
+        match self.crc {
+            Some(baked) if baked != found => Err(BodyError::Crc),
+            _ => Ok(body.with_crc(found)),
+        }
+    }
+
+    /// [`Self::try_checked`] that leaves the CRC to the caller.
+    pub(super) const fn try_checked_without_crc(self) -> Result<Body<'a>, BodyError> {
+        let Self { faces, edges, vertices, spokes, locator, size_m, is_convex, crc: _ } = self;
         if faces.is_empty() || faces.len() > MAX_FACES {
             return Err(BodyError::Faces);
         }
-        if !(size > 0.0 && size < f32::INFINITY) {
+        if !(size_m > 0.0 && size_m < f32::INFINITY) {
             return Err(BodyError::Size);
         }
         let sure_from = if is_convex { Contact::InFront } else { Contact::Touching };
@@ -113,13 +184,13 @@ impl<'a> Body<'a> {
             has_smooth_edges |= matches!(edges[index].kind, EdgeKind::Smooth);
             index += 1;
         }
-        let body = Self {
+        let body = Body {
             faces,
             edges,
             vertices,
             spokes,
             locator,
-            size,
+            size: size_m,
             sure_from,
             has_poles,
             has_smooth_edges,
@@ -133,42 +204,18 @@ impl<'a> Body<'a> {
             Err(error) => Err(error),
         }
     }
+}
 
-    /// [`Self::try_new`] for a `static`: a bad table does not compile.
-    ///
-    /// # Panics
-    /// At compile time, naming the kind of table.
-    pub const fn from_tables(
-        faces: &'a [Face<'a>],
-        edges: &'a [Edge<'a>],
-        vertices: &'a [Vertex],
-        spokes: &'a [Spoke],
-        locator: Locator<'a>,
-        size: f32,
-        is_convex: bool,
-    ) -> Self {
-        match Self::try_new(faces, edges, vertices, spokes, locator, size, is_convex) {
-            Ok(body) => body,
-            Err(BodyError::Faces) => panic!("faces"),
-            Err(BodyError::Side { .. }) => panic!("side"),
-            Err(BodyError::Edge { .. }) => panic!("edge"),
-            Err(BodyError::Vertex { .. }) => panic!("vertex"),
-            Err(BodyError::Spoke { .. }) => panic!("spoke"),
-            Err(BodyError::LocatorCube) => panic!("locator: cube"),
-            Err(BodyError::LocatorNode { .. }) => panic!("locator: node"),
-            Err(BodyError::LocatorEntry { .. }) => panic!("locator: entry"),
-            Err(BodyError::Size) => panic!("size"),
-        }
-    }
-
-    /// The same tables with the CRC that their words had when they were baked: the loop compares them with it, see
-    /// [`crate::servo::Safety::checks_tables`]. (A CRC of 0, one in 2³², is none.)
+impl<'a> Body<'a> {
+    /// The same body with another baked CRC, which the servo loop compares with flash (see
+    /// [`crate::servo::Safety::checks_tables`]); [`BodyTables::checked`] sets it. 0 is no CRC: one body in 2³² is not
+    /// checked.
     #[must_use]
     pub const fn with_crc(self, baked: u32) -> Self {
         Self { baked_crc: NonZeroU32::new(baked), ..self }
     }
 
-    /// The CRC that the tables carry.
+    /// The CRC-32 that the tables had when they were baked.
     pub const fn baked_crc(&self) -> Option<u32> {
         match self.baked_crc {
             Some(baked) => Some(baked.get()),

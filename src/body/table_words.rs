@@ -1,29 +1,30 @@
 //! Every number of a body's tables as 32-bit words, for the check that flash still holds what was baked.
 //!
-//! The tables are a list of *records* — one for the body, then the faces' sides and patches, edges, vertices, spokes,
-//! and the locator's nodes and entries — and a record is a list of words. A word is found by a [`TableCursor`] in a
-//! bounded number of steps, whatever the size of the body. Addresses are left out: they are the linker's. What a
-//! slice's address leads to is read, and its length is in the words.
+//! The tables are a list of *records* (one for the body, then the faces' sides and patches, edges, vertices, spokes, and
+//! the locator's nodes and entries), and a record is a list of words. A [`TableCursor`] finds a word in a bounded number
+//! of steps, whatever the size of the body. The words leave out addresses, which the linker chooses; they hold the
+//! length of each slice and its content.
 
 use super::curve::SplineCurve;
 use super::feature::{Edge, EdgeFace, Separator, Side, Spoke, Vertex};
 use super::locator::Locator;
 use super::table::Body;
 use crate::math::Vec3;
-use crate::patch::coefficient_word;
+use crate::patch::{coefficient_word, crc32};
 use crate::track::Contact;
 
 /// A place in the words of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TableCursor {
-    /// Which record.
+    /// Index of the record.
     pub record: u32,
-    /// Which of its words.
+    /// Index of the word in it.
     pub word: u32,
 }
 
 impl TableCursor {
-    /// Where to read on after what was `found` here; `None` at the end of the table. The end of a record takes a
+    /// The next place to read, after `found` was read here; `None` at the end of the table. The end of a record takes a
     /// reading of its own.
     #[inline]
     pub const fn after(self, found: Option<u32>) -> Option<Self> {
@@ -36,69 +37,83 @@ impl TableCursor {
     }
 }
 
+/// `slice.get(index)`, in a `const fn`.
+#[inline(always)]
+const fn at<T>(slice: &[T], index: usize) -> Option<&T> {
+    if index < slice.len() { Some(&slice[index]) } else { None }
+}
+
 impl Body<'_> {
     /// The word at a cursor; `None` past the end of its record, and of the table.
-    pub fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+    pub const fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         let word = cursor.word as usize;
         let mut record = cursor.record as usize;
-        // What is left of the record's number after this part of the table, or the record.
-        let mut within = |count: usize| {
-            if record < count {
-                Some(record)
-            } else {
-                record -= count;
-                None
-            }
-        };
-        let Locator { nodes, entries, .. } = self.locator;
-        if within(1).is_some() {
+        if record < 1 {
             return self.head(word);
         }
-        if let Some(index) = within(FACE_RECORDS * self.faces.len()) {
-            let face = self.faces.get(index / FACE_RECORDS)?;
-            return match face.sides.get(index % FACE_RECORDS) {
+        record -= 1;
+        if record < FACE_RECORDS * self.faces.len() {
+            let Some(face) = at(self.faces, record / FACE_RECORDS) else { return None };
+            return match at(&face.sides, record % FACE_RECORDS) {
                 Some(side) => side.word(word),
                 None => face.patch.word(word),
             };
         }
-        if let Some(index) = within(self.edges.len()) {
-            return self.edges.get(index)?.word(word);
+        record -= FACE_RECORDS * self.faces.len();
+        if let Some(edge) = at(self.edges, record) {
+            return edge.word(word);
         }
-        if let Some(index) = within(self.vertices.len()) {
-            return self.vertices.get(index)?.word(word);
+        record -= self.edges.len();
+        if let Some(vertex) = at(self.vertices, record) {
+            return vertex.word(word);
         }
-        if let Some(index) = within(self.spokes.len()) {
-            return self.spokes.get(index)?.word(word);
+        record -= self.vertices.len();
+        if let Some(spoke) = at(self.spokes, record) {
+            return spoke.word(word);
         }
-        if let Some(index) = within(nodes.len()) {
-            let node = nodes.get(index)?;
-            return Some(pair(*node.get(2 * word)?, *node.get(2 * word + 1)?));
+        record -= self.spokes.len();
+        let Locator { nodes, entries, .. } = self.locator;
+        if let Some(node) = at(nodes, record) {
+            let (Some(low), Some(high)) = (at(node, 2 * word), at(node, 2 * word + 1)) else { return None };
+            return Some(pair(*low, *high));
         }
+        record -= nodes.len();
         // Entries in records of 16: one each would spend every other reading on the end of a record.
-        let index = within(entries.len().div_ceil(ENTRIES))?;
-        if word < ENTRIES { entries.get(index * ENTRIES + word).copied() } else { None }
+        let is_there = record < entries.len().div_ceil(ENTRIES) && word < ENTRIES;
+        match at(entries, record * ENTRIES + word) {
+            Some(entry) if is_there => Some(*entry),
+            _ => None,
+        }
     }
 
-    /// How many records there are.
-    pub fn table_records(&self) -> u32 {
+    /// The number of records.
+    pub const fn table_records(&self) -> u32 {
         let Locator { nodes, entries, .. } = self.locator;
         let features = FACE_RECORDS * self.faces.len() + self.edges.len() + self.vertices.len() + self.spokes.len();
         (1 + features + nodes.len() + entries.len().div_ceil(ENTRIES)) as u32
     }
 
-    /// CRC-32 of all words as they are now; as they were baked it is [`Self::baked_crc`].
-    pub fn table_crc(&self) -> u32 {
-        self.table_crc_with(&mut || ())
+    /// CRC-32 of all words as they are now; [`Self::baked_crc`] is that of the words as they were baked.
+    pub const fn table_crc(&self) -> u32 {
+        let (mut crc, mut place) = (0, Some(TableCursor { record: 0, word: 0 }));
+        while let Some(cursor) = place {
+            let found = self.table_word(cursor);
+            if let Some(word) = found {
+                crc = crc32(crc, word);
+            }
+            place = cursor.after(found);
+        }
+        crc
     }
 
-    /// The same; calls `pause` every so often.
+    /// [`Self::table_crc`] that calls `pause` after each [`PAUSE`] readings.
     pub(super) fn table_crc_with(&self, pause: &mut dyn FnMut()) -> u32 {
         let (mut crc, mut place) = (0, Some(TableCursor::default()));
         let mut passed = 0_u32;
         while let Some(cursor) = place {
             let found = self.table_word(cursor);
             if let Some(word) = found {
-                crc = crate::patch::crc32(crc, word);
+                crc = crc32(crc, word);
             }
             place = cursor.after(found);
             passed = passed.wrapping_add(1);
@@ -109,7 +124,7 @@ impl Body<'_> {
         crc
     }
 
-    fn head(&self, word: usize) -> Option<u32> {
+    const fn head(&self, word: usize) -> Option<u32> {
         let Locator { corner, side, nodes, entries } = self.locator;
         Some(match word {
             0 => self.size.to_bits(),
@@ -137,17 +152,18 @@ const ENTRIES: usize = 16;
 const FACE_RECORDS: usize = 5;
 
 impl Side<'_> {
-    fn word(&self, word: usize) -> Option<u32> {
+    const fn word(&self, word: usize) -> Option<u32> {
         match (self, word) {
-            (Self::Pole { vertex }, 0) => Some(u32::from(*vertex)),
+            (Self::Pole { vertex }, 0) => Some(*vertex as u32),
             (Self::Pole { .. }, _) => None,
             (Self::Edge { edge, reversed, separator }, 0) => {
                 let is_ruled = matches!(separator, Separator::Ruled(_));
-                Some(u32::from(*edge) | u32::from(*reversed) << 16 | u32::from(is_ruled) << 17 | 1 << 18)
+                Some(*edge as u32 | (*reversed as u32) << 16 | (is_ruled as u32) << 17 | 1 << 18)
             }
             (Self::Edge { separator, .. }, _) => match separator {
                 Separator::Plane { across, .. } if word < 4 => Some(component(*across, word - 1)),
-                Separator::Plane { offset, .. } => (word == 4).then_some(offset.to_bits()),
+                Separator::Plane { offset, .. } if word == 4 => Some(offset.to_bits()),
+                Separator::Plane { .. } => None,
                 Separator::Ruled(curve) => curve.word(word - 1),
             },
         }
@@ -155,11 +171,11 @@ impl Side<'_> {
 }
 
 impl SplineCurve<'_> {
-    fn word(&self, word: usize) -> Option<u32> {
+    const fn word(&self, word: usize) -> Option<u32> {
         match word {
-            0 => Some(u32::from(self.degree) | self.coefficients.tag() << 8 | (self.breaks.len() as u32) << 16),
+            0 => Some(self.degree as u32 | self.coefficients.tag() << 8 | (self.breaks.len() as u32) << 16),
             1 => Some(self.second_derivative.to_bits()),
-            _ => match self.breaks.get(word - 2) {
+            _ => match at(self.breaks, word - 2) {
                 Some(border) => Some(border.to_bits()),
                 None => coefficient_word(self.coefficients, word - 2 - self.breaks.len()),
             },
@@ -168,13 +184,12 @@ impl SplineCurve<'_> {
 }
 
 impl Edge<'_> {
-    /// Faces, ends and kind, what is proved of the third derivative, then the curve.
-    fn word(&self, word: usize) -> Option<u32> {
+    /// Faces, ends and kind, the bounds of the third derivative and of jumps, then the curve.
+    const fn word(&self, word: usize) -> Option<u32> {
         let [first, second] = self.faces;
-        let face = |of: EdgeFace| u32::from(of.face) | u32::from(of.side) << 16;
         match word {
-            0 => Some(face(first) | (self.kind as u32) << 24),
-            1 => Some(face(second)),
+            0 => Some(face_word(first) | (self.kind as u32) << 24),
+            1 => Some(face_word(second)),
             2 => Some(pair(self.ends[0], self.ends[1])),
             3 => Some(self.third_derivative.to_bits()),
             4 => Some(self.jump.to_bits()),
@@ -183,23 +198,27 @@ impl Edge<'_> {
     }
 }
 
+const fn face_word(of: EdgeFace) -> u32 {
+    of.face as u32 | (of.side as u32) << 16
+}
+
 impl Vertex {
-    fn word(&self, word: usize) -> Option<u32> {
+    const fn word(&self, word: usize) -> Option<u32> {
         match word {
             0..=2 => Some(component(self.point, word)),
             3..=5 => Some(component(self.outward, word - 3)),
             6 => Some(pair(self.first_spoke, self.spokes)),
-            7 => Some(u32::from(self.is_open)),
+            7 => Some(self.is_open as u32),
             _ => None,
         }
     }
 }
 
 impl Spoke {
-    fn word(&self, word: usize) -> Option<u32> {
+    const fn word(&self, word: usize) -> Option<u32> {
         match word {
             0..=2 => Some(component(self.direction, word)),
-            3 => Some(u32::from(self.edge) | u32::from(self.at_upper_end) << 16),
+            3 => Some(self.edge as u32 | (self.at_upper_end as u32) << 16),
             _ => None,
         }
     }

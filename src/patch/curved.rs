@@ -125,10 +125,8 @@ impl From<Taylor<4>> for CurvedPoint {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::patch::{Coefficients, Orientation, Patch as _, SecondDerivativeBounds, ShapeBounds};
+    use crate::patch::{Coefficients, Patch as _, SplineTable};
 
-    const BOUNDS: ShapeBounds = ShapeBounds::unknown(SecondDerivativeBounds { uu: 1.0, uv: 1.0, vv: 1.0 });
     /// As wide as makes the error of the difference, a sixth of the step squared times the third derivative, and its
     /// rounding alike.
     const STEP: f32 = 1.0 / 64.0;
@@ -151,8 +149,7 @@ mod tests {
     }
 
     fn check(degree: [u8; 2], coefficients: Coefficients) {
-        let breaks: &[f32] = &[0.0, 1.0];
-        let patch = SplinePatch::from_table(degree, breaks, breaks, coefficients, BOUNDS, Orientation::Outward, 1.0);
+        let patch = SplineTable { degree, coefficients, ..SplineTable::UNIT_SQUARE }.checked_in_body();
         for (u, v) in [(0.1, 0.2), (0.5, 0.5), (0.9, 0.3)] {
             let curved = patch.evaluate_curved(u, v);
             let at = patch.evaluate(u, v);

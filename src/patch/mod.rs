@@ -13,6 +13,7 @@ mod shape;
 mod span_grid;
 mod spans;
 mod spline;
+mod table;
 mod taylor;
 
 pub use coefficients::Coefficients;
@@ -24,7 +25,8 @@ pub use shape::{Curvature, SecondDerivativeBounds, ShapeBounds, ThirdDerivativeB
 use span_grid::SpanGrid;
 pub use span_grid::{MAX_SPANS, span_centre};
 pub(crate) use span_grid::{beyond, bisect, breaks_are_valid};
-pub use spline::{MAX_DEGREE, Orientation, SplinePatch, TableError};
+pub use spline::SplinePatch;
+pub use table::{MAX_DEGREE, Orientation, SplineTable, TableError};
 
 use crate::math::Vec3;
 

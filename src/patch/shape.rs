@@ -18,6 +18,11 @@ pub struct SecondDerivativeBounds {
     pub vv: f32,
 }
 
+impl SecondDerivativeBounds {
+    /// The bounds of a plane that is evenly parametrised.
+    pub const ZERO: Self = Self { uu: 0.0, uv: 0.0, vv: 0.0 };
+}
+
 /// Upper bounds, over the whole patch, of the norms of the third partial derivatives, and of the jumps of the second
 /// ones where spans meet.
 ///

@@ -5,77 +5,26 @@
 //! (`w x, w y, w z, w`) and divided once.
 
 use super::coefficients::coefficient_word;
-use super::span_grid::{SpanGrid, breaks_are_valid};
+use super::span_grid::SpanGrid;
 use super::spans::Spans;
-use super::{Coefficients, CurvedPoint, Patch, SecondDerivativeBounds, ShapeBounds, SurfacePoint};
+use super::{Coefficients, CurvedPoint, Patch, SecondDerivativeBounds, ShapeBounds, SplineTable, SurfacePoint};
 use core::num::NonZeroU32;
-use thiserror::Error;
 
-/// The highest degree along either parameter.
-pub const MAX_DEGREE: usize = 5;
-/// Which way the outward normal points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Orientation {
-    /// `f_u × f_v` points out of the body.
-    Outward,
-    /// `f_u × f_v` points into the body.
-    Inward,
-}
-
-/// Why a table is refused. In a `static` it is a compile error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum TableError {
-    /// A degree is 0 or above [`MAX_DEGREE`].
-    #[error("the degree must be 1 to 5 along u and along v")]
-    Degree,
-    /// The span borders along `u` do not run from 0 to 1, strictly rising, with at most [`super::MAX_SPANS`] spans.
-    #[error("the span borders along u must rise strictly from 0 to 1, at most 256 spans")]
-    BreaksU,
-    /// The same along `v`.
-    #[error("the span borders along v must rise strictly from 0 to 1, at most 256 spans")]
-    BreaksV,
-    /// The number of coefficients is not spans × (degree + 1) along both parameters.
-    #[error("the number of coefficients does not match the spans and degrees")]
-    CoefficientCount,
-    /// A coefficient is not finite.
-    #[error("a coefficient is not finite")]
-    CoefficientNotFinite,
-    /// A second-derivative bound is negative or not finite, or another bound is NaN or out of order. An infinite
-    /// curvature or third derivative, or a least stretch of 0, is accepted: it says "no bound".
-    #[error("a second-derivative bound is negative or not finite, or a bound of the shape is NaN or out of order")]
-    Bounds,
-    /// The size is not positive and finite.
-    #[error("the size must be positive and finite")]
-    Size,
-}
-
-/// A NURBS patch of degree 1 to 5, polynomial or rational, as a table in flash.
-///
-/// # Shapes
-/// `breaks_u` and `breaks_v` are the span borders, from 0 to 1; see [`Coefficients`] for the rest.
+/// A NURBS patch of degree 1 to 5, polynomial or rational, as a checked table in flash: made of a [`SplineTable`].
 #[derive(Clone, Copy, Debug)]
 pub struct SplinePatch<'a> {
     pub(super) spans: Spans<'a>,
     pub(super) grid: SpanGrid<'a>,
-    shape: ShapeBounds,
+    pub(super) shape: ShapeBounds,
     /// 1 if `f_u × f_v` points out of the body, −1 if into it.
-    outward: f32,
-    size: f32,
-    baked_crc: Option<NonZeroU32>,
+    pub(super) outward: f32,
+    pub(super) size: f32,
+    pub(super) baked_crc: Option<NonZeroU32>,
 }
 
 impl<'a> SplinePatch<'a> {
-    /// A square of 1 m.
-    pub(crate) const VACANT: Self = Self::from_table(
-        [1, 1],
-        &[0.0, 1.0],
-        &[0.0, 1.0],
-        Coefficients::Polynomial(&[[0.5, 0.5, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3]]),
-        ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
-        Orientation::Outward,
-        1.0,
-    );
+    /// Content of an unused slot: a square of 1 m.
+    pub(crate) const VACANT: Self = SplineTable::UNIT_SQUARE.checked_in_body();
 
     /// Whether it has weights.
     #[inline]
@@ -83,93 +32,9 @@ impl<'a> SplinePatch<'a> {
         self.spans.is_rational()
     }
 
-    /// Checks a table and takes it.
-    ///
-    /// # Errors
-    /// The first thing wrong with the table, as a [`TableError`].
-    pub const fn try_new(
-        degree: [u8; 2],
-        breaks_u: &'a [f32],
-        breaks_v: &'a [f32],
-        coefficients: Coefficients<'a>,
-        shape: ShapeBounds,
-        orientation: Orientation,
-        size: f32,
-    ) -> Result<Self, TableError> {
-        let expected = match Self::coefficient_count(degree, [breaks_u, breaks_v]) {
-            Ok(expected) => expected,
-            Err(error) => return Err(error),
-        };
-        let (count, finite) = match coefficients {
-            Coefficients::Polynomial(entries) => (entries.len(), all_finite(entries)),
-            Coefficients::Rational(entries) => (entries.len(), all_finite(entries)),
-        };
-        if count != expected {
-            return Err(TableError::CoefficientCount);
-        }
-        if !finite {
-            return Err(TableError::CoefficientNotFinite);
-        }
-        if !shape.is_possible() {
-            return Err(TableError::Bounds);
-        }
-        if !(size > 0.0 && size < f32::INFINITY) {
-            return Err(TableError::Size);
-        }
-        let outward = match orientation {
-            Orientation::Outward => 1.0,
-            Orientation::Inward => -1.0,
-        };
-        let spans = Spans::new(degree, coefficients);
-        Ok(Self { spans, grid: SpanGrid { degree, breaks_u, breaks_v }, shape, outward, size, baked_crc: None })
-    }
-
-    /// How many coefficients a patch of these degrees and span borders has.
-    ///
-    /// # Errors
-    /// Degrees and borders that no patch has.
-    pub(crate) const fn coefficient_count(degree: [u8; 2], breaks: [&[f32]; 2]) -> Result<usize, TableError> {
-        let [degree_u, degree_v] = [degree[0] as usize, degree[1] as usize];
-        if degree_u < 1 || degree_u > MAX_DEGREE || degree_v < 1 || degree_v > MAX_DEGREE {
-            return Err(TableError::Degree);
-        }
-        if !breaks_are_valid(breaks[0]) {
-            return Err(TableError::BreaksU);
-        }
-        if !breaks_are_valid(breaks[1]) {
-            return Err(TableError::BreaksV);
-        }
-        Ok((breaks[0].len() - 1) * (breaks[1].len() - 1) * (degree_u + 1) * (degree_v + 1))
-    }
-
-    /// [`Self::try_new`] for a `static`: a bad table does not compile.
-    ///
-    /// # Panics
-    /// At compile time, naming what is wrong.
-    pub const fn from_table(
-        degree: [u8; 2],
-        breaks_u: &'a [f32],
-        breaks_v: &'a [f32],
-        coefficients: Coefficients<'a>,
-        shape: ShapeBounds,
-        orientation: Orientation,
-        size: f32,
-    ) -> Self {
-        match Self::try_new(degree, breaks_u, breaks_v, coefficients, shape, orientation, size) {
-            Ok(patch) => patch,
-            Err(TableError::Degree) => panic!("degree"),
-            Err(TableError::BreaksU) => panic!("breaks_u"),
-            Err(TableError::BreaksV) => panic!("breaks_v"),
-            Err(TableError::CoefficientCount) => panic!("coefficients: count"),
-            Err(TableError::CoefficientNotFinite) => panic!("coefficients: not finite"),
-            Err(TableError::Bounds) => panic!("bounds"),
-            Err(TableError::Size) => panic!("size"),
-        }
-    }
-
-    /// The same table with the CRC that its words had when it was baked: the loop compares them with it, see
-    /// [`crate::servo::Safety::checks_tables`]. A patch of a body needs none, the body has one. (A CRC of 0, one in
-    /// 2³², is none.)
+    /// The same table with another baked CRC, which the servo loop compares with flash (see
+    /// [`crate::servo::Safety::checks_tables`]). [`SplineTable::checked`] sets it: this is for a face that is used
+    /// without its body. 0 is no CRC: one table in 2³² is not checked.
     #[must_use]
     pub const fn with_crc(self, baked: u32) -> Self {
         Self { baked_crc: NonZeroU32::new(baked), ..self }
@@ -190,7 +55,7 @@ impl<'a> SplinePatch<'a> {
         self.spans.coefficients()
     }
 
-    /// Bytes of table this patch keeps in flash.
+    /// Bytes of flash of the table.
     pub const fn table_bytes(&self) -> usize {
         let coefficients = match self.spans.coefficients() {
             Coefficients::Polynomial(entries) => entries.len() * 12,
@@ -211,7 +76,7 @@ impl<'a> SplinePatch<'a> {
             0 => {
                 let degrees = self.grid.degree[0] as u32 | (self.grid.degree[1] as u32) << 8;
                 let bits = self.outward.to_bits();
-                // Of all its bits: those besides the sign are known.
+                // Every bit: those besides the sign are known.
                 let spoiled = (bits << 1 >> 1) ^ 1.0_f32.to_bits();
                 return Some((degrees | coefficients.tag() << 16 | (bits >> 31) << 24) ^ spoiled);
             }
@@ -238,7 +103,7 @@ impl<'a> SplinePatch<'a> {
         Some(value.to_bits())
     }
 
-    /// CRC-32 of the table. As a `const` it is computed by the compiler, from the source and not from flash.
+    /// CRC-32 of the table's words. In a `const` the compiler computes it from the source, not from flash.
     pub const fn table_crc(&self) -> u32 {
         let (mut crc, mut index) = (0, 0);
         while let Some(word) = self.word(index) {
@@ -293,37 +158,13 @@ impl Patch for SplinePatch<'_> {
     }
 }
 
-const fn all_finite<const D: usize>(entries: &[[f32; D]]) -> bool {
-    let mut index = 0;
-    while index < entries.len() {
-        let mut component = 0;
-        while component < D {
-            if !entries[index][component].is_finite() {
-                return false;
-            }
-            component += 1;
-        }
-        index += 1;
-    }
-    true
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_bit_of_the_orientation_is_in_the_first_word() {
-        static POWERS: [[f32; 3]; 4] = [[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3]];
-        let patch = SplinePatch::from_table(
-            [1, 1],
-            &[0.0, 1.0],
-            &[0.0, 1.0],
-            Coefficients::Polynomial(&POWERS),
-            ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
-            Orientation::Outward,
-            1.0,
-        );
+        let patch = SplinePatch::VACANT;
         for bit in 0..32 {
             let outward = f32::from_bits(patch.outward.to_bits() ^ 1 << bit);
             assert_ne!(SplinePatch { outward, ..patch }.word(0), patch.word(0), "bit {bit}");
@@ -331,13 +172,10 @@ mod tests {
     }
 
     #[test]
-    fn a_table_says_what_it_is_made_of() {
+    fn the_words_hold_the_kind_and_all_coefficients_of_a_table() {
         static ROUND: [[f32; 4]; 4] = [[0.0, 0.0, 0.0, 1.0]; 4];
         static FLAT: [[f32; 3]; 4] = [[7.0, 8.0, 9.0], [1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [0.0; 3]];
-        let patch = |coefficients| {
-            let shape = ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 });
-            SplinePatch::from_table([1, 1], &[0.0, 1.0], &[0.0, 1.0], coefficients, shape, Orientation::Outward, 1.0)
-        };
+        let patch = |coefficients| SplineTable { coefficients, ..SplineTable::UNIT_SQUARE }.checked_in_body();
         let (flat, round) = (patch(Coefficients::Polynomial(&FLAT)), patch(Coefficients::Rational(&ROUND)));
         assert_eq!((flat.word(0), round.word(0)), (Some(0x0000_0101), Some(0x0001_0101)));
         assert_eq!((flat.baked_crc(), flat.with_crc(5).baked_crc()), (None, Some(5)));
@@ -346,7 +184,7 @@ mod tests {
         let numbers = FLAT.as_flattened();
         assert!(words[..12].iter().zip(numbers).all(|(word, number)| *word == Some(number.to_bits())), "{words:?}");
         assert_eq!(words[12], None);
-        // Of rational ones, four a point.
+        // Rational ones have four a point.
         let last: [Option<u32>; 3] = core::array::from_fn(|index| round.word(HEAD + 18 + index));
         assert_eq!(last, [Some(0), Some(1.0_f32.to_bits()), None]);
     }

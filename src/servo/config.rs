@@ -359,18 +359,20 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
 mod tests {
     use super::*;
     use crate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
-    use crate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+    use crate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
     use crate::servo::ContactLimits;
 
-    static WALL: SplinePatch = SplinePatch::from_table(
-        [1, 1],
-        &[0.0, 1.0],
-        &[0.0, 1.0],
-        Coefficients::Polynomial(&[[0.0, 0.0, 0.0], [0.0, 0.2, 0.0], [0.2, 0.0, 0.0], [0.0, 0.0, 0.0]]),
-        ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
-        Orientation::Outward,
-        0.2,
-    );
+    static WALL: SplinePatch = SplineTable {
+        degree: [1, 1],
+        breaks_u: &[0.0, 1.0],
+        breaks_v: &[0.0, 1.0],
+        coefficients: Coefficients::Polynomial(&[[0.0, 0.0, 0.0], [0.0, 0.2, 0.0], [0.2, 0.0, 0.0], [0.0, 0.0, 0.0]]),
+        shape: ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
+        orientation: Orientation::Outward,
+        size_m: 0.2,
+        crc: None,
+    }
+    .checked();
 
     #[test]
     fn settings_become_what_the_tick_needs() {

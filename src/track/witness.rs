@@ -137,20 +137,12 @@ impl Witness {
 mod tests {
     use super::*;
     use crate::math::vec3;
-    use crate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+    use crate::patch::{Coefficients, SplineTable};
 
     #[test]
-    fn what_rounding_leaves_of_a_tangent_at_a_pole_gives_no_normal() {
-        static PLANE: [[f32; 3]; 4] = [[0.03, 0.03, 0.0], [0.0, 0.06, 0.0], [0.06, 0.0, 0.0], [0.0; 3]];
-        let patch = SplinePatch::from_table(
-            [1, 1],
-            &[0.0, 1.0],
-            &[0.0, 1.0],
-            Coefficients::Polynomial(&PLANE),
-            ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
-            Orientation::Outward,
-            0.06,
-        );
+    fn a_tangent_that_is_rounding_gives_no_normal() {
+        let plane = Coefficients::Polynomial(&[[0.03, 0.03, 0.0], [0.0, 0.06, 0.0], [0.06, 0.0, 0.0], [0.0; 3]]);
+        let patch = SplineTable { coefficients: plane, size_m: 0.06, ..SplineTable::UNIT_SQUARE }.checked_in_body();
         let mut witness = Witness::at(&patch, 0.5, 1.0);
         let is_up = |witness: &Witness| witness.normal(&patch).is_some_and(|normal| normal.distance(Vec3::Z) < 1e-6);
         assert!(is_up(&witness));

@@ -6,7 +6,7 @@ use super::patch::NurbsPatch;
 use super::{bounds, shape, spline};
 use crate::patch::Axis;
 use crate::spline::BakedCoefficients;
-use palpate::patch::{Coefficients, Orientation, ShapeBounds, SplinePatch, TableError};
+use palpate::patch::{Coefficients, Orientation, ShapeBounds, SplinePatch, SplineTable, TableError};
 
 /// The table of one patch.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,15 +100,16 @@ impl BakedPatch {
             BakedCoefficients::Rational(entries) => Coefficients::Rational(entries.clone().leak()),
         };
         let [breaks_u, breaks_v] = self.breaks.clone().map(|breaks| -> &'static [f32] { breaks.leak() });
-        let patch = SplinePatch::try_new(
-            self.degree,
+        SplineTable {
+            degree: self.degree,
             breaks_u,
             breaks_v,
             coefficients,
-            self.shape,
-            self.orientation,
-            self.size,
-        )?;
-        Ok(patch.with_crc(patch.table_crc()))
+            shape: self.shape,
+            orientation: self.orientation,
+            size_m: self.size,
+            crc: None,
+        }
+        .try_checked()
     }
 }

@@ -5,9 +5,8 @@ use crate::handle::{Handle, Kind};
 use crate::pointers::{finite, get, put, row, take_slots};
 use crate::status::{Status, code};
 use core::ffi::c_void;
-use palpate_core::body::{Body, Edge, Face, FileHead, Room};
+use palpate_core::body::{Body, BodyBuffer, Edge, Face, FileHead};
 use palpate_core::math::Vec3;
-use palpate_core::track::Witness;
 
 /// A body whose file and room the caller keeps.
 pub struct Loaded {
@@ -146,16 +145,12 @@ pub unsafe extern "C" fn palpate_closest(
         // SAFETY: three numbers of the caller's.
         let probe: [f32; 3] = unsafe { get(probe.cast()) }?;
         finite(&probe)?;
-        let probe = Vec3::from_array(probe);
-        let found = body.locate(probe);
-        let [u, v] = found.parameters;
-        let face = body.faces().get(usize::from(found.face)).ok_or(Status::OutOfRange)?;
-        let point = Witness::at(&face.patch, u, v).surface.point;
+        let found = body.locate(Vec3::from_array(probe));
         let located_at = Located {
             face: u32::from(found.face),
             parameters: found.parameters,
-            point: point.to_array(),
-            distance: palpate_core::math::sqrt((probe - point).length_squared()),
+            point: found.point.to_array(),
+            distance: found.distance(),
             evaluations: u32::from(found.evaluations),
             complete: u32::from(found.complete),
         };

@@ -183,14 +183,11 @@ pub extern "C" fn digest() -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn closest(x: f32, y: f32, z: f32) -> usize {
     STATE.lock().write(|stage, out| {
-        let (body, probe) = (stage.loaded.body, vec3(x, y, z));
-        let found = body.locate(probe);
+        let found = stage.loaded.body.locate(vec3(x, y, z));
         let [u, v] = found.parameters;
-        let Some(patch) = patch_of(stage, u32::from(found.face)) else { return };
-        let point = patch.evaluate(u, v).point;
         out.extend([f32::from(found.face), u, v]);
-        out.extend(point.to_array());
-        out.extend([point.distance(probe), f32::from(found.evaluations), f32::from(u8::from(found.complete))]);
+        out.extend(found.point.to_array());
+        out.extend([found.distance(), f32::from(found.evaluations), f32::from(u8::from(found.complete))]);
     })
 }
 

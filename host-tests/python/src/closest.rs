@@ -2,7 +2,6 @@
 
 use crate::body::Body;
 use glam::DVec3;
-use palpate::patch::Patch as _;
 use palpate_bake::sides::Sides;
 
 /// Closest points, a row each.
@@ -23,7 +22,7 @@ pub struct Found {
     /// Evaluations of patches spent.
     pub evaluations: Vec<u32>,
     /// Whether every candidate was searched to its end.
-    pub converged: Vec<bool>,
+    pub complete: Vec<bool>,
     /// Whether the query is beyond the locator's tables.
     pub far: Vec<bool>,
 }
@@ -38,7 +37,7 @@ impl Found {
             face: Vec::with_capacity(count),
             on_face: Vec::with_capacity(count),
             evaluations: Vec::with_capacity(count),
-            converged: Vec::with_capacity(count),
+            complete: Vec::with_capacity(count),
             far: Vec::with_capacity(count),
         }
     }
@@ -53,7 +52,7 @@ impl Found {
             let located = body.tables.locate(probe);
             let face = usize::from(located.face);
             let [u, v] = located.parameters;
-            let point = body.placed(body.tables.faces()[face].patch.evaluate(u, v).point);
+            let point = body.placed(located.point);
             let distance = DVec3::from_array(point).distance(DVec3::from_array(*given));
             let is_inside = sides.as_ref().is_some_and(|sides| sides.is_inside(face, [u, v], probe.as_dvec3()));
             let source = &body.baked.faces[face].source;
@@ -64,7 +63,7 @@ impl Found {
             found.face.push(face as u32);
             found.on_face.push([u, v]);
             found.evaluations.push(u32::from(located.evaluations));
-            found.converged.push(located.complete);
+            found.complete.push(located.complete);
             found.far.push(!body.tables.locator().holds(probe));
         }
         found

@@ -105,7 +105,7 @@ impl Body {
             line(py, found.face),
             table(py, found.on_face),
             line(py, found.evaluations),
-            line(py, found.converged),
+            line(py, found.complete),
             line(py, found.far),
         )
             .into_pyobject(py)

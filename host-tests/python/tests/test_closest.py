@@ -74,7 +74,7 @@ def test_golden_rows_of_the_capped_box_are_met():
     queries = np.array([[float(row[key]) for key in ("qx", "qy", "qz")] for row in rows]) * 1e-3
     golden = np.array([float(row["dist"]) for row in rows]) * 1e-3
     found = body.closest(queries)
-    assert len(rows) > 100 and found.converged.all()
+    assert len(rows) > 100 and found.complete.all()
     # A few roundings of single precision, of the body's size.
     assert np.abs(np.abs(found.gap) - np.abs(golden)).max() < 1e-6 * body.size
 

@@ -2,10 +2,10 @@
 //! value …`, metres; numbers are printed so that reading them gives the same bits.
 
 use anyhow::{Context as _, ensure};
-use palpate::body::{Body, Edge, EdgeFace, EdgeKind, Face, Locator, Separator, Side, SplineCurve, Vertex};
+use palpate::body::{Body, BodyTables, Edge, EdgeFace, EdgeKind, Face, Locator, Separator, Side, SplineCurve, Vertex};
 use palpate::math::Vec3;
 use palpate::patch::{
-    Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, ThirdDerivativeBounds,
+    Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable, ThirdDerivativeBounds,
 };
 use std::collections::HashMap;
 use std::fs;
@@ -64,15 +64,7 @@ impl Scene {
         let [jump_uu, jump_vv] = exactly(&lines, "jumps")?;
         let third_derivatives = ThirdDerivativeBounds { uuu, uuv, uvv, vvv, jump_uu, jump_vv };
         let size = *singles("size")?.first().context("size")?;
-        let patch = SplinePatch::try_new(
-            [2, 2],
-            breaks[0],
-            breaks[1],
-            Coefficients::Polynomial(coefficients),
-            ShapeBounds { third_derivatives, ..ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }) },
-            Orientation::Outward,
-            size,
-        )?;
+        let patch = SplineTable { degree: [2, 2], breaks_u: breaks[0], breaks_v: breaks[1], coefficients: Coefficients::Polynomial(coefficients), shape: ShapeBounds { third_derivatives, ..ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }) }, orientation: Orientation::Outward, size_m: size, crc: None }.try_checked()?;
         let body = body(patch, size, &lines)?;
         let probe = |double: [f64; 3]| Probe { single: double.map(|value| value as f32), double };
         let stride = *numbers::<usize>(&lines, "stride")?.first().context("stride")?;
@@ -115,7 +107,7 @@ fn body(patch: SplinePatch<'static>, size: f32, lines: &HashMap<&str, &str>) -> 
     };
     let edges: Vec<Edge> = [0, 1, 2, 3].map(edge).into();
     let vertices = vec![Vertex { point: Vec3::ZERO, outward: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true }];
-    Ok(Body::try_new(faces.leak(), edges.leak(), vertices.leak(), &[], locator, size, false)?)
+    Ok(BodyTables { faces: faces.leak(), edges: edges.leak(), vertices: vertices.leak(), spokes: &[], locator, size_m: size, is_convex: false, crc: None }.try_checked()?)
 }
 
 fn numbers<T: FromStr>(lines: &HashMap<&str, &str>, key: &str) -> anyhow::Result<Vec<T>> {

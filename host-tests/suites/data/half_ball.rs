@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake half_ball.toml --out half_ball.rs
-// Table format 6. SHA-256 of the model file: 8f0233ab18bff9eeb1e114f105852a17a7926877df3c21b33703ab64693ef0be
+// Table format 7. SHA-256 of the model file: 8f0233ab18bff9eeb1e114f105852a17a7926877df3c21b33703ab64693ef0be
 // A body of 8 faces, 12 edges and 6 vertices. CRC-32 of its numbers: a1eeaf53
 
 // Span borders.
@@ -309,12 +309,12 @@ static EDGE_11: [[f32; 4]; 3] = [
 #[rustfmt::skip]
 static FACES: [palpate::body::Face; 8] = [
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [2, 2],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Rational(&FACE_0),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [2, 2],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Rational(&FACE_0),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.084102675,
                     uv: 0.07658906,
@@ -336,9 +336,11 @@ static FACES: [palpate::body::Face; 8] = [
                 max_stretch: 0.0025175787,
                 max_bend: f32::INFINITY,
             },
-            palpate::patch::Orientation::Outward,
-            0.03,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.03,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 0,
@@ -382,12 +384,12 @@ static FACES: [palpate::body::Face; 8] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [2, 1],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Rational(&FACE_1),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [2, 1],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Rational(&FACE_1),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.08410268,
                     uv: 0.050177176,
@@ -409,9 +411,11 @@ static FACES: [palpate::body::Face; 8] = [
                 max_stretch: 0.0025146906,
                 max_bend: f32::INFINITY,
             },
-            palpate::patch::Orientation::Inward,
-            0.03,
-        ),
+            orientation: palpate::patch::Orientation::Inward,
+            size_m: 0.03,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 3,
@@ -447,12 +451,12 @@ static FACES: [palpate::body::Face; 8] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [2, 2],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Rational(&FACE_2),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [2, 2],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Rational(&FACE_2),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.084102675,
                     uv: 0.07658906,
@@ -474,9 +478,11 @@ static FACES: [palpate::body::Face; 8] = [
                 max_stretch: 0.0025175787,
                 max_bend: f32::INFINITY,
             },
-            palpate::patch::Orientation::Outward,
-            0.03,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.03,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 1,
@@ -520,12 +526,12 @@ static FACES: [palpate::body::Face; 8] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [2, 1],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Rational(&FACE_3),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [2, 1],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Rational(&FACE_3),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.08410268,
                     uv: 0.050177176,
@@ -547,9 +553,11 @@ static FACES: [palpate::body::Face; 8] = [
                 max_stretch: 0.0025146906,
                 max_bend: f32::INFINITY,
             },
-            palpate::patch::Orientation::Inward,
-            0.03,
-        ),
+            orientation: palpate::patch::Orientation::Inward,
+            size_m: 0.03,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 4,
@@ -585,12 +593,12 @@ static FACES: [palpate::body::Face; 8] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [2, 2],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Rational(&FACE_4),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [2, 2],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Rational(&FACE_4),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.084102675,
                     uv: 0.07658906,
@@ -612,9 +620,11 @@ static FACES: [palpate::body::Face; 8] = [
                 max_stretch: 0.0025175787,
                 max_bend: f32::INFINITY,
             },
-            palpate::patch::Orientation::Outward,
-            0.03,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.03,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 5,
@@ -658,12 +668,12 @@ static FACES: [palpate::body::Face; 8] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [2, 1],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Rational(&FACE_5),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [2, 1],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Rational(&FACE_5),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.08410268,
                     uv: 0.050177176,
@@ -685,9 +695,11 @@ static FACES: [palpate::body::Face; 8] = [
                 max_stretch: 0.0025146906,
                 max_bend: f32::INFINITY,
             },
-            palpate::patch::Orientation::Inward,
-            0.03,
-        ),
+            orientation: palpate::patch::Orientation::Inward,
+            size_m: 0.03,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 7,
@@ -723,12 +735,12 @@ static FACES: [palpate::body::Face; 8] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [2, 2],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Rational(&FACE_6),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [2, 2],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Rational(&FACE_6),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.084102675,
                     uv: 0.07658906,
@@ -750,9 +762,11 @@ static FACES: [palpate::body::Face; 8] = [
                 max_stretch: 0.0025175787,
                 max_bend: f32::INFINITY,
             },
-            palpate::patch::Orientation::Outward,
-            0.03,
-        ),
+            orientation: palpate::patch::Orientation::Outward,
+            size_m: 0.03,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 8,
@@ -796,12 +810,12 @@ static FACES: [palpate::body::Face; 8] = [
         ],
     },
     palpate::body::Face {
-        patch: palpate::patch::SplinePatch::from_table(
-            [2, 1],
-            &BREAKS_0,
-            &BREAKS_0,
-            palpate::patch::Coefficients::Rational(&FACE_7),
-            palpate::patch::ShapeBounds {
+        patch: palpate::patch::SplineTable {
+            degree: [2, 1],
+            breaks_u: &BREAKS_0,
+            breaks_v: &BREAKS_0,
+            coefficients: palpate::patch::Coefficients::Rational(&FACE_7),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds {
                     uu: 0.08410268,
                     uv: 0.050177176,
@@ -823,9 +837,11 @@ static FACES: [palpate::body::Face; 8] = [
                 max_stretch: 0.0025146906,
                 max_bend: f32::INFINITY,
             },
-            palpate::patch::Orientation::Inward,
-            0.03,
-        ),
+            orientation: palpate::patch::Orientation::Inward,
+            size_m: 0.03,
+            crc: None,
+        }
+            .checked_in_body(),
         sides: [
             palpate::body::Side::Edge {
                 edge: 10,
@@ -1310,22 +1326,23 @@ pub const TABLE_CRC: u32 = 2716774227;
 /// The body.
 #[allow(dead_code, long_running_const_eval)]
 #[rustfmt::skip]
-pub static BODY: palpate::body::Body = palpate::body::Body::from_tables(
-        &FACES,
-        &EDGES,
-        &VERTICES,
-        &SPOKES,
-        palpate::body::Locator {
-            corner: palpate::math::vec3(-0.06, -0.06, -0.045),
-            side: 0.12,
-            nodes: &NODES,
-            entries: &ENTRIES,
-        },
-        0.06,
-        false,
-    )
-    .with_crc(TABLE_CRC);
-/// What is felt.
+pub static BODY: palpate::body::Body = palpate::body::BodyTables {
+    faces: &FACES,
+    edges: &EDGES,
+    vertices: &VERTICES,
+    spokes: &SPOKES,
+    locator: palpate::body::Locator {
+        corner: palpate::math::vec3(-0.06, -0.06, -0.045),
+        side: 0.12,
+        nodes: &NODES,
+        entries: &ENTRIES,
+    },
+    size_m: 0.06,
+    is_convex: false,
+    crc: Some(TABLE_CRC),
+}
+    .checked();
+/// The type of the surface.
 #[allow(dead_code)]
 pub type Surface = palpate::body::Body<'static>;
 /// The body.

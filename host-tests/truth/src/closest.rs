@@ -2,7 +2,7 @@
 
 use palpate::body::{Body, BodyWitness, Edge, Face, Feature, Side};
 use palpate::math::Vec3;
-use palpate::track::{Contact, Controller, Probe, Witness};
+use palpate::track::{Contact, Controller, Probe};
 use palpate_bake::BakedBody;
 use palpate_bake::sides::Sides;
 
@@ -68,9 +68,7 @@ impl<'a> Solver<'a> {
             (true, false) => Status::StepLimit,
         };
         let face = usize::from(located.face);
-        let [u, v] = located.parameters;
-        let point = Witness::at(&self.body.faces()[face].patch, u, v).surface.point;
-        let found = self.found(face, located.parameters, point, probe);
+        let found = self.found(face, located.parameters, located.point, probe);
         (Found { evaluations: u32::from(located.evaluations), status, ..found }, state)
     }
 

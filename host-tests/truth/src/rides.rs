@@ -81,7 +81,7 @@ impl Rides {
             position += heading;
             heading = (heading + turn.cross(heading)).normalize_or_zero() * step;
             self.step(body, &mut state, position);
-            let nearest = (2.0 * body.locate(position).half_squared).sqrt();
+            let nearest = body.locate(position).distance();
             if nearest > FAR * body.size() + self.distance {
                 break;
             }

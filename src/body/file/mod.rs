@@ -15,7 +15,7 @@ pub use sections::FILE_VERSION;
 
 use super::feature::{Edge, Face};
 use super::locator::Locator;
-use super::table::Body;
+use super::table::{Body, BodyTables};
 use crate::math::{Vec3, vec3};
 use records::Numbers;
 use sections::{BODY_WORDS, Sections};
@@ -154,7 +154,17 @@ impl<'a> Body<'a> {
         }
         pause();
         let locator = Locator { corner, side, nodes: sections.nodes, entries: sections.entries };
-        let body = Self::try_new(in_faces, in_edges, sections.vertices, sections.spokes, locator, size, is_convex)?;
+        let tables = BodyTables {
+            faces: in_faces,
+            edges: in_edges,
+            vertices: sections.vertices,
+            spokes: sections.spokes,
+            locator,
+            size_m: size,
+            is_convex,
+            crc: None,
+        };
+        let body = tables.try_checked_without_crc()?;
         pause();
         // The very words that statics of this body have: what was read is what was baked.
         match body.table_crc_with(pause) {

@@ -6,7 +6,7 @@ use super::error::{FileError, Section};
 use super::sections::{EDGE_WORDS, FACE_WORDS};
 use crate::math::vec3;
 use crate::patch::{
-    Coefficients, Curvature, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, ThirdDerivativeBounds,
+    Coefficients, Curvature, Orientation, SecondDerivativeBounds, ShapeBounds, SplineTable, ThirdDerivativeBounds,
 };
 
 /// What is wrong with a record.
@@ -46,7 +46,7 @@ impl<'a> Numbers<'a> {
         let degree = [degree_u, degree_v];
         let breaks = [self.borders(first_u, count_u).map_err(wrong)?, self.borders(first_v, count_v).map_err(wrong)?];
         let refused = |error| FileError::Patch { face: index as u16, error };
-        let entries = SplinePatch::coefficient_count(degree, breaks).map_err(refused)?;
+        let entries = SplineTable::coefficient_count(degree, breaks).map_err(refused)?;
         let coefficients = self.coefficients(kind, entries).map_err(wrong)?;
         let orientation = match turned {
             0 => Orientation::Outward,
@@ -66,8 +66,9 @@ impl<'a> Numbers<'a> {
             max_bend,
         };
         let [breaks_u, breaks_v] = breaks;
-        let patch = SplinePatch::try_new(degree, breaks_u, breaks_v, coefficients, shape, orientation, size)
-            .map_err(refused)?;
+        let table =
+            SplineTable { degree, breaks_u, breaks_v, coefficients, shape, orientation, size_m: size, crc: None };
+        let patch = table.try_checked_in_body().map_err(refused)?;
         let mut sides = [Side::Pole { vertex: 0 }; 4];
         for (side, words) in sides.iter_mut().zip(of_sides.as_chunks().0) {
             *side = self.side(words).map_err(wrong)?;

@@ -1,7 +1,7 @@
 //! Patches of every degree, of one span. What they look like does not matter: the evaluation has no branch that depends
 //! on a coefficient.
 
-use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
 
 /// Nothing is proved of them; the controller is measured on the image's own body.
 const BOUNDS: ShapeBounds = ShapeBounds::unknown(SecondDerivativeBounds { uu: 1.0, uv: 1.0, vv: 1.0 });
@@ -22,7 +22,17 @@ const fn coefficients<const D: usize, const N: usize>() -> [[f32; D]; N] {
 }
 
 const fn patch(degree: u8, coefficients: Coefficients<'static>) -> SplinePatch<'static> {
-    SplinePatch::from_table([degree, degree], &[0.0, 1.0], &[0.0, 1.0], coefficients, BOUNDS, Orientation::Outward, 0.1)
+    SplineTable {
+        degree: [degree, degree],
+        breaks_u: &[0.0, 1.0],
+        breaks_v: &[0.0, 1.0],
+        coefficients,
+        shape: BOUNDS,
+        orientation: Orientation::Outward,
+        size_m: 0.1,
+        crc: None,
+    }
+    .checked()
 }
 
 /// Of degree 1 to 5 along both parameters.

@@ -17,7 +17,8 @@ pub use bytes::{BodyBytes, room};
 pub use curve::{BakedCurve, BakedSeparator};
 use glam::DVec3;
 use palpate::body::{
-    Body, BodyError, Candidate, Edge, EdgeFace, EdgeKind, Face, GRID, LEAF, Locator, MAX_FACES, Side, Spoke, Vertex,
+    Body, BodyError, BodyTables, Candidate, Edge, EdgeFace, EdgeKind, Face, GRID, LEAF, Locator, MAX_FACES, Side,
+    Spoke, Vertex,
 };
 use palpate::math::Vec3;
 use palpate::patch::TableError;
@@ -286,16 +287,17 @@ impl BakedBody {
             kind: edge.kind,
         };
         let edges: Vec<_> = self.edges.iter().map(edge).collect();
-        let body = Body::try_new(
-            faces.leak(),
-            edges.leak(),
-            self.vertices.clone().leak(),
-            self.spokes.clone().leak(),
-            self.locator.to_locator(),
-            self.size,
-            self.is_convex,
-        )?;
-        Ok(body.with_crc(body.table_crc()))
+        let tables = BodyTables {
+            faces: faces.leak(),
+            edges: edges.leak(),
+            vertices: self.vertices.clone().leak(),
+            spokes: self.spokes.clone().leak(),
+            locator: self.locator.to_locator(),
+            size_m: self.size,
+            is_convex: self.is_convex,
+            crc: None,
+        };
+        Ok(tables.try_checked()?)
     }
 }
 

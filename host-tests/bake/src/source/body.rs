@@ -1,8 +1,6 @@
 //! The tokens of a body.
 
-use super::joined;
-use super::{Origin, pretty};
-use super::{number, rows};
+use super::{Check, Origin, joined, number, pretty, rows};
 use crate::BakedCoefficients;
 use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, BakedSide};
 use palpate::body::{EdgeFace, EdgeKind, Spoke, Vertex};
@@ -122,7 +120,7 @@ fn lists(body: &BakedBody, breaks: &Breaks) -> TokenStream {
 
 fn face(index: usize, face: &BakedFace, breaks: &Breaks) -> TokenStream {
     let [breaks_u, breaks_v] = face.patch.breaks.each_ref().map(|of| breaks.name(of));
-    let patch = joined([breaks_u, breaks_v, format_ident!("FACE_{index}")], &face.patch);
+    let patch = joined([breaks_u, breaks_v, format_ident!("FACE_{index}")], &face.patch, Check::InBody);
     let sides = face.sides.iter().enumerate().map(|(side, of)| match of {
         BakedSide::Pole { vertex } => {
             let vertex = Literal::u16_unsuffixed(*vertex);
@@ -242,17 +240,18 @@ fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
         // The compiler checks every entry of the tables.
         #[allow(dead_code, long_running_const_eval)]
         #[rustfmt::skip]
-        pub static BODY: palpate::body::Body = palpate::body::Body::from_tables(
-            &FACES,
-            &EDGES,
-            &VERTICES,
-            &SPOKES,
-            palpate::body::Locator { corner: #corner, side: #side, nodes: &NODES, entries: &ENTRIES },
-            #size,
-            #is_convex,
-        )
-        .with_crc(TABLE_CRC);
-        /// What is felt.
+        pub static BODY: palpate::body::Body = palpate::body::BodyTables {
+            faces: &FACES,
+            edges: &EDGES,
+            vertices: &VERTICES,
+            spokes: &SPOKES,
+            locator: palpate::body::Locator { corner: #corner, side: #side, nodes: &NODES, entries: &ENTRIES },
+            size_m: #size,
+            is_convex: #is_convex,
+            crc: Some(TABLE_CRC),
+        }
+        .checked();
+        /// The type of the surface.
         #[allow(dead_code)]
         pub type Surface = palpate::body::Body<'static>;
         /// The body.

@@ -18,7 +18,7 @@ use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
 
 /// Version of the form of the tables; raised when older firmware cannot take them.
-pub const FORMAT_VERSION: u32 = 6;
+pub const FORMAT_VERSION: u32 = 7;
 
 /// What the header says.
 #[derive(Clone, Copy, Debug)]
@@ -72,11 +72,10 @@ pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String
         let _ = write!(source, "\n// Patch {index}, {name}.\n{}", pretty(numbers(index, patch))?);
     }
     let count = Literal::usize_unsuffixed(patches.len());
-    let tables = patches.iter().enumerate().map(|(index, patch)| {
-        let table = table(index, patch);
-        // The first is felt by itself: it carries its CRC.
-        if index == 0 { quote!(#table.with_crc(TABLE_CRC)) } else { table }
-    });
+    let tables = patches
+        .iter()
+        .enumerate()
+        .map(|(index, patch)| table(index, patch, if index == 0 { Check::WithCrc } else { Check::Alone }));
     let crc = match patches {
         [first, ..] => Literal::u32_unsuffixed(first.to_patch().map_or(0, |patch| patch.table_crc())),
         [] => Literal::u32_unsuffixed(0),
@@ -84,10 +83,11 @@ pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String
     let centre = origin.centre();
     let statics = quote! {
         /// All patches of the model, in the order of its file.
-        #[allow(dead_code)]
+        // The compiler checks every number of the tables.
+        #[allow(dead_code, long_running_const_eval)]
         #[rustfmt::skip]
         pub static PATCHES: [palpate::patch::SplinePatch; #count] = [#(#tables),*];
-        /// What is felt.
+        /// The type of the surface.
         #[allow(dead_code)]
         pub type Surface = palpate::patch::SplinePatch<'static>;
         /// The first patch.
@@ -172,12 +172,28 @@ fn numbers(index: usize, patch: &BakedPatch) -> TokenStream {
 }
 
 /// The call that checks and joins them.
-fn table(index: usize, patch: &BakedPatch) -> TokenStream {
-    joined(names(index), patch)
+fn table(index: usize, patch: &BakedPatch, check: Check) -> TokenStream {
+    joined(names(index), patch, check)
+}
+
+/// How the compiler checks a patch.
+#[derive(Clone, Copy)]
+enum Check {
+    /// With the CRC that the constant `TABLE_CRC` gives.
+    WithCrc,
+    /// With a CRC that the compiler computes.
+    Alone,
+    /// Without a CRC of its own.
+    InBody,
 }
 
 /// The call with the names of the borders along `u` and `v` and of the coefficients.
-fn joined([breaks_u, breaks_v, coefficients]: [Ident; 3], patch: &BakedPatch) -> TokenStream {
+fn joined([breaks_u, breaks_v, coefficients]: [Ident; 3], patch: &BakedPatch, check: Check) -> TokenStream {
+    let (crc, check) = match check {
+        Check::WithCrc => (quote!(Some(TABLE_CRC)), quote!(checked)),
+        Check::Alone => (quote!(None), quote!(checked)),
+        Check::InBody => (quote!(None), quote!(checked_in_body)),
+    };
     let [degree_u, degree_v] = patch.degree.map(Literal::u8_unsuffixed);
     let kind = match &patch.coefficients {
         BakedCoefficients::Polynomial(_) => quote!(Polynomial),
@@ -197,12 +213,12 @@ fn joined([breaks_u, breaks_v, coefficients]: [Ident; 3], patch: &BakedPatch) ->
     };
     let size = number(patch.size);
     quote! {
-        palpate::patch::SplinePatch::from_table(
-            [#degree_u, #degree_v],
-            &#breaks_u,
-            &#breaks_v,
-            palpate::patch::Coefficients::#kind(&#coefficients),
-            palpate::patch::ShapeBounds {
+        palpate::patch::SplineTable {
+            degree: [#degree_u, #degree_v],
+            breaks_u: &#breaks_u,
+            breaks_v: &#breaks_v,
+            coefficients: palpate::patch::Coefficients::#kind(&#coefficients),
+            shape: palpate::patch::ShapeBounds {
                 second_derivatives: palpate::patch::SecondDerivativeBounds { uu: #uu, uv: #uv, vv: #vv },
                 third_derivatives: palpate::patch::ThirdDerivativeBounds {
                     uuu: #uuu,
@@ -217,9 +233,11 @@ fn joined([breaks_u, breaks_v, coefficients]: [Ident; 3], patch: &BakedPatch) ->
                 max_stretch: #max_stretch,
                 max_bend: #max_bend,
             },
-            palpate::patch::Orientation::#orientation,
-            #size,
-        )
+            orientation: palpate::patch::Orientation::#orientation,
+            size_m: #size,
+            crc: #crc,
+        }
+        .#check()
     }
 }
 

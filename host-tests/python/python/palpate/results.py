@@ -18,7 +18,7 @@ class Closest(NamedTuple):
     face : (n,) uint32 -- index of the body's face; a patch may be several.
     on_face : (n, 2) float32 -- (u, v) on the face, as the firmware has them.
     evaluations : (n,) uint32 -- evaluations of patches spent.
-    converged : (n,) bool -- whether every candidate was searched to its end.
+    complete : (n,) bool -- whether every candidate was searched to its end.
     far : (n,) bool -- whether the query lies beyond the tables: it takes the list of the nearest cell, which is not
         proved to hold the closest point from there.
     """
@@ -30,7 +30,7 @@ class Closest(NamedTuple):
     face: NDArray[np.uint32]
     on_face: NDArray[np.float32]
     evaluations: NDArray[np.uint32]
-    converged: NDArray[np.bool_]
+    complete: NDArray[np.bool_]
     far: NDArray[np.bool_]
 
 

@@ -1,6 +1,6 @@
 //! A flat wall across a device's workspace.
 
-use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch};
+use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
 
 /// The sides of the wall, metres.
 const SIZE: f32 = 0.16;
@@ -13,15 +13,17 @@ static LEVEL: [[[f32; 3]; 4]; 3] = [
 ];
 
 const fn across(axis: usize) -> SplinePatch<'static> {
-    SplinePatch::from_table(
-        [1, 1],
-        &[0.0, 1.0],
-        &[0.0, 1.0],
-        Coefficients::Polynomial(&LEVEL[axis]),
-        ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
-        Orientation::Outward,
-        SIZE,
-    )
+    SplineTable {
+        degree: [1, 1],
+        breaks_u: &[0.0, 1.0],
+        breaks_v: &[0.0, 1.0],
+        coefficients: Coefficients::Polynomial(&LEVEL[axis]),
+        shape: ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.0, uv: 0.0, vv: 0.0 }),
+        orientation: Orientation::Outward,
+        size_m: SIZE,
+        crc: None,
+    }
+    .checked()
 }
 
 static WALLS: [SplinePatch<'static>; 3] = [across(0), across(1), across(2)];

@@ -30,7 +30,7 @@ fn check(scene: &Scene, what: &str, seed: u64, tolerance: f64, pick: impl Fn(&mu
         let probe = pick(random);
         let located = scene.body.locate(probe);
         let [(_, truth), ..] = oracle.nearest(probe.as_dvec3(), 0.0)[..] else { unreachable!() };
-        let excess = (f64::from((2.0 * located.half_squared).sqrt()) - truth.distance) / scene.size();
+        let excess = (f64::from(located.distance()) - truth.distance) / scene.size();
         Tried { probe, excess, evaluations: located.evaluations, complete: located.complete }
     });
     let dearest = tried.iter().map(|tried| tried.evaluations).max().unwrap_or_default();

@@ -26,7 +26,7 @@ struct Tried {
 
 fn one(scene: &Scene, oracle: &BodyOracle<'_>, random: &mut Random) -> Tried {
     let (probe, nearest): (Vec3, _) = scene.outside(oracle, random, END * scene.size());
-    let distance = f64::from((2.0 * scene.body.locate(probe).half_squared).sqrt());
+    let distance = f64::from(scene.body.locate(probe).distance());
     let off = (distance - nearest[0].1.distance).abs() / scene.size();
     let claims = claims(&scene.body, probe, |face| oracle.height(face, probe.as_dvec3()) < 0.0);
     if claims.margin <= TIE * scene.body.size() {
@@ -98,7 +98,7 @@ fn a_search_does_not_end_beside_the_nearest_point() {
         [0.055_390_183, 0.043_825_246, 0.002_384_401_9],
     ];
     for probe in probes.map(Vec3::from_array) {
-        let found = f64::from((2.0 * scene.body.locate(probe).half_squared).sqrt());
+        let found = f64::from(scene.body.locate(probe).distance());
         let off = (found - oracle.nearest(probe.as_dvec3(), 0.0)[0].1.distance).abs() / scene.size();
         assert!(off < OFF, "{probe}: off by {off:e}");
     }

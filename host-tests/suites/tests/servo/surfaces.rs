@@ -2,7 +2,7 @@
 
 use palpate::math::{Vec3, vec3};
 use palpate::patch::{
-    Coefficients, Orientation, Patch, SecondDerivativeBounds, ShapeBounds, SplinePatch, SurfacePoint,
+    Coefficients, Orientation, Patch, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable, SurfacePoint,
 };
 
 /// A level wall through the origin, felt from above.
@@ -114,13 +114,15 @@ pub fn table1c() -> SplinePatch<'static> {
         coefficients.extend(rows.into_iter().flatten());
     }
     let [uu, uv, vv] = greatest.map(|bound| bound as f32);
-    SplinePatch::from_table(
-        [2, 2],
-        breaks,
-        breaks,
-        Coefficients::Polynomial(Box::leak(coefficients.into_boxed_slice())),
-        ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }),
-        Orientation::Inward,
-        0.1,
-    )
+    SplineTable {
+        degree: [2, 2],
+        breaks_u: breaks,
+        breaks_v: breaks,
+        coefficients: Coefficients::Polynomial(Box::leak(coefficients.into_boxed_slice())),
+        shape: ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }),
+        orientation: Orientation::Inward,
+        size_m: 0.1,
+        crc: None,
+    }
+    .checked()
 }

@@ -156,7 +156,7 @@ const SPOILED_PATCHES: &[(&str, SpoilPatch, TableError)] = &[
         },
         TableError::CoefficientNotFinite,
     ),
-    ("a bound is NaN", |patch| patch.shape.second_derivatives.uv = f32::NAN, TableError::Bounds),
+    ("a bound is NaN", |patch| patch.shape.second_derivatives.uv = f32::NAN, TableError::Shape),
     ("no size", |patch| patch.size = -1.0, TableError::Size),
 ];
 
