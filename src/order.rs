@@ -117,10 +117,10 @@ pub enum SceneError {
     #[error("the scene's limits must be positive and finite")]
     Limits,
     /// A stiffness is out of range. Where several bodies may be touched, two of them must be within it together.
-    #[error("body {0}: the stiffness must be between 0 and the greatest, with that of the stiffest other body")]
+    #[error("body {0}: the stiffness must be between 0 and the maximum, together with that of the stiffest other body")]
     Stiffness(u8),
     /// A damping is out of range.
-    #[error("body {0}: the damping must be between 0 and the greatest")]
+    #[error("body {0}: the damping must be between 0 and the maximum")]
     Damping(u8),
     /// Friction is negative, not finite, or holds more slipping than sticking.
     #[error("body {0}: friction must be finite and not negative, its dynamic coefficient not above the static one")]
@@ -157,10 +157,10 @@ pub enum SceneError {
     TooFast(u8),
     /// A force of the host's, or a limit of the force, that is negative, not finite or above
     /// [`crate::scene::Limits::max_force`].
-    #[error("a force must be finite, and at most the scene's greatest")]
+    #[error("a force must be finite and at most the scene's maximum")]
     Force,
     /// What is touched does not offer this.
-    #[error("what is felt here does not offer this")]
+    #[error("this surface does not support the command")]
     NotOffered,
     /// There is no body that was uploaded, or it does not go there.
     #[error("body {0}: nothing was uploaded for it")]

@@ -19,7 +19,7 @@ pub struct Panel {
 
 /// A drive, or a pin of it, that did not do what it was told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("a drive did not do what it was told")]
+#[error("a drive did not follow its command")]
 pub struct NotObeyed;
 
 /// A board whose motors cannot be driven: through this alone nothing reaches a motor but the word to let go.

@@ -8,16 +8,16 @@ use thiserror::Error;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CalibrationError {
     /// There is none: flash that was erased.
-    #[error("no calibration is kept")]
+    #[error("no calibration is stored")]
     Absent,
     /// Its first words are missing: the power went while it was written.
-    #[error("the power went while the calibration was written: keep it again")]
+    #[error("calibration record incomplete (power was lost while saving); save it again")]
     Interrupted,
     /// Its CRC is not that of its words, or it is something else.
-    #[error("the calibration kept in flash is damaged")]
+    #[error("the calibration stored in flash is damaged; save it again, or forget it")]
     Damaged,
     /// It is of another version.
-    #[error("the calibration kept in flash is of version {version}: keep it again")]
+    #[error("the calibration stored in flash has version {version}; save it again")]
     Version {
         /// Its version.
         version: u16,
@@ -56,13 +56,13 @@ pub enum CalibrationError {
         joint: u8,
     },
     /// The friction is negative, or so great that the joint would not be seen to follow its motor.
-    #[error("joint {joint}: the dry friction is negative, or more than an eighth of what the greatest force takes")]
+    #[error("joint {joint}: the dry friction is negative, or more than an eighth of the load of the maximum force")]
     Friction {
         /// Which.
         joint: u8,
     },
     /// The zero is that of another way of homing: of a pose, of a mark, or of none.
-    #[error("joint {joint}: the zero is not of what this device is homed by: a pose, a mark, or none; measure it anew")]
+    #[error("joint {joint}: the stored zero uses another homing reference than this firmware; run commissioning again")]
     ZeroOf {
         /// Which.
         joint: u8,

@@ -46,7 +46,7 @@ pub enum JogLimitsError {
     #[error("a motor may be jogged with half of its full duty at most")]
     Duty,
     /// The speed is not positive and finite.
-    #[error("the greatest speed must be positive and finite")]
+    #[error("the maximum speed must be positive and finite")]
     Speed,
     /// The patience is not between a tick and half a second.
     #[error("a silent key must count as let go after a tick at least and half a second at most")]
@@ -74,7 +74,7 @@ pub enum JogRefusal {
     #[error("let the key go before another motor")]
     OtherMotor = 5,
     /// A drive did not do what it was told, or its amplifier is no longer ready.
-    #[error("a drive does not obey")]
+    #[error("a drive does not respond")]
     Drive = 6,
     /// The tick took too long.
     #[error("the device was too slow")]

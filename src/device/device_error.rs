@@ -17,10 +17,10 @@ pub enum DeviceError {
     #[error("joint {0}: the dry friction must be finite and not negative")]
     Friction(usize),
     /// The range's least angle is not below its greatest.
-    #[error("joint {0}: the range's least angle must be below its greatest, and both finite")]
+    #[error("joint {0}: the range's minimum must be below its maximum, and both finite")]
     Range(usize),
     /// A limit of the whole device is not positive and finite.
-    #[error("the least margin and the greatest rate, force, stiffness and damping must be positive and finite")]
+    #[error("minimum margin, maximum rate, force, stiffness and damping must be positive and finite")]
     Limit,
 }
 

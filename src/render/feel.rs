@@ -70,7 +70,7 @@ pub enum FeelError {
     #[error("a texture needs a positive pitch, and a torque that is finite and not negative")]
     Texture,
     /// A number that is negative or not finite.
-    #[error("a spring needs a finite rest, a stiffness and a greatest torque that are finite and not negative")]
+    #[error("a spring needs a finite rest, a stiffness and a maximum torque that are finite and not negative")]
     Spring,
     /// Ends that are not in order, or a number that is negative or not finite.
     #[error("end stops must be in order, with a stiffness and a damping that are finite and not negative")]

@@ -29,7 +29,7 @@ pub enum DetentsError {
     #[error("the pitch must be positive and finite")]
     Pitch,
     /// A stiffness, the damping or the greatest force is negative or not finite.
-    #[error("stiffnesses, damping and greatest force must be finite and not negative")]
+    #[error("stiffnesses, damping and maximum force must be finite and not negative")]
     Force,
     /// The snap is not between ½ and 1.
     #[error("the snap must be between one half and one pitch")]

@@ -180,7 +180,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             Ok(servo) => servo,
             Err(ProtectionError::Continuous) => panic!("continuous"),
             Err(ProtectionError::TimeConstant) => panic!("time_constant"),
-            Err(ProtectionError::Speed) => panic!("a greatest speed"),
+            Err(ProtectionError::Speed) => panic!("a maximum speed"),
             Err(ProtectionError::Supply) => panic!("supply"),
             Err(ProtectionError::Inertia) => panic!("inertia"),
         }

@@ -52,7 +52,7 @@ pub enum Fault {
     #[error("pose out of the mechanism's reach")]
     Unreachable = 15,
     /// Contact that no motion explains, again and again: see [`super::ContactLimits`].
-    #[error("contact lost again and again")]
+    #[error("contact lost repeatedly")]
     ContactLost = 16,
     /// A joint or the probe moves faster than it may while force is given.
     #[error("moving too fast under force")]
@@ -61,10 +61,10 @@ pub enum Fault {
     #[error("motor supply out of range or not measured")]
     Supply = 18,
     /// A joint goes against what its motor pushes: its encoder counts the other way, or its motor is wired so.
-    #[error("an encoder counts against its motor")]
+    #[error("encoder and motor polarity disagree")]
     WrongSign = 19,
     /// The calibration that is kept in flash cannot be used ([`crate::commission::CalibrationError`]).
-    #[error("the calibration kept in flash cannot be used")]
+    #[error("the calibration stored in flash is refused")]
     Calibration = 20,
 }
 

@@ -38,16 +38,16 @@ pub enum KnobError {
     #[error(transparent)]
     Feel(#[from] FeelError),
     /// A feel is stiffer than the device bears.
-    #[error("a feel is stiffer than the device's greatest stiffness times its radius squared")]
+    #[error("a feel is stiffer than the device's maximum stiffness times its radius squared")]
     Stiffness,
     /// A feel damps more than the device bears.
-    #[error("a feel damps more than the device's greatest damping times its radius squared")]
+    #[error("a feel damps more than the device's maximum damping times its radius squared")]
     Damping,
     /// A feel asks for more torque than the device has.
-    #[error("a feel asks for more torque than the device's greatest force times its radius")]
+    #[error("a feel requests more torque than the device's maximum force times its radius")]
     Torque,
     /// The torque that is let go of in a second is not positive and finite.
-    #[error("the torque let go of in a second must be positive and finite")]
+    #[error("the torque released per second must be positive and finite")]
     LetGo,
 }
 
@@ -138,7 +138,7 @@ impl Knob {
             Err(KnobError::Feel(FeelError::Ends)) => panic!("a feel's end stops"),
             Err(KnobError::Feel(FeelError::Damping)) => panic!("a feel's damping"),
             Err(KnobError::Stiffness) => panic!("a feel's stiffness"),
-            Err(KnobError::Damping) => panic!("a feel's greatest damping"),
+            Err(KnobError::Damping) => panic!("a feel's maximum damping"),
             Err(KnobError::Torque) => panic!("a feel's torque"),
             Err(KnobError::LetGo) => panic!("let_go"),
         }

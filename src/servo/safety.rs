@@ -69,7 +69,7 @@ pub struct Safety {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SafetyError {
     /// The damping is negative, not finite or above the device's.
-    #[error("the safe damping must be between 0 and the device's greatest")]
+    #[error("the safe damping must be between 0 and the device's maximum")]
     Damping,
     /// The link's timeout is not above zero.
     #[error("the link's timeout must be positive")]
@@ -78,7 +78,7 @@ pub enum SafetyError {
     #[error("the load of a stuck sensor must be dry friction at least, and the travel positive")]
     Stuck,
     /// The depth is not above that of the greatest force, or a time is negative or not finite.
-    #[error("lost contact must be deeper than the greatest force reaches, and its times not negative")]
+    #[error("contact limits must be deeper than the maximum force reaches, and their times not negative")]
     Contact,
 }
 

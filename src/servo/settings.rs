@@ -31,13 +31,13 @@ pub enum SettingsError {
     #[error("the servo rate must be between 1 Hz and 100 kHz")]
     Rate,
     /// The stiffness is negative, not finite or above the device's.
-    #[error("the stiffness must be between 0 and the device's greatest")]
+    #[error("the stiffness must be between 0 and the device's maximum")]
     Stiffness,
     /// The damping is negative, not finite or above the device's.
-    #[error("the damping must be between 0 and the device's greatest")]
+    #[error("the damping must be between 0 and the device's maximum")]
     Damping,
     /// The greatest force is negative or not finite.
-    #[error("the greatest force must be finite and not negative")]
+    #[error("the maximum force must be finite and not negative")]
     MaxForce,
     /// The corner frequency is not positive and finite.
     #[error("the velocity corner must be positive and finite")]

@@ -63,19 +63,19 @@ pub enum Calibrated {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum KeepError {
     /// No flash was set aside for one.
-    #[error("this device has no flash set aside for a calibration")]
+    #[error("this device has no flash for a calibration")]
     NoFlash,
     /// The device is not being set up.
-    #[error("a calibration is kept only by a device that is being set up")]
+    #[error("a calibration is saved only in commissioning mode")]
     NotSetUp,
     /// A motor is driven, or somebody holds the enable input.
-    #[error("flash is written only while the motors are off: let go of the enable input first")]
+    #[error("flash is written only while the motors are off; release the enable input first")]
     Driven,
     /// It cannot be this device's. What was kept before still is.
     #[error("{0}")]
     Calibration(CalibrationError),
     /// The flash did not take it: none is kept now that is whole.
-    #[error("the flash did not take the calibration")]
+    #[error("flash write error: the calibration was not saved")]
     Flash,
 }
 
@@ -116,7 +116,7 @@ pub struct Answer {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refused {
     /// The host has not said hello in the device's version since the device began.
-    #[error("a host has to say hello first, in the device's version")]
+    #[error("send a hello with the device's protocol version first")]
     Hello,
     /// An order.
     #[error("{0}")]
@@ -125,10 +125,10 @@ pub enum Refused {
     #[error("{0}")]
     Upload(UploadError),
     /// The order before is still on its way.
-    #[error("the order before is not answered yet")]
+    #[error("busy: the previous command is pending")]
     Busy,
     /// The device is being set up: nothing is felt.
-    #[error("the device is being set up")]
+    #[error("the device is in commissioning mode")]
     SetUp,
     /// A calibration.
     #[error("{0}")]

@@ -38,43 +38,43 @@ pub enum Upload {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum UploadError {
     /// No memory was set aside for bodies.
-    #[error("this device has no memory set aside for bodies")]
+    #[error("this device has no memory for bodies")]
     NoRoom,
     /// More bytes than there is memory for.
-    #[error("the body takes more than the {room} bytes set aside for it")]
+    #[error("the body is larger than the device's {room} bytes")]
     TooLong {
         /// What is there.
         room: u32,
     },
     /// More faces or edges than there is memory for.
-    #[error("the body has more faces or edges than memory is set aside for")]
+    #[error("the body has more faces or edges than the device has memory for")]
     TooMany,
     /// Both banks are in use: the body uploaded last has just been taken, and the one before is still felt.
     #[error("both banks are in use; try again in a moment")]
     Busy,
     /// A part that does not follow on the one before: the next byte wanted is this.
-    #[error("the upload goes on at byte {at}")]
+    #[error("the upload continues at byte {at}")]
     Order {
         /// The next byte's place.
         at: u32,
     },
     /// Nothing was begun.
-    #[error("no upload was begun")]
+    #[error("no upload was started")]
     NotBegun,
     /// What came is no body: changed on the way, or of another version. The host's own check says what is wrong.
-    #[error("what came is no body of this version")]
+    #[error("damaged or unsupported body file")]
     NoBody,
     /// No flash was set aside for bodies.
-    #[error("this device has no flash set aside for bodies")]
+    #[error("this device has no flash for bodies")]
     NoFlash,
     /// The motors are driven, or somebody holds the enable input: flash is written only while they are off.
-    #[error("flash is written only while the motors are off: let go of the enable input first")]
+    #[error("flash is written only while the motors are off; release the enable input first")]
     Driven,
     /// The kept body is felt: another is to take its place first ([`crate::scene::Order::PutBack`]).
-    #[error("the body that is kept in flash is felt: put the one that was built in back first")]
+    #[error("the body stored in flash is in use; put the built-in one back first")]
     Felt,
     /// The flash did not take what was written.
-    #[error("the flash did not take what was written at byte {at}")]
+    #[error("flash write error at byte {at}")]
     Flash {
         /// Where.
         at: u32,

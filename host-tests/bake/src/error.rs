@@ -244,7 +244,7 @@ pub enum PatchFault {
         value: f64,
     },
     /// Two knots become one in the table.
-    #[error("knots_{axis}: {first} and {second} are too near each other to be told apart in single precision")]
+    #[error("knots_{axis}: {first} and {second} are too close to be distinguished in single precision")]
     KnotsTooNear {
         /// Along which parameter.
         axis: Axis,

@@ -55,13 +55,13 @@ pub enum Error {
         host: u16,
     },
     /// The device has been reset: it feels what it was built with, where that was. [`crate::Device::greet`] goes on.
-    #[error("{line}: the device has begun anew, and knows nothing of what it was told before: greet it")]
+    #[error("{line}: the device was reset; call `greet()` to start a new session")]
     BeganAnew {
         /// Which line.
         line: String,
     },
     /// The device is being set up (`palpate commission`): nothing is felt until it is reset.
-    #[error("{line}: the device is being set up, and feels nothing until it is reset")]
+    #[error("{line}: the device is in commissioning mode, and feels nothing until it is reset")]
     SetUp {
         /// Which line.
         line: String,
@@ -85,7 +85,7 @@ pub enum Error {
         tries: u32,
     },
     /// What was to be uploaded is no body; nothing was sent.
-    #[error("what is to be uploaded is no body")]
+    #[error("not a valid body file")]
     Body(#[from] FileError),
     /// The body does not fit into the device's memory; nothing was sent.
     #[error(

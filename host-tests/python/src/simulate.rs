@@ -159,7 +159,7 @@ fn plant<K: Kinematics<3>>(
     let advice = |error: &dyn std::fmt::Display| Refusal::Settings(format!("{error} (move the model with `at`)"));
     let path = TouchingPath::within(surface, wishes.seconds, wishes.seed, has_room).map_err(|error| match error {
         PathError::NoRoom => advice(&error),
-        _ => Refusal::Settings(format!("the hand finds no path: {error}")),
+        _ => Refusal::Settings(format!("the hand finds no path over the surface; move the model with --at over the surface; move the model with --at: {error}")),
     })?;
     Plant::new(simulated, HandSettings::default(), Box::new(path), f64::from(wishes.rate))
         .map_err(|error| advice(&error))

@@ -83,7 +83,7 @@ impl Importer {
         if !done.status.success() {
             let message = String::from_utf8_lossy(&done.stderr).trim().to_owned();
             if message.is_empty() {
-                bail!("{}: the importer ended without a word ({})", part.display(), done.status);
+                bail!("{}: the importer exited with {} and no message", part.display(), done.status);
             }
             bail!(message);
         }

@@ -145,11 +145,7 @@ pub fn is_baked(path: &Path) -> bool {
 /// # Errors
 /// The first thing wrong with it, or that there are only tables.
 pub fn read(path: &Path) -> anyhow::Result<Model> {
-    anyhow::ensure!(
-        !is_baked(path),
-        "{}: holds tables only, and this needs the model that they are of",
-        path.display()
-    );
+    anyhow::ensure!(!is_baked(path), "{}: holds tables only; this command needs their model file", path.display());
     Ok(ModelFile::read(path)?.model()?)
 }
 

@@ -119,7 +119,7 @@ pub fn measured_table(header: &str, rows: impl IntoIterator<Item = String>) {
     if anew != text {
         assert!(
             env::var_os("PALPATE_WRITE").is_some(),
-            "docs/reference/measured.md has another table {header:?} (PALPATE_WRITE=1 with the same command writes it anew)"
+            "docs/reference/measured.md has another table {header:?} (PALPATE_WRITE=1 with the same command updates it)"
         );
         fs::write(page(), anew).expect("the page can be written");
     }
@@ -147,7 +147,7 @@ fn compare(claim: &str, found: &str) {
     }
     assert!(
         env::var_os("PALPATE_WRITE").is_some(),
-        "docs/reference/measured.md says {claim}: {}, and it is {found} (PALPATE_WRITE=1 with the same command writes it anew)",
+        "docs/reference/measured.md says {claim}: {}, and it is {found} (PALPATE_WRITE=1 with the same command updates it)",
         row.value
     );
     write(&Row { value: found.to_owned(), ..row });

@@ -87,10 +87,10 @@ pub enum FileError {
     #[error("the file must lie at an address that is a multiple of 4")]
     Unaligned,
     /// It does not begin as such a file does.
-    #[error("this is no body's file: it does not begin with PALP")]
+    #[error("not a body file: it does not start with PALP")]
     Magic,
     /// It is of another version.
-    #[error("the file is of version {found}, and version {wanted} is read here: bake it anew")]
+    #[error("the file has version {found}, this library reads {wanted}; bake it again")]
     Version {
         /// Its version.
         found: u32,
@@ -98,7 +98,7 @@ pub enum FileError {
         wanted: u32,
     },
     /// There are more or fewer bytes than it says, or so few that there is no file at all.
-    #[error("the file says that it has {stated} bytes, and there are {given}")]
+    #[error("the file states {stated} bytes and has {given}")]
     Length {
         /// What it says.
         stated: u32,
@@ -106,7 +106,7 @@ pub enum FileError {
         given: u32,
     },
     /// It is not what was written.
-    #[error("the file is damaged: its CRC-32 is {found:08x}, and it says {stated:08x}")]
+    #[error("the file is damaged: its CRC-32 is {found:08x}, stated is {stated:08x}")]
     Damaged {
         /// What it says.
         stated: u32,
@@ -128,7 +128,7 @@ pub enum FileError {
         index: u32,
     },
     /// A kind, a flag or a byte that must be 0 has a value that means nothing.
-    #[error("record {record} of section {section} has a kind or flag that there is not")]
+    #[error("record {record} of section {section} has an unknown kind or flag")]
     Code {
         /// Of what.
         section: Section,
@@ -144,13 +144,13 @@ pub enum FileError {
         record: u32,
     },
     /// There are coefficients that no record needs.
-    #[error("section COEF has {numbers} numbers that belong to nothing")]
+    #[error("section COEF has {numbers} unused numbers")]
     LeftOver {
         /// How many.
         numbers: u32,
     },
     /// The room is too small.
-    #[error("the file needs room for {faces} faces and {edges} edges")]
+    #[error("the file needs memory for {faces} faces and {edges} edges")]
     BufferTooSmall {
         /// Faces.
         faces: u32,

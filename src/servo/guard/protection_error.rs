@@ -14,10 +14,10 @@ pub enum ProtectionError {
     #[error("a winding's time constant must be between 100 ticks and ten minutes")]
     TimeConstant,
     /// A speed is not above zero.
-    #[error("the greatest speeds must be positive")]
+    #[error("the maximum speeds must be positive")]
     Speed,
     /// The supply's range holds nothing.
-    #[error("the supply's least voltage must be below its most")]
+    #[error("the supply's minimum voltage must be below its maximum")]
     Supply,
     /// An inertia is not positive and finite.
     #[error("the joints' inertias must be positive and finite")]

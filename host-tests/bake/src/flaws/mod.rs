@@ -83,7 +83,7 @@ impl Flaw {
                 };
                 let more = if *pairs > 1 { format!(", and {} more pairs do", pairs - 1) } else { String::new() };
                 format!(
-                    "{who} near {x:.4}, {y:.4}, {z:.4} {unit}{more}: inside the body there is surface, and what is deep in it may count as outside"
+                    "{who} near {x:.4}, {y:.4}, {z:.4} {unit}{more}: inside the body there is surface, and points deep inside may count as outside"
                 )
             }
             Self::Nested { patch, hollow: true, .. } => {
@@ -99,7 +99,7 @@ impl Flaw {
             ),
             Self::Open { edges, first, nearest } => {
                 let near = nearest.map_or_else(String::new, |([a, b], gap)| {
-                    format!("; {} and {} are {} apart: a seam that gapes?", side(a), side(b), length(gap))
+                    format!("; {} and {} are {} apart: an open seam?", side(a), side(b), length(gap))
                 });
                 format!("the body is open: {edges} edges have one face, the first is {}{near}", side(*first))
             }

@@ -167,7 +167,7 @@ fn a_host_that_dies_in_the_middle_keeps_nobody_from_force_for_long() {
 fn a_device_without_flash_and_a_body_that_stays_refuse_it() {
     let mut bare = device(Kind { keeps_bodies: false, ..Kind::default() });
     let error = bare.keep(1, BOX, |_, _| ()).unwrap_err();
-    assert_eq!(error.to_string(), "upload was refused by the device: this device has no flash set aside for bodies");
+    assert_eq!(error.to_string(), "upload was refused by the device: this device has no flash for bodies");
     let error = device(Kind::default()).keep(0, BOX, |_, _| ()).unwrap_err();
-    assert_eq!(error.to_string(), "take was refused by the device: what is felt here does not offer this");
+    assert_eq!(error.to_string(), "take was refused by the device: this surface does not support the command");
 }

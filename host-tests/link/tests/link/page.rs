@@ -22,7 +22,7 @@ const SHOWN: [(&str, Command); 7] = [
             },
         },
     ),
-    ("part 4: a body of 6,896 bytes begins", Command::Upload { number: 4, part: Upload::Begin { bytes: 6_896 } }),
+    ("part 4: a body of 6,896 bytes starts", Command::Upload { number: 4, part: Upload::Begin { bytes: 6_896 } }),
 ];
 
 #[test]

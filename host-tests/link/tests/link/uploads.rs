@@ -113,10 +113,10 @@ fn a_spoiled_file_is_not_sent() {
 fn a_device_without_memory_and_a_body_that_stays_refuse_it() {
     let mut bare = device(Kind { takes_bodies: false, ..Kind::default() });
     let error = bare.upload(1, BOX, |_, _| ()).unwrap_err();
-    assert_eq!(error.to_string(), "upload was refused by the device: this device has no memory set aside for bodies");
+    assert_eq!(error.to_string(), "upload was refused by the device: this device has no memory for bodies");
     assert!(matches!(error, Error::Refused { reason: Refused::Upload(UploadError::NoRoom), .. }));
     let error = device(Kind::default()).upload(0, BOX, |_, _| ()).unwrap_err();
-    assert_eq!(error.to_string(), "take was refused by the device: what is felt here does not offer this");
+    assert_eq!(error.to_string(), "take was refused by the device: this surface does not support the command");
 }
 
 #[test]

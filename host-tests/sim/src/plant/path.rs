@@ -27,7 +27,7 @@ pub enum PathError {
         v: f64,
     },
     /// Coming down and lifting off alone are faster than allowed.
-    #[error("so many touches in so short a time need {speed} m/s")]
+    #[error("the number of touches in this time needs {speed} m/s")]
     TooFast {
         /// The speed, m/s.
         speed: f64,

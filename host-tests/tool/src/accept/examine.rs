@@ -83,7 +83,7 @@ pub fn examine<L: DeviceLine>(line: &mut L, plan: &Plan) -> anyhow::Result<Found
 fn ask_all<L: DeviceLine>(talk: &mut Talk<'_, L>, plan: &Plan, found: &mut Found) -> anyhow::Result<()> {
     talk.ask(Request::Script { most: plan.most })?;
     loop {
-        match talk.next(SILENCE)?.context("the device fell silent in the midst of its script")? {
+        match talk.next(SILENCE)?.context("the device fell silent during its script")? {
             Finding::Line(line) => found.lines.push(line),
             Finding::Done => break,
             // Of a greeting that was repeated.
@@ -95,7 +95,7 @@ fn ask_all<L: DeviceLine>(talk: &mut Talk<'_, L>, plan: &Plan, found: &mut Found
     let wanted = (plan.seconds * f64::from(found.identity.rate)) as u32;
     let mut began = Instant::now();
     loop {
-        let finding = talk.next(SILENCE)?.context("the device fell silent in the midst of its ticks")?;
+        let finding = talk.next(SILENCE)?.context("the device fell silent while its ticks were watched")?;
         let Finding::Ticks(ticks) = finding else { continue };
         if found.ticks.is_empty() {
             began = Instant::now();
@@ -112,7 +112,7 @@ fn ask_all<L: DeviceLine>(talk: &mut Talk<'_, L>, plan: &Plan, found: &mut Found
     for failure in &plan.failures {
         talk.ask(Request::Fail(*failure))?;
         let identity =
-            talk.greet_anew(plan.greeting).with_context(|| format!("after it was told to fail ({failure:?})"))?;
+            talk.greet_anew(plan.greeting).with_context(|| format!("after the provoked failure {failure:?}"))?;
         found.failures.push((*failure, identity.reset));
     }
     Ok(())
@@ -184,7 +184,7 @@ impl<L: DeviceLine> Talk<'_, L> {
                 Err(error) => broken = Some(error),
             }
         }
-        Err(broken.unwrap_or_else(|| anyhow::anyhow!("it did not come again")))
+        Err(broken.unwrap_or_else(|| anyhow::anyhow!("it did not come back")))
     }
 
     /// What it says next; `None` if it says nothing for so long.

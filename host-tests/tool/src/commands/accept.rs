@@ -14,40 +14,40 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Accepts a board, motors disabled: the very bits of the host, cycles, rate and jitter, table, sensors, resets.
+/// Accepts a board with motors disabled: the host's bits, cycles, rate and jitter, tables, sensors, resets.
 ///
-/// The board runs the image of `palpate firmware --board B accept`, which has no way to drive a motor. The report says
-/// what each figure is and must be; docs/howto/acceptance.md has the wiring and how to read a failure.
+/// The board runs the image of `palpate firmware --board B accept`, which cannot drive a motor. The report has each
+/// figure and its limit; docs/howto/acceptance.md has the wiring and the failures.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The serial port the device is on, such as /dev/ttyACM0
+    /// Serial port, such as /dev/ttyACM0
     #[arg(long, required_unless_present = "emulator", conflicts_with = "emulator")]
     port: Option<String>,
-    /// The port's speed
+    /// Baud rate
     #[arg(long, default_value_t = 500_000)]
     baud: u32,
-    /// An emulated board instead of a device
+    /// Emulated board instead of a device
     #[arg(long, value_enum)]
     emulator: Option<Board>,
-    /// The image for the emulator, built before, in the place of the one that is built now
+    /// Image for the emulator, built before; default: build it now
     #[arg(long, value_name = "ELF", requires = "emulator")]
     image: Option<PathBuf>,
-    /// Seconds of the device's own ticks
+    /// Time to watch the device's own ticks, s
     #[arg(long, default_value_t = 60.0)]
     seconds: f64,
-    /// Ticks of each lap of the script, at most; the longest has 300,000
+    /// Maximum ticks of each lap of the script; the longest has 300,000
     #[arg(long, default_value_t = 300_000)]
     ticks: u32,
-    /// Has the device hang, panic and run into an exception, and asks it for the reset reason each time
+    /// Provoke a hang, a panic and an exception, and check the reset reason after each
     #[arg(long, conflicts_with = "emulator")]
     resets: bool,
-    /// The board has no sensors yet: what they say is told and not judged
+    /// Bare board without sensors: report them without a verdict
     #[arg(long)]
     bare: bool,
-    /// Leaves out the emulator, which counts the instructions beside the device's cycles
+    /// Skip the emulator, which counts instructions to compare with the device's cycles
     #[arg(long, conflicts_with = "emulator")]
     without_emulator: bool,
-    /// Where the report goes
+    /// Report file
     #[arg(long, default_value = "palpate-report/accept.md")]
     report: PathBuf,
 }
@@ -57,8 +57,8 @@ pub struct Arguments {
 /// # Errors
 /// What went wrong, for the person at the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    ensure!(arguments.seconds.is_finite() && arguments.seconds > 0.0, "--seconds is not a time");
-    ensure!(arguments.ticks > 0, "--ticks: a script of no ticks shows nothing");
+    ensure!(arguments.seconds.is_finite() && arguments.seconds > 0.0, "--seconds must be a positive time");
+    ensure!(arguments.ticks > 0, "--ticks must be at least 1");
     let resets = arguments.resets.then_some([Failure::Hang, Failure::Panic, Failure::Exception]);
     let failures = resets.into_iter().flatten().collect();
     let plan = Plan { most: arguments.ticks, seconds: arguments.seconds, failures, greeting: GREETING };

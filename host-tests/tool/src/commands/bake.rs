@@ -14,33 +14,33 @@ use palpate_bake::source::{self, Origin};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Writes a model's tables as Rust source, to `include!` in a module of the firmware, or as a file to be read.
+/// Writes a model's tables as Rust source to `include!`, or as a binary file.
 ///
-/// A model of several patches becomes a body: `pub static BODY: palpate::body::Body` and `pub const TABLE_CRC: u32`.
-/// One of a single patch becomes `pub static PATCHES: [palpate::patch::SplinePatch; 1]`, without features and without a
-/// locator. The same model gives the same bytes wherever it lies, on any number of cores.
+/// Several patches become `pub static BODY: palpate::body::Body` and `pub const TABLE_CRC: u32`. A single patch becomes
+/// `pub static PATCHES: [palpate::patch::SplinePatch; 1]`, without features and locator. The same model gives the same
+/// bytes anywhere, on any number of cores.
 ///
-/// A file whose name ends in .palp is binary: the whole body, for palpate::body::Body::from_bytes and for every command
-/// that takes a model.
+/// A name that ends in .palp gives a binary body file, for palpate::body::Body::from_bytes and every command that takes
+/// a model.
 ///
 /// Exit status as `check`: 0 certified, 1 usable but not certified (the file is written), 2 bad input (it is not).
 #[derive(Args, Debug)]
 #[command(group(clap::ArgGroup::new("product").required(true).multiple(true)))]
 pub struct Arguments {
-    /// The model: a file (TOML), or the name of one that ships.
+    /// Model: a file, or the name of a shipped one.
     model: PathBuf,
-    /// The file to write: Rust, or binary if it ends in .palp.
+    /// Output: Rust source, or binary if it ends in .palp.
     #[arg(long, value_name = "FILE", group = "product")]
     out: Option<PathBuf>,
-    /// The file to write the automaton to, as Graphviz: features, and between which of them the tracker switches.
+    /// Feature graph (Graphviz .dot).
     #[arg(long, value_name = "FILE.dot", group = "product")]
     graph: Option<PathBuf>,
-    /// How far the locator reaches beyond the bounding box, in body sizes; 0 lets the tool choose. A probe
-    /// from farther away uses the list of the nearest cell, which is then not proved complete.
+    /// Reach of the locator beyond the bounding box, in body sizes; 0: chosen by the tool. Beyond it a probe uses the
+    /// nearest cell's list, without proof.
     #[arg(long, value_name = "SIZES", default_value_t = 0.0, value_parser = sizes)]
     margin: f64,
-    /// Prints the bytes of flash by kind, those of a file and its room, how much of the locator is proved, and the cost
-    /// of a cold start.
+    /// Table of flash bytes by kind, the size of a body file and its RAM, the proved fraction of the locator, and the
+    /// cost of a cold start.
     #[arg(long)]
     table_report: bool,
 }
@@ -56,7 +56,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut report = None;
     // The automaton has no locator in it.
     if loaded.file.baked().is_some() {
-        ensure!(arguments.margin == 0.0, "{}: has its locator, which reaches as far as it does", loaded.file.label);
+        ensure!(
+            arguments.margin == 0.0,
+            "{}: --margin has no effect: the file already contains a locator",
+            loaded.file.label
+        );
     } else if needs_locator(arguments, is_body) {
         let options = loaded.body.locator_options().reaching(arguments.margin);
         let bar = progress::work();

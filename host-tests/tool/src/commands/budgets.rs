@@ -7,13 +7,13 @@ use std::process::ExitCode;
 
 /// Counts the instructions of the hot path on an emulated board and compares them with the committed budget.
 ///
-/// Ends with 1 if a figure is over its budget, missing or new.
+/// Exit status 1 if a figure is over its budget, missing or new.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The board to count on
+    /// Board
     #[arg(long, value_enum, default_value_t)]
     board: Board,
-    /// Writes what was counted to the budget file
+    /// Write the counts to the budget file
     #[arg(long)]
     record: bool,
 }

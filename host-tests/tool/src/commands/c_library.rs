@@ -11,13 +11,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Writes palpate as a library for C: header, precompiled libraries, examples, as Arduino and PlatformIO take them.
+/// Writes palpate as a C library for Arduino and PlatformIO: header, precompiled libraries, examples.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The folder that is written; it must not be there yet
+    /// Output folder; must not exist
     #[arg(long)]
     out: PathBuf,
-    /// The baked body of the example, a `.palp`; the capped box without it
+    /// Body of the example, a `.palp`; default: the capped box
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
 }
@@ -29,7 +29,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let Arguments { out, model } = arguments;
     if out.exists() {
-        bail!("{}: it is there already", out.display());
+        bail!("{}: already exists; choose another folder", out.display());
     }
     let root = repository::root()?;
     let model = model.clone().unwrap_or_else(|| root.join("boards/bodies/capped_box.palp"));

@@ -18,17 +18,16 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Validates a model and says what is known of each patch.
+/// Validates a model and certifies each patch.
 ///
-/// A patch is certified if it is proved to be regular, convex (up to rounding), smooth, with normals less than 90°
-/// apart, and to lead every probe up to half the body's size over it to its closest point. What is not proved is
-/// sampled, and said to be. The second table has the limits of performance for explicit Euler at --rate, a probe up to
-/// --distance away and moving at --speed. With --rides the body's tables are baked, and the tracker rides along it at
-/// that speed and rate: it prints how late it has the nearest point where that jumps, over a groove or a pocket. Exit
-/// status: 0 certified, 1 usable but not certified, 2 bad input.
+/// A patch is certified if it is proved to be regular, convex (up to rounding), smooth, with normals within 90°, and to
+/// lead every probe up to half the body's size above it to its closest point. Unproved properties are sampled and
+/// marked. The second table has the limits of performance for explicit Euler at --rate, --distance and --speed. With
+/// --rides the tracker rides along the baked body, and the table shows how late it finds the nearest point where that
+/// jumps. Exit status: 0 certified, 1 usable but not certified, 2 bad input.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The model: a file (TOML), or the name of one that ships.
+    /// Model: a file, or the name of a shipped one.
     model: PathBuf,
     /// Servo rate, Hz.
     #[arg(long, default_value_t = 4_000.0, value_parser = positive)]
@@ -39,7 +38,7 @@ pub struct Arguments {
     /// Speed of the probe, m/s.
     #[arg(long, default_value_t = 0.1, value_parser = positive)]
     speed: f32,
-    /// Rides along the body.
+    /// Number of rides along the body.
     #[arg(long, default_value_t = 0, value_name = "N")]
     rides: u32,
 }

@@ -10,36 +10,34 @@ use palpate_truth::closest::Status;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Closest points with the firmware's own code, in single precision.
+/// Closest points by the firmware's own single-precision code.
 ///
-/// Reads the columns qx,qy,qz (others are ignored, lines that begin with # too), in the unit of the model; writes a row
-/// for a query, in their order: patch,u,v,px,py,pz,gap,steps,status. patch is the patch's name, or its index if it has
-/// none; gap is the distance from the query to p, negative when the query is inside a closed body; steps counts the
-/// patch evaluations spent.
+/// Reads the columns qx,qy,qz (others and lines starting with # are ignored) in the model's unit. Writes a row per
+/// query, in the same sequence: patch,u,v,px,py,pz,gap,steps,status. patch is the name, or the index of an unnamed
+/// patch; gap is the distance from the query to p, negative inside a closed body; steps counts patch evaluations.
 ///
-/// cold takes every row by itself: the locator's table names the parts of patches that can own the closest point, a
-/// second-order search runs in each; status is converged, step-limit if one was given up short of its minimum, or far
-/// if the query lies beyond the locator's reach (bake --margin), where its lists are not proved to be complete.
+/// cold: every row by itself. The locator names the parts of patches that can own the closest point, and a second-order
+/// search runs in each. status: converged; step-limit if a search was stopped short of its minimum; far if the query is
+/// beyond the locator's reach (bake --margin), where its lists are not proved.
 ///
-/// track takes rows as successive servo ticks of one probe: the first row is cold, each other row is --ticks ticks of
-/// the tracker, and after a jump of more than an eighth of the body's size as many more as locate it anew; status is
-/// tracking, or god-object while the body is touched: then p is the point that stays on the surface where the probe
-/// went in, and the sign of gap is its own.
+/// track: rows are successive servo ticks of one probe. The first row is cold; each other row is --ticks ticks of the
+/// tracker, and more after a jump above an eighth of the body's size, to locate it again. status: tracking, or
+/// god-object in contact: p then stays where the probe went in, and the sign of gap is its own.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The model: a file (TOML), or the name of one that ships.
+    /// Model: a file, or the name of a shipped one.
     #[arg(long)]
     model: PathBuf,
-    /// The queries (CSV with a header).
+    /// Queries (CSV with a header).
     #[arg(long, value_name = "IN.csv")]
     queries: PathBuf,
-    /// How the rows relate to each other.
+    /// Relation of the rows.
     #[arg(long, value_enum, default_value_t = Mode::Cold)]
     mode: Mode,
-    /// Controller steps a row; for --mode track.
+    /// Controller steps per row, for --mode track.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     ticks: u32,
-    /// Where to write; standard output without it.
+    /// Output; default: standard output.
     #[arg(long, value_name = "OUT.csv")]
     out: Option<PathBuf>,
 }

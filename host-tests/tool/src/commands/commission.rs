@@ -19,60 +19,60 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// Sets a device up: jogs its motors one at a time, measures it, and writes its file.
+/// Commissions a device: jogs its motors one at a time, measures it, writes its file.
 ///
-/// A motor moves only while the enable button of the device and the space bar are both held, with four tenths of its
-/// full torque at most; a line that falls silent counts as a key let go after 0.1 s. With --emulator or --host the
-/// device, its hands and what is wrong with it (--plant) are simulated, and nothing is asked.
+/// A motor moves only while the device's enable button and the space bar are both held, with at most 0.4 of its full
+/// torque; a line silent for 0.1 s counts as a released key. With --emulator or --host the device, its hands and its
+/// faults (--plant) are simulated, and nothing is asked.
 ///
-/// Of a knob (--device knob) the cogging of its motor is recorded: the field is led round it, there and back, for as
-/// long as both are held, and --out is the file that its image is built from.
+/// For a knob (--device knob) the cogging of its motor is recorded while both are held; --out is the file that its
+/// image is built from.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The serial port the device is on, such as /dev/ttyACM0
+    /// Serial port, such as /dev/ttyACM0
     #[arg(long, group = "where")]
     port: Option<String>,
-    /// The port's speed
+    /// Baud rate
     #[arg(long, default_value_t = 500_000)]
     baud: u32,
-    /// An emulated board with a simulated device and hands, instead of a device
+    /// Emulated board with a simulated device and hands
     #[arg(long, value_enum, group = "where")]
     emulator: Option<Board>,
-    /// The same without an emulator: the boards' loop compiled for the host
+    /// The boards' loop compiled for the host, with a simulated device and hands
     #[arg(long, group = "where")]
     host: bool,
-    /// What the device is believed to be: the file of one's own (my.toml), or a device that ships, or knob
+    /// Assumed device: your own file (my.toml), a shipped device, or knob
     #[arg(long, value_name = "DEVICE", default_value = "woodenhaptics-2016")]
     device: PathBuf,
-    /// Where the measured file goes (device.toml; of a knob FILE.rs); nothing is measured without it
+    /// Output: device.toml, for a knob FILE.rs; without it nothing is measured
     #[arg(long, value_name = "FILE", required_unless_present_any = ["jog", "watch", "forget"])]
     out: Option<PathBuf>,
-    /// Keeps what was measured in the device's flash too, where it has some: used from the next reset on
+    /// Save the calibration in the device's flash too; used after the next reset
     #[arg(long, requires = "out")]
     keep: bool,
-    /// Forgets what is kept in the device's flash: from the next reset on it is what it was built with
+    /// Delete the calibration in the device's flash. After the next reset the device uses its compiled-in calibration
     #[arg(long, conflicts_with_all = ["out", "jog", "watch"])]
     forget: bool,
-    /// By which known angles encoders are found
+    /// Encoder reference: jig, stops or index
     #[arg(long, value_enum, default_value_t)]
     zero: Zero,
-    /// Measures torque constants and friction too, with known weights
+    /// Measure torque constants and friction too, with known masses
     #[arg(long)]
     weigh: bool,
-    /// Shows counts, angles and what keeps the motors off for so many seconds, and drives nothing
+    /// Time to show counts, angles and holds, without driving, s
     #[arg(long, value_name = "SECONDS", conflicts_with_all = ["out", "jog"])]
     watch: Option<f64>,
-    /// Jogs the motor on this output (0 to 2) while the keys are held, for --for seconds
+    /// Motor output to jog (0 to 2) while both keys are held, for --for seconds
     #[arg(long, value_name = "OUTPUT", value_parser = clap::value_parser!(u8).range(0..3), conflicts_with = "out")]
     jog: Option<u8>,
-    /// Of --jog: the share of full duty, negative for the other way; the device allows 0.4
+    /// Jog duty, −0.4 to 0.4 of full scale
     #[arg(long, value_name = "SHARE", default_value_t = 0.1, allow_hyphen_values = true)]
     duty: f64,
-    /// Of --jog: seconds
+    /// Jog time, s
     #[arg(long = "for", value_name = "SECONDS", default_value_t = 60.0)]
     seconds: f64,
-    /// What is wrong with the simulated device, such as encoder-sign:0, motor-sign:2, ratio:0=1.25, zero:1=0.2,
-    /// torque:2=0.8, friction:0=2, encoders:0-1, motors:1-2; again for more
+    /// Planted fault of the simulated device, repeatable: encoder-sign:0, motor-sign:2, ratio:0=1.25, zero:1=0.2,
+    /// torque:2=0.8, friction:0=2, encoders:0-1, motors:1-2
     #[arg(long, value_name = "FAULT", conflicts_with = "port")]
     plant: Vec<PlantedFault>,
 }
@@ -100,7 +100,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     };
     let by_marks = arguments.zero == Zero::Index || own.file.homing == HomingEntry::Index;
     if arguments.emulator.is_some() && by_marks {
-        bail!("the pins of an emulated board carry no index marks: take a --port, or --host");
+        bail!("emulated boards have no index marks; use --port or --host");
     }
     let mut lab = lab(arguments, &own)?;
     say_calibration(&lab.device);
@@ -114,11 +114,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(output) = arguments.jog {
         return jog(&mut lab, &own.file, (output, arguments.duty), arguments.seconds);
     }
-    let Some(out) = &arguments.out else { bail!("--out FILE says where the measured file goes") };
+    let Some(out) = &arguments.out else { bail!("--out FILE is required") };
     let measured = if arguments.weigh { find } else { find_mounting };
     let (file, findings) = measured(&mut lab, &own, arguments.zero)?;
     let found = OwnDevice::new(file, "what was measured")?;
-    let head = format!("Measured by `palpate commission`, begun from {name}.");
+    let head = format!("Measured by `palpate commission`, started from {name}.");
     std::fs::write(out, toml_of(&found, &head)?).with_context(|| format!("cannot write {}", out.display()))?;
     report(&own, &findings);
     for sentence in begin_within(&found.file) {
@@ -137,7 +137,7 @@ fn record_cogging(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         arguments.out.as_ref().filter(|_| !arguments.weigh && !arguments.keep && arguments.plant.is_empty())
     else {
         bail!(
-            "of a knob the cogging alone is recorded: --out FILE.rs, without --watch, --jog, --weigh, --keep and --plant"
+            "a knob records only its cogging: use --out FILE.rs, without --watch, --jog, --weigh, --keep and --plant"
         );
     };
     let (recording, from) = if let Some(path) = &arguments.port {
@@ -149,11 +149,11 @@ fn record_cogging(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     } else if arguments.host {
         (recorded_of(DialSettings::gimbal_knob())?, "the simulated gimbal motor")
     } else {
-        bail!("a knob is at a --port, or simulated on the --host");
+        bail!("a knob needs --port, or --host for the simulated one");
     };
     std::fs::write(out, recording.source(from)).with_context(|| format!("cannot write {}", out.display()))?;
     println!("cogging of {:.2} mN·m, root mean square", 1e3 * recording.size());
-    println!("written to {}: build the image anew", out.display());
+    println!("written to {}; build the image again", out.display());
     Ok(ExitCode::SUCCESS)
 }
 
@@ -161,7 +161,7 @@ fn record_cogging(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 fn say_calibration(device: &Device) {
     match device.calibrated() {
         None => println!("the device keeps no calibration"),
-        Some(Calibrated::BuiltIn) => println!("the device is what it was built with: no calibration is kept"),
+        Some(Calibrated::BuiltIn) => println!("the device is what it was built with: no calibration is stored"),
         Some(Calibrated::Kept { crc }) => println!("the device uses the calibration that it keeps, CRC {crc:08x}"),
         Some(Calibrated::Refused(error)) => println!("the device keeps its motors off: {error}"),
     }
@@ -170,9 +170,9 @@ fn say_calibration(device: &Device) {
 /// Has a calibration kept in the device's flash, or forgotten. A simulated device is reset, to see that it is used.
 fn keep(lab: &mut Lab, found: Option<Calibration<3>>) -> anyhow::Result<()> {
     lab.hands.enable(false)?;
-    lab.device.keep(found.map(|found| found.0)).context("the device's flash is as it was, or keeps nothing")?;
+    lab.device.keep(found.map(|found| found.0)).context("the device's flash is unchanged, or empty")?;
     match found {
-        Some(found) => println!("kept in the device's flash, CRC {:08x}: used from the next reset on", found.crc()),
+        Some(found) => println!("saved in the device's flash, CRC {:08x}; used after the next reset", found.crc()),
         None => println!("forgotten: from the next reset on the device is what it was built with"),
     }
     if lab.device.reset()? {
@@ -232,7 +232,7 @@ fn watch(device: &mut Device, file: &DeviceFile, seconds: f64) -> anyhow::Result
 /// Drives one motor while the keys are held.
 fn jog(lab: &mut Lab, file: &DeviceFile, (output, share): (u8, f64), seconds: f64) -> anyhow::Result<ExitCode> {
     if !share.is_finite() || share.abs() > 0.4 {
-        bail!("--duty {share}: at most 0.4 of full duty, either way");
+        bail!("--duty {share}: must be between −0.4 and 0.4");
     }
     lab.hands.enable(false)?;
     lab.device.step(None)?;
@@ -259,7 +259,7 @@ struct Shown {
 
 impl Shown {
     fn until(seconds: f64) -> anyhow::Result<Self> {
-        let lasts = Duration::try_from_secs_f64(seconds).context("--watch or --for is not a time")?;
+        let lasts = Duration::try_from_secs_f64(seconds).context("--watch and --for must be positive times")?;
         Ok(Self { began: Instant::now(), lasts, last: None })
     }
 

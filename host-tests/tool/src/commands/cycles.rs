@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 /// Estimates the cycles of the hot path on a Cortex-M4F and a Cortex-M7.
 ///
-/// The emulator executes each core's own image and logs every instruction; a model of the core adds their cycles up. It
-/// is an estimate, given as a range, and no measurement.
+/// The emulator logs every instruction of each core's image and a model of the core adds up their cycles. The result is
+/// an estimated range, not a measurement.
 #[derive(Args, Debug)]
 pub struct Arguments {}
 

@@ -18,19 +18,19 @@ use std::process::ExitCode;
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneOptions,
-    /// The emulated board
+    /// Emulated board
     #[arg(long, value_enum, default_value_t)]
     board: Board,
-    /// What carries the frames: `fifo` is fast, `uart` is the board's real link
+    /// Transport of the frames: fifo (fast), uart (the board's real link)
     #[arg(long, value_enum, default_value_t = if cfg!(unix) { Carrier::Fifo } else { Carrier::Uart })]
     transport: Carrier,
     /// Run the loop compiled for the host, without the emulator
     #[arg(long)]
     host: bool,
-    /// Where the report goes
+    /// Report file
     #[arg(long, default_value = "palpate-report/demo.html")]
     report: PathBuf,
-    /// Also writes the view of the probe's path to this SVG file
+    /// View of the probe's path (SVG)
     #[arg(long, value_name = "FILE.svg")]
     picture: Option<PathBuf>,
 }
@@ -110,7 +110,7 @@ fn on_board(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Run> {
             on_host(arguments, scene)
         }
         Err(Preparation::SetUp(error @ SetUpError::NoRepository(_))) => {
-            bail!("{error}, or take --host, the same loop compiled for the host")
+            bail!("{error}; or use --host, the same loop compiled for the host")
         }
         Err(Preparation::SetUp(error)) => Err(error.into()),
         Err(Preparation::Tables(error)) => Err(error),

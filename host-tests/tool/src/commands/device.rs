@@ -8,14 +8,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Turns a device file into the library's constants, or writes the file of a device that ships, to begin with.
+/// Writes the library's constants for a device file, or the file of a shipped device to start from.
 ///
-/// The constants are checked here and again when they are compiled.
+/// The constants are checked here and again by the compiler.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The device file (my.toml), or the name of a device that ships
+    /// Device file (my.toml), or the name of a shipped device
     device: PathBuf,
-    /// Where the constants go (device.rs), or the file to begin with (my.toml)
+    /// Output: constants (device.rs), or a device file (my.toml)
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     };
     let text = match arguments.out.extension().and_then(|extension| extension.to_str()) {
         Some("rs") => source(&own, &name),
-        Some("toml") => toml_of(&own, &format!("Begun from {name} by `palpate device`."))?,
+        Some("toml") => toml_of(&own, &format!("Written by `palpate device` from {name}."))?,
         _ => bail!("{}: --out must end in .rs or .toml", arguments.out.display()),
     };
     write(&arguments.out, &text)?;

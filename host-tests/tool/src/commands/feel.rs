@@ -17,42 +17,42 @@ use palpate_sim::zwidth::Slice;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Says in figures what a hand feels: steps of force, ripple against what people can feel, stickiness, drag.
+/// Measures what a hand feels: steps of force, ripple against human thresholds, drag.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The device; `all` compares every device
+    /// Device, or `all`
     #[arg(long, default_value = "all", value_parser = names())]
     device: String,
-    /// The body whose edges are crossed, by devices of three joints: a model file, or the name of a model that ships
+    /// Body whose edges are crossed (three joints): a model file, or the name of a shipped model
     #[arg(long, default_value = "capped_box")]
     model: PathBuf,
     /// Servo rate, Hz
     #[arg(long, default_value_t = 4_000.0)]
     rate: f32,
-    /// Stiffness of the surface, N/m, no more than the device takes; what is recommended for it unless said
+    /// Stiffness of the surface, N/m, up to the device's maximum; default: recommended for the device
     #[arg(long)]
     stiffness: Option<f32>,
-    /// Damping of the surface, N·s/m, no more than the device takes; what is recommended for it unless said
+    /// Damping of the surface, N·s/m, up to the device's maximum; default: recommended for the device
     #[arg(long)]
     damping: Option<f32>,
-    /// Corner frequency of the velocity filter, Hz; what is recommended for the device unless said
+    /// Corner frequency of the velocity filter, Hz; default: recommended for the device
     #[arg(long)]
     velocity_corner: Option<f32>,
-    /// What becomes of the force: all is done that counts, ticks and edges are not felt; all but counts; or nothing;
-    /// what is recommended for the device unless said
+    /// Smoothing: smooth (hides counts, ticks and edges), eased (all but counts), plain (none); default: recommended
+    /// for the device
     #[arg(long, value_enum)]
     rendering: Option<Kind>,
-    /// Finds the stiffest wall that is clean to slide along instead, at 1, 2, 4, 8 and 10 kHz, with the device's
-    /// encoders and finer ones and the estimator that suits them, beside the stiffest that comes to rest
+    /// Search for the stiffest wall that is clean to slide along, at 1, 2, 4, 8 and 10 kHz, with the device's encoders
+    /// and finer ones
     #[arg(long, conflicts_with_all = ["model", "rate", "stiffness", "recording", "velocity_corner"])]
     clean: bool,
-    /// A threshold of one's own: a CSV file of frequency, Hz, and peak displacement, m, under a row of names
+    /// Detection threshold: CSV of frequency, Hz, and peak displacement, m, under a header
     #[arg(long, value_name = "FILE.csv")]
     threshold: Option<PathBuf>,
-    /// Takes the figures of a recording instead, of `sim --csv` or `monitor --csv`, on one device
+    /// Recording to evaluate, from `sim --csv` or `monitor --csv`, of one device
     #[arg(long, value_name = "FILE.csv")]
     recording: Option<PathBuf>,
-    /// The folder that figures (CSV) and report (HTML) go to
+    /// Folder for figures (CSV) and report (HTML)
     #[arg(long, default_value = "palpate-report/feel")]
     out: PathBuf,
 }
@@ -88,7 +88,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let threshold = arguments.threshold.as_deref().map_or_else(|| Ok(Threshold::approximate()), read_threshold)?;
     let chosen = devices::named(&arguments.device);
     if let Some(path) = &arguments.recording {
-        let device = chosen.context("--recording is of one device: name it with --device")?;
+        let device = chosen.context("--recording needs one device: add --device NAME")?;
         print_recording(path, device, &threshold)?;
         return Ok(ExitCode::SUCCESS);
     }

@@ -24,7 +24,7 @@ pub fn run(
     // With one joint nothing slides.
     let devices: Vec<&ShippedDevice> =
         devices.iter().copied().filter(|device| device.preset.feeds().len() > 1).collect();
-    println!("greatest stiffness, N/m, that is clean to slide along (that comes to rest), and the estimator it takes:");
+    println!("maximum stiffness, N/m, that is clean to slide along (that comes to rest), and its estimator:");
     println!("c: counts as they are, b: positions between counts; with its corner, Hz");
     print!("{:<20}{:>8}{:>6}", "device", "encoder", "µm");
     RATES.iter().for_each(|rate| print!("{:>24}", format!("{} kHz", rate / 1_000.0)));

@@ -11,38 +11,37 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Draws the paper's Figures 3 and 6 to 9, with the numbers beside them.
+/// Draws the paper's Figures 3 and 6 to 9, with their numbers.
 ///
-/// Of a model of several patches: Figure 3, slices through its Voronoi regions as the tables have them, and Figure 9, a
-/// probe's way around it with u, v and the active feature. Of a model of one patch:
+/// For a model of several patches: Figure 3, slices through its Voronoi regions as the tables have them, and Figure 9,
+/// a probe's path around it with u, v and the active feature. For a model of one patch:
 ///
-/// Figure 6: a start from which the witness point meets a border, follows it and leaves it again; the one that shows it
-/// best of a fixed grid of probes and starts. Figure 7: from which of 21 x 21 starts Newton's method, with and without
-/// saturation at the borders, and the firmware's two laws find the closest point (to 1e-4 of the size), over seeded
-/// probes straight out from the patch. Figure 8: following a moving probe with gains that are good, too high and too
-/// low, and the measured limits of stability beside the predicted ones. In all of them the law of second order beside
-/// the paper's; and, not in the paper, how fast both arrive and how far they lag behind a moving probe.
+/// Figure 6: a start whose witness point meets a border, follows it and leaves it; the clearest of a fixed grid of
+/// probes and starts. Figure 7: the starts of 21 x 21 from which Newton's method, with and without saturation at the
+/// borders, and the firmware's two laws find the closest point (to 1e-4 of the size), over seeded probes straight out
+/// from the patch. Figure 8: following a moving probe with gains that are good, too high and too low, and the measured
+/// limits of stability beside the predicted ones. Each also has the law of second order; not in the paper: how fast
+/// both laws arrive and how far they lag.
 ///
 /// The same arguments write the same bytes.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Model: a file, or the name of one that ships. Table I of the paper, its convex companion and the capped box if
-    /// not given
+    /// Model: a file, or the name of a shipped one; default: Table I, its convex companion, and the capped box
     #[arg(long)]
     model: Vec<PathBuf>,
-    /// Draws only what the models look like, as nets of lines; all models that ship if none is given
+    /// Draw only the shapes of the models, as line nets; default: all shipped models
     #[arg(long)]
     shapes: bool,
     /// Folder for the files
     #[arg(long, default_value = "palpate-report/figures")]
     out: PathBuf,
-    /// Probes of Figure 7
+    /// Number of probes of Figure 7
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..))]
     probes: u16,
-    /// Least distance of the probes from the patch, in patch sizes; the nearer, the larger Newton's basins
+    /// Minimum distance of the probes from the patch, in patch sizes; the nearer, the larger Newton's basins
     #[arg(long, default_value_t = 0.1)]
     nearest: f64,
-    /// Greatest distance of the probes from the patch, in patch sizes
+    /// Maximum distance of the probes from the patch, in patch sizes
     #[arg(long, default_value_t = 1.0)]
     farthest: f64,
     /// Seed of the probes

@@ -10,22 +10,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-/// Runs cargo in a board's folder, with a compiler for its target: set up if it is missing.
+/// Runs cargo in a board's folder with a compiler for its target, installed if missing.
 ///
-/// `palpate firmware build --release` builds the images as `demo` and `test` do. What a board's own settings say holds
-/// too, such as the runner that flashes it: `palpate firmware --board stm32g4 run --release`. In the place of a command
-/// of cargo, `accept` builds the image for `palpate accept`, which has no way to drive a motor, and says where it is.
+/// `palpate firmware build --release` builds the images as `demo` and `test` do. The board's own cargo settings apply,
+/// such as its runner: `palpate firmware --board stm32g4 run --release` flashes it. `accept` instead of a cargo command
+/// builds the image for `palpate accept`, which cannot drive a motor, and prints its path.
 #[derive(Args, Debug)]
 #[command(trailing_var_arg = true)]
 pub struct Arguments {
-    /// The board
+    /// Board
     #[arg(long, value_enum, default_value_t)]
     board: AnyBoard,
-    /// The body to feel: a model (TOML), or the name of one that ships. It is baked, and its tables are laid where the
-    /// board has room for them
+    /// Body: a model file, or the name of a shipped one; it is baked, and its tables go to the fastest memory they fit
     #[arg(long, value_name = "MODEL")]
     body: Option<PathBuf>,
-    /// What cargo is to do, such as `build --release` or `clippy`; or `accept`, for the image of `palpate accept`
+    /// Cargo command, such as `build --release` or `clippy`; or `accept`, for the image of `palpate accept`
     #[arg(required = true, allow_hyphen_values = true)]
     cargo: Vec<String>,
 }

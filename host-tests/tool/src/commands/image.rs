@@ -11,17 +11,16 @@ pub const TICK: &str = "palpate_emulated::body::tick";
 /// What a core puts on the stack when an interrupt comes: 8 words of integers, 18 of floats, and one to align.
 pub const EXCEPTION_FRAME: i64 = 4 * (8 + 18 + 1);
 
-/// Prints what an emulated board's image takes of flash, RAM and stack, and what is proved of the tick from its machine
-/// code.
+/// Prints the flash, RAM and stack of an emulated board's image, and what its machine code proves of the tick.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The board
+    /// Board
     #[arg(long, value_enum, default_value_t)]
     board: Board,
-    /// The program: `uart` or `fifo`
+    /// Program: `uart` or `fifo`
     #[arg(long, default_value = "uart")]
     program: String,
-    /// With all protection of the device
+    /// All protection of the device
     #[arg(long)]
     protected: bool,
 }

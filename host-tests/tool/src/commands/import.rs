@@ -12,31 +12,31 @@ use std::process::ExitCode;
 
 /// Makes a model file of a CAD part (STEP: AP203, AP214, AP242).
 ///
-/// Faces become polynomial patches of degree 5 at most, each edge one curve that both its faces share, so that nothing
-/// gapes. Faces with any outline and holes are divided into quads, without a side that ends on another's middle. The
-/// result is compared with the part on dense points, both ways, and refused where it is farther off than the tolerance.
-/// Patches go by the names of their faces, with a number where a face has more than one.
+/// Faces become polynomial patches of degree 5 at most; each edge is one curve that both its faces share, so the result
+/// has no gaps. Faces with any outline and holes are divided into quads; no side ends in the middle of another. The
+/// result is compared with the part on dense points, both ways, and refused beyond the tolerance. Patches are named
+/// after their faces, with a number where a face has several.
 ///
-/// All solids and shells of the file, where the assembly places them, become one model. What cuts itself or another,
-/// lies in another, or is open, is said to. Exit status 2, a sentence and no file if something is wrong: also where
-/// three faces meet at an edge, as of solids that share a face.
+/// All solids and shells become one model, placed as in the assembly. Bodies that cut themselves or another, lie in
+/// another, or are open are imported and reported. Exit status 2 and no file if the part is refused: also where three
+/// faces meet at an edge, as of solids that share a face.
 ///
-/// The first run compiles the reader, which takes some minutes.
+/// The first run compiles the reader, which takes minutes.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The part: a .step or .stp file
+    /// Part: a .step or .stp file
     #[arg(value_name = "PART.step")]
     part: PathBuf,
-    /// The model file to write
+    /// Model file to write
     #[arg(long, value_name = "PART.toml")]
     out: PathBuf,
-    /// The largest deviation from the part that is allowed, millimetres
+    /// Maximum deviation from the part, mm
     #[arg(long, value_name = "MM", default_value_t = TOLERANCE)]
     tolerance: f64,
     /// Only the solids of this name
     #[arg(long, value_name = "NAME")]
     solid: Option<String>,
-    /// Draws the patches, their seams and, by colour, their deviation
+    /// Picture of patches, seams and, by colour, deviation
     #[arg(long, value_name = "FILE.svg")]
     picture: Option<PathBuf>,
 }

@@ -23,13 +23,13 @@ use std::time::{Duration, Instant};
 // The scene is the emulated board's alone: a device at a port has its own.
 #[command(mut_group("SceneOptions", |scene| scene.conflicts_with("port")))]
 pub struct Arguments {
-    /// Records everything to this CSV file
+    /// Record of everything (CSV)
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
-    /// Records the line's bytes, unchanged, to this file
+    /// File for the raw bytes of the line
     #[arg(long, value_name = "OUT")]
     raw: Option<PathBuf>,
-    /// Seconds to run; until the line closes if not given
+    /// Time after which it stops, s; default: when the line closes
     #[arg(long = "for", value_name = "SECONDS")]
     ends_after: Option<f64>,
     /// Serial port of the device, such as /dev/ttyACM0
@@ -151,7 +151,7 @@ impl View {
             raw: arguments.raw.as_ref().map(raw).transpose()?,
             refreshes: stdout().is_terminal(),
             start: Instant::now(),
-            ends_after: ends_after.context("--for is not a time")?,
+            ends_after: ends_after.context("--for must be a positive time")?,
             shown: None,
         })
     }

@@ -36,43 +36,43 @@ const SAFETY: Safety = Safety { link_timeout_s: 0.1, ..Safety::DEFAULT };
 /// The scene: which surface, which device, how it is to feel, and the hand.
 #[derive(Args, Debug, Clone)]
 pub struct SceneOptions {
-    /// The surface: a model file, the name of a model that ships, or a scene file (docs/howto/scenes.md)
+    /// Model: a file, the name of a shipped model, or a scene file (docs/howto/scenes.md)
     #[arg(long, default_value = "capped_box")]
     pub model: PathBuf,
-    /// One patch of the model, by name or index; without it, all patches joined to a body
+    /// One patch of the model, by name or index; default: all patches as one body
     #[arg(long)]
     pub patch: Option<String>,
-    /// The device, or the file of one's own (my.toml); feeling a surface takes three joints
+    /// Device: a name, or your own file (my.toml); a surface needs three joints
     #[arg(long, value_parser = devices::parser(), default_value = "woodenhaptics-2016")]
     pub device: Chosen,
-    /// Servo rate, Hz; 4,000, or what the emulated board has time for if that is less
+    /// Servo rate, Hz; default 4,000, or the highest that the emulated board has time for
     #[arg(long)]
     pub rate: Option<f32>,
-    /// Seconds to simulate
+    /// Simulated time, s
     #[arg(long, default_value_t = 5.0)]
     pub seconds: f64,
     /// Seed of the hand's path
     #[arg(long, default_value_t = 2)]
     pub seed: u64,
-    /// Stiffness of the surface, N/m; 1,000, or what the device takes if that is less
+    /// Stiffness of the surface, N/m; default 1,000, or the device's maximum if lower
     #[arg(long)]
     pub stiffness: Option<f32>,
-    /// Damping of the surface, N·s/m; 2, or what the device takes if that is less
+    /// Damping of the surface, N·s/m; default 2, or the device's maximum if lower
     #[arg(long)]
     pub damping: Option<f32>,
-    /// Greatest force, N; the device's own limit applies as well
+    /// Maximum force, N; the device's own limit applies too
     #[arg(long, alias = "greatest-force", default_value_t = 5.0)]
     pub max_force: f32,
     /// Corner frequency of the velocity filter, Hz
     #[arg(long, default_value_t = 150.0)]
     pub velocity_corner: f32,
-    /// Seconds over which the force is faded in
+    /// Soft start: time over which the force fades in, s
     #[arg(long, default_value_t = 0.1)]
     pub soft_start: f32,
-    /// With all protection of the device: its motors' heat, speeds, signs that are wrong
+    /// All protection of the device: motor heat, speeds, polarity
     #[arg(long)]
     pub protected: bool,
-    /// Where the model's origin lies in the device's workspace: x,y,z in mm from its centre; centres it if not given
+    /// Origin of the model in the workspace: x,y,z in mm from its centre; default: the model is centred
     #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
     pub at: Option<Vec<f64>>,
 }
@@ -107,7 +107,7 @@ impl SceneOptions {
         let is_scene = SceneFile::is_one(&file.text);
         let (felt, centre) = if is_scene {
             if self.patch.is_some() {
-                bail!("--patch is of a model, and {} is a scene", file.label);
+                bail!("--patch applies to models; {} is a scene", file.label);
             }
             (Felt::Scene(FeltScene::read(&file, &self.model)?), DVec3::ZERO)
         } else {
@@ -180,7 +180,7 @@ impl SceneOptions {
             if error == PathError::NoRoom {
                 anyhow!("{}: {error} (move it with --at)", scene.device.name)
             } else {
-                anyhow::Error::new(error).context("the hand finds no path")
+                anyhow::Error::new(error).context("the hand finds no path over the surface; move the model with --at over the surface; move the model with --at")
             }
         })?;
         Plant::new(&scene.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate_hz))

@@ -15,29 +15,29 @@ use std::process::ExitCode;
 /// The body that is shown first.
 const FIRST: &str = "capped_box";
 
-/// Writes the page for the browser: feel every model that ships with the mouse, by the firmware's own code.
+/// Writes the page for the browser: every shipped model, rendered by the firmware's own code, with the mouse as stylus.
 ///
-/// One HTML file that needs nothing beside it and no network: the firmware's servo loop as wasm, three.js, the
-/// models. The first run builds the code for the browser; what it needs for that is installed, and said.
+/// One HTML file, usable offline: the firmware's servo loop as wasm, three.js, the models. The first run builds the
+/// browser code and installs and lists missing tools.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The folder for the page, index.html
+    /// Folder for the page, index.html
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }
 
-/// Shows a model on the page for the browser, served on this machine alone.
+/// Serves the page with a model on the loopback.
 ///
-/// It prints the address and answers until it is stopped with Ctrl-C.
+/// Prints the address and runs until Ctrl-C.
 #[derive(Args, Debug)]
 pub struct ViewArguments {
-    /// The model: a file, or the name of one that ships
+    /// Model: a file, or the name of a shipped one
     #[arg(required_unless_present = "recording")]
     model: Option<PathBuf>,
-    /// A run that `demo` or `sim` has recorded, to be shown with its body
+    /// Recorded run of `demo` or `sim`, shown with its body
     #[arg(long, value_name = "FILE.json", conflicts_with = "model")]
     recording: Option<PathBuf>,
-    /// The port; 0 is any that is free
+    /// Port; 0: any free one
     #[arg(long, default_value_t = 0)]
     port: u16,
 }

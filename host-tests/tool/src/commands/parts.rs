@@ -15,17 +15,16 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Imports and bakes CAD parts, and prints a table with a row for each.
+/// Imports and bakes CAD parts and prints a table with one row each.
 ///
-/// faces and patches; the largest deviation of the patches from the part or the other way; bytes of flash; what the
-/// bake of the locator took, in seconds of the processor, all cores together, and of the clock; the share of the
-/// locator's leaves with a proof of the way down (what the others have, `bake --table-report` says). Where PART.csv
-/// lies beside PART.step, with columns qx,qy,qz,dist,inside, the greatest error of a cold query's distance and how many
-/// rows are told to lie on the wrong side; where PART_track.csv does, the greatest error of the distance at one tick a
-/// row.
+/// Columns: faces and patches; largest deviation of patches and part, either way; flash bytes; bake time in processor
+/// seconds over all cores and clock seconds; fraction of the locator's leaves with a proof of the way down (`bake
+/// --table-report` has the rest). If PART.csv lies beside PART.step, with columns qx,qy,qz,dist,inside: the largest
+/// error of a cold query's distance, and the rows on the wrong side. If PART_track.csv does: the largest error at one
+/// tick per row.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The parts: .step or .stp files; models go too
+    /// Parts: .step or .stp files, or models
     #[arg(value_name = "PART.step", required = true)]
     parts: Vec<PathBuf>,
 }

@@ -11,23 +11,23 @@ use std::process::ExitCode;
 
 /// Races palpate against Newton's method, truck and parry: counted instructions, nanoseconds, errors, misses.
 ///
-/// The same surfaces and the same probes for all: Table I of the paper and its convex companion, every query by itself
-/// (500 golden probes near the surface) and following a probe (10,000 rows of a smooth path, and 2,000 golden rows). A
-/// miss is a distance wrong by more than 1e-4 of the patch's size, or no answer.
+/// All use the same surfaces and probes: Table I of the paper and its convex companion, every query by itself (500
+/// golden probes near the surface) and following a probe (10,000 rows of a smooth path, and 2,000 golden rows). A miss
+/// is a distance wrong by more than 1e-4 of the patch's size, or no answer.
 ///
-/// Instructions are counted by valgrind, query by query, and repeat exactly on one machine; it is installed where that
-/// needs no password. Nanoseconds are this machine's, the quickest of five runs of each query.
+/// Instructions are counted by valgrind per query and repeat exactly on one machine; it is installed if that needs no
+/// password. Nanoseconds are the quickest of five runs of each query.
 ///
-/// The first run compiles the peers, which takes some minutes.
+/// The first run compiles the peers, which takes minutes.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Folder for the numbers (race.csv) and the picture (race.svg)
+    /// Folder for numbers (race.csv) and picture (race.svg)
     #[arg(long, default_value = "palpate-report/race")]
     out: PathBuf,
-    /// Rows of the path: how many servo ticks its 1.2 m take
+    /// Rows of the path: servo ticks for its 1.2 m
     #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
     rows: u32,
-    /// Leaves the peers out, which take most of the time
+    /// Skip the peers, which take most of the time
     #[arg(long)]
     without_peers: bool,
 }

@@ -17,10 +17,10 @@ use std::process::ExitCode;
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneOptions,
-    /// Records every tick to this CSV file
+    /// Record of every tick (CSV)
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
-    /// Records the run to this file for the page in the browser (`view --recording`)
+    /// Recording for the page in the browser (`view --recording`)
     #[arg(long, value_name = "FILE.json")]
     recording: Option<PathBuf>,
 }

@@ -49,7 +49,7 @@ pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
 pub(super) fn as_file(bytes: usize, body: &BakedBody) -> Result<String, Error> {
     let mut report = String::new();
     row(&mut report, "as a file", bytes, "bytes (.palp), read where they lie")?;
-    row(&mut report, "room for it", room(body), "bytes of RAM on a 32-bit target, for its faces and edges")?;
+    row(&mut report, "RAM for it", room(body), "bytes on a 32-bit target, for its faces and edges")?;
     Ok(report)
 }
 
@@ -86,11 +86,7 @@ fn leaves(report: &mut String, locator: &LocatorReport) -> Result<(), Error> {
         row(report, &format!("  {kind}"), count, &format!("{}  {meaning}", share(count)))?;
     }
     if locator.loosest > 0.0 {
-        writeln!(
-            report,
-            "  where a bound is known without a proof of one minimum, {:.3} mm may be lost at most",
-            1e3 * locator.loosest
-        )?;
+        writeln!(report, "  worst-case error bound where one minimum is not proved: {:.3} mm", 1e3 * locator.loosest)?;
     }
     Ok(())
 }

@@ -13,23 +13,23 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 
-/// Speaks with a running device: reads it, moves and switches what it feels, uploads bodies, adds a force.
+/// Controls a running device: reads it, moves and switches its bodies, uploads bodies, adds a force.
 ///
-/// A line is a command, in millimetres, degrees and newtons; `help` lists them. What is not understood or refused says
-/// why. Where lines come from a file, the first that fails ends it with exit status 2. While it runs the device hears
-/// from it; a device that watches its link stops once it ends.
+/// Each line is a command, in millimetres, degrees and newtons; `help` lists them. An error states its reason. In a
+/// script the first error ends the run with exit status 2. `talk` keeps the link alive while it runs; a device that
+/// watches its link stops when it ends.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The serial port the device is on, such as /dev/ttyACM0
+    /// Serial port, such as /dev/ttyACM0
     #[arg(long, group = "where")]
     port: Option<String>,
-    /// The port's speed
+    /// Baud rate
     #[arg(long, default_value_t = 500_000)]
     baud: u32,
-    /// An emulated board with a simulated arm over two capped boxes, instead of a device
+    /// Emulated board with a simulated arm over two capped boxes
     #[arg(long, value_enum, group = "where")]
     emulator: Option<Board>,
-    /// The same without an emulator: the boards' loop compiled for the host
+    /// The boards' loop compiled for the host, with the same arm
     #[arg(long, group = "where")]
     host: bool,
 }

@@ -16,28 +16,28 @@ use std::process::{Command, ExitCode};
 /// What `--quick` asks of `cargo test`: an argument a line. `.ci/quick` reads the same file.
 const QUICK: &str = include_str!("../../../../.ci/quick.tests");
 
-/// Sets up what it needs and runs every test: host, emulator, drift and budgets.
+/// Runs every test: host, emulator, drift and budgets. Installs missing tools and lists them.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Only the tests for every day, in a few minutes: what takes long and what needs the emulator is left out.
+    /// Only the everyday tests, in a few minutes: no long ones, no emulator.
     #[arg(long, conflicts_with = "without_emulator")]
     quick: bool,
-    /// Leaves the emulator out: runs only what plain `cargo test` runs.
+    /// Skip the emulator: the tests of plain `cargo test`.
     #[arg(long)]
     without_emulator: bool,
-    /// Leaves suites out that have a run of their own, as in a CI whose other lanes run them.
+    /// Suites to skip, for a CI with separate lanes for them.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "SUITES")]
     without: Vec<Suite>,
-    /// Only the page for the browser, in headless Chromium: sets up the browser, the code for it and the emulator.
+    /// Only the page for the browser, in headless Chromium: installs the browser, its code and the emulator.
     #[arg(long, conflicts_with_all = ["quick", "without_emulator"])]
     page: bool,
-    /// Only the tests of the C library, with what they need set up: a C compiler for the boards, and the emulator.
+    /// Only the C library: installs a C compiler for the boards, and the emulator.
     #[arg(long, conflicts_with_all = ["quick", "without_emulator", "page"])]
     c: bool,
-    /// Only the tests of the wheel for Python, with what they need set up in virtual environments in `target/python`.
+    /// Only the Python wheel: installs its tools in virtual environments in `target/python`.
     #[arg(long, conflicts_with_all = ["quick", "without_emulator", "page", "c"])]
     python: bool,
-    /// Passed on to `cargo test`, or with `--python` to pytest.
+    /// Arguments for `cargo test`, or with `--python` for pytest.
     #[arg(last = true)]
     cargo_test: Vec<String>,
 }

@@ -17,25 +17,25 @@ use palpate_sim::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words}
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Finds how stiff and how damped a virtual wall may be on a device: a table, and a plot with the passive bound.
+/// Finds the stiffest and most damped wall of a device: a table, and a plot with the passive bound.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The device; `all` compares every device.
+    /// Device, or `all`.
     #[arg(long, default_value = "woodenhaptics-2016", value_parser = names())]
     device: String,
-    /// One servo rate, Hz; all of 1, 2, 4 and 8 kHz unless given.
+    /// Servo rate, Hz; default: 1, 2, 4 and 8 kHz.
     #[arg(long)]
     rate: Option<f64>,
-    /// The velocity estimator.
+    /// Velocity estimator.
     #[arg(long, value_enum, default_value = "low-pass")]
     velocity: Velocity,
     /// Corner frequency of the velocity estimator, Hz.
     #[arg(long, default_value_t = 200.0)]
     corner: f64,
-    /// Damping that begins with the push, and a bounded change of force, as the eased and smooth renderings have them.
+    /// Damping that grows with the push, and a limited change of force, as in the eased and smooth renderings.
     #[arg(long)]
     ease: bool,
-    /// Where the plot goes; `--device all` draws none.
+    /// Plot file (SVG); none with `--device all`.
     #[arg(long, default_value = "palpate-report/zwidth.svg")]
     plot: PathBuf,
 }
@@ -107,7 +107,7 @@ fn print_table(slice: &Slice, device: &ShippedDevice, arguments: &Arguments, rat
     );
     println!("{}", device.assumed);
     println!(
-        "greatest stiffness, N/m, simulated (passive bound), hit at 50 mm/s and pressed with 0.3 and 1 N, or 1.5 times dry friction"
+        "maximum stiffness, N/m, simulated (passive bound), hit at 50 mm/s and pressed with 0.3 and 1 N, or 1.5 times dry friction"
     );
     for rate in rates {
         print!("\n{:>5} kHz  B, N·s/m", rate / 1_000.0);
@@ -125,7 +125,7 @@ fn print_table(slice: &Slice, device: &ShippedDevice, arguments: &Arguments, rat
     println!();
     for delay in DELAYS {
         let best = |rate: f64| best(limits, rate, delay)[0];
-        print!("delay {delay} T: greatest at any damping");
+        print!("delay {delay} T: maximum at any damping");
         rates.iter().for_each(|rate| print!("  {} kHz {} N/m", rate / 1_000.0, in_words(slice, best(*rate))));
         if rates.contains(&1_000.0) && rates.contains(&8_000.0) {
             print!("  8 kHz : 1 kHz = {:.2}", best(8_000.0) / best(1_000.0));

@@ -224,7 +224,7 @@ impl Device {
                 return Ok(());
             }
         }
-        bail!("nobody presses the enable button for half a minute{}", said(&self.last))
+        bail!("the enable button was not pressed for half a minute{}", said(&self.last))
     }
 
     /// The next reading.

@@ -167,7 +167,7 @@ impl Person {
     fn ask(&self, what: &str) -> anyhow::Result<String> {
         print!("\n{what}\n> ");
         stdout().flush()?;
-        keyboard::line().context("cannot read the terminal")?.context("nobody answers any more")
+        keyboard::line().context("cannot read the terminal")?.context("standard input was closed")
     }
 }
 

@@ -66,7 +66,7 @@ pub(super) fn find_torques(
         let motor = &mut joint.motor;
         let found = full / (motor.current_at_full * motor.ratio).abs();
         if !found.is_finite() || found <= 0.0 {
-            bail!("joint {}: the weight changed nothing", joint.name);
+            bail!("joint {}: the added mass changed nothing; use a larger one", joint.name);
         }
         // The weight's duty is read to the last step of the ramp, 1.5 % of it and of friction.
         if differs(found, motor.torque_constant, 0.05) {
@@ -125,7 +125,11 @@ fn edges(
             return Ok([up, up - drop]);
         }
         if !reading.live {
-            bail!("joint {}: key or button were let go in the middle of a measurement{}", entry.name, said(&reading));
+            bail!(
+                "joint {}: key or enable button were released during a measurement{}; start again",
+                entry.name,
+                said(&reading)
+            );
         }
     }
     bail!("joint {}: it does not sink back on its support", entry.name)

@@ -163,7 +163,7 @@ fn arriving(area: &Drawing<'_>, rates: &[Rate]) -> DrawingResult {
 }
 
 fn following(area: &Drawing<'_>, lags: &[Lag]) -> DrawingResult {
-    let title = "(B) following: greatest lag at 4 kHz";
+    let title = "(B) following: maximum lag at 4 kHz";
     let [x_label, y_label] = ["log₁₀ speed, m/s", "log₁₀ ‖x − x*‖"];
     let mut chart = Axes { title, x: (-2.0, 0.0), y: (LEAST.log10(), 0.0), x_label, y_label }.chart(area)?;
     for (law, name, ink) in [(0, "the paper's law, certified gain", GREEN_INK), (1, "second order", BLUE_INK)] {

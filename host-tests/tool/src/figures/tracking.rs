@@ -317,7 +317,7 @@ pub fn draw_limits(limits: &[Limit], rest: &Configuration) -> anyhow::Result<Str
         let x = limits.iter().map(|limit| limit.product).fold(0.0, f64::max) + 0.1;
         // Both lines from the start on: 2.785 / h at most.
         let y = 2_900.0;
-        let title = "Greatest stable gain, step 1 ms: lines predicted, marks measured";
+        let title = "Maximum stable gain, step 1 ms: lines predicted, marks measured";
         let x_label = "κ ‖ΔR‖";
         let mut chart = Axes { title, x: (0.0, x), y: (0.0, y), x_label, y_label: "K, 1/s" }.chart(area)?;
         for (integrator, name, ink, radius) in [

@@ -122,11 +122,11 @@ impl BenchBoard {
         let [fast, flash] = self.room(kind);
         let kb = |bytes: u64| format!("{:.1} KB", bytes as f64 / KB as f64);
         match self.place(kind, tables) {
-            Some(Place::Fast) => format!("in the fastest memory, which has room for {}", kb(fast)),
+            Some(Place::Fast) => format!("in the fastest memory, of {}", kb(fast)),
             Some(Place::Flash) => {
-                format!("in flash, behind its cache: the fastest memory has room for {} of {}", kb(fast), kb(tables))
+                format!("in flash, behind its cache: the fastest memory has {} for {}", kb(fast), kb(tables))
             }
-            None => format!("do not fit: {} of tables, and room for {} in flash", kb(tables), kb(flash)),
+            None => format!("do not fit: {} of tables, {} of flash", kb(tables), kb(flash)),
         }
     }
 }

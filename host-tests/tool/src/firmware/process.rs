@@ -14,13 +14,13 @@ pub enum SetUpError {
     #[error(transparent)]
     NoRepository(#[from] NoRepository),
     /// No emulator, and none can be had.
-    #[error("no emulator: {0}")]
+    #[error("emulator not available: {0}")]
     NoEmulator(String),
     /// No compiler for the target, and none can be had.
-    #[error("no compiler for the target: {0}")]
+    #[error("compiler for the target not available: {0}")]
     NoToolchain(String),
     /// No browser, and none can be had.
-    #[error("no browser: {0}")]
+    #[error("browser not available: {0}")]
     NoBrowser(String),
     /// A program ended with an error.
     #[error("`{command}` failed ({status})\n{output}")]

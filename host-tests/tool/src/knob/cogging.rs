@@ -212,7 +212,7 @@ pub fn record(device: &mut Device, hands: &mut dyn Hands) -> anyhow::Result<Reco
                 let why = said(&reading);
                 // What was refused stands until the key is let go.
                 device.step(None)?;
-                bail!("the recording has ended before its time{why}; nothing is written: begin anew");
+                bail!("the recording ended early{why}; no file is written; start again");
             }
             let gone = sample(&reading).field.wrapping_sub(begun);
             if if duty > 0 { gone >= LED } else { gone <= 0 } {
@@ -234,8 +234,8 @@ fn wait_for_key(device: &mut Device, duty: i16) -> anyhow::Result<()> {
             return Ok(());
         }
         if reading.refusal != 0 {
-            bail!("the knob does not begin{}", said(&reading));
+            bail!("the knob does not start{}", said(&reading));
         }
     }
-    bail!("nobody holds the key for half a minute{}", said(&device.last()))
+    bail!("the key was not held for half a minute{}", said(&device.last()))
 }

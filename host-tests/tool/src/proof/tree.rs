@@ -197,7 +197,7 @@ pub enum StackError {
         function: String,
     },
     /// A call to what is no function, or through a pointer.
-    #[error("{function} calls what is not known at {address:#x}")]
+    #[error("{function} has an unknown call target at {address:#x}")]
     UnknownCall {
         /// Where.
         function: String,

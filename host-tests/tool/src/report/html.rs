@@ -34,8 +34,7 @@ pub fn write_page(page: &Page<'_>, path: &Path) -> anyhow::Result<()> {
     if let Some(drawing) = plots::instructions(page.trace)? {
         sections.push(("Instructions a tick", "Counted under the emulator.", drawing));
     }
-    let link =
-        page.replay.as_ref().map(|file| (file.as_ref(), "The same run in 3-D, felt anew by the firmware's code"));
+    let link = page.replay.as_ref().map(|file| (file.as_ref(), "The same run in 3-D, replayed by the firmware's code"));
     write_linked([page.title, page.subtitle], link, page.figures, &sections, path)
 }
 

@@ -60,7 +60,7 @@ pub enum Asked {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Misunderstood {
     /// There is no such word.
-    #[error("there is no command {0:?}; help says what there is")]
+    #[error("unknown command {0:?}; `help` lists all")]
     Word(String),
     /// Something is missing.
     #[error("{form}: {what} is missing")]
@@ -71,7 +71,7 @@ pub enum Misunderstood {
         what: &'static str,
     },
     /// Something is not what it should be.
-    #[error("{form}: {word:?} is no {what}")]
+    #[error("{form}: {word:?} is not a valid {what}")]
     Wrong {
         /// How it is said.
         form: &'static str,
@@ -81,7 +81,7 @@ pub enum Misunderstood {
         what: &'static str,
     },
     /// Something is left over.
-    #[error("{form}: {word:?} is too much")]
+    #[error("{form}: {word:?} is one argument too many")]
     TooMuch {
         /// How it is said.
         form: &'static str,
@@ -105,11 +105,11 @@ pub const FORMS: [(&str, &str); 22] = [
     ("harden BODY STIFFNESS DAMPING", "another stiffness in N/m and damping in N·s/m"),
     ("rub BODY STIFFNESS DAMPING STATIC DYNAMIC", "other friction: N/m, N·s/m, two coefficients; `rub BODY off`"),
     ("tip MM", "a ball of this radius at the tip"),
-    ("limit N", "the greatest force of all of the scene"),
+    ("limit N", "maximum force of the scene"),
     ("upload BODY FILE", "a body's file (.palp), or a model, in the place of a body"),
     ("keep BODY FILE", "the same, and it stays without power; the motors must be off, and stay off meanwhile"),
     ("back BODY", "the body that the device was built with takes the place of an uploaded or kept one"),
-    ("forget BODY", "the same, and what is kept is forgotten; the motors must be off"),
+    ("forget BODY", "the same, and delete the stored body; the motors must be off"),
     ("wait SECONDS", "the next line of a file waits"),
     ("stop", "stops the device until it is reset"),
     ("ack", "goes on after a reset by the watchdog or a brown-out"),

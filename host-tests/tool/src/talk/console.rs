@@ -133,7 +133,7 @@ impl<'a, L: Line> Console<'a, L> {
             }
             Asked::Turn(body, orientation) => {
                 let Some(Pose { position, .. }) = self.poses.get(&body).copied() else {
-                    anyhow::bail!("where body {body} is is not known here: place it first");
+                    anyhow::bail!("the place of body {body} is unknown; place it first");
                 };
                 self.place(body, Pose { position, orientation })?;
             }
@@ -166,7 +166,7 @@ impl<'a, L: Line> Console<'a, L> {
         let hello = self.device.hello();
         let memory = match hello.room {
             0 => "no memory for bodies".to_owned(),
-            room => format!("room for a body of {room} bytes, {} faces and {} edges", hello.faces, hello.edges),
+            room => format!("memory for a body of {room} bytes, {} faces and {} edges", hello.faces, hello.edges),
         };
         let flash = match (hello.flash, hello.kept) {
             (0, _) => String::new(),
@@ -180,7 +180,7 @@ impl<'a, L: Line> Console<'a, L> {
     fn begin_anew(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {
         (self.pushes, self.poses) = (None, BTreeMap::new());
         self.device.greet()?;
-        writeln!(output, "the device has begun anew: it feels what it was built with, where that was")?;
+        writeln!(output, "the device was reset: it renders its built-in body, in its first place")?;
         Ok(())
     }
 

@@ -33,8 +33,8 @@ fn the_sketch_links_with_every_library_of_the_folder() {
         let _alone = alone();
         c_library::run(&arguments).expect("the folder is written");
     }
-    let refused = c_library::run(&arguments).expect_err("it is there already");
-    assert!(refused.to_string().contains("there already"), "{refused}");
+    let refused = c_library::run(&arguments).expect_err("already exists");
+    assert!(refused.to_string().contains("already exists"), "{refused}");
     let properties = fs::read_to_string(out.join("library.properties")).expect("properties");
     for key in ["name=", "version=", "author=", "sentence=", "architectures=", "precompiled=full", "ldflags=-lpalpate"]
     {

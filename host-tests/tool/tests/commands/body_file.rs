@@ -72,7 +72,7 @@ fn what_cannot_be_done_with_a_file_is_told() -> Result<(), Box<dyn Error>> {
     for (arguments, wanted) in [
         (vec!["check", broken], "broken.palp: the file is damaged: its CRC-32 is"),
         (vec!["check", "absent.palp"], "absent.palp: cannot be read"),
-        (vec!["bake", file, "--out", "x.palp", "--margin", "2"], "has its locator"),
+        (vec!["bake", file, "--out", "x.palp", "--margin", "2"], "already contains a locator"),
         (vec!["figures", "--model", file], "holds tables only"),
     ] {
         let run = palpate(&arguments)?;

@@ -29,7 +29,7 @@ pub fn plot(path: &Path, slice: &Slice, limits: &[Limit]) -> anyhow::Result<()> 
         chart
             .configure_mesh()
             .x_desc("damping of the wall, N·s/m (left edge: none)")
-            .y_desc("greatest stiffness, N/m")
+            .y_desc("maximum stiffness, N/m")
             .light_line_style(WHITE)
             .draw()?;
         let mut delays: Vec<f64> = limits.iter().map(|limit| limit.delay_periods).collect();
