@@ -90,7 +90,7 @@ fn compare(is_wanted: &dyn Fn(&str) -> bool) {
         );
         println!("{name}: {PROBES} probes and {TICKS} ticks the same, {:.1} s", begun.elapsed().as_secs_f64());
         measured_if_listed(&format!("bytes of the file of `{name}`"), grouped(bytes.len() as u64));
-        measured_if_listed(&format!("room for the file of `{name}`"), grouped(room(&baked) as u64));
+        measured_if_listed(&format!("RAM for the file of `{name}`"), grouped(room(&baked) as u64));
     }
 }
 

@@ -65,7 +65,7 @@ fn check(name: &'static str) {
     let count = grouped(count.into());
     measured_if_listed(&format!("{count} probes outside `{name}`, one owner each: ties"), ties);
     measured_if_listed(
-        &format!("{count} probes outside `{name}`, one owner each: greatest error"),
+        &format!("{count} probes outside `{name}`, one owner each: maximum error"),
         format!("{worst:.1e}"),
     );
 }

@@ -159,7 +159,7 @@ fn every_start_converges(controller: &Controller, law: &str) -> usize {
         &format!("of them with the probe beyond the rim, that rest at another point{law}"),
         grouped(elsewhere as u64),
     );
-    measured(&format!("greatest rise of `V` in these runs{law}"), format!("{rise_ulps:.2}"));
+    measured(&format!("maximum rise of `V` in these runs{law}"), format!("{rise_ulps:.2}"));
     measured(&format!("rejected steps in these runs{law}"), rejected);
     near
 }

@@ -106,8 +106,8 @@ fn the_gain_at_which_stability_ends_is_the_predicted_one() {
         }
     }
     assert!(worst <= 0.05, "measured and predicted limit differ by {worst}");
-    measured("stability limit of the gain, measured over predicted: least", format!("{lowest:.4}"));
-    measured("stability limit of the gain, measured over predicted: greatest", format!("{highest:.4}"));
+    measured("stability limit of the gain, measured over predicted: minimum", format!("{lowest:.4}"));
+    measured("stability limit of the gain, measured over predicted: maximum", format!("{highest:.4}"));
 }
 
 /// A smooth closed path of feet, all inside the patch, and the probe above them at a speed.

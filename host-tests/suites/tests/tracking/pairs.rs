@@ -157,7 +157,7 @@ fn the_closest_pair_of_moving_bodies_is_found() {
     // Rounding of both points and of the placement, some 30 units in the last place.
     assert!(rise < 4e-6, "V rose by {rise:e} of the size");
     assert_eq!(rejected, 0);
-    measured(&format!("{} moving pairs of patches: greatest error", grouped(pairs())), format!("{worst:.1e}"));
+    measured(&format!("{} moving pairs of patches: maximum error", grouped(pairs())), format!("{worst:.1e}"));
 }
 
 #[test]
@@ -189,7 +189,7 @@ fn the_common_normal_is_found_from_apart_through_contact_into_penetration() {
         worst_depth = worst_depth.max(depth / size);
     }
     println!("to a depth of {worst_depth:.2} sizes");
-    measured(&format!("{} common normals: greatest error of the depth", grouped(pairs())), format!("{worst:.1e}"));
+    measured(&format!("{} common normals: maximum error of the depth", grouped(pairs())), format!("{worst:.1e}"));
 }
 
 /// A cap of the sphere of a radius about the origin, around the direction +z.

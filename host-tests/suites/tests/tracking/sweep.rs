@@ -216,9 +216,9 @@ fn sweep(controller: &Controller, law: &str) {
         measured(&format!("{} steps over generated patches{law}: {what}", grouped(wanted)), value)
     };
     row("patches", grouped(counts.patches));
-    row("greatest rise of `V`", format!("{:.1}", counts.rise_ulps));
+    row("maximum rise of `V`", format!("{:.1}", counts.rise_ulps));
     row("rejected steps", counts.rejected.to_string());
-    row("greatest error of a distance", format!("{:.1e}", counts.distance));
+    row("maximum error of a distance", format!("{:.1e}", counts.distance));
 }
 
 #[test]

@@ -138,7 +138,10 @@ pub(super) fn grow(
             // The key or the button was let go: from the start.
             tries += 1;
             if tries == TRIES {
-                bail!("output {output}: key or enable button were released repeatedly{}; hold both and start again", said(&reading));
+                bail!(
+                    "output {output}: key or enable button were released repeatedly{}; hold both and start again",
+                    said(&reading)
+                );
             }
             lab.device.wait_for_enable()?;
             share = from;

@@ -93,7 +93,7 @@ fn evaluation_in_single_precision_is_within_2e_6_of_the_golden_values() -> Resul
             .max(error(found.tangent_u, row.tangent_u(), row.tangent_u().length()))
             .max(error(found.tangent_v, row.tangent_v(), row.tangent_v().length()));
     }
-    measured("evaluation of Table I at 100 golden points: greatest error", format!("{worst:.1e}"));
+    measured("evaluation of Table I at 100 golden points: maximum error", format!("{worst:.1e}"));
     assert!(worst < 2e-6, "largest relative error {worst:e}");
     Ok(())
 }
@@ -129,7 +129,7 @@ fn cold_queries_find_the_closest_point_of_the_whole_patch() -> Result<(), Box<dy
         assert!(rows.iter().all(|(_, printed)| printed.status == "converged"), "{file}");
         (greatest, dearest) = (greatest.max(worst), dearest.max(steps[499]));
     }
-    measured("cold, 2,000 golden probes of Table I and its companion: greatest error", format!("{greatest:.1e}"));
+    measured("cold, 2,000 golden probes of Table I and its companion: maximum error", format!("{greatest:.1e}"));
     measured("cold, 2,000 golden probes of Table I and its companion: evaluations at most", dearest);
     Ok(())
 }
@@ -144,7 +144,7 @@ fn tracking_follows_the_probe_with_one_step_a_row_and_better_with_four() -> Resu
         let most = 2 * ticks.parse::<u32>()?;
         assert!(rows[1..].iter().all(|(_, row)| row.status == "tracking" && row.steps <= most));
         let worst = rows[20..].iter().map(|row| excess(row).abs()).fold(0.0, f64::max);
-        let claim = format!("following a moving probe, 2,000 golden rows, {ticks} steps a row: greatest error");
+        let claim = format!("following a moving probe, 2,000 golden rows, {ticks} steps a row: maximum error");
         measured(&claim, format!("{worst:.1e}"));
         assert!(worst <= limit, "{ticks} steps a row: off by {worst:e} of the size");
     }
@@ -171,7 +171,7 @@ fn bodies(model: &str, queries: &str, size: f64, tolerance: f64) -> Result<(), B
         worst = worst.max(off);
     }
     let dearest = printed.iter().map(|row| row.steps).max().unwrap_or_default();
-    measured(&format!("cold, 500 golden probes of `{model}`: greatest error"), format!("{worst:.1e}"));
+    measured(&format!("cold, 500 golden probes of `{model}`: maximum error"), format!("{worst:.1e}"));
     measured(&format!("cold, 500 golden probes of `{model}`: evaluations at most"), dearest);
     Ok(())
 }

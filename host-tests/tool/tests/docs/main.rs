@@ -2,6 +2,7 @@
 //!
 //! `PALPATE_WRITE=1 cargo test -p palpate-tool --test docs` writes the generated parts.
 
+mod book;
 mod byte_tables;
 mod commands;
 mod file_page;

@@ -24,7 +24,7 @@ fn every_example_bakes() {
 #[test]
 fn every_refusal_is_listed_with_its_message() {
     let page = text(PAGE);
-    let (_, refusals) = page.split_once("## What is refused").expect("a section");
+    let (_, refusals) = page.split_once("## Refused input").expect("a section");
     // The code of a row's first cell; back quotes within it are written by two around it.
     let listed: BTreeSet<String> = refusals
         .lines()
@@ -50,7 +50,7 @@ fn every_message_names_the_file_and_the_patch() {
     assert!(seam.to_string().starts_with("part.toml: the body"));
 }
 
-/// What is refused of the file as a whole.
+/// Refusals of the file as a whole.
 fn files() -> Vec<String> {
     let unknown = "name = \"part\"\nscale = 2\n";
     let syntax = Model::parse(unknown, "part.toml").expect_err("an unknown key").to_string();

@@ -1,6 +1,7 @@
 //! `docs/reference/measured.md`: each row is held by a test or a budget, and names a command that is there.
 
 use crate::pages::{cells, sources, text};
+use palpate::servo::ServoState;
 use palpate_tool::budgets::Budget;
 use palpate_tool::firmware::Board;
 use palpate_truth::measured::{self, Row, grouped};
@@ -84,6 +85,11 @@ fn every_command_of_a_row_is_one_that_there_is() {
         };
         assert!(is_there, "{claim}: there is no {command:?}");
     }
+}
+
+#[test]
+fn the_state_of_a_loop_on_a_body() {
+    measured::measured("RAM of the state of a loop of three joints on a body", size_of::<ServoState<3>>());
 }
 
 #[test]

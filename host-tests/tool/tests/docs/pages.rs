@@ -15,7 +15,8 @@ pub fn text(path: &str) -> String {
 }
 
 /// The folders of the book.
-pub const BOOK: [&str; 5] = ["docs", "docs/howto", "docs/reference", "docs/explanation", "docs/figures"];
+pub const BOOK: [&str; 6] =
+    ["docs", "docs/tutorial", "docs/howto", "docs/reference", "docs/explanation", "docs/figures"];
 
 /// Every page, by its path in the repository.
 pub fn all() -> Vec<String> {
