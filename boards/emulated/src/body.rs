@@ -85,6 +85,6 @@ const fn protection() -> Protection<3> {
 /// and nothing else.
 #[inline(never)]
 pub fn tick(state: &mut State, input: Input<3>) {
-    planted::fault(state);
+    planted::fault(state.ticks(), state.fade(), state.frames_lost());
     SERVO.tick(state, input);
 }

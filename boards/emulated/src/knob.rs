@@ -50,7 +50,7 @@ impl<L: Link> KnobLoop<L> {
     pub fn new(board: &Board, link: L, systick: SYST) -> Self {
         Self {
             link,
-            state: SERVO.start_after(board.reset_reason()),
+            state: SERVO.start_after(board.reset.reason()),
             frozen: FROZEN,
             counter: InstructionCounter::new(board, systick),
             silent_ticks: 0,

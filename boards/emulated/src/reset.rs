@@ -3,8 +3,6 @@
 use palpate::servo::ResetReason;
 use vcell::VolatileCell;
 
-use crate::board::Board;
-
 /// The register that says why the chip was reset. The emulator's says power-on, whatever came before.
 #[derive(Clone, Copy, Debug)]
 pub struct ResetRegister {
@@ -26,16 +24,16 @@ impl ResetRegister {
         Self { address: 0x5002_1100, requested: 1 << 4, hung: 0b1100_1110, cleared_by_one: false };
 }
 
-impl Board {
-    /// The reason, read once: the flags are cleared, lest the next reset finds them still up.
-    pub fn reset_reason(&self) -> ResetReason {
+impl ResetRegister {
+    /// The reason, read once: the flags are cleared, so that the next reset does not find them.
+    pub fn reason(&self) -> ResetReason {
         // SAFETY: the address is the chip's, the register is there for good, and a `VolatileCell` may be shared.
-        let register = unsafe { &*(self.reset.address as *const VolatileCell<u32>) };
+        let register = unsafe { &*(self.address as *const VolatileCell<u32>) };
         let flags = register.get();
-        register.set(if self.reset.cleared_by_one { flags } else { 0 });
-        if flags & self.reset.hung != 0 {
+        register.set(if self.cleared_by_one { flags } else { 0 });
+        if flags & self.hung != 0 {
             ResetReason::Watchdog
-        } else if flags & self.reset.requested != 0 {
+        } else if flags & self.requested != 0 {
             ResetReason::Software
         } else {
             ResetReason::PowerOn

@@ -35,7 +35,7 @@ impl<L: Link> ServoLoop<L> {
     pub fn new(board: &Board, link: L, systick: SYST) -> Self {
         Self {
             link,
-            state: SERVO.start_after(board.reset_reason()),
+            state: SERVO.start_after(board.reset.reason()),
             counter: InstructionCounter::new(board, systick),
             silent_ticks: 0,
         }

@@ -4,7 +4,7 @@ use crate::body::Loaded;
 use crate::handle::Handle;
 use crate::link::Listening;
 use crate::pair::Paired;
-use crate::servo::Started;
+use crate::servo::{SERVO_WORDS, Started};
 use crate::tracker::Tracking;
 use palpate_core::body::{Edge, Face};
 
@@ -21,8 +21,6 @@ pub const BODY_WORDS: usize = if NARROW { 24 } else { 20 };
 pub const TRACKER_WORDS: usize = if NARROW { 76 } else { 40 };
 /// Words of a pair.
 pub const PAIR_WORDS: usize = if NARROW { 56 } else { 32 };
-/// Words of a servo.
-pub const SERVO_WORDS: usize = if NARROW { 500 } else { 260 };
 /// Words of a receiver.
 pub const RECEIVER_WORDS: usize = if NARROW { 38 } else { 22 };
 

@@ -3,7 +3,6 @@
 use crate::body::{Loaded, Standing};
 use crate::handle::{Handle, Kind};
 use crate::mechanisms::MechanismNumbers;
-use crate::memory::SERVO_WORDS;
 use crate::numbers::{DeviceNumbers, SettingsNumbers};
 use crate::pointers::{checked_mut, get, put, row};
 use crate::protection::Guarding;
@@ -16,7 +15,9 @@ use palpate_core::device::{Device, Kinematics};
 use palpate_core::servo::{Event, Guard, ResetReason, Servo};
 use palpate_core::track::Controller;
 
-/// Words that hold any mechanism's device, loop and state: a handle's, less what goes before them.
+/// Words of a servo's handle: of 32 bits on a microcontroller, of 64 on most hosts.
+pub const SERVO_WORDS: usize = if size_of::<usize>() == 4 { 500 } else { 260 };
+/// Words that hold any mechanism's device, loop and state: a handle's, without its head.
 const WORDS: usize = SERVO_WORDS - 6;
 
 /// A loop in the caller's memory.
