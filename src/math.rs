@@ -1,4 +1,4 @@
-//! The only file that names a mathematics library. Each function says its error and what it costs on a Cortex-M4F.
+//! The only file that names a mathematics library. Each function states its error and its cost on a Cortex-M4F.
 //!
 //! Nothing here uses fused multiply-add: without the hardware instruction it is software `f64`, and with it the host
 //! and the target would differ in the last bit.
@@ -8,9 +8,9 @@ pub use glam::{Vec2, Vec3, vec2, vec3};
 /// `1/√x` for a normal positive `x`. About 20 instructions, no division.
 ///
 /// Error at most 2 units in the last place (tested for all mantissas and both parities of the exponent, on which alone
-/// it depends); anything finite for what is not a normal positive number. Halving and negating the exponent gives 3.5 %
-/// (the constant is J. Blinn's and G. Tarolli's, C. Lomont, *Fast inverse square root*, 2003); each Newton step `y (3 −
-/// x y²)/2` squares the error.
+/// it depends). For other numbers the result is finite and arbitrary. Halving and negating the exponent gives 3.5 %
+/// (the constant is J. Blinn's and G. Tarolli's, C. Lomont, *Fast inverse square root*, 2003); each Newton step `y (3
+/// − x y²)/2` squares the error.
 #[inline]
 pub fn inverse_sqrt(x: f32) -> f32 {
     let half = 0.5 * x;
@@ -31,8 +31,8 @@ pub fn inverse_sqrt_from_below(x: f32) -> f32 {
     y * (1.5 - half * y * y)
 }
 
-/// Square root. About 25 instructions, against 51 for `libm::sqrtf`, which has no Cortex-M path; inline assembly is not
-/// ours.
+/// Square root. About 25 instructions, against 51 for `libm::sqrtf`, which has no Cortex-M path; inline assembly would
+/// need `unsafe`.
 ///
 /// Error at most 2 units in the last place; exact for 0 and infinity; 0 below the normal numbers; NaN for a negative
 /// `x` and for a NaN.
@@ -49,7 +49,7 @@ pub fn sqrt(x: f32) -> f32 {
     }
 }
 
-/// How far [`sqrt_from_above`] may lie above the root, as a factor: `3/√8`, rounded up.
+/// Maximum of [`sqrt_from_above`] over the root, as a factor: `3/√8`, rounded up.
 pub const ROOT_EXCESS: f32 = 1.060_661;
 
 /// Not below `√x`, and at most [`ROOT_EXCESS`] times it for a normal `x`; `x` finite and not negative. Four
@@ -64,8 +64,8 @@ pub fn sqrt_from_above(x: f32) -> f32 {
     f32::from_bits((x.to_bits() >> 1) + 0x1fc0_0001)
 }
 
-/// `x` brought into `[low, high]`; a NaN becomes `low`. Plain comparisons: `f32::max` leaves the sign of zero open, and
-/// with it the last bit that host and target must share; `f32::clamp` panics where the ends are not in order.
+/// `x` saturated to `[low, high]`; NaN becomes `low`. Plain comparisons: `f32::max` leaves the sign of zero open, and
+/// with it the last bit that host and target must share; `f32::clamp` panics if `low > high`.
 #[inline]
 pub fn saturate(x: f32, low: f32, high: f32) -> f32 {
     if x > low { if x < high { x } else { high } } else { low }
@@ -151,15 +151,15 @@ mod tests {
     fn the_root_from_below_is_never_above_and_near() {
         for x in two_octaves() {
             let share = f64::from(inverse_sqrt_from_below(x)) * f64::from(x).sqrt();
-            // At the best place of the curve nothing but rounding: half a unit each of the product and the difference,
-            // and three quarters of what is taken off, which is a half.
+            // At the top of the curve only rounding is left: half a unit each of the product and the difference, and
+            // three quarters of the subtrahend, a half.
             assert!(share > 0.998 && share < 1.0 + 1.75 * f64::from(f32::EPSILON), "{x}: {share}");
         }
     }
 
     #[test]
     fn roots_do_not_depend_on_the_exponent_but_for_its_parity() {
-        // Every 997th mantissa. Half of the least normal numbers is not normal and may round.
+        // Every 997th mantissa. Half of the smallest normal numbers is not normal and may round.
         for x in two_octaves().step_by(997) {
             for power in -60..63 {
                 let scale = f32::from_bits(((127 + power) as u32) << 23);

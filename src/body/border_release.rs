@@ -1,5 +1,5 @@
-//! Out over a border: what a face has behind may be in front of the face beyond a sharp edge, and the tick that comes
-//! to the edge is not to be felt.
+//! Release of contact over a border: a probe behind a face may be in front of the next face beyond a sharp edge.
+//! Contact ends in the tick that reaches the edge, without a force pulse.
 
 use super::feature::{Edge, EdgeKind, Face, Separator, Side};
 use super::table::Body;
@@ -8,39 +8,39 @@ use crate::math::Vec3;
 use crate::patch::{Patch as _, SecondDerivativeBounds, SplinePatch};
 use crate::track::BoundaryMode;
 
-/// So near a border, in parameters, a witness point is asked for what is beyond: it may still be on its way there, and
-/// the probe past it.
+/// Distance from a border, in parameters, below which the neighbour is asked: the witness point may still be on its
+/// way to the border that the probe has passed.
 const AT_BORDER: f32 = 1.0 / 512.0;
 
-/// Whether a parameter is farther than that from both ends: one comparison of bits, which rise with a positive number.
+/// Whether a parameter is farther than that from both ends. One comparison of bits, which rise with a positive number.
 #[inline(always)]
 fn is_apart(x: f32) -> bool {
     const LEAST: u32 = AT_BORDER.to_bits();
     x.to_bits().wrapping_sub(LEAST) < (1.0 - AT_BORDER).to_bits() - LEAST
 }
 
-/// Which end of its range a parameter is near to, 0 or 1, by the bits again.
+/// The end of its range that a parameter is near to, 0 or 1, again by the bits.
 #[inline(always)]
 const fn is_upper(x: f32) -> usize {
     (x.to_bits().cast_signed() > 0.5_f32.to_bits().cast_signed()) as usize
 }
 
-/// What holds a witness point on a side.
+/// Boundary mode of a witness point on each side.
 const SIDES: [BoundaryMode; 4] =
     [BoundaryMode::LowerU, BoundaryMode::UpperU, BoundaryMode::LowerV, BoundaryMode::UpperV];
 
-/// So near its end, in parameters, an edge looks like what meets there.
+/// Distance from the end of an edge, in parameters, below which the vertex is asked.
 const AT_END: f32 = 1.0 / 16.0;
 
-/// A face whose bound says that it is hollower than this, 1/m, is; below it is the rounding of a plane's bound.
+/// Curvature, 1/m, below which a face counts as hollow: smaller values are the rounding of a plane's bound.
 pub(super) const HOLLOW: f32 = 1.0e-6;
 
-/// What a rational patch's weights, squared, may differ by along a border: they do by 2 on a quarter of a circle.
+/// Ratio of the squared weights of a rational patch along a border: 2 on a quarter of a circle, with a margin of 2.
 const WEIGHTS: f32 = 4.0;
 
 impl Body<'_> {
-    /// Ends contact where the probe is in front of what is beyond the border that the witness point is near to: then it
-    /// has left the body over an edge or a vertex, though this face has it behind. Whether it has.
+    /// Ends contact if the probe is in front of the neighbour beyond the nearest border: the probe has then left the
+    /// body over an edge or a vertex, though it is behind this face. Returns whether contact ended.
     #[inline(always)]
     pub(super) fn releases_at_border(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
         let [u, v] = state.witness.parameters;
@@ -53,7 +53,7 @@ impl Body<'_> {
         }
     }
 
-    /// The same near a corner: by the planes between three convex edges, else over either side.
+    /// The same near a corner: by the planes between three convex edges, otherwise over either side.
     #[inline(never)]
     fn releases_at_corner(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
         let (probe, [u, v]) = (state.probe, state.witness.parameters);
@@ -82,7 +82,7 @@ impl Body<'_> {
         let is_over = self.is_in_front_of_neighbour(face, number, state, away);
         if is_over {
             self.update_contact_at_border(state, Some(true));
-            // What is beyond is nearer: behind this face it would not be looked for.
+            // The neighbour is nearer: the tracker looks for it only from the border.
             if self.kind_of_side(face, number) == Some(EdgeKind::Convex) {
                 (state.witness.mode, state.witness.is_free) = (SIDES[number & 3], false);
             }
@@ -90,11 +90,12 @@ impl Body<'_> {
         is_over
     }
 
-    /// Whether the probe is in front of what is beyond one side. Over a convex edge by the normal `t × m` of the face
-    /// beyond: this face lies behind that one. The witness point is behind it, too, as far as it is from the border.
+    /// Whether the probe is in front of the neighbour beyond one side. Over a convex edge the normal `t × m` of the
+    /// neighbour decides: this face, and with it the witness point, is behind the neighbour by its distance from the
+    /// border.
     ///
-    /// Over a smooth edge there is more of the same surface: but where that is a sliver that ends at a vertex, what
-    /// is beyond the sliver begins at once.
+    /// Over a smooth edge the same surface continues. But if the neighbour is a sliver that ends at a vertex, the next
+    /// feature starts there.
     #[inline(always)]
     fn is_in_front_of_neighbour(&self, face: &Face, number: usize, state: &BodyWitness, away: Vec3) -> bool {
         let witness = &state.witness;
@@ -124,7 +125,7 @@ impl Body<'_> {
         }
         let of = Self::neighbour_of_side(edge, state.feature, number);
         let Some(beyond) = self.faces.get(usize::from(of.face)) else { return false };
-        // A derivative of the face beyond across the side, of any sign and length; of a plane its inverse.
+        // Derivative of the neighbour across the side, of any sign and length; for a plane, its inverse.
         let mut is_plane = true;
         let cross = match beyond.sides.get(usize::from(of.side)) {
             Some(Side::Edge { separator: Separator::Plane { across, .. }, .. }) => *across,
@@ -135,7 +136,8 @@ impl Body<'_> {
             _ => return false,
         };
         let normal = tangent.cross(cross);
-        // `across` points into this face at a lower border, out of it at an upper one; seen from the border.
+        // At a lower border `across` points into this face, at an upper one out of it; the height is taken at the
+        // border.
         let (rise, to_border) = (normal.dot(*across), if is_lower { from_lower } else { from_lower - 1.0 });
         let height = normal.dot(away) + to_border * rise;
         let is_in_front = if is_lower { height * rise < 0.0 } else { height * rise > 0.0 };
@@ -146,7 +148,7 @@ impl Body<'_> {
         }
     }
 
-    /// Whether the probe is in front of what meets at an end of a smooth edge, as seen from a point near that end.
+    /// Whether the probe is in front of the faces that meet at the nearest end of a smooth edge. `t` is near that end.
     #[inline(never)]
     fn is_past_end(&self, edge: &Edge, t: f32, probe: Vec3) -> bool {
         let (end, from_end) = if t > 0.5 { (1, 1.0 - t) } else { (0, t) };
@@ -155,8 +157,8 @@ impl Body<'_> {
     }
 }
 
-/// Where a face meets a border: the border's tangent and the derivative of the face across it, metres per unit, of a
-/// plane's separator its inverse; and the parameter along the border.
+/// The border of a face: its tangent, the derivative of the face across it (metres per unit; for a plane's separator,
+/// the inverse), and the parameter along the border.
 pub(super) struct Rim {
     pub tangent: Vec3,
     pub cross: Vec3,
@@ -164,12 +166,12 @@ pub(super) struct Rim {
     pub along: f32,
 }
 
-/// How far a face that is hollow may come in front of its tangent plane at a point of its border, metres, where a
-/// way from there leads: 0 of one that is not, and at a pole, where nothing is known.
+/// Upper bound of how far a hollow face comes in front of its tangent plane at a point of its border, metres, at the
+/// offset `away`. 0 if the face is not hollow, and at a pole, where the curvature has no bound.
 ///
-/// Within a radius of curvature `1/κ` it comes no farther than `κ` times the way squared. Nor, to second order, than
-/// the bounds of the second derivatives let it for the change of parameters that leads there. Past the border's end it
-/// is for another face to say.
+/// Within a radius of curvature `1/κ` the face stays below `κ` times the squared offset. To second order, the bounds
+/// of the second derivatives limit it too, for the change of parameters that leads there. Beyond the end of the border
+/// another face decides.
 #[inline(always)]
 pub(super) fn bulge(patch: &SplinePatch, is_across_u: bool, rim: &Rim, away: Vec3) -> f32 {
     let shape = patch.shape();
@@ -184,7 +186,7 @@ pub(super) fn bulge(patch: &SplinePatch, is_across_u: bool, rim: &Rim, away: Vec
     let (forward, out) = (away.dot(*tangent), away.dot(cross));
     let inverse = 1.0 / (stretch * reach - skew * skew);
     let is_past_end = if forward > 0.0 { *along >= 1.0 } else { *along <= 0.0 };
-    // Of a rational patch the derivative is known but for the square of its weights.
+    // The derivative of a rational patch is known up to the square of its weights.
     let unit = if patch.is_rational() { WEIGHTS * inverse } else { inverse };
     let across = (out * stretch - forward * skew) * unit;
     let beside = if is_past_end { 0.0 } else { (forward * reach - out * skew) * inverse };

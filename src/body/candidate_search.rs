@@ -1,7 +1,7 @@
-//! Second order: the distance from a probe to one rectangle of a patch's parameters.
+//! Second-order search for the closest point in one rectangle of a patch's parameters.
 //!
-//! Each step goes to the minimiser of the quadratic model ([`super::quadratic_model`]) over the rectangle; one that does not
-//! lower half the squared distance `φ` is halved.
+//! Each step goes to the minimiser of the quadratic model ([`super::quadratic_model`]) over the rectangle. A step that
+//! does not lower half the squared distance `φ` is halved.
 
 use super::locator::Candidate;
 use super::pole::Pole;
@@ -9,19 +9,19 @@ use super::quadratic_model::{DistanceDerivatives, Model};
 use crate::math::{Vec3, saturate, sqrt_from_above};
 use crate::patch::{Patch as _, ShapeBounds, SplinePatch};
 
-/// Evaluations that one candidate of a list may cost.
+/// Maximum evaluations of one candidate of a list.
 pub const MAX_EVALUATIONS_PER_CANDIDATE: u8 = 32;
-/// The same on a convex body, whose search is shorter.
+/// Maximum evaluations of one candidate on a convex body, whose lists are short.
 pub const MAX_EVALUATIONS_PER_CANDIDATE_CONVEX: u8 = 16;
-/// A distance is found when the next step would change it by less than this, relative to the body's size: the rounding
-/// of `f32` coordinates of that size.
+/// Relative to the body's size: a search ends when the next step would change the distance by less. The rounding of
+/// `f32` coordinates of that size.
 pub(super) const RESOLUTION: f32 = 2.0e-7;
-/// It is found without another look where it is proved to be within this of what the model says: a fifth of what is
-/// asked of a cold start.
+/// Relative to the body's size: proved error of the model's distance below which the last evaluation is skipped. A
+/// fifth of the tolerance of a cold start.
 const PROVED: f32 = 2.0e-6;
-/// The same as a part of `φ`: a tenth of what the tracker changes over for.
+/// The same relative to `φ`: a tenth of the difference for which the tracker changes to another point.
 const SHARE: f32 = 1.0e-4;
-/// Halvings of one step.
+/// Maximum halvings of one step.
 const MAX_HALVINGS: u8 = 8;
 
 /// A search in one rectangle, between two evaluations.
@@ -35,37 +35,38 @@ pub struct CandidateSearch {
     pub half_squared: f32,
     /// Where the next evaluation will be, or the last one was.
     trial: [f32; 2],
-    /// What the last evaluation said, until it is judged.
+    /// The result of the last evaluation, until [`Self::judge`] uses it.
     seen: Option<DistanceDerivatives>,
     halvings: u8,
-    /// Evaluations that it may still cost.
+    /// Evaluations left.
     left: u8,
-    /// Whether the last step may be taken unseen.
+    /// Whether the last step may go without an evaluation at its end.
     may_skip_last_evaluation: bool,
 }
 
-/// What an evaluation found out.
+/// State of the search after an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CandidateStatus {
-    /// There is more to be had.
+    /// The next step lowers the distance.
     Falling,
     /// The minimum of the rectangle is found.
     Found,
-    /// The rectangle is proved to hold nothing nearer than what is known.
+    /// The rectangle is proved to hold no point nearer than the known one.
     Beaten,
     /// The evaluations are used up, or the steps too short.
     Exhausted,
 }
 
 impl CandidateSearch {
-    /// From the middle of a candidate's rectangle, for so many evaluations at most.
-    pub fn new(candidate: Candidate, most: u8) -> Self {
+    /// Starts in the middle of the candidate's rectangle, with at most `evaluations`.
+    pub fn new(candidate: Candidate, evaluations: u8) -> Self {
         let [lower, upper] = candidate.rectangle();
-        Self::from(candidate, [0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1])], most)
+        Self::from(candidate, [0.5 * (lower[0] + upper[0]), 0.5 * (lower[1] + upper[1])], evaluations)
     }
 
-    /// From a point of it.
-    pub(super) const fn from(candidate: Candidate, parameters: [f32; 2], most: u8) -> Self {
+    /// Starts at a point of the rectangle.
+    pub(super) const fn from(candidate: Candidate, parameters: [f32; 2], evaluations: u8) -> Self {
         Self {
             candidate,
             parameters,
@@ -73,12 +74,12 @@ impl CandidateSearch {
             trial: parameters,
             seen: None,
             halvings: 0,
-            left: most,
+            left: evaluations,
             may_skip_last_evaluation: true,
         }
     }
 
-    /// The same, which sees every step's end: one evaluation more for what is left of the error.
+    /// The same search with an evaluation at the end of every step: one evaluation more, and the smallest error.
     pub const fn with_last_evaluation(mut self) -> Self {
         self.may_skip_last_evaluation = false;
         self
@@ -113,8 +114,8 @@ impl CandidateSearch {
         self.seen = Some(DistanceDerivatives::new(&curved, curved.surface.point - probe));
     }
 
-    /// The second half on a face without poles: where to go from there. None of the arithmetic of poles is compiled in.
-    /// `known` is the `φ` to beat, m²; `size` the body's, metres.
+    /// The second half of a step on a face without poles: chooses the next parameters. The arithmetic of poles is not
+    /// compiled in. `known` is the `φ` to beat, m²; `size` is the body's, metres.
     #[inline(never)]
     pub fn judge(&mut self, patch: &SplinePatch, known: f32, size: f32) -> CandidateStatus {
         self.judged(patch, 0, known, size)
@@ -123,7 +124,7 @@ impl CandidateSearch {
     /// The second half on a face that may have poles ([`super::Face::poles`]).
     #[inline(never)]
     pub fn judge_near_pole(&mut self, patch: &SplinePatch, poles: u8, known: f32, size: f32) -> CandidateStatus {
-        // Below the compiler then knows that there are some.
+        // In the second call the compiler knows that there are poles.
         if poles == 0 { self.judge(patch, known, size) } else { self.judged(patch, poles, known, size) }
     }
 
@@ -135,14 +136,14 @@ impl CandidateSearch {
             let pole = Pole::nearest(poles, at, patch, size);
             let model = Model::new(pole.map_or(seen, |pole| seen.near_pole(pole)));
             let [lower, upper] = self.candidate.rectangle();
-            let room = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
+            let range = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             // A convex function lies above its tangent plane.
-            if self.candidate.convex && known < half_squared && half_squared + model.greatest_fall(room) > known {
+            if self.candidate.convex && known < half_squared && half_squared + model.max_fall(range) > known {
                 return CandidateStatus::Beaten;
             }
             (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
-            let (change, fall) = model.step(&seen, pole, room);
-            // φ changes by d times the change of d. Beside a pole, where steps shrink with the distance to it, the last
+            let (change, fall) = model.step(&seen, pole, range);
+            // φ changes by d times the change of d. Near a pole, where steps shrink with the distance to it, the last
             // bit of φ counts too.
             let distance = sqrt_from_above(2.0 * half_squared);
             let mut resolved = RESOLUTION * size;
@@ -153,7 +154,7 @@ impl CandidateSearch {
                 return CandidateStatus::Found;
             }
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
-            // What the model is proved to say rightly of its minimiser need not be seen there.
+            // If the model is proved at its minimiser, no evaluation is needed there.
             if poles == 0
                 && self.may_skip_last_evaluation
                 && model.is_newton
@@ -179,14 +180,14 @@ impl CandidateSearch {
     }
 }
 
-/// Whether `φ` is proved to be what the quadratic model says at its minimiser over a rectangle, and to have little left
-/// to fall by from there: a step `w` away, with both ends in one span, where the model has fallen by `fall`.
+/// Whether `φ` is proved to be near the quadratic model's value at its minimiser over a rectangle, and to have little
+/// left to fall from there: a step `w` away, with both ends in one span, after the model has fallen by `fall`.
 ///
 /// With `a = Df w`, `b = D²f[w, w]` and Taylor's remainder `e` the derivative along the parameter `i` is off from the
-/// model's by `g_i = f_i·(½ b + e) + D f_i w·(a + ½ b + e)` and the remainder of `f_i`, `½ D²f_i[w, w]`, times what
-/// `ΔR` has become, where the patch bounds second and third derivatives and `|a|² = wᵀIw`. Part `t` of the way it is
-/// off by `t² g` at most, so that `φ` is off by a third of `|g|·|w|`; and `φ` has `½ gᵀH⁻¹g` left, as far as the
-/// Hessian of the step's beginning says.
+/// model's by `g_i = f_i·(½ b + e) + D f_i w·(a + ½ b + e)` and the remainder of `f_i`, `½ D²f_i[w, w]`, times the new
+/// `ΔR`, where the patch bounds second and third derivatives and `|a|² = wᵀIw`. At the fraction `t` of the step it is
+/// off by `t² g` at most, so that `φ` is off by a third of `|g|·|w|`; and `φ` has `½ gᵀH⁻¹g` left, by the Hessian at
+/// the start of the step.
 #[inline(always)]
 fn is_proved(
     shape: &ShapeBounds,
@@ -222,7 +223,7 @@ fn is_proved(
         sqrt_from_above(stretch_u) * beside + turn[0] * moved + twist[0] * half,
         sqrt_from_above(stretch_v) * beside + turn[1] * moved + twist[1] * half,
     ];
-    // And the sum is rounded.
+    // The last term is the rounding of the sum.
     let value = (1.0 / 3.0) * (gradient[0] * x + gradient[1] * y) + f32::EPSILON * seen.half_squared;
     is_little(value) && is_little(model.fall_at_most(gradient))
 }

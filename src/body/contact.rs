@@ -1,4 +1,4 @@
-//! What the loop asks of the closest point once it is known: normal, signed gap, and whether the body is touched.
+//! Contact at the closest point: normal, signed gap, and whether the body is touched.
 
 use super::feature::{EdgeKind, Face, Feature};
 use super::table::Body;
@@ -7,14 +7,13 @@ use crate::math::{Vec3, inverse_sqrt, sqrt_from_above};
 use crate::patch::Patch as _;
 use crate::track::{BoundaryMode, Contact, is_inside};
 
-/// Of the squared offset of a probe that is right below a point of a border, the part along the normal: off by 30° it
-/// cannot be in front of what bends away beyond, unless deeper than six of its radii.
+/// Minimum part of the squared offset along the normal at which a probe counts as right below a point of a border: 30°
+/// off, it cannot be in front of a neighbour that bends away, unless it is deeper than six radii of the bend.
 const BELOW: f32 = 0.75;
 
 impl Body<'_> {
-    /// Normal, signed gap and contact at the witness point, for the probe with which [`Self::track`] has just been
-    /// called, and the step that it has made. Until the witness point is located, and for a probe that is not finite,
-    /// nothing changes.
+    /// Updates normal, signed gap and contact for the probe and the step of the last [`Self::track`]. Changes nothing
+    /// until the witness point is located, and for a probe that is not finite.
     #[inline(always)]
     pub fn update_contact(&self, state: &mut BodyWitness, probe: Vec3, step: &BodyStep) {
         if !state.is_located {
@@ -30,8 +29,8 @@ impl Body<'_> {
                 if gap < 0.0 {
                     let contact = state.contact;
                     match contact {
-                        // At a border the witness point is not where the probe goes in, unless the probe is right
-                        // below it: what is beyond will say.
+                        // At a border the probe does not enter at the witness point, unless it is right below it: the
+                        // neighbour decides in the next tick.
                         Contact::InFront
                             if !is_inside(state.witness.parameters) && gap * gap < BELOW * away.length_squared() =>
                         {
@@ -70,20 +69,22 @@ impl Body<'_> {
         }
     }
 
-    /// Whether the probe is deeper inside than the least radius of curvature of the face that holds the witness point:
-    /// the closest point is no longer unique, and the witness point is not proved to follow (theory §11).
+    /// Whether the probe is deeper inside than the minimum radius of curvature of the face that holds the witness
+    /// point: the closest point is no longer unique, and no proof covers the tracker (theory §11).
     pub fn is_too_deep(&self, state: &BodyWitness) -> bool {
         let Feature::Face(index) = state.feature else { return false };
         let curvature = |face: &super::feature::Face| face.patch.shape().curvature.max;
         self.faces.get(usize::from(index)).is_some_and(|face| -state.gap * curvature(face) > 1.0)
     }
 
-    /// On an edge or a vertex: normal and gap from the witness point towards the probe outside, the other way inside.
-    /// Where the edge does not say which side the probe is on it is where it was: nothing goes through the surface
-    /// without a face. A convex edge says "outside" once neither of its faces takes the probe: inside, where they
-    /// meet at less than 180°, each direction from the edge is within 90° of one of them, and that one takes it. So
-    /// contact holds where the witness point crosses the edge, and does not begin there. `is_outward` is `None` over
-    /// the rim of an open body, where there is neither front nor back.
+    /// On an edge or a vertex the normal is the direction from the witness point to the probe outside, the opposite
+    /// inside. `is_outward` is the side of the probe; `None` over the rim of an open body, which has neither front nor
+    /// back.
+    ///
+    /// If the edge cannot decide, the probe stays on its side: only a face lets it through the surface. A convex edge
+    /// reports "outside" once neither of its faces takes the probe: inside, where they meet at less than 180°, each
+    /// direction from the edge is within 90° of one of them, and that face takes it. So contact continues while the
+    /// witness point crosses the edge, and does not start there.
     #[inline(never)]
     pub(super) fn update_contact_at_border(&self, state: &mut BodyWitness, is_outward: Option<bool>) {
         let away = state.probe - state.witness.surface.point;
@@ -106,15 +107,15 @@ impl Body<'_> {
     }
 
     /// The normal at a pole, where tangents are rounding: that of its vertex. The last normal may be from across the
-    /// face, for a step may end at a pole from anywhere.
+    /// face, because a step may end at a pole from anywhere.
     #[inline(never)]
     fn normal_at_pole(&self, face: &Face, parameters: [f32; 2]) -> Option<Vec3> {
         let outward = self.vertices.get(usize::from(self.pole_at(face, parameters)?))?.outward;
         (outward != Vec3::ZERO).then_some(outward)
     }
 
-    /// Nothing is met with a witness point that may be on the far side, and no contact begins with one that the probe
-    /// has left behind: that one is located anew.
+    /// Sets the contact. Without an audit the witness point may be on the far side: no contact. A witness point that
+    /// the probe has left behind does not start contact: it is located again.
     #[inline]
     fn set_contact(&self, state: &mut BodyWitness, away: Vec3, contact: Contact) {
         let begins = contact == Contact::Touching && state.contact == Contact::InFront;

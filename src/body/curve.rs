@@ -33,8 +33,7 @@ pub struct SplineCurve<'a> {
     pub breaks: &'a [f32],
     /// Coefficients of all spans.
     pub coefficients: Coefficients<'a>,
-    /// `sup ‖c''‖`, metres per unit of parameter squared, rounding included; what the certified step along the curve
-    /// needs.
+    /// `sup ‖c''‖`, metres per unit of parameter squared, rounding included: for the certified step along the curve.
     pub second_derivative: f32,
 }
 
@@ -103,7 +102,7 @@ impl SplineCurve<'_> {
         let zero = [0.0; D];
         let Some((highest, lower)) = self.powers(entries, span).split_last() else { return [zero; 3] };
         let Some((next, lower)) = lower.split_last() else { return [*highest, zero, zero] };
-        // The derivative begins with the highest: a step of Horner's rule before it would multiply zero.
+        // The derivative starts with the highest coefficient: a step of Horner's rule before it would multiply zero.
         let (mut value, mut along, mut half) = (horner_step(*highest, s, *next), *highest, zero);
         for coefficient in lower.iter().rev() {
             half = horner_step(half, s, along);

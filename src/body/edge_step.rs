@@ -4,13 +4,13 @@ use super::curve::SplineCurve;
 use super::feature::{Edge, Separator};
 use crate::math::{Vec3, saturate, sqrt_from_above};
 
-/// The least second derivative of `½ ‖ΔR‖²` at which its model is solved, as a part of `‖c'‖²`.
+/// Minimum second derivative of `½ ‖ΔR‖²` at which the model is solved, relative to `‖c'‖²`.
 const MIN_CURVATURE: f32 = 1.0e-3;
 
-/// Nearer to a focus, `1 + κ gap`, nothing is told from a border.
-pub(super) const LEAST_STRETCH: f32 = 0.25;
+/// Minimum of `1 + κ gap`: nearer to a focus, the border does not predict the closest point.
+pub(super) const MIN_STRETCH: f32 = 0.25;
 
-/// Where a step along an edge starts from.
+/// The start of a step along an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EdgeStep {
     /// `ΔR = c − Q`, metres.
@@ -21,8 +21,8 @@ pub(super) struct EdgeStep {
     pub gradient: f32,
 }
 
-/// Where a probe is, seen from the border of a face. `m` is the face's outward conormal there, as long as the
-/// derivative across the border is along it; `k` a positive number.
+/// Position of a probe relative to the border of a face. `m` is the face's outward conormal there, with the length of
+/// the derivative across the border along it; `k` is a positive number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BorderSide {
     /// `k ΔR · m`, below 0 where the probe is beyond the face's region.
@@ -42,13 +42,13 @@ impl BorderSide {
         self.product < 0.0
     }
 
-    /// Where the closest point lies on the face, as far as can be told from the border: the Gauss–Newton step across
-    /// it, shortened by `stretch`, and Newton's along it, where `½ ‖ΔR‖²` has the second derivative `hessian`, m². The
-    /// change of the parameter across, the parameter of the edge, and the fall of `½ ‖ΔR‖²` to first order, m².
+    /// Prediction of the closest point on the face from its border: the Gauss–Newton step across, shortened by
+    /// `stretch`, and Newton's step along, where `½ ‖ΔR‖²` has the second derivative `hessian`, m². Returns the change
+    /// of the parameter across, the parameter of the edge, and the first-order fall of `½ ‖ΔR‖²`, m².
     #[inline]
     pub(super) fn landing(&self, along: &EdgeStep, hessian: f32, t: f32, stretch: f32) -> ([f32; 2], f32) {
         let inside = saturate(self.product / (self.square * stretch), 0.0, 1.0);
-        let beside = if hessian > LEAST_STRETCH * along.stretch {
+        let beside = if hessian > MIN_STRETCH * along.stretch {
             saturate(t + (inside * self.skew - along.gradient) / hessian, 0.0, 1.0)
         } else {
             t
@@ -72,14 +72,13 @@ impl EdgeStep {
         self.stretch + bend + bend
     }
 
-    /// Whether an end of the edge holds the witness point: nearer lies only what is beyond it.
+    /// Whether an end of the edge holds the witness point: no point of the edge is nearer.
     #[inline]
     pub(super) fn is_held(&self, t: f32) -> bool {
         (t <= 0.0 && self.gradient >= 0.0) || (t >= 1.0 && self.gradient <= 0.0)
     }
 
-    /// The parameter after one step of second order, where it is certain: the certificate of theory §12 in one
-    /// parameter, with bounds alone.
+    /// The parameter after one second-order step, if it is certified: theory §12 in one parameter, by bounds alone.
     #[inline]
     pub(super) fn minimiser(&self, edge: &Edge, half_second: Vec3, t: f32) -> Option<f32> {
         let hessian = self.hessian(half_second);
@@ -100,7 +99,7 @@ impl EdgeStep {
         is_certain.then_some(target)
     }
 
-    /// The parameter after one step of first order, cut at the ends: Eq. (1)'s law `−g/G` with the longest gain that is
+    /// The parameter after one first-order step, cut at the ends: Eq. (1)'s law `−g/G` with the longest gain that is
     /// proved to lower the distance, by the argument of [`crate::track::certified_gain`] in one parameter.
     #[inline]
     pub(super) fn advanced(&self, curve: &SplineCurve, t: f32) -> f32 {
@@ -117,7 +116,7 @@ impl EdgeStep {
         saturate(target, 0.0, 1.0)
     }
 
-    /// Where the probe is, seen from the border of a face at the parameter `t` of its edge with this tangent.
+    /// Position of the probe relative to the border of a face, at the parameter `t` of its edge with this tangent.
     #[inline]
     pub(super) fn inward(&self, separator: &Separator, tangent: Vec3, t: f32, probe: Vec3) -> BorderSide {
         match separator {
@@ -125,8 +124,8 @@ impl EdgeStep {
                 let product = *offset - across.dot(probe);
                 BorderSide { product, square: 1.0, scale: across.length_squared(), skew: 0.0 }
             }
-            // The conormal is the part of the cross derivative that is normal to the edge; times the tangent's square
-            // there is nothing to divide.
+            // The conormal is the part of the cross derivative that is normal to the edge; multiplied by the squared
+            // tangent it needs no division.
             Separator::Ruled(cross) => {
                 let cross = cross.point(t);
                 let (out, skew) = (self.difference.dot(cross), cross.dot(tangent));

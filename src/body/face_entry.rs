@@ -1,11 +1,11 @@
-//! How a face is entered over one of its sides: not at the border, but where the closest point lies as far as can be
-//! told from there, so that the tick in which a face takes the probe is no tick lost.
+//! Entry of a face over one of its sides: not at the border, but at the predicted closest point, so that the handover
+//! costs no extra tick.
 //!
-//! The one evaluation of the tick is spent at that point, and says whether it is nearer by what theory §12 asks of
-//! every step. If it is not, the step is rejected, and the next one enters at the border itself, where the distance is
-//! what it was.
+//! The one evaluation of the tick is at that point, and decides whether it is nearer by the margin that theory §12
+//! asks of every step. If not, the step is rejected, and the next one enters at the border, where the distance is
+//! unchanged.
 
-use super::edge_step::{BorderSide, EdgeStep, LEAST_STRETCH};
+use super::edge_step::{BorderSide, EdgeStep, MIN_STRETCH};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
@@ -13,13 +13,13 @@ use crate::math::Vec3;
 use crate::patch::Patch as _;
 use crate::track::{Aim, BoundaryMode, Outcome, mode_at};
 
-/// Of the fall of `½ ‖ΔR‖²` that a step without a certificate promises, the part that is asked for.
-pub(super) const LEAST_FALL: f32 = 1.0 / 16.0;
+/// Minimum fall of `½ ‖ΔR‖²` for a step without a certificate, relative to its prediction.
+pub(super) const MIN_FALL: f32 = 1.0 / 16.0;
 
-/// A point of an edge, seen from a probe.
+/// A point of an edge with its offset from the probe.
 #[derive(Clone, Copy)]
 pub(super) struct EdgePoint {
-    /// What a step along the edge starts from.
+    /// The start of a step along the edge.
     pub along: EdgeStep,
     /// The edge's tangent, metres per unit of its parameter.
     pub tangent: Vec3,
@@ -27,18 +27,18 @@ pub(super) struct EdgePoint {
     pub t: f32,
 }
 
-/// A point of a face to be entered.
+/// The point at which a face is entered.
 #[derive(Clone, Copy)]
 pub(super) struct Entry {
     /// Index of the face.
     pub face: u16,
-    /// Where on it.
+    /// `(u, v)` on it.
     pub parameters: [f32; 2],
-    /// What `‖ΔR‖²` has to fall by, m².
+    /// Minimum fall of `‖ΔR‖²`, m².
     pub fall: f32,
 }
 
-/// A face beyond a border, seen from a point of it.
+/// The face beyond a border, at a point of it.
 #[derive(Clone, Copy)]
 pub(super) struct Neighbour<'a> {
     face: &'a Face<'a>,
@@ -55,8 +55,8 @@ impl Neighbour<'_> {
         !self.inward.is_beyond()
     }
 
-    /// Where the face is entered. `hessian` is the second derivative of `½ ‖ΔR‖²` along the edge, m², `known` a
-    /// curvature to go by where the face has no bound, 1/m.
+    /// The entry of the face. `hessian` is the second derivative of `½ ‖ΔR‖²` along the edge, m²; `known` is the
+    /// curvature to use if the face has no bound, 1/m.
     #[inline(always)]
     pub(super) fn entry(
         &self,
@@ -77,7 +77,7 @@ impl Neighbour<'_> {
 }
 
 impl Body<'_> {
-    /// A face of an edge, seen from a point of it.
+    /// A face of an edge, relative to a point of the edge.
     #[inline(always)]
     pub(super) fn neighbour(&self, of: EdgeFace, border: &EdgePoint, probe: Vec3) -> Option<Neighbour<'_>> {
         let face = self.faces.get(usize::from(of.face))?;
@@ -86,7 +86,8 @@ impl Body<'_> {
         Some(Neighbour { face, of, is_reversed: *reversed, inward })
     }
 
-    /// What is beyond a side of the face that holds the witness point, by its edge. Both may be sides of one face.
+    /// The neighbour beyond a side of the face that holds the witness point. Both sides of the edge may be the same
+    /// face.
     #[inline(always)]
     pub(super) fn neighbour_of_side(edge: &Edge, from: Feature, number: usize) -> EdgeFace {
         let [first, second] = edge.faces;
@@ -94,7 +95,7 @@ impl Body<'_> {
         if is_first { second } else { first }
     }
 
-    /// The face of an edge, and the parameters there of a point of the edge.
+    /// A face of an edge, and the parameters there of a point of the edge.
     #[inline(never)]
     pub(super) fn position_on_face(&self, of: EdgeFace, t: f32) -> Option<(u16, [f32; 2])> {
         match self.faces.get(usize::from(of.face))?.sides.get(usize::from(of.side))? {
@@ -103,7 +104,7 @@ impl Body<'_> {
         }
     }
 
-    /// Into a face: onto the point of an entry, if that is near enough. One evaluation.
+    /// Moves the witness point to the entry of a face, if that is near enough. One evaluation.
     #[inline(never)]
     pub(super) fn enter_face(&self, entry: &Entry, is_curved: bool, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(entry.face)) else { return };
@@ -112,7 +113,7 @@ impl Body<'_> {
             let reached = face.patch.evaluate_apart(entry.parameters);
             let before = (state.witness.surface.point - state.probe).length_squared();
             let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - entry.fall;
-            // On the border the distance is what it was.
+            // At the border the distance is unchanged.
             if entry.fall > 0.0 && !is_nearer {
                 state.witness.halvings = 1;
                 step.outcome = Outcome::Rejected;
@@ -125,8 +126,8 @@ impl Body<'_> {
         (state.feature, step.switched) = (Feature::Face(entry.face), true);
     }
 
-    /// The step of second order that ends at a smooth edge, on the face beyond. Rejected it leaves the witness point on
-    /// its own face: over a seam that gapes the distance may rise. Whether the side is such an edge.
+    /// A second-order step that ends at a smooth edge, taken on the neighbour. A rejected step leaves the witness
+    /// point on its own face: over a seam with a gap the distance may rise. Returns whether the side is a smooth edge.
     #[inline(never)]
     pub(super) fn step_over_smooth_edge(
         &self,
@@ -144,7 +145,7 @@ impl Body<'_> {
             aim.landing_at(entry.parameters, entry.fall).settle(&reached, &mut state.witness, probe, self.size);
         state.witness.mode = aim.mode;
         if step.outcome != Outcome::Rejected {
-            // Where another border has cut it, that one holds it.
+            // A border that cuts the step holds the witness point.
             let [u, v] = entry.parameters;
             let is_cut = |along: f32| along <= 0.0 || along >= 1.0;
             let held = if side < 2 { [false, is_cut(v)] } else { [is_cut(u), false] };
@@ -154,7 +155,7 @@ impl Body<'_> {
         true
     }
 
-    /// Where a step of second order that ends at a smooth edge ends on the face beyond, and over which side of that.
+    /// Entry of the neighbour for a second-order step that ends at a smooth edge, and the neighbour's side.
     #[inline]
     fn entry_over_smooth_edge(&self, face: &Face, aim: &Aim, state: &BodyWitness) -> Option<(Entry, u8)> {
         let ([u, v], witness) = (aim.landing.parameters, &state.witness);
@@ -177,7 +178,7 @@ impl Body<'_> {
         }
         let other = Self::neighbour_of_side(edge, state.feature, number);
         let t = if *reversed { 1.0 - along } else { along };
-        // The border as it looks from the witness point.
+        // The border by the Taylor expansion at the witness point.
         let step = [u - witness.parameters[0], v - witness.parameters[1]];
         let point = witness.surface.point + witness.surface.along(step) + witness.second.bend(step) * 0.5;
         let (surface, second) = (&witness.surface, &witness.second);
@@ -192,13 +193,12 @@ impl Body<'_> {
     }
 }
 
-/// Where the closest point of a face lies, as far as can be told from its border, for a probe with a gap: the parameter
-/// across, that of the edge, and what `‖ΔR‖²` has to fall by, m².
+/// Predicted closest point of a face, from its border, for a probe with a gap: the parameter across, that of the edge,
+/// and the minimum fall of `‖ΔR‖²`, m².
 ///
-/// Across the border that is the Gauss–Newton step, cut where the face may be curved: with the normal curvature `κ` the
-/// angle that the probe's offset `ρ` spans is `ρ / (1 + κ gap)`, by the greatest `κ` in front, by the least behind.
-/// Where none is known that of the face before, `known`, is as good a guess as any; where there is none either it is
-/// the border.
+/// Across the border this is the Gauss–Newton step, shortened by curvature: with the normal curvature `κ` the probe's
+/// offset `ρ` spans the angle `ρ / (1 + κ gap)`, by the maximum `κ` in front, by the minimum behind. Without a bound,
+/// the curvature `known` of the face before is the estimate; without that, the entry is at the border.
 #[inline(never)]
 fn entry_landing(
     face: &Face,
@@ -209,13 +209,13 @@ fn entry_landing(
 ) -> ([f32; 2], f32) {
     let bound = face.bend(gap);
     let stretch = 1.0 + if bound.is_finite() { bound } else { known } * gap;
-    let stretch = if stretch > LEAST_STRETCH { stretch } else { f32::INFINITY };
+    let stretch = if stretch > MIN_STRETCH { stretch } else { f32::INFINITY };
     let (landing, slope) = inward.landing(along, hessian, t, stretch);
-    (landing, 2.0 * LEAST_FALL * slope)
+    (landing, 2.0 * MIN_FALL * slope)
 }
 
 impl Face<'_> {
-    /// The bound of the normal curvature that shortens steps on this side of the surface, 1/m.
+    /// Bound of the normal curvature that shortens steps on this side of the surface, 1/m.
     #[inline]
     fn bend(&self, gap: f32) -> f32 {
         let curvature = &self.patch.shape().curvature;
@@ -223,7 +223,7 @@ impl Face<'_> {
     }
 }
 
-/// The parameters of a face so far inside of one of its sides, at the edge's parameter there.
+/// The parameters of a face at the distance `inside` from one of its sides, at the edge's parameter `t`.
 #[inline]
 fn on_side(number: u8, is_reversed: bool, inside: f32, t: f32) -> [f32; 2] {
     let along = if is_reversed { 1.0 - t } else { t };

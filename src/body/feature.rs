@@ -5,12 +5,13 @@ use crate::math::Vec3;
 use crate::patch::{Coefficients, SplinePatch};
 use bytemuck::CheckedBitPattern;
 
-/// A feature of a body: what owns the closest point.
+/// A feature of a body: the owner of the closest point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Feature {
-    /// The inside of a patch, by index.
+    /// The interior of a patch, by index.
     Face(u16),
-    /// The inside of a border curve.
+    /// The interior of a border curve.
     Edge(u16),
     /// A point where edges meet, or a pole.
     Vertex(u16),
@@ -26,11 +27,11 @@ pub struct Face<'a> {
 }
 
 impl Face<'_> {
-    /// What a place for a face holds before there is one: a square of 1 m with poles for sides.
+    /// Content of an unused slot: a square of 1 m with poles for sides.
     pub const VACANT: Self = Self { patch: SplinePatch::VACANT, sides: [Side::Pole { vertex: 0 }; 4] };
 }
 
-/// What lies along one border of a face.
+/// The feature along one border of a face.
 #[derive(Clone, Copy, Debug)]
 pub enum Side<'a> {
     /// An edge.
@@ -49,8 +50,8 @@ pub enum Side<'a> {
     },
 }
 
-/// The surface that separates a face's Voronoi region from what lies beyond one of its edges: the ruled surface
-/// `c(t) + s N(t)` of edge curve and face normal (theory §9).
+/// The surface that ends a face's Voronoi region along one of its edges: the ruled surface `c(t) + s N(t)` of edge
+/// curve and face normal (theory §9).
 ///
 /// With `m` the face's outward conormal (in its tangent plane, normal to the edge), a probe `Q` has left the face iff
 /// `(Q − c(t*)) · m(t*) > 0` at the parameter `t*` of the edge closest to `Q`.
@@ -58,10 +59,10 @@ pub enum Side<'a> {
 pub enum Separator<'a> {
     /// A plane: the edge is straight and the face's normal constant along it. Left iff `across · Q > offset`.
     Plane {
-        /// Normal to the plane, out of the face's region: as much as the face's parameter across the border changes in
-        /// a metre, at the middle of the edge.
+        /// Normal to the plane, out of the face's region: the change of the face's parameter across the border in a
+        /// metre, at the middle of the edge.
         across: Vec3,
-        /// What the plane has.
+        /// `across · P` for a point `P` of the plane.
         offset: f32,
     },
     /// The face's derivative across the border, out of the face, in the edge's parameter: `±f_u` or `±f_v` times any
@@ -72,11 +73,12 @@ pub enum Separator<'a> {
 
 /// How the faces of an edge stand to each other, seen from outside the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum EdgeKind {
-    /// A ridge all along: only probes outside are closest to it.
+    /// A ridge all along: only probes outside have their closest point on it.
     Convex = 0,
-    /// The normals agree all along: no probe has it for its own, the faces hand over directly.
+    /// The normals agree all along: it owns no probe, and the faces hand over directly.
     Smooth = 1,
     /// A valley all along: only probes inside are held by it.
     Reflex = 2,
@@ -91,12 +93,12 @@ pub enum EdgeKind {
 pub struct Edge<'a> {
     /// The curve, never one point.
     pub curve: SplineCurve<'a>,
-    /// `sup ‖c'''‖`, metres per unit of parameter cubed: what the step of second order along the edge needs. Infinite
-    /// where nothing is proved.
+    /// `sup ‖c'''‖`, metres per unit of parameter cubed: for the second-order step along the edge. Infinite without a
+    /// proof.
     pub third_derivative: f32,
     /// The largest jump of `c''` across a knot, metres per unit of parameter squared. Infinite at a crease.
     pub jump: f32,
-    /// The faces on it: two (of which both may be the same face), or one and [`EdgeFace::NONE`] for an open border.
+    /// The faces on it: two (possibly the same face twice), or one and [`EdgeFace::NONE`] for an open border.
     pub faces: [EdgeFace; 2],
     /// The vertices at `t = 0` and `t = 1`.
     pub ends: [u16; 2],
@@ -105,7 +107,7 @@ pub struct Edge<'a> {
 }
 
 impl Edge<'_> {
-    /// What a place for an edge holds before there is one: a point, of no face.
+    /// Content of an unused slot: a point, without faces.
     pub const VACANT: Self = Self {
         curve: SplineCurve {
             degree: 0,
@@ -123,6 +125,7 @@ impl Edge<'_> {
 
 /// One face of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EdgeFace {
     /// Index of the face.
     pub face: u16,
@@ -135,25 +138,25 @@ impl EdgeFace {
     pub const NONE: Self = Self { face: u16::MAX, side: 0 };
 }
 
-/// A point where edges meet. In a file it lies as it does in memory.
+/// A point where edges meet. Its layout in a file is that in memory.
 #[derive(Clone, Copy, Debug, CheckedBitPattern)]
 #[repr(C)]
 pub struct Vertex {
     /// Where, metres.
     pub point: Vec3,
     /// Unit vector along the sum of the faces' normals, each times the angle that it fills here: a probe that is
-    /// closest to the vertex is outside a closed body where it lies on this side. Zero where that says nothing, and on
-    /// an open border.
+    /// closest to the vertex is outside a closed body if it is on this side. Zero if that does not decide, and on an
+    /// open border.
     pub outward: Vec3,
     /// Its spokes: `first_spoke .. first_spoke + spokes` of the body's list.
     pub first_spoke: u16,
-    /// How many edges end here.
+    /// Number of edges that end here.
     pub spokes: u16,
-    /// Whether it lies on the border of an open body.
+    /// Whether it is on the border of an open body.
     pub is_open: bool,
 }
 
-/// One end of an edge, seen from its vertex. In a file it lies as it does in memory.
+/// One end of an edge, at its vertex. Its layout in a file is that in memory.
 #[derive(Clone, Copy, Debug, CheckedBitPattern)]
 #[repr(C)]
 pub struct Spoke {

@@ -1,5 +1,4 @@
-//! The top level: from which feature the tracker goes to which other one. No switch raises the distance by more than
-//! rounding.
+//! The switch: the transitions of the tracker between features. No switch raises the distance by more than rounding.
 
 use super::curve::CurvePoint;
 use super::edge_step::EdgeStep;
@@ -12,9 +11,10 @@ use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::track::{BoundaryMode, Witness};
 
 impl Body<'_> {
-    /// Hands over through the side that holds the witness point. While the witness point is free there is nothing to
-    /// ask: the controller brings it to the side through which the probe has left, and there the measure numbers of the
-    /// projection errors change sign where the probe passes the separator. Whether the tick is spent, or the edge's.
+    /// Hands over through the side that holds the witness point. While the witness point is free there is no need: the
+    /// controller brings it to the side through which the probe has left, and there the measure numbers of the
+    /// projection errors change sign as the probe passes the separator. Returns whether the tick is spent, or the
+    /// edge's.
     #[inline(never)]
     pub(super) fn leave_face(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Some(face) = self.faces.get(usize::from(index)) else { return false };
@@ -24,7 +24,7 @@ impl Body<'_> {
             BoundaryMode::UpperU => 1,
             BoundaryMode::LowerV => 2,
             BoundaryMode::UpperV => 3,
-            // A smooth edge hands over whatever lies beyond the corner, and would be handed back to.
+            // At a corner a smooth edge would hand over a probe that belongs to the other side, and get it back.
             BoundaryMode::Corner => {
                 let [first, second] = [usize::from(u > 0.5), 2 + usize::from(v > 0.5)];
                 let [kind, other] = [first, second].map(|number| self.kind_of_side(face, number));
@@ -40,7 +40,7 @@ impl Body<'_> {
                 step.switched
             }
             Side::Edge { edge, reversed, .. } => {
-                // The border is the edge: there is nothing to evaluate.
+                // The border is the edge: no evaluation is needed.
                 let Witness { surface, second, halvings, .. } = &state.witness;
                 let (point, halvings) = (surface.point, *halvings);
                 let (along, tangent, half_second) = if number < 2 {
@@ -64,8 +64,9 @@ impl Body<'_> {
         self.edges.get(usize::from(*edge)).map(|edge| edge.kind)
     }
 
-    /// From an edge to the face whose region holds the probe, or to the vertex at the end that holds the witness point;
-    /// otherwise one step along it. An edge that has just been come to from a face, `from`, asks the other one.
+    /// On an edge: hands over to the face whose region holds the probe, or to the vertex at the end that holds the
+    /// witness point; otherwise takes one step along the edge. If the tracker has just come from the face `from`, only
+    /// the other face is asked.
     #[inline(never)]
     pub(super) fn tick_on_edge(
         &self,
@@ -81,14 +82,14 @@ impl Body<'_> {
         let border = EdgePoint { along: EdgeStep::new(state.witness.surface.point, tangent, probe), tangent, t };
         let comes_from_face = from != EdgeFace::NONE.face;
         state.no_face_took_probe = false;
-        // No probe has a smooth edge for its own.
+        // A smooth edge owns no probe.
         if comes_from_face
             && edge.kind == EdgeKind::Smooth
             && self.cross_smooth_edge(edge, from, is_curved, state, step)
         {
             return;
         }
-        // Come to from a vertex it asks in the next tick.
+        // After a vertex the faces are asked in the next tick.
         let faces = if comes_from_face || !step.switched { &edge.faces[..] } else { &[] };
         for of in faces.iter().copied() {
             if of.face != from
@@ -108,7 +109,7 @@ impl Body<'_> {
         }
     }
 
-    /// Over a smooth edge, from one of its faces to the other one at the border. Whether there is another.
+    /// Enters the other face of a smooth edge at the border. Returns whether there is another.
     #[inline]
     fn cross_smooth_edge(
         &self,
@@ -127,7 +128,7 @@ impl Body<'_> {
         true
     }
 
-    /// From a vertex along the edge that falls most steeply, if one does.
+    /// From a vertex to the edge along which the distance falls most steeply, if it falls along any.
     #[inline(never)]
     pub(super) fn leave_vertex(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
@@ -140,8 +141,8 @@ impl Body<'_> {
         }
     }
 
-    /// The edge along which the distance to a probe `towards` there falls most steeply from a vertex, and how far
-    /// along its tangent the probe is, metres; `None` where no edge leads nearer.
+    /// The edge along which the distance to a probe at the offset `towards` falls most steeply from a vertex, and how
+    /// far along its tangent the probe is, metres; `None` if no edge leads nearer.
     pub(super) fn steepest(&self, vertex: &Vertex, towards: Vec3) -> Option<(f32, &Spoke)> {
         let mut steepest: Option<(f32, &Spoke)> = None;
         for spoke in self.spokes_of(vertex) {

@@ -1,4 +1,4 @@
-//! On which side of a closed body a probe is, as far as what meets at an edge or a vertex says.
+//! Inside or outside a closed body, by the faces that meet at an edge or a vertex.
 
 use super::border_release::{HOLLOW, Rim, bulge};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
@@ -7,11 +7,10 @@ use super::tracker::BodyWitness;
 use crate::math::Vec3;
 use crate::patch::Patch as _;
 
-/// Where only smooth edges and hollow faces meet, a probe higher than this over the tangent plane, for its distance, is
-/// outside: a body comes so far in front of it at a fifth of its least hollow radius.
+/// Minimum height over the tangent plane, relative to the distance, at which a probe is outside where smooth edges and
+/// hollow faces meet: a body comes that far in front of it at a fifth of its minimum hollow radius.
 const STEEP: f32 = 0.1;
-/// The same where no face is hollow: what coordinates that are rounded may say of a probe a hundred-thousandth of the
-/// size away.
+/// The same without hollow faces: the rounding of coordinates for a probe at a distance of 10⁻⁵ sizes.
 const LEVEL: f32 = 0.01;
 
 impl Body<'_> {
@@ -36,9 +35,9 @@ impl Body<'_> {
         is_steep(height, normal.length_squared() * away.length_squared(), hollowest)
     }
 
-    /// On which side of a closed body a probe is that is nearest to a vertex, as far as is known. Where that holds it,
-    /// for no edge leads nearer, `outward` says so. Well above a smooth vertex, and in front of three convex edges, it
-    /// is outside, too; behind them it is for a face to say.
+    /// Whether a probe closest to a vertex is outside a closed body; `None` if the vertex does not decide. If no edge
+    /// leads nearer, `outward` decides. Well above a smooth vertex, and in front of three convex edges, the probe is
+    /// outside; behind these a face decides.
     pub(super) fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
         let height = towards.dot(vertex.outward);
         let spokes = self.spokes_of(vertex);
@@ -54,7 +53,7 @@ impl Body<'_> {
         self.is_in_front_at(vertex, towards).filter(|is_in_front| *is_in_front)
     }
 
-    /// Where three convex edges meet at a vertex, smooth ones aside: whether it is in front of any of the three planes
+    /// For a vertex of three convex edges (and any smooth ones): whether the probe is in front of one of the planes
     /// between them, by more than a hollow face may be.
     #[inline(never)]
     pub(super) fn is_in_front_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
@@ -90,8 +89,8 @@ impl Body<'_> {
         }))
     }
 
-    /// How far the face between two edges of a vertex may come in front of its tangent plane there; `None` where there
-    /// are more faces than one between them.
+    /// Upper bound of how far the face between two edges of a vertex comes in front of its tangent plane there,
+    /// metres; `None` if there is more than one face between them.
     #[inline(never)]
     fn bulge_between(&self, from: &Spoke, to: &Spoke, towards: Vec3) -> Option<f32> {
         let [first, second] = [self.edges.get(usize::from(from.edge))?, self.edges.get(usize::from(to.edge))?];
@@ -103,7 +102,7 @@ impl Body<'_> {
         Some(bulge(&face.patch, of.side < 2, &Rim { tangent, cross, is_plane: false, along }, towards))
     }
 
-    /// The least curvature of the faces around a vertex where one is hollow, 1/m, else 0. At a pole nothing is known.
+    /// Minimum curvature of the faces around a vertex, 1/m, if one is hollow; otherwise 0. Poles do not count.
     #[inline(never)]
     fn hollowest_at(&self, vertex: &Vertex) -> f32 {
         let spokes = self.spokes_of(vertex).iter();
@@ -121,14 +120,14 @@ impl Body<'_> {
     }
 }
 
-/// Whether a height over a tangent plane is more than a body may have there, for a distance that is given squared and
-/// the least curvature of the faces, 1/m.
+/// Whether a height over a tangent plane is more than a body may have there, for a squared distance and the minimum
+/// curvature of the faces, 1/m.
 fn is_steep(height: f32, squared: f32, hollowest: f32) -> bool {
     let least = if hollowest < -HOLLOW { STEEP } else { LEVEL };
     height > 0.0 && height * height > least * least * squared
 }
 
-/// The lesser of a curvature and a face's least one. Where that is not known, at a pole, it does not count.
+/// The lower of a curvature and a face's minimum. A face without a bound, at a pole, does not count.
 fn hollower(hollowest: f32, face: &Face) -> f32 {
     let least = face.patch.shape().curvature.min;
     if least < hollowest && least > f32::NEG_INFINITY { least } else { hollowest }

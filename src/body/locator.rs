@@ -1,20 +1,34 @@
-//! The locator: an octree in flash that says which parts of which faces can own the closest point of a probe.
+//! The locator: an octree in flash that lists the parts of faces that can own the closest point of a probe.
 //!
 //! A leaf is a list of candidates, each a rectangle of the parameters of one face. The host proves, where it can, that
-//! the closest point of every probe of the cell lies in one of them, and that the distance has one minimum in each.
+//! the closest point of every probe of the cell is in one of them, and that the distance has one minimum in each.
 
 use crate::math::Vec3;
 
-/// Depth of the octree at most.
+/// Maximum depth of the octree.
 pub const MAX_DEPTH: usize = 10;
-/// Rectangles of candidates have their corners on a grid of this many intervals.
+/// Intervals of the grid on which the rectangles of candidates have their corners.
 pub const GRID: u32 = 31;
-/// Faces a body may have: what an entry's ten bits can name.
+/// Maximum number of faces of a body: the range of an entry's ten bits.
 pub const MAX_FACES: usize = 1 << 10;
 /// The flag of a leaf among the children of a node.
 pub const LEAF: u16 = 0x8000;
 
-/// The octree.
+/// The octree, part of the tables of a body.
+///
+/// ```
+/// use palpate::body::{Candidate, LEAF, Locator};
+/// use palpate::math::{Vec3, vec3};
+///
+/// // One face for all probes: a root whose eight children are the same list.
+/// const WHOLE: Candidate = Candidate { face: 0, lower: [0; 2], upper: [31; 2], convex: false, more: false };
+/// static NODES: [[u16; 8]; 1] = [[LEAF; 8]];
+/// static ENTRIES: [u32; 1] = [WHOLE.pack()];
+/// let locator = Locator { corner: Vec3::ZERO, side: 0.1, nodes: &NODES, entries: &ENTRIES };
+/// let first = locator.list(vec3(0.02, 0.09, 0.05));
+/// assert_eq!(locator.candidate(first), Some(WHOLE));
+/// assert!(!locator.holds(vec3(0.2, 0.0, 0.0)));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Locator<'a> {
     /// The lower corner of the root cube, metres, in the body's frame.
@@ -30,12 +44,13 @@ pub struct Locator<'a> {
 
 /// A part of a face that can own the closest point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Candidate {
     /// Index of the face.
     pub face: u16,
-    /// The least `u` and `v`, in grid steps of 1/[`GRID`].
+    /// Lower `u` and `v`, in grid steps of 1/[`GRID`].
     pub lower: [u8; 2],
-    /// The greatest.
+    /// Upper `u` and `v`.
     pub upper: [u8; 2],
     /// Whether half the squared distance is proved to be convex in `(u, v)` over the rectangle, for every probe of the
     /// cell: then it has one minimum there, and every point of the rectangle gives a lower bound of it.
@@ -87,14 +102,14 @@ impl Candidate {
 }
 
 impl Locator<'_> {
-    /// The index of the first entry for a probe; one outside the root cube gets the list of the nearest cell, which is
-    /// then not proved to be complete. At most [`MAX_DEPTH`] rounds.
+    /// The index of the first entry for a probe. Outside the root cube it is the list of the nearest cell, whose
+    /// completeness is not proved. At most [`MAX_DEPTH`] rounds.
     #[inline]
     pub fn list(&self, probe: Vec3) -> usize {
         let mut centre = self.corner + Vec3::splat(0.5 * self.side);
         let mut quarter = 0.25 * self.side;
         let mut node = 0;
-        // Unseen by the compiler, which would unroll every round.
+        // Hidden from the compiler, which would unroll every round.
         for _ in 0..core::hint::black_box(MAX_DEPTH) {
             let upper = [probe.x >= centre.x, probe.y >= centre.y, probe.z >= centre.z];
             let child = usize::from(upper[0]) | usize::from(upper[1]) << 1 | usize::from(upper[2]) << 2;

@@ -1,20 +1,19 @@
-//! Second order beside a pole: a side of a face that is one point.
+//! Second order near a pole: a side of a face that is one point.
 //!
 //! Around a pole the surface is `p + w d(y)`, like polar coordinates: all of `f_y` shrinks with the distance `w` from
-//! the pole, so that a change of `y` that is good here is far too long a little farther out, and leads around the pole
-//! a little nearer to it. Searched for is instead `η` in `y + η w / (w + ω)`, with `ω` the change of `w`: a step in the
-//! tangent plane. In `(η, ω)` the gradient is the same and the mixed second derivative of `φ` is `φ_yw − φ_y / w`; on a
-//! planar triangle that makes the quadratic model the distance itself.
+//! the pole. A good change of `y` is far too long a little farther out, and leads around the pole a little nearer to
+//! it. The unknown is instead `η` in `y + η w / (w + ω)`, with `ω` the change of `w`: a step in the tangent plane. In
+//! `(η, ω)` the gradient is the same and the mixed second derivative of `φ` is `φ_yw − φ_y / w`; on a planar triangle
+//! that makes the quadratic model exact.
 //!
-//! At the pole there is no `φ_y`. The slope `φ_w` into the face is then a function of `y`, and `φ_yw` says where it
-//! falls.
+//! At the pole there is no `φ_y`. The slope `φ_w` into the face is then a function of `y`, with the derivative `φ_yw`.
 
 use super::feature::{Face, Side};
 use crate::math::saturate;
 use crate::patch::{Patch as _, SplinePatch};
 
-/// So near a pole, in sizes of the body, the tangent around it may be rounding: coordinates of that size are rounded by
-/// `6e-8`, a hundredth of this and less with the tangents made of them.
+/// Distance from a pole, relative to the body's size, below which the tangent around it may be rounding: coordinates
+/// are rounded by `6e-8` of the size, a hundredth of this and less with the tangents computed from them.
 const AT_POLE: f32 = 1.0e-5;
 
 /// The same in parameters of a patch, for a body of a size, metres.
@@ -23,17 +22,17 @@ pub(super) fn at_pole(patch: &SplinePatch, size: f32) -> f32 {
     AT_POLE * size / patch.size()
 }
 
-/// A second derivative of `φ` closer to 0 than this part of that without curvature is taken for so much.
+/// Minimum of a second derivative of `φ`, relative to its part without curvature.
 const FLAT: f32 = 1.0e-2;
 
-/// What stands in for a second derivative of `φ` along one parameter: the same without its sign, not close to 0 by
-/// what it is without curvature.
+/// Positive replacement for a second derivative of `φ` along one parameter: its absolute value, but at least [`FLAT`]
+/// times its part without curvature.
 pub(super) fn bend_of(newton: f32, form: f32) -> f32 {
     saturate(newton.abs(), FLAT * form, f32::MAX)
 }
 
 impl Face<'_> {
-    /// Which of its sides are poles, as bits.
+    /// The sides that are poles, as bits.
     #[inline]
     pub const fn poles(&self) -> u8 {
         let [lower_u, upper_u, lower_v, upper_v] = &self.sides;
@@ -45,16 +44,16 @@ const fn bit(side: &Side) -> u8 {
     matches!(side, Side::Pole { .. }) as u8
 }
 
-/// A pole as seen from a point of its face.
+/// A pole, relative to a point of its face.
 #[derive(Clone, Copy)]
 pub(super) struct Pole {
-    /// Whether `v` leads away from it, not `u`: as an index 0 or 1, which the compiler sees.
+    /// Whether `v` leads away from it, not `u`: as an index 0 or 1, known to the compiler.
     is_along_v: bool,
-    /// Whether that parameter rises on the way: 1, else −1.
+    /// 1 if that parameter rises away from the pole, else −1.
     inward: f32,
-    /// How far the point is from the pole along it.
+    /// Distance of the point from the pole along that parameter.
     away: f32,
-    /// So near it is at the pole, see [`at_pole`].
+    /// Distance below which the point is at the pole, see [`at_pole`].
     near: f32,
 }
 
@@ -77,19 +76,19 @@ impl Pole {
         nearest
     }
 
-    /// Whether nothing around it can be told apart from the point.
+    /// Whether the parameter around the pole is only rounding at the point.
     #[inline]
     fn is_at_pole(&self) -> bool {
         self.away <= self.near
     }
 
-    /// What the mixed second derivative of `φ` is more by, with the gradient of `φ`.
+    /// Correction of the mixed second derivative of `φ` for the gradient of `φ`.
     pub(super) fn mixed(&self, gradient: [f32; 2]) -> f32 {
         if self.is_at_pole() { 0.0 } else { -self.inward * gradient[1 - self.axis()] / self.away }
     }
 
-    /// By how much `η` may be more for a change of one across, for its room is the parameter's, and that is `η w / (w +
-    /// ω)`: 0 at the pole, where nothing is told apart.
+    /// Change of the range of `η` for a change of one across: the range is that of the parameter, which is `η w / (w +
+    /// ω)`. 0 at the pole.
     pub(super) fn spread(&self) -> f32 {
         if self.is_at_pole() { 0.0 } else { self.inward / self.away }
     }
@@ -99,8 +98,8 @@ impl Pole {
         self.is_along_v as usize
     }
 
-    /// From a step `(η, ω)` to the change of the parameters. One that ends at the pole keeps its `η`: where on the pole
-    /// does not matter.
+    /// The change of the parameters for a step `(η, ω)`. A step that ends at the pole keeps its `η`: the parameter
+    /// there does not matter.
     pub(super) fn unrolled(&self, change: [f32; 2]) -> [f32; 2] {
         let left = self.away + self.inward * change[self.axis()];
         let mut unrolled = change;
@@ -110,7 +109,7 @@ impl Pole {
         unrolled
     }
 
-    /// Half of a step, by its change of the parameters: the same way in `(η, ω)`.
+    /// Half of a step that is given by its change of the parameters, in the same direction in `(η, ω)`.
     pub(super) fn halved(&self, change: [f32; 2]) -> [f32; 2] {
         let left = self.away + self.inward * change[self.axis()];
         let mut half = change.map(|change| 0.5 * change);
@@ -120,25 +119,25 @@ impl Pole {
         self.unrolled(half)
     }
 
-    /// From the pole: the step into the face, and what it should gain. `None` away from it, or where no slope into the
-    /// face is downhill. `newton` is the Hessian, `form` the first fundamental form, `[uu, uv, vv]`; `room` how far the
-    /// parameters may go.
+    /// At the pole: the step into the face, and its predicted gain. `None` away from the pole, or if no slope into the
+    /// face is downhill. `newton` is the Hessian, `form` the first fundamental form, `[uu, uv, vv]`; `range` is the
+    /// range of the changes.
     ///
-    /// Here the slope is a function of `y` alone. Straight on, unless at the end of the range where it falls it should
-    /// be twice as steep: a straight line overshoots a cosine.
+    /// Here the slope is a function of `y` alone. The step goes straight on, unless the slope at the end of the range
+    /// where it falls should be twice as steep: a straight line overshoots a cosine.
     pub(super) fn out_of(
         &self,
         gradient: [f32; 2],
         newton: [f32; 3],
         form: [f32; 3],
-        room: [[f32; 2]; 2],
+        range: [[f32; 2]; 2],
     ) -> Option<([f32; 2], f32)> {
         if !self.is_at_pole() {
             return None;
         }
         let (across, along) = (self.axis(), 1 - self.axis());
         let (slope, turn) = (self.inward * gradient[across], self.inward * (newton[1] - form[1]));
-        let reach = room[usize::from(turn < 0.0)][along];
+        let reach = range[usize::from(turn < 0.0)][along];
         let at_end = slope + turn * reach;
         let mut change = [0.0; 2];
         let mut downhill = slope;
@@ -149,7 +148,7 @@ impl Pole {
         if !(downhill < 0.0 && bend > f32::MIN_POSITIVE) {
             return None;
         }
-        let most = room[usize::from(self.inward > 0.0)][across].abs();
+        let most = range[usize::from(self.inward > 0.0)][across].abs();
         let way = saturate(-downhill / bend, 0.0, most);
         change[across] = self.inward * way;
         Some((change, way * (downhill + 0.5 * bend * way)))

@@ -1,7 +1,7 @@
-//! A step of second order on a face that has a pole.
+//! A second-order step of the tracker on a face that has a pole.
 
 use super::candidate_search::RESOLUTION;
-use super::face_entry::LEAST_FALL;
+use super::face_entry::MIN_FALL;
 use super::feature::{Face, Side};
 use super::pole::{Pole, at_pole};
 use super::quadratic_model::{DistanceDerivatives, Model};
@@ -12,9 +12,9 @@ use crate::patch::CurvedPoint;
 use crate::track::{Outcome, Witness, mode_at};
 
 impl Body<'_> {
-    /// One step of second order on a face that has a pole, where the certificate is of little use: bounds over the
-    /// whole face do not know that around the pole all is small. The evaluation says whether the step was good; if not
-    /// it is rejected, and the next one is certified. Whether it was tried.
+    /// One second-order step on a face that has a pole. There the certificate is of little use, because bounds over
+    /// the whole face ignore that all derivatives are small around the pole. The evaluation decides; a step that is
+    /// not nearer is rejected, and the next one is certified. Returns whether the step was tried.
     #[inline(never)]
     pub(super) fn step_near_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Witness { parameters, surface, second, halvings, .. } = state.witness;
@@ -28,7 +28,7 @@ impl Body<'_> {
         let reached = face.patch.evaluate_apart(plan.parameters);
         step.evaluations += 1;
         let before = (surface.point - state.probe).length_squared();
-        let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - 2.0 * LEAST_FALL * plan.fall;
+        let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - 2.0 * MIN_FALL * plan.fall;
         if is_nearer {
             state.witness.rest_at(plan.parameters, &reached);
             state.witness.mode = mode_at(plan.parameters, plan.is_held);
@@ -40,8 +40,8 @@ impl Body<'_> {
         true
     }
 
-    /// From a pole where the face has nothing nearer to its vertex, where an edge does: it leads to the face that has.
-    /// Whether it has gone there.
+    /// From a pole to its vertex if an edge leads nearer and the face does not: the edge leads to the next face.
+    /// Returns whether it did.
     #[inline(never)]
     fn leave_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Some(index) = self.pole_at(face, state.witness.parameters) else { return false };
@@ -57,7 +57,7 @@ impl Body<'_> {
         step.switched
     }
 
-    /// The vertex that a pole of a face is, where parameters are at it.
+    /// The vertex of the pole at these parameters, if they are at a pole.
     #[inline]
     pub(super) fn pole_at(&self, face: &Face, [u, v]: [f32; 2]) -> Option<u16> {
         let near = at_pole(&face.patch, self.size);
@@ -68,34 +68,34 @@ impl Body<'_> {
     }
 }
 
-/// What `φ` has to fall by for a step not to be rounding, m², at a squared distance on a body of a size.
+/// Minimum fall of `φ` that is more than rounding, m², at a squared distance on a body of this size.
 #[inline]
 fn worth(squared: f32, size: f32) -> f32 {
     let resolved = RESOLUTION * size;
     resolved * (sqrt_from_above(squared) + resolved)
 }
 
-/// A step of second order on a face that has poles.
+/// A second-order step on a face that has poles.
 #[derive(Clone, Copy)]
 struct PoleStep {
-    /// Where it leads.
+    /// `(u, v)` at its end.
     parameters: [f32; 2],
-    /// Whether a border holds it there, by parameter.
+    /// Whether a border holds each parameter there.
     is_held: [bool; 2],
-    /// What it should lower `φ` by, m².
+    /// Predicted fall of `φ`, m².
     fall: f32,
 }
 
 impl PoleStep {
-    /// The step from a point, in the coordinates around the nearest pole. `None` where it would be rounding, or there
+    /// The step from a point, in the coordinates around the nearest pole. `None` if it would be rounding, or if there
     /// is no pole.
     #[inline(never)]
     fn new(face: &Face, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
         let pole = Pole::nearest(face.poles(), at, &face.patch, size)?;
         let seen = DistanceDerivatives::new(curved, curved.surface.point - probe);
-        let room = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
+        let range = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
         let model = Model::new(seen.near_pole(pole));
-        let (change, fall) = model.step(&seen, Some(pole), room);
+        let (change, fall) = model.step(&seen, Some(pole), range);
         let is_worth_it = -fall > worth(2.0 * seen.half_squared, size);
         if !is_worth_it {
             return None;

@@ -1,15 +1,15 @@
 //! The quadratic model of half the squared distance at a point of a patch, and its minimiser over a rectangle of
 //! parameters.
 //!
-//! With `φ = ½ ‖f − Q‖²`, gradient `g` and Hessian `H = I + ΔR · D²f` it is `g · δ + ½ δᵀ H δ`, where `H` is positive
-//! definite; where it is not, the absolute values of its diagonal stand in, which lead away from a saddle, or all of
-//! `I` (Gauss–Newton). Beside a pole the model is one in polar coordinates ([`super::pole`]).
+//! With `φ = ½ ‖f − Q‖²`, gradient `g` and Hessian `H = I + ΔR · D²f` it is `g · δ + ½ δᵀ H δ` if `H` is positive
+//! definite. Otherwise the absolute values of the diagonal replace it, which lead away from a saddle, or `I` alone
+//! (Gauss–Newton). Near a pole the model is one in polar coordinates ([`super::pole`]).
 
 use super::pole::{Pole, bend_of};
 use crate::math::{Vec3, saturate};
 use crate::patch::CurvedPoint;
 
-/// A determinant below this part of the product of the diagonal is rounding.
+/// A determinant below this fraction of the product of the diagonal is rounding.
 const MIN_DETERMINANT: f32 = 1.0e-4;
 /// `φ` and its derivatives at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub(super) struct Model {
     gradient: [f32; 2],
     /// `[uu, uv, vv]`, positive definite but for poles.
     hessian: [f32; 3],
-    /// Whether that is the true one.
+    /// Whether that is the Hessian itself.
     pub is_newton: bool,
 }
 
@@ -56,11 +56,11 @@ impl Model {
         Self { gradient, hessian, is_newton }
     }
 
-    /// What stands in for a Hessian that is not positive definite.
+    /// Replacement for a Hessian that is not positive definite.
     #[inline(never)]
     fn stand_in(form: [f32; 3], newton: [f32; 3]) -> [f32; 3] {
-        // EdgeStep an arc that is equally far everywhere φ is flat, and at a saddle it falls both ways: what is known of
-        // the other parameter still counts.
+        // Along an arc of equal distance φ is flat, and at a saddle it falls both ways: the other parameter still
+        // counts.
         let mixed = [0, 2].map(|axis| bend_of(newton[axis], form[axis]));
         let mixed = [mixed[0], newton[1], mixed[1]];
         if is_positive_definite(mixed) {
@@ -68,7 +68,7 @@ impl Model {
         } else if is_positive_definite(form) {
             form
         } else {
-            // Near a pole: the trace is not below the greatest eigenvalue, a plain gradient step.
+            // Near a pole: the trace is not below the largest eigenvalue, a plain gradient step.
             let trace = form[0] + form[2];
             [trace, 0.0, trace]
         }
@@ -76,10 +76,10 @@ impl Model {
 
     /// The step to the minimiser, beside a pole in the coordinates of [`super::pole`], and the model's value there.
     #[inline(always)]
-    pub(super) fn step(&self, seen: &DistanceDerivatives, pole: Option<Pole>, room: [[f32; 2]; 2]) -> ([f32; 2], f32) {
-        let Some(pole) = pole else { return self.minimiser(room) };
-        pole.out_of(seen.gradient, seen.newton, seen.form, room).unwrap_or_else(|| {
-            let (change, fall) = self.minimiser_near_pole(&pole, room);
+    pub(super) fn step(&self, seen: &DistanceDerivatives, pole: Option<Pole>, range: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+        let Some(pole) = pole else { return self.minimiser(range) };
+        pole.out_of(seen.gradient, seen.newton, seen.form, range).unwrap_or_else(|| {
+            let (change, fall) = self.minimiser_near_pole(&pole, range);
             (pole.unrolled(change), fall)
         })
     }
@@ -90,8 +90,8 @@ impl Model {
         [self.gradient[0] + a * u + b * v, self.gradient[1] + b * u + c * v]
     }
 
-    /// The least value of `g · δ` with `δ` in `room`: not positive.
-    pub(super) fn greatest_fall(&self, [lower, upper]: [[f32; 2]; 2]) -> f32 {
+    /// Minimum of `g · δ` with `δ` in `range`: not positive.
+    pub(super) fn max_fall(&self, [lower, upper]: [[f32; 2]; 2]) -> f32 {
         let along = |axis: usize| {
             let (low, high) = (self.gradient[axis] * lower[axis], self.gradient[axis] * upper[axis]);
             if low < high { low } else { high }
@@ -99,16 +99,16 @@ impl Model {
         along(0) + along(1)
     }
 
-    /// What `φ` may still fall by from a point where its derivatives are at most these, m², as far as the Hessian here
-    /// says: `½ gᵀH⁻¹g`.
+    /// Upper bound of the fall of `φ` from a point where its derivatives are at most these, m², by this Hessian: `½
+    /// gᵀH⁻¹g`.
     #[inline(always)]
     pub(super) fn fall_at_most(&self, [p, q]: [f32; 2]) -> f32 {
         let [a, b, c] = self.hessian;
         (0.5 * (c * p * p + a * q * q) + b.abs() * p * q) / (a * c - b * b)
     }
 
-    /// The minimiser of the model over `room`, and the model's value there. In two variables either the free minimiser
-    /// lies inside, or the best of the four sides is the minimiser.
+    /// The minimiser of the model over `range`, and the model's value there. In two variables either the free
+    /// minimiser is inside, or the best of the four sides is the minimiser.
     #[inline(always)]
     fn minimiser(&self, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let [a, b, c] = self.hessian;
@@ -128,15 +128,16 @@ impl Model {
         let [p, q] = self.gradient;
         let mut best = ([0.0; 2], 0.0);
         for u in [lower[0], upper[0]] {
-            self.consider([u, least_of_line(q + b * u, c, [lower[1], upper[1]])], &mut best);
+            self.consider([u, minimiser_on_line(q + b * u, c, [lower[1], upper[1]])], &mut best);
         }
         for v in [lower[1], upper[1]] {
-            self.consider([least_of_line(p + b * v, a, [lower[0], upper[0]]), v], &mut best);
+            self.consider([minimiser_on_line(p + b * v, a, [lower[0], upper[0]]), v], &mut best);
         }
         best
     }
 
-    /// The same in the coordinates of a pole: the room of `η` is a wedge, as wide at the point as the parameter's.
+    /// The same in the coordinates of a pole: the range of `η` is a wedge, as wide at the point as that of the
+    /// parameter.
     #[inline(never)]
     fn minimiser_near_pole(&self, pole: &Pole, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let ([a, b, c], spread) = (self.hessian, pole.spread());
@@ -156,20 +157,20 @@ impl Model {
         for out in [lower[across], upper[across]] {
             let width = 1.0 + spread * out;
             let slope = self.gradient[along] + b * out;
-            let beside = least_of_line(slope, diagonal[along], [lower[along] * width, upper[along] * width]);
+            let beside = minimiser_on_line(slope, diagonal[along], [lower[along] * width, upper[along] * width]);
             self.consider(step(beside, out), &mut best);
         }
         for end in [lower[along], upper[along]] {
             let lean = end * spread;
             let [beside, out] = [self.gradient[along] + diagonal[along] * end, self.gradient[across] + b * end];
             let bend = lean * (diagonal[along] * lean + b + b) + diagonal[across];
-            let out = least_of_line(out + lean * beside, bend, [lower[across], upper[across]]);
+            let out = minimiser_on_line(out + lean * beside, bend, [lower[across], upper[across]]);
             self.consider(step(end + lean * out, out), &mut best);
         }
         best
     }
 
-    /// Not inlined four times: the search has time, flash is scarce.
+    /// Not inlined four times: flash is scarce, and the search is not in a hurry.
     #[inline(never)]
     fn consider(&self, change: [f32; 2], best: &mut ([f32; 2], f32)) {
         let value = self.value(change);
@@ -185,7 +186,7 @@ impl Model {
 }
 
 /// The minimiser of `slope · x + ½ bend · x²` between two ends; the model's diagonal is not negative.
-fn least_of_line(slope: f32, bend: f32, [low, high]: [f32; 2]) -> f32 {
+fn minimiser_on_line(slope: f32, bend: f32, [low, high]: [f32; 2]) -> f32 {
     if bend > f32::MIN_POSITIVE {
         saturate(-slope / bend, low, high)
     } else if slope > 0.0 {
@@ -203,15 +204,15 @@ fn is_positive_definite([a, b, c]: [f32; 3]) -> bool {
 mod tests {
     use super::*;
 
-    /// Against the least of a grid that has the minimiser's corners and sides on it.
+    /// Against the minimum of a grid that contains the minimiser's corners and sides.
     #[test]
     fn the_minimiser_of_a_model_is_the_least_on_its_rectangle() {
-        let room = [[-1.0, -0.5], [0.75, 1.0]];
+        let range = [[-1.0, -0.5], [0.75, 1.0]];
         for hessian in [[2.0, 0.5, 1.0], [1.0, -0.8, 1.5], [0.5, 0.0, 4.0]] {
             for turn in 0..24 {
                 let (sine, cosine) = crate::math::sin_cos(turn as f32 * core::f32::consts::TAU / 24.0);
                 let model = Model { gradient: [1.5 * cosine, sine], hessian, is_newton: true };
-                let (at, fall) = model.minimiser(room);
+                let (at, fall) = model.minimiser(range);
                 assert!(at[0] >= -1.0 && at[0] <= 0.75 && at[1] >= -0.5 && at[1] <= 1.0, "{at:?}");
                 assert!((model.value(at) - fall).abs() < 1e-6);
                 for (i, j) in (0..=56).flat_map(|i| (0..=48).map(move |j| (i, j))) {

@@ -1,7 +1,7 @@
 //! The global start: the candidates of the probe's cell, half an evaluation at a time.
 //!
-//! Half an evaluation a call, so that a servo tick can carry it: the search runs beside the tracker until it is done,
-//! and begins anew in whatever cell the probe is then. The same search answers a query at one go ([`Body::locate`]).
+//! A servo tick carries half an evaluation: the search runs beside the tracker until it ends, and starts again in the
+//! cell where the probe then is. [`Body::locate`] runs the same search in one call.
 
 use super::candidate_search::{
     CandidateSearch, CandidateStatus, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
@@ -12,29 +12,29 @@ use super::table::Body;
 use crate::math::{Vec3, sqrt};
 use crate::patch::{Patch as _, SplinePatch};
 
-/// Evaluations that a search may cost on any body.
+/// Maximum evaluations of a search.
 pub const MAX_EVALUATIONS: u16 = 512;
-/// Evaluations that a search may cost on a convex body.
+/// Maximum evaluations of a search on a convex body.
 pub const MAX_EVALUATIONS_CONVEX: u16 = 32;
 
 /// A search between two evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Search {
     descending: CandidateSearch,
-    /// Index of the entry that is being searched.
+    /// Index of the candidate's entry.
     entry: u16,
     evaluations: u16,
     best: Best,
-    /// In the audit: where the probe was when the candidate's turn came, and what was to be beaten then. A minimum that
-    /// moved with the probe would never be found.
+    /// In the audit: the probe and the distance to beat at the start of the candidate. A minimum that moved with the
+    /// probe would never be found.
     asked: Option<(Vec3, f32)>,
-    /// Whether a candidate was given up short of its end.
+    /// Whether a candidate ended before its minimum.
     exhausted: bool,
-    /// Once it is done: whether every candidate was searched to its end.
+    /// Once the search has ended: whether every candidate was searched to its end.
     ended: Option<bool>,
 }
 
-/// The nearest so far.
+/// The nearest point so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Best {
     pub face: u16,
@@ -42,18 +42,18 @@ pub(super) struct Best {
     pub half_squared: f32,
 }
 
-/// The tracker's point, which the audit tries to beat.
+/// The tracker's point, for which the audit looks for a nearer one.
 #[derive(Clone, Copy)]
 pub(super) struct Rival {
-    /// Of a nearer point `½ ‖P − Q‖²` is below this, m².
+    /// Bound of `½ ‖P − Q‖²` for a nearer point, m².
     pub half_squared: f32,
-    /// Where it lies: the face and `(u, v)`, on an edge those of both faces.
+    /// The faces that hold it, with `(u, v)`: two on an edge.
     pub places: [Option<(u16, [f32; 2])>; 2],
 }
 
 impl Rival {
-    /// Whether the tracker's own point is the nearest of a candidate: `φ` has one minimum there, and the tracker goes
-    /// to it.
+    /// Whether the tracker's point is the nearest of a candidate: `φ` has one minimum there, and the tracker goes to
+    /// it.
     #[inline]
     fn holds(&self, candidate: &Candidate) -> bool {
         let [lower, upper] = candidate.rectangle();
@@ -103,7 +103,7 @@ impl Located {
 }
 
 impl Search {
-    /// Before the first evaluation, in the cell of a probe.
+    /// A search in the cell of a probe, before its first evaluation.
     pub fn new(body: &Body, probe: Vec3) -> Self {
         let entry = body.locator.list(probe);
         Self {
@@ -117,20 +117,20 @@ impl Search {
         }
     }
 
-    /// Whether the last half was an evaluation.
+    /// Whether the last half step was an evaluation.
     pub const fn has_evaluated(&self) -> bool {
         self.descending.has_evaluated()
     }
 
-    /// Half of a step: one evaluation, or what follows from it. The probe may move a little between two calls. Nothing
-    /// once it is done.
+    /// Half a step: one evaluation, or the choice of the next parameters. The probe may move a little between two
+    /// calls. Does nothing once the search has ended.
     #[inline]
     pub fn advance(&mut self, body: &Body, probe: Vec3) {
         self.advance_against(body, probe, None);
     }
 
-    /// The same for the audit, which asks for no more than a point that is nearer than the `rival`: with the first one
-    /// that is, it is done. What is certain to hold none is passed over.
+    /// The same for the audit, which ends at the first point that is nearer than the `rival`. Candidates that are
+    /// certain to hold none are skipped.
     #[inline(always)]
     pub(super) fn advance_against(&mut self, body: &Body, probe: Vec3, rival: Option<&Rival>) {
         if self.ended.is_some() {
@@ -184,13 +184,13 @@ impl Search {
         }
     }
 
-    /// On with the next candidate, after one whose point is no nearer after all.
+    /// Continues with the next candidate, after one whose point is not nearer.
     pub(super) fn resume(&mut self, body: &Body) {
         (self.ended, self.best.half_squared) = (None, f32::INFINITY);
         self.go_on(body, CandidateStatus::Beaten);
     }
 
-    /// To the next evaluation, the next candidate, or the end.
+    /// Continues with the next evaluation or candidate, or ends.
     #[inline]
     fn go_on(&mut self, body: &Body, progress: CandidateStatus) {
         let most = if body.is_convex() { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
@@ -212,7 +212,7 @@ impl Search {
     }
 }
 
-/// Whether one of two parameters may be on a line of the grid of the rectangles: a quick look that most pass.
+/// Whether one of two parameters may be on a line of the grid of the rectangles: a quick test that most pass.
 #[inline(always)]
 fn is_on_grid(parameters: [f32; 2]) -> bool {
     /// Added to a small number it rounds that to a whole one.
@@ -227,8 +227,9 @@ fn is_on_grid(parameters: [f32; 2]) -> bool {
 }
 
 impl Body<'_> {
-    /// The closest point of the body from a standing start. At most [`MAX_EVALUATIONS`] of patches, on a convex body
-    /// [`MAX_EVALUATIONS_CONVEX`], and [`MAX_EVALUATIONS_PER_CANDIDATE`] where the list turns out not to hold it.
+    /// The closest point of the body to a probe, without history. At most [`MAX_EVALUATIONS`] of patches, on a convex
+    /// body [`MAX_EVALUATIONS_CONVEX`], and [`MAX_EVALUATIONS_PER_CANDIDATE`] if the list turns out not to hold it;
+    /// then one for the point.
     pub fn locate(&self, probe: Vec3) -> Located {
         let mut search = Search::new(self, probe);
         // Two halves an evaluation.
@@ -249,8 +250,8 @@ impl Body<'_> {
         Located { face, parameters, point, evaluations, complete: ended.unwrap_or(false), distance_squared }
     }
 
-    /// A minimum on the border of a rectangle is none of its face: the list does not hold all, as it may not beyond the
-    /// root cube and where a cell is not proved. So on over the whole face.
+    /// A minimum on the border of a rectangle is not one of the face: the list is incomplete, as it may be beyond the
+    /// root cube and in a cell without proof. The search continues over the whole face.
     #[inline(never)]
     fn go_beyond_rectangle(&self, search: &mut Search, probe: Vec3) {
         let Best { face: index, parameters, half_squared } = search.best;
@@ -284,7 +285,7 @@ impl Body<'_> {
     /// A search from the middle of the candidate at an index.
     fn descending(&self, entry: usize) -> CandidateSearch {
         let candidate = self.candidate(entry);
-        // A convex body's lists are short, and no audit looks again.
+        // A convex body's lists are short, and no audit follows.
         if self.is_convex() {
             CandidateSearch::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX).with_last_evaluation()
         } else {

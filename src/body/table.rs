@@ -8,6 +8,21 @@ use core::fmt;
 use core::num::NonZeroU32;
 
 /// A body of several patches: features, the surfaces that separate their Voronoi regions, and a locator.
+///
+/// Made of [`BodyTables`] that a host has baked, or from a file:
+///
+/// ```
+/// use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face};
+/// use palpate::math::vec3;
+///
+/// # macro_rules! include_bytes { ($_: literal) => { std::include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")) } }
+/// static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!("capped_box.palp"));
+/// let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
+/// let body = Body::from_bytes(&FILE.0, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
+/// assert!(body.is_convex());
+/// assert!(body.locate(vec3(-0.01, 0.02, 0.01)).distance() <= 0.01);
+/// # Ok::<(), palpate::body::FileError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Body<'a> {
     pub(super) faces: &'a [Face<'a>],
@@ -16,12 +31,12 @@ pub struct Body<'a> {
     pub(super) spokes: &'a [Spoke],
     pub(super) locator: Locator<'a>,
     pub(super) size: f32,
-    /// The contact from which there is nothing to audit: the body is touched, or it is convex and the probe in front of
-    /// the witness point, so that no other point is nearer.
+    /// The contact from which no audit is needed: the body is touched, or it is convex and the probe in front of the
+    /// witness point, so that no other point is nearer.
     pub(super) sure_from: Contact,
-    /// Whether any face has a pole: where none has, the search does not ask.
+    /// Whether any face has a pole; otherwise the search skips the test.
     pub(super) has_poles: bool,
-    /// Whether any edge is smooth: where none is, a step that ends at the border of a face does not ask.
+    /// Whether any edge is smooth; otherwise a step that ends at the border of a face skips the test.
     pub(super) has_smooth_edges: bool,
     pub(super) baked_crc: Option<NonZeroU32>,
 }
@@ -253,7 +268,7 @@ impl<'a> Body<'a> {
         self.size
     }
 
-    /// Whether a probe outside has no nearest point but the closest one.
+    /// Whether a probe outside has no local minimum of the distance but the closest point.
     pub const fn is_convex(&self) -> bool {
         matches!(self.sure_from, Contact::InFront)
     }
@@ -316,7 +331,7 @@ impl<'a> Body<'a> {
             || (second.face as usize == face && second.side as usize == side)
     }
 
-    /// Whether what an edge names is a side that names the edge.
+    /// Whether an edge's entry is a side that refers back to the edge.
     const fn is_side(&self, of: EdgeFace, index: usize) -> bool {
         if of.face as usize >= self.faces.len() || of.side >= 4 {
             return false;

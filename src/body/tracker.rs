@@ -1,4 +1,4 @@
-//! The tracker that joins both levels: the Voronoi switch, or one controller step on the active feature (theory §9).
+//! The tracker of a body: in each tick the Voronoi switch, or one controller step on the active feature (theory §9).
 
 use super::curve::CurvePoint;
 use super::edge_step::EdgeStep;
@@ -9,20 +9,39 @@ use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::patch::SplinePatch;
 use crate::track::{Aim, BoundaryMode, Contact, Controller, Outcome, Probe, Witness};
 
-/// A probe that moves farther than this between two ticks, in sizes of the body, has jumped: it is located anew, once
-/// it rests or slows down.
+/// Motion of a probe between two ticks, relative to the body's size, above which it has jumped: it is located again
+/// once it rests or slows down.
 const JUMP: f32 = 0.125;
-/// A rise of the squared distance below this many units of the coordinates, times the distance, is rounding: a point of
-/// a border is computed from the patch and from the edge's own curve.
+/// A rise of the squared distance below this, times the coordinates and the distance, is rounding: a point of a border
+/// is computed from the patch and from the edge's own curve.
 const ROUNDING: f32 = 64.0 * f32::EPSILON;
-/// So far beyond its reach, in sizes of the body, a witness point is where nothing explains it: a hundred times what a
-/// sum of rounded paths loses in a second.
+/// Excess over the reach, relative to the body's size, above which the witness point is unexplained: a hundred times
+/// what a sum of rounded paths loses in a second.
 const UNEXPLAINED: f32 = 1.0e-3;
 
-/// The tracker's whole state: at most 256 bytes for a body of any size.
+/// State of the tracker: at most 256 bytes for a body of any size.
+///
+/// ```
+/// use palpate::body::{Aligned, Body, BodyBuffer, BodyWitness, Edge, Face};
+/// use palpate::math::vec3;
+/// use palpate::track::{Contact, Controller, Probe};
+///
+/// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
+/// # let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
+/// # let body = Body::from_bytes(&FILE.0, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
+/// // A probe that goes through the face x = 0 of a box, at 0.25 mm a tick.
+/// let mut witness: BodyWitness = body.start();
+/// for tick in 0..60 {
+///     let probe = Probe::at(vec3(-0.01 + 0.000_25 * tick as f32, 0.02, 0.01));
+///     body.step(&Controller::SecondOrder, &mut witness, probe, 0.001);
+/// }
+/// assert_eq!(witness.contact, Contact::Touching);
+/// assert!((witness.gap + 0.004_75).abs() < 1e-6); // 4.75 mm inside
+/// # Ok::<(), palpate::body::FileError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyWitness {
-    /// The feature that owns the closest point, as far as is known.
+    /// The feature that owns the witness point.
     pub feature: Feature,
     /// The witness point. On an edge `parameters[0]` is the edge's parameter, `tangent_u` its tangent and `half_uu`
     /// half its second derivative.
@@ -35,47 +54,48 @@ pub struct BodyWitness {
     pub contact: Contact,
     /// Whether the witness point has been located. Until then there is no gap and no force.
     pub is_located: bool,
-    /// Whether a search has ended since the witness point was set down: until then it may be on the far side of the
+    /// Whether a search has ended since the witness point was placed: until then it may be on the far side of the
     /// body.
     pub(super) is_audited: bool,
-    /// Behind the surface: whether the tracker has its turn, or the audit.
+    /// Behind the surface: whether it is the tracker's turn, not the audit's.
     pub(super) is_trackers_turn: bool,
-    /// On an edge: whether the last tick has asked all of its faces, and none took the probe.
+    /// On an edge: whether the last tick asked all of its faces, and none took the probe.
     pub(super) no_face_took_probe: bool,
-    /// The search for a global start, or the rolling audit, once begun.
+    /// The search for a global start, or the rolling audit, while it runs.
     pub(super) search: Option<Search>,
     /// The probe of the last tick; infinite before the first.
     pub(super) probe: Vec3,
-    /// While the body is touched, no less than the probe can be away from a witness point that follows it, metres: as
-    /// far as it was when contact began, and as it has moved since.
+    /// While the body is touched: upper bound of the distance from the probe to a witness point that follows it,
+    /// metres: the distance when contact started, plus the motion since.
     pub(crate) reach: f32,
 }
 
-/// What a tick found out.
+/// Result of a tick of the tracker.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BodyStep {
-    /// What became of the step.
+    /// Outcome of the step.
     pub outcome: Outcome,
     /// Whether the active feature changed.
     pub switched: bool,
-    /// Whether the tick went to the search, and none of it was left for a step.
+    /// Whether the search used the tick, without a step of the tracker.
     pub searched: bool,
     /// Evaluations of patches spent, second-order ones included.
     pub evaluations: u8,
     /// Whether the body is touched with a witness point farther from the probe than the probe has moved since contact
-    /// began.
+    /// started.
     pub unexplained: bool,
 }
 
 const _: () = assert!(size_of::<BodyWitness>() <= 256);
 
 impl BodyStep {
-    /// Nothing done.
+    /// A tick that did nothing.
     pub(super) const NOTHING: Self =
         Self { outcome: Outcome::AtRest, switched: false, searched: false, evaluations: 0, unexplained: false };
 
-    /// Whether it has entered a face over an edge, which is work enough for a tick: what lies beyond that face's own
-    /// borders is for the next one.
+    /// Whether it has entered a face over an edge. That is work enough for a tick: the borders of the new face are for
+    /// the next one.
     #[inline]
     pub(super) fn hands_over(&self) -> bool {
         self.switched && self.outcome == Outcome::AtRest
@@ -83,11 +103,11 @@ impl BodyStep {
 }
 
 impl Body<'_> {
-    /// The state before the first tick: nothing is known.
+    /// The state before the first tick: the closest point is not known.
     pub fn start(&self) -> BodyWitness {
         BodyWitness {
             feature: Feature::Face(0),
-            // There is a face, but the compiler may not know.
+            // There is a face, but the compiler does not know that.
             witness: Witness::at(self.faces.first().map_or(&SplinePatch::VACANT, |face| &face.patch), 0.5, 0.5),
             normal: Vec3::ZERO,
             gap: 0.0,
@@ -102,8 +122,8 @@ impl Body<'_> {
         }
     }
 
-    /// The state with the witness point set down on a face, wherever the probe may be. Of parameters that are not in
-    /// `[0, 1]` the nearest that are; an index that is no face's gives [`Self::start`].
+    /// The state with the witness point on a face. Parameters outside `[0, 1]` become the nearest inside; an index
+    /// without a face gives [`Self::start`].
     pub fn start_on(&self, face: u16, [u, v]: [f32; 2]) -> BodyWitness {
         let mut state = self.start();
         if let Some(on) = self.faces.get(usize::from(face)) {
@@ -114,15 +134,15 @@ impl Body<'_> {
         state
     }
 
-    /// One tick of the loop: [`Self::track`], then [`Self::update_contact`].
+    /// One tick of the loop: [`Self::track`], then [`Self::update_contact`]. `period_s` is the servo period, seconds.
     #[inline(always)]
-    pub fn step(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
+    pub fn step(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period_s: f32) -> BodyStep {
         let moved = (probe.position - state.probe).length_squared();
-        // What is no probe, or has jumped, has not moved there.
+        // A jump, or a probe that is not finite, is no motion.
         if state.contact == Contact::Touching && moved <= self.jump_squared() {
             state.reach += sqrt_from_above(moved);
         }
-        let mut step = self.track(controller, state, probe, period);
+        let mut step = self.track(controller, state, probe, period_s);
         if !step.searched {
             self.update_contact(state, probe.position, &step);
         }
@@ -130,19 +150,20 @@ impl Body<'_> {
         step
     }
 
-    /// The closest point: a switch to a neighbouring feature, or one controller step on the active one; at most one
-    /// evaluation of a patch, and half of one for the search, or one where it ends. Bounded, and without a panic; a
-    /// probe that is not finite moves nothing.
+    /// Moves the witness point towards the closest point: a switch to a neighbouring feature, or one controller step
+    /// on the active one; at most one evaluation of a patch, and half of one for the search, or one at its end.
+    /// Bounded, and without a panic; a probe that is not finite moves nothing. `period_s` is the servo period,
+    /// seconds.
     ///
     /// The distance to the probe never rises by more than rounding, at a switch neither. Outside, the witness point
     /// ends at a point that no neighbouring feature improves: on a convex body with the probe in front of it that is
     /// the closest one, otherwise the rolling audit finds it. While the body is touched there is no audit: the witness
     /// point is the god-object (theory §11), which hands over across common edges only.
     ///
-    /// Contact decides, so [`Self::update_contact`] belongs after each tick that was not `searched`. Without it the probe counts
-    /// as behind the surface: on a convex body the audit has every second tick.
+    /// Contact decides, so [`Self::update_contact`] belongs after each tick that was not `searched`. Without it the
+    /// probe counts as behind the surface: on a convex body the audit has every second tick.
     #[inline(always)]
-    pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period: f32) -> BodyStep {
+    pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period_s: f32) -> BodyStep {
         let mut step = BodyStep::NOTHING;
         let is_curved = controller.is_second_order();
         let follows = self.follows(state, probe.position);
@@ -163,7 +184,7 @@ impl Body<'_> {
                     if is_curved {
                         self.step_curved(face, state, probe.position, &mut step);
                     } else {
-                        step.outcome = controller.step(&face.patch, &mut state.witness, probe, period).outcome;
+                        step.outcome = controller.step(&face.patch, &mut state.witness, probe, period_s).outcome;
                         step.evaluations += 1;
                     }
                     return step;
@@ -172,15 +193,14 @@ impl Body<'_> {
             Feature::Vertex(index) => self.leave_vertex(index, state, &mut step),
             Feature::Edge(_) => {}
         }
-        // Also one that has just been come to.
+        // Also an edge that was reached in this tick.
         if let Feature::Edge(index) = state.feature {
             self.tick_on_edge(index, from, is_curved, state, &mut step);
         }
         step
     }
 
-    /// One step of second order on a face. Where it ends at a smooth edge that the probe has passed, it ends on the
-    /// face beyond.
+    /// One second-order step on a face. A step that ends at a smooth edge ends on the neighbour.
     #[inline(always)]
     fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
         let aim = match Aim::in_full(&face.patch, &state.witness, probe) {
@@ -204,7 +224,7 @@ impl Body<'_> {
         step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
     }
 
-    /// Whether the probe is near that of the last tick. Not if it is not finite.
+    /// Whether the probe is near that of the last tick; false if it is not finite.
     #[inline]
     fn follows(&self, state: &BodyWitness, probe: Vec3) -> bool {
         (probe - state.probe).length_squared() <= self.jump_squared()
@@ -216,8 +236,9 @@ impl Body<'_> {
         jump * jump
     }
 
-    /// Whether the tick is the tracker's alone: there is nothing to audit, or, behind a convex body's surface, it is
-    /// its turn. From behind, the far side holds a witness point as well; there tracker and audit take turns.
+    /// Whether the tick belongs to the tracker alone: no audit is needed, or, behind a convex body's surface, it is
+    /// the tracker's turn. From behind, the far side holds a witness point as well; there tracker and audit take
+    /// turns.
     #[inline]
     fn has_turn(&self, state: &mut BodyWitness) -> bool {
         match state.contact {
@@ -270,7 +291,7 @@ impl Body<'_> {
 }
 
 impl BodyWitness {
-    /// Where the closest point is has to be searched for again; until then nothing is met.
+    /// Starts the search again; until it ends there is no contact.
     pub(crate) fn forget(&mut self) {
         (self.is_located, self.is_audited, self.search) = (false, false, None);
         self.contact = Contact::Behind;

@@ -1,7 +1,15 @@
-//! The numbers of a table: what the powers of a span's parameters are multiplied with.
+//! The numbers of a table: coefficients of the powers of a span's parameters.
 
 /// The coefficients of all spans: span `(i, j)` is entry `i · spans_v + j`; in a span, row `k` holds the power `k` of
-/// `s`, and its columns the powers of `t`.
+/// `s`, and its columns the powers of `t`. `s` and `t` are the distances from the span's centre, in parameters.
+///
+/// ```
+/// use palpate::patch::Coefficients;
+///
+/// // Degree (1, 1): 1, t, s, st. A square of 0.2 m around (0, 0, 0.05).
+/// static SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.05], [0.0, 0.2, 0.0], [0.2, 0.0, 0.0], [0.0; 3]];
+/// const TABLE: Coefficients = Coefficients::Polynomial(&SQUARE);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Coefficients<'a> {
     /// `[x, y, z]`, metres.

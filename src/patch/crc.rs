@@ -1,6 +1,6 @@
 //! The checksum of the tables.
 
-/// CRC-32 (ISO-HDLC, reflected `0xEDB8_8320`) of one more little-endian word; begin with 0.
+/// CRC-32 (ISO-HDLC, reflected `0xEDB8_8320`) of one more little-endian word; start with 0.
 pub const fn crc32(crc: u32, word: u32) -> u32 {
     const TABLE: [u32; 16] = {
         let mut table = [0; 16];

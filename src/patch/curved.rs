@@ -1,4 +1,4 @@
-//! A point with both tangents and all second derivatives: what a step of second order needs, in the tick and in the
+//! Evaluation of a point with both tangents and all second derivatives, for second-order steps in the tick and the
 //! search.
 
 use super::SurfacePoint;
@@ -27,7 +27,7 @@ impl SplinePatch<'_> {
 }
 
 impl SplinePatch<'_> {
-    /// [`Self::evaluate_curved`] for where ten instructions more do not matter and flash does.
+    /// [`Self::evaluate_curved`] in a copy of its own: ten instructions more, less flash.
     #[inline(never)]
     pub(crate) fn evaluate_apart(&self, [u, v]: [f32; 2]) -> CurvedPoint {
         self.evaluate_curved(u, v)
@@ -127,8 +127,8 @@ impl From<Taylor<4>> for CurvedPoint {
 mod tests {
     use crate::patch::{Coefficients, Patch as _, SplineTable};
 
-    /// As wide as makes the error of the difference, a sixth of the step squared times the third derivative, and its
-    /// rounding alike.
+    /// Step at which the error of the difference, a sixth of the squared step times the third derivative, equals its
+    /// rounding.
     const STEP: f32 = 1.0 / 64.0;
 
     /// Numbers without a pattern, the weights near 1.

@@ -15,8 +15,8 @@ pub struct CurvedPoint {
     pub second: SecondDerivatives,
 }
 
-/// The second derivatives at a point of a patch, those of one variable halved: as Horner's rule gives them, and as a
-/// quadratic model wants them.
+/// The second derivatives at a point of a patch, those of one variable halved: the form of Horner's rule, and of a
+/// quadratic model.
 ///
 /// # Units
 /// Metres per unit of parameter squared.
@@ -31,10 +31,10 @@ pub struct SecondDerivatives {
 }
 
 impl SecondDerivatives {
-    /// Those of a plane that is evenly parametrised.
+    /// The second derivatives of a plane that is evenly parametrised.
     pub const NONE: Self = Self { half_uu: Vec3::ZERO, uv: Vec3::ZERO, half_vv: Vec3::ZERO };
 
-    /// `(ΔR · f_uu, ΔR · f_uv, ΔR · f_vv)`: what bending adds to the Hessian of `½ ‖ΔR‖²`.
+    /// `(ΔR · f_uu, ΔR · f_uv, ΔR · f_vv)`: the part of bending in the Hessian of `½ ‖ΔR‖²`.
     #[inline(always)]
     pub fn along(&self, difference: Vec3) -> [f32; 3] {
         let [uu, uv, vv] = [self.half_uu, self.uv, self.half_vv].map(|second| difference.dot(second));
@@ -49,6 +49,6 @@ impl SecondDerivatives {
 }
 
 impl CurvedPoint {
-    /// What a table without coefficients would give, if there were one.
+    /// Result of a table without coefficients, which no check lets pass.
     pub(super) const NOWHERE: Self = Self { surface: SurfacePoint::NOWHERE, second: SecondDerivatives::NONE };
 }

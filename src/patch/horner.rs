@@ -1,8 +1,8 @@
 //! Horner's rule for a tensor-product polynomial and its two partial derivatives, in one sweep over the coefficients.
 //!
-//! # The least it can cost
-//! Counted by hand for a biquadratic polynomial span on a Cortex-M4F, in instructions. Fused multiply-add is not used,
-//! for host and target would differ; `vmla`, which rounds twice, counts as one.
+//! # Minimum cost
+//! Counted by hand for a biquadratic polynomial span on a Cortex-M4F, in instructions. There is no fused multiply-add,
+//! because host and target would differ; `vmla`, which rounds twice, counts as one.
 //!
 //! | | a component | three |
 //! |---|---|---|
@@ -14,9 +14,9 @@
 //! | `u`, `v` to the span's centre; call and return | | 4 |
 //! | in all | | 94 |
 //!
-//! With each of the 42 multiply-adds a `vmla`, no product shared, it would be 82; but `vmla` takes three cycles and the
-//! sums that share a product one each. The budget test holds the evaluation to 1.25 × 94. Not counted in the 94: which
-//! kind of table it is, and for a patch of several spans which one.
+//! With each of the 42 multiply-adds a `vmla`, no product shared, it would be 82; but `vmla` takes three cycles and
+//! the sums that share a product one each. The budget test limits the evaluation to 1.25 × 94. The 94 leave out the
+//! choice of the kind of table, and of the span in a patch of several.
 
 use core::array;
 
@@ -37,7 +37,7 @@ pub(super) fn evaluate<const D: usize, const Q: usize>(coefficients: &[[f32; D]]
     let none = Derivatives { value: [0.0; D], along_s: [0.0; D], along_t: [0.0; D] };
     let Some((lower, highest)) = coefficients.split_last_chunk::<Q>() else { return none };
     let Some((mut lower, next)) = lower.split_last_chunk::<Q>() else { return none };
-    // The derivative along s begins with the highest row: a step of Horner's rule before it would multiply zero.
+    // The derivative along s starts with the highest row: a step of Horner's rule before it would multiply zero.
     let (along_s, highest_along_t) = row(highest, t);
     let (next, next_along_t) = row(next, t);
     let mut joined = Derivatives {

@@ -1,14 +1,15 @@
-//! What is proved of a patch's shape: how it bends, how it is stretched.
+//! Proved bounds of a patch's shape: bending and stretch.
 
 /// Upper bounds, over the whole patch, of the norms of the second partial derivatives.
 ///
-/// They are what the controller needs to know about the shape to choose a step that provably brings the witness point
-/// nearer (see [`crate::track::certified_gain`]). The host proves them from the control points; they hold for the
-/// stored coefficients and include their rounding.
+/// From them the controller computes a step that is proved to lower the distance (see
+/// [`crate::track::certified_gain`]). The host proves them from the control points; they hold for the stored
+/// coefficients and include their rounding.
 ///
 /// # Units
 /// Metres per unit of parameter squared.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SecondDerivativeBounds {
     /// `sup ‖f_uu‖`.
     pub uu: f32,
@@ -24,14 +25,15 @@ impl SecondDerivativeBounds {
 }
 
 /// Upper bounds, over the whole patch, of the norms of the third partial derivatives, and of the jumps of the second
-/// ones where spans meet.
+/// ones between spans.
 ///
-/// They are what says how far the quadratic model of a step of second order may be trusted (theory §12). Infinite where
-/// nothing is proved, as the jump at a crease.
+/// They limit the error of the quadratic model of a second-order step (theory §12). Infinite without a proof, as the
+/// jump at a crease.
 ///
 /// # Units
 /// Metres per unit of parameter cubed; the jumps, metres per unit squared.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ThirdDerivativeBounds {
     /// `sup ‖f_uuu‖`.
     pub uuu: f32,
@@ -41,9 +43,9 @@ pub struct ThirdDerivativeBounds {
     pub uvv: f32,
     /// `sup ‖f_vvv‖`.
     pub vvv: f32,
-    /// The largest jump of `f_uu` across a knot of `u`. Of a patch that is C¹ no other second derivative jumps there.
+    /// Maximum jump of `f_uu` across a knot of `u`. On a C¹ patch no other second derivative jumps there.
     pub jump_uu: f32,
-    /// The largest jump of `f_vv` across a knot of `v`.
+    /// Maximum jump of `f_vv` across a knot of `v`.
     pub jump_vv: f32,
 }
 
@@ -71,10 +73,11 @@ impl ThirdDerivativeBounds {
 /// 1/m, positive where the surface is convex seen from outside the body: `1/r` on a ball, `−1/r` in a hollow of radius
 /// `r`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Curvature {
-    /// Not above the least principal curvature.
+    /// Lower bound of the principal curvatures.
     pub min: f32,
-    /// Not below the greatest.
+    /// Upper bound of the principal curvatures.
     pub max: f32,
 }
 
@@ -85,32 +88,45 @@ impl Curvature {
     /// The curvature of a plane.
     pub const FLAT: Self = Self { min: 0.0, max: 0.0 };
 
-    /// Whether nothing bends inward: a certificate where the bounds are proved.
+    /// Whether nothing bends inward: a certificate, for proved bounds.
     pub const fn is_convex(self) -> bool {
         self.min >= 0.0
     }
 }
 
-/// What is proved of a patch's shape, over the whole of it.
+/// Proved bounds of a patch's shape, over the whole patch.
 ///
-/// The host proves the bounds of the stored coefficients by enclosures over cells, and lies above the truth by at most
-/// a stated slack or says so. What it could not bound (the curvature near a pole, where the tangents span no plane) is
-/// infinite, and the least stretch there 0: what is computed from such a bound says "none" too, it is never wrong.
+/// The host proves the bounds of the stored coefficients by enclosures over cells; they are above the true values by
+/// at most a stated slack, or the host reports it. Without a bound (the curvature near a pole, where the tangents span
+/// no plane) the value is infinite, and the minimum stretch 0: limits computed from them are then infinite or 0 too,
+/// never wrong.
+///
+/// ```
+/// use palpate::patch::{Curvature, SecondDerivativeBounds, ShapeBounds};
+///
+/// // Written by hand: second derivatives, and a surface that is convex seen from outside.
+/// const SHAPE: ShapeBounds = ShapeBounds {
+///     curvature: Curvature { min: 0.0, max: 20.0 },
+///     ..ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.04, uv: 0.0, vv: 0.04 })
+/// };
+/// assert!(SHAPE.curvature.is_convex());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ShapeBounds {
-    /// Of the second derivatives: finite always.
+    /// Bounds of the second derivatives: always finite.
     pub second_derivatives: SecondDerivativeBounds,
-    /// Of the third derivatives, and of what the second ones jump.
+    /// Bounds of the third derivatives, and of the jumps of the second ones.
     pub third_derivatives: ThirdDerivativeBounds,
-    /// Of the normal curvature with respect to the outward normal.
+    /// Bounds of the normal curvature with respect to the outward normal.
     pub curvature: Curvature,
-    /// Not above the least eigenvalue of the first fundamental form `I`, m²: `wᵀ I w ≥ min_stretch · ‖w‖²`.
+    /// Lower bound of the eigenvalues of the first fundamental form `I`, m²: `wᵀ I w ≥ min_stretch · ‖w‖²`.
     pub min_stretch: f32,
-    /// Not below its greatest eigenvalue, m².
+    /// Upper bound of its eigenvalues, m².
     pub max_stretch: f32,
-    /// Not below `(uu w_u² + 2 uv |w_u w_v| + vv w_v²) / (wᵀ I w)` for any change `w` of the parameters, with the
-    /// bounds of the second derivatives above: the curvature, 1/m, that the certified gain reckons with. Never below
-    /// the greatest curvature, for it counts how the parameters crowd as well.
+    /// Upper bound of `(uu w_u² + 2 uv |w_u w_v| + vv w_v²) / (wᵀ I w)` for any change `w` of the parameters, with the
+    /// bounds of the second derivatives above: the curvature in the certified gain, 1/m. Never below the maximum
+    /// curvature, because it includes the crowding of the parameters.
     pub max_bend: f32,
 }
 

@@ -1,6 +1,6 @@
-//! How a patch is cut into spans: degrees and borders.
+//! The spans of a patch: degrees and borders.
 
-/// The greatest number of spans along either parameter.
+/// Maximum number of spans along either parameter.
 pub const MAX_SPANS: usize = 256;
 
 /// The spans of a patch: their degrees, and their borders from 0 to 1.
@@ -38,13 +38,13 @@ impl SpanGrid<'_> {
     }
 }
 
-/// [`beyond`] from a span that most often does not hold `to`.
+/// [`beyond`] from a span that usually does not hold `to`.
 #[inline(never)]
 fn beyond_span(borders: &[f32], left: usize, to: f32) -> f32 {
     beyond(borders, left, locate(borders, to).0, to)
 }
 
-/// The squares of how far `to` lies beyond the borders between two spans, and their sum.
+/// Sum of the squared distances of `to` from the borders between two spans.
 #[inline(never)]
 pub(crate) fn beyond(borders: &[f32], left: usize, reached: usize, to: f32) -> f32 {
     let (first, last) = if left < reached { (left, reached) } else { (reached, left) };
@@ -62,7 +62,7 @@ fn locate(borders: &[f32], parameter: f32) -> (usize, f32) {
     }
 }
 
-/// The span that would hold `parameter` where the borders are even, which is most often, and its borders if it does.
+/// The span that would hold `parameter` with even borders, which is the usual case, and its borders if it does.
 #[inline(always)]
 fn guess(borders: &[f32], parameter: f32) -> (usize, Option<&[f32; 2]>) {
     // At most 256. As 32 bits with a sign: of 64 without one the host's conversions are long.
@@ -90,7 +90,7 @@ pub(crate) fn bisect(borders: &[f32], parameter: f32) -> (usize, f32) {
     (span, parameter - span_centre(left, right))
 }
 
-/// The centre a span's powers are taken about. The host expands about this very `f32`.
+/// The centre of a span, about which its powers are taken. The host expands about this `f32`.
 pub const fn span_centre(left: f32, right: f32) -> f32 {
     0.5 * (left + right)
 }

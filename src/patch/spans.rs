@@ -1,5 +1,5 @@
-//! The spans of a patch as the evaluation wants them: for the commonest degrees an array each, so that all loops are
-//! unrolled and no degree is looked at in the tick.
+//! The spans of a patch in the form of the evaluation: an array each for the common degrees, so that all loops are
+//! unrolled and the tick does not branch on a degree.
 
 use super::horner::{self, Derivatives};
 use super::{Coefficients, SpanGrid, SurfacePoint};
@@ -98,7 +98,7 @@ where
     }
 }
 
-/// Not inlined, as [`unrolled`]: what it saves on the stack it saves only where it is needed.
+/// Not inlined, as [`unrolled`]: only the patches that need it pay for its stack.
 #[inline(never)]
 fn one_of<const D: usize, const Q: usize, const N: usize>(
     spans: &[[[f32; D]; N]],
@@ -136,7 +136,7 @@ where
     match grid.degree[1] {
         1 => unrolled_along_v::<D, 2>(rows, s, t),
         2 => unrolled_along_v::<D, 3>(rows, s, t),
-        // Rational ones of so high a degree are rare, and 3 KB of flash are not.
+        // Rational patches of such degrees are rare: save 3 KB of flash.
         degree_v @ 3.. if D == 4 => horner::evaluate_rows(rows, usize::from(degree_v) + 1, s, t).into(),
         3 => unrolled_along_v::<D, 4>(rows, s, t),
         4 => unrolled_along_v::<D, 5>(rows, s, t),
@@ -144,8 +144,8 @@ where
     }
 }
 
-/// The coefficients of the span that holds `(u, v)`, and where in it, from its centre. Of a table as it was counted
-/// there are some.
+/// The coefficients of the span that holds `(u, v)`, and the position in it, from its centre. A checked table has
+/// them.
 #[inline(always)]
 pub(super) fn rows_at<'a, const D: usize>(
     entries: &'a [[f32; D]],

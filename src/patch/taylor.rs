@@ -1,13 +1,14 @@
 //! Horner's rule for a tensor-product polynomial with all derivatives up to the second, in one sweep over the
 //! coefficients.
 //!
-//! # The least it can cost
+//! # Minimum cost
 //! Counted by hand for a biquadratic polynomial span on a Cortex-M4F, as in [`super::horner`].
 //!
 //! | | a component | three |
 //! |---|---|---|
 //! | loads of coefficients | 9 | 27 |
-//! | three rows: `p = c₂ t`, `q = p + c₁`, derivative `p + q`, value `q t + c₀`; half the second derivative is `c₂` | 3 × 4 | 36 |
+//! | three rows: `p = c₂ t`, `q = p + c₁`, derivative `p + q`, value `q t + c₀`; half the second derivative is `c₂` |
+//! 3 × 4 | 36 |
 //! | values joined along `s`: as a row, half of `f_ss` the highest | 4 | 12 |
 //! | derivatives joined along `s`: as a row, for `f_t` and `f_st` | 4 | 12 |
 //! | halves of `f_tt` joined along `s`: two multiply-adds | 2 | 6 |
@@ -34,8 +35,8 @@ pub(super) fn evaluate<const D: usize, const Q: usize>(coefficients: &[[f32; D]]
     let zero = [0.0; D];
     let mut d = Taylor { value: zero, along: [zero; 2], half_ss: zero, mixed: zero, half_tt: zero };
     for component in 0..D {
-        // A branch for each, never taken: in one block the compiler loads the coefficients of all at once, and has no
-        // registers for them.
+        // A branch for each component, never taken: in one block the compiler loads the coefficients of all at once,
+        // and runs out of registers.
         if D == 3 && ((component == 1 && s.is_nan()) || (component == 2 && t.is_nan())) {
             return d;
         }
@@ -60,11 +61,11 @@ fn evaluate_one<const D: usize, const Q: usize>(
 ) -> [f32; 6] {
     let Some((lower, highest)) = coefficients.split_last_chunk::<Q>() else { return [0.0; 6] };
     let Some((mut lower, next)) = lower.split_last_chunk::<Q>() else { return [0.0; 6] };
-    // Of a derivative that is zero so far there is nothing to multiply: the first rows are not like the others.
+    // The first rows differ: a derivative that is zero so far needs no multiplication.
     let (highest, next) = (row(highest, component, t), row(next, component, t));
     let (mut value, mut along_s) = (highest[0] * s + next[0], highest[0]);
     let (mut along_t, mut mixed) = (highest[1] * s + next[1], highest[1]);
-    // Of a row of two there is no second derivative.
+    // A row of two has no second derivative.
     let mut half_tt = if Q > 2 { highest[2] * s + next[2] } else { 0.0 };
     let mut half_ss = 0.0;
     let mut is_third = true;

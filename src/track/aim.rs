@@ -1,4 +1,4 @@
-//! Where a tick of second order goes: the decision, before the one evaluation.
+//! The decision of a second-order tick, before its one evaluation.
 
 use super::border::{self, BoundaryMode};
 use super::boundary::{self, Descent, Landing, MAX_HALVINGS};
@@ -10,44 +10,43 @@ use super::witness::{Outcome, Witness};
 use crate::math::{Vec3, saturate, vec3};
 use crate::patch::{CurvedPoint, Patch};
 
-/// What a tick of second order goes for.
+/// The step of a second-order tick.
 #[derive(Clone, Copy)]
 pub(crate) struct Aim {
     /// Where the step ends.
     pub landing: Landing,
-    /// What holds the witness point where it is.
+    /// Boundary mode at the witness point.
     pub mode: BoundaryMode,
-    /// What holds it where the step ends, as far as is known.
+    /// Boundary mode at the end of the step, as predicted.
     pub beyond: BoundaryMode,
-    /// The fall of `½ ‖ΔR‖²` to first order, metres squared. Not above 0 where there is nowhere to go.
+    /// First-order fall of `½ ‖ΔR‖²`, metres squared. Not above 0 if no step is needed.
     pub slope: f32,
-    /// How much of the whole step.
+    /// Fraction of the full step.
     pub gain: f32,
     /// `‖ΔR‖²`, which the step must not raise.
     pub squared: f32,
 }
 
 impl Aim {
-    /// The step to where the model is least over the square: in full, or as much of it as is certain.
+    /// The step to the model's minimiser over the square: the full step, or the certified fraction of it.
     #[inline(always)]
     pub(crate) fn of<P: Patch>(patch: &P, witness: &Witness, probe: Vec3) -> Self {
         Self::in_full(patch, witness, probe).unwrap_or_else(|most| Self::in_part(most, patch, witness, probe))
     }
 
-    /// The full step, where bounds alone say that it is certain; otherwise, where the model is convex, the full step
-    /// that is not.
+    /// The full step if bounds alone certify it; otherwise the uncertified full step, if the model is convex.
     #[inline(always)]
     pub(crate) fn in_full<P: Patch>(patch: &P, witness: &Witness, probe: Vec3) -> Result<Self, Option<Self>> {
         let errors = ProjectionErrors::new(&witness.surface, probe);
         let squared = errors.difference.length_squared();
-        // After a rejected step it would be the same again.
+        // After a rejected step it would be the same step.
         let model = Model::new(&errors, witness).filter(|_| witness.halvings == 0).ok_or(None)?;
         let plan = model.plan(witness.parameters);
         let full = Self::full(&plan, squared);
         if plan.is_certain(patch, witness, squared) { Ok(full) } else { Err(Some(full)) }
     }
 
-    /// As much as is certain of what [`Self::in_full`] did not find certain.
+    /// The certified part of a step that [`Self::in_full`] did not certify.
     #[inline(always)]
     pub(crate) fn in_part<P: Patch>(most: Option<Self>, patch: &P, witness: &Witness, probe: Vec3) -> Self {
         match most {
@@ -58,20 +57,20 @@ impl Aim {
         }
     }
 
-    /// Whether there is anywhere to go.
+    /// Whether the step lowers the distance.
     #[inline(always)]
     pub(crate) fn has_slope(&self) -> bool {
         is_above_zero(self.slope)
     }
 
-    /// The same for a step that ends elsewhere, and is to lower `‖ΔR‖²` by no less than `fall`.
+    /// The same for a step with another end, which must lower `‖ΔR‖²` by `fall` at least.
     #[inline]
     pub(crate) fn landing_at(&self, parameters: [f32; 2], fall: f32) -> Self {
         let landing = Landing { parameters, is_inside: border::is_inside(parameters) };
         Self { landing, squared: self.squared - fall, ..*self }
     }
 
-    /// The step to an evaluated point: done, or rejected where the distance rose by more than rounding.
+    /// Takes the step to an evaluated point, or rejects it if the distance rose by more than rounding.
     #[inline(always)]
     pub(crate) fn settle(&self, reached: &CurvedPoint, witness: &mut Witness, probe: Vec3, size: f32) -> Outcome {
         if rises(&witness.surface, &reached.surface, probe, self.squared, size) {
@@ -91,7 +90,7 @@ impl Aim {
         Self { landing: Landing { parameters, is_inside }, mode, beyond, slope, gain: 1.0, squared }
     }
 
-    /// As much of a full step as is certain; `None` if nothing is.
+    /// The certified fraction of a full step; `None` if it is 0.
     #[inline(always)]
     fn shortened<P: Patch>(&self, patch: &P, witness: &Witness, probe: Vec3) -> Option<Self> {
         let ([u, v], [to_u, to_v]) = (witness.parameters, self.landing.parameters);
@@ -107,8 +106,8 @@ impl Aim {
     }
 }
 
-/// Where the model is not convex: the same with the shifted one. The certified step of first order at a pole, and after
-/// a rejected step.
+/// For a model that is not convex: the certified fraction of the step of the shifted model. At a pole and after a
+/// rejected step, the certified step of first order.
 #[inline(never)]
 fn without_model<P: Patch>(patch: &P, witness: &Witness, x: f32, y: f32, z: f32) -> Aim {
     let probe = vec3(x, y, z);
@@ -131,7 +130,7 @@ fn to_first_order<P: Patch>(patch: &P, witness: &Witness, x: f32, y: f32, z: f32
     let descent = Descent::of(&errors, witness);
     let gain = certified_gain(&descent, &patch.bounds(), squared);
     let (parameters, is_inside) = (witness.parameters, witness.is_free);
-    // What is not a number, or too large for one, has come this far and goes no farther.
+    // A step that is not finite moves nothing.
     let (landing, slope) = match boundary::advance(parameters, descent.direction, gain) {
         Some(landing) => (landing, descent.slope),
         None => (Landing { parameters, is_inside }, 0.0),

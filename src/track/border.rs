@@ -74,8 +74,9 @@ pub(crate) fn mode_at([u, v]: [f32; 2], [is_u, is_v]: [bool; 2]) -> BoundaryMode
     }
 }
 
-/// Whether both parameters are farther from every border than the least normal number, so that no direction is blocked.
-/// Each is one comparison of bits: those of a positive number rise with it, and a sign bit is larger than all.
+/// Whether both parameters are farther from every border than the smallest normal number, so that no direction is
+/// blocked. One comparison of bits each: the bits of a positive number rise with it, and a sign bit is larger than
+/// all.
 #[inline(always)]
 pub fn is_inside([u, v]: [f32; 2]) -> bool {
     let is_free = |x: f32| x.to_bits().wrapping_sub(LEAST.to_bits()) < 1.0_f32.to_bits() - LEAST.to_bits();
@@ -88,5 +89,5 @@ pub(super) fn is_within(x: f32) -> bool {
     x.to_bits() <= 1.0_f32.to_bits()
 }
 
-/// Not 0: with this one both numbers of the comparison fit into an instruction.
+/// Not 0: both constants of the comparison then fit into an instruction.
 const LEAST: f32 = f32::MIN_POSITIVE;

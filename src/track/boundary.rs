@@ -1,19 +1,20 @@
-//! The boundary automaton: which way the witness point may go, and where a step has to stop.
+//! The boundary automaton: the directions that the witness point may take, and the end of a step.
 //!
-//! One view covers the five modes of Eq. (1) and the corners: the direction is the minimiser of
-//! `½ δᵀ I δ + gᵀ δ` over the directions the boundary allows. Strictly convex in two variables, it has one minimiser,
-//! and the set of constraints active there is the mode.
+//! One view covers the five modes of Eq. (1) and the corners: the direction is the minimiser of `½ δᵀ I δ + gᵀ δ` over
+//! the directions that the boundary allows. Strictly convex in two variables, it has one minimiser, and its active
+//! constraints are the mode.
 
 use super::border::{Border, BoundaryMode, is_inside, is_within};
 use super::projection::ProjectionErrors;
 use super::witness::Witness;
 use crate::math::saturate;
 
-/// A step is not halved more often, so that a witness point is never stuck for good. All bits of a mask.
+/// Maximum halvings of a step, so that a witness point is never stuck permanently. All bits of a mask.
 pub const MAX_HALVINGS: u8 = 15;
 
 /// The direction a step takes, before its length is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Descent {
     /// Change `w` of `(u, v)` for a gain of 1 (`K h = 1`): `−Ψ` in the interior, `−g_v/G` or `−g_u/E` along an edge.
     pub direction: [f32; 2],
@@ -27,8 +28,7 @@ pub struct Descent {
 }
 
 impl Descent {
-    /// The direction a witness point takes under a law: the best that the boundary allows, halved after steps that had
-    /// to be rejected.
+    /// The direction from the witness point: the best that the boundary allows, halved after rejected steps.
     #[inline(always)]
     pub fn of(errors: &ProjectionErrors, witness: &Witness) -> Self {
         if witness.is_free
@@ -39,7 +39,7 @@ impl Descent {
         Self::new(errors, witness.parameters).halved(witness.halvings)
     }
 
-    /// The same way, `2ⁿ` times shorter: a direction like any other.
+    /// The same direction, `2ⁿ` times shorter.
     #[inline]
     pub(super) fn halved(self, halvings: u8) -> Self {
         if halvings == 0 {
@@ -60,7 +60,7 @@ impl Descent {
     #[inline(always)]
     pub fn new(errors: &ProjectionErrors, parameters: [f32; 2]) -> Self {
         let [u, v] = parameters.map(Border::of);
-        // No inverse at a pole: the plain gradient is still a descent there.
+        // At a pole there is no inverse: the gradient still descends.
         let Some([w_u, w_v]) = errors.correction() else {
             return Self::projected_gradient(errors, parameters);
         };
@@ -71,7 +71,7 @@ impl Descent {
         match (u.is_met(), v.is_met()) {
             (true, false) => Self::along_edge_u(errors, u),
             (false, _) => Self::along_edge_v(errors, v),
-            // At a corner the edge that was asked for may be blocked while the other is open: take the greater fall.
+            // At a corner the requested edge may be blocked while the other is open: take the steeper one.
             (true, true) => {
                 let [along_u, along_v] = errors.gradient;
                 match (u.blocks(-along_u), v.blocks(-along_v)) {
@@ -125,7 +125,7 @@ impl Descent {
     }
 }
 
-/// Where a step ends.
+/// The end of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landing {
     /// `(u, v)`, in `[0, 1]²`.
@@ -175,7 +175,7 @@ fn fraction_inside(parameter: f32, change: f32) -> f32 {
     }
 }
 
-/// Where one parameter ends: exactly on its border if that is what cut the step.
+/// The end of one parameter: exactly on its border if that is what cut the step.
 #[inline]
 fn land(parameter: f32, change: f32, own_cut: f32, cut: f32) -> f32 {
     if own_cut < 1.0 && own_cut <= cut {
@@ -185,7 +185,7 @@ fn land(parameter: f32, change: f32, own_cut: f32, cut: f32) -> f32 {
     }
 }
 
-/// `1/x`, or 0 where a tangent vanishes and nothing can be gained along it.
+/// `1/x`, or 0 if a tangent vanishes, along which nothing can be gained.
 #[inline]
 fn reciprocal_or_zero(x: f32) -> f32 {
     if x > f32::MIN_POSITIVE { 1.0 / x } else { 0.0 }

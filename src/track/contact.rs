@@ -1,17 +1,18 @@
-//! Whether the surface is touched.
+//! Contact of the probe with a surface.
 
 use super::BoundaryMode;
 
-/// Contact as a state: the sign of the gap alone does not tell a probe in the wall from one that went round the rim.
+/// Contact as a state: the sign of the gap alone does not distinguish a probe in the wall from one that went round the
+/// rim.
 ///
-/// Contact begins when the probe crosses the surface from the front, over the face. It ends when the probe comes out
-/// again or slides over the rim. A probe that starts inside, or comes from behind, feels nothing until it has been in
-/// front. In this order, each a step nearer to a force.
+/// Contact starts when the probe crosses the surface from the front, over the face. It ends when the probe comes out
+/// or slides over the rim. A probe that starts inside, or comes from behind, gets no force until it has been in front.
+/// The variants are in rising order towards a force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum Contact {
-    /// Behind the surface without having crossed it: no force. Where everything starts.
+    /// Behind the surface without having crossed it: no force. The start state.
     #[default]
     Behind = 0,
     /// In front of the surface.

@@ -13,17 +13,17 @@ use crate::patch::SecondDerivativeBounds;
 ///
 /// `φ''(a) = ‖Df w‖² + ΔR · D²f[w, w] ≤ (ℓ + m)² + R m`, hence `φ(a) ≤ φ(0) − a s + ½ a² ((ℓ + m)² + R m)`.
 ///
-/// The minimiser of the right-hand side in `[0, 1]` is `s / ((ℓ + m)² + R m) = s / (ℓ² + m (m + 2ℓ + R))`. What is
-/// returned has in the denominator roots `ℓ` and `R` from above ([`crate::math::sqrt_from_above`], by at most 6.1 %):
-/// as an upper bound the inequality holds with any of them, and `a` is the minimiser of that bound. So `½ ‖ΔR‖²` falls
-/// by at least `½ a s`, and falls all along the way, so a step cut at the patch's border lowers it too. Near the
-/// closest point `m/s → c`, a curvature of the parametrisation, and `a → 1 / (1 + c R)`, or with `c R` larger by those
-/// 6.1 %: the gain schedule of the paper's limits of performance with a proved constant. The patch must be C¹ along the
-/// step; its second derivatives may jump.
+/// The minimiser of the right-hand side in `[0, 1]` is `s / ((ℓ + m)² + R m) = s / (ℓ² + m (m + 2ℓ + R))`. The
+/// function takes the roots `ℓ` and `R` from above ([`crate::math::sqrt_from_above`], by at most 6.1 %): as an upper
+/// bound the inequality holds with any of them, and `a` is the minimiser of that bound. So `½ ‖ΔR‖²` falls by at least
+/// `½ a s`, and falls all along the step, so a step cut at the patch's border lowers it too. Near the closest point
+/// `m/s → c`, a curvature of the parametrisation, and `a → 1 / (1 + c R)`, or with `c R` larger by those 6.1 %: the
+/// gain schedule of the paper's limits of performance with a proved constant. The patch must be C¹ along the step; its
+/// second derivatives may jump.
 ///
 /// # Units
 /// `distance_squared` in metres squared; the gain is a pure number, `K h` with `K` in 1/s and the period `h` in s. Not
-/// above 1, but with feed-forward, where `ℓ²` may be less than `s`: there the plain gain bounds it.
+/// above 1, except with feed-forward, where `ℓ²` may be less than `s`: there the plain gain bounds it.
 #[inline(always)]
 pub fn certified_gain(descent: &Descent, bounds: &SecondDerivativeBounds, distance_squared: f32) -> f32 {
     let [w_u, w_v] = descent.direction;

@@ -1,14 +1,15 @@
-//! The low level: one switching controller step on one patch, after Theorem 1 of Patoglu and Gillespie.
+//! One controller step on one patch: the switching controller of Theorem 1 of Patoglu and Gillespie, to second order.
 //!
 //! Conventions: `Q` is the probe in the body's frame, `P = f(u, v)` the witness point, `ΔR = P − Q`. The projection
-//! errors `Ψ` are the measure numbers of `ΔR` in the basis of the tangents (Eq. (4)): `ΔR = Ψᵘ f_u + Ψᵛ f_v + Δ N`.
-//! `V = ‖ΔR‖ − E`, with `E` the least distance, is the Lyapunov function of every mode.
+//! errors `Ψ` are the measure numbers of `ΔR` in the basis of the tangents (Eq. (4)): `ΔR = Ψᵘ f_u + Ψᵛ f_v + Δ N`. `V
+//! = ‖ΔR‖ − E`, with `E` the minimum distance, is the Lyapunov function of every mode.
 //!
-//! The way of a step of the paper's law: [`ProjectionErrors`] of the new probe at the cached surface point →
-//! [`Descent`], the direction the boundary allows and its [`BoundaryMode`] → [`certified_gain`], the longest step
-//! proved to bring the witness nearer → cut at the patch's border → one evaluation of the patch → kept if the distance
-//! did not rise. The default, [`Controller::SecondOrder`], goes to where the quadratic model of the distance is least
-//! over the square, as far as that is proved to bring the witness nearer (theory §12).
+//! [`Controller::SecondOrder`], the default, goes to the minimiser of the quadratic model of the distance over the
+//! square, as far as the distance is proved to fall (theory §12). Where no such step is certified it takes the
+//! first-order one: [`ProjectionErrors`] of the new probe at the cached surface point → [`Descent`], the direction
+//! that the boundary allows and its [`BoundaryMode`] → [`certified_gain`], the longest step proved to lower the
+//! distance → cut at the patch's border → one evaluation of the patch → kept unless the distance rose. The paper's own
+//! laws are [`FirstOrder`].
 
 mod aim;
 mod border;

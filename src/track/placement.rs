@@ -1,4 +1,4 @@
-//! Where one body stands in the frame of another, and how it moves.
+//! The pose of one body in the frame of another, and its motion.
 
 use crate::math::{Vec3, vec3};
 

@@ -5,6 +5,7 @@ use crate::patch::SurfacePoint;
 
 /// The first fundamental form `I = [[E, F], [F, G]]`, metres squared.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FirstFundamentalForm {
     /// `E = f_u · f_u`.
     pub e: f32,
@@ -22,7 +23,7 @@ impl FirstFundamentalForm {
     }
 }
 
-/// How far the witness point is from being the closest one, seen from the probe.
+/// The distance of the witness point from the closest one, in the tangent plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProjectionErrors {
     /// `ΔR = P − Q`, metres.
@@ -33,7 +34,7 @@ pub struct ProjectionErrors {
     pub form: FirstFundamentalForm,
 }
 
-/// The least `sin²` of the angle between the tangents at which the first fundamental form is inverted. Below it the
+/// Minimum `sin²` of the angle between the tangents at which the first fundamental form is inverted. Below it the
 /// determinant, a difference of nearly equal numbers, would have fewer than ten good bits.
 pub(super) const MIN_SINE_SQUARED: f32 = 1.0e-4;
 

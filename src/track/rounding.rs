@@ -1,4 +1,4 @@
-//! What is more than rounding.
+//! Limits of rounding.
 
 use crate::math::{ROOT_EXCESS, Vec3, sqrt, sqrt_from_above};
 use crate::patch::SurfacePoint;
@@ -9,7 +9,7 @@ use crate::patch::SurfacePoint;
 /// of the distance shows as `2 R δ`. So `V` may rise by 32 units in the last place, 4 µm on a body of 1 m.
 const ROUNDING: f32 = 64.0 * f32::EPSILON;
 
-/// Whether `x > 0`; of a NaN its sign. As bits it is one comparison, and no bits are waited for.
+/// Whether `x > 0`; for a NaN, its sign bit. As bits it is one comparison that waits for no flags.
 #[inline]
 pub(super) fn is_above_zero(x: f32) -> bool {
     x.to_bits().cast_signed() > 0
@@ -22,7 +22,7 @@ pub(super) fn rises(before: &SurfacePoint, after: &SurfacePoint, probe: Vec3, sq
     if now <= squared {
         return false;
     }
-    // The size alone is most often enough, with a root that is not above the distance.
+    // The size alone is usually enough, with a root that is not above the distance.
     if now - squared <= (ROUNDING / ROOT_EXCESS) * size * sqrt_from_above(squared) {
         return false;
     }

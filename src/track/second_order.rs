@@ -1,9 +1,9 @@
-//! The second-order law: the minimiser of the quadratic model over the whole square, taken in full where the distance
-//! is proved to fall.
+//! The second-order law: the minimiser of the quadratic model over the whole square, taken in full if the distance is
+//! proved to fall.
 //!
 //! Theory §12 has lemma, rule and theorem. With `w` the step, `s = −gᵀw`, `h = wᵀ H w`, `a = Df w`, `b = D²f[w, w]`,
-//! `m₃` the bound of `D³f[w, w, w]` and `j` that of what second derivatives jump on the way, the fraction `t` of the
-//! step changes `R ‖ΔR‖` by at most
+//! `m₃` the bound of `D³f[w, w, w]` and `j` that of the jumps of second derivatives on the way, the fraction `t` of
+//! the step changes `R ‖ΔR‖` by at most
 //!
 //! `−s t + ½ (h + R j) t² + (3 a·b + R m₃) t³/6 + |b|² t⁴/8`.
 
@@ -13,12 +13,12 @@ use super::witness::Witness;
 use crate::math::{saturate, sqrt, sqrt_from_above, vec3};
 use crate::patch::{Patch, ShapeBounds};
 
-/// The least determinant of the Hessian, as a part of `E G`, at which the model is solved: below it a difference of
+/// Minimum determinant of the Hessian, relative to `E G`, at which the model is solved: below it a difference of
 /// nearly equal numbers has few good bits, by the angle of the tangents or next to a focus.
 const MIN_DETERMINANT: f32 = 1.0e-3;
 
-/// The least eigenvalue of a shifted model against `I`.
-const LEAST_EIGENVALUE: f32 = 0.05;
+/// Minimum eigenvalue of a shifted model against `I`.
+const MIN_EIGENVALUE: f32 = 0.05;
 
 /// The quadratic model of `½ ‖ΔR‖²` at the witness point: `gᵀw + ½ wᵀ H w`, `H = I + ΔR · D²f` positive definite.
 #[derive(Clone, Copy)]
@@ -34,13 +34,13 @@ pub(super) struct Model {
 pub(super) struct Plan {
     /// Change `w` of the parameters.
     pub change: [f32; 2],
-    /// Where it leads, in `[0, 1]²`.
+    /// `(u, v)` at its end, in `[0, 1]²`.
     pub parameters: [f32; 2],
     /// [`border::is_inside`] of that.
     pub is_inside: bool,
-    /// What holds the witness point where it is.
+    /// Boundary mode at the witness point.
     pub mode: BoundaryMode,
-    /// What holds it where the step ends, as far as the model goes.
+    /// Boundary mode at the end of the step, by the model.
     pub beyond: BoundaryMode,
     /// `s = −gᵀw`, metres squared; not below `wᵀ H w`.
     pub slope: f32,
@@ -58,8 +58,8 @@ impl Model {
         is_convex.then_some(Self { gradient: errors.gradient, hessian, determinant })
     }
 
-    /// The model shifted to `H + σ I`, where `H` is not convex: its least eigenvalue against `I` is then as far above 0
-    /// as that of `H` is below. `None` where the tangents span no plane.
+    /// The model shifted to `H + σ I`, if `H` is not convex: its smallest eigenvalue against `I` is then as far above
+    /// 0 as that of `H` is below. `None` if the tangents span no plane.
     #[inline(never)]
     pub(super) fn shifted(errors: &ProjectionErrors, witness: &Witness) -> Option<Self> {
         let form = &errors.form;
@@ -74,7 +74,7 @@ impl Model {
         let mean = 0.5 * (form.e * c + form.g * a - 2.0 * (form.f * b)) / area;
         let off = sqrt(saturate(mean * mean - (a * c - b * b) / area, 0.0, f32::MAX));
         let least = mean - off;
-        let shift = saturate(-least, LEAST_EIGENVALUE, f32::MAX) - least;
+        let shift = saturate(-least, MIN_EIGENVALUE, f32::MAX) - least;
         let hessian @ [a, b, c] = [a + shift * form.e, b + shift * form.f, c + shift * form.g];
         Some(Self { gradient: errors.gradient, hessian, determinant: a * c - b * b })
     }
@@ -133,7 +133,7 @@ impl Model {
             }
         };
         let change = [parameters[0] - from[0], parameters[1] - from[1]];
-        // What the model would gain beyond a border that it reaches.
+        // Whether the model would gain beyond a border that it reaches.
         let pushes = |axis: usize, slope: f32| {
             let at = parameters[axis];
             (at <= 0.0 && slope > 0.0) || (at >= 1.0 && slope < 0.0)
@@ -143,13 +143,13 @@ impl Model {
         let beyond = border::mode_at(parameters, [pushes_u, pushes_v]);
         let mode = border::mode_at(parameters, [pushes_u && change[0] == 0.0, pushes_v && change[1] == 0.0]);
         let is_inside = border::is_inside(parameters);
-        // What is not a number, or too large for one, goes nowhere.
+        // A step that is not finite has no slope.
         let slope = if (free[0] + free[1]).is_finite() { self.slope(change) } else { 0.0 };
         Plan { change, parameters, is_inside, mode, beyond, slope }
     }
 }
 
-/// What bounds say of a step: `R` from above, `m₂` of `‖D²f[w, w]‖`, `m₃` of `‖D³f[w, w, w]‖`.
+/// Bounds of a step: `R` from above, `m₂` of `‖D²f[w, w]‖`, `m₃` of `‖D³f[w, w, w]‖`.
 struct Terms {
     distance: f32,
     bend: f32,
@@ -188,10 +188,9 @@ impl Plan {
     }
 }
 
-/// The fraction of a step that is proved to lower `R ‖ΔR‖` by half of that fraction of the slope; the whole of it
-/// where that lowers it by a quarter. With `h`, `a·b` and `b` as they are at the witness point, and with knots on the
-/// way. Apart, and with numbers for what registers hold, so that the tick that does not need it keeps nothing in memory
-/// for it.
+/// The fraction of a step that is proved to lower `R ‖ΔR‖` by half of that fraction of the slope; 1 if the full step
+/// lowers it by a quarter. With `h`, `a·b` and `b` at the witness point, and with knots on the way. A function of its
+/// own with scalar arguments, so that the tick that does not need it keeps no registers in memory for it.
 #[inline(never)]
 pub(super) fn exact_share<P: Patch>(
     patch: &P,
@@ -205,7 +204,7 @@ pub(super) fn exact_share<P: Patch>(
     let (shape, [u, v]) = (patch.shape(), witness.parameters);
     let difference = witness.surface.point - vec3(x, y, z);
     let Terms { distance, twist, .. } = Terms::new([w_u, w_v], &shape, difference.length_squared());
-    // Not a number where a jump is without bound and no knot is crossed.
+    // Without this case, an unbounded jump and no crossed knot would give NaN.
     let jump = |beyond: f32, bound: f32| if beyond > 0.0 { beyond * bound } else { 0.0 };
     let [beyond_u, beyond_v] = patch.beyond_knots([u, v], [u + w_u, v + w_v]);
     let third = &shape.third_derivatives;
@@ -213,7 +212,7 @@ pub(super) fn exact_share<P: Patch>(
     let (way, bend) = (witness.surface.along([w_u, w_v]), witness.second.bend([w_u, w_v]));
     let (cubic, quartic) = (3.0 * way.dot(bend) + distance * twist, bend.length_squared());
     let half = 0.5 * (way.length_squared() + difference.dot(bend) + distance * jumps);
-    // A bound that is infinite says nothing; times zero it is not a number.
+    // An infinite bound proves nothing; times zero it is NaN.
     if !(half + cubic).is_finite() {
         return 0.0;
     }

@@ -98,7 +98,7 @@ enum {
     PALPATE_FILE_NUMBER = 21,              /**< A number is not finite. */
     PALPATE_FILE_CODE = 22,                /**< A kind or flag that there is not. */
     PALPATE_FILE_MISSING = 23,             /**< A record needs numbers that are not there. */
-    PALPATE_FILE_LEFT_OVER = 24,           /**< There are numbers that belong to nothing. */
+    PALPATE_FILE_LEFT_OVER = 24,           /**< There are unused numbers. */
     PALPATE_FILE_PATCH = 25,               /**< A face is not one. */
     PALPATE_FILE_BODY = 26,                /**< The body is not one. */
     PALPATE_FILE_TABLES = 27,              /**< The tables are not those that were baked. */

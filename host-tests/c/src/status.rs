@@ -77,7 +77,7 @@ impl Status {
             Self::FileNumber => c"a number in the file is not finite",
             Self::FileCode => c"a record of the file has a kind or flag that there is not",
             Self::FileMissing => c"a record needs numbers that the file does not have",
-            Self::FileLeftOver => c"the file has numbers that belong to nothing",
+            Self::FileLeftOver => c"the file has unused numbers",
             Self::FilePatch => c"a face of the file is not one",
             Self::FileBody => c"the body of the file is not one",
             Self::FileTables => c"the CRC-32 of the file's tables is not the one that was baked",
@@ -185,11 +185,13 @@ impl From<FileError> for Status {
             FileError::Number { .. } => Self::FileNumber,
             FileError::Code { .. } => Self::FileCode,
             FileError::Missing { .. } => Self::FileMissing,
-            FileError::LeftOver { .. } => Self::FileLeftOver,
+            FileError::UnusedCoefficients { .. } => Self::FileLeftOver,
             FileError::BufferTooSmall { .. } => Self::TooSmall,
             FileError::Patch { .. } => Self::FilePatch,
             FileError::Body(_) => Self::FileBody,
             FileError::Tables { .. } => Self::FileTables,
+            // A later version of the library may find more.
+            _ => Self::FileSection,
         }
     }
 }

@@ -1,16 +1,18 @@
-//! Why a body's file is refused.
+//! Errors in a body's file.
 
 use super::super::table::BodyError;
 use crate::patch::TableError;
 use core::fmt;
 use thiserror::Error;
 
-/// The parts of a file, in the order in which they lie there.
+/// The sections of a file, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum Section {
     /// The hash of the model.
     Source,
-    /// What there is one of.
+    /// The numbers of the whole body.
     Body,
     /// Span borders.
     Borders,
@@ -28,12 +30,12 @@ pub enum Section {
     Nodes,
     /// The locator's entries.
     Entries,
-    /// What a host says of the body to people.
+    /// Notes for people.
     Notes,
 }
 
 impl Section {
-    /// All, in their order.
+    /// All sections, in their order.
     pub const ALL: [Self; 11] = [
         Self::Source,
         Self::Body,
@@ -48,7 +50,7 @@ impl Section {
         Self::Notes,
     ];
 
-    /// The four letters it begins with.
+    /// Its tag: four letters.
     pub const fn letters(self) -> &'static str {
         match self {
             Self::Source => "SOUR",
@@ -65,7 +67,7 @@ impl Section {
         }
     }
 
-    /// The same as a word.
+    /// The tag as a word.
     pub(super) const fn word(self) -> u32 {
         match self.letters().as_bytes().first_chunk() {
             Some(letters) => u32::from_le_bytes(*letters),
@@ -80,43 +82,45 @@ impl fmt::Display for Section {
     }
 }
 
-/// Why a file is refused: the first thing wrong with it.
+/// The first error in a body's file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum FileError {
-    /// The bytes do not begin at a multiple of four: nothing could be read in place.
+    /// The address of the bytes is not a multiple of 4, so that they cannot be read in place.
     #[error("the file must lie at an address that is a multiple of 4")]
     Unaligned,
-    /// It does not begin as such a file does.
+    /// The file does not start with `PALP`.
     #[error("not a body file: it does not start with PALP")]
     Magic,
-    /// It is of another version.
+    /// The file has another version.
     #[error("the file has version {found}, this library reads {wanted}; bake it again")]
     Version {
-        /// Its version.
+        /// Version of the file.
         found: u32,
-        /// What this library reads.
+        /// Version of this library.
         wanted: u32,
     },
-    /// There are more or fewer bytes than it says, or so few that there is no file at all.
+    /// The number of bytes is not that in the head, or too small for a file.
     #[error("the file states {stated} bytes and has {given}")]
     Length {
-        /// What it says.
+        /// Stated value.
         stated: u32,
-        /// What is there.
+        /// Value found.
         given: u32,
     },
-    /// It is not what was written.
+    /// The file's CRC is wrong.
     #[error("the file is damaged: its CRC-32 is {found:08x}, stated is {stated:08x}")]
     Damaged {
-        /// What it says.
+        /// Stated value.
         stated: u32,
-        /// What its bytes give.
+        /// CRC-32 of its bytes.
         found: u32,
     },
-    /// A section is missing or out of order, has another length than its records need, or runs past the end.
-    #[error("section {section} is not where it should be, or its length does not fit its records or the file")]
+    /// A section is missing or not in its place, has another length than its records need, or runs past the end.
+    #[error("section {section} is not in its place, or its length does not fit its records or the file")]
     Section {
-        /// Which.
+        /// Index of the record.
         section: Section,
     },
     /// A span border or coefficient is not finite.
@@ -124,32 +128,32 @@ pub enum FileError {
     Number {
         /// Borders or coefficients.
         section: Section,
-        /// Which number.
+        /// Index of the number.
         index: u32,
     },
-    /// A kind, a flag or a byte that must be 0 has a value that means nothing.
+    /// A kind, a flag or a byte that must be 0 has an undefined value.
     #[error("record {record} of section {section} has an unknown kind or flag")]
     Code {
-        /// Of what.
+        /// The section.
         section: Section,
-        /// Which.
+        /// Index of the record.
         record: u32,
     },
-    /// A record needs borders or coefficients that are not there.
+    /// A record needs borders or coefficients that the file does not have.
     #[error("record {record} of section {section} needs borders or coefficients that the file does not have")]
     Missing {
-        /// Of what.
+        /// The section.
         section: Section,
-        /// Which.
+        /// Index of the record.
         record: u32,
     },
-    /// There are coefficients that no record needs.
+    /// No record uses some coefficients.
     #[error("section COEF has {numbers} unused numbers")]
-    LeftOver {
-        /// How many.
+    UnusedCoefficients {
+        /// Number of unused coefficients.
         numbers: u32,
     },
-    /// The room is too small.
+    /// The buffer is too small.
     #[error("the file needs memory for {faces} faces and {edges} edges")]
     BufferTooSmall {
         /// Faces.
@@ -157,23 +161,23 @@ pub enum FileError {
         /// Edges.
         edges: u32,
     },
-    /// A patch is not one.
+    /// The table of a patch is wrong.
     #[error("face {face}: {error}")]
     Patch {
         /// The face.
         face: u16,
-        /// What is wrong with it.
+        /// Error in its table.
         error: TableError,
     },
-    /// The body is not one.
+    /// The tables of the body are wrong.
     #[error(transparent)]
     Body(#[from] BodyError),
     /// The numbers are not those that were baked.
-    #[error("the CRC-32 of the tables is {found:08x}, and {stated:08x} was baked")]
+    #[error("the CRC-32 of the tables is {found:08x}, not {stated:08x} as baked")]
     Tables {
-        /// What was baked.
+        /// CRC-32 when it was baked.
         stated: u32,
-        /// What is there.
+        /// Value found.
         found: u32,
     },
 }

@@ -1,10 +1,8 @@
-//! A body from a file: the same tables as those of a `static`, borrowed from bytes that lie in flash, in RAM or in what
-//! a host has read.
+//! A body from a file: the same tables as those of a `static`, borrowed from bytes in flash, in RAM or read by a host.
 //!
-//! The numbers are read where they lie: a body from a file is felt by the same code and at the same cost as one that
-//! was compiled in. Only faces and edges, which refer to their numbers, are built, in a [`BodyBuffer`] that the caller gives.
-//! Everything is checked first, once, in a time that the length of the file bounds. The form of the file is documented
-//! byte by byte in the repository's `docs/reference/body-file.md`.
+//! The numbers are read in place: a body from a file costs the same in a tick as one that was compiled in. Only faces
+//! and edges, which refer to their numbers, are built, in a [`BodyBuffer`] of the caller. All checks come first, in a
+//! time that the length of the file bounds. The repository's `docs/body-file.md` documents the format byte by byte.
 
 mod error;
 mod records;
@@ -20,23 +18,13 @@ use crate::math::{Vec3, vec3};
 use records::Numbers;
 use sections::{BODY_WORDS, Sections};
 
-/// Where the faces and edges of a body from a file are built: 228 bytes a face and 52 an edge on a 32-bit target.
-///
-/// ```
-/// use palpate::body::{Aligned, Body, Edge, Face, FileError, BodyBuffer};
-///
-/// # fn main() {
-/// static PART: &Aligned<[u8]> = &Aligned([0; 64]); // &Aligned(*include_bytes!("part.palp"))
-/// let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
-/// let body = Body::from_bytes(&PART.0, BodyBuffer { faces: &mut faces, edges: &mut edges });
-/// assert_eq!(body.err(), Some(FileError::Magic));
-/// # }
-/// ```
+/// Buffer for the faces and edges of a body from a file: 228 bytes a face and 52 an edge on a 32-bit target. [`Body`]
+/// has an example.
 #[derive(Debug)]
 pub struct BodyBuffer<'a> {
-    /// For the faces: as many as the file has, or more.
+    /// For the faces: [`FileHead::faces`] or more.
     pub faces: &'a mut [Face<'a>],
-    /// For the edges.
+    /// For the edges: [`FileHead::edges`] or more.
     pub edges: &'a mut [Edge<'a>],
 }
 
@@ -48,20 +36,20 @@ pub struct Aligned<T: ?Sized>(
     pub T,
 );
 
-/// What a file says of itself before anything is built.
+/// The head of a file, before anything is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FileHead {
-    /// How many faces the room needs.
+    /// Faces that the buffer needs.
     pub faces: usize,
-    /// How many edges.
+    /// Edges that the buffer needs.
     pub edges: usize,
     /// SHA-256 of the model file.
     pub source: [u8; 32],
-    /// Where the origin of the tables lies in the model, metres: a place of the model less this is one of the tables.
+    /// Origin of the tables in the model's frame, metres: a point of the model minus this is a point of the tables.
     pub centre: Vec3,
 }
 
-/// What there is one of, from its record.
+/// The numbers of the whole body, from their record.
 struct BodyRecord {
     table_crc: u32,
     is_convex: bool,
@@ -82,7 +70,7 @@ impl BodyRecord {
         };
         let [size, x, y, z, side, centre_x, centre_y, centre_z] = numbers.map(f32::from_bits);
         let centre = vec3(centre_x, centre_y, centre_z);
-        // The others are the body's to check.
+        // The checks of the body cover the other numbers.
         if !centre.is_finite() {
             return Err(wrong);
         }
@@ -91,10 +79,7 @@ impl BodyRecord {
 }
 
 impl FileHead {
-    /// Looks at a file's CRC and its sections: what comes out is what was written, but nothing else is checked.
-    ///
-    /// # Errors
-    /// What is wrong with the file so far.
+    /// Checks a file's CRC and its sections, nothing else.
     pub fn of(bytes: &[u8]) -> Result<Self, FileError> {
         let sections = Sections::of(bytes)?;
         let mut source = [0; 32];
@@ -105,33 +90,28 @@ impl FileHead {
         Ok(Self { faces: sections.faces.len(), edges: sections.edges.len(), source, centre })
     }
 
-    /// The notes of a file for people, [`Section::Notes`], which the library does not read.
-    ///
-    /// # Errors
-    /// As [`Self::of`].
+    /// The notes of a file for people, [`Section::Notes`]. The library does not use them.
     pub fn notes(bytes: &[u8]) -> Result<&[u8], FileError> {
         Ok(bytemuck::cast_slice(Sections::of(bytes)?.notes))
     }
 }
 
 impl<'a> Body<'a> {
-    /// The body of a file, with every number, index and list of it checked; `room` is for its faces and edges.
+    /// The body of a file, with every number, index and list checked; `buffer` holds its faces and edges.
     ///
-    /// The time is bounded by the length of the file: a record takes a bounded number of steps and borders, and of its
-    /// coefficients none is another's.
-    ///
-    /// # Errors
-    /// The first thing wrong with the file.
-    pub fn from_bytes(bytes: &'a [u8], room: BodyBuffer<'a>) -> Result<Self, FileError> {
-        Self::from_bytes_with(bytes, room, &mut || ())
+    /// The time is bounded by the length of the file: a record takes a bounded number of steps and borders, and no two
+    /// records share coefficients.
+    pub fn from_bytes(bytes: &'a [u8], buffer: BodyBuffer<'a>) -> Result<Self, FileError> {
+        Self::from_bytes_with(bytes, buffer, &mut || ())
     }
 
-    /// [`Self::from_bytes`] that calls `pause` every so often, for whoever has a watchdog to feed meanwhile: after each
-    /// 1,024 words of a CRC, and between the other checks, which together take a seventh of the whole.
-    ///
-    /// # Errors
-    /// As [`Self::from_bytes`].
-    pub fn from_bytes_with(bytes: &'a [u8], room: BodyBuffer<'a>, pause: &mut dyn FnMut()) -> Result<Self, FileError> {
+    /// [`Self::from_bytes`] that calls `pause` repeatedly, for a watchdog: after each 1,024 words of a CRC, and
+    /// between the other checks, which together take a seventh of the time.
+    pub fn from_bytes_with(
+        bytes: &'a [u8],
+        buffer: BodyBuffer<'a>,
+        pause: &mut dyn FnMut(),
+    ) -> Result<Self, FileError> {
         let sections = Sections::of_with(bytes, pause)?;
         pause();
         let BodyRecord { table_crc: stated, is_convex, size, corner, side, .. } = BodyRecord::of(sections.body)?;
@@ -140,8 +120,8 @@ impl<'a> Body<'a> {
         pause();
         let (faces, edges) = (sections.faces.len(), sections.edges.len());
         let small = FileError::BufferTooSmall { faces: faces as u32, edges: edges as u32 };
-        let in_faces = room.faces.get_mut(..faces).ok_or(small)?;
-        let in_edges = room.edges.get_mut(..edges).ok_or(small)?;
+        let in_faces = buffer.faces.get_mut(..faces).ok_or(small)?;
+        let in_edges = buffer.edges.get_mut(..edges).ok_or(small)?;
         let mut numbers = Numbers { borders: sections.borders, coefficients: sections.coefficients };
         for (index, (face, record)) in in_faces.iter_mut().zip(sections.faces).enumerate() {
             *face = numbers.face(record, index)?;
@@ -150,7 +130,7 @@ impl<'a> Body<'a> {
             *edge = numbers.edge(record).map_err(|wrong| wrong.at(Section::Edges, index))?;
         }
         if !numbers.coefficients.is_empty() {
-            return Err(FileError::LeftOver { numbers: numbers.coefficients.len() as u32 });
+            return Err(FileError::UnusedCoefficients { numbers: numbers.coefficients.len() as u32 });
         }
         pause();
         let locator = Locator { corner, side, nodes: sections.nodes, entries: sections.entries };
@@ -166,7 +146,7 @@ impl<'a> Body<'a> {
         };
         let body = tables.try_checked_without_crc()?;
         pause();
-        // The very words that statics of this body have: what was read is what was baked.
+        // The words are those of the same body as a static: the result is what was baked.
         match body.table_crc_with(pause) {
             found if found == stated => Ok(body.with_crc(stated)),
             found => Err(FileError::Tables { stated, found }),

@@ -9,7 +9,7 @@ use crate::patch::{
     Coefficients, Curvature, Orientation, SecondDerivativeBounds, ShapeBounds, SplineTable, ThirdDerivativeBounds,
 };
 
-/// What is wrong with a record.
+/// Error in a record, without its place.
 pub(super) enum Wrong {
     /// See [`FileError::Code`].
     Code,
@@ -27,12 +27,12 @@ impl Wrong {
     }
 }
 
-/// The numbers that records need: borders by their place, as many share them; coefficients one after the other.
+/// The numbers of the records: borders by their place, as many records share them; coefficients one after the other.
 ///
 /// As no coefficient is read for two records, the work of reading all of them is bounded by their number.
 pub(super) struct Numbers<'a> {
     pub borders: &'a [f32],
-    /// Those that are left.
+    /// Those that no record has used yet.
     pub coefficients: &'a [f32],
 }
 

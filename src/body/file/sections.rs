@@ -1,4 +1,4 @@
-//! A file cut into its sections: where each lies, and nothing yet of what it says.
+//! A file cut into its sections, without their content.
 
 use super::super::feature::{Spoke, Vertex};
 use super::super::table_words::PAUSE;
@@ -13,12 +13,12 @@ pub const FILE_VERSION: u32 = 1;
 /// `PALP`.
 const MAGIC: u32 = u32::from_le_bytes(*b"PALP");
 
-/// Words of a face's record, of an edge's, and of what there is one of.
+/// Words of a face's record, of an edge's, and of that of the whole body.
 pub(super) const FACE_WORDS: usize = 39;
 pub(super) const EDGE_WORDS: usize = 8;
 pub(super) const BODY_WORDS: usize = 10;
 
-// They are read as they lie there.
+// They are read in place.
 const _: () = assert!(size_of::<Vertex>() == 32 && size_of::<Spoke>() == 16);
 
 /// The sections of a file.
@@ -43,7 +43,7 @@ impl<'a> Sections<'a> {
         Self::of_with(bytes, &mut || ())
     }
 
-    /// The same; calls `pause` every so often.
+    /// The same; calls `pause` after each [`PAUSE`] words.
     pub fn of_with(bytes: &'a [u8], pause: &mut dyn FnMut()) -> Result<Self, FileError> {
         const { assert!(cfg!(target_endian = "little"), "a body's file is read in place: little-endian targets only") };
         let mut rest = Remaining(checked(bytes, pause)?);
@@ -65,9 +65,9 @@ impl<'a> Sections<'a> {
 
 /// The words between the head and the CRC, of a file that is whole.
 fn checked<'a>(bytes: &'a [u8], pause: &mut dyn FnMut()) -> Result<&'a [u32], FileError> {
-    // A file of more than 4 GB is none.
+    // No file has more than 4 GB.
     let given = u32::try_from(bytes.len()).unwrap_or(u32::MAX);
-    // The head is looked at by bytes: a file that was cut short still says what it is, and how long it was.
+    // The head is read by bytes: a file that was cut short still has its version and length.
     let head = |index: usize| Some(u32::from_le_bytes(*bytes.get(4 * index..)?.first_chunk()?));
     let (magic, version, stated) = (head(0), head(1), head(2));
     if magic.is_some_and(|magic| magic != MAGIC) {
@@ -95,7 +95,7 @@ fn checked<'a>(bytes: &'a [u8], pause: &mut dyn FnMut()) -> Result<&'a [u32], Fi
     Ok(sections)
 }
 
-/// What has not been cut yet.
+/// The words that are not yet cut.
 struct Remaining<'a>(&'a [u32]);
 
 impl<'a> Remaining<'a> {
@@ -111,18 +111,18 @@ impl<'a> Remaining<'a> {
         Ok(data)
     }
 
-    /// One that ends the file.
+    /// The section that ends the file.
     fn last(&mut self, section: Section) -> Result<&'a [u32], FileError> {
         let data = self.section(section)?;
         if self.0.is_empty() { Ok(data) } else { Err(FileError::Section { section }) }
     }
 
-    /// One with a single record.
+    /// A section with a single record.
     fn only<const N: usize>(&mut self, section: Section) -> Result<&'a [u32; N], FileError> {
         self.section(section)?.try_into().map_err(|_| FileError::Section { section })
     }
 
-    /// One with records of so many words.
+    /// A section with records of `N` words.
     fn records<const N: usize>(&mut self, section: Section) -> Result<&'a [[u32; N]], FileError> {
         match self.section(section)?.as_chunks() {
             (records, []) => Ok(records),
@@ -130,12 +130,12 @@ impl<'a> Remaining<'a> {
         }
     }
 
-    /// One whose records are read as they lie there.
+    /// A section whose records are read in place.
     fn in_place<T: bytemuck::CheckedBitPattern>(&mut self, section: Section) -> Result<&'a [T], FileError> {
         let words = self.section(section)?;
         bytemuck::checked::try_cast_slice(words).map_err(|error| match error {
             CheckedCastError::PodCastError(_) => FileError::Section { section },
-            // Found by looking at each: a file that is right does not come here.
+            // Only a bad file comes here: look for the record.
             CheckedCastError::InvalidBitPattern => {
                 let size = size_of::<T>() / 4;
                 let is_wrong = |record: &[u32]| bytemuck::checked::try_cast_slice::<u32, T>(record).is_err();

@@ -5,16 +5,29 @@ use super::laws::Integrator;
 use crate::math::ROOT_EXCESS;
 use crate::patch::{Curvature, ShapeBounds};
 
-/// What a patch, or a point of it, lets the controller do at a servo rate and a distance.
+/// Limits of the controller on a patch, or at a point of it, at a servo rate and a distance.
 ///
 /// Near the closest point `P*` of a probe at the signed gap `d` (positive outside, negative inside), half the squared
 /// distance has the curvature `μ = 1 + κ d` along the principal direction of curvature `κ` (per squared metre moved on
 /// the surface), and a tick of explicit Euler multiplies that part of the error by `1 − K h μ`. All limits follow from
-/// the least and greatest `μ`; see each for what is proved and under which hypotheses. Nothing is assumed of a bound
-/// that is missing: an infinite curvature gives a stable gain of 0, an infinite lag, a depth of 0.
+/// the minimum and maximum `μ`; each states what is proved and under which hypotheses. A missing bound gives no
+/// promise: an infinite curvature gives a stable gain of 0, an infinite lag, a depth of 0.
 ///
-/// `const`, so a firmware can check its gain when it is compiled.
+/// `const`, so that a firmware can check its gain at compile time:
+///
+/// ```
+/// use palpate::patch::Curvature;
+/// use palpate::track::{Integrator, PerformanceLimits};
+///
+/// // A ball of 50 mm radius at 1 kHz, with the probe 50 mm in front of it.
+/// const BALL: Curvature = Curvature { min: 20.0, max: 20.0 };
+/// const LIMITS: PerformanceLimits = PerformanceLimits::at_point(BALL, Integrator::Euler, 1_000.0, 0.05);
+/// const GAIN: f32 = 500.0;
+/// const _: () = assert!(GAIN < LIMITS.stable_gain());
+/// assert_eq!(LIMITS.stable_gain(), 1_000.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerformanceLimits {
     curvature: Curvature,
     /// 1/m; see [`ShapeBounds::max_bend`].
@@ -53,25 +66,21 @@ impl PerformanceLimits {
         Self { curvature, bend, stability: integrator.stability_bound(), rate, gap }
     }
 
-    /// The greatest `μ`, a pure number: the fastest part of the error decays `μ` times as fast as the gain says.
+    /// Maximum `μ`, a pure number: the fastest part of the error decays `μ` times as fast as the gain.
     pub const fn max_contraction(&self) -> f32 {
         let curvature = if self.gap >= 0.0 { self.curvature.max } else { self.curvature.min };
         contraction(curvature, self.gap)
     }
 
-    /// The least `μ`. At 0 and below, the closest point is lost: the probe is beyond a centre of curvature.
+    /// Minimum `μ`. At 0 and below, the closest point is lost: the probe is beyond a centre of curvature.
     pub const fn min_contraction(&self) -> f32 {
         let curvature = if self.gap >= 0.0 { self.curvature.min } else { self.curvature.max };
         contraction(curvature, self.gap)
     }
 
-    /// The gain `K`, 1/s, below which small errors decay and above which they may grow: `z / (h μ_max)`, `z/(h (1 +
-    /// κ_max ‖ΔR‖))` outside.
-    ///
     /// With a point's own curvature this is where the linearised error stops decaying: necessary and sufficient for
-    /// small errors, while `P*` is inside a span. With a patch's bounds it is not above that of any point. It says
-    /// nothing of large errors: for those there is [`Self::monotone_gain`]. 0 where the closest point is lost, or
-    /// nothing is known.
+    /// small errors, while `P*` is inside a span. With a patch's bounds it is not above that of any point. It does not
+    /// cover large errors: see [`Self::monotone_gain`]. 0 if the closest point is lost, or without bounds.
     pub const fn stable_gain(&self) -> f32 {
         if self.min_contraction() > 0.0 { self.stability * self.rate / self.max_contraction() } else { 0.0 }
     }
@@ -135,7 +144,7 @@ impl PerformanceLimits {
     /// at the border. Infinite where nothing is known, and where the certified gain, less for long projection errors,
     /// does not keep up.
     pub const fn lag_bound(&self, gain: f32, speed: f32) -> f32 {
-        // On the way the gap may be anything from 0 to the one given, and μ is 1 at 0.
+        // On the way the gap is between 0 and the given one, and μ is 1 at 0.
         let least = self.min_contraction();
         let convexity = if least < 1.0 { least } else { 1.0 };
         if !(convexity > 0.0 && gain > 0.0) {
@@ -167,7 +176,7 @@ impl PerformanceLimits {
         f32::INFINITY
     }
 
-    /// How deep a probe may go, metres, before the closest point is lost: `1/κ_max`, the focal depth. Infinite where
+    /// Maximum depth of a probe, metres, before the closest point is lost: `1/κ_max`, the focal depth. Infinite if
     /// nothing bends outward.
     ///
     /// Up to there `P*` stays a local minimum of the distance, from which small errors decay. Another part of the
@@ -176,7 +185,7 @@ impl PerformanceLimits {
         if self.curvature.max > 0.0 { 1.0 / self.curvature.max } else { f32::INFINITY }
     }
 
-    /// How far outside a probe may be, metres, for the same reason: `−1/κ_min`, infinite on a convex patch.
+    /// Maximum distance of a probe outside, metres, for the same reason: `−1/κ_min`, infinite on a convex patch.
     pub const fn clearance_limit(&self) -> f32 {
         if self.curvature.min < 0.0 { -1.0 / self.curvature.min } else { f32::INFINITY }
     }

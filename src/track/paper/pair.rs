@@ -16,7 +16,7 @@ pub struct PairWitness {
     pub b: Witness,
 }
 
-/// What a step found out.
+/// Result of a step of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairStep {
     /// `ΔR = f − h` after the step, metres, in A's frame.
@@ -27,7 +27,43 @@ pub struct PairStep {
     pub b: Step,
 }
 
-/// The controller of a pair of patches.
+/// Tracker of the closest pair of two patches that do not intersect.
+///
+/// ```
+/// use palpate::math::vec3;
+/// use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
+/// use palpate::track::{CommonNormalTracker, PairTracker, PairWitness, Placement};
+///
+/// // A shallow dome, z = −2 (x² + y²), and the same one upside down, 30 mm above it and 10 mm aside.
+/// static DOME: SplinePatch = SplineTable {
+///     degree: [2, 2],
+///     breaks_u: &[0.0, 1.0],
+///     breaks_v: &[0.0, 1.0],
+///     coefficients: Coefficients::Polynomial(&[
+///         [0.0; 3], [0.0, 0.1, 0.0], [0.0, 0.0, -0.02],
+///         [0.1, 0.0, 0.0], [0.0; 3], [0.0; 3],
+///         [0.0, 0.0, -0.02], [0.0; 3], [0.0; 3],
+///     ]),
+///     shape: ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.04, uv: 0.0, vv: 0.04 }),
+///     orientation: Orientation::Outward,
+///     size_m: 0.1,
+///     crc: None,
+/// }
+/// .checked();
+/// let upside_down = [vec3(1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -1.0)];
+/// let placement = Placement { axes: upside_down, origin: vec3(0.01, 0.0, 0.03), ..Placement::IDENTITY };
+/// let mut witness = PairWitness::at(&DOME, &DOME, [0.5; 2], [0.5; 2]);
+/// let tracker = PairTracker::default();
+/// for _ in 0..200 {
+///     tracker.step(&DOME, &DOME, &placement, &mut witness, 0.001);
+/// }
+/// // Each witness point has moved 4.7 mm towards the other.
+/// assert!((witness.a.surface.point.x - 0.0047).abs() < 1e-4);
+/// // The law of the common normal ends there too.
+/// let common = CommonNormalTracker::new(4.0, 4.0);
+/// let step = common.step(&DOME, &DOME, &placement, &mut witness).expect("both have normals");
+/// assert!(step.mismatch < 1e-2 && step.depth < 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairTracker {
     /// The law of both witness points.
@@ -47,16 +83,16 @@ impl PairTracker {
         h: &H,
         placement: &Placement,
         witness: &mut PairWitness,
-        period: f32,
+        period_s: f32,
     ) -> PairStep {
         let seen_from_a = placement.point_to_a(witness.b.surface.point);
         let probe = Probe { position: seen_from_a, velocity: placement.velocity_at(seen_from_a) };
-        let a = self.controller.step(f, &mut witness.a, probe, period);
+        let a = self.controller.step(f, &mut witness.a, probe, period_s);
 
         let point_a = witness.a.surface.point;
         let velocity = -placement.direction_to_b(placement.velocity_at(point_a));
         let probe = Probe { position: placement.point_to_b(point_a), velocity };
-        let b = self.controller.step(h, &mut witness.b, probe, period);
+        let b = self.controller.step(h, &mut witness.b, probe, period_s);
 
         let difference = point_a - placement.point_to_a(witness.b.surface.point);
         PairStep { difference, a, b }
@@ -70,29 +106,29 @@ impl PairWitness {
     }
 }
 
-/// The law of the *common normal*: the pair of points whose normals are opposite and whose difference lies along them.
+/// The law of the *common normal*: the pair of points whose normals are opposite and whose difference is along them.
 ///
-/// For bodies apart it is the closest pair, for intersecting ones the extremal pair: the greatest penetration along a
+/// For bodies apart it is the closest pair, for intersecting ones the extremal pair: the maximum penetration along a
 /// common normal. The paper claims the latter from the same `V`, but there it is no minimum. With offsets `x`, `y` of
 /// the two points along a principal direction, depth `D` and curvatures `κ_A`, `κ_B`, half the squared distance is, to
 /// second order, `½ [D² + (1 − D κ_A) x² − 2 x y + (1 − D κ_B) y²]`, of determinant `−D (κ_A + κ_B − D κ_A κ_B) < 0`
 /// while `D < 1/κ_A + 1/κ_B`: a saddle, a minimum in `x − y` and a maximum in `x + y`. Each point alone sees a minimum
 /// (a closest point from inside), yet stepping in turn drives the pair apart.
 ///
-/// So the two motions get a law each. With `τ` the part of `ΔR` along the tangent planes and `ν = N_A + N_B`, zero when
-/// the normals are opposite: `w_A = −½ τ − c ν` and `w_B = +½ τ − c ν`, each projected on its own tangent plane. To
-/// first order `ν = κ_A x + κ_B y` whatever the sign of `D`, so with `c = 1/(κ_A + κ_B)` the sum decays at once and the
-/// difference by the factor `D (κ_A + κ_B)/4` a tick, from apart through contact into penetration without a switch. It
-/// is stable for `|D| (κ_A + κ_B) < 4`, locally; there is no Lyapunov function here and none is claimed. The pair is
-/// unique where the depth is below the least radius of curvature of the Minkowski difference, for which `D < 1/κ_A +
-/// 1/κ_B`, with the greatest curvatures of both bodies, is sufficient locally.
+/// So the two motions get a law each. With `τ` the part of `ΔR` along the tangent planes and `ν = N_A + N_B`, zero
+/// when the normals are opposite: `w_A = −½ τ − c ν` and `w_B = +½ τ − c ν`, each projected on its own tangent plane.
+/// To first order `ν = κ_A x + κ_B y` whatever the sign of `D`, so with `c = 1/(κ_A + κ_B)` the sum decays at once and
+/// the difference by the factor `D (κ_A + κ_B)/4` a tick, from apart through contact into penetration without a
+/// switch. It is stable for `|D| (κ_A + κ_B) < 4`, locally, without a Lyapunov function. The pair is unique if the
+/// depth is below the minimum radius of curvature of the Minkowski difference, for which `D < 1/κ_A + 1/κ_B`, with the
+/// maximum curvatures of both bodies, is sufficient locally.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommonNormalTracker {
     /// `c`, metres: how far the points move for a mismatch of the normals.
     align: f32,
 }
 
-/// What a step towards the common normal found out.
+/// Result of a step towards the common normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommonNormalStep {
     /// `ΔR = f − h` before the step, metres, in A's frame.
@@ -106,7 +142,7 @@ pub struct CommonNormalStep {
 }
 
 impl CommonNormalTracker {
-    /// A tracker for two bodies of these greatest curvatures, 1/m.
+    /// A tracker for two bodies of these maximum curvatures, 1/m.
     pub const fn new(curvature_a: f32, curvature_b: f32) -> Self {
         let sum = curvature_a + curvature_b;
         Self { align: if sum > 0.0 { 1.0 / sum } else { 0.0 } }

@@ -152,7 +152,7 @@ fn what_is_wrong_with_a_file_is_told() {
         (
             "coefficients that nothing needs",
             Box::new(move |words| words[of(Section::Edges) + 11 * 8] -= 1),
-            Some(FileError::LeftOver { numbers: 3 }),
+            Some(FileError::UnusedCoefficients { numbers: 3 }),
         ),
     ];
     for (what, spoil, expected) in &cases {
@@ -337,7 +337,7 @@ fn a_million_spoiled_files_are_refused_or_felt() {
         "number",
         "code",
         "missing",
-        "left over",
+        "unused coefficients",
         "patch",
         "body",
         "felt: another body",
@@ -359,10 +359,11 @@ const fn name(error: FileError) -> &'static str {
         FileError::Number { .. } => "number",
         FileError::Code { .. } => "code",
         FileError::Missing { .. } => "missing",
-        FileError::LeftOver { .. } => "left over",
-        FileError::BufferTooSmall { .. } => "room",
+        FileError::UnusedCoefficients { .. } => "unused coefficients",
+        FileError::BufferTooSmall { .. } => "buffer",
         FileError::Patch { .. } => "patch",
         FileError::Body(_) => "body",
         FileError::Tables { .. } => "tables",
+        _ => "unknown",
     }
 }
