@@ -3,5 +3,9 @@
 fn main() {
     palpate_board_build::regions();
     palpate_board_build::memory_map("memory.x");
+    // The whole flash, and RAM but the core-coupled one.
+    palpate_board_build::memory_map_of_examples(
+        "MEMORY { FLASH : ORIGIN = 0x08000000, LENGTH = 512K  RAM : ORIGIN = 0x20000000, LENGTH = 96K }\n",
+    );
     palpate_board_build::body(palpate_board_build::own_body());
 }

@@ -14,9 +14,20 @@ const BODY: &str = "PALPATE_BODY";
 pub fn memory_map(file: &str) {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     fs::copy(file, out.join("memory.x")).unwrap_or_else(|error| panic!("{file}: {error}"));
-    println!("cargo::rustc-link-search={}", out.display());
+    println!("cargo::rustc-link-arg-bins=-L{}", out.display());
     println!("cargo::rerun-if-changed={file}");
     println!("cargo::rerun-if-changed=build.rs");
+}
+
+/// Lays another memory map where the linker finds it for a package's examples.
+///
+/// # Panics
+/// As [`memory_map`].
+pub fn memory_map_of_examples(memory: &str) {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR")).join("examples");
+    fs::create_dir_all(&out).expect("OUT_DIR can be written");
+    fs::write(out.join("memory.x"), memory).expect("OUT_DIR can be written");
+    println!("cargo::rustc-link-arg-examples=-L{}", out.display());
 }
 
 /// Lays the regions of a memory map beside it, as `regions.x`: those of an image that a host may order about, with the

@@ -1,0 +1,57 @@
+//! The servo in the interrupt of a timer, with cortex-m-rt alone, on an STM32G474.
+//!
+//! `cargo palpate firmware --board stm32g4 build --release --example bare`
+
+#![no_std]
+#![no_main]
+
+mod board;
+
+use board::{Board, DEVICE, SETTINGS};
+use core::cell::Cell;
+use cortex_m::interrupt::{Mutex, free};
+use cortex_m::peripheral::NVIC;
+use palpate::device::SerialArm;
+use palpate::servo::{Output, Servo, ServoState, Surface};
+use palpate::track::Controller;
+use stm32g4xx_hal::stm32::{Interrupt, Peripherals, interrupt};
+
+/// The tables of a body, baked when the program is built.
+mod body {
+    include!(env!("PALPATE_BODY_FILE"));
+}
+
+/// In flash; settings beyond the device's limits are compile errors.
+static SERVO: Servo<'static, body::Surface, SerialArm, 3> =
+    Servo::new(&DEVICE, body::SURFACE, Controller::SECOND_ORDER, SETTINGS);
+
+/// On its way from main to the interrupt, which owns it from the first tick on.
+static BOARD: Mutex<Cell<Option<Board>>> = Mutex::new(Cell::new(None));
+
+#[interrupt]
+fn TIM7() {
+    static mut OWN: Option<(Board, ServoState<3, <body::Surface as Surface>::Witness>)> = None;
+
+    if OWN.is_none() {
+        *OWN = free(|section| BOARD.borrow(section).take()).map(|board| (board, SERVO.start()));
+    }
+    let Some((board, state)) = OWN else { return };
+    board.acknowledge();
+    SERVO.tick(state, board.input());
+    // `Off` disables the amplifiers. Zero duty would keep them enabled, and braking.
+    match state.output() {
+        Output::Off => board.release(),
+        Output::Drive(duties) => board.drive(duties),
+    }
+}
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    let chip = Peripherals::take().unwrap();
+    free(|section| BOARD.borrow(section).set(Some(Board::new(chip, SETTINGS.rate_hz))));
+    // SAFETY: the interrupt's data is in place.
+    unsafe { NVIC::unmask(Interrupt::TIM7) };
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
