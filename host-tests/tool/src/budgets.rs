@@ -50,7 +50,7 @@ pub enum BudgetError {
     File {
         /// Which.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The reason why it is refused.
         reason: String,
     },
 }

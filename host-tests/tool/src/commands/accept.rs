@@ -55,7 +55,7 @@ pub struct Arguments {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     ensure!(arguments.seconds.is_finite() && arguments.seconds > 0.0, "--seconds must be a positive time");
     ensure!(arguments.ticks > 0, "--ticks must be at least 1");
@@ -140,7 +140,8 @@ impl DeviceLine for Port {
     }
 }
 
-/// What an emulated core of the device's kind counts in the same script; `None` where there is no emulator.
+/// The instructions that an emulated core of the device's kind counts in the same script; `None` where there is no
+/// emulator.
 fn counted(
     arguments: &Arguments,
     plan: &Plan,

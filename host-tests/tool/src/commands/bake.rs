@@ -48,7 +48,7 @@ pub struct Arguments {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut loaded = Loaded::read(&arguments.model)?;
     let labels = loaded.body.labels(&loaded.model);
@@ -109,7 +109,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(check::exit_code(verdict))
 }
 
-/// Whether what is asked for has the locator in it: the source of a single patch has none.
+/// Whether the product contains the locator: the source of a single patch has none.
 fn needs_locator(arguments: &Arguments, is_body: bool) -> bool {
     let in_file = arguments.out.as_ref().is_some_and(|out| is_body || is_baked(out));
     in_file || arguments.table_report && is_body
@@ -126,7 +126,7 @@ pub(super) struct Baked {
 /// Bakes a model as [`run`] does with its defaults.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The reason why it is refused.
 pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
     let mut loaded = Loaded::read(path)?;
     let is_body = loaded.body.faces.len() > 1;
@@ -145,7 +145,7 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
 /// A model's body as a file, as [`run`] writes it with its defaults.
 ///
 /// # Errors
-/// What is wrong with the model.
+/// The reason why the model is refused.
 pub(super) fn file_of(path: &Path) -> anyhow::Result<Vec<u8>> {
     let mut loaded = Loaded::read(path)?;
     let options = loaded.body.locator_options();

@@ -1,4 +1,4 @@
-//! `palpate check`: validates a model and says what is known of each patch.
+//! `palpate check`: validates a model and certifies its patches.
 
 use super::output::print;
 use super::progress;
@@ -75,7 +75,7 @@ impl Loaded {
         self.body.faces.par_iter().map(|face| Survey::new(&face.surface, &face.patch, range)).collect()
     }
 
-    /// What is wrong with the body as a whole.
+    /// Flaws of the body as a whole.
     pub(super) fn flaws(&self) -> Vec<Flaw> {
         let surfaces: Vec<_> = self.body.faces.iter().map(|face| face.surface.clone()).collect();
         flaws::find(&surfaces, &self.body.topology)
@@ -89,7 +89,7 @@ impl Loaded {
         format!("{kind}: {}", flaw.describe(&name, self.model.centre, unit))
     }
 
-    /// What the faces go by.
+    /// Names of the faces.
     pub(super) fn labels(&self) -> Vec<String> {
         self.body.labels(&self.model).iter().map(|label| label.replace('"', "")).collect()
     }
@@ -98,7 +98,7 @@ impl Loaded {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let loaded = Loaded::read(&arguments.model)?;
     let unit = loaded.model.unit;
@@ -128,7 +128,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(exit_code(verdict))
 }
 
-/// What is known of each patch, and below it why it is not certified and what may be done.
+/// The verdict on each patch; below it the reasons why it is not certified and possible remedies.
 fn verdicts(report: &mut String, wide: usize, labels: &[String], surveys: &[Survey]) -> std::fmt::Result {
     writeln!(
         report,
@@ -159,7 +159,7 @@ fn verdicts(report: &mut String, wide: usize, labels: &[String], surveys: &[Surv
     )
 }
 
-/// What each patch is stored as.
+/// The stored form of each patch.
 fn tables(report: &mut String, wide: usize, unit: Unit, labels: &[String], surveys: &[Survey]) -> std::fmt::Result {
     writeln!(
         report,

@@ -53,7 +53,7 @@ enum Mode {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let file = ModelFile::read(&arguments.model)?;
     let model = file.model()?;

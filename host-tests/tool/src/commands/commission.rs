@@ -83,7 +83,7 @@ const SHOWN: Duration = Duration::from_millis(100);
 /// Runs the command.
 ///
 /// # Errors
-/// What the device or the person does not do; nothing is written then.
+/// The missing action of the device or the person; no file is written then.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if arguments.port.is_none() && arguments.emulator.is_none() && !arguments.host {
         bail!("either --port, --emulator or --host");
@@ -192,7 +192,7 @@ fn report(own: &OwnDevice, findings: &[Finding]) {
     }
 }
 
-/// The device and whoever stands at it.
+/// The device and the person at it.
 fn lab(arguments: &Arguments, own: &OwnDevice) -> anyhow::Result<Lab> {
     if let Some(path) = &arguments.port {
         // Looking takes nobody at the keys, and holds none.
@@ -250,7 +250,7 @@ fn jog(lab: &mut Lab, file: &DeviceFile, (output, share): (u8, f64), seconds: f6
     shown.end()
 }
 
-/// A line that is kept up to date on a terminal, and written anew elsewhere.
+/// A line that is updated in place on a terminal, and printed again elsewhere.
 struct Shown {
     began: Instant,
     lasts: Duration,

@@ -23,7 +23,7 @@ The model, an estimate and no measurement; no wait states, as in CCM, ITCM and D
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(_: &Arguments) -> anyhow::Result<ExitCode> {
     // The clock of the board for the bench with this core, Hz.
     for (board, core, chip, clock) in

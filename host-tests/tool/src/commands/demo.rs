@@ -53,7 +53,7 @@ struct Run {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Chosen::Knob = arguments.scene.device {
         return demo_knob::run(arguments.board, arguments.host, &arguments.report, arguments.picture.as_deref());
@@ -117,7 +117,7 @@ fn on_board(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Run> {
     }
 }
 
-/// What can go wrong before the image runs.
+/// Failures before the image runs.
 #[derive(Debug)]
 pub enum Preparation {
     /// No emulator, no compiler, or a build that failed.
@@ -129,7 +129,7 @@ pub enum Preparation {
 /// Bakes the scene into an image.
 ///
 /// # Errors
-/// What was missing or failed.
+/// The missing tool, or the failure.
 pub fn prepare(board: Board, scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
     let (_folder, choice) = write_tables(board, scene).map_err(Preparation::Tables)?;
     firmware::prepare(&choice, progress).map_err(Preparation::SetUp)

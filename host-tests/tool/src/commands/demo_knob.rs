@@ -28,7 +28,7 @@ pub struct Run {
 /// Runs the knob's image, or its loop compiled for the host, with the map of its motor's cogging and without.
 ///
 /// # Errors
-/// What cannot be built, run or written.
+/// A build, a run or a file that failed.
 pub fn run(board: Board, host: bool, file: &Path, picture: Option<&Path>) -> anyhow::Result<ExitCode> {
     let run = |compensated: bool| if host { on_host(compensated) } else { on_board(board, compensated) };
     let (with, without) = (run(true)?, run(false)?);
@@ -65,7 +65,7 @@ pub fn on_host(compensated: bool) -> anyhow::Result<Run> {
 /// On an emulated board, or on the host where no emulator can be had.
 ///
 /// # Errors
-/// What cannot be built or run.
+/// A build or a run that failed.
 pub fn on_board(board: Board, compensated: bool) -> anyhow::Result<Run> {
     let features: &[&str] = if compensated { &["knob"] } else { &["uncompensated"] };
     let program = match Program::prepare(board, "knob", features, &Progress::new()) {

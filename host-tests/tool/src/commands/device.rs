@@ -1,4 +1,5 @@
-//! `palpate device`: the file of one's own device as the library's constant; the file of one that ships, to begin with.
+//! `palpate device`: the file of one's own device as the library's constant; or the file of a shipped device to start
+//! from.
 
 use crate::devices;
 use anyhow::{Context, bail};
@@ -23,7 +24,7 @@ pub struct Arguments {
 /// Runs the command.
 ///
 /// # Errors
-/// What is wrong with the file, by its entry; nothing is written then.
+/// The refused entry of the file; no output is written then.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let name = arguments.device.to_string_lossy();
     let own = match devices::named(&name) {

@@ -83,7 +83,7 @@ fn names() -> PossibleValuesParser {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let threshold = arguments.threshold.as_deref().map_or_else(|| Ok(Threshold::approximate()), read_threshold)?;
     let chosen = devices::named(&arguments.device);
@@ -122,7 +122,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     write(&all, &threshold, arguments)
 }
 
-/// What is recommended for a device, but for what was asked for.
+/// The settings recommended for a device, with the options that were given.
 fn wish(arguments: &Arguments, device: &ShippedDevice) -> Wish {
     let recommended = device.recommended().unwrap_or(recommended::WOODEN_HAPTICS_2016);
     let Recommended { settings, rendering } = recommended;

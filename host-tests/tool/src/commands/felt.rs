@@ -1,4 +1,4 @@
-//! What is felt in a scene: one patch of a model, or the whole body.
+//! The surface of a run: one patch of a model, or the whole body.
 
 use super::felt_scene::FeltScene;
 use super::progress;

@@ -28,7 +28,7 @@ pub struct Arguments {
 /// Runs the command: 0 if nothing was found, 1 otherwise.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let features: &[&str] = if arguments.protected { &["protected"] } else { &[] };
     let program = Program::prepare(arguments.board, &arguments.program, features, &Progress::new())?;

@@ -80,7 +80,7 @@ const LINE: Duration = Duration::from_secs(1);
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut view = View::new(arguments)?;
     if let Some(board) = arguments.emulator {

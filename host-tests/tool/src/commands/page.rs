@@ -45,7 +45,7 @@ pub struct ViewArguments {
 /// Runs `page`.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let text = written(Given { first: FIRST.to_owned(), bodies: shipped()?, script: script(), recording: None })?;
     let out = &arguments.out;
@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 /// Runs `view`.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn view(arguments: &ViewArguments) -> anyhow::Result<ExitCode> {
     let mut bodies = Vec::new();
     let mut first = FIRST.to_owned();

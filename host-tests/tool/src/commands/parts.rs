@@ -38,7 +38,7 @@ const HEADER: &str = "\
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     print(HEADER.as_bytes())?;
     for part in &arguments.parts {

@@ -35,7 +35,7 @@ pub struct Arguments {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
     // Before anything is installed in vain.

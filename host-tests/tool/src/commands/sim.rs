@@ -28,7 +28,7 @@ pub struct Arguments {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let scene = arguments.scene.scene()?;
     let trace = run_on_host(&arguments.scene, &scene)?;

@@ -37,7 +37,7 @@ pub struct Arguments {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let (line, hand): (Box<dyn Line>, _) = match (&arguments.port, arguments.emulator, arguments.host) {
         (Some(port), ..) => (Box::new(Port::open(port, arguments.baud)?), None),

@@ -76,7 +76,7 @@ pub fn run_test(arguments: &RunTestArguments) -> anyhow::Result<ExitCode> {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if arguments.python {
         return in_python::test(&arguments.cargo_test);

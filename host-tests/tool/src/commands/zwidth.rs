@@ -58,7 +58,7 @@ impl Velocity {
 /// Runs the command.
 ///
 /// # Errors
-/// What went wrong, for the person at the terminal.
+/// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let positive = |value: f64| value.is_finite() && value > 0.0;
     anyhow::ensure!(

@@ -26,7 +26,7 @@ impl Subject {
     /// Reads a model and bakes its first patch.
     ///
     /// # Errors
-    /// What is wrong with the model.
+    /// The reason why the model is refused.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let mut model = models::read(path)?;
         let surface = model.patches.swap_remove(0);
