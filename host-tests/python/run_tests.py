@@ -16,6 +16,7 @@ from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
+# Wheels and virtual environments.
 TARGET = ROOT / "target/python"
 # As the file pyproject.toml asks for it.
 MATURIN = "maturin>=1.16,<2"
@@ -49,8 +50,8 @@ def wheel(builder: Path) -> Path:
     if wheels.exists():
         shutil.rmtree(wheels)
     run(
-        builder / "maturin", "build", "--quiet", "--release", "--locked", "--interpreter", sys.executable,
-        "--manifest-path", FOLDER / "Cargo.toml", "--target-dir", TARGET, "--out", wheels,
+        builder / "maturin", "build", "--quiet", "--profile", "apart", "--locked", "--interpreter", sys.executable,
+        "--manifest-path", FOLDER / "Cargo.toml", "--target-dir", ROOT / "target", "--out", wheels,
     )  # fmt: skip
     [made] = wheels.glob("*.whl")
     return made
@@ -59,10 +60,11 @@ def wheel(builder: Path) -> Path:
 def plain_loop() -> Path:
     """The loop in Rust that answers are held to, built."""
     run(
-        os.environ.get("CARGO", "cargo"), "build", "--quiet", "--release", "--locked", "--package", "plain-loop",
-        "--manifest-path", FOLDER / "Cargo.toml", "--target-dir", TARGET,
+        os.environ.get("CARGO", "cargo"), "build", "--quiet", "--profile", "apart", "--locked",
+        "--package", "palpate-race", "--example", "plain_loop",
+        "--manifest-path", ROOT / "Cargo.toml", "--target-dir", ROOT / "target",
     )  # fmt: skip
-    return TARGET / "release/plain-loop"
+    return ROOT / "target/apart/examples/plain_loop"
 
 
 def main() -> int:

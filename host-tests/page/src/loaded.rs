@@ -3,7 +3,7 @@
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
 use alloc::vec;
-use palpate::body::{Body, Edge, Face, FileHead, BodyBuffer};
+use palpate::body::{Body, BodyBuffer, Edge, Face, FileHead};
 use palpate::math::Vec3;
 
 use crate::felt::Felt;

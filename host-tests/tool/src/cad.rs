@@ -54,13 +54,11 @@ impl Importer {
     /// What the compiler said.
     pub fn build(progress: &Progress) -> Result<Self, SetUpError> {
         let repository = repository::root()?;
-        let target = repository.join("target/cad");
-        let path = target.join("release/palpate-cad");
+        let path = repository.join("target/apart/palpate-cad");
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         without_outer_cargo(&mut cargo);
-        cargo.args(["build", "--quiet", "--release", "--locked"]);
-        cargo.arg("--manifest-path").arg(repository.join("host-tests/cad/Cargo.toml"));
-        cargo.arg("--target-dir").arg(&target);
+        cargo.current_dir(&repository).args(["build", "--quiet", "--profile", "apart", "--locked"]);
+        cargo.args(["--package", "palpate-cad", "--target-dir", "target"]);
         let what = if path.exists() { "building the importer" } else { "building the importer, once some minutes" };
         progress.during(what, || output(&mut cargo))?;
         Ok(Self { path })

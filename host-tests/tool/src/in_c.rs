@@ -87,17 +87,20 @@ pub fn library(core: Core, progress: &Progress) -> Result<PathBuf, SetUpError> {
     let toolchain = Toolchain::set_up(target, progress)?;
     let folder_of_target = toolchain.target_folder()?;
     let mut cargo = toolchain.cargo();
-    cargo.current_dir(folder()?).args(["build", "--release", "--locked", "--target", target]);
+    cargo.current_dir(folder()?).args(["build", "--profile", "abort", "--locked", "--target", target]);
     cargo.arg("--target-dir").arg(&folder_of_target);
     progress.during(&format!("building the C library for {target}"), || output(&mut cargo))?;
-    Ok(folder_of_target.join(target).join("release/libpalpate.a"))
+    Ok(folder_of_target.join(target).join("abort/libpalpate.a"))
 }
 
 fn for_host(core: Core, progress: &Progress) -> Result<PathBuf, SetUpError> {
-    let folder_of_target = repository::root()?.join("target/c");
+    let folder_of_target = repository::root()?.join("target");
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     without_outer_cargo(&mut cargo);
-    cargo.current_dir(folder()?).args(["build", "--release", "--locked", "--target-dir"]).arg(&folder_of_target);
+    cargo
+        .current_dir(folder()?)
+        .args(["build", "--profile", "abort", "--locked", "--target-dir"])
+        .arg(&folder_of_target);
     let mut built = folder_of_target;
     if core == Core::Sanitized {
         // The sanitizer is of the compiler's unstable options, of which a stable one asks for this word; its run-time
@@ -108,7 +111,7 @@ fn for_host(core: Core, progress: &Progress) -> Result<PathBuf, SetUpError> {
         built.push(host);
     }
     progress.during("building the C library for this machine", || output(&mut cargo))?;
-    Ok(built.join("release/libpalpate.a"))
+    Ok(built.join("abort/libpalpate.a"))
 }
 
 /// The compiler's name for this machine.

@@ -122,7 +122,7 @@ fn suites(arguments: &Arguments, tool: &Path, times: &mut Times, progress: &Prog
             cargo.args(quick());
         } else {
             // All suites, also after one that failed: one run reports all failures.
-            cargo.args(["--workspace", "--no-fail-fast"]);
+            cargo.arg("--no-fail-fast");
         }
         cargo.args(&arguments.cargo_test);
         if arguments.c || with_c {
@@ -166,12 +166,11 @@ fn set_up(board: Board, progress: &Progress) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The tests of the page, in its own workspace: nobody else needs what drives a browser.
+/// The tests of the page, which are apart: only they need a browser and its driver.
 fn on_page(browser: &page::Browser, tool: &Path, times: &mut Times, words: &[String]) -> anyhow::Result<ExitCode> {
     let root = repository::root()?;
     let status = times.cargo_test(tool, |cargo: &mut Command| {
-        cargo.args(["--locked", "--package", "palpate-page-browser", "--manifest-path"]);
-        cargo.arg(root.join("host-tests/page/Cargo.toml")).arg("--target-dir").arg(root.join("target/page"));
+        cargo.current_dir(root).args(["--locked", "--package", "palpate-page", "--target-dir", "target"]);
         cargo.env("PALPATE_TOOL", tool).env("PALPATE_CHROMIUM", browser.path());
         // One browser at a time: each draws on all cores.
         cargo.args(["--", "--test-threads=1", "--nocapture"]).args(words);

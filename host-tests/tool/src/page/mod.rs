@@ -64,7 +64,8 @@ pub fn compile(progress: &Progress) -> Result<Vec<u8>, SetUpError> {
     let (toolchain, target_folder, module) = places(progress)?;
     let mut cargo = toolchain.cargo();
     cargo.current_dir(repository::root()?.join("host-tests/page"));
-    cargo.args(["build", "--release", "--locked", "--target", TARGET, "--target-dir"]).arg(&target_folder);
+    cargo.args(["build", "--profile", "abort", "--config", "profile.abort.strip=true", "--locked"]);
+    cargo.args(["--target", TARGET, "--target-dir"]).arg(&target_folder);
     progress.during("building the firmware's code for the browser", || output(&mut cargo))?;
     fs::read(&module).map_err(SetUpError::io(module.display()))
 }
@@ -84,7 +85,7 @@ pub fn compiled(progress: &Progress) -> Result<Option<Vec<u8>>, SetUpError> {
 fn places(progress: &Progress) -> Result<(Toolchain, PathBuf, PathBuf), SetUpError> {
     let toolchain = Toolchain::set_up(TARGET, progress)?;
     let target_folder = toolchain.target_folder()?;
-    let module = target_folder.join(TARGET).join("release/palpate_page.wasm");
+    let module = target_folder.join(TARGET).join("abort/palpate_page.wasm");
     Ok((toolchain, target_folder, module))
 }
 

@@ -70,19 +70,17 @@ impl Program {
     /// # Errors
     /// What the compiler said.
     pub fn build(who: Who, progress: &Progress) -> Result<Self, SetUpError> {
-        // A folder each, so that neither build throws the other's away.
-        let (folder, features, what) = match who {
-            Who::Own => ("own", "", "building palpate's contestants"),
-            Who::All => ("all", "peers", "building the contestants, once some minutes"),
+        let (features, what) = match who {
+            Who::Own => ("", "building palpate's contestants"),
+            Who::All => ("peers", "building the contestants, once some minutes"),
         };
-        let target = repository::root()?.join("target/race").join(folder);
+        let root = repository::root()?;
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         without_outer_cargo(&mut cargo);
-        cargo.args(["build", "--quiet", "--release", "--locked", "--features", features]);
-        cargo.arg("--manifest-path").arg(repository::root()?.join("host-tests/race/Cargo.toml"));
-        cargo.arg("--target-dir").arg(&target);
+        cargo.current_dir(&root).args(["build", "--quiet", "--profile", "abort", "--locked"]);
+        cargo.args(["--package", "palpate-race", "--features", features, "--target-dir", "target"]);
         progress.during(what, || output(&mut cargo))?;
-        Ok(Self { path: target.join("release/palpate-race") })
+        Ok(Self { path: root.join("target/abort/palpate-race") })
     }
 
     /// Runs the contestants of these names, or all, by the clock.

@@ -3,7 +3,7 @@
 //!
 //! `plain-loop BODY.palp POINTS.f64 OUT.u32`; the tests find it by `PALPATE_PLAIN_LOOP`.
 
-use palpate::body::{Body, Edge, Face, FileHead, BodyBuffer};
+use palpate::body::{Body, BodyBuffer, Edge, Face, FileHead};
 use palpate::math::vec3;
 use palpate::patch::Patch as _;
 use std::time::Instant;
