@@ -64,7 +64,17 @@ impl Scene {
         let [jump_uu, jump_vv] = exactly(&lines, "jumps")?;
         let third_derivatives = ThirdDerivativeBounds { uuu, uuv, uvv, vvv, jump_uu, jump_vv };
         let size = *singles("size")?.first().context("size")?;
-        let patch = SplineTable { degree: [2, 2], breaks_u: breaks[0], breaks_v: breaks[1], coefficients: Coefficients::Polynomial(coefficients), shape: ShapeBounds { third_derivatives, ..ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }) }, orientation: Orientation::Outward, size_m: size, crc: None }.try_checked()?;
+        let patch = SplineTable {
+            degree: [2, 2],
+            breaks_u: breaks[0],
+            breaks_v: breaks[1],
+            coefficients: Coefficients::Polynomial(coefficients),
+            shape: ShapeBounds { third_derivatives, ..ShapeBounds::unknown(SecondDerivativeBounds { uu, uv, vv }) },
+            orientation: Orientation::Outward,
+            size_m: size,
+            crc: None,
+        }
+        .try_checked()?;
         let body = body(patch, size, &lines)?;
         let probe = |double: [f64; 3]| Probe { single: double.map(|value| value as f32), double };
         let stride = *numbers::<usize>(&lines, "stride")?.first().context("stride")?;
@@ -107,7 +117,17 @@ fn body(patch: SplinePatch<'static>, size: f32, lines: &HashMap<&str, &str>) -> 
     };
     let edges: Vec<Edge> = [0, 1, 2, 3].map(edge).into();
     let vertices = vec![Vertex { point: Vec3::ZERO, outward: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true }];
-    Ok(BodyTables { faces: faces.leak(), edges: edges.leak(), vertices: vertices.leak(), spokes: &[], locator, size_m: size, is_convex: false, crc: None }.try_checked()?)
+    Ok(BodyTables {
+        faces: faces.leak(),
+        edges: edges.leak(),
+        vertices: vertices.leak(),
+        spokes: &[],
+        locator,
+        size_m: size,
+        is_convex: false,
+        crc: None,
+    }
+    .try_checked()?)
 }
 
 fn numbers<T: FromStr>(lines: &HashMap<&str, &str>, key: &str) -> anyhow::Result<Vec<T>> {
