@@ -130,8 +130,8 @@ impl fmt::Display for TableError {
 impl core::error::Error for TableError {}
 
 impl<'a> SplineTable<'a> {
-    /// A square of 1 m, `z = 0`, from the origin along x and y.
-    pub(crate) const UNIT_SQUARE: Self = Self {
+    /// A plane square of 1 m, `z = 0`, from the origin along x and y, facing +z: a start for tables by hand.
+    pub const UNIT_SQUARE: Self = Self {
         degree: [1, 1],
         breaks_u: &[0.0, 1.0],
         breaks_v: &[0.0, 1.0],

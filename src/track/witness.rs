@@ -33,25 +33,15 @@ impl Probe {
 ///
 /// ```
 /// use palpate::math::vec3;
-/// use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
+/// use palpate::patch::{SplinePatch, SplineTable};
 /// use palpate::track::{Controller, Outcome, Probe, Witness};
 ///
-/// static WALL: SplinePatch = SplineTable {
-///     degree: [1, 1],
-///     breaks_u: &[0.0, 1.0],
-///     breaks_v: &[0.0, 1.0],
-///     coefficients: Coefficients::Polynomial(&[[0.0; 3], [0.0, 0.2, 0.0], [0.2, 0.0, 0.0], [0.0; 3]]),
-///     shape: ShapeBounds::unknown(SecondDerivativeBounds::ZERO),
-///     orientation: Orientation::Outward,
-///     size_m: 0.2,
-///     crc: None,
-/// }
-/// .checked();
+/// static WALL: SplinePatch = SplineTable::UNIT_SQUARE.checked();
 /// // One step from the middle to the point below the probe.
 /// let mut witness = Witness::at(&WALL, 0.5, 0.5);
-/// let step = Controller::SecondOrder.step(&WALL, &mut witness, Probe::at(vec3(0.05, 0.02, 0.03)), 0.001);
+/// let step = Controller::SecondOrder.step(&WALL, &mut witness, Probe::at(vec3(0.7, 0.2, 0.3)), 0.001);
 /// assert_eq!(step.outcome, Outcome::Moved);
-/// assert!((witness.surface.point - vec3(0.05, 0.02, 0.0)).length() < 1e-7);
+/// assert!((witness.surface.point - vec3(0.7, 0.2, 0.0)).length() < 1e-6);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Witness {

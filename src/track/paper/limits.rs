@@ -87,7 +87,7 @@ impl PerformanceLimits {
 
     /// A gain `K`, 1/s, at which each tick of explicit Euler is proved to lower the distance to a probe that rests,
     /// from projection errors up to `residual` metres long: `1 / (h ((1 + c r)² + c ‖ΔR‖ + (k − 1) c (2 r + ‖ΔR‖)))`
-    /// with `c` the greatest bend and `k` [`crate::math::ROOT_EXCESS`], for the roots that are taken from above.
+    /// with `c` the maximum bend and `k` [`crate::math::ROOT_EXCESS`], for the roots that are taken from above.
     ///
     /// It is not above what [`certified_gain`](crate::track::certified_gain) can be there, whatever the direction and the place, and near what
     /// it tends to as the witness point arrives, but for the bend being that of one place and direction then. Proved

@@ -31,23 +31,20 @@ pub struct PairStep {
 ///
 /// ```
 /// use palpate::math::vec3;
-/// use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
+/// use palpate::patch::{Coefficients, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
 /// use palpate::track::{CommonNormalTracker, PairTracker, PairWitness, Placement};
 ///
 /// // A shallow dome, z = −2 (x² + y²), and the same one upside down, 30 mm above it and 10 mm aside.
 /// static DOME: SplinePatch = SplineTable {
 ///     degree: [2, 2],
-///     breaks_u: &[0.0, 1.0],
-///     breaks_v: &[0.0, 1.0],
 ///     coefficients: Coefficients::Polynomial(&[
 ///         [0.0; 3], [0.0, 0.1, 0.0], [0.0, 0.0, -0.02],
 ///         [0.1, 0.0, 0.0], [0.0; 3], [0.0; 3],
 ///         [0.0, 0.0, -0.02], [0.0; 3], [0.0; 3],
 ///     ]),
 ///     shape: ShapeBounds::unknown(SecondDerivativeBounds { uu: 0.04, uv: 0.0, vv: 0.04 }),
-///     orientation: Orientation::Outward,
 ///     size_m: 0.1,
-///     crc: None,
+///     ..SplineTable::UNIT_SQUARE
 /// }
 /// .checked();
 /// let upside_down = [vec3(1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -1.0)];
