@@ -79,8 +79,8 @@ fn flash_is_not_written_while_motors_are_driven_or_enable_is_held() {
     let error = device.keep(1, SPHERE, |_, _| ()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "upload was refused by the device: flash is written only while the motors are off: let go of the enable input \
-         first"
+        "upload was refused by the device: flash is written only while the motors are off; release the enable \
+         input first"
     );
     assert!(matches!(error, Error::Refused { reason: Refused::Upload(UploadError::Driven), .. }));
     assert_eq!(device.phase().unwrap(), Phase::Running);

@@ -71,7 +71,7 @@ pub enum Misunderstood {
         what: &'static str,
     },
     /// Something is not what it should be.
-    #[error("{form}: {word:?} is not a valid {what}")]
+    #[error("{form}: expected {what}, found {word:?}")]
     Wrong {
         /// How it is said.
         form: &'static str,
@@ -322,19 +322,19 @@ mod tests {
     #[test]
     fn what_is_not_understood_is_refused_with_a_sentence() {
         for (line, sentence) in [
-            ("jump", "there is no command \"jump\"; help says what there is"),
+            ("jump", "unknown command \"jump\"; `help` lists all"),
             ("place 1 0 0", "place BODY X Y Z [AX AY AZ DEGREES]: Z is missing"),
-            ("place 1 0 0 high", "place BODY X Y Z [AX AY AZ DEGREES]: \"high\" is no number"),
-            ("place 256 0 0 0", "place BODY X Y Z [AX AY AZ DEGREES]: \"256\" is no body's index"),
-            ("place 1 0 0 0 0 0 0 90", "place BODY X Y Z [AX AY AZ DEGREES]: \"0 0 0\" is no axis"),
+            ("place 1 0 0 high", "place BODY X Y Z [AX AY AZ DEGREES]: expected number, found \"high\""),
+            ("place 256 0 0 0", "place BODY X Y Z [AX AY AZ DEGREES]: expected body's index, found \"256\""),
+            ("place 1 0 0 0 0 0 0 90", "place BODY X Y Z [AX AY AZ DEGREES]: expected axis, found \"0 0 0\""),
             ("turn 1 0 0 1", "turn BODY AX AY AZ DEGREES: DEGREES is missing"),
-            ("push 0 0 1 -1", "push X Y Z [SECONDS]: \"-1\" is no time of at most a day"),
-            ("switch 32", "switch GROUP…: \"32\" is no group from 0 to 31"),
+            ("push 0 0 1 -1", "push X Y Z [SECONDS]: expected time of at most a day, found \"-1\""),
+            ("switch 32", "switch GROUP…: expected group from 0 to 31, found \"32\""),
             ("switch", "switch GROUP…: a group, all or none is missing"),
             ("rub 0 1 2", "rub BODY STIFFNESS DAMPING STATIC DYNAMIC: STATIC is missing"),
-            ("limit NaN", "limit N: \"NaN\" is no number"),
-            ("push inf 0 0", "push X Y Z [SECONDS]: \"inf\" is no number"),
-            ("stop now", "stop: \"now\" is too much"),
+            ("limit NaN", "limit N: expected number, found \"NaN\""),
+            ("push inf 0 0", "push X Y Z [SECONDS]: expected number, found \"inf\""),
+            ("stop now", "stop: \"now\" is one argument too many"),
             ("upload 1", "upload BODY FILE: FILE is missing"),
         ] {
             assert_eq!(line.parse::<Asked>().expect_err(line).to_string(), sentence);

@@ -51,8 +51,8 @@ fn a_line_that_is_refused_or_not_understood_ends_a_file_with_a_sentence() {
     for (line, sentence) in [
         ("place 5 0 0 0", "place was refused by the device: there is no body 5"),
         ("limit 9", "limit was refused by the device: a force must be finite and at most the scene's maximum"),
-        ("turn 1 0 0 1 90", "where body 1 is is not known here: place it first"),
-        ("jump", "there is no command \"jump\"; help says what there is"),
+        ("turn 1 0 0 1 90", "the place of body 1 is unknown; place it first"),
+        ("jump", "unknown command \"jump\"; `help` lists all"),
         ("place 1 0 0", "place BODY X Y Z [AX AY AZ DEGREES]: Z is missing"),
         ("upload 0 capped_box", "take was refused by the device: this surface does not support the command"),
         ("upload 1 no-such.palp", "no-such.palp: No such file or directory (os error 2)"),

@@ -128,7 +128,7 @@ fn a_body_lies_in_the_fastest_memory_while_it_fits_then_in_flash_and_is_refused_
     // The rounded cylinder: with a host the program's half of the flash is too full for it.
     assert_eq!(BenchBoard::Stm32g4.place(Kind::Hosted, 51_756), None);
     let says = BenchBoard::Stm32g4.says(Kind::Alone, 400 << 10);
-    assert_eq!(says, "do not fit: 400.0 KB of tables, and room for 352.0 KB in flash");
+    assert_eq!(says, "do not fit: 400.0 KB of tables, 352.0 KB of flash");
 }
 
 #[test]

@@ -283,7 +283,7 @@ fn what_was_found_before_a_line_broke_for_good_is_reported_and_not_accepted() {
     let (expected, around) = (expected(MOST), Surroundings::default());
     let report = Report::new("a port", &found, &expected, &around, judge(&found, &expected, &around)).to_string();
     assert!(report.contains("| passed | state hash |"), "{report}");
-    assert!(report.contains("| FAILED | to the end | after it was told to fail (Hang): "), "{report}");
+    assert!(report.contains("| FAILED | to the end | after the provoked failure Hang: "), "{report}");
 }
 
 #[test]
