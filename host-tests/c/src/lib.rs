@@ -20,7 +20,6 @@ mod memory;
 mod numbers;
 mod pair;
 mod pointers;
-mod protected_starts;
 mod protection;
 mod running;
 mod servo;

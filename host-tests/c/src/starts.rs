@@ -1,104 +1,68 @@
-//! A loop for each mechanism. A program that starts one links no other.
+//! Starts a loop of any mechanism, with or without protection.
 
 use crate::body::Loaded;
 use crate::handle::Handle;
-use crate::mechanisms::{DeltaNumbers, FiveBarNumbers, LinkageArmNumbers, PaddleNumbers, SerialArmNumbers};
+use crate::mechanisms::{Mechanism, MechanismNumbers};
 use crate::numbers::{DeviceNumbers, SettingsNumbers};
-use crate::protection::Unprotected;
+use crate::pointers::get;
+use crate::protection::{ProtectionNumbers, Unprotected};
 use crate::servo::{Parts, Started, begin};
 use crate::status::{Status, code};
+use palpate_core::device::Kinematics;
 
-/// A loop of a serial arm.
+/// Starts a loop; without protection where that pointer is null.
 ///
 /// # Safety
 /// As the header says of all functions.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_serial_arm(
+pub unsafe extern "C" fn palpate_servo_start(
     servo: *mut Handle<Started>,
     servo_bytes: usize,
-    mechanism: *const SerialArmNumbers,
+    mechanism: *const Mechanism,
     device: *const DeviceNumbers,
     body: *const Handle<Loaded>,
     settings: *const SettingsNumbers,
+    protection: *const ProtectionNumbers,
     reset: u32,
 ) -> Status {
-    let parts = Parts { device, body, settings, guarding: Unprotected, reset };
-    // SAFETY: the caller's memory, numbers and body.
-    code(unsafe { begin::<_, 3, _>(servo, servo_bytes, mechanism, parts) })
+    let start = || {
+        // SAFETY: the caller's numbers.
+        let mechanism = unsafe { get(mechanism) }?;
+        let parts = Parts { device, body, settings, guarding: protection, reset };
+        // SAFETY: every member of the union is floats alone; and the caller's memory, numbers and body.
+        unsafe {
+            match mechanism.kind {
+                1 => begin_any::<_, 3>(servo, servo_bytes, &mechanism.of.serial_arm, parts),
+                2 => begin_any::<_, 3>(servo, servo_bytes, &mechanism.of.delta, parts),
+                3 => begin_any::<_, 3>(servo, servo_bytes, &mechanism.of.linkage_arm, parts),
+                4 => begin_any::<_, 2>(servo, servo_bytes, &mechanism.of.five_bar, parts),
+                5 => begin_any::<_, 1>(servo, servo_bytes, &mechanism.of.paddle, parts),
+                _ => Err(Status::OutOfRange),
+            }
+        }
+    };
+    code(start())
 }
 
-/// A loop of a delta.
-///
 /// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_delta(
+/// As [`begin`].
+unsafe fn begin_any<M: MechanismNumbers, const JOINTS: usize>(
     servo: *mut Handle<Started>,
     servo_bytes: usize,
-    mechanism: *const DeltaNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let parts = Parts { device, body, settings, guarding: Unprotected, reset };
-    // SAFETY: the caller's memory, numbers and body.
-    code(unsafe { begin::<_, 3, _>(servo, servo_bytes, mechanism, parts) })
-}
-
-/// A loop of a linkage arm.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_linkage_arm(
-    servo: *mut Handle<Started>,
-    servo_bytes: usize,
-    mechanism: *const LinkageArmNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let parts = Parts { device, body, settings, guarding: Unprotected, reset };
-    // SAFETY: the caller's memory, numbers and body.
-    code(unsafe { begin::<_, 3, _>(servo, servo_bytes, mechanism, parts) })
-}
-
-/// A loop of a five-bar.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_five_bar(
-    servo: *mut Handle<Started>,
-    servo_bytes: usize,
-    mechanism: *const FiveBarNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let parts = Parts { device, body, settings, guarding: Unprotected, reset };
-    // SAFETY: the caller's memory, numbers and body.
-    code(unsafe { begin::<_, 2, _>(servo, servo_bytes, mechanism, parts) })
-}
-
-/// A loop of a paddle.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_start_paddle(
-    servo: *mut Handle<Started>,
-    servo_bytes: usize,
-    mechanism: *const PaddleNumbers,
-    device: *const DeviceNumbers,
-    body: *const Handle<Loaded>,
-    settings: *const SettingsNumbers,
-    reset: u32,
-) -> Status {
-    let parts = Parts { device, body, settings, guarding: Unprotected, reset };
-    // SAFETY: the caller's memory, numbers and body.
-    code(unsafe { begin::<_, 1, _>(servo, servo_bytes, mechanism, parts) })
+    mechanism: &M,
+    parts: Parts<*const ProtectionNumbers>,
+) -> Result<(), Status>
+where
+    M::Mechanism: Kinematics<JOINTS> + Copy + 'static,
+{
+    let Parts { device, body, settings, guarding, reset } = parts;
+    if guarding.is_null() {
+        let parts = Parts { device, body, settings, guarding: Unprotected, reset };
+        // SAFETY: by the caller's promise.
+        return unsafe { begin::<_, JOINTS, _>(servo, servo_bytes, mechanism, parts) };
+    }
+    // SAFETY: the caller's numbers.
+    let guarding = unsafe { get(guarding) }?;
+    // SAFETY: by the caller's promise.
+    unsafe { begin::<_, JOINTS, _>(servo, servo_bytes, mechanism, Parts { device, body, settings, guarding, reset }) }
 }

@@ -11,7 +11,7 @@ use syn::{Expr, Fields, FnArg, Item, ReturnType, Type};
 const PREFIX: &str = "PALPATE";
 
 /// What a type of the library is called in the header, where the names do not tell.
-const NAMES: [(&str, &str); 27] = [
+const NAMES: [(&str, &str); 29] = [
     ("Loaded", "palpate_body"),
     ("Tracking", "palpate_tracker"),
     ("Paired", "palpate_pair"),
@@ -32,6 +32,8 @@ const NAMES: [(&str, &str); 27] = [
     ("FiveBarNumbers", "palpate_five_bar"),
     ("LinkageArmNumbers", "palpate_linkage_arm"),
     ("PaddleNumbers", "palpate_paddle"),
+    ("AnyMechanism", "palpate_any_mechanism"),
+    ("Mechanism", "palpate_mechanism"),
     ("Heard", "palpate_heard"),
     ("TouchedNumbers", "palpate_touched"),
     ("TextureForce", "palpate_texture_force"),
@@ -117,6 +119,12 @@ impl Library {
         library
     }
 
+    fn take_fields(&mut self, what: &str, in_header: &str, fields: &syn::FieldsNamed) {
+        let declared = |field: &syn::Field| declared(&field.ident.as_ref().expect("a name").to_string(), &field.ty);
+        let fields: String = fields.named.iter().map(|field| declared(field) + "; ").collect();
+        self.structures.push(format!("typedef {what} {in_header} {{ {fields}}} {in_header};"));
+    }
+
     fn take(&mut self, item: &Item) {
         match item {
             Item::Fn(function) if function.sig.abi.is_some() => {
@@ -136,12 +144,10 @@ impl Library {
                     return;
                 };
                 let Fields::Named(fields) = &structure.fields else { panic!("fields") };
-                let fields: String = fields
-                    .named
-                    .iter()
-                    .map(|field| declared(&field.ident.as_ref().expect("a name").to_string(), &field.ty) + "; ")
-                    .collect();
-                self.structures.push(format!("typedef struct {in_header} {{ {fields}}} {in_header};"));
+                self.take_fields("struct", in_header, fields);
+            }
+            Item::Union(union) if union.ident == "AnyMechanism" => {
+                self.take_fields("union", "palpate_any_mechanism", &union.fields);
             }
             Item::Enum(codes) if codes.ident == "Status" => {
                 for code in &codes.variants {
@@ -191,7 +197,7 @@ fn header() -> String {
 #[test]
 fn the_header_declares_what_the_library_has_and_nothing_else() {
     let (library, header) = (Library::read(), header());
-    assert!(library.functions.len() > 20 && library.structures.len() == 22, "{}", library.structures.len());
+    assert!(library.functions.len() > 20 && library.structures.len() == 24, "{}", library.structures.len());
     for declaration in library.functions.iter().chain(&library.structures) {
         assert!(header.contains(declaration.as_str()), "the header does not declare\n{declaration}");
     }
@@ -199,7 +205,7 @@ fn the_header_declares_what_the_library_has_and_nothing_else() {
     // And what a texture is, is a type of functions.
     let functions = header.matches(");").count() - header.matches("typedef void (*").count();
     assert_eq!(functions, library.functions.len(), "the header declares functions that the library does not have");
-    let structures = header.matches("typedef struct").count();
+    let structures = header.matches("typedef struct").count() + header.matches("typedef union").count();
     assert_eq!(structures, library.structures.len() + 5, "the header has structures that the library does not");
 }
 
