@@ -45,8 +45,8 @@ int main(int count, char **arguments)
     palpate_mechanism arm = {.kind = PALPATE_SERIAL_ARM};
     palpate_device device;
     palpate_protection protection = {0};
-    float *const places[] = {(float *)&arm, (float *)&device, (float *)&protection, protection.inertia};
-    const size_t lengths[] = {sizeof arm, sizeof device, offsetof(palpate_protection, watch_signs),
+    float *const places[] = {(float *)&arm.of.serial_arm, (float *)&device, (float *)&protection, protection.inertia};
+    const size_t lengths[] = {sizeof arm.of.serial_arm, sizeof device, offsetof(palpate_protection, watch_signs),
                               sizeof protection.inertia};
     for (int part = 0; part < 4; part++) {
         for (size_t index = 0; index < lengths[part] / sizeof(float); index++) places[part][index] = *numbers++;

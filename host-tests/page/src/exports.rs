@@ -15,11 +15,11 @@ use palpate::patch::{Patch as _, SplinePatch};
 use spin::Mutex;
 
 use crate::basin::{self, Method};
-use crate::loaded::Loaded;
-use crate::monitor::Monitor;
+use crate::felt::Loaded;
+use crate::mesh;
 use crate::page::{Choices, Stage};
+use crate::replay::Monitor;
 use crate::replay::{self, Replay, Run};
-use crate::{mesh, regions};
 
 struct Exports {
     input: Vec<u32>,
@@ -220,7 +220,7 @@ pub extern "C" fn sheets(code: u32) -> usize {
         1 => Feature::Edge(index),
         _ => Feature::Vertex(index),
     };
-    STATE.lock().write(|stage, out| regions::sheets(stage.loaded.body, feature, out))
+    STATE.lock().write(|stage, out| mesh::sheets(stage.loaded.body, feature, out))
 }
 
 /// The way of a method from a start on a face to the closest point of a probe: `u`, `v` and the point of each step.

@@ -13,16 +13,9 @@ extern crate alloc;
 mod basin;
 mod exports;
 mod felt;
-mod hand;
-mod loaded;
 mod mesh;
-mod monitor;
-mod newton;
 mod page;
-mod regions;
 mod replay;
-mod sight;
-mod slides;
 mod view;
 
 #[global_allocator]

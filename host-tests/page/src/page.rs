@@ -1,20 +1,18 @@
 //! The stage: a body, the loop on three slides, and the hand.
 
+use crate::felt::Loaded;
+use crate::felt::{Felt, FeltWitness};
+use crate::view;
+use crate::view::Sighted as _;
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
-use palpate::device::{Counts, Device};
-use palpate::math::Vec3;
+use palpate::device::drive::Feed;
+use palpate::device::{Counts, Device, Encoder, Kinematics, Motor, ProbePose};
+use palpate::math::{Vec3, vec3};
 use palpate::render::Friction;
 use palpate::servo::{Event, Guard, Input, Rendering, Servo, ServoState, Settings, Unguarded};
 use palpate::track::{Controller, FirstOrder};
-
-use crate::felt::{Felt, FeltWitness};
-use crate::hand::{Grip, Hand};
-use crate::loaded::Loaded;
-use crate::sight::Sighted as _;
-use crate::slides::{self, Slides};
-use crate::view;
 
 /// What the reader may change while the loop runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +66,7 @@ impl Stage {
     /// # Errors
     /// What the loop refuses, in a sentence.
     pub fn new(loaded: Loaded, place: Vec3) -> Result<Self, String> {
-        let device: &'static _ = Box::leak(Box::new(slides::slides(loaded.body.size())));
+        let device: &'static _ = Box::leak(Box::new(slides(loaded.body.size())));
         let choices = Choices::DEFAULT;
         let servo = servo(device, loaded.felt, &choices)?;
         let hand = Hand { position: place, velocity: Vec3::ZERO };
@@ -102,12 +100,12 @@ impl Stage {
             let at = |tick: u32| from + (to - from) * (tick as f32 / ticks as f32);
             let way = [at(tick), at(tick + 1)];
             if yields {
-                let force = slides::force_of(self.device, self.state.duties().map(|duty| duty.fraction()));
+                let force = force_of(self.device, self.state.duties().map(|duty| duty.fraction()));
                 self.hand.advance(&Grip::LIGHT, way, force, period);
             } else {
                 self.hand = Hand { position: way[1], velocity: Vec3::ZERO };
             }
-            let counts = slides::counts_at(self.device, self.hand.position).map(Counts);
+            let counts = counts_at(self.device, self.hand.position).map(Counts);
             self.servo.note(&mut self.state, Event::LinkAlive);
             self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
             let [_, error] =
@@ -119,7 +117,7 @@ impl Stage {
 
     /// Only the ticks, for their time.
     pub fn tick_only(&mut self, ticks: u32) {
-        let counts = slides::counts_at(self.device, self.hand.position).map(Counts);
+        let counts = counts_at(self.device, self.hand.position).map(Counts);
         for _ in 0..ticks {
             self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
         }
@@ -155,4 +153,103 @@ fn servo(device: &'static Device<Slides, 3>, felt: &'static Felt, choices: &Choi
     let friction = (choices.friction > 0.0).then_some(friction);
     let servo = Servo::try_new(device, felt, choices.controller(), settings).map_err(|error| error.to_string())?;
     servo.try_rendering(Rendering { friction, ..Rendering::PLAIN }).map_err(|error| error.to_string())
+}
+
+// The device in the page's hand: three slides for the mouse.
+
+/// Three slides at right angles: where a joint is said to turn by a radian, it slides by a metre.
+#[derive(Clone, Copy, Debug)]
+pub struct Slides;
+
+impl Kinematics<3> for Slides {
+    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
+        ProbePose { position: Vec3::from_array(angles), jacobian: [Vec3::X, Vec3::Y, Vec3::Z] }
+    }
+}
+
+/// What the slides' motors give at most, N.
+const GREATEST_FORCE: f32 = 20.0;
+
+/// The slides for a thing of this size, metres. An encoder resolves the 2⁻¹⁸th part of what is felt: a quarter of a
+/// micrometre of 6 cm.
+pub fn slides(size: f32) -> Device<Slides, 3> {
+    let reach = 16.0 * size;
+    Device {
+        kinematics: Slides,
+        // The pose at count zero is exact: there is no line to be in the middle of.
+        encoders: [Encoder { radians_per_count: size / 262_144.0, angle_at_zero_rad: 0.0 }; 3],
+        motors: [Motor { torque_at_full_n_m: GREATEST_FORCE }; 3],
+        feeds: [Feed::Current; 3],
+        dry_friction_n_m: [0.0; 3],
+        // The rim of 0.05 is one of radians: the slides have none.
+        joint_range_rad: [[-reach - 1.0, reach + 1.0]; 3],
+        min_margin_m_per_rad: 0.01,
+        // A mouse jumps.
+        max_joint_rate_rad_per_s: f32::MAX,
+        max_force_n: GREATEST_FORCE,
+        max_stiffness_n_per_m: 10_000.0,
+        max_damping_n_s_per_m: 50.0,
+    }
+}
+
+/// The counts at which the slides are nearest to a place, metres.
+pub fn counts_at(device: &Device<Slides, 3>, place: Vec3) -> [i32; 3] {
+    let place = place.to_array();
+    core::array::from_fn(|joint| {
+        let count = place[joint] / device.encoders[joint].radians_per_count;
+        // The cast truncates.
+        (count + if count < 0.0 { -0.5 } else { 0.5 }) as i32
+    })
+}
+
+/// The force that duties give on the slides, N.
+pub fn force_of(device: &Device<Slides, 3>, duties: [f32; 3]) -> Vec3 {
+    let [x, y, z] = core::array::from_fn(|joint| duties[joint] * device.motors[joint].torque_at_full_n_m);
+    vec3(x, y, z)
+}
+
+// The hand that holds the device: it wants to be where the pointer is, and the device pushes back.
+
+/// How a hand holds a handle.
+#[derive(Clone, Copy, Debug)]
+pub struct Grip {
+    /// Mass of hand and handle, kg.
+    pub mass: f32,
+    /// N/m.
+    pub stiffness: f32,
+    /// N·s/m.
+    pub damping: f32,
+}
+
+impl Grip {
+    /// A light grip: 50 g, pulled to the pointer by 400 N/m and critically damped, `2 √(k m)`.
+    pub const LIGHT: Self = Self { mass: 0.05, stiffness: 400.0, damping: 8.944_272 };
+}
+
+/// Where the handle is, and how fast.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Hand {
+    /// Metres.
+    pub position: Vec3,
+    /// m/s.
+    pub velocity: Vec3,
+}
+
+/// The longest step of the integration, s.
+const STEP: f32 = 1.25e-4;
+
+impl Hand {
+    /// Moves on by a period, s, towards a place that itself moves on to `to`, under the device's force, N, which it
+    /// holds for so long. Semi-implicit Euler.
+    pub fn advance(&mut self, grip: &Grip, [from, to]: [Vec3; 2], force: Vec3, period: f32) {
+        let steps = (period / STEP) as u32 + 1;
+        let step = period / steps as f32;
+        let wanted = (to - from) / period;
+        for index in 0..steps {
+            let place = from + (to - from) * ((index + 1) as f32 / steps as f32);
+            let pull = (place - self.position) * grip.stiffness + (wanted - self.velocity) * grip.damping;
+            self.velocity += (pull + force) * (step / grip.mass);
+            self.position += self.velocity * step;
+        }
+    }
 }

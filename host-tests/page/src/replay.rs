@@ -1,5 +1,8 @@
 //! A recorded run, felt anew: the counts of each tick through the firmware's code, and the hash of what came of it.
 
+use crate::felt::Loaded;
+use crate::view;
+use crate::view::Sighted;
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
@@ -9,11 +12,9 @@ use palpate::math::Vec3;
 use palpate::scene::Scene;
 use palpate::servo::{Event, Guard, Input, Safety, Servo, ServoState, Settings};
 use palpate::track::Controller;
+use palpate::wire::frame::{DELIMITER, Received, Receiver};
+use palpate::wire::{Record, Told};
 use palpate_sim::recorded::{Mechanism, Recorded, SceneNumbers};
-
-use crate::loaded::Loaded;
-use crate::sight::Sighted;
-use crate::view;
 
 /// How a run was made.
 #[derive(Clone, Debug)]
@@ -151,4 +152,63 @@ where
     G::State: Send,
 {
     Ok(Box::new(Replayed { state: servo.start(), surface, servo, hash: 0 }))
+}
+
+// A device's own telemetry, frame by frame, as `palpate monitor` reads it.
+
+/// What has come so far.
+pub struct Monitor {
+    receiver: Receiver<Told>,
+    /// Whether a frame has ended on the line: what comes before may be the rest of one.
+    in_step: bool,
+    /// Whole records.
+    pub records: u32,
+    /// Frames that are none.
+    pub damaged: u32,
+    last: Option<Record>,
+}
+
+impl Monitor {
+    /// Before the first byte.
+    pub const fn new() -> Self {
+        Self { receiver: Receiver::new(), in_step: false, records: 0, damaged: 0, last: None }
+    }
+
+    /// Takes bytes as they come.
+    pub fn feed(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            if !self.in_step {
+                self.in_step = *byte == DELIMITER;
+                continue;
+            }
+            match self.receiver.feed(*byte) {
+                Some(Received::Message(Told::Record(record))) => {
+                    self.records += 1;
+                    self.last = Some(record);
+                }
+                Some(Received::Damaged) => self.damaged += 1,
+                Some(Received::Empty | Received::Message(_)) | None => {}
+            }
+        }
+    }
+
+    /// The last record: tick, phase, fault, mode, contact, feature, gap, probe, force, and what a tick took and its
+    /// period at most, seconds. Nothing before the first.
+    pub fn view(&self, out: &mut Vec<f32>) {
+        out.clear();
+        let Some(record) = &self.last else { return };
+        let clock = record.clock.max(1) as f32;
+        out.extend([
+            record.tick as f32,
+            f32::from(record.phase),
+            f32::from(record.fault),
+            f32::from(record.mode),
+            f32::from(record.contact),
+            f32::from(record.feature),
+            record.gap,
+        ]);
+        out.extend(record.probe);
+        out.extend(record.force);
+        out.extend([record.took as f32 / clock, record.longest as f32 / clock]);
+    }
 }

@@ -1,7 +1,7 @@
 //! The quads that could stand on a side.
 
+use super::plane::cost;
 use super::plane::{Edge, Plane};
-use super::quality;
 use crate::effort::Effort;
 use glam::DVec2;
 use std::cell::RefCell;
@@ -217,7 +217,7 @@ impl<'p> Candidates<'p> {
         self.effort.spend(WEIGHED);
         let map = |s: f64, t: f64| self.plane.quad_at(&edges, &corners, s, t);
         let has_point = edges.iter().any(|edge| edge.is_point());
-        let worth = quality::cost(&map, has_point).and_then(|cost| Some((cost, self.covered(&corners, &edges)?)));
+        let worth = cost(&map, has_point).and_then(|cost| Some((cost, self.covered(&corners, &edges)?)));
         self.known.borrow_mut().insert(key, worth.clone());
         worth
     }

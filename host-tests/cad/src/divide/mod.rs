@@ -5,15 +5,10 @@
 //! ([`ring`]). Before that, cuts are handed on
 //! from side to side ([`balance`]) and made even in number ([`parity`]).
 
-pub mod balance;
 mod candidates;
 pub mod corners;
-pub mod grid;
 pub mod parity;
 mod plane;
-mod quality;
-mod ring;
-mod steiner;
 pub mod tiling;
 
 pub use candidates::{Manner, Turning};
@@ -31,8 +26,8 @@ pub fn divide(mesh: &mut Mesh<'_>, manner: Manner) -> Result<(), Vec<ImportError
     for face in 0..mesh.regions.len() {
         close_triangle(mesh, face);
         let quads = match Shape::of(mesh, face) {
-            Shape::Grid(starts) if grid::is_even(&mesh.regions[face].loops[0], starts) => {
-                grid::quads(mesh, face, starts)
+            Shape::Grid(starts) if corners::is_even(&mesh.regions[face].loops[0], starts) => {
+                corners::quads(mesh, face, starts)
             }
             _ => None,
         };

@@ -2,6 +2,7 @@
 
 use crate::mesh::Mesh;
 use glam::DVec2;
+use std::f64::consts::TAU;
 
 /// Factors from parameters to millimetres: the mean of the tangents' lengths along the outline.
 pub fn scale(mesh: &Mesh<'_>, face: usize) -> DVec2 {
@@ -169,4 +170,113 @@ impl Plane {
         let here = turn(out, way);
         here > LEAST && here < whole - LEAST
     }
+}
+
+// How good a quad is: the least sine between the lines of its map, 1 for a rectangle, below 0 where it folds.
+
+/// Over a grid of 7 × 7 points, the border's included. Where a side is one point the grid keeps off it.
+pub fn of_map(map: &dyn Fn(f64, f64) -> DVec2, has_pole: bool) -> f64 {
+    above(map, has_pole, f64::NEG_INFINITY)
+}
+
+/// The same; once it is found to lie below `floor`, what was found so far.
+fn above(map: &dyn Fn(f64, f64) -> DVec2, has_pole: bool, floor: f64) -> f64 {
+    // The corners first: there most are told to fold.
+    const LINES: [i32; 7] = [0, 6, 3, 1, 5, 2, 4];
+    let step = 1e-4;
+    let mut least: f64 = 1.0;
+    for i in LINES {
+        for j in LINES {
+            let keep = if has_pole { 0.05 } else { step };
+            let [s, t] = [i, j].map(|k| (f64::from(k) / 6.0).clamp(keep, 1.0 - keep));
+            let du = map(s + step, t) - map(s - step, t);
+            let dv = map(s, t + step) - map(s, t - step);
+            let sine = du.perp_dot(dv) / (du.length() * dv.length()).max(f64::MIN_POSITIVE);
+            least = least.min(sine);
+            if least < floor {
+                return least;
+            }
+        }
+    }
+    least
+}
+
+/// What a quad costs: one patch, more if it is slanted, a little if it is long. None if it is not worth having.
+pub fn cost(map: &dyn Fn(f64, f64) -> DVec2, has_pole: bool) -> Option<f64> {
+    const LEAST: f64 = 0.12;
+    let sine = above(map, has_pole, LEAST);
+    if sine < LEAST {
+        return None;
+    }
+    let lengths = [map(1.0, 0.5).distance(map(0.0, 0.5)), map(0.5, 1.0).distance(map(0.5, 0.0))];
+    let aspect = (lengths[0] / lengths[1]).max(lengths[1] / lengths[0]);
+    Some(1.0 + 2.0 * (1.0 - sine) * (1.0 - sine) + 0.05 * aspect.ln())
+}
+
+// Points inside a region that quads may use: half-way in from each vertex of the outline, and the middles of where it
+// is wide.
+
+/// Points half-way between each vertex and the middle of the region, along the line that halves its angle.
+pub fn inward(plane: &Plane, depth: f64) -> Vec<DVec2> {
+    let mut points: Vec<DVec2> = Vec::new();
+    for vertex in &plane.vertices {
+        let Some([out, back]) = vertex.angle else { continue };
+        let whole = out.perp_dot(back).atan2(out.dot(back)).rem_euclid(TAU);
+        let whole = if whole < 1e-9 { TAU } else { whole };
+        let way = DVec2::from_angle(0.5 * whole).rotate(out);
+        let Some(far) = hit(plane, vertex.point, way) else { continue };
+        let point = vertex.point + way * (depth * far);
+        let near = 0.1 * far;
+        if plane.contains(point) && points.iter().all(|other| other.distance(point) > near) {
+            points.push(point);
+        }
+    }
+    points
+}
+
+/// The middles of the widest places, each apart from those before.
+pub fn middles(plane: &Plane, count: usize) -> Vec<DVec2> {
+    const GRID: usize = 40;
+    let points = || plane.polygons[0].iter();
+    let low = points().copied().fold(DVec2::INFINITY, DVec2::min);
+    let high = points().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let all: Vec<DVec2> = plane.polygons.concat();
+    let mut found: Vec<DVec2> = Vec::new();
+    for _ in 0..count {
+        let mut best = (0.0, DVec2::ZERO);
+        for k in 0..GRID * GRID {
+            let share = DVec2::new(((k % GRID) as f64 + 0.5) / GRID as f64, ((k / GRID) as f64 + 0.5) / GRID as f64);
+            let point = low + (high - low) * share;
+            let clear = all.iter().chain(&found).map(|other| other.distance(point)).fold(f64::INFINITY, f64::min);
+            if clear > best.0 && plane.contains(point) {
+                best = (clear, point);
+            }
+        }
+        if best.0 > 0.0 {
+            found.push(best.1);
+        }
+    }
+    found
+}
+
+/// As vertices.
+pub fn vertices(points: Vec<DVec2>) -> impl Iterator<Item = Vertex> {
+    points.into_iter().map(|point| Vertex { point, node: None, angle: None })
+}
+
+/// How far a ray goes before it meets the outline.
+pub fn hit(plane: &Plane, from: DVec2, way: DVec2) -> Option<f64> {
+    let mut least = f64::INFINITY;
+    for pair in plane.borders.iter().flat_map(|border| border.points.windows(2)) {
+        let (a, b) = (pair[0] - from, pair[1] - from);
+        let (x, y) = (way.perp_dot(a), way.perp_dot(b));
+        if (x > 0.0) == (y > 0.0) {
+            continue;
+        }
+        let at = a.lerp(b, x / (x - y)).dot(way);
+        if at > 1e-6 * pair[0].distance(pair[1]).max(1e-9) && at < least {
+            least = at;
+        }
+    }
+    least.is_finite().then_some(least)
 }

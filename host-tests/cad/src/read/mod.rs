@@ -1,10 +1,7 @@
 //! STEP in: which solids and shells, where they are placed, and their faces.
 
-mod damage;
-mod sense;
 mod shape;
 mod statements;
-mod syntax;
 
 use crate::error::ImportError;
 use crate::part::Part;
@@ -53,7 +50,7 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
     let read = std::panic::catch_unwind(|| step_io::read(bytes.as_slice()));
     let (model, report) = match read {
         Ok(Ok(read)) => read,
-        Ok(Err(error)) => return Err(ImportError::Syntax { file, message: syntax::message(&text, &error) }),
+        Ok(Err(error)) => return Err(ImportError::Syntax { file, message: statements::message(&text, &error) }),
         Err(_) => return Err(ImportError::Syntax { file, message: "the reader gave up".to_owned() }),
     };
     let schema = model.header().schema.raw.join(", ");
@@ -61,8 +58,8 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
         return Err(ImportError::Schema { file, schema });
     }
     let statements = statements::statements(&text);
-    damage::check(&statements, &report, &file)?;
-    if let Some(sense::Nonsense { id, kind, reason }) = sense::find(&statements) {
+    statements::check(&statements, &report, &file)?;
+    if let Some(statements::Nonsense { id, kind, reason }) = statements::find(&statements) {
         return Err(ImportError::Entity { file, id, kind, reason });
     }
     let numbers = Numbers::new(&statements);

@@ -1,7 +1,9 @@
 //! A glance at the text of a file: its statements with their numbers, for messages, and for what the reader does not
 //! mind.
 
-use step_io::EntityKey;
+use crate::error::ImportError;
+use std::collections::{HashMap, HashSet};
+use step_io::{DropKind, EntityKey, Error, Report};
 
 /// A statement `#id = TYPE(…);`, in the order of the file.
 pub(super) struct Statement<'t> {
@@ -71,5 +73,200 @@ impl Numbers {
             _ => return None,
         };
         numbers.get(index as usize).map(|number| (*number, kind))
+    }
+}
+
+// Where a file stops being one: the line, and the entity that stands there.
+
+/// What is wrong with a text that the reader does not take, and where.
+pub(super) fn message(text: &str, error: &Error) -> String {
+    let place = match error {
+        Error::UnexpectedEof { .. } => return ended(text),
+        Error::Lex(error) => Some((error.span.line, error.span.column)),
+        Error::UnexpectedToken { span, .. }
+        | Error::MalformedFileSchema { span }
+        | Error::InvalidAttributePosition { span, .. }
+        | Error::NestingTooDeep { span }
+        | Error::TooLarge { span } => Some((span.line, span.column)),
+        _ => None,
+    };
+    let entity = place.and_then(|(line, column)| {
+        let before = up_to(text, line as usize, column as usize);
+        begun(&before[behind_statements(before)..])
+    });
+    entity.map_or_else(|| error.to_string(), |entity| format!("{error}, in {entity}"))
+}
+
+/// Of a text that is cut off: the line of its end, and the entity there, or the last one before.
+fn ended(text: &str) -> String {
+    let line = text.trim_end().lines().count().max(1);
+    let whole = behind_statements(text);
+    let last = || text[..whole].trim_end_matches(';').rsplit(';').find_map(begun);
+    let place = begun(&text[whole..])
+        .map(|entity| format!("inside {entity}"))
+        .or_else(|| last().map(|entity| format!("behind {entity}")))
+        .unwrap_or_else(|| "before its first entity".to_owned());
+    format!("it ends on line {line}, {place}")
+}
+
+/// The text before a place, both numbers from 1.
+fn up_to(text: &str, line: usize, column: usize) -> &str {
+    let start: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let length = text[start..].char_indices().nth(column.saturating_sub(1)).map(|(at, _)| at);
+    &text[..length.map_or(text.len(), |length| start + length)]
+}
+
+/// Where the last whole statement ends. A semicolon in a name ends none.
+fn behind_statements(text: &str) -> usize {
+    let (mut is_name, mut end) = (false, 0);
+    for (at, c) in text.char_indices() {
+        is_name ^= c == '\'';
+        if c == ';' && !is_name {
+            end = at + 1;
+        }
+    }
+    end
+}
+
+/// The entity that a text begins: its number, and its type as far as it is there.
+fn begun(text: &str) -> Option<String> {
+    let (id, kind, _) = statement(text)?;
+    Some(if kind.is_empty() { format!("#{id}") } else { format!("#{id} ({kind})") })
+}
+
+// Entities that could not be read: those that the shape needs are refused by number.
+
+/// Types, or parts of types' names, of which no shape can do without one.
+const NEEDED: [&str; 22] = [
+    "FACE",
+    "LOOP",
+    "EDGE",
+    "VERTEX",
+    "CARTESIAN_POINT",
+    "DIRECTION",
+    "VECTOR",
+    "AXIS",
+    "LINE",
+    "CIRCLE",
+    "ELLIPSE",
+    "CONIC",
+    "CURVE",
+    "SURFACE",
+    "PLANE",
+    "SHELL",
+    "BREP",
+    "SHAPE_REPRESENTATION",
+    "NEXT_ASSEMBLY_USAGE",
+    "ITEM_DEFINED_TRANSFORMATION",
+    "MAPPED_ITEM",
+    "LENGTH_UNIT",
+];
+/// What bears such a name and is only looks, dimensions or a flat picture of the shape.
+const LOOKS: [&str; 10] =
+    ["STYLE", "COLOUR", "PCURVE", "DIMENSION", "TOLERANCE", "ANNOTATION", "CALLOUT", "DRAUGHTING", "ASPECT", "CAMERA"];
+
+/// Refuses a file of which the reader dropped what the shape needs.
+pub fn check(statements: &[Statement<'_>], report: &Report, file: &str) -> Result<(), ImportError> {
+    if report.dropped.is_empty() {
+        return Ok(());
+    }
+    let types: HashMap<u64, &str> = statements.iter().map(|of| (of.id, of.kind.as_str())).collect();
+    let name = |id: u64| types.get(&id).map_or_else(|| "of no type".to_owned(), |name| (*name).to_owned());
+    let is_needed = |id: u64| {
+        let name = name(id);
+        NEEDED.iter().any(|needed| name.contains(needed)) && !LOOKS.iter().any(|looks| name.contains(looks))
+    };
+    let of_the_shape = || report.dropped.iter().filter(|(id, _)| is_needed(*id));
+    // The first that is bad by itself says more than those that only refer to it.
+    let first = of_the_shape().find(|(_, reason)| reason.kind != DropKind::Cascade).or_else(|| of_the_shape().next());
+    let Some((id, reason)) = first else { return Ok(()) };
+    let reason = if reason.detail == "via-dangling" {
+        "it refers to an entity that the file does not have, or goes round in a circle".to_owned()
+    } else {
+        reason.to_string()
+    };
+    Err(ImportError::Entity { file: file.to_owned(), id: *id, kind: name(*id), reason })
+}
+
+// What the reader takes and no part can have: radii that are not positive, lists of nothing, products made of
+// themselves.
+
+/// An entity that makes no sense, and why.
+pub(super) struct Nonsense {
+    pub id: u64,
+    pub kind: String,
+    pub reason: String,
+}
+
+/// The first that makes none.
+pub(super) fn find(statements: &[Statement<'_>]) -> Option<Nonsense> {
+    let nonsense = |of: &Statement<'_>, reason: String| Nonsense { id: of.id, kind: of.kind.clone(), reason };
+    let by_itself = statements.iter().find_map(|of| reason(of).map(|reason| nonsense(of, reason)));
+    by_itself.or_else(|| {
+        let of = circle(statements)?;
+        Some(nonsense(of, "a product is made of itself: the assembly goes round in a circle".to_owned()))
+    })
+}
+
+fn reason(of: &Statement<'_>) -> Option<String> {
+    let (count, least) = match of.kind.as_str() {
+        "CLOSED_SHELL" | "OPEN_SHELL" | "EDGE_LOOP" => {
+            let is_empty = of.arguments.split(',').next_back()?.split_whitespace().collect::<String>().ends_with("())");
+            return is_empty.then(|| "its list is empty".to_owned());
+        }
+        "CIRCLE" | "CYLINDRICAL_SURFACE" | "SPHERICAL_SURFACE" => (1, f64::MIN_POSITIVE),
+        "ELLIPSE" | "TOROIDAL_SURFACE" => (2, f64::MIN_POSITIVE),
+        _ => return None,
+    };
+    let numbers = of.arguments.trim_end_matches(')').rsplit(',').take(count);
+    let radius = numbers.filter_map(|number| number.trim().parse::<f64>().ok()).find(|radius| *radius < least)?;
+    Some(format!("its radius is {radius}"))
+}
+
+/// An occurrence of a product in what it is made of.
+fn circle<'s, 't>(statements: &'s [Statement<'t>]) -> Option<&'s Statement<'t>> {
+    let mut parts: HashMap<&str, Vec<(&str, &Statement<'t>)>> = HashMap::new();
+    for of in statements.iter().filter(|of| of.kind == "NEXT_ASSEMBLY_USAGE_OCCURRENCE") {
+        // What uses and what is used are the first two references.
+        let mut references = of.arguments.split([',', '(', ')']).map(str::trim).filter(|word| word.starts_with('#'));
+        if let (Some(whole), Some(part)) = (references.next(), references.next()) {
+            parts.entry(whole).or_default().push((part, of));
+        }
+    }
+    let mut done = HashSet::new();
+    for start in parts.keys() {
+        // Depth first, with a path of its own: an assembly may be deeper than the stack.
+        let mut path = vec![(*start, 0)];
+        while let Some((whole, next)) = path.pop() {
+            let Some((part, of)) = parts.get(whole).and_then(|parts| parts.get(next)) else {
+                done.insert(whole);
+                continue;
+            };
+            path.push((whole, next + 1));
+            if path.iter().any(|(above, _)| above == part) {
+                return Some(*of);
+            }
+            if !done.contains(part) {
+                path.push((*part, 0));
+            }
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ended;
+
+    #[test]
+    fn an_end_is_named_by_line_and_entity() {
+        let head = "ISO-10303-21;\nHEADER;\n";
+        assert_eq!(ended(head), "it ends on line 2, before its first entity");
+        let data = format!("{head}DATA;\n#7 = LINE('a;b',#8,#9);\n");
+        assert_eq!(ended(&data), "it ends on line 4, behind #7 (LINE)");
+        assert_eq!(ended(&format!("{data}#8 = CARTESIAN")), "it ends on line 5, inside #8 (CARTESIAN)");
+        assert_eq!(ended(&format!("{data}#8")), "it ends on line 5, behind #7 (LINE)");
+        assert_eq!(ended(&format!("{data}#8=")), "it ends on line 5, inside #8");
+        assert_eq!(ended(""), "it ends on line 1, before its first entity");
     }
 }

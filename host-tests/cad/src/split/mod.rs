@@ -6,10 +6,8 @@
 //! squarely and far from its vertices, passes by nothing closely, and leaves as much on one side as on the other
 //! ([`choice`]). What was one face's loops are the pieces' then ([`pieces`]).
 
-mod choice;
 mod cut;
 mod line;
-mod pieces;
 
 use crate::error::ImportError;
 use crate::part::Part;
@@ -25,7 +23,7 @@ const ASKED: [Asked; 2] = [Asked { sine: 0.3, share: 0.07 }, Asked { sine: 0.12,
 /// What is wrong with its loops.
 pub fn split(part: &mut Part, face: usize, tolerance: f64) -> Result<bool, ImportError> {
     let loops = trace::all(part, face, &part.faces[face].loops, tolerance)?;
-    let Some(cut) = ASKED.iter().find_map(|asked| choice::best(part, face, &loops, asked)) else { return Ok(false) };
+    let Some(cut) = ASKED.iter().find_map(|asked| line::best(part, face, &loops, asked)) else { return Ok(false) };
     let pieces = cut::carry_out(part, face, &cut, tolerance)?;
     Ok(pieces > 1)
 }
