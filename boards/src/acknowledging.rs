@@ -19,7 +19,7 @@ pub(crate) struct Acknowledging {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
-    /// Stop has not been seen released since the reset: whoever pressed it did so before.
+    /// Stop has not been seen released since the reset: it was pressed before.
     NotYet,
     /// Stop was released.
     Released,
@@ -28,7 +28,7 @@ enum Stage {
 }
 
 impl Acknowledging {
-    /// Nobody has begun yet, in a loop of `rate` Hz.
+    /// Nothing pressed yet, in a loop of `rate` Hz.
     pub const fn new(rate: f32) -> Self {
         // The cast saturates.
         Self { stage: Stage::NotYet, ticks: 0, held: (HELD * rate) as u32, was_enabled: false }

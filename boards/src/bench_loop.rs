@@ -12,17 +12,17 @@ use palpate::servo::{Deadline, Event, FrameBridge, Guard, Input, Output, ResetRe
 use palpate::wire::telemetry::{Producer, Recorder};
 use palpate::wire::{Answer, Record, Refused, View, hold};
 
-/// What is felt on which device: where the loop finds its servo.
+/// Where the loop finds its servo.
 ///
 /// Give a `static` in it: then the compiler knows every number of body, device and settings, and leaves out what they
 /// do not need.
 pub trait Felt<const JOINTS: usize> {
-    /// What is touched.
+    /// The surface.
     type Surface: Surface + 'static;
-    /// What it is touched with.
+    /// The mechanism of the device.
     type Mechanism: Kinematics<JOINTS> + 'static;
-    /// What guards motors and hand beyond the servo's own checks: of a real device, its protection. It measures no
-    /// supply, which the loop's own settings are told of.
+    /// The guard of motors and hand beyond the servo's own checks: on a real device, its protection. It measures no
+    /// supply; the loop's own settings do.
     type Guard: Guard<JOINTS> + 'static;
 
     /// The servo.
@@ -41,7 +41,7 @@ pub trait Felt<const JOINTS: usize> {
     }
 }
 
-/// What the servo keeps between two ticks.
+/// The servo's state between two ticks.
 pub(crate) type State<F, const JOINTS: usize> = ServoState<
     JOINTS,
     <<F as Felt<JOINTS>>::Surface as Surface>::Witness,
@@ -59,9 +59,9 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     by_hand: Interlock,
     bridge: FrameBridge<JOINTS>,
     deadline: Deadline,
-    /// When the last tick began; `None` before the first, and where this one need not come in time.
+    /// The start of the last tick; `None` before the first, and where this one need not come in time.
     began: Option<u32>,
-    /// How long after it the next one may begin at the latest.
+    /// The maximum time from it to the start of the next.
     latest: Deadline,
     recorder: Recorder<'a>,
     mailbox: &'a Mailbox,
@@ -70,7 +70,7 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     /// Ticks done, in whatever phase.
     ticks: u32,
     acknowledging: Acknowledging,
-    /// What takes the servo's place once the host asks for it; `None` where jogging is not offered.
+    /// Takes the servo's place once the host asks for it; `None` where jogging is not offered.
     set_up: Option<SetUp<JOINTS>>,
     is_set_up: bool,
     /// Whether a host has said anything, or need not.
@@ -168,7 +168,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         self.tell(began, verdict);
     }
 
-    /// Whether a tick that begins now comes too late after the one before. While flash is written, and in the tick
+    /// Whether a tick that starts now comes too late after the one before. While flash is written, and in the tick
     /// after it, whatever reads flash may wait for it: the motors are off meanwhile.
     #[inline]
     fn begins_late(&mut self, began: u32) -> bool {
@@ -188,8 +188,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         is_over
     }
 
-    /// Index marks that joints have passed, by whoever homes the device: those that were passed while the button was up
-    /// say nothing, for another mark may have been nearer then. No motor is driven for them.
+    /// Index marks that joints have passed, while the device is homed by hand: those that were passed while the button
+    /// was up say nothing, for another mark may have been nearer then. No motor is driven for them.
     #[inline]
     fn note_marks(&mut self, enable: bool) {
         let marks = self.felt.wiring().joints(self.board.marks());
@@ -205,7 +205,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         &self.state
     }
 
-    /// What is felt, on which device.
+    /// The servo's place.
     pub const fn felt(&self) -> &F {
         &self.felt
     }
@@ -220,7 +220,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         self.bridge.total()
     }
 
-    /// What the host says, and what somebody says with the stop button.
+    /// Takes the host's commands, and those of the stop button.
     #[inline]
     fn listen(&mut self, panel: &Panel) {
         let commands = self.mailbox.take();
@@ -252,7 +252,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         if by_hand || commands.has(Plain::Acknowledge) {
             let was_fault = self.state.fault().is_some();
             self.felt.servo().note(&mut self.state, Event::Acknowledged);
-            // Whoever holds enable meanwhile asked for force before there could be any.
+            // If enable was held during the acknowledge, require a release first.
             if was_fault && self.state.fault().is_none() {
                 self.interlock.lock();
                 self.by_hand.lock();
@@ -281,7 +281,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         self.felt.servo().note(&mut self.state, Event::Stop);
         self.is_set_up = true;
         self.interlock.lock();
-        // What came before was for nobody.
+        // Discard earlier jog commands.
         let _ = self.mailbox.take_jog();
     }
 
@@ -290,8 +290,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         matches!(self.state.output(), Output::Off) && !panel.enable
     }
 
-    /// What keeps the motors off for the host's sake: one that is to be there and was never heard, flash that is being
-    /// written.
+    /// Holds for the host's sake: a required host was never heard, or flash is being written.
     #[inline]
     fn holds_for_host(&mut self, panel: &Panel) -> u8 {
         let mut holds = 0;
@@ -345,7 +344,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         };
         if obeyed.is_err() {
             self.felt.servo().note(&mut self.state, Event::DriveFault);
-            // Whatever of it still obeys.
+            // Release the drives that still respond.
             let _ = self.board.release();
         }
     }

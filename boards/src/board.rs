@@ -1,10 +1,10 @@
-//! What the loop reaches of the world.
+//! The loop's interface to a board.
 
 use crate::sensors::BadFrame;
 use palpate::device::{Counts, Duty, ElectricalAngle};
 use thiserror::Error;
 
-/// What the person's side of a board says in a tick.
+/// The user's inputs in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Panel {
     /// Force is asked for.
@@ -17,7 +17,7 @@ pub struct Panel {
     pub supply: Option<f32>,
 }
 
-/// A drive, or a pin of it, that did not do what it was told.
+/// A drive, or a pin of it, that failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("a drive did not follow its command")]
 pub struct NotObeyed;
@@ -30,7 +30,7 @@ pub trait Passive<const JOINTS: usize> {
     /// Takes the timer's interrupt back, so that the next period can raise it again.
     fn acknowledge(&mut self);
 
-    /// What the person's side says.
+    /// The user's inputs.
     fn panel(&mut self) -> Panel;
 
     /// The joints' counts.
@@ -49,7 +49,7 @@ pub trait Passive<const JOINTS: usize> {
     /// Disables the drives. Tries every pin, whatever fails.
     ///
     /// # Errors
-    /// One that did not obey.
+    /// A drive that failed.
     fn release(&mut self) -> Result<(), NotObeyed>;
 
     /// The light, on or off.
@@ -65,6 +65,6 @@ pub trait Board<const JOINTS: usize>: Passive<JOINTS> {
     /// Enables the drives and gives them these duties.
     ///
     /// # Errors
-    /// One that did not obey. The others have been told.
+    /// A drive that failed. The others have been set.
     fn drive(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed>;
 }

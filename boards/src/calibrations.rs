@@ -14,18 +14,18 @@ pub trait Calibrations {
     /// flash takes to be erased.
     ///
     /// # Errors
-    /// What cannot be this device's, which leaves what is kept as it is; flash that does not take it.
+    /// A calibration that cannot be this device's, which leaves the stored one as it is; flash that fails.
     fn keep(&self, joints: Option<&[JointCalibration; 3]>) -> Result<(), KeepError>;
 }
 
-/// What is asked for, and its number.
+/// The request and its number.
 type Asked = (u16, Option<[JointCalibration; 3]>);
 
 /// Main's side of it.
 pub(crate) struct Calibrating<'a> {
     /// Where it is kept.
     pub flash: Option<&'a dyn Calibrations>,
-    /// What waits for the tick to say whether it may be written.
+    /// The request that waits for the tick's permission to write.
     asked: Option<Asked>,
     /// The answer to the last one: it is not written again where it comes again, because the answer was lost.
     last: Option<Answer>,
@@ -46,7 +46,7 @@ impl<'a> Calibrating<'a> {
         self.last.filter(|last| last.number == number)
     }
 
-    /// Another host begins to count anew.
+    /// Another host counts from the start.
     pub const fn forget_answer(&mut self) {
         self.last = None;
     }
@@ -65,7 +65,7 @@ impl<'a> Calibrating<'a> {
         None
     }
 
-    /// What the tick says to it. Written here at once, whole: nobody is waited for while the motors are held off.
+    /// Applies the tick's answer. Written here at once, whole: nobody is waited for while the motors are held off.
     pub fn wait(&mut self, mailbox: &Mailbox) -> Option<Answer> {
         let (number, joints) = self.asked?;
         let kept = match mailbox.writing().word() {

@@ -8,7 +8,8 @@ pub trait Counter {
     fn now(&self) -> u32;
 }
 
-/// How many counts of a counter of `frequency` Hz last at least so many nanoseconds, whatever the counter's own step.
+/// How many counts of a counter of `frequency` Hz last at least this number of nanoseconds, whatever the counter's own
+/// step.
 pub const fn cycles(nanoseconds: u32, frequency: u32) -> u32 {
     let whole = nanoseconds as u64 * frequency as u64;
     // One more: the first may be over as soon as it is read.
@@ -16,7 +17,7 @@ pub const fn cycles(nanoseconds: u32, frequency: u32) -> u32 {
     if counts > u32::MAX as u64 { u32::MAX } else { counts as u32 }
 }
 
-/// Waits by the counter. At least as long as it is told, and longer by the few cycles of looking.
+/// Waits by the counter. At least as long as asked, and longer by the few cycles of looking.
 #[derive(Clone, Copy, Debug)]
 pub struct CycleDelay<C> {
     counter: C,

@@ -13,13 +13,13 @@ pub trait Drives<const JOINTS: usize> {
     /// Gives each its duty, and enables it.
     ///
     /// # Errors
-    /// One that did not obey. The others have been told.
+    /// A drive that failed. The others have been set.
     fn apply(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed>;
 
     /// Disables all. Tries each, whatever fails.
     ///
     /// # Errors
-    /// One that did not obey.
+    /// A drive that failed.
     fn release(&mut self) -> Result<(), NotObeyed>;
 }
 

@@ -1,4 +1,4 @@
-//! What keeps the motors off although nothing is wrong with the loop.
+//! Holds: reasons to keep the motors off that are no fault of the loop.
 
 use crate::{Panel, Settings};
 use palpate::device::SupplyRange;
@@ -25,17 +25,17 @@ pub struct Hold {
     unexplained: Option<u32>,
 }
 
-/// What came of it.
+/// The result of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Verdict {
-    /// What holds, as bits ([`palpate::wire::hold`]); 0 is nothing.
+    /// The holds, as bits ([`palpate::wire::hold`]); 0 is nothing.
     pub hold: u8,
     /// An amplifier has a fault of its own.
     pub is_drive_fault: bool,
 }
 
 impl Hold {
-    /// Begins to look, in a loop of `rate` Hz.
+    /// Nothing held yet, in a loop of `rate` Hz.
     pub const fn new(settings: &Settings, rate: f32) -> Self {
         Self {
             supply: settings.supply,

@@ -1,4 +1,4 @@
-//! What runs below the tick: main's loop.
+//! Main's loop, below the tick.
 
 use crate::calibrations::Calibrating;
 use crate::mailbox::Plain;
@@ -12,7 +12,7 @@ use palpate::wire::{Answer, Command, Hello, PROTOCOL, Record, Refused, Told};
 
 /// A serial port that is never waited for.
 pub trait Port {
-    /// Sends a byte; false if there is no room for it now.
+    /// Sends a byte; false if the buffer is full.
     fn send(&mut self, byte: u8) -> bool;
 
     /// A byte that came.
@@ -57,9 +57,9 @@ pub struct Idle<'a> {
     outbox: Outbox,
     taking: Taking<'a>,
     calibrating: Calibrating<'a>,
-    /// What the device says of itself.
+    /// The device's own description.
     hello: Hello,
-    /// Whether that is still to be said.
+    /// Whether that is still to be sent.
     greets: bool,
     /// And how it is calibrated.
     tells_calibration: bool,
@@ -103,7 +103,7 @@ impl<'a> Idle<'a> {
         }
     }
 
-    /// Says of itself the loop's rate (Hz) and its greatest force (N).
+    /// Reports the loop's rate (Hz) and its maximum force (N).
     #[must_use]
     pub const fn saying(mut self, rate: f32, max_force: f32) -> Self {
         (self.hello.rate, self.hello.max_force) = (rate, max_force);
@@ -118,7 +118,7 @@ impl<'a> Idle<'a> {
         self
     }
 
-    /// Keeps bodies in flash. What it says of faces and edges is the least of this and of [`Self::taking`]'s.
+    /// Keeps bodies in flash. Reported faces and edges are the minimum of this and of [`Self::taking`]'s.
     #[must_use]
     pub fn keeping(mut self, flash: &'a dyn Uploads) -> Self {
         let (bytes, faces, edges) = flash.room();
@@ -139,7 +139,7 @@ impl<'a> Idle<'a> {
         self
     }
 
-    /// A moment of it: at most a byte each way. Call it for ever.
+    /// One step: at most a byte each way. Call it continuously.
     pub fn step(&mut self, port: &mut impl Port, watchdog: &mut impl Watchdog) {
         feed(&mut self.heartbeat, self.mailbox, watchdog);
         if self.awaits.is_some()
@@ -176,7 +176,7 @@ impl<'a> Idle<'a> {
             Command::SetUp => self.mailbox.put(Plain::SetUp),
             Command::Jog(jog) => self.mailbox.put_jog(jog),
             Command::Hello { protocol } => {
-                // Another host begins to count anew.
+                // Another host counts from the start.
                 (self.greets, self.is_greeted, self.last) = (true, protocol == PROTOCOL, None);
                 self.calibrating.forget_answer();
                 if self.is_greeted {
@@ -228,7 +228,7 @@ impl<'a> Idle<'a> {
         }
     }
 
-    /// What is said next: answers first, records in their order, then the newest reading or view.
+    /// The next message: answers first, records in their order, then the newest reading or view.
     fn next(&mut self) -> Option<Told> {
         if self.greets {
             (self.greets, self.tells_calibration) = (false, true);

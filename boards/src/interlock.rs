@@ -1,6 +1,6 @@
 //! Force only once the enable input has been seen released.
 
-/// Between the enable input and the loop. It begins locked.
+/// Between the enable input and the loop. It starts locked.
 ///
 /// A button that is held while the board starts, a wire that is shorted, a person who leans on it through a stop: none
 /// of them asks for force *now*.

@@ -14,10 +14,10 @@ use palpate::wire::Report;
 
 /// The loop of a knob.
 pub type KnobServo = Servo<'static, Knob, Dial, 1, Guarded<1>>;
-/// What it keeps between two ticks.
+/// Its state between two ticks.
 pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
 
-/// What its motor bears; the supply is for whoever measures it to add.
+/// The limits of its motor; a board that measures its supply adds that.
 pub const PROTECTION: Protection<1> = GIMBAL_KNOB_PROTECTION;
 /// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
 pub const SUPPLY: SupplyRange = SupplyRange { min_mv: 10_000, max_mv: 14_000 };
@@ -59,7 +59,7 @@ pub const fn led_torque(share: f32) -> f32 {
         Feed::Current => 0.0,
     }
 }
-// No heat is counted meanwhile: what may be given is what the motor bears for ever.
+// No heat is counted meanwhile: the limit is the motor's continuous torque.
 const _: () =
     assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full_n_m);
 
@@ -109,11 +109,11 @@ pub static FEELS: [Feel; 6] = [
     Feel::FREE,
 ];
 
-/// What the feels are called; a board does not tell.
+/// The names of the feels, for a host.
 pub const NAMES: [&str; FEELS.len()] = ["detents", "clicks", "texture", "spring", "end stops", "free"];
 
-/// How the rotor is aligned: while the button is held, and begun anew where it is let go of, for as long as eight times
-/// take.
+/// How the rotor is aligned: while the button is held, and restarted when it is released, for the time of eight
+/// searches.
 pub const fn homing(search: FieldSearch) -> Homing<1> {
     Homing::new(GIMBAL_KNOB.encoders, Reference::Fields([search]), 1, 0, 8 * search.ticks())
 }
@@ -125,7 +125,7 @@ pub const fn servo(device: &'static Device<Dial, 1>, search: FieldSearch, protec
     Servo::new(device, &KNOB, Controller::SECOND_ORDER, SETTINGS).protect(protection).homing(homing(search))
 }
 
-/// The protection of a loop that is told of its supply ([`SUPPLY`]).
+/// The protection of a loop that knows its supply ([`SUPPLY`]).
 pub const TOLD_OF_SUPPLY: Protection<1> = Protection { supply: Some(SUPPLY), ..PROTECTION };
 
 /// The pulse widths that a state asks for; `None` disables the stage.
@@ -140,7 +140,7 @@ pub fn widths(servo: &KnobServo, state: &KnobState, modulation: &Modulation) -> 
 /// 0.23 V.
 pub const MODULATION: Modulation = Modulation { dead_fraction: 0.0125, ripple_fraction: 0.019 };
 
-/// What is told of a tick over a link, with the widths in the place of duties: −32,767 to 32,767 for none to all of a
+/// The report of a tick over a link, with the widths in the place of duties: −32,767 to 32,767 for none to all of a
 /// period, and −32,768 for a stage that is disabled.
 pub fn report(state: &KnobState, widths: Option<[f32; 3]>, instructions: u32) -> Report {
     let duties = match widths {

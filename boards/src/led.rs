@@ -3,7 +3,7 @@
 use palpate::device::{Duty, ElectricalAngle};
 
 /// Ticks of an electrical turn, at least: a sixth of a turn a tick and more is no field that a rotor follows.
-const LEAST: u32 = 64;
+const MIN_TURN_TICKS: u32 = 64;
 
 /// Where the field is.
 #[derive(Clone, Copy, Debug)]
@@ -14,9 +14,9 @@ pub(crate) struct Led {
 }
 
 impl Led {
-    /// A field that takes so many ticks for an electrical turn; `None` for fewer than 64.
+    /// A field that takes this number of ticks for an electrical turn; `None` for fewer than 64.
     pub const fn try_new(turn_ticks: u32) -> Option<Self> {
-        if turn_ticks >= LEAST { Some(Self { turn_ticks, ticks: 0 }) } else { None }
+        if turn_ticks >= MIN_TURN_TICKS { Some(Self { turn_ticks, ticks: 0 }) } else { None }
     }
 
     /// Leads it on for a tick, the way of the duty's sign. Without a duty it stands.

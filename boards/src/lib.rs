@@ -1,7 +1,7 @@
 //! One loop for every board on the bench.
 //!
-//! A board's own files are its clocks, pins and memory. What it does with them is here, once, and runs on the host too:
-//! with mocks of pins and buses, and with the simulated devices.
+//! A board's own files are its clocks, pins and memory. The code that uses them is here, once, and runs on the host
+//! too: with mocks of pins and buses, and with the simulated devices.
 //!
 //! # The way of the data
 //!
@@ -17,7 +17,7 @@
 //! |---|---|
 //! | [`Board`] | what the loop reaches of the world; [`Parts`] makes one of embedded-hal's pins and buses |
 //! | [`Passive`] | the same without a way to drive a motor |
-//! | [`Felt`] | what is felt on which device: the servo |
+//! | [`Felt`] | the servo, and where it lies |
 //! | [`Panel`] | what the person's side says: enable, stop, ready, supply |
 //! | [`Hold`] | what keeps the motors off although nothing is wrong: stop, an amplifier not ready, the supply |
 //! | [`Interlock`] | force only once enable has been seen released: after a reset, after a hold, after homing |

@@ -1,4 +1,4 @@
-//! What the light says.
+//! The light's signals.
 
 /// Whether the light is on in a tick: steady while the motors are driven; four times a second after a fault; a short
 /// flash a second while something holds or enable has to be released first; dark where nothing is asked for.

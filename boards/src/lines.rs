@@ -3,13 +3,13 @@
 use crate::Panel;
 use embedded_hal::digital::InputPin;
 
-/// What measures the motors' supply.
+/// Measures the motors' supply.
 pub trait Supply {
     /// The supply, V; `None` if it cannot be measured.
     fn volts(&mut self) -> Option<f32>;
 }
 
-/// What brings the supply down to what a converter takes: two resistors.
+/// Two resistors that divide the supply for a converter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Divider {
     volts_per_count: f32,
@@ -62,7 +62,7 @@ pub struct Lines<E, T, R, V, const AMPLIFIERS: usize> {
 }
 
 impl<E: InputPin, T: InputPin, R: InputPin, V: Supply, const AMPLIFIERS: usize> Lines<E, T, R, V, AMPLIFIERS> {
-    /// What they say now.
+    /// Their levels now.
     #[inline]
     pub fn read(&mut self) -> Panel {
         let level = self.enable.is_high().unwrap_or(!self.enable_level);

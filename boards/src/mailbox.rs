@@ -1,4 +1,4 @@
-//! What passes between the interrupt and main.
+//! Messages between the interrupt and main.
 
 use crate::letter::Letter;
 use crate::writing::Writing;
@@ -18,7 +18,7 @@ pub struct Mailbox {
     marked: Letter<5>,
     /// An order and its number, in 64 bytes: the longest takes 61.
     order: Letter<16>,
-    /// What became of it: the longest takes 7 bytes.
+    /// Its outcome: the longest takes 7 bytes.
     answer: Letter<2>,
     /// The longest takes 53 bytes.
     view: Letter<14>,
@@ -115,7 +115,7 @@ impl Mailbox {
         self.view.take_message()
     }
 
-    /// Somebody has chosen what is felt, of a table of at most 256 ([`palpate::servo::Event::Chosen`]). Call it from
+    /// Chooses a feel of a table of at most 256 ([`palpate::servo::Event::Chosen`]). Call it from
     /// one place only.
     pub fn choose(&self, index: u8) {
         self.commands.fetch_and(!(0xff << CHOSEN_SHIFT), Ordering::Relaxed);
@@ -178,7 +178,7 @@ impl Commands {
         self.0 & command as u32 != 0
     }
 
-    /// What was chosen.
+    /// The chosen index.
     pub const fn chosen(self) -> Option<u8> {
         if self.0 & CHOSEN != 0 { Some((self.0 >> CHOSEN_SHIFT) as u8) } else { None }
     }

@@ -14,9 +14,9 @@ pub trait Timer {
 /// A board's parts.
 #[derive(Debug)]
 pub struct Parts<C, I, S, D, E, T, R, V, L, const AMPLIFIERS: usize> {
-    /// What ticks are timed with.
+    /// Times the ticks.
     pub counter: C,
-    /// What raises them.
+    /// Raises them.
     pub timer: I,
     /// The joints' sensors, started.
     pub sensors: S,
@@ -73,7 +73,7 @@ where
 
     #[inline]
     fn show(&mut self, lit: bool) {
-        // A light that fails keeps nobody from anything.
+        // An LED failure is ignored.
         let _ = self.light.set_state(PinState::from(lit));
     }
 }

@@ -2,7 +2,7 @@
 
 use palpate::servo::ResetReason;
 
-/// What was left to be known after the next reset.
+/// A memo for after the next reset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Cause {
@@ -31,7 +31,7 @@ impl Memo {
         Self([word, !word])
     }
 
-    /// What it says, if it is one.
+    /// Its cause, if it is a memo.
     pub const fn cause(self) -> Option<Cause> {
         let [word, complement] = self.0;
         if word != !complement || word & !0xff != MARK {

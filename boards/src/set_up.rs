@@ -7,16 +7,16 @@ use palpate::device::drive::Feed;
 use palpate::device::{Counts, Device, Duty};
 use palpate::wire::{Marked, Reading, hold};
 
-/// Ticks after which the marks that were passed are told again.
+/// Ticks after which passed marks are reported again.
 const AGAIN: u32 = 500;
 
-/// What a jog may do, whatever the host asks for. It lies in the device's own flash.
+/// The limits of a jog, whatever the host asks for. They lie in the device's own flash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JogSettings {
-    /// The greatest share of a motor's full duty of torque; half at most, and never more than what each motor bears for
-    /// ever, where the loop's guard knows that. Of a motor whose field is led, a share of the voltage.
+    /// The maximum fraction of a motor's full duty of torque; half at most, and never more than what each motor bears
+    /// continuously, where the loop's guard knows that. Of a motor whose field is led, a share of the voltage.
     pub share: f32,
-    /// The greatest speed of any joint, rad/s, by the encoders as the device believes they are: which is on which joint
+    /// The maximum speed of any joint, rad/s, by the encoders as the device believes they are: which is on which joint
     /// is not known yet, so this is what the coarsest may go, and a finer one less.
     pub rate: f32,
     /// How far any joint may go while the key is held, rad; with a finer encoder less, as above.
@@ -41,7 +41,7 @@ impl JogSettings {
     ) -> JogLimits<JOINTS> {
         // Of the coarsest encoder: nothing is known yet of which is where, and on any other joint it is less.
         let coarsest = device.encoders.iter().map(|encoder| encoder.radians_per_count.abs()).fold(0.0, f32::max);
-        // Nor which motor is where, and no heat is counted: no more than the one bears for ever that bears least. Of a
+        // Nor which motor is where, and no heat is counted: the limit is the minimum of the continuous limits. Of a
         // field that is led it is the voltage at rest.
         let mut most = Duty::from_fraction(self.share);
         for (continuous, feed) in continuous.into_iter().zip(&device.feeds) {
@@ -64,14 +64,14 @@ impl JogSettings {
 pub(crate) struct SetUp<const JOINTS: usize> {
     jogging: Jogging<JOINTS>,
     state: JogState<JOINTS>,
-    /// What each drive is to be told so that its motor gives a duty of torque.
+    /// The command of each drive for a duty of torque of its motor.
     feeds: [Feed; JOINTS],
     /// The field, of motors that have one.
     led: Option<Led>,
     counts: [Counts; JOINTS],
     /// The last index mark of each input, and how often each came.
     marked: Marked,
-    /// Ticks until that is told again: a host may have missed it.
+    /// Ticks until that is reported again: a host may have missed it.
     tells_in: u32,
     /// Whether the enable input asks for it.
     enable: bool,
@@ -81,7 +81,7 @@ pub(crate) struct SetUp<const JOINTS: usize> {
 }
 
 impl<const JOINTS: usize> SetUp<JOINTS> {
-    /// Of a device whose motors bear these shares of full duty for ever, in a loop of `rate` Hz.
+    /// Of a device with these continuous limits, fractions of full duty, in a loop of `rate` Hz.
     ///
     /// # Errors
     /// The limit that is refused: nothing will be jogged.
@@ -123,7 +123,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
     ) {
         let is_quiet = !self.state.is_live() && !panel.enable;
         let mut verdict = holds.next(panel, self.state.is_live());
-        // Whoever holds a key meanwhile moves nothing: enable is locked.
+        // A key held meanwhile moves nothing: enable is locked.
         if mailbox.writing().answer(is_quiet, true) {
             verdict.hold |= hold::WRITING;
         }
@@ -182,12 +182,12 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         self.state.is_live()
     }
 
-    /// What of the person's side keeps the motors off.
+    /// The user's inputs that keep the motors off.
     pub const fn hold(&self) -> u8 {
         self.hold
     }
 
-    /// What to tell of a tick.
+    /// The message of a tick.
     pub fn reading(&self, tick: u32) -> Reading {
         let mut reading = Reading {
             tick,
@@ -216,7 +216,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
             // One motor at a time: the others have no duty, wherever their fields are.
             duties.into_iter().for_each(|duty| led.on(duty));
             board.aim([led.angle(); JOINTS]);
-            // The sign says which way the field goes, not which way it points. What leads it is a share of the voltage.
+            // The sign says which way the field goes, not which way it points. It is led by a fraction of the voltage.
             duties = duties.map(|Duty(duty)| Duty(duty.saturating_abs()));
         } else {
             // As of a joint at rest: nothing is known yet of which encoder is whose, and back-EMF then brakes.
@@ -231,7 +231,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         let obeyed = if self.state.is_live() { self.drive(board) } else { board.release() };
         if obeyed.is_err() {
             self.jogging.refuse(&mut self.state, JogRefusal::Drive);
-            // Whatever of it still obeys.
+            // Release the drives that still respond.
             let _ = board.release();
         }
     }

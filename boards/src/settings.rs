@@ -1,15 +1,15 @@
-//! What is chosen about the loop of a board, beside the servo's own settings.
+//! The settings of a board's loop, beside the servo's own.
 
 use crate::JogSettings;
 use palpate::device::SupplyRange;
 use palpate::servo::FrameBridge;
 
-/// The settings of the loop. Begin with [`Settings::new`].
+/// The settings of the loop. Start from [`Settings::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Counts of the board's counter in a second, Hz.
     pub clock: u32,
-    /// A record is sent every so many ticks, and whenever something changes.
+    /// Ticks between two records; one is also sent whenever something changes.
     pub ticks_per_record: u32,
     /// How many bad sensor frames in a row are bridged by the velocity estimate; one more is a fault. 0 bridges none.
     pub bad_frames: u32,
@@ -19,7 +19,7 @@ pub struct Settings {
     /// Seconds within which the stop input or the supply must say why an amplifier that was driving is no longer ready.
     /// The motors are off meanwhile; after it, it is the amplifier's own fault.
     pub ready_grace: f32,
-    /// What may be jogged when the device is set up; `None` offers nothing of the kind.
+    /// Limits of jogging while the device is set up; `None` offers nothing of the kind.
     pub jog: Option<JogSettings>,
 }
 

@@ -13,7 +13,7 @@ const PATIENCE: u32 = 20_000;
 enum Into {
     Memory,
     Flash,
-    /// What was begun was given up.
+    /// The transfer was abandoned.
     Nowhere,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Taking<'a> {
     asked: Option<(u16, u32)>,
     /// The tick of the last part while the motors are held off.
     held: Option<u32>,
-    /// What became of the last end in flash, which may be asked for again: its answer may have been lost.
+    /// The outcome of the last end in flash, which may be asked for again: its answer may have been lost.
     ended: Option<Result<(), UploadError>>,
 }
 
@@ -78,7 +78,7 @@ impl<'a> Taking<'a> {
         Some(Answer { number, refused: put.err().map(Refused::Upload) })
     }
 
-    /// What the tick says to a body that is to be kept. Ends what nobody goes on with.
+    /// Applies the tick's answer to a body that is to be stored. Ends abandoned transfers.
     pub fn wait(&mut self, mailbox: &Mailbox, pause: &mut dyn FnMut()) -> Option<Answer> {
         if let Some(last) = self.held
             && mailbox.ticks().wrapping_sub(last) > PATIENCE
@@ -104,7 +104,7 @@ impl<'a> Taking<'a> {
 
     fn begin_to_keep(&mut self, bytes: u32, mailbox: &Mailbox, pause: &mut dyn FnMut()) -> Result<(), UploadError> {
         (self.into, self.ended) = (Into::Flash, None);
-        // What was uploaded and not taken is not to be taken in its place.
+        // An upload that was not taken must not be taken in its place.
         if let Some(memory) = self.memory {
             let _ = memory.put(&Upload::Begin { bytes: 0 }, pause);
         }

@@ -2,7 +2,7 @@
 
 use palpate::wire::{Upload, UploadError};
 
-/// Memory for a body that comes over the line: RAM, while another is felt, or flash, while the motors are off. Main
+/// Memory for a body that comes over the line: RAM, while another is rendered, or flash, while the motors are off. Main
 /// writes it, and checks what came, which takes as long as it takes; the tick goes on meanwhile.
 pub trait Uploads {
     /// Bytes of a body's file, and its faces and edges, at most.
@@ -10,10 +10,10 @@ pub trait Uploads {
 
     /// Takes a part of a file; [`Upload::Keep`] is not for here, but comes as [`Upload::Begin`] to the memory that is
     /// flash. The last part has it checked, which takes some 125 instructions a word of it; `pause` is called
-    /// every so often meanwhile: it feeds the watchdog.
+    /// regularly meanwhile: it feeds the watchdog.
     ///
     /// # Errors
-    /// What is wrong with it. What was uploaded before stands, until another is begun.
+    /// The fault of the file. The previous upload stands until another starts.
     fn put(&self, part: &Upload, pause: &mut dyn FnMut()) -> Result<(), UploadError>;
 
     /// The CRC-32 at the end of the file that is kept here without power; 0 where none is.

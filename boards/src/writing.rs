@@ -3,11 +3,11 @@
 use core::sync::atomic::{AtomicU32, Ordering};
 
 /// Main asks, the tick answers, main says when it is done. Only main writes [`Word::Free`] and what it asks, only the
-/// tick, which main cannot interrupt, makes of what is asked one of the others.
+/// tick, which main cannot interrupt, turns a request into one of the others.
 #[derive(Debug)]
 pub(crate) struct Writing(AtomicU32);
 
-/// What was said last.
+/// The last state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Word {
@@ -31,7 +31,7 @@ impl Writing {
     }
 
     pub fn word(&self) -> Word {
-        // What is written after the grant is written after it.
+        // Writes after the grant stay after it.
         match self.0.load(Ordering::Acquire) {
             1 => Word::Asked,
             2 => Word::Granted,

@@ -1,4 +1,4 @@
-//! What the build scripts of the boards do alike: the memory map for the linker, the body for the image.
+//! Shared by the boards' build scripts: the memory map for the linker, the body for the image.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -68,7 +68,7 @@ pub fn tables_are_fast() -> bool {
     }
 }
 
-/// Writes `tables.x`, which a memory map includes where it says what lies beside the hot code: all constants, or all
+/// Writes `tables.x`, which a memory map includes for the sections beside the hot code: all constants, or all
 /// but a body's tables.
 ///
 /// # Panics

@@ -25,10 +25,10 @@ use palpate_emulated::vectors::interrupt;
 
 type Loop = Bench<'static, Measured, Pins<FifoLink>, 3>;
 
-/// The device as it was built: what is kept is looked at beside it.
+/// The device as it was built, to compare a stored calibration with.
 static BUILT: Device<Mechanism, 3> = DEVICE;
 
-/// What is felt, and the interrupt's end of the queue, on their way there from main.
+/// The servo and the interrupt's end of the queue, on their way from main.
 type HandedOver = (Measured, Producer<'static, Record>);
 static HANDED_OVER: Mutex<Cell<Option<HandedOver>>> = Mutex::new(Cell::new(None));
 static MAILBOX: Mailbox = Mailbox::new();

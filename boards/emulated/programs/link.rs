@@ -31,15 +31,15 @@ mod tables {
 /// 64 KB a bank, and faces and edges of some 200 patches.
 type Memory = Bodies<16_640, 240, 600>;
 type Flash = Kept<240, 600>;
-type Shelf = Both<'static, Memory, Flash>;
-type Surface = Scene<'static, Slot<'static, Shelf>, 2>;
+type Store = Both<'static, Memory, Flash>;
+type Surface = Scene<'static, Slot<'static, Store>, 2>;
 
 static BODIES: Memory = Bodies::new();
 /// No emulator here has flash that a program can write: RAM with its rules, which a reset empties.
 static FLASH: PretendedFlash<16_384> = PretendedFlash::new();
 static KEPT: Flash = Kept::new(FLASH.region());
-static SHELF: Shelf = Both(&BODIES, &KEPT);
-static SLOTS: [Slot<Shelf>; 2] = [Slot::fixed(tables::SURFACE), Slot::exchangeable(tables::SURFACE, &SHELF)];
+static STORE: Store = Both(&BODIES, &KEPT);
+static SLOTS: [Slot<Store>; 2] = [Slot::fixed(tables::SURFACE), Slot::exchangeable(tables::SURFACE, &STORE)];
 /// Side by side, the second to the right of the first.
 static SCENE: Surface = Scene::new(
     Limits::of(&DEVICE, SETTINGS.rate_hz),

@@ -22,14 +22,14 @@ use static_cell::StaticCell;
 
 /// Ticks of the run.
 const TICKS: u32 = 100_000;
-/// What the stack is painted with, and how much of it, words.
+/// The pattern that the stack is painted with, and the number of words painted.
 const PAINT: u32 = 0xcccc_cccc;
 const PAINTED: usize = 4_096;
 /// Below the stack pointer and not painted: what painting itself may use.
 const OWN: usize = 32;
 
 unsafe extern "C" {
-    /// Where the stack begins; from cortex-m-rt's linker script.
+    /// The top of the stack; from cortex-m-rt's linker script.
     static _stack_start: u32;
 }
 

@@ -13,7 +13,7 @@ use crate::board::Board;
 use crate::body::{Chosen, Felt as Surface, Mechanism, SERVO};
 use crate::timer::{Clock, InstructionCounter};
 
-/// What is felt.
+/// The servo of the image.
 pub struct This;
 
 impl Felt<3> for This {
@@ -71,9 +71,9 @@ impl Passive<3> for Wired {
     fn show(&mut self, _: bool) {}
 }
 
-/// One tick of so many is late.
+/// One tick of this number is late.
 const PLANTED: u32 = 1_000;
-/// By so many counts of the timer: 12 µs of 250.
+/// Delay of a late tick, counts of the timer: 12 µs of 250.
 const LATE: u32 = 300;
 
 /// Nobody to be fed.

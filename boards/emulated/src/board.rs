@@ -2,7 +2,7 @@
 
 use crate::reset::ResetRegister;
 
-/// What the programs must know of their board.
+/// A board's clock and addresses.
 #[derive(Clone, Copy, Debug)]
 pub struct Board {
     /// The clock of the core, of its timers and of SysTick, Hz.
@@ -38,5 +38,5 @@ impl Board {
     };
 }
 
-/// The board that this image is for, as `build.rs` was told.
+/// The board that this image is for, chosen by `build.rs`.
 pub const BOARD: Board = if cfg!(board = "m33") { Board::AN505 } else { Board::DESIGN_KIT };

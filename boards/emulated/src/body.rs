@@ -1,4 +1,4 @@
-//! What is felt and how: tables and settings in flash, chosen when the image is built (see `build.rs`).
+//! Tables and settings in flash, chosen when the image is built (see `build.rs`).
 
 use palpate::body::{Body, Edge, Face, Spoke, Vertex};
 #[cfg(feature = "protected")]
@@ -24,17 +24,17 @@ pub use tables::Surface as Felt;
 
 /// The loop of this image, guarded by `G`.
 pub type Loop<G> = Servo<'static, tables::Surface, settings::Mechanism, 3, G>;
-/// What it keeps between two ticks.
+/// Its state between two ticks.
 pub type StateOf<G> = ServoState<3, <tables::Surface as servo::Surface>::Witness, <G as Guard<3>>::State>;
 
-/// What guards the loop of the programs.
+/// The guard of the programs' loop.
 #[cfg(not(feature = "protected"))]
 pub type Chosen = palpate::servo::Unguarded;
-/// What guards the loop of the programs.
+/// The guard of the programs' loop.
 #[cfg(feature = "protected")]
 pub type Chosen = palpate::servo::Guarded<3>;
 
-/// What the loop of the programs keeps between two ticks.
+/// The state of the programs' loop between two ticks.
 pub type State = StateOf<Chosen>;
 
 // What the host counts of each record when it reports a table's bytes.
@@ -60,9 +60,9 @@ pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller
 #[cfg(feature = "protected")]
 const WARM: Endurance = Endurance { continuous: 0.001, time_constant_s: 600.0 };
 
-/// What protects it. Where it is counted, joints stay on trial: to an inertia that no knock moves, a path says nothing
-/// of signs. On trial nothing is folded back, so where that is counted, the path gives way to knocks until all joints
-/// were seen.
+/// The protection. Where it is counted, joints stay on trial: for an inertia that no polarity pulse moves, a path says
+/// nothing of polarity. On trial no force is folded back, so where that is counted the joints give way to the pulses
+/// until all were seen.
 #[cfg(feature = "protected")]
 const fn protection() -> Protection<3> {
     if cfg!(feature = "counted") {
@@ -81,8 +81,8 @@ const fn protection() -> Protection<3> {
     }
 }
 
-/// One tick of the servo: a function of its own, so that what is proved of the image and what is counted is all of it
-/// and nothing else.
+/// One tick of the servo: a function of its own, so that proofs and counts cover the tick and nothing
+/// else.
 #[inline(never)]
 pub fn tick(state: &mut State, input: Input<3>) {
     planted::fault(state.ticks(), state.fade(), state.frames_lost());

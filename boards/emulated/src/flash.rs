@@ -16,7 +16,7 @@ static PAGE: PretendedFlash<WORDS> = PretendedFlash::new();
 pub struct FileFlash(Pretended<WORDS>);
 
 impl FileFlash {
-    /// What the file has; erased, if there is none. `None` the second time.
+    /// The content of the file; erased if there is no file. `None` the second time.
     pub fn open() -> Option<Self> {
         let mut page = PAGE.writer()?;
         let mut bytes = [0xff; BYTES];

@@ -29,7 +29,7 @@ pub static SERVO: KnobServo = servo(&DEVICE, SEARCH, TOLD_OF_SUPPLY);
 
 const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate_hz);
 
-/// What a tick of the knob is, and what is counted: the loop, and the widths of the three phases.
+/// One tick of the knob, which is also counted: the loop, and the widths of the three phases.
 #[inline(never)]
 pub fn tick(state: &mut KnobState, input: Input<1>) -> Option<[f32; 3]> {
     SERVO.tick(state, input);
@@ -75,7 +75,7 @@ impl<L: Link> KnobLoop<L> {
         }
     }
 
-    /// What the host says in this tick: the first count is the dial's, the second which feel is chosen, the third the
+    /// The host's frame for this tick: the first count is the dial's, the second which feel is chosen, the third the
     /// supply's millivolts.
     fn input(&mut self) -> Input<1> {
         let received = self.link.receive();

@@ -4,7 +4,7 @@
 //! with the report out, a tick. The programs in `programs/` are the same on each; where a board differs is
 //! [`board::BOARD`], its memory map and what `m4.toml`, `m7.toml` or `m33.toml` tells the compiler.
 //!
-//! To bring palpate to a board of your own, begin with a board for the bench; of what is here, it needs
+//! To bring palpate to a board of your own, start from a bench board; from this crate it needs
 //! - [`servo_loop`]: read the encoders instead of a frame, write the duties to the PWM;
 //! - [`timer`]: the chip's timer that sets the servo's pace;
 //! - [`panic`]: what stops the motors when all else fails.

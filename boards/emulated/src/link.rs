@@ -1,4 +1,4 @@
-//! The way to the host. What carries the bytes is chosen by the binary: `uart` or `fifo`.
+//! The way to the host. The binary chooses its medium: `uart` or `fifo`.
 
 use palpate::wire::{Sensors, frame::Received};
 

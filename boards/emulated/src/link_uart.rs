@@ -29,7 +29,7 @@ struct Registers {
 const TRANSMIT_FULL: u32 = 1;
 const RECEIVE_FULL: u32 = 1 << 1;
 const ENABLE_BOTH: u32 = 3;
-/// The emulator takes any; the board's clock comes near enough, and 16 is the least divider that the hardware takes.
+/// The emulator takes any; the board's clock comes near enough, and 16 is the minimum divider of the hardware.
 const BAUD: u32 = 921_600;
 
 /// The UART, byte by byte.

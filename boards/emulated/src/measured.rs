@@ -1,4 +1,4 @@
-//! What is felt on a device that may have been calibrated: its servo lies in RAM, made at each start.
+//! The servo of a device that may have been calibrated: in RAM, made at each start.
 
 use palpate::commission::Wiring;
 use palpate::device::Device;
@@ -11,7 +11,7 @@ use crate::body::{Chosen, Felt as Surface, Loop, Mechanism, SERVO};
 
 static DEVICE: StaticCell<Device<Mechanism, 3>> = StaticCell::new();
 
-/// What is felt.
+/// The servo.
 pub struct Measured {
     servo: Loop<Chosen>,
     wiring: Wiring<3>,

@@ -1,4 +1,4 @@
-//! What happens when the code is wrong: the motors lose their current, and the host is told.
+//! Panics and exceptions: the motors lose their current, and the emulator ends with an error.
 
 use core::panic::PanicInfo;
 

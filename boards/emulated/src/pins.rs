@@ -18,7 +18,7 @@ const SILENT_TICKS: u32 = 5;
 pub struct Pins<L> {
     link: L,
     clock: Clock,
-    /// What came for this tick.
+    /// The frame for this tick.
     sensors: Option<Sensors>,
     duties: [i16; 3],
     tick: u32,

@@ -40,7 +40,7 @@ impl<L: Link> RecordedLoop<L> {
         Some(Self { servo_loop: ServoLoop::new(board, link(), core.SYST), recorder, clock: Clock::start(board) })
     }
 
-    /// One tick, and what is told of it.
+    /// One tick and its telemetry.
     pub fn tick(&mut self) {
         let began = self.clock.now();
         self.servo_loop.tick();

@@ -65,7 +65,7 @@ impl<L: Link> ServoLoop<L> {
         &self.state
     }
 
-    /// What the host says in this tick.
+    /// The input of this tick, from the host's frames.
     fn input(&mut self) -> Input<3> {
         let mut late = false;
         for _ in 0..FRAMES_PER_TICK {

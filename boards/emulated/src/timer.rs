@@ -41,7 +41,7 @@ impl Board {
         unsafe { NVIC::unmask(Position(self.timer_interrupt)) };
     }
 
-    /// Makes this period longer by so many counts: for the tests that must find that.
+    /// Extends this period by a number of counts: for the tests that must detect it.
     pub fn delay_timer(&self, counts: u32) {
         let timer = self.registers();
         timer.value.set(timer.value.get() + counts);

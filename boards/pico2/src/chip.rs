@@ -13,7 +13,7 @@ static IMAGE: ImageDef = ImageDef::secure_exe();
 
 /// The crystal, Hz.
 pub const CRYSTAL: u32 = 12_000_000;
-/// What the HAL sets the core to, Hz.
+/// The core's clock as the HAL sets it, Hz.
 pub const CLOCK: u32 = 150_000_000;
 /// The pin that switches the bridges on.
 const ENABLE_PIN: u32 = 16;
@@ -59,7 +59,7 @@ pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> ResetReason {
 /// Takes the motors' power away, by the register. Before anything else too: a reset of the core alone leaves the level
 /// as it was, and a pin that becomes an output shows it.
 pub fn motors_off() {
-    // SAFETY: a write that clears one bit, whoever uses the others.
+    // SAFETY: a write that clears one bit, and leaves the others alone.
     unsafe { (*SIO::ptr()).gpio_out_clr().write(|w| w.bits(1 << ENABLE_PIN)) };
 }
 

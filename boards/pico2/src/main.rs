@@ -1,9 +1,9 @@
 //! palpate on a Raspberry Pi Pico 2: three magnetic angle sensors, three bridges, a button that asks for force.
 //!
 //! The servo runs in the interrupt of a PWM slice that is used as a timer; nothing delays it but the moments for which
-//! the USB driver masks interrupts ([`usb`]). Below it `main` sends telemetry and feeds the watchdog. What both do is
-//! the loop of every board (`boards/src`); here are this one's clocks, pins and memory. The README has the wiring;
-//! [`body`] is what to change first.
+//! the USB driver masks interrupts ([`usb`]). Below it `main` sends telemetry and feeds the watchdog. Both are the loop
+//! of every board (`boards/src`); here are this one's clocks, pins and memory. The README has the wiring; [`body`] is
+//! what to change first.
 
 #![no_std]
 #![no_main]

@@ -1,4 +1,4 @@
-//! What hangs on which pin.
+//! The peripherals on the pins.
 
 use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::HBridge;

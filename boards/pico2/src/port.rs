@@ -23,8 +23,8 @@ impl<P: ValidUartPinout<UART0>> Port for Uart<P> {
     }
 }
 
-/// What the watchdog resets: every stage of the start ("PSM: WDSEL") but the two oscillators. Pads go to their reset
-/// state with the peripherals; were the core's supply switched instead, they would hold their levels.
+/// The stages that the watchdog resets: every stage of the start ("PSM: WDSEL") but the two oscillators. Pads go to
+/// their reset state with the peripherals; were the core's supply switched instead, they would hold their levels.
 const RESETS: u32 = 0x01ff_ffff & !(0b11 << 2);
 
 /// The chip's watchdog.

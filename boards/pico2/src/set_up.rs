@@ -5,7 +5,7 @@ use palpate::device::SupplyRange;
 use palpate::device::drive::HBridge;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
-use palpate_bench::sensors::{Angles, greatest_step};
+use palpate_bench::sensors::{Angles, max_step};
 use palpate_bench::usb::{Cdc, Either, Plain};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings, Switched};
 use rp235x_hal::adc::{Adc, AdcPin};
@@ -24,7 +24,7 @@ use crate::supply::Volts;
 use crate::ticks::Ticks;
 use crate::{Loop, Message, SHARED, chip, pins, port, supply, usb};
 
-/// What the loop of the boards is told of this one.
+/// The settings of this board's loop.
 pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
 
 /// Sets all up, in an order in which no motor moves.
@@ -77,7 +77,7 @@ pub fn set_up(
     ];
     let steps = DEVICE
         .encoders
-        .map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames));
+        .map(|encoder| max_step(&encoder, DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames));
     let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, CLOCK), steps);
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();

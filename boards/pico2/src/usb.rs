@@ -2,7 +2,7 @@
 //!
 //! The HAL's driver masks interrupts, the tick's too, while it asks the controller or copies a packet: without a loop
 //! that waits, but long enough to be seen in the record's shortest and longest period. So what masks lies in RAM
-//! (`memory.x`), where no cache can miss. Packets lie in the controller's own memory, what is left of them with main.
+//! (`memory.x`), where no cache can miss. Packets lie in the controller's own memory, the rest of them with main.
 
 use cortex_m::singleton;
 use rp235x_hal::clocks::UsbClock;

@@ -1,4 +1,4 @@
-//! What runs below the tick of a board that is being accepted.
+//! Main's loop of a board that is being accepted.
 
 use crate::exercise::Runner;
 use crate::exercise::tally::Tally;
@@ -9,16 +9,16 @@ use palpate::wire::acceptance::{Counted, Failure, Finding, Identity, Line, Reque
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::telemetry::Consumer;
 
-/// What measures how long a tick of the script takes.
+/// Measures how long a tick of the script takes.
 pub trait Stopwatch {
-    /// What it counts.
+    /// The unit it counts in.
     const COUNTED: Counted;
 
     /// Runs `work`, which no interrupt disturbs, and gives its counts.
     fn measure(&mut self, work: impl FnOnce()) -> u32;
 }
 
-/// What a board says of its chip.
+/// A board's chip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chip {
     /// Its core, as the CPUID register names it.
@@ -74,7 +74,7 @@ impl<'a, W: Stopwatch> Examiner<'a, W> {
         }
     }
 
-    /// A moment of it. Call it for ever; where it gives a failure, fail that way.
+    /// One step. Call it continuously; if it returns a failure, fail that way.
     pub fn step(&mut self, port: &mut impl Port, watchdog: &mut impl Watchdog) -> Option<Failure> {
         self.feed(watchdog);
         if let Some(byte) = port.receive()
@@ -126,7 +126,7 @@ impl<W: Stopwatch, P: Port, D: Watchdog> Runner for Run<'_, '_, W, P, D> {
     fn tick(&mut self, work: impl FnOnce()) {
         self.longest = self.longest.max(self.of.stopwatch.measure(work));
         self.of.feed(self.watchdog);
-        // Its ticks are late now and then: nobody is told of them.
+        // Its ticks are late now and then: they are not reported.
         self.of.ticks.dequeue();
     }
 

@@ -19,7 +19,7 @@ pub struct Acceptance<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     deadline: Deadline,
     mailbox: &'a Mailbox,
     queue: Producer<'a, Ticks>,
-    /// What is told next.
+    /// The next message.
     next: Ticks,
     /// Ticks since the last frame.
     waited: u32,
@@ -47,7 +47,7 @@ impl<'a, F: Felt<JOINTS>, B: Passive<JOINTS>, const JOINTS: usize> Acceptance<'a
         mailbox: &'a Mailbox,
     ) -> Self {
         let rate = felt.servo().settings().rate_hz;
-        // A reset that is a fault is told, and stops nothing here: there is no force that it could keep away.
+        // A reset that is a fault is reported, and stops nothing here: there is no force that it could keep away.
         let reset = if reset.fault().is_some() { ResetReason::Unknown } else { reset };
         Self {
             board,
@@ -81,7 +81,7 @@ impl<'a, F: Felt<JOINTS>, B: Passive<JOINTS>, const JOINTS: usize> Acceptance<'a
         };
         let input = self.bridge.input(self.felt.servo(), &self.state, input, panel.enable);
         self.felt.servo().tick(&mut self.state, input);
-        // A pin that does not obey could not be helped: nothing has ever set it.
+        // A pin that fails is ignored: nothing has ever set it.
         let _ = self.board.release();
 
         self.next.panel = if panel.enable { panel::ENABLE } else { 0 }
@@ -134,7 +134,7 @@ impl<'a, F: Felt<JOINTS>, B: Passive<JOINTS>, const JOINTS: usize> Acceptance<'a
         (self.next.began, self.next.ticks) = (began, self.next.ticks.wrapping_add(1));
         self.mailbox.tell_ticks(self.next.ticks);
         self.waited = self.waited.saturating_add(1);
-        // A queue without room is tried again in the next tick, and nothing of what was measured is lost.
+        // A full queue is tried again in the next tick, and no measurement is lost.
         if self.waited >= self.rate / FRAMES && self.queue.enqueue(self.next).is_ok() {
             (self.next, self.waited) = (first(self.next.number.wrapping_add(1), self.next), 0);
         }

@@ -1,4 +1,4 @@
-//! What a board that is being accepted needs of its core.
+//! The core of a board that is being accepted.
 
 use super::Cycles;
 use crate::Counter;
@@ -34,7 +34,7 @@ pub fn fail(failure: Failure) -> ! {
         Failure::Hang => loop {
             cortex_m::asm::nop();
         },
-        Failure::Panic => panic!("as it was told"),
+        Failure::Panic => panic!("requested by the host"),
         Failure::Exception => cortex_m::asm::udf(),
     }
 }

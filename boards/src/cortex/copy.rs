@@ -27,7 +27,7 @@ global_asm!(
     "    ldmia r0!, {{r3}}",
     "    stmia r1!, {{r3}}",
     "    b 2b",
-    // What was written as data is about to be fetched as code.
+    // The data just written is fetched as code next.
     "3:  dsb",
     "    isb",
     "    bx lr",

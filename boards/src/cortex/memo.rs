@@ -12,7 +12,7 @@ impl MemoCell {
         Self([AtomicU32::new(0), AtomicU32::new(0)])
     }
 
-    /// What it says.
+    /// Its content.
     pub fn read(&self) -> Memo {
         Memo([self.0[0].load(Ordering::Relaxed), self.0[1].load(Ordering::Relaxed)])
     }

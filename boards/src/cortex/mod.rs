@@ -1,5 +1,5 @@
-//! What every board on the bench does alike because its core is a Cortex-M: it stops, hands the loop to its interrupt,
-//! counts cycles, and copies what is hot into its fastest memory.
+//! Shared by the bench boards, whose cores are Cortex-M: stopping, handing the loop to its interrupt, counting cycles,
+//! copying the hot path into the fastest memory.
 
 mod accept;
 #[cfg(feature = "copy")]

@@ -35,11 +35,11 @@ impl<F: Felt<JOINTS>, B: Passive<JOINTS>, const JOINTS: usize> Ticking for Accep
     }
 }
 
-/// What main and the interrupt share. A `static`.
+/// Shared by main and the interrupt. A `static`.
 pub struct Shared<L: 'static> {
     /// The loop on its way from main to the interrupt, by reference: moving it would take as much stack.
     handed_over: HandOver<&'static mut L>,
-    /// What passes between them afterwards.
+    /// The messages between them afterwards.
     pub mailbox: Mailbox,
 }
 
@@ -76,7 +76,7 @@ impl<L> Default for Shared<L> {
     }
 }
 
-/// What runs below the ticks, once all is set up. Main returns from setting up first: that takes most stack of all.
+/// Main's loop below the ticks, once all is set up. Main returns from setting up first: that takes most stack of all.
 pub struct Below<M: 'static, P, S> {
     /// The telemetry of the loop.
     pub messages: Consumer<'static, M>,

@@ -1,4 +1,4 @@
-//! What happens when the code is wrong: every panic, exception, NMI and interrupt that nobody waits for takes the
+//! Stops: every panic, exception, NMI and interrupt that nobody waits for takes the
 //! motors' power away, leaves a memo and a light, and waits for the watchdog.
 
 use crate::Cause;
@@ -13,7 +13,7 @@ unsafe extern "Rust" {
     safe fn palpate_motors_off(cause: Cause);
 }
 
-/// What says of an NMI that it is one that is waited for; null while none is.
+/// Decides whether an NMI is expected; null while none is.
 static BEARS: AtomicPtr<()> = AtomicPtr::new(ptr::null_mut());
 
 /// Does something during which an NMI may come that is no stop: `is_borne` says so of it, and has dealt with it. For

@@ -124,7 +124,7 @@ pub static CORRUPT: ServoOf<SerialArm> =
 static SPOILT: SplinePatch = ellipsoid::PATCHES[0].with_crc(!ellipsoid::TABLE_CRC);
 
 /// The capped box. The strokes lead right through it, deeper than any hand presses: nothing watches for lost contact,
-/// so that it is felt all the way.
+/// so that contact lasts all the way.
 pub static BODY: ServoOf<SerialArm, Body> =
     Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, Controller::SECOND_ORDER, CAPPED_BOX_AT)
         .rendering(Rendering { friction: Some(FRICTION), ..Rendering::PLAIN })

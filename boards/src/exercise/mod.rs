@@ -21,7 +21,7 @@ pub const TICKS: u32 = 1_000_000;
 /// Ticks from one line to the next.
 pub const TICKS_PER_LINE: u32 = 50_000;
 
-/// Who runs the ticks, and hears what they came to.
+/// Runs the ticks, and receives their tally.
 pub trait Runner {
     /// Runs a tick, which `work` is: once.
     fn tick(&mut self, work: impl FnOnce());
@@ -30,7 +30,7 @@ pub trait Runner {
     fn line(&mut self, lap: &'static str, tally: &Tally, is_last: bool);
 }
 
-/// One who only hears.
+/// A runner that only receives tallies.
 struct Listener<F>(F);
 
 impl<F: FnMut(&str, &Tally)> Runner for Listener<F> {
@@ -48,7 +48,7 @@ pub fn run(say: &mut impl FnMut(&str, &Tally)) {
     run_by(&mut Listener(say), u32::MAX);
 }
 
-/// The same by somebody else, and of each lap at most so many ticks: the tally is given at its end too.
+/// The same with a runner, and at most `most` ticks of each lap: the tally is given at its end too.
 pub fn run_by(runner: &mut impl Runner, most: u32) {
     let serial = &WOODEN_HAPTICS_2016.encoders;
     let mut laps = Laps { runner, most };

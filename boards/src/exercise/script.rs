@@ -1,4 +1,4 @@
-//! What the sensors say and what happens: straight strokes between random places of the joints, and now and then harm.
+//! Sensor readings and events: straight strokes between random places of the joints, and now and then harm.
 
 use palpate::device::{Counts, Encoder};
 use palpate::servo::{Event, Input, ResetReason};
@@ -10,7 +10,7 @@ const FASTEST: u32 = 8;
 /// One stroke in this many is harmed.
 const HARMED: u32 = 4;
 
-/// What goes wrong in a stroke.
+/// The fault in a stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Harm {
     Lost,
@@ -52,9 +52,9 @@ const RESETS: [ResetReason; 6] = [
 /// One tick of the script.
 #[derive(Clone, Copy, Debug)]
 pub struct Order {
-    /// Begin anew before the tick.
+    /// Start again before the tick.
     pub restart: Option<ResetReason>,
-    /// What to note before the tick.
+    /// Events to note before the tick.
     pub events: [Option<Event>; 2],
     /// The tick's input.
     pub input: Input<3>,
@@ -64,7 +64,7 @@ pub struct Order {
 #[derive(Clone, Copy, Debug)]
 pub struct Script {
     random: Random,
-    /// Least counts of each joint, and how many there are.
+    /// Minimum count of each joint, and the number of counts.
     places: [(i32, u32); 3],
     from: [i32; 3],
     to: [i32; 3],
@@ -99,10 +99,10 @@ impl Script {
     }
 
     fn anywhere(&mut self) -> [i32; 3] {
-        self.places.map(|(least, count)| least + self.random.below(count) as i32)
+        self.places.map(|(lowest, count)| lowest + self.random.below(count) as i32)
     }
 
-    /// The next stroke begins where the last one ended.
+    /// The next stroke starts where the last one ended.
     fn begin_stroke(&mut self) {
         if self.harm.is_some() {
             self.restart = RESETS.get(self.random.below(RESETS.len() as u32) as usize).copied();

@@ -5,7 +5,7 @@ use core::fmt;
 use palpate::servo::{Remembered, ServoState, Tracked};
 use palpate::track::Contact;
 
-/// What the ticks so far came to.
+/// The tally of the ticks so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Ticks so far.

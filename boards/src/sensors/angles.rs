@@ -28,13 +28,13 @@ pub struct Angles<B, P, D, const JOINTS: usize> {
 }
 
 impl<B: SpiBus, P: OutputPin, D: DelayNs, const JOINTS: usize> Angles<B, P, D, JOINTS> {
-    /// The sensors, each with the greatest step between two readings, counts ([`super::greatest_step`]). Their select
+    /// The sensors, each with the maximum step between two readings, counts ([`super::max_step`]). Their select
     /// lines are high. Nothing is sent yet.
     pub fn new(bus: B, selects: [P; JOINTS], delay: D, greatest_steps: [i32; JOINTS]) -> Self {
         Self { bus, selects, delay, turns: greatest_steps.map(TurnCount::new), unwell: [true; JOINTS] }
     }
 
-    /// Waits until they have powered up, and starts each, again and again for a tenth of a second.
+    /// Waits until they have powered up, and starts each, repeatedly for a tenth of a second.
     ///
     /// # Errors
     /// Why one does not start. [`Sensors::read`] goes on trying, and says so in every tick: let the loop run, and it

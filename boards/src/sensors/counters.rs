@@ -4,7 +4,7 @@ use super::{BadFrame, Sensors};
 use palpate::device::sensor::TimerCount;
 use palpate::device::{Counts, Encoder};
 
-/// What reads the counters.
+/// Reads the counters.
 pub trait Readings<const JOINTS: usize> {
     /// The counters, of which the lower 16 bits are used.
     fn readings(&mut self) -> [u32; JOINTS];
@@ -27,7 +27,7 @@ pub struct Counters<R, const JOINTS: usize> {
 }
 
 impl<R: Readings<JOINTS>, const JOINTS: usize> Counters<R, JOINTS> {
-    /// The counters, each with the greatest step between two readings ([`greatest_step`]).
+    /// The counters, each with the maximum step between two readings ([`max_step`]).
     pub fn new(readings: R, greatest_steps: [i32; JOINTS]) -> Self {
         Self { readings, counts: greatest_steps.map(TimerCount::new), last: [(0, Counts(0)); JOINTS] }
     }
@@ -59,8 +59,8 @@ impl<R: Readings<JOINTS>, const JOINTS: usize> Sensors<JOINTS> for Counters<R, J
 }
 
 /// The most counts between two good readings that a hand can make: at `max_joint_rate` (rad/s), with up to `bad_frames`
-/// between them at `rate` Hz, and two more for the encoder's own steps. What is more is a glitch.
-pub const fn greatest_step(encoder: &Encoder, max_joint_rate: f32, rate: f32, bad_frames: u32) -> i32 {
+/// between them at `rate` Hz, and two more for the encoder's own steps. A larger step is a glitch.
+pub const fn max_step(encoder: &Encoder, max_joint_rate: f32, rate: f32, bad_frames: u32) -> i32 {
     let counts = max_joint_rate / rate / encoder.radians_per_count * (bad_frames as f32 + 1.0);
     // The cast saturates.
     (if counts < 0.0 { -counts } else { counts }) as i32 + 2

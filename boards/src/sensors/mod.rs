@@ -6,7 +6,7 @@ mod selected;
 mod watched;
 
 pub use angles::{Angles, SELECT};
-pub use counters::{Counters, Readings, greatest_step};
+pub use counters::{Counters, Readings, max_step};
 pub use selected::{SelectError, SelectTiming, Selected};
 pub use watched::Watched;
 
@@ -32,10 +32,10 @@ pub trait Sensors<const JOINTS: usize> {
     /// The counts now.
     ///
     /// # Errors
-    /// What is wrong with the first that is bad. The next reading is measured against the last good one.
+    /// The fault of the first bad frame. The next reading is measured against the last good one.
     fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame>;
 
-    /// The counts at which index marks were passed since this was asked last, of which each is told once, in the counts
+    /// The counts at which index marks were passed since the last call, each reported once, in the counts
     /// of the last good reading. None of sensors without marks.
     #[inline]
     fn marks(&mut self) -> [Option<Counts>; JOINTS] {

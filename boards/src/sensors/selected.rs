@@ -22,7 +22,7 @@ pub struct Selected<'a, B, P, D> {
     pub bus: &'a mut B,
     /// The select line, low to select.
     pub select: &'a mut P,
-    /// What waits.
+    /// The delay.
     pub delay: &'a mut D,
     /// How long.
     pub timing: SelectTiming,

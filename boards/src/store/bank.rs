@@ -4,7 +4,7 @@ use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::body::{Body, BodyBuffer, Edge, Face, FileError};
 
-/// Who holds a bank.
+/// The holder of a bank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 enum Holder {
@@ -29,7 +29,7 @@ struct Built<const FACES: usize, const EDGES: usize> {
     body: Option<Body<'static>>,
 }
 
-// SAFETY: what is inside is written only while main holds the bank, and there is one main, as the callers of `check`
+// SAFETY: the content is written only while main holds the bank, and there is one main, as the callers of `check`
 // say; it is read only while nobody or the tick holds it. The holder changes with release and is looked at with
 // acquire.
 unsafe impl<const FACES: usize, const EDGES: usize> Sync for Bank<FACES, EDGES> {}
@@ -70,7 +70,7 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
         if !self.is_mains() {
             return Err(FileError::Magic);
         }
-        // SAFETY: main holds the bank and is here once, as the caller says: nobody else looks at what is built. The
+        // SAFETY: main holds the bank and is here once, as the caller says: nobody else looks at the content. The
         // references live as long as the bank, which is a `static`, and nobody writes behind them until the bank is
         // main's again; by then the tick has let go of all of them.
         let built: &'static mut Built<FACES, EDGES> = unsafe { &mut *self.built.get() };

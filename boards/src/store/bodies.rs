@@ -9,7 +9,7 @@ use palpate::body::Body;
 use palpate::scene::Shelf;
 use palpate::wire::{Upload, UploadError};
 
-/// Two banks for bodies of at most so many words (four bytes), faces and edges. A `static`.
+/// Two banks for bodies of at most `WORDS` words (four bytes), `FACES` and `EDGES`. A `static`.
 pub struct Bodies<const WORDS: usize, const FACES: usize, const EDGES: usize> {
     banks: [Bank<FACES, EDGES>; 2],
     files: [Words<WORDS>; 2],
@@ -80,8 +80,8 @@ impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Writing<WORDS, 
         // SAFETY: main holds the bank, and this is main's end, which is there once and cannot be shared (`Cell` is not
         // `Sync`): nobody else looks at the words.
         let words = unsafe { &mut *self.bodies.files[bank].0.get() };
-        let room = bytemuck::cast_slice_mut::<u32, u8>(words);
-        let Some(place) = at.checked_add(bytes.len()).and_then(|end| room.get_mut(at..end)) else { return false };
+        let buffer = bytemuck::cast_slice_mut::<u32, u8>(words);
+        let Some(place) = at.checked_add(bytes.len()).and_then(|end| buffer.get_mut(at..end)) else { return false };
         place.copy_from_slice(bytes);
         true
     }

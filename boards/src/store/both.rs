@@ -1,4 +1,4 @@
-//! Two shelves for one slot: RAM and flash.
+//! Two body stores for one slot: RAM and flash.
 
 use palpate::body::Body;
 use palpate::scene::Shelf;

@@ -18,19 +18,19 @@ const HEAD: usize = 8;
 pub struct KeptCalibration<F, K: 'static, const JOINTS: usize> {
     flash: RefCell<F>,
     built: &'static Device<K, JOINTS>,
-    /// What the zeroes have to be of; `None` where it does not matter.
+    /// The homing reference of the zeroes; `None` where it does not matter.
     homed_by: Option<ZeroOf>,
     in_use: Calibrated,
 }
 
-/// What a loop is made with.
+/// The device that a loop is made with.
 #[derive(Clone, Copy, Debug)]
 pub struct Found<K, const JOINTS: usize> {
     /// The device, as it was built or as it was found.
     pub device: Device<K, JOINTS>,
     /// Which input and output each joint is on.
     pub wiring: Wiring<JOINTS>,
-    /// Whether what is kept cannot be used: then no motor may be driven.
+    /// Whether the stored calibration cannot be used: then no motor may be driven.
     pub is_miscalibrated: bool,
 }
 

@@ -36,7 +36,7 @@ impl Incoming {
         at < self.came
     }
 
-    /// A part of so many bytes has come.
+    /// A part of `length` bytes has come.
     pub fn came(self, at: u32, length: usize) -> Self {
         Self { came: self.came.max(at + length as u32), ..self }
     }
@@ -52,7 +52,7 @@ impl Incoming {
     }
 }
 
-/// What is said of a file that is none.
+/// The error for a file that is no body.
 pub(crate) const fn refusal(wrong: &FileError) -> UploadError {
     match wrong {
         FileError::BufferTooSmall { .. } => UploadError::TooMany,

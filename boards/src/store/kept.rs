@@ -22,7 +22,7 @@ pub struct Region {
 unsafe impl Sync for Region {}
 
 impl Region {
-    /// So many bytes from here on.
+    /// `bytes` from `start` on.
     ///
     /// # Safety
     /// They are there to be read for as long as the program runs, whenever the [`NorFlash`] that writes them is not at
@@ -43,7 +43,7 @@ impl Region {
     }
 }
 
-/// A bank whose file lies in flash, for a body of at most so many faces and edges. A `static`.
+/// A bank whose file lies in flash, for a body of at most `FACES` and `EDGES`. A `static`.
 pub struct Kept<const FACES: usize, const EDGES: usize> {
     bank: Bank<FACES, EDGES>,
     region: Region,
@@ -58,7 +58,7 @@ pub struct Keeping<F, const FACES: usize, const EDGES: usize> {
     begun: Cell<Option<Incoming>>,
     /// The file's first part, which is written last: until then there is no body, and of the rest nothing is read.
     head: Cell<[u8; CHUNK]>,
-    /// So many bytes of the region are erased, or written since.
+    /// The number of bytes of the region that are erased, or written since.
     erased: Cell<u32>,
     /// The CRC-32 of the file that is kept.
     crc: Cell<u32>,
@@ -71,7 +71,7 @@ impl<const FACES: usize, const EDGES: usize> Kept<FACES, EDGES> {
     }
 
     /// Main's end, once, before the loop is made; and why what lies there is no body, if it is none. If it is one, it
-    /// is felt from the first tick on.
+    /// is rendered from the first tick on.
     pub fn main<F: NorFlash>(
         &'static self,
         flash: F,
@@ -104,7 +104,7 @@ impl<const FACES: usize, const EDGES: usize> Shelf for Kept<FACES, EDGES> {
         self.bank.body()
     }
 
-    /// What is kept stays there, to be taken again.
+    /// The stored body stays there, to be taken again.
     fn leave(&self, _: u8) {
         self.bank.put_down();
     }
@@ -150,14 +150,14 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Keeping<F, FACES, EDGE
         all.get(at as usize..).and_then(|rest| rest.get(..bytes.len())) == Some(bytes)
     }
 
-    /// A file of so many bytes begins, or of none what is kept is forgotten.
+    /// Starts a file of `bytes`; none erases the stored body.
     fn begin(&self, bytes: u32) -> Result<(), UploadError> {
         self.begun.set(None);
         let incoming = Incoming::begin(bytes, self.room().0)?;
         if !self.kept.bank.reclaim() {
             return Err(UploadError::Felt);
         }
-        // What was kept is no body from here on, whenever the power goes.
+        // The stored body is invalid from here on, whenever the power goes.
         self.crc.set(0);
         self.erased.set(0);
         self.erase_first()?;
@@ -167,7 +167,7 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Keeping<F, FACES, EDGE
         Ok(())
     }
 
-    /// All of a file of so many bytes has come.
+    /// All `bytes` of a file have come.
     fn end(&self, bytes: u32, pause: &mut dyn FnMut()) -> Result<(), UploadError> {
         let head = self.head.get();
         if self.write(0, &head).is_none() || !self.lies(0, &head) {
@@ -220,7 +220,7 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Uploads for Keeping<F,
                 let incoming = self.begun.get().ok_or(UploadError::NotBegun)?;
                 incoming.whole()?;
                 if !incoming.is_checked {
-                    // What ends badly is over: nothing is written for an end that is said again.
+                    // A failed end is final: nothing is written for a repeated end.
                     self.begun.set(None);
                     self.end(incoming.bytes, pause)?;
                     self.begun.set(Some(incoming.checked()));

@@ -3,7 +3,7 @@
 //! | type | is |
 //! |---|---|
 //! | [`Bodies`] | two banks of RAM: main writes and checks a body in one while the tick feels that of the other |
-//! | [`Kept`] | flash for one body, which is felt from the first tick on; written only while the motors are off |
+//! | [`Kept`] | flash for one body, which is rendered from the first tick on; written only while the motors are off |
 //! | [`Both`] | one and the other for the same slot |
 //! | [`KeptCalibration`] | flash for what commissioning found, which the loop is made with after the next reset |
 //! | [`PretendedFlash`] | RAM with the rules of flash, where there is none to write |
@@ -25,8 +25,8 @@ mod pretended;
 
 pub use bodies::{Bodies, Writing};
 
-/// The body store of a board that has plenty of RAM: 48 KB a bank, and faces and edges of some 100 patches. Its flash is
-/// where its own program lies, which cannot be read while it is written: no body is kept there.
+/// The body store of a board that has plenty of RAM: 48 KB a bank, and faces and edges of some 100 patches. Its flash
+/// is where its own program lies, which cannot be read while it is written: no body is kept there.
 pub type RamStore = Bodies<12_288, 120, 300>;
 
 pub use both::Both;

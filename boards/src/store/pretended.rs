@@ -12,7 +12,7 @@ pub struct PretendedFlash<const WORDS: usize> {
     is_written: AtomicBool,
 }
 
-/// What writes it.
+/// Its writer.
 pub struct Pretended<const WORDS: usize>(&'static PretendedFlash<WORDS>);
 
 const PAGE: usize = 2_048;
@@ -24,7 +24,7 @@ impl<const WORDS: usize> PretendedFlash<WORDS> {
         Self { words: [const { AtomicU32::new(u32::MAX) }; WORDS], is_written: AtomicBool::new(false) }
     }
 
-    /// Another with the same in it: what is left of it after a reset.
+    /// Another with the same content: as after a reset.
     #[must_use]
     pub fn after_reset(&self) -> Self {
         let words = core::array::from_fn(|index| AtomicU32::new(self.words[index].load(Ordering::Relaxed)));
@@ -33,7 +33,7 @@ impl<const WORDS: usize> PretendedFlash<WORDS> {
 
     /// Where it is read. For one [`super::Kept`] at a time.
     pub const fn region(&'static self) -> Region {
-        // SAFETY: a `static` of so many bytes, which only its writer writes.
+        // SAFETY: a `static` of `WORDS * 4` bytes, which only its writer writes.
         unsafe { Region::new(self.words.as_ptr().cast(), WORDS * 4) }
     }
 
@@ -42,7 +42,7 @@ impl<const WORDS: usize> PretendedFlash<WORDS> {
         (!self.is_written.swap(true, Ordering::Relaxed)).then_some(Pretended(self))
     }
 
-    /// The words of so many bytes from here on, if they begin and end where they may.
+    /// The words of `bytes` from `offset` on, if both are multiples of `size`.
     fn part(&self, offset: u32, bytes: usize, size: usize) -> Result<&[AtomicU32], Broken> {
         let offset = offset as usize;
         if !offset.is_multiple_of(size) || !bytes.is_multiple_of(size) {

@@ -21,7 +21,7 @@ impl<const SIZE: usize> Bytes<SIZE> {
         self.from >= self.to
     }
 
-    /// Adds one behind the others; false if there is no room for it.
+    /// Adds one behind the others; false if the buffer is full.
     pub fn push(&mut self, byte: u8) -> bool {
         let Some(place) = self.bytes.get_mut(self.to) else { return false };
         *place = byte;
@@ -41,7 +41,8 @@ impl<const SIZE: usize> Bytes<SIZE> {
         self.bytes.get(self.from..self.to).unwrap_or_default()
     }
 
-    /// Drops so many of the first. There is room again once all are gone: a packet goes whole, or not at all.
+    /// Drops `number` of the first. The buffer accepts bytes again once all are gone: a packet goes whole, or not at
+    /// all.
     pub fn drop_first(&mut self, number: usize) {
         self.from = self.from.saturating_add(number);
         if self.is_empty() {
@@ -49,7 +50,7 @@ impl<const SIZE: usize> Bytes<SIZE> {
         }
     }
 
-    /// Takes what is read, in the place of whatever was there; nothing if nothing is.
+    /// Replaces the content by a read; empty if nothing is read.
     pub fn fill(&mut self, read: impl FnOnce(&mut [u8]) -> Option<usize>) {
         self.clear();
         self.to = read(&mut self.bytes).map_or(0, |number| number.min(SIZE));

@@ -13,19 +13,19 @@ use usbd_serial::{CdcAcmClass, USB_CLASS_CDC};
 /// so not the most; and control requests need more than 18, lest some hosts send the next one too early for a HAL.
 pub const PACKET: usize = 32;
 
-/// The bus is asked once in so many turns of main. A host wants it asked every 10 ms (usb-device, `UsbDevice::poll`).
-/// A turn takes or gives a byte or two, packs or checks one frame, and has no loop that waits; main takes many in the
-/// 20 ms after which the watchdogs of these boards bite. A turn moves a byte each way, so that asking more often would
-/// find little more to move.
+/// The bus is polled once in this number of turns of main. A host wants it asked every 10 ms (usb-device,
+/// `UsbDevice::poll`). A turn takes or gives a byte or two, packs or checks one frame, and has no loop that waits; main
+/// takes many in the 20 ms after which the watchdogs of these boards reset the chip. A turn moves a byte each way, so
+/// that asking more often would find little more to move.
 pub const TURNS: u8 = 16;
 
 /// pid.codes keeps these for tests. A product needs numbers of its own.
 const NUMBERS: UsbVidPid = UsbVidPid(0x1209, 0x0001);
 
-/// The greatest current from the plug, mA: twice what a Teensy 4.1 is said to take, and the light and sensors.
+/// The maximum current from the plug, mA: twice a Teensy 4.1's, for LED and sensors too.
 const CURRENT: usize = 200;
 
-/// What a chip's bus wants beyond what usb-device asks of every bus.
+/// A chip's functions beyond those that usb-device uses of every bus.
 pub trait Chip<B> {
     /// The host has configured the device.
     fn configured(&mut self, _: &B) {}
@@ -47,7 +47,7 @@ pub struct Cdc<'a, B: UsbBus, C> {
     device: UsbDevice<'a, B>,
     class: CdcAcmClass<'a, B>,
     chip: C,
-    /// What is left of the packet that came last.
+    /// The rest of the last packet.
     incoming: Bytes<PACKET>,
     /// The packet that goes next. Never a full one, after which a host would wait for more before it hands it on.
     outgoing: Bytes<{ PACKET - 1 }>,
@@ -101,7 +101,7 @@ impl<'a, B: UsbBus, C: Chip<B>> Cdc<'a, B, C> {
             }
         }
         if !is_open {
-            // What somebody says with the port closed is old by the time that it is open. A bus that is not configured
+            // Bytes from a closed port are old by the time that it is open. A bus that is not configured
             // has nothing to be read.
             if is_configured {
                 let _ = self.class.read_packet(&mut [0; PACKET]);
@@ -126,7 +126,7 @@ impl<B: UsbBus, C: Chip<B>> Port for Cdc<'_, B, C> {
     }
 
     fn receive(&mut self) -> Option<u8> {
-        // Before the turn: whoever asked first whether the port is open gets bytes of that very time.
+        // Before the turn: a caller that first asks whether the port is open gets bytes of that time.
         let byte = self.incoming.pop();
         self.turn();
         byte

@@ -10,14 +10,14 @@
 //!
 //! # What keeps a thumb safe
 //!
-//! - Nothing here reaches a motor. What a host asks for goes the way of all frames, through the checks of
+//! - Nothing here reaches a motor. A host's commands go the way of all frames, through the checks of
 //!   [`crate::Idle`] and of the tick.
 //! - No interrupt of the bus is unmasked: main asks it, turn by turn, and the tick preempts that as it preempts all of
 //!   main. A bus that hangs main starves the watchdog.
 //! - Nothing waits for a host. One that does not read fills a buffer of a packet; then the line takes no more, and
 //!   records are dropped, as they are with a slow UART.
 //! - A bus that is reset, suspended, or unplugged is a line on which nothing comes: the link is lost by its timeout.
-//!   What of it was on its way is forgotten, so that no half of a frame meets another half.
+//!   Bytes on their way are discarded, so that no half of a frame meets another half.
 
 mod bytes;
 mod cdc;

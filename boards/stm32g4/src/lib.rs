@@ -22,7 +22,7 @@ use stm32g4xx_hal::timer::{CountDownTimer, Event, Timer};
 /// 16 MHz / 4 · 85 / 2: the most that the chip takes.
 pub const CLOCK: u32 = 170_000_000;
 
-/// What was left to be known after the next reset. Used, whatever the compiler thinks that it knows of its first value.
+/// The memo for after the next reset. `used`, since the compiler must not assume its first value.
 #[unsafe(link_section = ".uninit.MEMO")]
 #[used]
 pub static MEMO: MemoCell = MemoCell::new();

@@ -1,7 +1,7 @@
 //! palpate on a Nucleo-G474RE: three encoders, three current amplifiers, a button that asks for force.
 //!
 //! The servo runs in the interrupt of TIM7, which nothing can delay; below it `main` sends telemetry and feeds the
-//! watchdog. What both do is the loop of every board (`boards/src`); here are this one's clocks, pins and memory. The
+//! watchdog. Both are the loop of every board (`boards/src`); here are this one's clocks, pins and memory. The
 //! README has the wiring; [`body`] is what to change first.
 
 #![no_std]

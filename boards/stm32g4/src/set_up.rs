@@ -22,14 +22,14 @@ use crate::voltage as set_points;
 use crate::{Loop, Message, SHARED, amplifiers};
 use set_points::{Drives, Light};
 
-/// What the loop of the boards is told of this one.
+/// The settings of this board's loop.
 pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
 
 /// The watchdog's timeout, ms: with a host after the 25 ms that a page of flash takes to be erased, motors held off.
 const TIMEOUT_MS: u32 = if cfg!(feature = "host") { 40 } else { 20 };
 
 type Pin = AnyPin<Input>;
-/// What the loop runs on.
+/// The parts that the loop runs on.
 pub type Board = Parts<Cycles, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
 
 /// Sets all up, in an order in which no motor moves.

@@ -1,5 +1,4 @@
-//! With which device, and how, something is felt: the file to change first. What is felt is chosen by the build
-//! (`--body`).
+//! Device, settings and body of this board: the file to change first. The build chooses the body (`--body`).
 
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
 use palpate::device::{Device, Encoder, Protection, SerialArm};
@@ -22,7 +21,7 @@ pub static DEVICE: Device<SerialArm, 3> = Device {
     ..WOODEN_HAPTICS_2016
 };
 
-/// What its motors and joints bear; the supply is watched by the board's loop.
+/// The limits of its motors and joints; the board's loop watches the supply.
 pub const PROTECTION: Protection<3> = WOODEN_HAPTICS_2016_PROTECTION;
 
 /// 4 kHz and 600 N/m are well inside what the device takes.

@@ -44,7 +44,7 @@ pub fn reset() -> (ResetFlags, Memo) {
 /// Takes the motors' power away, by the register. Before anything else too: a reset of the core alone leaves the levels
 /// as they were, and a pin that becomes an output shows it.
 pub fn motors_off() {
-    // SAFETY: a write that clears three bits, whoever uses the others.
+    // SAFETY: a write that clears three bits, and leaves the others alone.
     let port = unsafe { GPIO1::instance() };
     write_reg!(imxrt_ral::gpio, port, DR_CLEAR, ENABLE_BITS);
 }

@@ -1,7 +1,7 @@
 //! palpate on a Teensy 4.1: three magnetic angle sensors, three current amplifiers, a button that asks for force.
 //!
 //! The servo runs in the interrupt of the periodic timer (PIT), which nothing can delay. Below it `main` sends
-//! telemetry and feeds the watchdog. What both do is the loop of every board (`boards/src`); here are this one's
+//! telemetry and feeds the watchdog. Both are the loop of every board (`boards/src`); here are this one's
 //! clocks, pins and memory ([`set_up`]). The README has the wiring; [`body`] is what to change first, `build.rs` the
 //! memory map.
 

@@ -5,7 +5,7 @@ use palpate::device::SupplyRange;
 use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
-use palpate_bench::sensors::{Angles, greatest_step};
+use palpate_bench::sensors::{Angles, max_step};
 use palpate_bench::usb::{Cdc, Either};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings};
 use teensy4_bsp::Interrupt;
@@ -22,12 +22,12 @@ use crate::ticks::Ticks;
 use crate::watchdog::Rtwdog;
 use crate::{Loop, Message, SHARED, chip, port, usb};
 
-/// What the loop of the boards is told of this one.
+/// The settings of this board's loop.
 pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(ARM_FREQUENCY) };
 
 type Sensors = Angles<Lpspi, Output, CycleDelay<Cycles>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
-/// What the loop runs on.
+/// The parts that the loop runs on.
 pub type Board = Parts<Cycles, Ticks, Sensors, [Amplifier; 3], Input, Input, Input, Volts, Output, 3>;
 
 /// Sets all up, in an order in which no motor moves.
@@ -77,7 +77,7 @@ pub fn set_up(
     bus.set_mode(MODE_1);
     let steps = DEVICE
         .encoders
-        .map(|encoder| greatest_step(&encoder, DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames));
+        .map(|encoder| max_step(&encoder, DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames));
     let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, ARM_FREQUENCY), steps);
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();

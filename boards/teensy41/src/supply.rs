@@ -28,9 +28,9 @@ impl Volts {
     }
 }
 
-/// Calibrates the converter, and waits: the HAL begins to, and ends it by what it writes next.
+/// Calibrates the converter, and waits: the HAL starts a calibration, and aborts it by its next write.
 fn calibrate() -> bool {
-    // SAFETY: whoever owns the driver of the converter calls this, and uses it only afterwards.
+    // SAFETY: the owner of the converter's driver calls this, and uses it only afterwards.
     let registers = unsafe { ADC1::instance() };
     write_reg!(imxrt_ral::adc, registers, GS, CALF: 1);
     modify_reg!(imxrt_ral::adc, registers, GC, CAL: 1);

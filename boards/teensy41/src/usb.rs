@@ -28,7 +28,7 @@ pub fn bus(usb: Instances<1>) -> &'static UsbBusAllocator<BusAdapter> {
     bus
 }
 
-/// What usb-device does not ask of the bus.
+/// The bus's functions that usb-device does not use.
 pub struct Plug;
 
 impl Chip<BusAdapter> for Plug {

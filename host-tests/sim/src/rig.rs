@@ -10,7 +10,7 @@ use palpate::patch::SplinePatch;
 use palpate::servo::{Fault, Guard, PatchWitness, Phase, ResetReason, Servo, ServoState, Unguarded};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
-use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, greatest_step};
+use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, max_step};
 use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -322,7 +322,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
     let device = servo.device();
     let steps = device
         .encoders
-        .map(|encoder| greatest_step(&encoder, device.max_joint_rate_rad_per_s, RATE as f32, settings.bad_frames));
+        .map(|encoder| max_step(&encoder, device.max_joint_rate_rad_per_s, RATE as f32, settings.bad_frames));
     let enables: [fn(&mut World, bool); 3] = [
         |world, level| world.enables[0] = level,
         |world, level| world.enables[1] = level,

@@ -13,7 +13,7 @@ use crate::timer::InstructionCounter;
 
 /// Ticks of the walk.
 const TICKS: u32 = 100_000;
-/// Every so many ticks the probe jumps, and the body is searched anew.
+/// Ticks between two jumps of the probe, after which the body is searched again.
 const TICKS_PER_JUMP: u32 = 4_999;
 /// The middle of the capped box, and how far the probe goes from it, metres: beyond each corner, and through the body.
 const MIDDLE: Vec3 = vec3(0.03, 0.02, 0.015);
@@ -66,7 +66,7 @@ pub fn probe(tick: u32) -> Vec3 {
 /// The walk on the statics, kind by kind.
 ///
 /// # Errors
-/// What the walk left out or ran into.
+/// The walk missed a feature, or a step was rejected.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     walk(counter, &BODY, "closest point of the capped box", true)
 }
@@ -74,7 +74,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 /// The walk on a body that is the capped box. `in_parts`: with each kind of tick by itself.
 ///
 /// # Errors
-/// What the walk left out or ran into.
+/// The walk missed a feature, or a step was rejected.
 pub fn walk(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, in_parts: bool) -> Result<(), &'static str> {
     let body = black_box(body);
     let mut witness = body.start();

@@ -1,5 +1,4 @@
-//! Bodies from their files: what it takes to check and build one, and that it costs no more to be felt than one of
-//! statics.
+//! Bodies from their files: the cost of checking and building one; a tick costs no more than on a body of statics.
 
 use core::hint::black_box;
 

@@ -1,7 +1,7 @@
-//! What the hot path costs, in counted instructions: the figures that `cargo palpate budgets` compares.
+//! The cost of the hot path in counted instructions: the figures that `cargo palpate budgets` compares.
 //!
 //! Each figure is a line on the host's console, `name = instructions`. Everything but the counter is plain library
-//! code: another core needs its own counter and nothing else. A call counts too: what is measured is behind a function
+//! code: another core needs its own counter and nothing else. A call counts too: the measured code is behind a function
 //! that is not inlined, and the compiler does not know its patch.
 
 mod closest;
@@ -25,7 +25,7 @@ use crate::timer::InstructionCounter;
 /// Measures and prints the figures of the knob's tick.
 ///
 /// # Errors
-/// What went wrong on its path, so that its figures would mean nothing.
+/// Its path failed, so that its figures would mean nothing.
 #[cfg(feature = "knob")]
 pub fn run_knob(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     knob::run(counter)
@@ -42,7 +42,7 @@ pub fn run_file(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 /// Measures and prints what the tick costs over scenes.
 ///
 /// # Errors
-/// What went wrong on a path, so that its figures would mean nothing.
+/// A path failed, so that its figures would mean nothing.
 #[cfg(feature = "scene")]
 pub fn run_scene(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     scene::run(counter)
@@ -51,12 +51,12 @@ pub fn run_scene(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 /// Measures and prints all figures.
 ///
 /// # Errors
-/// What a walk left out or ran into, so that its figures would mean nothing.
+/// A walk missed a feature or failed, so that its figures would mean nothing.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     evaluation::run(counter);
     step::run(counter)?;
     servo::run(counter)?;
     mathematics::run(counter);
-    // Last, as the longest: whoever watches instruction by instruction need not wait for its end.
+    // Last, as the longest: a trace of instructions need not wait for its end.
     closest::run(counter)
 }

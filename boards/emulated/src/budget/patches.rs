@@ -1,4 +1,4 @@
-//! Patches of every degree, of one span. What they look like does not matter: the evaluation has no branch that depends
+//! Patches of every degree, of one span. Their shape does not matter: the evaluation has no branch that depends
 //! on a coefficient.
 
 use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};

@@ -128,7 +128,7 @@ fn tick(state: &mut State, input: Input<3>) {
 /// Counts the ticks of the image's scene.
 ///
 /// # Errors
-/// What the path ran into.
+/// A fault on the path, or too little contact.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     let mut state = SERVO.start();
     let mut walk = Walk::start();

@@ -17,7 +17,7 @@ const TICKS: u32 = 100_000;
 /// Newton steps to the start of the path.
 pub(super) const APPROACH: u32 = 20;
 
-/// What the figures are of.
+/// The name of the figures.
 const NAME: &str = if cfg!(feature = "folded") {
     "servo tick, folded back"
 } else if cfg!(feature = "protected") {
@@ -33,13 +33,13 @@ fn tick(state: &mut State, input: Input<3>) {
     SERVO.tick(state, input);
 }
 
-/// The joints of a device that goes where it is told.
+/// The joints of a device that follows a path exactly.
 pub(super) struct Walk {
     angles: [f32; 3],
 }
 
 impl Walk {
-    /// Where the encoders begin.
+    /// At the encoders' zero.
     pub(super) fn start() -> Self {
         Self { angles: DEVICE.encoders.map(|encoder| encoder.angle_at_zero_rad) }
     }
@@ -64,14 +64,14 @@ impl Walk {
     }
 }
 
-/// How far knocks have turned the joints of a device that otherwise goes where it is told, rad.
+/// How far polarity pulses have turned the joints of a device that otherwise follows its path, rad.
 #[cfg(feature = "folded")]
 struct GivesWay([f32; 3]);
 
 #[cfg(feature = "folded")]
 impl GivesWay {
-    /// A knock goes on for 31 ticks, in which a joint alone comes 0.4 mm at the probe, two milliradians. None knocks,
-    /// or gives way, once all were seen.
+    /// A polarity pulse lasts 31 ticks, in which a joint alone comes 0.4 mm at the probe, two milliradians. There is
+    /// no pulse, and no joint gives way, once all joints were seen.
     fn counts(&mut self, state: &State, mut counts: [Counts; 3]) -> [Counts; 3] {
         let is_on_trial = state.guard().joints_seen() != [true; 3];
         for joint in 0..3 {

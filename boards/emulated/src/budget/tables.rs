@@ -1,4 +1,5 @@
-//! What is measured whatever the image's own body is: a patch of several spans, and a body of flat and curved faces.
+//! The bodies that are measured, whatever the image's own body: a patch of several spans, and a body of flat and curved
+//! faces.
 
 /// A biquadratic patch of three by three spans.
 pub mod table1c {

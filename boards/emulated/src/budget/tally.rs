@@ -44,7 +44,7 @@ impl Tally {
         0
     }
 
-    /// The same for one part of what is named.
+    /// The same for one part of a figure.
     pub fn print_as(&self, of: &str, part: &str) {
         if self.total > 0 {
             println!("\"{of}, {part}, median\" = {}", self.median());

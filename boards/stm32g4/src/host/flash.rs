@@ -7,7 +7,7 @@ use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashEr
 use stm32g4xx_hal::stm32::FLASH;
 use stm32g4xx_hal::stm32::flash::RegisterBlock;
 
-/// Where the second of two banks begins.
+/// The start of the second of two banks.
 pub const START: usize = 0x0804_0000;
 /// Its bytes for a body: all but the last page, which is for a calibration.
 pub const BODY_BYTES: usize = 256 * 1024 - PAGE;
@@ -15,7 +15,7 @@ pub const BODY_BYTES: usize = 256 * 1024 - PAGE;
 const PAGE: usize = 2_048;
 const DOUBLE_WORD: usize = 8;
 
-/// What opens the control register.
+/// The keys that open the control register.
 const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 /// Every flag of the status register that says what became of the last operation; written, it is cleared.
 const FLAGS: u32 = 0xC3FB;
@@ -60,7 +60,7 @@ impl Bank2 {
         if is_done { Ok(()) } else { Err(OTHER) }
     }
 
-    /// What became of an operation.
+    /// The outcome of an operation.
     fn outcome() -> Result<(), Refused> {
         Self::wait()?;
         if Self::registers().sr().read().bits() & ERRORS == 0 { Ok(()) } else { Err(OTHER) }
@@ -117,13 +117,13 @@ impl Bank2 {
     }
 }
 
-/// Whether something begins and ends where it may.
-fn check(offset: usize, bytes: usize, size: usize, room: usize) -> Result<(), Refused> {
+/// Whether a range starts and ends on a boundary, within the bank.
+fn check(offset: usize, bytes: usize, size: usize, capacity: usize) -> Result<(), Refused> {
     if !offset.is_multiple_of(size) || !bytes.is_multiple_of(size) {
         return Err(Refused(NorFlashErrorKind::NotAligned));
     }
     match offset.checked_add(bytes) {
-        Some(end) if end <= room => Ok(()),
+        Some(end) if end <= capacity => Ok(()),
         _ => Err(Refused(NorFlashErrorKind::OutOfBounds)),
     }
 }

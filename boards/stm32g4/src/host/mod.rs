@@ -35,7 +35,7 @@ static STORE: Store = Kept::new(unsafe { Region::new(START as *const u32, BODY_B
 static SLOT: Slot<Store> = Slot::exchangeable(tables::SURFACE, &STORE);
 static SCENE: OneSlot<Store> = one_slot(&SLOT, &DEVICE, &SETTINGS);
 
-/// What is refused does not compile.
+/// A configuration that is refused does not compile.
 const SERVO: ArmServo<OneSlot<Store>> = arm_servo(&DEVICE, &SCENE, SETTINGS, PROTECTION);
 
 /// The servo on the device as commissioning found it: in RAM, made at each start.
@@ -95,7 +95,7 @@ fn kept(flash: FLASH) -> Option<Found<SerialArm, 3>> {
     let (kept, found) = if is_damaged { kept.damaged() } else { (kept, found) };
     CALIBRATION.give(kept);
     let (end, is_damaged) = watched(|| STORE.main(bodies, &mut || ()));
-    // What was found wrong is said by what is kept: nothing. What cannot be erased is not looked at again.
+    // A damaged body is reported as none. One that cannot be erased is not looked at again.
     if let Some((end, _)) = end
         && (!is_damaged || end.put(&Upload::Begin { bytes: 0 }, &mut || ()).is_ok())
     {

@@ -14,7 +14,7 @@ mod cogging {
 pub static DEVICE: Device<Dial, 1> = device(cogging::COGGING);
 static SERVO: KnobServo = servo(&DEVICE, SEARCH, PROTECTION);
 
-/// What the loop feels.
+/// The servo that the loop runs.
 pub struct This;
 
 impl Felt<1> for This {

@@ -1,5 +1,5 @@
 //! A knob on a Nucleo-G474RE: a SimpleFOCShield with a gimbal motor, a magnetic sensor behind it, a button that asks
-//! for force and one that chooses what is felt.
+//! for force and one that chooses the feel.
 //!
 //! The loop is that of every board (`boards/src`), in the interrupt of TIM7; here are this one's
 //! pins. `docs/howto/knob.md` has the wiring; `palpate_bench::knob` is the file to change first.
@@ -20,7 +20,7 @@ use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Cycles, Shared};
 use palpate_bench::knob::{FROZEN, JOG, SETTINGS, SUPPLY};
-use palpate_bench::sensors::{Angles, Watched, greatest_step};
+use palpate_bench::sensors::{Angles, Watched, max_step};
 use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Memo, Parts, Settings};
 use palpate_stm32g4::{CLOCK, Iwdg, MEMO, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
@@ -74,7 +74,7 @@ fn main() -> ! {
     let bus = (a.pa5.into_alternate(), a.pa6.into_alternate(), a.pa7.into_alternate());
     // The next divider that there is makes 5.3 MHz; of 8 MHz the HAL would make 10.6, and the sensor takes 10.
     let bus = chip.SPI1.spi(bus, MODE_1, 5.MHz(), &mut rcc);
-    let step = greatest_step(&DEVICE.encoders[0], DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames);
+    let step = max_step(&DEVICE.encoders[0], DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames);
     let mut sensor = Angles::new(bus, [select], CycleDelay::new(cycles, CLOCK), [step]);
     // If it does not start the loop says so, tick by tick.
     let _ = sensor.start();
