@@ -105,7 +105,7 @@ class Nucleo(Stm32g4):
 
     def memo(self) -> tuple[int, ...]:
         """The memo of the cause, in memory that a reset leaves alone."""
-        return struct.unpack("<2I", self.machine.memory(self.machine.image.symbol("4chip4MEMO"), 8))
+        return struct.unpack("<2I", self.machine.memory(self.machine.image.symbol("stm32g44MEMO"), 8))
 
     def tick_is_due(self) -> bool:
         """TIM7 has come round: UIF goes up if it counts, and asks for its interrupt ("TIMx_DIER")."""
