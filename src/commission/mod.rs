@@ -5,7 +5,7 @@
 //! while all of this holds, and otherwise has no current in the same tick:
 //!
 //! - [`Jog`] frames with [`KEY`] in them keep coming, each with a higher number than the one before, and the last one
-//!   not longer ago than [`JogLimits::patience`];
+//!   not longer ago than [`JogLimits::patience_s`];
 //! - the enable input of the device is held;
 //! - every sensor answers, and nothing moves faster or further than its limit.
 //!

@@ -9,8 +9,8 @@ pub struct Counts(pub i32);
 ///
 /// A counter that reads `n` says that line `n` was passed and line `n + 1` not yet: the joint is anywhere between the
 /// two, and least wrong on average in the middle. Read at the line itself, every angle would lean half a count the same
-/// way, and a spring with it: 2 % of the force of a wall pressed in by 1.3 mm on a Falcon. So [`Self::angle_at_zero`]
-/// is the middle of count zero, which costs the tick nothing.
+/// way, and a spring with it: 2 % of the force of a wall pressed in by 1.3 mm on a Falcon. So
+/// [`Self::angle_at_zero_rad`] is the middle of count zero, which costs the tick nothing.
 ///
 /// Where the counter was set to zero by hand in some pose, and not at a line, the pose itself is anywhere in count
 /// zero: an offset of up to half a count stays, which only homing on a mark or a stop finds.

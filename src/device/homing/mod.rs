@@ -145,8 +145,8 @@ impl<const JOINTS: usize> Homing<JOINTS> {
     }
 
     /// The same with encoders that were measured. Of a pose or a mark that the counters know nothing of, their
-    /// [`Encoder::angle_at_zero`] is the joint's angle there; of a known pose, whose counts are known, it is that at
-    /// count zero, and the pose's angles follow from it. Stops stay where they are.
+    /// [`Encoder::angle_at_zero_rad`] is the joint's angle there; of a known pose, whose counts are known, it is that
+    /// at count zero, and the pose's angles follow from it. Stops stay where they are.
     pub(crate) fn of_encoders(self, encoders: [Encoder; JOINTS]) -> Self {
         let mut homing = Self { encoders, ..self };
         match &mut homing.reference {
@@ -163,8 +163,7 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         homing
     }
 
-    /// What the encoders' [`Encoder::angle_at_zero`] has to be the angle at; `None` where it is found out anew each
-    /// time.
+    /// The place whose angle is the encoders' [`Encoder::angle_at_zero_rad`]; `None` if homing finds it each time.
     pub const fn zero_of(&self) -> Option<ZeroOf> {
         match &self.reference {
             Reference::Pose(_) => Some(ZeroOf::Pose),

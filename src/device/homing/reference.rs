@@ -28,8 +28,8 @@ pub enum Reference<const JOINTS: usize> {
     Fields([FieldSearch; JOINTS]),
 }
 
-/// What an encoder's [`angle_at_zero`](crate::device::Encoder::angle_at_zero) is the joint's angle at: a number that
-/// was measured for one of them says nothing of another.
+/// The place where a joint's angle is its encoder's [`angle_at_zero_rad`](crate::device::Encoder::angle_at_zero_rad):
+/// a number measured for one of them is not valid for another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
