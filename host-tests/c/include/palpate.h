@@ -573,7 +573,8 @@ typedef struct palpate_state {
 } palpate_state;
 
 /**
- * Starts a loop. The image holds the loops of all mechanisms, protected or not: which one runs is chosen at run time.
+ * Starts a loop. The library holds the loops of all mechanisms, protected or not, unless it was built with fewer of its
+ * features (`--no-default-features --features serial-arm`); one that it does not hold is #PALPATE_OUT_OF_RANGE.
  *
  * @param servo       where it goes
  * @param servo_bytes `sizeof` it

@@ -32,10 +32,15 @@ pub unsafe extern "C" fn palpate_servo_start(
         // SAFETY: every member of the union is floats alone; and the caller's memory, numbers and body.
         unsafe {
             match mechanism.kind {
+                #[cfg(feature = "serial-arm")]
                 1 => begin_any::<_, 3>(servo, servo_bytes, &mechanism.of.serial_arm, parts),
+                #[cfg(feature = "delta")]
                 2 => begin_any::<_, 3>(servo, servo_bytes, &mechanism.of.delta, parts),
+                #[cfg(feature = "linkage-arm")]
                 3 => begin_any::<_, 3>(servo, servo_bytes, &mechanism.of.linkage_arm, parts),
+                #[cfg(feature = "five-bar")]
                 4 => begin_any::<_, 2>(servo, servo_bytes, &mechanism.of.five_bar, parts),
+                #[cfg(feature = "paddle")]
                 5 => begin_any::<_, 1>(servo, servo_bytes, &mechanism.of.paddle, parts),
                 _ => Err(Status::OutOfRange),
             }
@@ -61,8 +66,14 @@ where
         // SAFETY: by the caller's promise.
         return unsafe { begin::<_, JOINTS, _>(servo, servo_bytes, mechanism, parts) };
     }
+    #[cfg(not(feature = "protection"))]
+    return Err(Status::OutOfRange);
     // SAFETY: the caller's numbers.
+    #[cfg(feature = "protection")]
     let guarding = unsafe { get(guarding) }?;
     // SAFETY: by the caller's promise.
-    unsafe { begin::<_, JOINTS, _>(servo, servo_bytes, mechanism, Parts { device, body, settings, guarding, reset }) }
+    #[cfg(feature = "protection")]
+    unsafe {
+        begin::<_, JOINTS, _>(servo, servo_bytes, mechanism, Parts { device, body, settings, guarding, reset })
+    }
 }
