@@ -6,8 +6,7 @@ use palpate::device::{Counts, Duty, SerialArm};
 use palpate::math::vec3;
 use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
 use palpate::render::Friction;
-use palpate::servo::{Event, Input, Phase, Rendering, SafeOutput, Safety, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Input, Output, Phase, Rendering, SafeOutput, Safety, Servo, Settings, State};
 
 /// A shallow bowl, 10 cm square: z = 2 (x² + y²) in metres. `cargo palpate bake` writes such tables from your model.
 static BOWL: [[f32; 3]; 9] = [
@@ -33,42 +32,43 @@ static PATCH: SplinePatch = SplineTable {
 }
 .checked();
 
-/// All of it is checked when it is compiled, and lies in flash.
-static SERVO: Servo<'static, SplinePatch, SerialArm, 3> = Servo::new(
+/// The loop's type, named once.
+type App = Servo<'static, SplinePatch<'static>, SerialArm, 3>;
+
+/// Checked at compile time; in flash.
+static SERVO: App = Servo::new(
     &DEVICE,
     &PATCH,
-    Controller::SECOND_ORDER,
-    Settings {
-        rate_hz: 4_000.0,
-        stiffness_n_per_m: 800.0,
-        damping_n_s_per_m: 2.0,
-        max_force_n: 4.0,
-        velocity_corner_hz: 200.0,
-        soft_start_s: 0.2,
-        body_origin_m: vec3(0.0, 0.0, 0.0),
+    Config {
+        settings: Settings {
+            rate_hz: 4_000.0,
+            stiffness_n_per_m: 800.0,
+            damping_n_s_per_m: 2.0,
+            max_force_n: 4.0,
+            velocity_corner_hz: 200.0,
+            soft_start_s: 0.2,
+            body_origin_m: vec3(0.0, 0.0, 0.0),
+        },
+        rendering: Rendering { friction: Some(FRICTION), ..Rendering::PLAIN },
+        safety: Safety { output: SafeOutput::Damping(2.0), ..Safety::DEFAULT },
+        ..Config::DEFAULT
     },
-)
-.rendering(Rendering {
-    friction: Some(Friction {
-        stiffness_n_per_m: 500.0,
-        damping_n_s_per_m: 1.0,
-        static_coefficient: 0.4,
-        dynamic_coefficient: 0.3,
-    }),
-    ..Rendering::PLAIN
-})
-.safety(Safety { output: SafeOutput::Damping(2.0), ..Safety::DEFAULT });
+);
+const FRICTION: Friction =
+    Friction { stiffness_n_per_m: 500.0, damping_n_s_per_m: 1.0, static_coefficient: 0.4, dynamic_coefficient: 0.3 };
 
 fn main() {
-    let mut state = SERVO.start();
+    let mut state: State<App> = SERVO.start();
     let mut arm = Arm { counts: [0.0, -1_314.0, 3_300.0] };
     for tick in 0..6_000 {
-        // On a board: read the encoders, or say that they did not answer.
+        // On a board: read the encoders, or report that they did not answer.
         let counts = arm.counts.map(|count| Counts(count as i32));
         let input = if tick < 5_000 { Input::Sensors { counts, enable: true } } else { Input::Lost };
-        SERVO.tick(&mut state, input);
-        // On a board: write the duties to the PWM, and note what happened outside the tick.
-        arm.follow(state.duties());
+        // On a board: disable every stage, or write the duties to the PWM and enable them.
+        match SERVO.tick(&mut state, input) {
+            Output::Off => arm.release(),
+            Output::Drive(duties) => arm.drive(duties),
+        }
         if tick == 4_999 {
             SERVO.note(&mut state, Event::LinkAlive);
         }
@@ -83,11 +83,7 @@ fn main() {
         }
     }
     if let (Phase::Fault, Some((fault, tick))) = (state.phase(), state.fault()) {
-        println!(
-            "stopped: fault {}, {fault}, at tick {tick}; duties {:?}",
-            fault.code(),
-            state.duties().map(|duty| duty.0)
-        );
+        println!("stopped: fault {}, {fault}, at tick {tick}; {:?}", fault.code(), state.output());
     }
 }
 
@@ -97,8 +93,12 @@ struct Arm {
 }
 
 impl Arm {
-    fn follow(&mut self, _duties: [Duty; 3]) {
+    fn drive(&mut self, _duties: [Duty; 3]) {
         self.counts[0] += 0.02;
         self.counts[2] += if self.counts[2] < 3_520.0 { 0.1 } else { 0.0 };
+    }
+
+    fn release(&mut self) {
+        self.drive([Duty::ZERO; 3]);
     }
 }

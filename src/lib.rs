@@ -5,7 +5,7 @@ pub mod body;
 pub mod commission;
 pub mod device;
 pub mod math;
-mod order;
+mod message;
 pub mod patch;
 pub mod render;
 pub mod scene;

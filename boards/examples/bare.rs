@@ -12,8 +12,7 @@ use core::cell::Cell;
 use cortex_m::interrupt::{Mutex, free};
 use cortex_m::peripheral::NVIC;
 use palpate::device::SerialArm;
-use palpate::servo::{Output, Servo, ServoState, Surface};
-use palpate::track::Controller;
+use palpate::servo::{Config, Output, Servo, State};
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, interrupt};
 
 /// The tables of a body, baked when the program is built.
@@ -21,25 +20,26 @@ mod body {
     include!(env!("PALPATE_BODY_FILE"));
 }
 
+/// The loop's type, named once.
+type Loop = Servo<'static, body::Surface, SerialArm, 3>;
+
 /// In flash; settings beyond the device's limits are compile errors.
-static SERVO: Servo<'static, body::Surface, SerialArm, 3> =
-    Servo::new(&DEVICE, body::SURFACE, Controller::SECOND_ORDER, SETTINGS);
+static SERVO: Loop = Servo::new(&DEVICE, body::SURFACE, Config { settings: SETTINGS, ..Config::DEFAULT });
 
 /// On its way from main to the interrupt, which owns it from the first tick on.
 static BOARD: Mutex<Cell<Option<Board>>> = Mutex::new(Cell::new(None));
 
 #[interrupt]
 fn TIM7() {
-    static mut OWN: Option<(Board, ServoState<3, <body::Surface as Surface>::Witness>)> = None;
+    static mut OWN: Option<(Board, State<Loop>)> = None;
 
     if OWN.is_none() {
         *OWN = free(|section| BOARD.borrow(section).take()).map(|board| (board, SERVO.start()));
     }
     let Some((board, state)) = OWN else { return };
     board.acknowledge();
-    SERVO.tick(state, board.input());
     // `Off` disables the amplifiers. Zero duty would keep them enabled, and braking.
-    match state.output() {
+    match SERVO.tick(state, board.input()) {
         Output::Off => board.release(),
         Output::Drive(duties) => board.drive(duties),
     }

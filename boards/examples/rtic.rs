@@ -9,17 +9,18 @@ mod board;
 
 use board::{Board, DEVICE, SETTINGS};
 use palpate::device::SerialArm;
-use palpate::servo::{Output, Servo, ServoState, Surface};
-use palpate::track::Controller;
+use palpate::servo::{Config, Output, Servo, State};
 
 /// The tables of a body, baked when the program is built.
 mod body {
     include!(env!("PALPATE_BODY_FILE"));
 }
 
+/// The loop's type, named once.
+type Loop = Servo<'static, body::Surface, SerialArm, 3>;
+
 /// In flash; settings beyond the device's limits are compile errors.
-static SERVO: Servo<'static, body::Surface, SerialArm, 3> =
-    Servo::new(&DEVICE, body::SURFACE, Controller::SECOND_ORDER, SETTINGS);
+static SERVO: Loop = Servo::new(&DEVICE, body::SURFACE, Config { settings: SETTINGS, ..Config::DEFAULT });
 
 #[rtic::app(device = stm32g4xx_hal::stm32)]
 mod app {
@@ -31,7 +32,7 @@ mod app {
     #[local]
     struct Local {
         board: Board,
-        state: ServoState<3, <body::Surface as Surface>::Witness>,
+        state: State<Loop>,
     }
 
     #[init]
@@ -44,9 +45,8 @@ mod app {
     fn tick(context: tick::Context) {
         let tick::LocalResources { board, state, .. } = context.local;
         board.acknowledge();
-        SERVO.tick(state, board.input());
         // `Off` disables the amplifiers. Zero duty would keep them enabled, and braking.
-        match state.output() {
+        match SERVO.tick(state, board.input()) {
             Output::Off => board.release(),
             Output::Drive(duties) => board.drive(duties),
         }

@@ -2,9 +2,9 @@
 //! watches it; if a host commands the scene, set `Safety::link_timeout`.
 
 use palpate::device::{Device, Homing, Protection, Reference, SerialArm};
-use palpate::scene::{Limits, Material, Motion, Part, Scene, Shelf, Slot};
-use palpate::servo::{Guarded, Servo, Settings, Surface};
-use palpate::track::{Controller, Placement};
+use palpate::scene::{BodyStore, Limits, Material, Motion, Part, Scene, Slot};
+use palpate::servo::{Config, Guarded, Servo, Settings, Surface};
+use palpate::track::Placement;
 
 /// The servo of an arm on a surface.
 pub type ArmServo<S> = Servo<'static, S, SerialArm, 3, Guarded<3>>;
@@ -26,13 +26,16 @@ pub const fn arm_servo<S: Surface>(
     settings: Settings,
     protection: Protection<3>,
 ) -> ArmServo<S> {
-    Servo::new(device, surface, Controller::SECOND_ORDER, settings)
-        .protect(protection)
-        .homing(homing(device, settings.rate_hz))
+    Servo::protected(
+        device,
+        surface,
+        protection,
+        Config { settings, homing: Some(homing(device, settings.rate_hz)), ..Config::DEFAULT },
+    )
 }
 
 /// The scene of a slot: its body rests, with the loop's own stiffness and damping.
-pub const fn one_slot<S: Shelf>(
+pub const fn one_slot<S: BodyStore>(
     slot: &'static Slot<'static, S>,
     device: &Device<SerialArm, 3>,
     settings: &Settings,

@@ -8,6 +8,8 @@ use crate::set_up::SetUp;
 use crate::{Board, Hold, Interlock, Mailbox, Panel, Settings, Verdict};
 use palpate::commission::Wiring;
 use palpate::device::Kinematics;
+use palpate::math::Vec3;
+use palpate::scene::Commanded;
 use palpate::servo::{Deadline, Event, FrameBridge, Guard, Input, Output, ResetReason, Servo, ServoState, Surface};
 use palpate::wire::telemetry::{Producer, Recorder};
 use palpate::wire::{Answer, Record, Refused, View, hold};
@@ -18,7 +20,7 @@ use palpate::wire::{Answer, Record, Refused, View, hold};
 /// do not need.
 pub trait Felt<const JOINTS: usize> {
     /// The surface.
-    type Surface: Surface + 'static;
+    type Surface: Commanded + 'static;
     /// The mechanism of the device.
     type Mechanism: Kinematics<JOINTS> + 'static;
     /// The guard of motors and hand beyond the servo's own checks: on a real device, its protection. It measures no
@@ -152,7 +154,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         };
         let input = self.bridge.input(self.felt.servo(), &self.state, input, enable);
         let was_homed = self.state.homed();
-        self.felt.servo().tick(&mut self.state, input);
+        // Applied below, from the state: a hold of this board withholds it.
+        let _ = self.felt.servo().tick(&mut self.state, input);
         if !was_homed && self.state.homed() {
             // The press that asked for homing does not ask for force too.
             self.interlock.lock();
@@ -244,7 +247,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             let refused = if self.is_set_up {
                 Some(Refused::SetUp)
             } else {
-                self.felt.servo().obey(&mut self.state, &order).err().map(Refused::Order)
+                self.felt.servo().apply(&mut self.state, &order).err().map(Refused::Command)
             };
             self.mailbox.put_answer(Answer { number, refused });
         }
@@ -358,7 +361,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         self.board.show(is_lit(self.ticks, self.rate, drives, self.state.fault().is_some(), holds != 0));
         if self.mailbox.is_looked_at() {
             let (angles, rates) = (self.state.angles(), self.state.rates());
-            let velocity = self.felt.servo().device().kinematics.pose(angles).velocity(rates);
+            let pose = self.felt.servo().device().kinematics.pose(angles);
+            let velocity = pose.map_or(Vec3::ZERO, |pose| pose.velocity(rates));
             self.mailbox.tell_view(&View::new(&self.state, velocity, holds));
         }
         self.recorder.set_board(self.bridge.total(), holds);

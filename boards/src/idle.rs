@@ -8,7 +8,7 @@ use crate::{Calibrations, Mailbox, Uploads};
 use palpate::servo::Heartbeat;
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::telemetry::Consumer;
-use palpate::wire::{Answer, Command, Hello, PROTOCOL, Record, Refused, Told};
+use palpate::wire::{Answer, DeviceMessage, Hello, HostMessage, PROTOCOL, Record, Refused};
 
 /// A serial port that is never waited for.
 pub trait Port {
@@ -53,7 +53,7 @@ pub struct Idle<'a> {
     mailbox: &'a Mailbox,
     records: Consumer<'a, Record>,
     heartbeat: Heartbeat,
-    receiver: Receiver<Command>,
+    receiver: Receiver<HostMessage>,
     outbox: Outbox,
     taking: Taking<'a>,
     calibrating: Calibrating<'a>,
@@ -168,14 +168,14 @@ impl<'a> Idle<'a> {
         self.outbox.step(port);
     }
 
-    fn take(&mut self, command: Command, watchdog: &mut impl Watchdog) {
+    fn take(&mut self, command: HostMessage, watchdog: &mut impl Watchdog) {
         match command {
-            Command::Alive => self.mailbox.put(Plain::Alive),
-            Command::Stop => self.mailbox.put(Plain::Stop),
-            Command::Acknowledge => self.mailbox.put(Plain::Acknowledge),
-            Command::SetUp => self.mailbox.put(Plain::SetUp),
-            Command::Jog(jog) => self.mailbox.put_jog(jog),
-            Command::Hello { protocol } => {
+            HostMessage::Alive => self.mailbox.put(Plain::Alive),
+            HostMessage::Stop => self.mailbox.put(Plain::Stop),
+            HostMessage::Acknowledge => self.mailbox.put(Plain::Acknowledge),
+            HostMessage::SetUp => self.mailbox.put(Plain::SetUp),
+            HostMessage::Jog(jog) => self.mailbox.put_jog(jog),
+            HostMessage::Hello { protocol } => {
                 // Another host counts from the start.
                 (self.greets, self.is_greeted, self.last) = (true, protocol == PROTOCOL, None);
                 self.calibrating.forget_answer();
@@ -183,39 +183,41 @@ impl<'a> Idle<'a> {
                     self.mailbox.put(Plain::Alive);
                 }
             }
-            Command::Order { number, .. } | Command::Upload { number, .. } | Command::Calibrate { number, .. }
+            HostMessage::Command { number, .. }
+            | HostMessage::Upload { number, .. }
+            | HostMessage::Calibrate { number, .. }
                 if !self.is_greeted =>
             {
                 self.answer = Some(Answer { number, refused: Some(Refused::Hello) });
             }
-            Command::Order { number, .. } if self.awaits == Some(number) => {}
-            Command::Order { number, .. } if self.awaits.is_some() => {
+            HostMessage::Command { number, .. } if self.awaits == Some(number) => {}
+            HostMessage::Command { number, .. } if self.awaits.is_some() => {
                 self.answer = Some(Answer { number, refused: Some(Refused::Busy) });
             }
-            Command::Order { number, .. } if self.last.is_some_and(|last| last.number == number) => {
+            HostMessage::Command { number, .. } if self.last.is_some_and(|last| last.number == number) => {
                 self.answer = self.last;
             }
-            Command::Order { number, order } => {
+            HostMessage::Command { number, command } => {
                 self.mailbox.put(Plain::Alive);
-                self.mailbox.put_order(number, &order);
+                self.mailbox.put_order(number, &command);
                 self.awaits = Some(number);
             }
             // On its way, or done before: not again.
-            Command::Calibrate { .. } if self.calibrating.is_asked() => {}
-            Command::Calibrate { number, .. } if self.calibrating.answered(number).is_some() => {
+            HostMessage::Calibrate { .. } if self.calibrating.is_asked() => {}
+            HostMessage::Calibrate { number, .. } if self.calibrating.answered(number).is_some() => {
                 self.answer = self.calibrating.answered(number);
             }
-            Command::Calibrate { number, joints } => {
+            HostMessage::Calibrate { number, joints } => {
                 self.mailbox.put(Plain::Alive);
                 let answer = self.calibrating.take((number, joints), self.mailbox);
                 if answer.is_some() {
                     self.answer = answer;
                 }
             }
-            Command::Upload { number, .. } if self.calibrating.is_asked() => {
+            HostMessage::Upload { number, .. } if self.calibrating.is_asked() => {
                 self.answer = Some(Answer { number, refused: Some(Refused::Busy) });
             }
-            Command::Upload { number, part } => {
+            HostMessage::Upload { number, part } => {
                 self.mailbox.put(Plain::Alive);
                 let mut pause = || feed(&mut self.heartbeat, self.mailbox, watchdog);
                 let answer = self.taking.take(number, &part, self.mailbox, &mut pause);
@@ -229,35 +231,35 @@ impl<'a> Idle<'a> {
     }
 
     /// The next message: answers first, records in their order, then the newest reading or view.
-    fn next(&mut self) -> Option<Told> {
+    fn next(&mut self) -> Option<DeviceMessage> {
         if self.greets {
             (self.greets, self.tells_calibration) = (false, true);
             self.hello.kept = self.taking.kept();
-            return Some(Told::Hello(self.hello));
+            return Some(DeviceMessage::Hello(self.hello));
         }
         if self.tells_calibration {
             self.tells_calibration = false;
             if let Some(flash) = self.calibrating.flash {
-                return Some(Told::Calibrated(flash.in_use()));
+                return Some(DeviceMessage::Calibrated(flash.in_use()));
             }
         }
         if let Some(answer) = self.answer.take() {
-            return Some(Told::Answer(answer));
+            return Some(DeviceMessage::Answer(answer));
         }
         if let Some(record) = self.records.dequeue() {
-            return Some(Told::Record(record));
+            return Some(DeviceMessage::Record(record));
         }
         if let Some(marked) = self.mailbox.take_marked() {
-            return Some(Told::Marked(marked));
+            return Some(DeviceMessage::Marked(marked));
         }
         if let Some(reading) = self.mailbox.take_reading() {
-            return Some(Told::Reading(reading));
+            return Some(DeviceMessage::Reading(reading));
         }
         let view = self.mailbox.take_view();
         if self.is_greeted {
             self.mailbox.look();
         }
-        view.map(Told::View)
+        view.map(DeviceMessage::View)
     }
 }
 

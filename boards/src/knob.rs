@@ -8,8 +8,7 @@ use palpate::device::sensor::Frozen;
 use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Protection, Reference, SupplyRange};
 use palpate::math::Vec3;
 use palpate::render::{Detents, Ends, Feel, Spring, Wave};
-use palpate::servo::{GuardState, Guarded, Knob, KnobWitness, Output, Servo, ServoState, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, GuardState, Guarded, Knob, KnobWitness, Output, Servo, ServoState, Settings};
 use palpate::wire::Report;
 
 /// The loop of a knob.
@@ -122,7 +121,12 @@ pub const fn homing(search: FieldSearch) -> Homing<1> {
 pub const fn servo(device: &'static Device<Dial, 1>, search: FieldSearch, protection: Protection<1>) -> KnobServo {
     // It lives as long as the loop: a constant of its own.
     static KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, LET_GO);
-    Servo::new(device, &KNOB, Controller::SECOND_ORDER, SETTINGS).protect(protection).homing(homing(search))
+    Servo::protected(
+        device,
+        &KNOB,
+        protection,
+        Config { settings: SETTINGS, homing: Some(homing(search)), ..Config::DEFAULT },
+    )
 }
 
 /// The protection of a loop that knows its supply ([`SUPPLY`]).

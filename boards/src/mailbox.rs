@@ -4,7 +4,7 @@ use crate::letter::Letter;
 use crate::writing::Writing;
 use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::commission::Jog;
-use palpate::scene::Order;
+use palpate::scene::Command;
 use palpate::wire::{Answer, Marked, Reading, View};
 
 /// A `static` of the board: the ticks done, for the watchdog; the commands that came; what a device that is being set
@@ -77,11 +77,11 @@ impl Mailbox {
     }
 
     /// An order on its way to the tick, which answers it.
-    pub(crate) fn put_order(&self, number: u16, order: &Order) {
+    pub(crate) fn put_order(&self, number: u16, order: &Command) {
         self.order.put_message(&(number, order));
     }
 
-    pub(crate) fn take_order(&self) -> Option<(u16, Order)> {
+    pub(crate) fn take_order(&self) -> Option<(u16, Command)> {
         self.order.take_message()
     }
 

@@ -22,7 +22,7 @@ const ENCODER_WITHIN: f32 = 5.0;
 /// Motors may be stronger or weaker by this factor. More is another motor: a force would be as much too great.
 const TORQUE_WITHIN: f32 = 2.0;
 /// Dry friction may take this share of the torque that the device's greatest force loads a joint with, in the middle of
-/// the joints' ranges. The watch over signs ([`crate::device::SignWatch`]) knocks with a quarter of that force at most:
+/// the joints' ranges. The watch over signs ([`crate::device::PolarityCheck`]) knocks with a quarter of that force at most:
 /// half of a knock is left to move the joint. One that sticks more would never be seen to follow its motor, and no
 /// force would ever come, nor a fault.
 pub(crate) const FRICTION_WITHIN: f32 = 0.125;
@@ -193,7 +193,7 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Device<K, JOINTS> {
     /// what the greatest force loads the joint with, or one that the motor does not overcome.
     pub fn calibrated(&self, found: &Calibration<JOINTS>) -> Result<Self, CalibrationError> {
         found.wiring()?;
-        let loads = self.greatest_loads();
+        let loads = self.max_loads();
         let mut device = *self;
         for (index, joint) in found.0.iter().enumerate() {
             let JointCalibration {
@@ -230,12 +230,14 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Device<K, JOINTS> {
         Ok(device)
     }
 
-    /// The torques that the greatest force can load each joint with in the middle of the joints' ranges, N·m; `None`
+    /// The torques that the maximum force can load each joint with in the middle of the joints' ranges, N·m; `None`
     /// where the mechanism is not in its workspace there.
-    fn greatest_loads(&self) -> [Option<f32>; JOINTS] {
-        let pose = self.kinematics.pose(self.joint_range_rad.map(|[least, most]| 0.5 * (least + most)));
-        let is_within = pose.singularity_margin() >= self.min_margin_m_per_rad;
-        pose.jacobian.map(|column| is_within.then(|| self.max_force_n * column.length()))
+    fn max_loads(&self) -> [Option<f32>; JOINTS] {
+        let pose = self.kinematics.pose(self.joint_range_rad.map(|[low, high]| 0.5 * (low + high)));
+        match pose.filter(|pose| pose.singularity_margin() >= self.min_margin_m_per_rad) {
+            Some(pose) => pose.jacobian.map(|column| Some(self.max_force_n * column.length())),
+            None => [None; JOINTS],
+        }
     }
 }
 

@@ -131,17 +131,15 @@ impl Delta {
 
 impl Kinematics<3> for Delta {
     #[inline]
-    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
-        self.held_pose(angles).0
+    fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
+        self.held_pose(angles).map(|(pose, _)| pose)
     }
 
     #[inline]
-    fn held_pose(&self, [a, b, c]: [f32; 3]) -> (ProbePose<3>, [f32; 3]) {
+    fn held_pose(&self, [a, b, c]: [f32; 3]) -> Option<(ProbePose<3>, [f32; 3])> {
         let [to_a, to_b, to_c] = self.directions;
         let legs = [self.leg(to_a, a), self.leg(to_b, b), self.leg(to_c, c)];
-        let Some(mut probe) = self.meet(legs.map(|leg| leg.knee)) else {
-            return (ProbePose::UNREACHABLE, [0.0; 3]);
-        };
+        let mut probe = self.meet(legs.map(|leg| leg.knee))?;
         for _ in 0..REFINEMENTS {
             let [a, b, c] = legs.map(|leg| self.gap(&leg, probe));
             let (bc, ca, ab) = (b.shin.cross(c.shin), c.shin.cross(a.shin), a.shin.cross(b.shin));
@@ -151,7 +149,7 @@ impl Kinematics<3> for Delta {
         let (bc, ca, ab) = (b.shin.cross(c.shin), c.shin.cross(a.shin), a.shin.cross(b.shin));
         let volume = a.shin.dot(bc);
         if !probe.is_finite() || volume == 0.0 {
-            return (ProbePose::UNREACHABLE, [0.0; 3]);
+            return None;
         }
         let pose = ProbePose {
             position: probe - self.workspace_centre_m,
@@ -162,6 +160,6 @@ impl Kinematics<3> for Delta {
             // A thigh's centre is lifted as its knee is.
             *torque += GRAVITY * self.thigh_moment_kg_m * (leg.turn.dot(self.up) / self.thigh_m);
         }
-        (pose, torques)
+        Some((pose, torques))
     }
 }

@@ -17,16 +17,16 @@ pub struct Dial {
 
 impl Kinematics<1> for Dial {
     #[inline]
-    fn pose(&self, [angle]: [f32; 1]) -> ProbePose<1> {
-        ProbePose { position: vec3(self.radius_m * angle, 0.0, 0.0), jacobian: [vec3(self.radius_m, 0.0, 0.0)] }
+    fn pose(&self, [angle]: [f32; 1]) -> Option<ProbePose<1>> {
+        Some(ProbePose { position: vec3(self.radius_m * angle, 0.0, 0.0), jacobian: [vec3(self.radius_m, 0.0, 0.0)] })
     }
 
     #[inline]
-    fn held_pose(&self, [angle]: [f32; 1]) -> (ProbePose<1>, [f32; 1]) {
+    fn held_pose(&self, [angle]: [f32; 1]) -> Option<(ProbePose<1>, [f32; 1])> {
         let torque = match &self.cogging {
             Some(map) => map.torque(angle),
             None => 0.0,
         };
-        (self.pose([angle]), [torque])
+        Some((self.pose([angle])?, [torque]))
     }
 }

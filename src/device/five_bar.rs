@@ -97,12 +97,10 @@ impl FiveBar {
 
 impl Kinematics<2> for FiveBar {
     #[inline]
-    fn pose(&self, angles: [f32; 2]) -> ProbePose<2> {
-        let Some(closed) = self.close(angles) else {
-            return ProbePose::UNREACHABLE;
-        };
+    fn pose(&self, angles: [f32; 2]) -> Option<ProbePose<2>> {
+        let closed = self.close(angles)?;
         let tool = self.tool(&closed);
         let flat = |v: Vec2| Vec3::new(v.x, v.y, 0.0);
-        ProbePose { position: flat(tool.place - self.workspace_centre_m), jacobian: tool.motion.map(flat) }
+        Some(ProbePose { position: flat(tool.place - self.workspace_centre_m), jacobian: tool.motion.map(flat) })
     }
 }

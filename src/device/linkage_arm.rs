@@ -78,15 +78,13 @@ impl LinkageArm {
 
 impl Kinematics<3> for LinkageArm {
     #[inline]
-    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
-        self.held_pose(angles).0
+    fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
+        self.held_pose(angles).map(|(pose, _)| pose)
     }
 
     #[inline]
-    fn held_pose(&self, [a, b, c]: [f32; 3]) -> (ProbePose<3>, [f32; 3]) {
-        let Some(closed) = self.linkage.close([b, c]) else {
-            return (ProbePose::UNREACHABLE, [0.0; 3]);
-        };
+    fn held_pose(&self, [a, b, c]: [f32; 3]) -> Option<(ProbePose<3>, [f32; 3])> {
+        let closed = self.linkage.close([b, c])?;
         let tool = self.linkage.tool(&closed);
         let (sin_a, cos_a) = sin_cos(a);
         let reach = self.pivot_reach_m + tool.place.x;
@@ -97,6 +95,6 @@ impl Kinematics<3> for LinkageArm {
             jacobian: [vec3(-reach * sin_a, reach * cos_a, 0.0), stand(motion_b), stand(motion_c)],
         };
         let [first, second] = self.weight(&closed);
-        (pose, [0.0, first, second])
+        Some((pose, [0.0, first, second]))
     }
 }

@@ -37,7 +37,7 @@ pub use linkage_arm::{LinkMass, LinkageArm};
 pub use motor::{Duty, Motor};
 pub use paddle::Paddle;
 pub use pose::ProbePose;
-pub use protection::{Endurance, Protection, SignWatch, SupplyRange};
+pub use protection::{Endurance, PolarityCheck, Protection, SupplyRange};
 pub use serial_arm::SerialArm;
 pub use velocity::{BetweenCounts, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState};
 
@@ -50,20 +50,19 @@ pub const GRAVITY: f32 = 9.81;
 ///
 /// The device's frame is each mechanism's own; its documentation says where the axes point.
 pub trait Kinematics<const JOINTS: usize> {
-    /// Probe position and Jacobian at these joint angles, radians. [`ProbePose::UNREACHABLE`], all NaN, where the
-    /// mechanism cannot be closed.
-    fn pose(&self, angles: [f32; JOINTS]) -> ProbePose<JOINTS>;
+    /// Probe position and Jacobian at these joint angles, radians; `None` where the mechanism cannot be closed.
+    fn pose(&self, angles: [f32; JOINTS]) -> Option<ProbePose<JOINTS>>;
 
-    /// The pose, and with it the joint torques, N·m, that carry the weight of the links: together, for they share sines
-    /// and cosines. Zero where the masses are not known or do not load the joints.
+    /// The pose, and the joint torques of gravity compensation, N·m: together, for they share sines and cosines. Zero
+    /// where the masses are not known or do not load the joints.
     #[inline]
-    fn held_pose(&self, angles: [f32; JOINTS]) -> (ProbePose<JOINTS>, [f32; JOINTS]) {
-        (self.pose(angles), [0.0; JOINTS])
+    fn held_pose(&self, angles: [f32; JOINTS]) -> Option<(ProbePose<JOINTS>, [f32; JOINTS])> {
+        self.pose(angles).map(|pose| (pose, [0.0; JOINTS]))
     }
 
-    /// The joint torques alone that carry the weight of the links, N·m.
+    /// The joint torques of gravity compensation alone, N·m; zero where there is no pose.
     fn holding_torques(&self, angles: [f32; JOINTS]) -> [f32; JOINTS] {
-        self.held_pose(angles).1
+        self.held_pose(angles).map_or([0.0; JOINTS], |(_, torques)| torques)
     }
 }
 
@@ -119,7 +118,7 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     pub fn in_workspace(&self, angles: [f32; JOINTS]) -> bool {
         let in_range = |(angle, [least, most]): (&f32, &[f32; 2])| least <= angle && angle <= most;
         angles.iter().zip(&self.joint_range_rad).all(in_range)
-            && self.kinematics.pose(angles).singularity_margin() >= self.min_margin_m_per_rad
+            && self.kinematics.pose(angles).is_some_and(|pose| pose.singularity_margin() >= self.min_margin_m_per_rad)
     }
 
     /// How far the nearest joint is from the end of its range, radians, below 0 beyond it; no more than the width of
@@ -142,7 +141,7 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     /// of the last 0.05 rad of a joint's range or of the last quarter of the least margin over a singularity, whichever
     /// is less. A force times this lets go smoothly at the rim, and keeps its direction.
     #[inline]
-    pub fn room(&self, to_stop: f32, pose: &ProbePose<JOINTS>) -> f32 {
+    pub fn workspace_margin(&self, to_stop: f32, pose: &ProbePose<JOINTS>) -> f32 {
         let over = pose.margin() - self.min_margin_m_per_rad;
         let width = MARGIN_RIM * self.min_margin_m_per_rad;
         if to_stop >= RIM && over >= width {

@@ -18,15 +18,15 @@ pub struct Paddle {
 
 impl Kinematics<1> for Paddle {
     #[inline]
-    fn pose(&self, [angle]: [f32; 1]) -> ProbePose<1> {
-        ProbePose { position: vec3(self.handle_m * angle, 0.0, 0.0), jacobian: [vec3(self.handle_m, 0.0, 0.0)] }
+    fn pose(&self, [angle]: [f32; 1]) -> Option<ProbePose<1>> {
+        Some(ProbePose { position: vec3(self.handle_m * angle, 0.0, 0.0), jacobian: [vec3(self.handle_m, 0.0, 0.0)] })
     }
 
     #[inline]
-    fn held_pose(&self, [angle]: [f32; 1]) -> (ProbePose<1>, [f32; 1]) {
+    fn held_pose(&self, [angle]: [f32; 1]) -> Option<(ProbePose<1>, [f32; 1])> {
         // The weight tips the paddle over; the torque that holds it goes the other way.
         let torque =
             if self.mass_moment_kg_m == 0.0 { 0.0 } else { -GRAVITY * self.mass_moment_kg_m * sin_cos(angle).0 };
-        (self.pose([angle]), [torque])
+        Some((self.pose([angle])?, [torque]))
     }
 }

@@ -12,14 +12,6 @@ pub struct ProbePose<const JOINTS: usize> {
 }
 
 impl<const JOINTS: usize> ProbePose<JOINTS> {
-    /// What a mechanism that cannot be closed answers: NaN throughout, the same bits on every machine.
-    pub const UNREACHABLE: Self = Self { position: Vec3::NAN, jacobian: [Vec3::NAN; JOINTS] };
-
-    /// Whether this is a pose at all; false for [`Self::UNREACHABLE`].
-    pub fn is_reachable(&self) -> bool {
-        !(self.position.x.is_nan() && self.position.y.is_nan() && self.position.z.is_nan())
-    }
-
     /// The probe's velocity, m/s, from the joint rates, rad/s.
     pub fn velocity(&self, joint_rates: [f32; JOINTS]) -> Vec3 {
         self.jacobian.iter().zip(joint_rates).fold(Vec3::ZERO, |sum, (column, rate)| sum + *column * rate)
@@ -119,7 +111,7 @@ mod tests {
     fn a_singular_or_impossible_pose_has_no_margin() {
         let (x, y) = (vec3(0.1, 0.0, 0.0), vec3(0.0, 0.1, 0.0));
         assert_eq!([margin([x, y, x + y]), margin([x, -x]), margin([Vec3::ZERO; 3])], [0.0; 3]);
-        assert_eq!(ProbePose::<2>::UNREACHABLE.singularity_margin(), 0.0);
+        assert_eq!(margin([Vec3::NAN; 2]), 0.0);
     }
 
     #[test]

@@ -57,7 +57,7 @@ impl SupplyRange {
 
 /// When an encoder counts as mounted against its motor; see `servo/guard/sign.rs` for what is watched.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SignWatch<const JOINTS: usize> {
+pub struct PolarityCheck<const JOINTS: usize> {
     /// What turns with each joint, kg·m², about as much as at the middle of the workspace: drum, links and rotor seen
     /// through its transmission.
     pub inertia_kg_m2: [f32; JOINTS],
@@ -75,5 +75,5 @@ pub struct Protection<const JOINTS: usize> {
     /// The supply's range; `None` where no voltage is measured.
     pub supply: Option<SupplyRange>,
     /// The watch over encoders that count against their motors; `None` where the inertias are not known.
-    pub polarity: Option<SignWatch<JOINTS>>,
+    pub polarity: Option<PolarityCheck<JOINTS>>,
 }

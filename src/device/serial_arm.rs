@@ -29,29 +29,29 @@ pub struct SerialArm {
 
 impl Kinematics<3> for SerialArm {
     #[inline]
-    fn pose(&self, [a, b, c]: [f32; 3]) -> ProbePose<3> {
+    fn pose(&self, [a, b, c]: [f32; 3]) -> Option<ProbePose<3>> {
         let ((sin_a, cos_a), (sin_b, cos_b), (sin_c, cos_c)) = (sin_cos(a), sin_cos(b), sin_cos(c));
         let (first, second) = (self.first_link_m, self.second_link_m);
         let reach = first * sin_b + second * cos_c;
         let height = self.base_height_m + first * cos_b - second * sin_c;
         // How reach grows with b and with c.
         let (reach_b, reach_c) = (first * cos_b, -second * sin_c);
-        ProbePose {
+        Some(ProbePose {
             position: vec3(reach * cos_a, reach * sin_a, height) - self.workspace_centre_m,
             jacobian: [
                 vec3(-reach * sin_a, reach * cos_a, 0.0),
                 vec3(reach_b * cos_a, reach_b * sin_a, -first * sin_b),
                 vec3(reach_c * cos_a, reach_c * sin_a, -second * cos_c),
             ],
-        }
+        })
     }
 
     #[inline]
-    fn held_pose(&self, angles: [f32; 3]) -> (ProbePose<3>, [f32; 3]) {
-        let pose = self.pose(angles);
+    fn held_pose(&self, angles: [f32; 3]) -> Option<(ProbePose<3>, [f32; 3])> {
+        let pose = self.pose(angles)?;
         // A mass at the end of a link is lifted as that end is: by the Jacobian's z.
         let [_, first, second] = pose.jacobian;
         let [first_mass, second_mass] = self.end_masses_kg;
-        (pose, [0.0, GRAVITY * first_mass * first.z, GRAVITY * second_mass * second.z])
+        Some((pose, [0.0, GRAVITY * first_mass * first.z, GRAVITY * second_mass * second.z]))
     }
 }

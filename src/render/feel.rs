@@ -3,7 +3,6 @@
 use super::Detents;
 use crate::math::{saturate, sin_cos};
 use core::f32::consts::TAU;
-use thiserror::Error;
 
 /// A torque that comes again with every pitch: `−T sin(2π (θ − centre)/pitch)`. A coarse one is detents, a fine one a
 /// texture. It comes from a potential: turned there and back it gives back what it took.
@@ -57,28 +56,41 @@ pub struct Feel {
 }
 
 /// Which part of a feel is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum FeelError {
     /// A pitch that is not positive, or a number that is not finite.
-    #[error("detents need a positive pitch, and a torque that is finite and not negative")]
     Detents,
     /// See [`super::DetentsError`].
-    #[error("clicks need a positive pitch, finite forces, and detents in order")]
     Clicks,
     /// As detents.
-    #[error("a texture needs a positive pitch, and a torque that is finite and not negative")]
     Texture,
     /// A number that is negative or not finite.
-    #[error("a spring needs a finite rest, a stiffness and a maximum torque that are finite and not negative")]
     Spring,
     /// Ends that are not in order, or a number that is negative or not finite.
-    #[error("end stops must be in order, with a stiffness and a damping that are finite and not negative")]
     Ends,
     /// A damping that is negative or not finite.
-    #[error("the damping must be finite and not negative")]
     Damping,
 }
+
+impl FeelError {
+    /// The same as `Display`, for a panic at compile time.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Detents => "detents need a positive pitch, and a torque that is finite and not negative",
+            Self::Clicks => "clicks need a positive pitch, finite forces, and detents in order",
+            Self::Texture => "a texture needs a positive pitch, and a torque that is finite and not negative",
+            Self::Spring => {
+                "a spring needs a finite rest, a stiffness and a maximum torque that are finite and not negative"
+            }
+            Self::Ends => "end stops must be in order, with a stiffness and a damping that are finite and not negative",
+            Self::Damping => "the damping must be finite and not negative",
+        }
+    }
+}
+
+crate::message::display!(FeelError);
 
 /// Whether `0 ≤ x < ∞`; false for NaN.
 const fn is_size(x: f32) -> bool {

@@ -24,7 +24,7 @@ pub use feel::{Ends, Feel, FeelError, Spring, Wave};
 pub use friction::{Anchor, Friction};
 pub use knob::{Detents, DetentsError};
 pub use material::Material;
-pub use passivity::{Energy, Motion, Passivity};
+pub use passivity::{Energy, Moved, Passivity};
 pub use penalty::Penalty;
 pub use press::Press;
 pub use texture::{Texture, Touch, grating};

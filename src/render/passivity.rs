@@ -49,7 +49,7 @@ impl Energy {
 
 /// How the probe moves, as control sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
+pub struct Moved {
     /// How far it moved in this period, m.
     pub moved: Vec3,
     /// Its velocity as estimated, m/s.
@@ -66,7 +66,7 @@ impl Passivity {
 
     /// Books the move of the last period under the force that was held in it, N.
     #[inline]
-    pub fn observe(&self, energy: &mut Energy, held: Vec3, motion: &Motion) {
+    pub fn observe(&self, energy: &mut Energy, held: Vec3, motion: &Moved) {
         let squared = motion.moved.length_squared();
         let friction = self.device_damping_n_s_per_m * squared * motion.rate + self.device_friction_n * sqrt(squared);
         energy.stored = saturate(energy.stored + friction - held.dot(motion.moved), -f32::MAX, f32::MAX);
@@ -75,7 +75,7 @@ impl Passivity {
     /// The force to give in place of `force`, N, at most `max_force`. `touching` says whether the surface is felt:
     /// out of contact a surplus is forgotten, so that it cannot be spent later; a debt stays.
     #[inline]
-    pub fn control(&self, energy: &mut Energy, force: Vec3, motion: &Motion, touching: bool, max_force: f32) -> Vec3 {
+    pub fn control(&self, energy: &mut Energy, force: Vec3, motion: &Moved, touching: bool, max_force: f32) -> Vec3 {
         (energy.damping, energy.cut) = (0.0, false);
         if !touching {
             energy.stored = saturate(energy.stored, -f32::MAX, 0.0);
@@ -123,8 +123,8 @@ mod tests {
     };
     const GREATEST: f32 = 5.0;
 
-    fn motion(moved: f32) -> Motion {
-        Motion { moved: Vec3::Z * moved, velocity: Vec3::Z * (moved * 1_000.0), rate: 1_000.0 }
+    fn motion(moved: f32) -> Moved {
+        Moved { moved: Vec3::Z * moved, velocity: Vec3::Z * (moved * 1_000.0), rate: 1_000.0 }
     }
 
     #[test]

@@ -5,8 +5,8 @@ use super::part::{Motion, Part, PartState};
 use super::path::{finite, is_rigid};
 use super::scene::Scene;
 use super::state::SceneState;
+use super::{Command, Commanded, SceneError};
 use crate::math::{Vec3, sqrt};
-use crate::order::{Order, SceneError};
 use crate::render::Friction;
 use crate::servo::{Surface, Tracked as _};
 use crate::track::{Contact, Placement};
@@ -181,13 +181,22 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         Ok(())
     }
 
+    pub(super) fn forget(&self, state: &mut SceneState<S::Witness, N>, index: usize) {
+        let part = &mut state.parts[index];
+        self.parts[index].surface.release(&mut part.witness);
+        (part.contact, part.rests) = (Contact::Behind, 0);
+        state.switched = true;
+    }
+}
+
+impl<S: Commanded, const N: usize> Scene<'_, S, N> {
     /// The body that was uploaded last takes the place of this one: what was felt of that fades, and the new one is
     /// felt once the tool has been in front of it.
     ///
     /// # Errors
     /// Nothing was uploaded, or not for this body; nothing changes then.
     pub fn take(&self, state: &mut SceneState<S::Witness, N>, index: usize) -> Result<(), SceneError> {
-        self.exchange(state, index, &Order::Take { body: saturated(index) })
+        self.exchange(state, index, &Command::Take { body: saturated(index) })
     }
 
     /// The body that was built in takes the place of this one again, as [`Self::take`] has it.
@@ -195,23 +204,21 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
     /// # Errors
     /// A body that is always the one built in; nothing changes then.
     pub fn put_back(&self, state: &mut SceneState<S::Witness, N>, index: usize) -> Result<(), SceneError> {
-        self.exchange(state, index, &Order::PutBack { body: saturated(index) })
+        self.exchange(state, index, &Command::PutBack { body: saturated(index) })
     }
 
-    fn exchange(&self, state: &mut SceneState<S::Witness, N>, index: usize, order: &Order) -> Result<(), SceneError> {
+    fn exchange(
+        &self,
+        state: &mut SceneState<S::Witness, N>,
+        index: usize,
+        command: &Command,
+    ) -> Result<(), SceneError> {
         let (Some(part), Some(kept)) = (self.parts.get(index), state.parts.get_mut(index)) else {
             return Err(SceneError::Missing(saturated(index)));
         };
-        part.surface.obey(&mut kept.witness, order)?;
+        part.surface.apply(&mut kept.witness, command)?;
         self.forget(state, index);
         Ok(())
-    }
-
-    pub(super) fn forget(&self, state: &mut SceneState<S::Witness, N>, index: usize) {
-        let part = &mut state.parts[index];
-        self.parts[index].surface.lose(&mut part.witness);
-        (part.contact, part.rests) = (Contact::Behind, 0);
-        state.switched = true;
     }
 }
 

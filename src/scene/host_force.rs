@@ -1,8 +1,8 @@
 //! What a host adds to the force of a scene, and to what it limits all of it.
 
+use super::SceneError;
 use super::limits::Limits;
 use crate::math::Vec3;
-use crate::order::SceneError;
 use crate::render::limit;
 
 /// Seconds for which a force of the host's stands. One that is not asked for anew by then is let go of, as any other

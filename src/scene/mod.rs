@@ -10,10 +10,10 @@
 //! the last tick, and goes over to the new one at a bounded rate ([`Limits::let_go`]).
 
 mod change;
+mod command;
 mod frame;
 mod host_force;
 mod limits;
-mod obey;
 mod part;
 mod path;
 mod quaternion;
@@ -23,12 +23,12 @@ mod scene;
 mod slot;
 mod state;
 
-pub use crate::order::{Order, Pose, SceneError};
+pub use command::{BodyPose, Command, Commanded, SceneError};
 pub use host_force::HOLD;
 pub use limits::Limits;
 pub use part::{Material, Motion, Part, PartState, Sphere};
 pub use path::Path;
 pub use rigid::{Joint, Moving, RigidBody, Tether, Wrench};
 pub use scene::Scene;
-pub use slot::{Shelf, Slot, SlotWitness};
+pub use slot::{BodyStore, Slot, SlotWitness};
 pub use state::SceneState;

@@ -1,5 +1,6 @@
 //! The scene: bodies, the checks of what was chosen of them, and the tick.
 
+use super::SceneError;
 use super::host_force::HostForce;
 use super::limits::Limits;
 use super::part::{Motion, Part, PartState};
@@ -7,9 +8,8 @@ use super::rigid::Wrench;
 use super::state::SceneState;
 use crate::body::TableCursor;
 use crate::math::{Vec3, saturate};
-use crate::order::{Order, SceneError};
 use crate::render::{Friction, Penalty, Press, limit};
-use crate::servo::{Surface, Touched, Tracked};
+use crate::servo::{BakedTables, Surface, Touched, Tracked};
 use crate::track::{Contact, Controller, Probe};
 
 /// No body.
@@ -76,18 +76,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
     pub const fn new(limits: Limits, parts: [Part<'a, S>; N]) -> Self {
         match Self::try_new(limits, parts) {
             Ok(scene) => scene,
-            Err(SceneError::Bodies) => panic!("the number of bodies"),
-            Err(SceneError::Limits) => panic!("limits"),
-            Err(SceneError::Stiffness(_)) => panic!("a body's stiffness"),
-            Err(SceneError::Damping(_)) => panic!("a body's damping"),
-            Err(SceneError::Friction(_)) => panic!("a body's friction"),
-            Err(SceneError::Texture(_)) => panic!("a body's texture"),
-            Err(SceneError::Motion(_)) => panic!("a body's motion"),
-            Err(SceneError::Light(_)) => panic!("a body that is too light"),
-            Err(SceneError::Slack(_)) => panic!("a free body's friction"),
-            Err(SceneError::Sphere(_)) => panic!("a body's sphere"),
-            Err(SceneError::Group(_)) => panic!("a body's group"),
-            Err(_) => panic!("a scene"),
+            Err(error) => panic!("{}", error.message()),
         }
     }
 
@@ -314,8 +303,6 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
 }
 
 impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
-    const FEELS_ITSELF: bool = true;
-
     type Witness = SceneState<S::Witness, N>;
 
     fn rest(&self) -> Self::Witness {
@@ -378,7 +365,7 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
         }
     }
 
-    fn lose(&self, state: &mut Self::Witness) {
+    fn release(&self, state: &mut Self::Witness) {
         let mut any = false;
         for index in 0..N {
             let part = &state.parts[index];
@@ -397,22 +384,15 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
         self.parts[index].surface.is_too_deep(&state.parts[index].witness)
     }
 
-    #[inline]
-    fn own_force(&self, state: &Self::Witness) -> Option<Vec3> {
-        Some(state.force)
-    }
-
     /// Switches the group of this number on, and all others off.
     fn choose(&self, state: &mut Self::Witness, group: u8) {
         if group < 32 {
             self.switch(state, 1 << group);
         }
     }
+}
 
-    fn obey(&self, state: &mut Self::Witness, order: &Order) -> Result<(), SceneError> {
-        self.obey(state, order)
-    }
-
+impl<S: BakedTables, const N: usize> BakedTables for Scene<'_, S, N> {
     /// The tables of all bodies that carry a CRC, one after the other. After those of each comes a record of one word:
     /// the one that takes the CRC of tables as they were baked back to 0, and every other to something else, for one
     /// step of a CRC takes each word to another. So the CRC of the whole is 0 exactly where that of the last body is

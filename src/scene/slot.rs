@@ -1,16 +1,16 @@
 //! A place in a scene whose body may be exchanged while the scene is felt.
 
 use super::part::{Material, Motion, Part, Sphere};
+use super::{Command, Commanded, SceneError};
 use crate::body::{Body, BodyWitness, TableCursor};
 use crate::math::Vec3;
-use crate::order::{Order, SceneError};
-use crate::servo::{Surface, Touched, Tracked};
+use crate::servo::{BakedTables, Surface, Touched, Tracked};
 use crate::track::{Contact, Controller, Probe, Witness};
 
 /// Where uploaded bodies lie: banks of memory, so that one can be written while another is felt.
 ///
 /// A bank that was taken does not change until it is left. Nothing here waits: it is asked from the servo's interrupt.
-pub trait Shelf {
+pub trait BodyStore {
     /// Takes the body that was uploaded and checked last, if nobody has taken it yet; gives the bank it lies in.
     fn take(&self) -> Option<u8>;
 
@@ -21,10 +21,10 @@ pub trait Shelf {
     fn leave(&self, bank: u8);
 }
 
-/// A body, and where another may come from in its place ([`Order::Take`]).
+/// A body, and where another may come from in its place ([`Command::Take`]).
 pub struct Slot<'a, H> {
     baked: &'a Body<'a>,
-    shelf: Option<&'a H>,
+    store: Option<&'a H>,
 }
 
 /// What a slot keeps between two ticks.
@@ -38,17 +38,17 @@ pub struct SlotWitness {
 impl<'a, H> Slot<'a, H> {
     /// A body that stays.
     pub const fn fixed(body: &'a Body<'a>) -> Self {
-        Self { baked: body, shelf: None }
+        Self { baked: body, store: None }
     }
 
-    /// A body that stands there until another is uploaded. A shelf is for one slot of one scene.
-    pub const fn exchangeable(body: &'a Body<'a>, shelf: &'a H) -> Self {
-        Self { baked: body, shelf: Some(shelf) }
+    /// A body that stands there until another is uploaded. A store is for one slot of one scene.
+    pub const fn exchangeable(body: &'a Body<'a>, store: &'a H) -> Self {
+        Self { baked: body, store: Some(store) }
     }
 
     /// Whether its body can be exchanged.
     pub const fn is_exchangeable(&self) -> bool {
-        self.shelf.is_some()
+        self.store.is_some()
     }
 }
 
@@ -62,7 +62,7 @@ impl<'a, H> Part<'a, Slot<'a, H>> {
     /// A body of group 0 in a slot. Nothing is known of how large a body may be that comes into it: if its body can be
     /// exchanged, it is looked at whenever it is its turn.
     pub const fn in_slot(slot: &'a Slot<'a, H>, motion: Motion, material: Material) -> Self {
-        let sphere = match slot.shelf {
+        let sphere = match slot.store {
             None => Part::new(slot.baked, motion, material).sphere,
             Some(_) => Sphere { centre_m: Vec3::ZERO, radius_m: f32::INFINITY },
         };
@@ -70,11 +70,11 @@ impl<'a, H> Part<'a, Slot<'a, H>> {
     }
 }
 
-impl<H: Shelf> Slot<'_, H> {
+impl<H: BodyStore> Slot<'_, H> {
     #[inline]
     fn body(&self, bank: Option<u8>) -> &Body<'_> {
-        match (bank, self.shelf) {
-            (Some(bank), Some(shelf)) => shelf.body(bank).unwrap_or(self.baked),
+        match (bank, self.store) {
+            (Some(bank), Some(store)) => store.body(bank).unwrap_or(self.baked),
             _ => self.baked,
         }
     }
@@ -84,12 +84,12 @@ impl<H: Shelf> Slot<'_, H> {
     }
 }
 
-impl<H: Shelf> Surface for Slot<'_, H> {
+impl<H: BodyStore> Surface for Slot<'_, H> {
     type Witness = SlotWitness;
 
     /// A body that is there before the first tick, as one kept in flash is, stands in the slot from the start.
     fn rest(&self) -> SlotWitness {
-        self.with(self.shelf.and_then(Shelf::take))
+        self.with(self.store.and_then(BodyStore::take))
     }
 
     #[inline]
@@ -97,28 +97,32 @@ impl<H: Shelf> Surface for Slot<'_, H> {
         self.body(state.bank).follow(controller, &mut state.witness, probe, period)
     }
 
-    fn lose(&self, state: &mut SlotWitness) {
+    fn release(&self, state: &mut SlotWitness) {
         state.witness.forget();
     }
 
     fn is_too_deep(&self, state: &SlotWitness) -> bool {
         Body::is_too_deep(self.body(state.bank), &state.witness)
     }
+}
 
-    fn obey(&self, state: &mut SlotWitness, order: &Order) -> Result<(), SceneError> {
-        let Some(shelf) = self.shelf else { return Err(SceneError::NotOffered) };
-        let bank = match order {
-            Order::Take { body } => Some(shelf.take().ok_or(SceneError::NotUploaded(*body))?),
-            Order::PutBack { .. } => None,
+impl<H: BodyStore> Commanded for Slot<'_, H> {
+    fn apply(&self, state: &mut SlotWitness, command: &Command) -> Result<(), SceneError> {
+        let Some(store) = self.store else { return Err(SceneError::NotOffered) };
+        let bank = match command {
+            Command::Take { body } => Some(store.take().ok_or(SceneError::NotUploaded(*body))?),
+            Command::PutBack { .. } => None,
             _ => return Err(SceneError::NotOffered),
         };
         if let Some(left) = state.bank {
-            shelf.leave(left);
+            store.leave(left);
         }
         *state = self.with(bank);
         Ok(())
     }
+}
 
+impl<H: BodyStore> BakedTables for Slot<'_, H> {
     /// Of the body that was baked; one that was uploaded was checked when it came.
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         self.baked.table_word(cursor)

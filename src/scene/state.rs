@@ -83,6 +83,13 @@ impl<W: Tracked, const N: usize> SceneState<W, N> {
 }
 
 impl<W: Tracked, const N: usize> Tracked for SceneState<W, N> {
+    const HAS_OWN_FORCE_ONLY: bool = true;
+
+    #[inline]
+    fn own_force(&self) -> Option<Vec3> {
+        Some(self.force)
+    }
+
     /// In the frame of the body that is felt.
     fn witness(&self) -> &Witness {
         self.primary().witness.witness()

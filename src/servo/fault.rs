@@ -1,6 +1,74 @@
-//! Why the loop stopped, why the chip was reset, and what the board has to tell the loop.
+//! Phases, faults, resets and events of the loop, and its output to the motors.
 
-use crate::device::Counts;
+use super::ServoState;
+use crate::device::{Counts, Duty};
+
+/// The phase of the loop, in the order in which it goes through them; at most one step a tick.
+///
+/// Force comes from [`Phase::Running`] alone. A fault leads from any phase to [`Phase::Fault`], where the motors are at
+/// zero or, if [`super::SafeOutput`] says so and the sensors can be believed, damp.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(u8)]
+pub enum Phase {
+    /// Nothing has been sensed yet.
+    #[default]
+    Reset = 0,
+    /// The sensors settle, the device is homed and the tables are checked, as far as [`super::Safety`] asks for it.
+    Calibrate = 1,
+    /// Tracking, with the motors at zero, until force is asked for.
+    Armed = 2,
+    /// Rendering force.
+    Running = 3,
+    /// Stopped by a fault, which is latched: only a reset leaves this phase.
+    Fault = 4,
+}
+
+impl Phase {
+    /// Every phase, in the order of its number.
+    pub const ALL: [Self; 5] = [Self::Reset, Self::Calibrate, Self::Armed, Self::Running, Self::Fault];
+}
+
+/// The output of a tick to the motors. Boards apply it and nothing else, in every phase: the motors are driven while
+/// homing searches for stops, in [`Phase::Running`], and while damping after a fault; otherwise every stage is disabled.
+/// Zero duty is not off: it keeps a bridge enabled and braking.
+///
+/// ```
+/// use palpate::device::Duty;
+/// use palpate::servo::Output;
+///
+/// /// The duty of a pulse width, and whether the stage is enabled.
+/// fn of_stage(output: Output<1>) -> (Duty, bool) {
+///     match output {
+///         Output::Off => (Duty::ZERO, false),
+///         Output::Drive([duty]) => (duty, true),
+///     }
+/// }
+/// assert_eq!(of_stage(Output::Off), (Duty::ZERO, false));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[must_use = "the motors get nothing else"]
+pub enum Output<const JOINTS: usize> {
+    /// Nothing: every stage disabled.
+    Off,
+    /// These duties.
+    Drive([Duty; JOINTS]),
+}
+
+impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
+    /// The output now: that of the last tick, or off after [`super::Servo::note`] latched a fault.
+    #[inline]
+    pub const fn output(&self) -> Output<JOINTS> {
+        let drives = match self.phase {
+            Phase::Running => true,
+            Phase::Calibrate | Phase::Fault => self.drive.drives,
+            Phase::Reset | Phase::Armed => false,
+        };
+        if drives { Output::Drive(self.drive.duties) } else { Output::Off }
+    }
+}
+
 /// What stopped the loop. The number is its code in a report, where 0 means no fault; `Display` gives it in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -62,7 +130,7 @@ pub enum Fault {
     Supply = 18,
     /// A joint goes against what its motor pushes: its encoder counts the other way, or its motor is wired so.
     #[error("encoder and motor polarity disagree")]
-    WrongSign = 19,
+    WrongPolarity = 19,
     /// The calibration that is kept in flash cannot be used ([`crate::commission::CalibrationError`]).
     #[error("the calibration stored in flash is refused")]
     Calibration = 20,
@@ -89,7 +157,7 @@ impl Fault {
         Self::ContactLost,
         Self::Overspeed,
         Self::Supply,
-        Self::WrongSign,
+        Self::WrongPolarity,
         Self::Calibration,
     ];
 
@@ -97,7 +165,7 @@ impl Fault {
     /// wired the wrong way, or may be for all that is known, which it would speed up, nor pump up a supply that is out
     /// of its range.
     pub const fn leaves_damping(self) -> bool {
-        !matches!(self, Self::Drive | Self::WrongSign | Self::Supply | Self::Calibration)
+        !matches!(self, Self::Drive | Self::WrongPolarity | Self::Supply | Self::Calibration)
     }
 
     /// The code in a report, from 1.

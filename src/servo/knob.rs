@@ -1,19 +1,16 @@
 //! A dial as what the loop feels: a table of feels, one of them chosen at a time.
 
-use super::surface::{Surface, Touched, Tracked, witness_words};
-use crate::body::TableCursor;
+use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
 use crate::device::{Device, Dial};
 use crate::math::{Vec3, saturate};
-use crate::order::{Order, SceneError};
 use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::render::{Feel, FeelError};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
-use thiserror::Error;
 
 /// What is felt of a dial: a table of feels in flash, switched while it runs ([`super::Event::Chosen`]).
 ///
 /// The loop is the one that touches surfaces: phases, faults, soft start, limits and the gate are the same. There is
-/// just nothing to touch; the force is a function of where the dial is ([`Surface::own_force`]).
+/// just nothing to touch; the force is a function of where the dial is ([`Tracked::own_force`]).
 ///
 /// A switch never gives a step: what the old feel gave beyond the new one goes on, and is let go of by so much torque a
 /// second.
@@ -28,28 +25,39 @@ pub struct Knob {
 }
 
 /// Which number of a knob is refused. In a `static` it is a compile error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum KnobError {
     /// The table is empty, or has more than 256 entries.
-    #[error("a knob has 1 to 256 feels")]
     Feels,
     /// A feel makes no sense by itself.
-    #[error(transparent)]
-    Feel(#[from] FeelError),
+    Feel(FeelError),
     /// A feel is stiffer than the device bears.
-    #[error("a feel is stiffer than the device's maximum stiffness times its radius squared")]
     Stiffness,
     /// A feel damps more than the device bears.
-    #[error("a feel damps more than the device's maximum damping times its radius squared")]
     Damping,
     /// A feel asks for more torque than the device has.
-    #[error("a feel requests more torque than the device's maximum force times its radius")]
     Torque,
     /// The torque that is let go of in a second is not positive and finite.
-    #[error("the torque released per second must be positive and finite")]
     LetGo,
 }
+
+impl KnobError {
+    /// The same as `Display`, for a panic at compile time.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Feels => "a knob has 1 to 256 feels",
+            Self::Feel(error) => error.message(),
+            Self::Stiffness => "a feel is stiffer than the device's maximum stiffness times its radius squared",
+            Self::Damping => "a feel damps more than the device's maximum damping times its radius squared",
+            Self::Torque => "a feel requests more torque than the device's maximum force times its radius",
+            Self::LetGo => "the torque released per second must be positive and finite",
+        }
+    }
+}
+
+crate::message::display!(KnobError);
 
 /// What is kept of a knob between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,17 +138,7 @@ impl Knob {
     pub const fn new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Self {
         match Self::try_new(device, feels, let_go) {
             Ok(knob) => knob,
-            Err(KnobError::Feels) => panic!("the number of feels"),
-            Err(KnobError::Feel(FeelError::Detents)) => panic!("a feel's detents"),
-            Err(KnobError::Feel(FeelError::Clicks)) => panic!("a feel's clicks"),
-            Err(KnobError::Feel(FeelError::Texture)) => panic!("a feel's texture"),
-            Err(KnobError::Feel(FeelError::Spring)) => panic!("a feel's spring"),
-            Err(KnobError::Feel(FeelError::Ends)) => panic!("a feel's end stops"),
-            Err(KnobError::Feel(FeelError::Damping)) => panic!("a feel's damping"),
-            Err(KnobError::Stiffness) => panic!("a feel's stiffness"),
-            Err(KnobError::Damping) => panic!("a feel's maximum damping"),
-            Err(KnobError::Torque) => panic!("a feel's torque"),
-            Err(KnobError::LetGo) => panic!("let_go"),
+            Err(error) => panic!("{}", error.message()),
         }
     }
 
@@ -200,40 +198,17 @@ impl Surface for Knob {
         Touched { normal: Vec3::ZERO, rejected: false, unexplained: false }
     }
 
-    fn lose(&self, _: &mut KnobWitness) {}
-
-    #[inline]
-    fn own_force(&self, state: &KnobWitness) -> Option<Vec3> {
-        Some(Vec3::X * state.force)
-    }
-
-    /// An entry that is not there changes nothing.
-    fn obey(&self, state: &mut KnobWitness, order: &Order) -> Result<(), SceneError> {
-        match order {
-            Order::Choose { index } if usize::from(*index) < self.feels.len() => {
-                self.choose(state, *index);
-                Ok(())
-            }
-            Order::Choose { index } => Err(SceneError::Missing(*index)),
-            _ => Err(SceneError::NotOffered),
-        }
-    }
+    fn release(&self, _: &mut KnobWitness) {}
 
     fn choose(&self, state: &mut KnobWitness, index: u8) {
         if usize::from(index) < self.feels.len() && index != state.feel {
             (state.feel, state.switched) = (index, true);
         }
     }
-
-    fn table_word(&self, _: TableCursor) -> Option<u32> {
-        None
-    }
-
-    /// None: the feels are part of the program.
-    fn baked_crc(&self) -> Option<u32> {
-        None
-    }
 }
+
+/// None: the feels are part of the program.
+impl BakedTables for Knob {}
 
 impl Tracked for KnobWitness {
     fn witness(&self) -> &Witness {
@@ -251,6 +226,11 @@ impl Tracked for KnobWitness {
     /// Which feel is felt.
     fn feature(&self) -> u16 {
         u16::from(self.feel)
+    }
+
+    #[inline]
+    fn own_force(&self) -> Option<Vec3> {
+        Some(Vec3::X * self.force)
     }
 
     fn for_each_word(&self, mut take: impl FnMut(u32)) {

@@ -22,7 +22,7 @@
 //! | calibration in flash that is damaged, or not of this device | [`Event`] | `Calibration` |
 //! | supply out of range, or nobody measures it | [`crate::device::SupplyRange`], [`Event::Supply`] | `Supply` |
 //! | joint or probe too fast under force | [`crate::device::Protection`] | `Overspeed` |
-//! | encoder against its motor | [`crate::device::SignWatch`] | `WrongSign` |
+//! | encoder against its motor | [`crate::device::PolarityCheck`] | `WrongPolarity` |
 //! | motor too warm | [`Heat`]: its force folds back to what it bears for ever | none: a limit |
 //! | too much force | scaled as a whole, its direction kept | none: a limit |
 //! | force asked for inside the wall | faded in | none |
@@ -32,46 +32,28 @@
 //! safe ([`SafeOutput`]). The one exception is asked for by name: a [`FrameBridge`] before the tick bridges a few bad
 //! frames in a row, and the next one is the fault. What the motors get is [`ServoState::output`], in every phase.
 
-mod bridged;
 mod config;
-mod deadline;
+mod contact;
 mod fault;
 mod force;
 mod gate;
 mod guard;
 mod knob;
-mod lose;
-mod lost_contact;
-mod output;
-mod patch_witness;
-mod phase;
-mod reading;
 pub mod recommended;
-mod rendering;
-mod safety;
 mod sense;
 mod settings;
 mod state;
-mod stuck;
 mod surface;
-mod table_check;
 mod tick;
+mod watch;
 
-pub use bridged::FrameBridge;
-pub use config::Servo;
-pub use deadline::{Deadline, Heartbeat};
-pub use fault::{Event, Fault, ResetReason};
-pub use guard::{Guard, GuardState, Guarded, Heat, Moving, ProtectionError, Remembered, Unguarded};
+pub use config::{Config, ConfigError, Loop, Servo, State};
+pub use contact::ContactLimits;
+pub use fault::{Event, Fault, Output, Phase, ResetReason};
+pub use guard::{Guard, GuardState, Guarded, Heat, Motion, ProtectionError, Remembered, Unguarded};
 pub use knob::{Knob, KnobError, KnobWitness};
-pub use lost_contact::ContactLimits;
-pub use output::Output;
-pub use patch_witness::PatchWitness;
-pub use phase::Phase;
-pub use rendering::{Rendering, RenderingError};
-pub use safety::{SafeOutput, Safety, SafetyError, StuckLimits};
-pub use settings::{Settings, SettingsError};
+pub use settings::{Rendering, RenderingError, SafeOutput, Safety, SafetyError, Settings, SettingsError, StuckLimits};
 pub use state::ServoState;
-pub use stuck::Stillness;
-pub use surface::{Surface, Touched, Tracked};
-pub use table_check::TableCheck;
+pub use surface::{BakedTables, OnePatch, PatchWitness, Surface, TableCheck, Touched, Tracked};
 pub use tick::Input;
+pub use watch::{Deadline, FrameBridge, Heartbeat, Stillness};

@@ -1,6 +1,7 @@
 //! From encoder counts to joint angles that can be believed.
 
-use super::{Fault, ServoState};
+use super::Fault;
+use super::state::Sensors;
 use crate::device::{Counts, Device, Encoder, Kinematics, VelocityEstimator};
 
 /// Takes this tick's counts into the state: joint angles and rates. Returns how far they are from the joints' stops,
@@ -10,19 +11,19 @@ use crate::device::{Counts, Device, Encoder, Kinematics, VelocityEstimator};
 /// The fault, if an angle lies outside the joint's range or jumped faster than the device can move (the state keeps its
 /// last good counts then).
 #[inline]
-pub fn sense<W, G, K, const JOINTS: usize>(
+pub(super) fn sense<K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     estimators: &[VelocityEstimator; JOINTS],
     max_move: f32,
     placed: bool,
-    state: &mut ServoState<JOINTS, W, G>,
+    sensors: &mut Sensors<JOINTS>,
     counts: [Counts; JOINTS],
 ) -> Result<f32, Fault>
 where
     K: Kinematics<JOINTS>,
 {
     let mut angles = [0.0; JOINTS];
-    let encoders = device.encoders.iter().zip(state.angles_at_zero);
+    let encoders = device.encoders.iter().zip(sensors.angles_at_zero);
     for ((angle, (encoder, angle_at_zero)), count) in angles.iter_mut().zip(encoders).zip(counts) {
         *angle = Encoder { angle_at_zero_rad: angle_at_zero, ..*encoder }.angle(count);
     }
@@ -31,20 +32,20 @@ where
     if placed && !in_range {
         return Err(Fault::JointOutOfRange);
     }
-    let before = state.angles;
+    let before = sensors.angles;
     // The first counts have nothing to have moved from.
-    let first = state.counts.is_none();
+    let first = sensors.counts.is_none();
     if !first {
         let believable = |(angle, last): (&f32, &f32)| (angle - last).abs() <= max_move;
         if !angles.iter().zip(&before).all(believable) {
             return Err(Fault::JointJumped);
         }
-        let memories = state.rates.iter_mut().zip(&mut state.velocities).zip(estimators);
+        let memories = sensors.rates.iter_mut().zip(&mut sensors.velocities).zip(estimators);
         for (((rate, memory), estimator), (angle, last)) in memories.zip(angles.iter().zip(before)) {
             *rate = estimator.next(memory, angle - last);
         }
     }
-    state.counts = Some(counts);
-    state.angles = angles;
+    sensors.counts = Some(counts);
+    sensors.angles = angles;
     Ok(to_stop)
 }

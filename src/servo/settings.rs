@@ -1,7 +1,9 @@
-//! What a user chooses about the loop.
+//! The user's choices: settings, rendering and safety, each with the check that refuses a bad value.
 
+use super::ContactLimits;
+use crate::device::VelocityMethod;
 use crate::math::Vec3;
-use thiserror::Error;
+use crate::render::{Coupling, Ease, Friction, Passivity, Penalty, Texture};
 
 /// The loop's settings. Begin with [`Settings::DEFAULT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,31 +26,42 @@ pub struct Settings {
 }
 
 /// Which setting is refused. In a `static` it is a compile error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum SettingsError {
     /// The rate is not between 1 Hz and 100 kHz.
-    #[error("the servo rate must be between 1 Hz and 100 kHz")]
     Rate,
     /// The stiffness is negative, not finite or above the device's.
-    #[error("the stiffness must be between 0 and the device's maximum")]
     Stiffness,
     /// The damping is negative, not finite or above the device's.
-    #[error("the damping must be between 0 and the device's maximum")]
     Damping,
     /// The greatest force is negative or not finite.
-    #[error("the maximum force must be finite and not negative")]
     MaxForce,
     /// The corner frequency is not positive and finite.
-    #[error("the velocity corner must be positive and finite")]
     VelocityCorner,
     /// The soft start is negative or not finite.
-    #[error("the soft start must be finite and not negative")]
     SoftStart,
     /// The body's origin is not finite.
-    #[error("the body's origin must be finite")]
     BodyOrigin,
 }
+
+impl SettingsError {
+    /// The same as `Display`, for a panic at compile time.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Rate => "the servo rate must be between 1 Hz and 100 kHz",
+            Self::Stiffness => "the stiffness must be between 0 and the device's maximum",
+            Self::Damping => "the damping must be between 0 and the device's maximum",
+            Self::MaxForce => "the maximum force must be finite and not negative",
+            Self::VelocityCorner => "the velocity corner must be positive and finite",
+            Self::SoftStart => "the soft start must be finite and not negative",
+            Self::BodyOrigin => "the body's origin must be finite",
+        }
+    }
+}
+
+crate::message::display!(SettingsError);
 
 impl Settings {
     /// 1 kHz, a soft wall and little force, within what every device that ships takes; the body's origin in that of the
@@ -94,6 +107,15 @@ impl Settings {
     }
 }
 
+impl Settings {
+    /// The wall of these settings on a device of this maximum force, N.
+    pub(super) const fn penalty(&self, device_force: f32) -> Penalty {
+        let max_force_n = if self.max_force_n < device_force { self.max_force_n } else { device_force };
+        let Self { stiffness_n_per_m, damping_n_s_per_m, .. } = *self;
+        Penalty { stiffness_n_per_m, damping_n_s_per_m, max_force_n }
+    }
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self::DEFAULT
@@ -105,8 +127,277 @@ const fn within(x: f32, low: f32, high: f32) -> bool {
     x >= low && x <= high
 }
 
+/// How the surface feels. Begin with [`Rendering::PLAIN`].
+#[derive(Clone, Copy, Debug)]
+pub struct Rendering {
+    /// The velocity estimator.
+    pub velocity: VelocityMethod,
+    /// Dry friction of the surface.
+    pub friction: Option<Friction>,
+    /// Texture on top.
+    pub texture: Option<Texture>,
+    /// A virtual tool between probe and surface.
+    pub coupling: Option<Coupling>,
+    /// Passivity control.
+    pub passivity: Option<Passivity>,
+    /// What keeps the force from clicking at contact and over edges. In a scene the damping of its bodies is there at
+    /// once, and the settings' stiffness should be that of the stiffest: a spring that is stiffer is held back.
+    pub ease: Option<Ease>,
+    /// How fast the force may grow, N/s. It may always fall at once.
+    pub max_slew_n_per_s: f32,
+    /// Whether the motors carry the weight of the device's own links, as far as its kinematics knows it.
+    ///
+    /// The torques that do come on top of the force's, last before the gate, which gives them what they need first.
+    /// They fade in with the force, for at the start the hand still carries what the motors did not, and would be
+    /// lifted by a step. They are no part of [`super::ServoState::force`], nor of what the greatest force, the slew
+    /// limit and the passivity control look at: they are conservative, and give back what they took. At the rim of the
+    /// workspace they stay. Without [`super::Phase::Running`], and so after any fault, they are zero.
+    pub compensates_gravity: bool,
+}
+
+/// Which choice is refused. In a `static` it is a compile error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum RenderingError {
+    /// A parameter of the friction is negative or not finite, or slipping holds more than sticking.
+    Friction,
+    /// The texture's share is not between 0 and 1.
+    Texture,
+    /// The tool is too light for coupling and surface at this rate, or a parameter is negative or not finite.
+    Coupling,
+    /// A parameter of the passivity control is negative or not finite.
+    Passivity,
+    /// A parameter of the easing is negative or not finite, or its rate zero.
+    Ease,
+    /// The slew limit is not positive.
+    Slew,
+}
+
+impl RenderingError {
+    /// The same as `Display`, for a panic at compile time.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Friction => {
+                "friction must be finite and not negative, its dynamic coefficient not above the static one"
+            }
+            Self::Texture => "a texture's share must be between 0 and 1",
+            Self::Coupling => "the virtual tool is too light for its coupling and the surface at this rate",
+            Self::Passivity => "passivity control's parameters must be finite and not negative",
+            Self::Ease => "easing's onset must be finite and not negative, its rate finite and positive",
+            Self::Slew => "the slew limit must be positive",
+        }
+    }
+}
+
+crate::message::display!(RenderingError);
+
+impl Rendering {
+    /// Spring and damper alone, low-pass velocity, no slew limit, the links' weight carried.
+    pub const PLAIN: Self = Self {
+        velocity: VelocityMethod::LowPass,
+        friction: None,
+        texture: None,
+        coupling: None,
+        passivity: None,
+        ease: None,
+        max_slew_n_per_s: f32::INFINITY,
+        compensates_gravity: true,
+    };
+
+    /// As little to feel as there can be of counts, ticks and edges: position between counts, and [`Ease::SMOOTH`].
+    /// Best with a velocity corner of 80 Hz and a wall of at most 500 N/m at 4 kHz ([`crate::render::Material`]): the
+    /// position's delay costs stiffness.
+    pub const SMOOTH: Self = Self { velocity: VelocityMethod::BetweenCounts, ..Self::EASED };
+
+    /// For stiff walls: nothing clicks at contact and over edges, but counts are felt as they are. It costs little
+    /// stiffness, for nothing lags.
+    pub const EASED: Self = Self { ease: Some(Ease::SMOOTH), ..Self::PLAIN };
+
+    /// Checks the choices, for a surface's stiffness (N/m) and a period (s).
+    ///
+    /// # Errors
+    /// The first that is refused.
+    pub const fn check(&self, stiffness: f32, period: f32) -> Result<(), RenderingError> {
+        if let Some(friction) = &self.friction
+            && !friction.is_valid()
+        {
+            return Err(RenderingError::Friction);
+        }
+        if let Some(texture) = &self.texture
+            && !(texture.max_fraction >= 0.0 && texture.max_fraction <= 1.0)
+        {
+            return Err(RenderingError::Texture);
+        }
+        if let Some(coupling) = &self.coupling
+            && !coupling.is_valid(stiffness, period)
+        {
+            return Err(RenderingError::Coupling);
+        }
+        if let Some(passivity) = &self.passivity
+            && !passivity.is_valid()
+        {
+            return Err(RenderingError::Passivity);
+        }
+        if let Some(ease) = &self.ease
+            && !ease.is_valid()
+        {
+            return Err(RenderingError::Ease);
+        }
+        let grows = self.max_slew_n_per_s > 0.0;
+        if grows { Ok(()) } else { Err(RenderingError::Slew) }
+    }
+}
+
+impl Default for Rendering {
+    fn default() -> Self {
+        Self::PLAIN
+    }
+}
+
+/// What the motors do from the tick in which a fault is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum SafeOutput {
+    /// Nothing.
+    Zero,
+    /// They brake the probe with this damping, N·s/m, in every tick whose sensors can be believed; nothing in the
+    /// others, nor after a fault of a drive, of the supply or of a sign ([`super::Fault::leaves_damping`]), nor where
+    /// signs are watched and not all joints have been seen to follow their motors. It helps where the device would
+    /// fall.
+    Damping(f32),
+}
+
+/// When a joint sensor counts as stuck: the force that the hand feels loads its joint beyond dry friction, and its
+/// count stays the same, while another joint moves far.
+///
+/// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves another joint by `travel`
+/// meanwhile would have to balance the load on this one to within its dry friction all the way, on the one curve on
+/// which it does not turn. Below friction no hand is needed for that, so what is below counts as no load. A device with
+/// one joint has no others: there this finds nothing. One joint is looked at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct StuckLimits {
+    /// The least load, as a multiple of the joint's [`crate::device::Device::dry_friction`]; at least 1.
+    pub load: f32,
+    /// How far another joint moves meanwhile, radians.
+    pub travel_rad: f32,
+}
+
+impl StuckLimits {
+    /// Five times dry friction, so that a hand would have to balance the load to a fifth of it, while another joint
+    /// comes 0.6 rad, some 60 mm at the probe. Where simulated hands slide about under load, a Falcon's joint stays
+    /// where it is over 0.5 rad under its own friction and over 0.28 rad under three times that, but never over 0.01
+    /// rad under five times; a joint of a device with little friction turns back while another goes on for 0.27 rad at
+    /// most, of Polhem's short crank.
+    pub const DEFAULT: Self = Self { load: 5.0, travel_rad: 0.6 };
+}
+
+/// Limits and reactions of the loop. Begin with [`Safety::DEFAULT`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Safety {
+    /// What the motors do after a fault.
+    pub output: SafeOutput,
+    /// How many ticks in a row may overrun before it is a fault.
+    pub max_overruns: u32,
+    /// Seconds of silence after which the host's link is lost; infinite where no host watches.
+    pub link_timeout_s: f32,
+    /// Ticks of believable sensors before the loop is armed.
+    pub settle_ticks: u32,
+    /// Whether the loop waits for [`super::Event::Homed`] before it is armed.
+    pub wait_for_homing: bool,
+    /// When a sensor counts as stuck; `None` does not watch.
+    pub stuck: Option<StuckLimits>,
+    /// When contact counts as lost; `None` does not watch.
+    pub contact: Option<ContactLimits>,
+    /// Whether tables that carry the CRC they were baked with are checked: whole before the first tick, and again and
+    /// again after, a word every second tick; not while a guard withholds the force of a contact.
+    pub checks_tables: bool,
+}
+
+/// Which limit is refused. In a `static` it is a compile error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum SafetyError {
+    /// The damping is negative, not finite or above the device's.
+    Damping,
+    /// The link's timeout is not above zero.
+    LinkTimeout,
+    /// The load is below dry friction, or the travel is not above zero.
+    Stuck,
+    /// The depth is not above that of the greatest force, or a time is negative or not finite.
+    Contact,
+}
+
+impl SafetyError {
+    /// The same as `Display`, for a panic at compile time.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Damping => "the safe damping must be between 0 and the device's maximum",
+            Self::LinkTimeout => "the link's timeout must be positive",
+            Self::Stuck => "the load of a stuck sensor must be dry friction at least, and the travel positive",
+            Self::Contact => {
+                "contact limits must be deeper than the maximum force reaches, and their times not negative"
+            }
+        }
+    }
+}
+
+crate::message::display!(SafetyError);
+
+impl Safety {
+    /// Zero output, no overrun allowed, no host, stuck sensors and lost contact watched for, tables checked.
+    pub const DEFAULT: Self = Self {
+        output: SafeOutput::Zero,
+        max_overruns: 0,
+        link_timeout_s: f32::INFINITY,
+        settle_ticks: 1,
+        wait_for_homing: false,
+        stuck: Some(StuckLimits::DEFAULT),
+        contact: Some(ContactLimits::DEFAULT),
+        checks_tables: true,
+    };
+
+    /// Checks the limits against a device's greatest damping (N·s/m).
+    ///
+    /// # Errors
+    /// The first that is refused.
+    pub const fn check(&self, max_damping: f32) -> Result<(), SafetyError> {
+        if let SafeOutput::Damping(damping) = self.output {
+            let sensible = damping >= 0.0 && damping <= max_damping;
+            if !sensible {
+                return Err(SafetyError::Damping);
+            }
+        }
+        let lasts = self.link_timeout_s > 0.0;
+        if !lasts {
+            return Err(SafetyError::LinkTimeout);
+        }
+        if let Some(StuckLimits { load, travel_rad: travel }) = self.stuck {
+            let sensible = load >= 1.0 && travel > 0.0;
+            if !sensible {
+                return Err(SafetyError::Stuck);
+            }
+        }
+        if let Some(contact) = &self.contact
+            && !contact.is_valid()
+        {
+            return Err(SafetyError::Contact);
+        }
+        Ok(())
+    }
+}
+
+impl Default for Safety {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
 #[cfg(test)]
-mod tests {
+mod settings_tests {
     use super::*;
     use crate::device::presets;
 
@@ -152,5 +443,124 @@ mod tests {
                 assert_eq!(away.check(1e3, 1e1), Err(SettingsError::BodyOrigin));
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod rendering_tests {
+    use super::*;
+    use crate::math::Vec3;
+
+    const STIFFNESS: f32 = 1_000.0;
+    const PERIOD: f32 = 1e-3;
+    const FRICTION: Friction = Friction {
+        stiffness_n_per_m: 500.0,
+        damping_n_s_per_m: 1.0,
+        static_coefficient: 0.4,
+        dynamic_coefficient: 0.3,
+    };
+    const COUPLING: Coupling = Coupling { stiffness_n_per_m: 500.0, damping_n_s_per_m: 3.0, mass_kg: 0.01 };
+    const PASSIVITY: Passivity = Passivity {
+        device_damping_n_s_per_m: 0.1,
+        device_friction_n: 0.01,
+        max_damping_n_s_per_m: 8.0,
+        resolution_m: 1e-4,
+    };
+
+    fn refused(rendering: Rendering, error: RenderingError) {
+        assert_eq!(rendering.check(STIFFNESS, PERIOD), Err(error), "{rendering:?}");
+    }
+
+    #[test]
+    fn each_choice_that_cannot_be_felt_is_refused_by_its_name() {
+        let texture = Texture { force: |_| Vec3::ZERO, max_fraction: 1.0 };
+        let all = Rendering {
+            friction: Some(FRICTION),
+            texture: Some(texture),
+            coupling: Some(COUPLING),
+            passivity: Some(PASSIVITY),
+            max_slew_n_per_s: 100.0,
+            ..Rendering::PLAIN
+        };
+        assert_eq!(Rendering::PLAIN.check(STIFFNESS, PERIOD), Ok(()));
+        assert_eq!(all.check(STIFFNESS, PERIOD), Ok(()));
+        for bad in [-1.0, f32::NAN, f32::INFINITY] {
+            for friction in [
+                Friction { stiffness_n_per_m: bad, ..FRICTION },
+                Friction { damping_n_s_per_m: bad, ..FRICTION },
+                Friction { static_coefficient: bad, ..FRICTION },
+                Friction { dynamic_coefficient: bad, ..FRICTION },
+            ] {
+                refused(Rendering { friction: Some(friction), ..all }, RenderingError::Friction);
+            }
+            let coarse = Texture { max_fraction: bad, ..texture };
+            refused(Rendering { texture: Some(coarse), ..all }, RenderingError::Texture);
+            for coupling in [
+                Coupling { stiffness_n_per_m: bad, ..COUPLING },
+                Coupling { damping_n_s_per_m: bad, ..COUPLING },
+                Coupling { mass_kg: bad, ..COUPLING },
+            ] {
+                refused(Rendering { coupling: Some(coupling), ..all }, RenderingError::Coupling);
+            }
+            for passivity in [
+                Passivity { device_damping_n_s_per_m: bad, ..PASSIVITY },
+                Passivity { device_friction_n: bad, ..PASSIVITY },
+                Passivity { max_damping_n_s_per_m: bad, ..PASSIVITY },
+                Passivity { resolution_m: bad, ..PASSIVITY },
+            ] {
+                refused(Rendering { passivity: Some(passivity), ..all }, RenderingError::Passivity);
+            }
+        }
+        let hasty = Ease { change_n_per_s: 0.0, ..Ease::SMOOTH };
+        refused(Rendering { ease: Some(hasty), ..all }, RenderingError::Ease);
+        assert!([Rendering::SMOOTH, Rendering::EASED].iter().all(|kind| kind.check(STIFFNESS, PERIOD).is_ok()));
+        // Slipping must not hold more than sticking.
+        let sticky = Friction { dynamic_coefficient: 0.41, ..FRICTION };
+        refused(Rendering { friction: Some(sticky), ..all }, RenderingError::Friction);
+        let still = Passivity { resolution_m: 0.0, ..PASSIVITY };
+        refused(Rendering { passivity: Some(still), ..all }, RenderingError::Passivity);
+        refused(Rendering { texture: Some(Texture { max_fraction: 1.01, ..texture }), ..all }, RenderingError::Texture);
+        // (500 + 1,000) N/m · 1 ms² < 2 m asks for 0.75 g.
+        refused(
+            Rendering { coupling: Some(Coupling { mass_kg: 7.4e-4, ..COUPLING }), ..all },
+            RenderingError::Coupling,
+        );
+        let light = Rendering { coupling: Some(Coupling { mass_kg: 7.6e-4, ..COUPLING }), ..all };
+        assert_eq!(light.check(STIFFNESS, PERIOD), Ok(()));
+        for max_slew in [0.0, -1.0, f32::NAN] {
+            refused(Rendering { max_slew_n_per_s: max_slew, ..all }, RenderingError::Slew);
+        }
+    }
+}
+
+#[cfg(test)]
+mod safety_tests {
+    use super::*;
+
+    #[test]
+    fn limits_that_protect_nobody_are_refused() {
+        const MAX_DAMPING: f32 = 5.0;
+        assert_eq!(Safety::DEFAULT.check(MAX_DAMPING), Ok(()));
+        for (damping, good) in [(0.0, true), (5.0, true), (5.001, false), (-0.001, false), (f32::NAN, false)] {
+            let safety = Safety { output: SafeOutput::Damping(damping), ..Safety::DEFAULT };
+            assert_eq!(safety.check(MAX_DAMPING), if good { Ok(()) } else { Err(SafetyError::Damping) }, "{damping}");
+        }
+        for (link_timeout, good) in
+            [(1e-3, true), (f32::INFINITY, true), (0.0, false), (-1.0, false), (f32::NAN, false)]
+        {
+            let safety = Safety { link_timeout_s: link_timeout, ..Safety::DEFAULT };
+            assert_eq!(safety.check(MAX_DAMPING), if good { Ok(()) } else { Err(SafetyError::LinkTimeout) });
+        }
+        for (load, travel, good) in
+            [(1.0, 0.1, true), (0.99, 0.1, false), (5.0, 0.0, false), (f32::NAN, 0.1, false), (5.0, f32::NAN, false)]
+        {
+            let safety = Safety { stuck: Some(StuckLimits { load, travel_rad: travel }), ..Safety::DEFAULT };
+            assert_eq!(
+                safety.check(MAX_DAMPING),
+                if good { Ok(()) } else { Err(SafetyError::Stuck) },
+                "{load} {travel}"
+            );
+        }
+        assert_eq!(Safety { stuck: None, ..Safety::DEFAULT }.check(MAX_DAMPING), Ok(()));
     }
 }

@@ -1,84 +1,120 @@
-//! Everything that changes from tick to tick.
+//! The state of the loop, and read access to it. Only the loop writes it.
 
-use super::lost_contact::LostContact;
-use super::{Fault, PatchWitness, Phase, Remembered, ResetReason, Stillness, TableCheck, Tracked};
-use crate::device::{Counts, Duty, HomingState, VelocityState};
+use super::contact::LostContact;
+use super::{Fault, PatchWitness, Phase, Remembered, ResetReason, Servo, Settings, Stillness, TableCheck, Tracked};
+use crate::device::{Counts, Device, Duty, ElectricalAngle, HomingState, VelocityState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Tool};
+use crate::track::Contact;
 
-/// The state of the loop after a tick. A plain value: copy it, compare it, keep it in RAM. Only the loop
-/// writes it. `G` is what its guard remembers.
+/// The state of the loop after a tick. A plain value: copy it, compare it, keep it in RAM. `G` is the state of its guard.
+///
+/// ```
+/// use palpate::servo::{Loop, Output, Phase, ServoState, State, Tracked};
+///
+/// /// Any loop's state has these.
+/// fn is_rendering<const JOINTS: usize, W: Tracked, G>(state: &ServoState<JOINTS, W, G>) -> bool {
+///     state.phase() == Phase::Running && state.fault().is_none() && matches!(state.output(), Output::Drive(_))
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ServoState<const JOINTS: usize, W = PatchWitness, G = ()> {
-    /// What the loop is doing.
     pub(super) phase: Phase,
-    /// What stopped it, and at which tick. Latched.
-    pub(super) fault: Option<(Fault, u32)>,
-    /// What else was found wrong since. Latched; what lets nothing be driven any more stands before what does.
-    pub(super) later: Option<Fault>,
-    /// Why the chip was reset before the loop began.
-    pub(super) reset: ResetReason,
     /// Ticks done.
     pub(super) ticks: u32,
-    /// Frames lost, late or damaged so far.
-    pub(super) frames_lost: u32,
-    /// Ticks that overran so far.
-    pub(super) overruns: u32,
-    /// Ticks that overran in a row.
-    pub(super) overruns_in_a_row: u32,
-    /// Whether an overrun was noted since the last tick.
-    pub(super) overran: bool,
-    /// Ticks since the host was heard.
-    pub(super) link_silence: u32,
-    /// Ticks of believable sensors so far, while calibrating.
-    pub(super) settled: u32,
-    /// Whether the device is homed.
-    pub(super) homed: bool,
-    /// How far homing has come.
-    pub(super) homing: HomingState<JOINTS>,
-    /// Joint angle in the middle of count zero, radians: the encoders' own, or what homing found.
-    pub(super) angles_at_zero: [f32; JOINTS],
-    /// How far the check of the tables has come.
-    pub(super) table_check: TableCheck,
-    /// Controller steps that were rejected because the distance would have risen.
-    pub(super) rejected_steps: u32,
-    /// Contact that was lost.
-    pub(super) lost_contact: LostContact,
-    /// Whether the probe is deeper inside than the least radius of curvature.
-    pub(super) is_too_deep: bool,
-    /// The last good encoder counts; `None` before the first.
-    pub(super) counts: Option<[Counts; JOINTS]>,
-    /// Joint angles, radians.
-    pub(super) angles: [f32; JOINTS],
-    /// Joint rates, rad/s, as estimated.
-    pub(super) rates: [f32; JOINTS],
-    /// What the velocity estimators remember.
-    pub(super) velocities: [VelocityState; JOINTS],
-    /// Since when each joint has not moved under load.
-    pub(super) stillness: Stillness<JOINTS>,
-    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force
-    /// is multiplied by it.
-    pub(super) room: f32,
-    /// The probe in the body's frame, metres.
-    pub(super) probe: Vec3,
-    /// The virtual tool; it is the probe unless there is a coupling.
-    pub(super) tool: Tool,
-    /// The witness point.
-    pub(super) witness: W,
-    /// Where friction holds the surface.
-    pub(super) anchor: Anchor,
-    /// What the passivity observer counted.
-    pub(super) energy: Energy,
-    /// How far the force is faded in, 0 to 1.
-    pub(super) fade: f32,
-    /// Force on the probe, N, in the device's frame, as the motors give it.
-    pub(super) force: Vec3,
-    /// Whether the motors are driven though no force is rendered: by homing, or to damp after a fault.
-    pub(super) drives: bool,
-    /// Duties now applied.
-    pub(super) duties: [Duty; JOINTS],
-    /// What the guard remembers.
+    pub(super) sensors: Sensors<JOINTS>,
+    pub(super) faults: Faults,
+    pub(super) readiness: Readiness<JOINTS>,
+    pub(super) contact: ContactState<W>,
+    pub(super) drive: DriveState<JOINTS>,
+    /// The guard's own state.
     pub(super) guard: G,
+}
+
+/// The joints as the sensors have them; written by `sense.rs`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sensors<const JOINTS: usize> {
+    /// The last good encoder counts; `None` before the first.
+    pub counts: Option<[Counts; JOINTS]>,
+    /// Joint angles, radians.
+    pub angles: [f32; JOINTS],
+    /// Joint rates, rad/s, as estimated.
+    pub rates: [f32; JOINTS],
+    /// The state of each joint's velocity estimator.
+    pub velocities: [VelocityState; JOINTS],
+    /// Joint angle in the middle of count zero, radians: the encoders' own, or the one that homing found.
+    pub angles_at_zero: [f32; JOINTS],
+    /// Since when each joint has not moved under load.
+    pub stillness: Stillness<JOINTS>,
+    /// Frames lost, late or damaged so far.
+    pub frames_lost: u32,
+}
+
+/// Latched faults, and the counters that lead to one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Faults {
+    /// The first fault and its tick. Latched.
+    pub first: Option<(Fault, u32)>,
+    /// The gravest of the faults since. Latched; one that forbids damping stands before one that allows it.
+    pub later: Option<Fault>,
+    /// Why the chip was reset before the loop started.
+    pub reset: ResetReason,
+    /// Ticks that overran so far.
+    pub overruns: u32,
+    /// Ticks that overran in a row.
+    pub overruns_in_a_row: u32,
+    /// Whether an overrun was noted since the last tick.
+    pub overran: bool,
+    /// Ticks since the host was heard.
+    pub link_silence: u32,
+    /// How far the check of the tables has come.
+    pub table_check: TableCheck,
+}
+
+/// Progress of [`Phase::Calibrate`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Readiness<const JOINTS: usize> {
+    /// Ticks with plausible sensors so far, while calibrating.
+    pub settled: u32,
+    /// Whether the device is homed.
+    pub homed: bool,
+    pub homing: HomingState<JOINTS>,
+}
+
+/// The probe, its virtual tool, and the surface that it touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ContactState<W> {
+    /// The probe in the body's frame, metres.
+    pub probe: Vec3,
+    /// The virtual tool; it is the probe unless there is a coupling.
+    pub tool: Tool,
+    /// The witness point.
+    pub witness: W,
+    /// Where friction holds the surface.
+    pub anchor: Anchor,
+    /// Contact that was released.
+    pub lost: LostContact,
+    /// Whether the probe is deeper inside than the minimum radius of curvature.
+    pub is_too_deep: bool,
+    /// Controller steps that were rejected because the distance would have risen.
+    pub rejected_steps: u32,
+}
+
+/// The force and its way to the motors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DriveState<const JOINTS: usize> {
+    /// Force on the probe, N, in the device's frame, as the motors give it.
+    pub force: Vec3,
+    /// How far the force is faded in, 0 to 1.
+    pub fade: f32,
+    /// Workspace margin ([`crate::device::Device::workspace_margin`]): 1 well inside; the force is multiplied by it.
+    pub margin: f32,
+    /// The passivity observer's energy.
+    pub energy: Energy,
+    /// Whether the motors are driven though no force is rendered: by homing, or to damp after a fault.
+    pub drives: bool,
+    /// Duties applied since the last tick.
+    pub duties: [Duty; JOINTS],
 }
 
 impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
@@ -86,43 +122,48 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
     /// tick.
     pub fn digest(&self) -> u32 {
         let mut hash = Fnv::new();
-        let (fault, fault_tick) = self.fault.map_or((0, 0), |(fault, tick)| (fault.code(), tick));
-        let faults = u32::from(fault) | u32::from(self.later.map_or(0, Fault::code)) << 8;
+        let (fault, fault_tick) = self.faults.first.map_or((0, 0), |(fault, tick)| (fault.code(), tick));
+        let faults = u32::from(fault) | u32::from(self.faults.later.map_or(0, Fault::code)) << 8;
         hash.words([self.phase as u32, faults, fault_tick, self.ticks]);
-        hash.words([self.reset as u32, self.overruns, self.overruns_in_a_row, u32::from(self.overran)]);
-        hash.words([self.link_silence, self.settled, u32::from(self.homed)]);
-        self.homing.words(|word| hash.words([word]));
-        hash.floats(self.angles_at_zero);
-        let TableCheck { place, crc, passes, read } = self.table_check;
+        hash.words([
+            self.faults.reset as u32,
+            self.faults.overruns,
+            self.faults.overruns_in_a_row,
+            u32::from(self.faults.overran),
+        ]);
+        hash.words([self.faults.link_silence, self.readiness.settled, u32::from(self.readiness.homed)]);
+        self.readiness.homing.words(|word| hash.words([word]));
+        hash.floats(self.sensors.angles_at_zero);
+        let TableCheck { place, crc, passes, read } = self.faults.table_check;
         hash.words([place.record, place.word, crc, passes, u32::from(read.is_some()), read.unwrap_or(0)]);
-        hash.words([self.frames_lost, self.rejected_steps, u32::from(self.counts.is_some())]);
-        let LostContact { count, in_a_row, tick, force, share } = self.lost_contact;
-        hash.words([count, in_a_row, tick, share.to_bits(), u32::from(self.is_too_deep)]);
+        hash.words([self.sensors.frames_lost, self.contact.rejected_steps, u32::from(self.sensors.counts.is_some())]);
+        let LostContact { count, in_a_row, tick, force, share } = self.contact.lost;
+        hash.words([count, in_a_row, tick, share.to_bits(), u32::from(self.contact.is_too_deep)]);
         hash.vectors([force]);
-        for counts in self.counts.iter().flatten() {
+        for counts in self.sensors.counts.iter().flatten() {
             hash.words([counts.0 as u32]);
         }
-        hash.floats(self.angles);
-        hash.floats(self.rates);
-        for velocity in &self.velocities {
+        hash.floats(self.sensors.angles);
+        hash.floats(self.sensors.rates);
+        for velocity in &self.sensors.velocities {
             match velocity {
                 VelocityState::LowPass(velocity) => hash.floats([*velocity]),
                 VelocityState::BetweenCounts { lag, velocity } => hash.floats([*lag, *velocity]),
             }
         }
-        hash.words([self.stillness.turn]);
-        for (still, Counts(count)) in self.stillness.since.into_iter().zip(self.stillness.counts) {
+        hash.words([self.sensors.stillness.turn]);
+        for (still, Counts(count)) in self.sensors.stillness.since.into_iter().zip(self.sensors.stillness.counts) {
             hash.floats(still);
             hash.words([count as u32]);
         }
-        hash.floats([self.room]);
-        hash.vectors([self.probe, self.tool.position, self.tool.velocity]);
-        self.witness.for_each_word(|word| hash.words([word]));
-        hash.words([u32::from(self.anchor.point.is_some()), u32::from(self.anchor.slips)]);
-        hash.vectors([self.anchor.point.unwrap_or(Vec3::ZERO), self.force]);
-        hash.floats([self.fade, self.energy.stored, self.energy.damping]);
-        hash.words([u32::from(self.energy.cut) | u32::from(self.drives) << 1]);
-        for duty in self.duties {
+        hash.floats([self.drive.margin]);
+        hash.vectors([self.contact.probe, self.contact.tool.position, self.contact.tool.velocity]);
+        self.contact.witness.for_each_word(|word| hash.words([word]));
+        hash.words([u32::from(self.contact.anchor.point.is_some()), u32::from(self.contact.anchor.slips)]);
+        hash.vectors([self.contact.anchor.point.unwrap_or(Vec3::ZERO), self.drive.force]);
+        hash.floats([self.drive.fade, self.drive.energy.stored, self.drive.energy.damping]);
+        hash.words([u32::from(self.drive.energy.cut) | u32::from(self.drive.drives) << 1]);
+        for duty in self.drive.duties {
             hash.words([duty.0 as u32]);
         }
         self.guard.for_each_word(|word| hash.words([word]));
@@ -130,10 +171,10 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
     }
 }
 
-impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
-    /// Joint angles, radians, as the estimators believe them: the middle of each count, or between counts.
+impl<const JOINTS: usize> Sensors<JOINTS> {
+    /// Joint angles, radians, as the estimators have them: the middle of each count, or between counts.
     #[inline]
-    pub(super) fn believed_angles(&self) -> [f32; JOINTS] {
+    pub fn estimated_angles(&self) -> [f32; JOINTS] {
         let mut angles = self.angles;
         for (angle, velocity) in angles.iter_mut().zip(&self.velocities) {
             *angle -= velocity.lag();
@@ -164,5 +205,228 @@ impl Fnv {
         for vector in vectors {
             self.floats(vector.to_array());
         }
+    }
+}
+
+impl<'a, S, K, const JOINTS: usize, G> Servo<'a, S, K, JOINTS, G> {
+    /// The settings it was made with.
+    #[inline]
+    pub const fn settings(&self) -> &Settings {
+        &self.core.settings
+    }
+
+    /// Whether its homing moves the joints by their motors.
+    #[inline]
+    pub const fn homing_drives(&self) -> bool {
+        match &self.core.homing {
+            Some(homing) => homing.drives(),
+            None => false,
+        }
+    }
+
+    /// Where the field of each motor is to be for the duties that the state now has; `None` for motors that do not have
+    /// three phases ([`crate::device::Reference::Fields`]), and before the first good counts.
+    #[inline]
+    pub fn fields<W, H>(&self, state: &ServoState<JOINTS, W, H>) -> Option<[ElectricalAngle; JOINTS]> {
+        self.core.homing.as_ref()?.fields(&state.readiness.homing, state.sensors.counts?)
+    }
+
+    /// Its device.
+    #[inline]
+    pub const fn device(&self) -> &'a Device<K, JOINTS> {
+        self.core.device
+    }
+
+    /// What it feels.
+    #[inline]
+    pub const fn surface(&self) -> &'a S {
+        self.core.surface
+    }
+}
+
+impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
+    /// What the loop is doing.
+    #[inline]
+    pub const fn phase(&self) -> Phase {
+        self.phase
+    }
+
+    /// What stopped it, and at which tick. Latched.
+    #[inline]
+    pub const fn fault(&self) -> Option<(Fault, u32)> {
+        self.faults.first
+    }
+
+    /// Why the chip was reset before the loop began.
+    #[inline]
+    pub const fn reset(&self) -> ResetReason {
+        self.faults.reset
+    }
+
+    /// Ticks done.
+    #[inline]
+    pub const fn ticks(&self) -> u32 {
+        self.ticks
+    }
+
+    /// Frames lost, late or damaged so far.
+    #[inline]
+    pub const fn frames_lost(&self) -> u32 {
+        self.sensors.frames_lost
+    }
+
+    /// Ticks that overran so far.
+    #[inline]
+    pub const fn overruns(&self) -> u32 {
+        self.faults.overruns
+    }
+
+    /// How often contact was lost so far: ended because no motion explained it, see [`super::ContactLimits`].
+    #[inline]
+    pub const fn contacts_lost(&self) -> u32 {
+        self.contact.lost.count
+    }
+
+    /// Whether the surface is touched and the probe deeper inside than its least radius of curvature: the closest point
+    /// is no longer unique there, and the witness point not proved to follow (theory §11). Ordinary where a small
+    /// fillet is pressed.
+    #[inline]
+    pub const fn is_too_deep(&self) -> bool {
+        self.contact.is_too_deep
+    }
+
+    /// Ticks since the host was heard.
+    #[inline]
+    pub const fn link_silence(&self) -> u32 {
+        self.faults.link_silence
+    }
+
+    /// Whether the device is homed.
+    #[inline]
+    pub const fn homed(&self) -> bool {
+        self.readiness.homed
+    }
+
+    /// How far homing has come.
+    #[inline]
+    pub const fn homing(&self) -> &HomingState<JOINTS> {
+        &self.readiness.homing
+    }
+
+    /// Joint angle in the middle of count zero, radians: the encoders' own, or what homing found.
+    #[inline]
+    pub const fn angles_at_zero(&self) -> [f32; JOINTS] {
+        self.sensors.angles_at_zero
+    }
+
+    /// How far the check of the tables has come.
+    #[inline]
+    pub const fn table_check(&self) -> &TableCheck {
+        &self.faults.table_check
+    }
+
+    /// Controller steps that were rejected because the distance would have risen.
+    #[inline]
+    pub const fn rejected_steps(&self) -> u32 {
+        self.contact.rejected_steps
+    }
+
+    /// The last good encoder counts; `None` before the first.
+    #[inline]
+    pub const fn counts(&self) -> Option<[Counts; JOINTS]> {
+        self.sensors.counts
+    }
+
+    /// Joint angles, radians.
+    #[inline]
+    pub const fn angles(&self) -> [f32; JOINTS] {
+        self.sensors.angles
+    }
+
+    /// Joint rates, rad/s, as estimated.
+    #[inline]
+    pub const fn rates(&self) -> [f32; JOINTS] {
+        self.sensors.rates
+    }
+
+    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force
+    /// is multiplied by it.
+    #[inline]
+    pub const fn workspace_margin(&self) -> f32 {
+        self.drive.margin
+    }
+
+    /// The probe in the body's frame, metres.
+    #[inline]
+    pub const fn probe(&self) -> Vec3 {
+        self.contact.probe
+    }
+
+    /// The virtual tool; it is the probe unless there is a coupling.
+    #[inline]
+    pub const fn tool(&self) -> Tool {
+        self.contact.tool
+    }
+
+    /// The witness point.
+    #[inline]
+    pub const fn witness(&self) -> &W {
+        &self.contact.witness
+    }
+
+    /// The same for what its surface lets be changed between two ticks, as a [`crate::scene::Scene`] does.
+    #[inline]
+    pub const fn witness_mut(&mut self) -> &mut W {
+        &mut self.contact.witness
+    }
+
+    /// Where friction holds the surface.
+    #[inline]
+    pub const fn anchor(&self) -> Anchor {
+        self.contact.anchor
+    }
+
+    /// What the passivity observer counted.
+    #[inline]
+    pub const fn energy(&self) -> Energy {
+        self.drive.energy
+    }
+
+    /// How far the force is faded in, 0 to 1.
+    #[inline]
+    pub const fn fade(&self) -> f32 {
+        self.drive.fade
+    }
+
+    /// Force on the probe, N, in the device's frame, as the motors give it.
+    #[inline]
+    pub const fn force(&self) -> Vec3 {
+        self.drive.force
+    }
+
+    /// Duties now applied.
+    #[inline]
+    pub const fn duties(&self) -> [Duty; JOINTS] {
+        self.drive.duties
+    }
+
+    /// What the guard remembers.
+    #[inline]
+    pub const fn guard(&self) -> &G {
+        &self.guard
+    }
+}
+
+impl<const JOINTS: usize, W: Tracked, G> ServoState<JOINTS, W, G> {
+    /// Signed gap along the outward normal, metres; negative behind the surface.
+    #[inline]
+    pub fn gap(&self) -> f32 {
+        self.contact.witness.gap()
+    }
+
+    /// Whether the surface is touched.
+    #[inline]
+    pub fn contact(&self) -> Contact {
+        self.contact.witness.contact()
     }
 }

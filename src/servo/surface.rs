@@ -1,69 +1,126 @@
-//! What the loop can touch: a patch, a body, or a surface of your own.
+//! The surfaces that the loop can track: a patch, a body, or one of your own.
 
 use crate::body::{Body, BodyWitness, Feature, TableCursor};
 use crate::math::Vec3;
-use crate::order::{Order, SceneError};
+use crate::patch::{Patch, SplinePatch, crc32};
 use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 use core::fmt::Debug;
 
 /// A surface whose closest point can be followed from tick to tick.
-pub trait Surface {
-    /// Whether all of its force is its own ([`Self::own_force`]): the loop then adds no spring, friction or texture to
-    /// it, and does not fade out what is left of contact that was lost.
-    const FEELS_ITSELF: bool = false;
-
-    /// What is kept between two ticks.
+///
+/// A patch of your own is a surface as [`OnePatch`]. Any other surface implements this trait, here a plane:
+///
+/// ```
+/// use palpate::math::Vec3;
+/// use palpate::patch::SecondDerivatives;
+/// use palpate::servo::{BakedTables, Surface, Touched, Tracked};
+/// use palpate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
+/// # use palpate::patch::SurfacePoint;
+///
+/// /// Everything below z = 0.
+/// struct Floor;
+///
+/// #[derive(Clone, Copy, Debug, PartialEq)]
+/// struct Below {
+///     witness: Witness,
+///     gap: f32,
+///     contact: Contact,
+/// }
+///
+/// impl Surface for Floor {
+///     type Witness = Below;
+///
+///     fn rest(&self) -> Below {
+///         let surface = SurfacePoint { point: Vec3::ZERO, tangent_u: Vec3::X, tangent_v: Vec3::Y };
+///         let second = SecondDerivatives::NONE;
+///         let mode = BoundaryMode::Interior;
+///         let witness = Witness { parameters: [0.0; 2], surface, second, mode, is_free: true, halvings: 0 };
+///         Below { witness, gap: 0.0, contact: Contact::default() }
+///     }
+///
+///     fn follow(&self, _: &Controller, below: &mut Below, probe: Probe, _: f32) -> Touched {
+///         below.witness.surface.point = Vec3::new(probe.position.x, probe.position.y, 0.0);
+///         below.gap = probe.position.z;
+///         below.contact = below.contact.next(below.gap, BoundaryMode::Interior);
+///         Touched { normal: Vec3::Z, rejected: false, unexplained: false }
+///     }
+///
+///     fn release(&self, below: &mut Below) {
+///         below.contact = Contact::Behind;
+///     }
+/// }
+///
+/// impl BakedTables for Floor {}
+///
+/// impl Tracked for Below {
+///     fn witness(&self) -> &Witness {
+///         &self.witness
+///     }
+///     fn gap(&self) -> f32 {
+///         self.gap
+///     }
+///     fn contact(&self) -> Contact {
+///         self.contact
+///     }
+///     fn for_each_word(&self, mut take: impl FnMut(u32)) {
+///         take(self.gap.to_bits());
+///         take(self.contact as u32);
+///     }
+/// }
+///
+/// let mut below = Floor.rest();
+/// Floor.follow(&Controller::SECOND_ORDER, &mut below, Probe::at(Vec3::Z * 0.01), 1e-3);
+/// Floor.follow(&Controller::SECOND_ORDER, &mut below, Probe::at(Vec3::Z * -0.01), 1e-3);
+/// assert_eq!(below.contact(), Contact::Touching);
+/// ```
+pub trait Surface: BakedTables {
+    /// The state of the tracker between two ticks.
     type Witness: Tracked;
 
-    /// Before the first tick.
+    /// The state before the first tick.
     fn rest(&self) -> Self::Witness;
 
     /// One tick: bounded work, no panic. `period` in seconds.
     fn follow(&self, controller: &Controller, witness: &mut Self::Witness, probe: Probe, period: f32) -> Touched;
 
-    /// Ends contact that no motion explains: where the closest point is has to be found anew, and nothing is touched
-    /// until the probe has been in front.
-    fn lose(&self, witness: &mut Self::Witness);
+    /// Releases contact when the tracked point is inconsistent with the probe's motion: the closest point is searched
+    /// again, and there is no contact until the probe has been in front.
+    fn release(&self, witness: &mut Self::Witness);
 
     /// Whether the probe is so deep behind the surface that the witness point is no longer proved to follow it.
     fn is_too_deep(&self, _: &Self::Witness) -> bool {
         false
     }
 
-    /// A force of its own on the probe, N, which needs no contact: that of a dial's detents. The loop treats it as it
-    /// treats a surface's.
-    #[inline]
-    fn own_force(&self, _: &Self::Witness) -> Option<Vec3> {
+    /// Selects an entry, where the surface offers several ([`super::Event::Chosen`]).
+    fn choose(&self, _: &mut Self::Witness, _: u8) {}
+}
+
+/// The tables of a surface in flash, for the check that they are still those that were baked. A surface without tables
+/// takes the defaults: nothing is checked.
+pub trait BakedTables {
+    /// A word of the tables; `None` past the end of the cursor's record, and of the tables. Bounded work.
+    fn table_word(&self, _: TableCursor) -> Option<u32> {
         None
     }
 
-    /// Somebody has chosen another of what it can feel like ([`super::Event::Chosen`]).
-    fn choose(&self, _: &mut Self::Witness, _: u8) {}
-
-    /// Does what a host asks for between two ticks, or nothing. Bounded work.
-    ///
-    /// # Errors
-    /// What is out of range, or not offered.
-    fn obey(&self, witness: &mut Self::Witness, order: &Order) -> Result<(), SceneError> {
-        let _ = (witness, order);
-        Err(SceneError::NotOffered)
-    }
-
-    /// A word of the tables, for the check that flash still holds what was baked; `None` past the end of the cursor's
-    /// record, and of the tables. Bounded work.
-    fn table_word(&self, cursor: TableCursor) -> Option<u32>;
-
-    /// How many records the tables have: for what is put together from several.
+    /// The number of records of the tables, for a surface made of several.
     fn table_records(&self) -> u32 {
         1
     }
 
-    /// CRC-32 of all those words as they were baked; `None` for tables that carry none: they are not checked.
-    fn baked_crc(&self) -> Option<u32>;
+    /// CRC-32 of all words as they were baked; `None` for tables that carry none: they are not checked.
+    fn baked_crc(&self) -> Option<u32> {
+        None
+    }
 }
 
-/// The state of a tracker, as the loop looks at it.
+/// The state of a tracker, as the loop reads it.
 pub trait Tracked: Copy + Debug + PartialEq {
+    /// Whether all of the surface's force is its own ([`Self::own_force`]): the loop then adds no spring, friction or
+    /// texture, and does not fade out the rest of a released contact.
+    const HAS_OWN_FORCE_ONLY: bool = false;
+
     /// The witness point.
     fn witness(&self) -> &Witness;
 
@@ -81,6 +138,13 @@ pub trait Tracked: Copy + Debug + PartialEq {
     /// The index of the body that is felt, of several.
     fn body(&self) -> u8 {
         0
+    }
+
+    /// A force of the surface's own on the probe, N, which needs no contact: that of a dial's detents. The loop treats it
+    /// as it treats the force of contact.
+    #[inline]
+    fn own_force(&self) -> Option<Vec3> {
+        None
     }
 
     /// Gives every word of the state to a hash.
@@ -111,7 +175,7 @@ impl Surface for Body<'_> {
         Touched { normal: witness.normal, rejected: step.outcome == Outcome::Rejected, unexplained: step.unexplained }
     }
 
-    fn lose(&self, witness: &mut BodyWitness) {
+    fn release(&self, witness: &mut BodyWitness) {
         witness.forget();
     }
 
@@ -119,7 +183,9 @@ impl Surface for Body<'_> {
     fn is_too_deep(&self, witness: &BodyWitness) -> bool {
         Self::is_too_deep(self, witness)
     }
+}
 
+impl BakedTables for Body<'_> {
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         Self::table_word(self, cursor)
     }
@@ -184,5 +250,160 @@ impl Feature {
             Self::Edge(index) => index | 1 << 14,
             Self::Vertex(index) => index | 1 << 15,
         }
+    }
+}
+
+/// What is kept of a patch between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchWitness {
+    witness: Witness,
+    gap: f32,
+    contact: Contact,
+}
+
+/// A patch of your own as a surface; a [`SplinePatch`] is one by itself.
+///
+/// ```
+/// use palpate::patch::Patch;
+/// use palpate::servo::{OnePatch, Surface};
+///
+/// fn surface_of<P: Patch>(patch: P) -> impl Surface {
+///     OnePatch(patch)
+/// }
+/// # let _ = surface_of::<palpate::patch::SplinePatch>;
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct OnePatch<P>(pub P);
+
+impl PatchWitness {
+    fn rest(patch: &impl Patch) -> Self {
+        Self { witness: Witness::at(patch, 0.5, 0.5), gap: 0.0, contact: Contact::default() }
+    }
+
+    #[inline(always)]
+    fn follow(&mut self, patch: &impl Patch, controller: &Controller, probe: Probe, period: f32) -> Touched {
+        let Self { witness, gap, contact } = self;
+        let step = controller.step(patch, witness, probe, period);
+        let normal = witness.normal(patch).unwrap_or(Vec3::ZERO);
+        *gap = (probe.position - witness.surface.point).dot(normal);
+        *contact = contact.next(*gap, witness.mode);
+        Touched { normal, rejected: step.outcome == Outcome::Rejected, unexplained: false }
+    }
+}
+
+/// The same for both: `$patch` is the patch in `$this`.
+macro_rules! surface_of_a_patch {
+    ($type:ty, [$($generics:tt)*], |$this:ident| $patch:expr) => {
+        impl<$($generics)*> Surface for $type {
+            type Witness = PatchWitness;
+
+            fn rest(&self) -> PatchWitness {
+                let $this = self;
+                PatchWitness::rest($patch)
+            }
+
+            #[inline(always)]
+            fn follow(&self, controller: &Controller, state: &mut PatchWitness, probe: Probe, period: f32) -> Touched {
+                let $this = self;
+                state.follow($patch, controller, probe, period)
+            }
+
+            fn release(&self, state: &mut PatchWitness) {
+                state.contact = Contact::Behind;
+            }
+        }
+
+        impl<$($generics)*> BakedTables for $type {
+            fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+                let $this = self;
+                if cursor.record == 0 { Patch::table_word($patch, cursor.word as usize) } else { None }
+            }
+
+            fn baked_crc(&self) -> Option<u32> {
+                let $this = self;
+                Patch::baked_crc($patch)
+            }
+        }
+    };
+}
+
+surface_of_a_patch!(SplinePatch<'_>, [], |patch| patch);
+surface_of_a_patch!(OnePatch<P>, [P: Patch], |wrapper| &wrapper.0);
+
+impl Tracked for PatchWitness {
+    fn witness(&self) -> &Witness {
+        &self.witness
+    }
+
+    fn gap(&self) -> f32 {
+        self.gap
+    }
+
+    fn contact(&self) -> Contact {
+        self.contact
+    }
+
+    fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        witness_words(&self.witness, &mut take);
+        take(self.contact as u32);
+        take(self.gap.to_bits());
+    }
+}
+
+/// Progress of the check that the tables in flash are those that were baked: they are read whole before the first tick,
+/// and then repeatedly, a word every second tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TableCheck {
+    /// The next word.
+    pub place: TableCursor,
+    /// The CRC so far.
+    pub crc: u32,
+    /// How often the whole table was found good.
+    pub passes: u32,
+    /// A word that is read, and not yet in the CRC.
+    pub read: Option<u32>,
+}
+
+impl TableCheck {
+    /// Reads one word more, or takes the last one into the CRC: some 40 instructions either way. False if the tables
+    /// were read to their end and their CRC is not the expected one.
+    #[inline]
+    pub fn step<S: BakedTables>(&mut self, surface: &S, expected: u32) -> bool {
+        if let Some(word) = self.read.take() {
+            self.crc = crc32(self.crc, word);
+            return true;
+        }
+        let found = surface.table_word(self.place);
+        self.read = found;
+        let Some(next) = self.place.after(found) else {
+            let good = self.crc == expected;
+            *self = Self { passes: self.passes.wrapping_add(u32::from(good)), ..Self::default() };
+            return good;
+        };
+        self.place = next;
+        true
+    }
+
+    /// CRC-32 of the tables as they lie in memory, read from their start to their end: before the first tick, for it
+    /// takes time in proportion to their size.
+    pub fn read<S: BakedTables>(surface: &S) -> u32 {
+        let (mut place, mut crc) = (TableCursor::default(), 0);
+        loop {
+            let found = surface.table_word(place);
+            if let Some(word) = found {
+                crc = crc32(crc, word);
+            }
+            match place.after(found) {
+                Some(next) => place = next,
+                None => return crc,
+            }
+        }
+    }
+
+    /// Reads the tables once, as [`Self::read`] does. True if they are good.
+    pub fn run<S: BakedTables>(&mut self, surface: &S, expected: u32) -> bool {
+        let good = Self::read(surface) == expected;
+        *self = Self { passes: self.passes.wrapping_add(u32::from(good)), ..Self::default() };
+        good
     }
 }

@@ -1,12 +1,10 @@
 //! One tick, from top to bottom.
 
-use super::guard::Moving;
 use super::sense::sense;
-use super::{Event, Fault, Guard, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
+use super::{Event, Fault, Guard, Motion, Output, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
 use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose, VelocityMethod};
 use crate::math::Vec3;
-use crate::order::{Order, SceneError};
-use crate::render::{Motion, Tool, limit};
+use crate::render::{Moved, Tool, limit};
 use crate::track::{Contact, Probe};
 
 /// What a tick starts from.
@@ -45,12 +43,12 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     /// motors are off when this returns: apply [`ServoState::output`].
     pub fn note(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, event: Event) {
         match event {
-            Event::LinkAlive => state.link_silence = 0,
+            Event::LinkAlive => state.faults.link_silence = 0,
             // With homing of its own the loop is homed when that is done.
-            Event::Homed => state.homed |= self.homing.is_none(),
+            Event::Homed => state.readiness.homed |= self.core.homing.is_none(),
             Event::IndexPassed { joint, counts } => {
-                if let Some(homing) = &self.homing {
-                    homing.pass_index(&mut state.homing, joint, counts);
+                if let Some(homing) = &self.core.homing {
+                    homing.pass_index(&mut state.readiness.homing, joint, counts);
                 }
             }
             Event::HomingRefused => stop(state, Fault::Homing),
@@ -58,98 +56,90 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             Event::DriveFault => stop(state, Fault::Drive),
             Event::Stop => stop(state, Fault::Stopped),
             Event::Acknowledged => {
-                if state.reset.fault().is_some_and(|fault| state.fault == Some((fault, 0))) {
+                if state.faults.reset.fault().is_some_and(|fault| state.faults.first == Some((fault, 0))) {
                     // What was found since is not what somebody has looked at.
-                    state.fault = state.later.take().map(|fault| (fault, state.ticks));
-                    if state.fault.is_none() {
+                    state.faults.first = state.faults.later.take().map(|fault| (fault, state.ticks));
+                    if state.faults.first.is_none() {
                         state.phase = Phase::Reset;
-                        self.begin_anew(state);
+                        self.restart_estimators(state);
                     }
                 }
             }
-            Event::Chosen { index } => self.surface.choose(&mut state.witness, index),
+            Event::Chosen { index } => self.core.surface.choose(&mut state.contact.witness, index),
             Event::Supply { millivolts } => {
                 if let Err(fault) = self.guard.measured(&mut state.guard, millivolts) {
                     stop(state, fault);
                 }
             }
             Event::Overrun => {
-                state.overran = true;
-                state.overruns = state.overruns.saturating_add(1);
-                state.overruns_in_a_row = state.overruns_in_a_row.saturating_add(1);
-                if state.overruns_in_a_row > self.safety.max_overruns {
+                state.faults.overran = true;
+                state.faults.overruns = state.faults.overruns.saturating_add(1);
+                state.faults.overruns_in_a_row = state.faults.overruns_in_a_row.saturating_add(1);
+                if state.faults.overruns_in_a_row > self.core.safety.max_overruns {
                     stop(state, Fault::Overrun);
                 }
             }
         }
     }
 
-    /// Does what a host asks for between two ticks, or nothing. It neither drives a motor nor ends a fault: what is
-    /// felt of it is felt in the ticks that follow, as far as there is force at all.
+    /// One tick. The motors get its output and nothing else; [`ServoState::output`] repeats it.
     ///
-    /// # Errors
-    /// What is out of range, or not offered by what is felt.
-    pub fn obey(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, order: &Order) -> Result<(), SceneError> {
-        self.surface.obey(&mut state.witness, order)
-    }
-
-    /// One tick. What the motors get is in the state when it returns: [`ServoState::output`].
-    ///
-    /// Bounded work: one pose, one evaluation of the patch. No panic. Whatever the input, the duties are finite and in
-    /// range; from the tick in which a fault is seen they are safe.
+    /// Bounded work: one pose, one evaluation of the patch. No panic. For any input the duties are finite and in range;
+    /// from the tick in which a fault is detected they are safe.
     #[inline]
-    pub fn tick(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, input: Input<JOINTS>) {
+    pub fn tick(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, input: Input<JOINTS>) -> Output<JOINTS> {
         self.watch(state);
         let torques = self.feel(state, input);
         let gated = torques.and_then(|Torques { felt, weight, live }| {
-            let gated = self.guard.gate(&state.guard, live, &self.device.motors, felt, weight);
+            let gated = self.guard.gate(&state.guard, live, &self.core.device.motors, felt, weight);
             gated.map(|(duties, scale)| (duties, scale, live))
         });
         match gated {
             Ok((duties, scale, live)) => {
-                state.duties = self.device.feed(live, duties, self.rates_to_feed(state));
-                state.force *= scale;
-                self.guard.given(&mut state.guard, &duties);
+                state.drive.duties = self.core.device.feed(live, duties, self.rates_to_feed(state));
+                state.drive.force *= scale;
+                self.guard.record_output(&mut state.guard, &duties);
             }
             Err(fault) => {
                 stop(state, fault);
-                self.guard.given(&mut state.guard, &[Duty::ZERO; JOINTS]);
+                self.guard.record_output(&mut state.guard, &[Duty::ZERO; JOINTS]);
             }
         }
         state.ticks = state.ticks.wrapping_add(1);
+        state.output()
     }
 
     /// The joint rates that the drives make up for: none while a field is led. The rotor is to follow it, and a hand
     /// that spins the dial is to get no volts for that.
     #[inline]
     fn rates_to_feed(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> [f32; JOINTS] {
-        let leads = !state.homed && self.homing.as_ref().is_some_and(Homing::leads_fields);
-        if leads { [0.0; JOINTS] } else { state.rates }
+        let leads = !state.readiness.homed && self.core.homing.as_ref().is_some_and(Homing::leads_fields);
+        if leads { [0.0; JOINTS] } else { state.sensors.rates }
     }
 
     /// What the CRC of the tables must be, if they are to be checked and carry one.
     #[inline]
     pub(super) fn expected_crc(&self) -> Option<u32> {
-        if self.safety.checks_tables { self.surface.baked_crc() } else { None }
+        if self.core.safety.checks_tables { self.core.surface.baked_crc() } else { None }
     }
 
     /// What can be wrong whatever the sensors say.
     #[inline]
     fn watch(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) {
-        if !state.overran {
-            state.overruns_in_a_row = 0;
+        if !state.faults.overran {
+            state.faults.overruns_in_a_row = 0;
         }
-        state.overran = false;
-        state.link_silence = state.link_silence.saturating_add(1);
-        if state.link_silence > self.link_ticks {
+        state.faults.overran = false;
+        state.faults.link_silence = state.faults.link_silence.saturating_add(1);
+        if state.faults.link_silence > self.core.link_ticks {
             stop(state, Fault::LinkLost);
         }
         if let Err(fault) = self.guard.watch(&mut state.guard) {
             stop(state, fault);
         }
         if let Some(expected) = self.expected_crc()
-            && !self.guard.is_busy(&state.guard)
-            && !state.table_check.step(self.surface, expected)
+            && !self.guard.withholds_force(&state.guard)
+            && !state.faults.table_check.step(self.core.surface, expected)
         {
             stop(state, Fault::TableCorrupt);
         }
@@ -169,80 +159,91 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         };
 
         // Counts → joint angles → probe.
-        let first = state.counts.is_none();
-        let homing = self.homing.as_ref().filter(|_| !state.homed);
-        let to_stop = sense(self.device, &self.estimators, self.max_move, homing.is_none(), state, counts)?;
+        let first = state.sensors.counts.is_none();
+        let homing = self.core.homing.as_ref().filter(|_| !state.readiness.homed);
+        let sensors = &mut state.sensors;
+        let to_stop =
+            sense(self.core.device, &self.core.estimators, self.core.max_move, homing.is_none(), sensors, counts)?;
         if let Some(homing) = homing {
             return self.home(homing, state, counts, enable);
         }
-        let between = matches!(self.rendering.velocity, VelocityMethod::BetweenCounts);
-        let angles = if between { state.believed_angles() } else { state.angles };
-        let (pose, weight) = if self.rendering.compensates_gravity {
-            self.device.kinematics.held_pose(angles)
+        let between = matches!(self.core.rendering.velocity, VelocityMethod::BetweenCounts);
+        let angles = if between { state.sensors.estimated_angles() } else { state.sensors.angles };
+        let (pose, weight) = if self.core.rendering.compensates_gravity {
+            self.core.device.kinematics.held_pose(angles)
         } else {
-            (self.device.kinematics.pose(angles), [0.0; JOINTS])
-        };
-        let probe = pose.position - self.settings.body_origin_m;
-        let moved = if first { Vec3::ZERO } else { probe - state.probe };
-        let velocity = pose.velocity(state.rates);
+            self.core.device.kinematics.pose(angles).map(|pose| (pose, [0.0; JOINTS]))
+        }
+        .ok_or(Fault::Unreachable)?;
+        let probe = pose.position - self.core.settings.body_origin_m;
+        let moved = if first { Vec3::ZERO } else { probe - state.contact.probe };
+        let velocity = pose.velocity(state.sensors.rates);
         // The sum of all six is finite only where each is.
         if !(probe + velocity).element_sum().is_finite() {
-            return Err(if pose.is_reachable() { Fault::NotFinite } else { Fault::Unreachable });
+            return Err(Fault::NotFinite);
         }
-        state.probe = probe;
-        state.room = self.device.room(to_stop, &pose);
+        state.contact.probe = probe;
+        state.drive.margin = self.core.device.workspace_margin(to_stop, &pose);
         if state.phase == Phase::Fault {
-            let faults = [state.fault.map(|(fault, _)| fault), state.later];
+            let faults = [state.faults.first.map(|(fault, _)| fault), state.faults.later];
             // A motor that may push the wrong way would not damp.
-            let may =
-                faults.iter().flatten().all(|fault| fault.leaves_damping()) && self.guard.share(&state.guard) >= 1.0;
-            let live = may && matches!(self.safety.output, SafeOutput::Damping(_));
-            state.drives = live;
+            let may = faults.iter().flatten().all(|fault| fault.leaves_damping())
+                && self.guard.force_fraction(&state.guard) >= 1.0;
+            let live = may && matches!(self.core.safety.output, SafeOutput::Damping(_));
+            state.drive.drives = live;
             return Ok(Torques { felt: self.safe_torques(state, &pose, velocity), live, ..Torques::NONE });
         }
         state.phase = self.next_phase(state, enable);
 
         // Probe, or the virtual tool it pulls → witness point.
         let held = Tool { position: probe, velocity };
-        let pulls = self.rendering.coupling.is_some() && state.phase == Phase::Running;
-        let tool = if pulls { state.tool } else { held };
-        state.tool.position = tool.position;
+        let pulls = self.core.rendering.coupling.is_some() && state.phase == Phase::Running;
+        let tool = if pulls { state.contact.tool } else { held };
+        state.contact.tool.position = tool.position;
         let target = Probe { position: tool.position, velocity: tool.velocity };
-        let touched = self.surface.follow(&self.controller, &mut state.witness, target, self.period);
-        state.rejected_steps = state.rejected_steps.wrapping_add(u32::from(touched.rejected));
-        state.is_too_deep = false;
-        if state.witness.contact() == Contact::Touching {
+        let touched =
+            self.core.surface.follow(&self.core.controller, &mut state.contact.witness, target, self.core.period);
+        state.contact.rejected_steps = state.contact.rejected_steps.wrapping_add(u32::from(touched.rejected));
+        state.contact.is_too_deep = false;
+        if state.contact.witness.contact() == Contact::Touching {
             // A hand goes deep where the force is withheld, and nothing pushes it out.
-            let is_given_up = -state.witness.gap() > self.contact_watch.max_depth && !self.guard.is_busy(&state.guard);
+            let is_given_up = -state.contact.witness.gap() > self.core.contact_watch.max_depth
+                && !self.guard.withholds_force(&state.guard);
             if touched.unexplained || is_given_up {
-                self.lose_contact(state)?;
+                self.release_contact(state)?;
             } else {
-                state.is_too_deep = self.surface.is_too_deep(&state.witness);
+                state.contact.is_too_deep = self.core.surface.is_too_deep(&state.contact.witness);
             }
         }
 
         // Gap → force → torques.
-        let motion = Motion { moved, velocity, rate: self.rate };
-        if let Some(passivity) = &self.rendering.passivity {
-            passivity.observe(&mut state.energy, state.force, &motion);
+        let motion = Moved { moved, velocity, rate: self.core.rate };
+        if let Some(passivity) = &self.core.rendering.passivity {
+            passivity.observe(&mut state.drive.energy, state.drive.force, &motion);
         }
-        state.fade = self.next_fade(state);
-        state.force = self.force(state, tool, touched.normal, &motion);
-        let mut felt = pose.torques(state.force);
+        state.drive.fade = self.next_fade(state);
+        state.drive.force = self.force(state, tool, touched.normal, &motion);
+        let mut felt = pose.torques(state.drive.force);
         if state.phase == Phase::Running {
-            let (angles, rates) = (&state.angles, &state.rates);
-            let moving = Moving { angles, rates, velocity, pose: &pose };
-            self.guard.motion(&mut state.guard, &moving, &mut state.force, &mut felt)?;
+            let (angles, rates) = (&state.sensors.angles, &state.sensors.rates);
+            let moving = Motion { angles, rates, velocity, pose: &pose };
+            self.guard.limit(&mut state.guard, &moving, &mut state.drive.force, &mut felt)?;
         } else {
-            self.guard.released(&mut state.guard);
+            self.guard.force_not_requested(&mut state.guard);
         }
-        if let Some(limits) = self.safety.stuck
-            && !self.guard.is_busy(&state.guard)
-            && state.stillness.is_broken(limits, &self.device.dry_friction_n_m, &counts, &state.angles, &felt)
+        if let Some(limits) = self.core.safety.stuck
+            && !self.guard.withholds_force(&state.guard)
+            && state.sensors.stillness.is_broken(
+                limits,
+                &self.core.device.dry_friction_n_m,
+                &counts,
+                &state.sensors.angles,
+                &felt,
+            )
         {
             return Err(Fault::JointStuck);
         }
-        let carried = state.fade * self.guard.share(&state.guard);
+        let carried = state.drive.fade * self.guard.force_fraction(&state.guard);
         Ok(Torques { felt, weight: weight.map(|torque| torque * carried), live: state.phase == Phase::Running })
     }
 
@@ -254,39 +255,43 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         counts: [Counts; JOINTS],
         enable: bool,
     ) -> Result<Torques<JOINTS>, Fault> {
-        state.drives = false;
+        state.drive.drives = false;
         if state.phase == Phase::Fault {
             return Ok(Torques::NONE);
         }
         state.phase = self.next_phase(state, enable);
         // No motor moves by itself: whoever wants force wants homing.
         if homing.waits_for_enable() && !enable {
-            state.homing.pause();
+            state.readiness.homing.pause();
             return Ok(Torques::NONE);
         }
-        let input =
-            HomingInput { counts: Some(counts), index: [None; JOINTS], rates: state.rates, period: self.period };
-        match homing.tick(&mut state.homing, input) {
+        let input = HomingInput {
+            counts: Some(counts),
+            index: [None; JOINTS],
+            rates: state.sensors.rates,
+            period: self.core.period,
+        };
+        match homing.tick(&mut state.readiness.homing, input) {
             HomingProgress::Waiting => {
-                state.drives = homing.drives();
-                Ok(Torques { felt: state.homing.torques(), live: state.drives, ..Torques::NONE })
+                state.drive.drives = homing.drives();
+                Ok(Torques { felt: state.readiness.homing.torques(), live: state.drive.drives, ..Torques::NONE })
             }
             HomingProgress::Refused(_) => Err(Fault::Homing),
             HomingProgress::Done(encoders) => {
-                state.homed = true;
-                state.angles_at_zero = encoders.map(|encoder| encoder.angle_at_zero_rad);
+                state.readiness.homed = true;
+                state.sensors.angles_at_zero = encoders.map(|encoder| encoder.angle_at_zero_rad);
                 // The angles jump.
-                self.begin_anew(state);
+                self.restart_estimators(state);
                 Ok(Torques::NONE)
             }
         }
     }
 
     /// Forgets where the joints were, and how fast.
-    fn begin_anew(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) {
-        state.counts = None;
-        state.rates = [0.0; JOINTS];
-        state.velocities = self.estimators.map(|estimator| estimator.start());
+    fn restart_estimators(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) {
+        state.sensors.counts = None;
+        state.sensors.rates = [0.0; JOINTS];
+        state.sensors.velocities = self.core.estimators.map(|estimator| estimator.start());
     }
 
     /// At most one step a tick; [`Phase::Fault`] is never left.
@@ -295,9 +300,10 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         match state.phase {
             Phase::Reset => Phase::Calibrate,
             Phase::Calibrate => {
-                state.settled = state.settled.saturating_add(1);
-                let checked = self.expected_crc().is_none() || state.table_check.passes > 0;
-                let ready = state.settled >= self.safety.settle_ticks && state.homed && checked;
+                state.readiness.settled = state.readiness.settled.saturating_add(1);
+                let checked = self.expected_crc().is_none() || state.faults.table_check.passes > 0;
+                let ready =
+                    state.readiness.settled >= self.core.safety.settle_ticks && state.readiness.homed && checked;
                 if ready { Phase::Armed } else { Phase::Calibrate }
             }
             Phase::Armed | Phase::Running => {
@@ -319,34 +325,34 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         pose: &ProbePose<JOINTS>,
         velocity: Vec3,
     ) -> [f32; JOINTS] {
-        state.force = match self.safety.output {
+        state.drive.force = match self.core.safety.output {
             SafeOutput::Zero => Vec3::ZERO,
-            SafeOutput::Damping(damping) => limit::saturated(velocity * -damping, self.penalty.max_force_n),
+            SafeOutput::Damping(damping) => limit::saturated(velocity * -damping, self.core.penalty.max_force_n),
         };
-        pose.torques(state.force)
+        pose.torques(state.drive.force)
     }
 }
 
 /// Latches a fault; the first one stands, and of the others the gravest is remembered. Motors at zero.
 fn stop<W, G, const JOINTS: usize>(state: &mut ServoState<JOINTS, W, G>, fault: Fault) {
     state.phase = Phase::Fault;
-    match state.fault {
-        None => state.fault = Some((fault, state.ticks)),
+    match state.faults.first {
+        None => state.faults.first = Some((fault, state.ticks)),
         Some((first, _)) if first == fault => {}
         Some(_) => {
             let is_graver = |later: Fault| later.leaves_damping() && !fault.leaves_damping();
-            if state.later.is_none_or(is_graver) {
-                state.later = Some(fault);
+            if state.faults.later.is_none_or(is_graver) {
+                state.faults.later = Some(fault);
             }
         }
     }
-    state.force = Vec3::ZERO;
-    state.fade = 0.0;
-    state.drives = false;
-    state.duties = [Duty::ZERO; JOINTS];
+    state.drive.force = Vec3::ZERO;
+    state.drive.fade = 0.0;
+    state.drive.drives = false;
+    state.drive.duties = [Duty::ZERO; JOINTS];
 }
 
 fn count_lost<W, G, const JOINTS: usize>(state: &mut ServoState<JOINTS, W, G>, fault: Fault) -> Fault {
-    state.frames_lost = state.frames_lost.wrapping_add(1);
+    state.sensors.frames_lost = state.sensors.frames_lost.wrapping_add(1);
     fault
 }

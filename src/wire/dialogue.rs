@@ -4,7 +4,7 @@ use super::message::{Reading, Record};
 use super::upload::UploadError;
 use crate::commission::CalibrationError;
 use crate::math::Vec3;
-use crate::order::SceneError;
+use crate::scene::SceneError;
 use crate::servo::{Remembered, ServoState, Tracked};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -15,8 +15,8 @@ pub const PROTOCOL: u16 = 2;
 /// From a device that runs by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Told {
-    /// The first frame, and the answer to a host's [`super::Command::Hello`].
+pub enum DeviceMessage {
+    /// The first frame, and the answer to a host's [`super::HostMessage::Hello`].
     Hello(Hello),
     /// The loop at a tick, and its timing.
     Record(Record),
@@ -120,7 +120,7 @@ pub enum Refused {
     Hello,
     /// An order.
     #[error("{0}")]
-    Order(SceneError),
+    Command(SceneError),
     /// An upload.
     #[error("{0}")]
     Upload(UploadError),

@@ -137,7 +137,7 @@ impl<M: DeserializeOwned> Default for Receiver<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wire::{Record, Report, Sensors, Told};
+    use crate::wire::{DeviceMessage, Record, Report, Sensors};
 
     const SENSORS: Sensors = Sensors { tick: 70_000, counts: [-1, 0, i32::MAX], enable: true };
 
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn the_longest_record_fits() {
-        let longest = Told::Record(Record {
+        let longest = DeviceMessage::Record(Record {
             tick: u32::MAX,
             number: u32::MAX,
             clock: u32::MAX,
@@ -257,14 +257,14 @@ mod tests {
 
     #[test]
     fn the_longest_order_and_upload_fit() {
-        use crate::scene::{Order, Pose};
-        use crate::wire::{CHUNK, Command, Upload};
-        let pose = Pose { position: [-1.5; 3], orientation: [-1.5; 4] };
+        use crate::scene::{BodyPose, Command};
+        use crate::wire::{CHUNK, HostMessage, Upload};
+        let pose = BodyPose { position: [-1.5; 3], orientation: [-1.5; 4] };
         let (velocity, angular_velocity) = ([-1.5; 3], [-1.5; 3]);
-        let order = Order::Lead { body: u8::MAX, pose, velocity, angular_velocity, seconds: -1.5 };
+        let order = Command::Lead { body: u8::MAX, pose, velocity, angular_velocity, seconds: -1.5 };
         let part = Upload::Bytes { at: u32::MAX, bytes: [[u8::MAX; 16]; CHUNK / 16] };
         let number = u16::MAX;
-        for longest in [Command::Order { number, order }, Command::Upload { number, part }] {
+        for longest in [HostMessage::Command { number, command: order }, HostMessage::Upload { number, part }] {
             let mut buffer = [0; MAX_FRAME];
             let frame = pack(&longest, &mut buffer).unwrap();
             assert!(frame.len() <= MAX_FRAME - 32, "{} bytes", frame.len());

@@ -130,7 +130,7 @@ pub mod hold {
 /// To a device that runs by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Command {
+pub enum HostMessage {
     /// The host is there: [`crate::servo::Event::LinkAlive`].
     Alive,
     /// Stop: [`crate::servo::Event::Stop`], latched.
@@ -149,11 +149,11 @@ pub enum Command {
         protocol: u16,
     },
     /// What is felt is to be changed between two ticks. Answered by its number ([`super::Answer`]).
-    Order {
+    Command {
         /// The next higher one, wrapping.
         number: u16,
         /// What.
-        order: crate::order::Order,
+        command: crate::scene::Command,
     },
     /// A part of a body on its way into the device's memory. Answered by its number ([`super::Answer`]).
     Upload {

@@ -2,7 +2,7 @@
 //!
 //! A frame is `COBS(postcard(message) · CRC-32) · 0x00`. [`frame`] packs and unpacks. In lockstep with a simulated
 //! device [`Sensors`] goes to the device and [`Report`] comes back, one of each a tick; a device that runs by itself
-//! takes [`Command`]s and is [`Told`] of: a [`Hello`] first, a [`Record`] now and then ([`telemetry`]), to a host that
+//! takes [`HostMessage`]s and is [`DeviceMessage`] of: a [`Hello`] first, a [`Record`] now and then ([`telemetry`]), to a host that
 //! speaks with it [`Answer`]s and [`View`]s, and while it is being set up a [`Reading`]; one that is being accepted
 //! answers requests ([`acceptance`]).
 //!
@@ -20,6 +20,6 @@ mod message;
 mod report;
 pub mod telemetry;
 mod upload;
-pub use dialogue::{Answer, Calibrated, Hello, KeepError, Marked, PROTOCOL, Refused, Told, View};
-pub use message::{Command, Reading, Record, Report, Sensors, hold};
+pub use dialogue::{Answer, Calibrated, DeviceMessage, Hello, KeepError, Marked, PROTOCOL, Refused, View};
+pub use message::{HostMessage, Reading, Record, Report, Sensors, hold};
 pub use upload::{CHUNK, Upload, UploadError};

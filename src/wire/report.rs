@@ -24,7 +24,7 @@ impl Report {
             feature: state.witness().feature(),
             mode: state.witness().witness().mode as u8,
             contact: state.contact() as u8,
-            room: (state.room() * 100.0) as u8,
+            room: (state.workspace_margin() * 100.0) as u8,
             parameters: state.witness().witness().parameters,
             probe: state.probe().to_array(),
             gap: state.gap(),

@@ -14,7 +14,7 @@ pub use heapless::spsc::{Consumer, Producer, Queue};
 
 /// What is told at once when it changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Told {
+struct DeviceMessage {
     phase: Phase,
     hold: u8,
     fault: Option<Fault>,
@@ -31,7 +31,7 @@ pub struct Recorder<'a> {
     number: u32,
     /// Ticks since the last record.
     waited: u32,
-    told: Option<Told>,
+    told: Option<DeviceMessage>,
     /// The counter at the last tick's interrupt.
     began: Option<u32>,
     shortest: u32,
@@ -86,7 +86,7 @@ impl<'a> Recorder<'a> {
         self.took = self.took.max(ended.wrapping_sub(began));
         self.waited = self.waited.saturating_add(1);
 
-        let now = Told {
+        let now = DeviceMessage {
             phase: state.phase(),
             hold: self.hold,
             fault: state.fault().map(|(fault, _)| fault),
@@ -156,8 +156,7 @@ mod tests {
     use crate::device::{Counts, presets::WOODEN_HAPTICS_2016};
     use crate::math::vec3;
     use crate::patch::{Patch, SecondDerivativeBounds, SurfacePoint};
-    use crate::servo::{Event, Input, Servo, Settings};
-    use crate::track::Controller;
+    use crate::servo::{Config, Event, Input, OnePatch, Servo, Settings};
 
     /// A plane under the device.
     struct Plane;
@@ -197,17 +196,18 @@ mod tests {
 
     /// Ticks so many times from the tick at hand, each a period apart and 300 counts long.
     fn ticks(recorder: &mut Recorder<'_>, state: &mut ServoState<3>, ticks: u32) {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::SECOND_ORDER, SETTINGS);
+        let servo =
+            Servo::new(&WOODEN_HAPTICS_2016, &OnePatch(Plane), Config { settings: SETTINGS, ..Config::DEFAULT });
         for _ in 0..ticks {
             // Near the end of the counter, so that it wraps.
             let began = (u32::MAX - 5 * PERIOD).wrapping_add(state.ticks() * PERIOD);
-            servo.tick(state, Input::Sensors { counts: [Counts(0); 3], enable: false });
+            let _ = servo.tick(state, Input::Sensors { counts: [Counts(0); 3], enable: false });
             recorder.note(state, began, began.wrapping_add(300));
         }
     }
 
     fn start() -> ServoState<3> {
-        Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::SECOND_ORDER, SETTINGS).start()
+        Servo::new(&WOODEN_HAPTICS_2016, &OnePatch(Plane), Config { settings: SETTINGS, ..Config::DEFAULT }).start()
     }
 
     #[test]
@@ -216,7 +216,8 @@ mod tests {
         let (producer, mut consumer) = queue.split();
         let (mut recorder, mut state) = (Recorder::new(producer, 4_000_000, 10), start());
         ticks(&mut recorder, &mut state, 100);
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &Plane, Controller::SECOND_ORDER, SETTINGS);
+        let servo =
+            Servo::new(&WOODEN_HAPTICS_2016, &OnePatch(Plane), Config { settings: SETTINGS, ..Config::DEFAULT });
         servo.note(&mut state, Event::Stop);
         ticks(&mut recorder, &mut state, 2);
 

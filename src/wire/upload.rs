@@ -22,7 +22,7 @@ pub enum Upload {
         /// Sixteen at a time.
         bytes: [[u8; 16]; CHUNK / 16],
     },
-    /// All of it has come: it is checked, and ready to be taken ([`crate::scene::Order::Take`]).
+    /// All of it has come: it is checked, and ready to be taken ([`crate::scene::Command::Take`]).
     End,
     /// As [`Self::Begin`], but into the device's flash, where it stays without power and is felt from the next reset
     /// on. From this word to [`Self::End`] the device keeps its motors off; it refuses while they are driven, or
@@ -70,7 +70,7 @@ pub enum UploadError {
     /// The motors are driven, or somebody holds the enable input: flash is written only while they are off.
     #[error("flash is written only while the motors are off; release the enable input first")]
     Driven,
-    /// The kept body is felt: another is to take its place first ([`crate::scene::Order::PutBack`]).
+    /// The kept body is felt: another is to take its place first ([`crate::scene::Command::PutBack`]).
     #[error("the body stored in flash is in use; put the built-in one back first")]
     Felt,
     /// The flash did not take what was written.

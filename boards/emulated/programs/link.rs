@@ -11,7 +11,7 @@ use cortex_m_rt::entry;
 use palpate::body::Body;
 use palpate::math::vec3;
 use palpate::scene::{Limits, Material, Motion, Part, Scene, Slot};
-use palpate::servo::{Heartbeat, Safety, Servo, Unguarded};
+use palpate::servo::{Config, Heartbeat, Safety, Servo, Unguarded};
 use palpate::track::{Controller, Placement};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Producer, Queue};
@@ -55,8 +55,11 @@ static SCENE: Surface = Scene::new(
 
 /// A host that falls silent for ten seconds is gone: the emulator's line takes the host's own time, while emulated time
 /// goes on. On a board it would be a tenth of a second.
-static SERVO: Servo<'static, Surface, Mechanism, 3> = Servo::new(&DEVICE, &SCENE, Controller::SECOND_ORDER, SETTINGS)
-    .safety(Safety { link_timeout_s: 10.0, ..Safety::DEFAULT });
+static SERVO: Servo<'static, Surface, Mechanism, 3> = Servo::new(
+    &DEVICE,
+    &SCENE,
+    Config { settings: SETTINGS, safety: Safety { link_timeout_s: 10.0, ..Safety::DEFAULT }, ..Config::DEFAULT },
+);
 
 struct This;
 

@@ -6,7 +6,7 @@
 use cortex_m_rt::entry;
 use palpate::wire::frame::{self, MAX_FRAME};
 use palpate::wire::telemetry::Queue;
-use palpate::wire::{Record, Told};
+use palpate::wire::{DeviceMessage, Record};
 use palpate_emulated::board::BOARD;
 use palpate_emulated::body::SETTINGS;
 use palpate_emulated::link::Link;
@@ -30,7 +30,7 @@ fn main() -> ! {
     loop {
         // No sleep: the emulator, left asleep, lets every other tick of the timer pass.
         let Some(record) = records.dequeue() else { continue };
-        if let Ok(frame) = frame::pack(&Told::Record(record), &mut buffer) {
+        if let Ok(frame) = frame::pack(&DeviceMessage::Record(record), &mut buffer) {
             line.send(frame);
         }
     }

@@ -2,8 +2,8 @@
 
 use palpate::body::{Body, Edge, Face, Spoke, Vertex};
 #[cfg(feature = "protected")]
-use palpate::device::{Endurance, Protection, SignWatch, SupplyRange};
-use palpate::servo::{self, Guard, Input, Rendering, Servo, ServoState};
+use palpate::device::{Endurance, PolarityCheck, Protection, SupplyRange};
+use palpate::servo::{self, Config, Guard, Input, Rendering, Servo, ServoState};
 use palpate::track::Controller;
 
 use crate::planted;
@@ -46,15 +46,19 @@ const RENDERING: Rendering = if cfg!(feature = "smooth") { Rendering::SMOOTH } e
 
 /// Everything the servo knows, in flash.
 #[cfg(not(feature = "protected"))]
-pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS)
-    .rendering(RENDERING)
-    .safety(settings::SAFETY);
+pub static SERVO: Loop<Chosen> = Servo::new(
+    &DEVICE,
+    tables::SURFACE,
+    Config { settings: SETTINGS, rendering: RENDERING, safety: settings::SAFETY, ..Config::DEFAULT },
+);
 /// Everything the servo knows, in flash.
 #[cfg(feature = "protected")]
-pub static SERVO: Loop<Chosen> = Servo::new(&DEVICE, tables::SURFACE, Controller::SECOND_ORDER, SETTINGS)
-    .rendering(RENDERING)
-    .safety(settings::SAFETY)
-    .protect(protection());
+pub static SERVO: Loop<Chosen> = Servo::protected(
+    &DEVICE,
+    tables::SURFACE,
+    protection(),
+    Config { settings: SETTINGS, rendering: RENDERING, safety: settings::SAFETY, ..Config::DEFAULT },
+);
 
 /// A motor that is always too warm.
 #[cfg(feature = "protected")]
@@ -71,7 +75,7 @@ const fn protection() -> Protection<3> {
             polarity: if cfg!(feature = "folded") {
                 settings::PROTECTION.polarity
             } else {
-                Some(SignWatch { inertia_kg_m2: [1e3; 3] })
+                Some(PolarityCheck { inertia_kg_m2: [1e3; 3] })
             },
             motors: if cfg!(feature = "folded") { [WARM; 3] } else { settings::PROTECTION.motors },
             ..settings::PROTECTION
@@ -86,5 +90,5 @@ const fn protection() -> Protection<3> {
 #[inline(never)]
 pub fn tick(state: &mut State, input: Input<3>) {
     planted::fault(state.ticks(), state.fade(), state.frames_lost());
-    SERVO.tick(state, input);
+    let _ = SERVO.tick(state, input);
 }

@@ -32,7 +32,7 @@ const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, S
 /// One tick of the knob, which is also counted: the loop, and the widths of the three phases.
 #[inline(never)]
 pub fn tick(state: &mut KnobState, input: Input<1>) -> Option<[f32; 3]> {
-    SERVO.tick(state, input);
+    let _ = SERVO.tick(state, input);
     widths(&SERVO, state, &MODULATION)
 }
 

@@ -46,9 +46,9 @@ impl<L: Link> ServoLoop<L> {
         let input = self.input();
         let state = &mut self.state;
         let ((), instructions) = self.counter.count(|| body::tick(state, input));
-        // On a real board `state.duties()` goes to the PWM here, before anything else.
+        // A real board applies the tick's output here, before anything else.
         if DEADLINE.overrun(0, instructions) {
-            // The duties may be others after this: zero, where it is a fault.
+            // After a fault the output is another: off.
             SERVO.note(state, Event::Overrun);
         }
         let mut buffer = [0; MAX_FRAME];

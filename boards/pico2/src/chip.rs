@@ -5,7 +5,7 @@ use palpate_bench::{Cause, Memo, ResetFlags};
 use rp235x_hal::block::ImageDef;
 use rp235x_hal::pac::{POWMAN, SIO, WATCHDOG};
 
-/// Told to the boot ROM: a program for the secure state of an Arm core.
+/// DeviceMessage to the boot ROM: a program for the secure state of an Arm core.
 #[unsafe(link_section = ".start_block")]
 #[used]
 // SAFETY: nothing else lies in this section; the boot ROM reads it.

@@ -4,7 +4,7 @@ use crate::exercise::Runner;
 use crate::exercise::tally::Tally;
 use crate::outbox::Outbox;
 use crate::{Felt, Mailbox, Port, Settings, Watchdog};
-use palpate::servo::{Heartbeat, ResetReason, Surface, TableCheck};
+use palpate::servo::{BakedTables as _, Heartbeat, ResetReason, TableCheck};
 use palpate::wire::acceptance::{Counted, Failure, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::telemetry::Consumer;

@@ -8,8 +8,9 @@ use palpate::device::{
 use palpate::math::{Vec3, vec3};
 use palpate::patch::SplinePatch;
 use palpate::render::{Coupling, Friction, Passivity, Texture, grating};
-use palpate::servo::{ContactLimits, Guarded, Rendering, SafeOutput, Safety, Servo, Settings, StuckLimits, Unguarded};
-use palpate::track::Controller;
+use palpate::servo::{
+    Config, ContactLimits, Guarded, Rendering, SafeOutput, Safety, Servo, Settings, StuckLimits, Unguarded,
+};
 
 /// A polynomial patch of several spans.
 mod table1c {
@@ -55,50 +56,71 @@ const PASSIVITY: Passivity = Passivity {
 };
 
 /// Spring and damper alone; contact that no motion explains is a fault at once.
-pub static PLAIN: ServoOf<SerialArm> =
-    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT).safety(Safety {
-        link_timeout_s: 0.05,
-        contact: Some(ContactLimits { max_in_a_row: 0, ..ContactLimits::DEFAULT }),
-        ..Safety::DEFAULT
-    });
+pub static PLAIN: ServoOf<SerialArm> = Servo::new(
+    &WOODEN_HAPTICS_2016,
+    &table1c::PATCHES[0],
+    Config {
+        settings: TABLE_1C_AT,
+        safety: Safety {
+            link_timeout_s: 0.05,
+            contact: Some(ContactLimits { max_in_a_row: 0, ..ContactLimits::DEFAULT }),
+            ..Safety::DEFAULT
+        },
+        ..Config::DEFAULT
+    },
+);
 
 /// Friction, texture, passivity; homing, the table's check, damping after a fault.
-pub static RICH: ServoOf<SerialArm> =
-    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT)
-        .rendering(Rendering {
+pub static RICH: ServoOf<SerialArm> = Servo::new(
+    &WOODEN_HAPTICS_2016,
+    &table1c::PATCHES[0],
+    Config {
+        settings: TABLE_1C_AT,
+        rendering: Rendering {
             friction: Some(FRICTION),
             texture: Some(Texture { force: |touch| grating(touch, 100.0, 0.3), max_fraction: 0.2 }),
             passivity: Some(PASSIVITY),
             max_slew_n_per_s: 200.0,
             ..Rendering::PLAIN
-        })
-        .safety(Safety {
-            output: SafeOutput::Damping(4.0),
-            settle_ticks: 20,
-            wait_for_homing: true,
-            ..Safety::DEFAULT
-        });
+        },
+        safety: Safety { output: SafeOutput::Damping(4.0), settle_ticks: 20, wait_for_homing: true, ..Safety::DEFAULT },
+        ..Config::DEFAULT
+    },
+);
 
 /// A virtual tool on a rational patch, felt with a delta.
-pub static COUPLED: ServoOf<Delta> =
-    Servo::new(&NOVINT_FALCON, &ellipsoid::PATCHES[0], Controller::SECOND_ORDER, ELLIPSOID_AT).rendering(Rendering {
-        velocity: VelocityMethod::BetweenCounts,
-        coupling: Some(Coupling { stiffness_n_per_m: 500.0, damping_n_s_per_m: 3.0, mass_kg: 0.02 }),
-        friction: Some(FRICTION),
-        ..Rendering::PLAIN
-    });
+pub static COUPLED: ServoOf<Delta> = Servo::new(
+    &NOVINT_FALCON,
+    &ellipsoid::PATCHES[0],
+    Config {
+        settings: ELLIPSOID_AT,
+        rendering: Rendering {
+            velocity: VelocityMethod::BetweenCounts,
+            coupling: Some(Coupling { stiffness_n_per_m: 500.0, damping_n_s_per_m: 3.0, mass_kg: 0.02 }),
+            friction: Some(FRICTION),
+            ..Rendering::PLAIN
+        },
+        ..Config::DEFAULT
+    },
+);
 
 /// A five-bar on a turntable whose force is smooth, that watches for stuck sensors and bears some overruns. As on the
 /// body, nothing ends deep contact.
-pub static WATCHFUL: ServoOf<LinkageArm> =
-    Servo::new(&POLHEM_V2, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT)
-        .rendering(Rendering::SMOOTH)
-        .safety(Safety {
+pub static WATCHFUL: ServoOf<LinkageArm> = Servo::new(
+    &POLHEM_V2,
+    &table1c::PATCHES[0],
+    Config {
+        settings: TABLE_1C_AT,
+        rendering: Rendering::SMOOTH,
+        safety: Safety {
             max_overruns: 1,
             stuck: Some(StuckLimits { load: 1.0, travel_rad: 0.1 }),
             contact: None,
             ..Safety::DEFAULT
-        });
+        },
+        ..Config::DEFAULT
+    },
+);
 
 const WEAK: Device<SerialArm, 3> = Device {
     // Next to nothing: the duty for any torque is infinite.
@@ -108,36 +130,46 @@ const WEAK: Device<SerialArm, 3> = Device {
 
 /// Motors that are asked for NaN.
 pub static BROKEN: ServoOf<SerialArm> =
-    Servo::new(&WEAK, &ellipsoid::PATCHES[0], Controller::SECOND_ORDER, ELLIPSOID_AT);
+    Servo::new(&WEAK, &ellipsoid::PATCHES[0], Config { settings: ELLIPSOID_AT, ..Config::DEFAULT });
 
 const SHORT_SHINNED: Device<Delta, 3> =
     Device { kinematics: Delta { shin_m: 0.055, ..NOVINT_FALCON.kinematics }, ..NOVINT_FALCON };
 
 /// Shins so short that the legs cannot meet everywhere.
 pub static SHORT: ServoOf<Delta> =
-    Servo::new(&SHORT_SHINNED, &ellipsoid::PATCHES[0], Controller::SECOND_ORDER, ELLIPSOID_AT);
+    Servo::new(&SHORT_SHINNED, &ellipsoid::PATCHES[0], Config { settings: ELLIPSOID_AT, ..Config::DEFAULT });
 
 /// A table that is not the one that was baked.
 pub static CORRUPT: ServoOf<SerialArm> =
-    Servo::new(&WOODEN_HAPTICS_2016, &SPOILT, Controller::SECOND_ORDER, ELLIPSOID_AT);
+    Servo::new(&WOODEN_HAPTICS_2016, &SPOILT, Config { settings: ELLIPSOID_AT, ..Config::DEFAULT });
 
 static SPOILT: SplinePatch = ellipsoid::PATCHES[0].with_crc(!ellipsoid::TABLE_CRC);
 
 /// The capped box. The strokes lead right through it, deeper than any hand presses: nothing watches for lost contact,
 /// so that contact lasts all the way.
-pub static BODY: ServoOf<SerialArm, Body> =
-    Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, Controller::SECOND_ORDER, CAPPED_BOX_AT)
-        .rendering(Rendering { friction: Some(FRICTION), ..Rendering::PLAIN })
-        .safety(Safety { contact: None, ..Safety::DEFAULT });
+pub static BODY: ServoOf<SerialArm, Body> = Servo::new(
+    &WOODEN_HAPTICS_2016,
+    &capped_box::BODY,
+    Config {
+        settings: CAPPED_BOX_AT,
+        rendering: Rendering { friction: Some(FRICTION), ..Rendering::PLAIN },
+        safety: Safety { contact: None, ..Safety::DEFAULT },
+        ..Config::DEFAULT
+    },
+);
 
 /// All protection on, with motors that are soon warm, and a supply that nobody measures for long.
-pub static GUARDED: ServoOf<SerialArm, SplinePatch, Guarded<3>> =
-    Servo::new(&WOODEN_HAPTICS_2016, &table1c::PATCHES[0], Controller::SECOND_ORDER, TABLE_1C_AT).protect(Protection {
+pub static GUARDED: ServoOf<SerialArm, SplinePatch, Guarded<3>> = Servo::protected(
+    &WOODEN_HAPTICS_2016,
+    &table1c::PATCHES[0],
+    Protection {
         motors: [Endurance { continuous: 0.1, time_constant_s: 0.1 }; 3],
         max_joint_rates_rad_per_s: [6.0; 3],
         supply: Some(SupplyRange { min_mv: 20_000, max_mv: 28_000 }),
         ..WOODEN_HAPTICS_2016_PROTECTION
-    });
+    },
+    Config { settings: TABLE_1C_AT, ..Config::DEFAULT },
+);
 
 /// Joint angles, radians, that bring each device's probe to, around and into the bodies.
 pub const WOODEN_HAPTICS_REACH: [[f32; 2]; 3] = [[-0.32, 0.32], [0.0, 0.65], [0.65, 1.2]];

@@ -90,7 +90,9 @@ impl<R: Runner> Laps<'_, R> {
                 servo.note(&mut state, event);
             }
             let before = state.contact();
-            self.runner.tick(|| servo.tick(&mut state, order.input));
+            self.runner.tick(|| {
+                let _ = servo.tick(&mut state, order.input);
+            });
             tally.add(before, &state);
             let is_last = tally.ticks == ticks;
             if is_last || tally.ticks.is_multiple_of(TICKS_PER_LINE) {

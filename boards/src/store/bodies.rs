@@ -6,7 +6,7 @@ use crate::Uploads;
 use core::cell::{Cell, UnsafeCell};
 use core::sync::atomic::{AtomicBool, Ordering};
 use palpate::body::Body;
-use palpate::scene::Shelf;
+use palpate::scene::BodyStore;
 use palpate::wire::{Upload, UploadError};
 
 /// Two banks for bodies of at most `WORDS` words (four bytes), `FACES` and `EDGES`. A `static`.
@@ -54,7 +54,7 @@ impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Default for Bod
     }
 }
 
-impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Shelf for Bodies<WORDS, FACES, EDGES> {
+impl<const WORDS: usize, const FACES: usize, const EDGES: usize> BodyStore for Bodies<WORDS, FACES, EDGES> {
     fn take(&self) -> Option<u8> {
         (0..).zip(&self.banks).find(|(_, bank)| bank.take()).map(|(index, _)| index)
     }

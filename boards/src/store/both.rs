@@ -1,7 +1,7 @@
 //! Two body stores for one slot: RAM and flash.
 
 use palpate::body::Body;
-use palpate::scene::Shelf;
+use palpate::scene::BodyStore;
 
 /// Which of the two a bank is of.
 const OTHER: u8 = 1 << 7;
@@ -15,7 +15,7 @@ pub struct Both<'a, A, B>(
     pub &'a B,
 );
 
-impl<A: Shelf, B: Shelf> Shelf for Both<'_, A, B> {
+impl<A: BodyStore, B: BodyStore> BodyStore for Both<'_, A, B> {
     fn take(&self) -> Option<u8> {
         self.0.take().or_else(|| self.1.take().map(|bank| bank | OTHER))
     }

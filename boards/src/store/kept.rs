@@ -8,7 +8,7 @@ use core::hint::black_box;
 use core::sync::atomic::{AtomicBool, Ordering};
 use embedded_storage::nor_flash::NorFlash;
 use palpate::body::{Body, FileError};
-use palpate::scene::Shelf;
+use palpate::scene::BodyStore;
 use palpate::wire::{CHUNK, Upload, UploadError};
 
 /// A part of a chip's flash, or of what stands in for it, that is read where it lies.
@@ -94,7 +94,7 @@ impl<const FACES: usize, const EDGES: usize> Kept<FACES, EDGES> {
     }
 }
 
-impl<const FACES: usize, const EDGES: usize> Shelf for Kept<FACES, EDGES> {
+impl<const FACES: usize, const EDGES: usize> BodyStore for Kept<FACES, EDGES> {
     fn take(&self) -> Option<u8> {
         self.bank.take().then_some(0)
     }

@@ -1,7 +1,7 @@
 //! What a loop feels: a body, by one law.
 
 use palpate_core::body::{Body, BodyWitness, TableCursor};
-use palpate_core::servo::{Surface, Touched};
+use palpate_core::servo::{BakedTables, Surface, Touched};
 use palpate_core::track::{Controller, Probe};
 
 /// A body whose closest point is followed by the law of second order, whatever the loop says: so the compiler sees that
@@ -22,15 +22,17 @@ impl Surface for Felt {
         self.0.follow(&Controller::SECOND_ORDER, witness, probe, period)
     }
 
-    fn lose(&self, witness: &mut BodyWitness) {
-        self.0.lose(witness);
+    fn release(&self, witness: &mut BodyWitness) {
+        self.0.release(witness);
     }
 
     #[inline]
     fn is_too_deep(&self, witness: &BodyWitness) -> bool {
         Surface::is_too_deep(&self.0, witness)
     }
+}
 
+impl BakedTables for Felt {
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         self.0.table_word(cursor)
     }

@@ -3,8 +3,8 @@
 use crate::felt::Felt;
 use crate::pointers::Plain;
 use crate::status::Status;
-use palpate_core::device::{Endurance, Protection, SignWatch, SupplyRange};
-use palpate_core::servo::{Guard, Guarded, Servo, Unguarded};
+use palpate_core::device::{Device, Endurance, PolarityCheck, Protection, SupplyRange};
+use palpate_core::servo::{Config, Guard, Guarded, Servo, Unguarded};
 
 /// What a motor's winding bears.
 #[derive(Clone, Copy)]
@@ -37,9 +37,11 @@ pub trait Guarding<const JOINTS: usize> {
     type Guard: Guard<JOINTS> + Copy + 'static;
 
     /// The loop, guarded.
-    fn guard<K>(
+    fn servo<K>(
         &self,
-        servo: Servo<'static, Felt, K, JOINTS>,
+        device: &'static Device<K, JOINTS>,
+        body: &'static Felt,
+        config: Config<JOINTS>,
     ) -> Result<Servo<'static, Felt, K, JOINTS, Self::Guard>, Status>
     where
         K: palpate_core::device::Kinematics<JOINTS>;
@@ -51,25 +53,32 @@ pub struct Unprotected;
 impl<const JOINTS: usize> Guarding<JOINTS> for Unprotected {
     type Guard = Unguarded;
 
-    fn guard<K>(&self, servo: Servo<'static, Felt, K, JOINTS>) -> Result<Servo<'static, Felt, K, JOINTS>, Status>
+    fn servo<K>(
+        &self,
+        device: &'static Device<K, JOINTS>,
+        body: &'static Felt,
+        config: Config<JOINTS>,
+    ) -> Result<Servo<'static, Felt, K, JOINTS>, Status>
     where
         K: palpate_core::device::Kinematics<JOINTS>,
     {
-        Ok(servo)
+        Ok(Servo::try_new(device, body, config)?)
     }
 }
 
 impl<const JOINTS: usize> Guarding<JOINTS> for ProtectionNumbers {
     type Guard = Guarded<JOINTS>;
 
-    fn guard<K>(
+    fn servo<K>(
         &self,
-        servo: Servo<'static, Felt, K, JOINTS>,
+        device: &'static Device<K, JOINTS>,
+        body: &'static Felt,
+        config: Config<JOINTS>,
     ) -> Result<Servo<'static, Felt, K, JOINTS, Guarded<JOINTS>>, Status>
     where
         K: palpate_core::device::Kinematics<JOINTS>,
     {
-        Ok(servo.try_protect(self.protection())?)
+        Ok(Servo::try_protected(device, body, self.protection(), config)?)
     }
 }
 
@@ -82,7 +91,7 @@ impl ProtectionNumbers {
             supply: None,
             polarity: None,
         };
-        let mut signs = SignWatch { inertia_kg_m2: [0.0; JOINTS] };
+        let mut signs = PolarityCheck { inertia_kg_m2: [0.0; JOINTS] };
         // No device has more than three joints: the numbers reach.
         let joints =
             protection.motors.iter_mut().zip(&mut protection.max_joint_rates_rad_per_s).zip(&mut signs.inertia_kg_m2);

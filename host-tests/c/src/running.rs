@@ -55,7 +55,8 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize, G: Guard<JOINTS> + Copy>
             Sensed::Lost => Input::Lost,
             Sensed::Damaged => Input::Damaged,
         };
-        self.servo.tick(&mut self.state, input);
+        // The caller reads it from the state.
+        let _ = self.servo.tick(&mut self.state, input);
         Ok(())
     }
 
@@ -63,7 +64,7 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize, G: Guard<JOINTS> + Copy>
         if self.state.ticks() > 0 {
             return Err(Status::HomingStarted);
         }
-        self.servo = self.servo.homing(homing.homing(self.servo.device().encoders)?);
+        self.servo = self.servo.with_homing(homing.homing(self.servo.device().encoders)?);
         self.state = self.servo.start_after(self.reset);
         Ok(())
     }

@@ -12,8 +12,7 @@ use crate::status::{Status, code};
 use core::mem::MaybeUninit;
 use core::ptr::{NonNull, addr_of, addr_of_mut};
 use palpate_core::device::{Device, Kinematics};
-use palpate_core::servo::{Event, Guard, ResetReason, Servo};
-use palpate_core::track::Controller;
+use palpate_core::servo::{Config, Event, Guard, ResetReason};
 
 /// Words of a servo's handle: of 32 bits on a microcontroller, of 64 on most hosts.
 pub const SERVO_WORDS: usize = if size_of::<usize>() == 4 { 500 } else { 260 };
@@ -93,10 +92,10 @@ where
         addr_of_mut!((*whole).device).write(device);
         &*addr_of!((*whole).device)
     };
-    let made = Servo::try_new(device, body, Controller::SECOND_ORDER, settings.settings())
-        .map_err(Status::from)
-        .and_then(|servo| Ok(servo.try_rendering(settings.rendering()?)?.try_safety(settings.safety())?))
-        .and_then(|servo| guarding.guard(servo));
+    let made = settings.rendering().and_then(|rendering| {
+        let (settings, safety) = (settings.settings(), settings.safety());
+        guarding.servo(device, body, Config { settings, rendering, safety, ..Config::DEFAULT })
+    });
     let servo = match made {
         Ok(servo) => servo,
         Err(status) => {

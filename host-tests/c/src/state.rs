@@ -84,7 +84,7 @@ impl StateNumbers {
             angles: first_three(state.angles()),
             rates: first_three(state.rates()),
             fade: state.fade(),
-            room: state.room(),
+            room: state.workspace_margin(),
             digest: state.digest(),
         }
     }

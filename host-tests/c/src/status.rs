@@ -303,7 +303,7 @@ pub extern "C" fn palpate_fault_text(fault: u32) -> *const c_char {
         Some(Fault::ContactLost) => c"contact lost repeatedly",
         Some(Fault::Overspeed) => c"moving too fast under force",
         Some(Fault::Supply) => c"motor supply out of range or not measured",
-        Some(Fault::WrongSign) => c"encoder and motor polarity disagree",
+        Some(Fault::WrongPolarity) => c"encoder and motor polarity disagree",
         Some(Fault::Calibration) => c"the calibration stored in flash is refused",
     };
     text.as_ptr()

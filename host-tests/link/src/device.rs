@@ -2,7 +2,7 @@
 
 use crate::{Error, Line, Port};
 use palpate::wire::frame::{self, DELIMITER, MAX_FRAME, Received, Receiver};
-use palpate::wire::{Answer, Calibrated, Command, Hello, PROTOCOL, Reading, Record, Told, View};
+use palpate::wire::{Answer, Calibrated, DeviceMessage, Hello, HostMessage, PROTOCOL, Reading, Record, View};
 use std::time::{Duration, Instant};
 
 /// The device hears from this program at least so often while a call runs, and at each call that comes later than this
@@ -19,14 +19,14 @@ const MOST: usize = 1 << 16;
 /// A device that runs by itself, at the other end of a line.
 ///
 /// Nothing here runs behind your back. A device that watches its link ([`palpate::servo::Safety::link_timeout`]) goes
-/// on only while this program calls: each call sends [`Command::Alive`] if nothing was said for [`ALIVE`]. Call
+/// on only while this program calls: each call sends [`HostMessage::Alive`] if nothing was said for [`ALIVE`]. Call
 /// something, [`Self::view`] or [`Self::tend`], at least every third of that timeout. There is no thread that would
 /// keep
 /// a device alive whose program hangs: whoever holds its handle could not let go of what hangs.
 #[derive(Debug)]
 pub struct Device<L = Port> {
     pub(crate) line: L,
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     hello: Hello,
     /// Of the last order or part of an upload.
     pub(crate) number: u16,
@@ -102,7 +102,7 @@ impl<L: Line> Device<L> {
         self.send_bytes(&[DELIMITER])?;
         while self.since(began) < GREETS {
             self.greeted = self.line.now();
-            self.send(&Command::Hello { protocol: PROTOCOL })?;
+            self.send(&HostMessage::Hello { protocol: PROTOCOL })?;
             while self.since(self.greeted) < GREETS_EVERY {
                 self.hear(LOOK)?;
                 if let Some(hello) = self.heard.take() {
@@ -204,7 +204,7 @@ impl<L: Line> Device<L> {
     /// Looks at the line once, for a moment at most, and takes what is there; how many bytes came.
     pub(crate) fn hear(&mut self, wait: Duration) -> Result<usize, Error> {
         if self.since(self.said) >= ALIVE {
-            self.send(&Command::Alive)?;
+            self.send(&HostMessage::Alive)?;
         }
         let mut buffer = [0; 4096];
         let received = self.line.receive(&mut buffer, wait.min(LOOK));
@@ -220,36 +220,36 @@ impl<L: Line> Device<L> {
         Ok(came)
     }
 
-    fn take(&mut self, told: Told) {
+    fn take(&mut self, told: DeviceMessage) {
         self.frames += 1;
         match told {
-            Told::Hello(hello) => {
+            DeviceMessage::Hello(hello) => {
                 // An answer to a greeting comes at once; whoever says hello later has just begun.
                 self.is_anew |= self.since(self.greeted) > GREETS_EVERY * 2;
                 self.heard = Some(hello);
             }
             // Late answers to what was given up are nobody's.
-            Told::Answer(answer) if answer.number == self.number => self.answer = Some(answer),
-            Told::Answer(_) => {}
-            Told::View(view) => {
+            DeviceMessage::Answer(answer) if answer.number == self.number => self.answer = Some(answer),
+            DeviceMessage::Answer(_) => {}
+            DeviceMessage::View(view) => {
                 self.view = Some((view, self.line.now()));
                 self.views += 1;
                 self.reading = None;
             }
-            Told::Record(record) => {
+            DeviceMessage::Record(record) => {
                 // The hello of one that was reset in the middle of a frame is lost in it; its ticks begin anew too.
                 self.is_anew |= self.record.is_some_and(|last| (record.tick.wrapping_sub(last.tick) as i32) < 0);
                 (self.record, self.reading) = (Some(record), None);
             }
-            Told::Reading(reading) => self.reading = Some(reading),
-            Told::Calibrated(calibrated) => self.calibrated = Some(calibrated),
+            DeviceMessage::Reading(reading) => self.reading = Some(reading),
+            DeviceMessage::Calibrated(calibrated) => self.calibrated = Some(calibrated),
             // Of a device that is being set up: `palpate commission` reads them.
-            Told::Marked(_) => {}
+            DeviceMessage::Marked(_) => {}
         }
     }
 
     /// Says something.
-    pub(crate) fn send(&mut self, command: &Command) -> Result<(), Error> {
+    pub(crate) fn send(&mut self, command: &HostMessage) -> Result<(), Error> {
         let mut buffer = [0; MAX_FRAME];
         // Any command fits; one that did not would not be answered, and that is said.
         let Ok(frame) = frame::pack(command, &mut buffer) else { return Ok(()) };

@@ -14,7 +14,7 @@ pub use error::Error;
 pub use line::Line;
 pub use orders::{ANSWER, TRIES};
 pub use palpate::render::Friction;
-pub use palpate::scene::{Order, Pose, SceneError};
+pub use palpate::scene::{BodyPose, Command, SceneError};
 pub use palpate::servo::{Fault, Phase};
 pub use palpate::track::Contact;
 pub use palpate::wire::{Calibrated, Hello, PROTOCOL, Record, Refused, UploadError, View};

@@ -2,8 +2,8 @@
 
 use crate::{Device, Error, Line};
 use palpate::render::Friction;
-use palpate::scene::{Order, Pose};
-use palpate::wire::{Command, Refused};
+use palpate::scene::{BodyPose, Command};
+use palpate::wire::{HostMessage, Refused};
 use std::time::Duration;
 
 /// How long an answer is waited for before what was asked for is asked for anew, under the same number. An adapter may
@@ -20,10 +20,10 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// The device's refusal, or that no answer came; a line that broke, a device that has begun anew or is being set
     /// up.
-    pub fn order(&mut self, order: Order) -> Result<(), Error> {
+    pub fn order(&mut self, order: Command) -> Result<(), Error> {
         self.usable()?;
         let asked = name(&order);
-        let refused = self.ask(asked, (TRIES, ANSWER), |number| Command::Order { number, order })?;
+        let refused = self.ask(asked, (TRIES, ANSWER), |number| HostMessage::Command { number, command: order })?;
         refused.map_or(Ok(()), |reason| Err(Error::Refused { asked, reason }))
     }
 
@@ -33,7 +33,7 @@ impl<L: Line> Device<L> {
         &mut self,
         asked: &'static str,
         (tries, patience): (u32, Duration),
-        command: impl Fn(u16) -> Command,
+        command: impl Fn(u16) -> HostMessage,
     ) -> Result<Option<Refused>, Error> {
         // The same however often it is sent: a device that has done it already answers again, and does not do it again.
         self.number = self.number.wrapping_add(1);
@@ -66,15 +66,15 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// As [`Self::order`].
     pub fn push(&mut self, force: [f32; 3]) -> Result<(), Error> {
-        self.order(Order::Push { force })
+        self.order(Command::Push { force })
     }
 
     /// Puts a resting body somewhere else. What was felt of it fades, and it is felt anew from its front.
     ///
     /// # Errors
     /// As [`Self::order`].
-    pub fn place(&mut self, body: u8, pose: Pose) -> Result<(), Error> {
-        self.order(Order::Place { body, pose })
+    pub fn place(&mut self, body: u8, pose: BodyPose) -> Result<(), Error> {
+        self.order(Command::Place { body, pose })
     }
 
     /// Leads a resting body along: it is there by now, and moves on at these velocities of its origin (m/s) and about
@@ -83,9 +83,9 @@ impl<L: Line> Device<L> {
     ///
     /// # Errors
     /// As [`Self::order`].
-    pub fn lead(&mut self, body: u8, pose: Pose, motion: [[f32; 3]; 2], seconds: f32) -> Result<(), Error> {
+    pub fn lead(&mut self, body: u8, pose: BodyPose, motion: [[f32; 3]; 2], seconds: f32) -> Result<(), Error> {
         let [velocity, angular_velocity] = motion;
-        self.order(Order::Lead { body, pose, velocity, angular_velocity, seconds })
+        self.order(Command::Lead { body, pose, velocity, angular_velocity, seconds })
     }
 
     /// Lets a resting body move on from where it is, at these velocities of its origin (m/s) and about it (rad/s), for
@@ -96,7 +96,7 @@ impl<L: Line> Device<L> {
     /// As [`Self::order`]; after [`Error::Lost`] only [`Self::place`] says where it is.
     pub fn move_along(&mut self, body: u8, motion: [[f32; 3]; 2], seconds: f32) -> Result<(), Error> {
         let [velocity, angular_velocity] = motion;
-        self.order(Order::Move { body, velocity, angular_velocity, seconds })
+        self.order(Command::Move { body, velocity, angular_velocity, seconds })
     }
 
     /// Bodies of these groups are on, all others off; group 0 is the lowest bit.
@@ -104,7 +104,7 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// As [`Self::order`].
     pub fn switch(&mut self, groups: u32) -> Result<(), Error> {
-        self.order(Order::Switch { groups })
+        self.order(Command::Switch { groups })
     }
 
     /// This group alone is on; of a knob, this feel.
@@ -112,7 +112,7 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// As [`Self::order`].
     pub fn choose(&mut self, index: u8) -> Result<(), Error> {
-        self.order(Order::Choose { index })
+        self.order(Command::Choose { index })
     }
 
     /// Another stiffness (N/m) and damping (N·s/m) for a body.
@@ -120,7 +120,7 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// As [`Self::order`].
     pub fn harden(&mut self, body: u8, stiffness: f32, damping: f32) -> Result<(), Error> {
-        self.order(Order::Harden { body, stiffness, damping })
+        self.order(Command::Harden { body, stiffness, damping })
     }
 
     /// Other friction for a body, or none.
@@ -136,7 +136,7 @@ impl<L: Line> Device<L> {
                  dynamic_coefficient,
              }| { [stiffness, damping, static_coefficient, dynamic_coefficient] },
         );
-        self.order(Order::Rub { body, friction })
+        self.order(Command::Rub { body, friction })
     }
 
     /// The tool has a ball of this radius, metres, at its tip.
@@ -144,7 +144,7 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// As [`Self::order`].
     pub fn tip(&mut self, radius: f32) -> Result<(), Error> {
-        self.order(Order::Tip { radius })
+        self.order(Command::Tip { radius })
     }
 
     /// The body that the device was built with takes the place of one that was uploaded or kept.
@@ -152,7 +152,7 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// As [`Self::order`].
     pub fn put_back(&mut self, body: u8) -> Result<(), Error> {
-        self.order(Order::PutBack { body })
+        self.order(Command::PutBack { body })
     }
 
     /// The greatest force of all of the scene, N; at most what the device's settings have ([`Self::hello`]).
@@ -160,24 +160,24 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// As [`Self::order`].
     pub fn limit(&mut self, newtons: f32) -> Result<(), Error> {
-        self.order(Order::Limit { force: newtons })
+        self.order(Command::Limit { force: newtons })
     }
 }
 
 /// What messages call it.
-const fn name(order: &Order) -> &'static str {
+const fn name(order: &Command) -> &'static str {
     match order {
-        Order::Place { .. } => "place",
-        Order::Lead { .. } => "lead",
-        Order::Move { .. } => "move",
-        Order::Switch { .. } => "switch",
-        Order::Choose { .. } => "choose",
-        Order::Harden { .. } => "harden",
-        Order::Rub { .. } => "rub",
-        Order::Tip { .. } => "tip",
-        Order::Limit { .. } => "limit",
-        Order::Push { .. } => "push",
-        Order::Take { .. } => "take",
-        Order::PutBack { .. } => "put back",
+        Command::Place { .. } => "place",
+        Command::Lead { .. } => "lead",
+        Command::Move { .. } => "move",
+        Command::Switch { .. } => "switch",
+        Command::Choose { .. } => "choose",
+        Command::Harden { .. } => "harden",
+        Command::Rub { .. } => "rub",
+        Command::Tip { .. } => "tip",
+        Command::Limit { .. } => "limit",
+        Command::Push { .. } => "push",
+        Command::Take { .. } => "take",
+        Command::PutBack { .. } => "put back",
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{ALIVE, Device, Error, Line};
 use palpate::servo::Fault;
-use palpate::wire::Command;
+use palpate::wire::HostMessage;
 use std::time::Duration;
 
 /// For how long a device is told to stop until it says that it has.
@@ -19,7 +19,7 @@ impl<L: Line> Device<L> {
         (self.view, self.record, self.reading) = (None, None, None);
         let (began, mut tries) = (self.line.now(), 0);
         while self.since(began) < STOPS {
-            self.send(&Command::Stop)?;
+            self.send(&HostMessage::Stop)?;
             tries += 1;
             let sent = self.line.now();
             while self.since(sent) < ALIVE {
@@ -46,7 +46,7 @@ impl<L: Line> Device<L> {
         self.view = None;
         let began = self.line.now();
         while self.since(began) < STOPS {
-            self.send(&Command::Acknowledge)?;
+            self.send(&HostMessage::Acknowledge)?;
             self.view = None;
             self.pause(ALIVE)?;
             if let Some((view, _)) = self.view

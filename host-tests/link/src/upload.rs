@@ -3,8 +3,8 @@
 use crate::orders::{ANSWER, BUSY};
 use crate::{Device, Error, Line};
 use palpate::body::{Body, BodyBuffer, Edge, Face, FileError, FileHead};
-use palpate::scene::Order;
-use palpate::wire::{CHUNK, Command, Refused, Upload, UploadError};
+use palpate::scene::Command;
+use palpate::wire::{CHUNK, HostMessage, Refused, Upload, UploadError};
 use std::time::Duration;
 
 /// How long the device may take to check a whole body, which it does below its ticks.
@@ -29,7 +29,7 @@ impl<L: Line> Device<L> {
         self.fits(file, &head, self.hello().room)?;
         self.part(Upload::Begin { bytes: file.len() as u32 }, ANSWER)?;
         self.send_file(file, progress)?;
-        self.order(Order::Take { body })
+        self.order(Command::Take { body })
     }
 
     /// Puts a body's file into the device's flash, and in the place of a body of the scene: it is felt from now on, and
@@ -46,7 +46,7 @@ impl<L: Line> Device<L> {
         self.begin_to_keep(body, file.len() as u32)?;
         self.send_file(file, progress)?;
         self.set_kept(file.last_chunk().map_or(0, |crc| u32::from_le_bytes(*crc)));
-        self.order(Order::Take { body })
+        self.order(Command::Take { body })
     }
 
     /// Forgets what is kept in flash; the body that was built in takes this one's place again. The motors must be off.
@@ -67,7 +67,7 @@ impl<L: Line> Device<L> {
                 self.put_back(body)?;
                 if let Err(refused) = self.part(begin, ANSWER) {
                     // Somebody has asked for force meanwhile: it is felt again.
-                    self.order(Order::Take { body })?;
+                    self.order(Command::Take { body })?;
                     return Err(refused);
                 }
             }
@@ -102,7 +102,7 @@ impl<L: Line> Device<L> {
     fn part(&mut self, part: Upload, patience: Duration) -> Result<(), Error> {
         let (times, pause) = BUSY;
         for _ in 0..times {
-            match self.ask("upload", (PART_TRIES, patience), |number| Command::Upload { number, part })? {
+            match self.ask("upload", (PART_TRIES, patience), |number| HostMessage::Upload { number, part })? {
                 None => return Ok(()),
                 Some(Refused::Upload(UploadError::Busy)) => self.pause(pause)?,
                 Some(reason) => return Err(Error::Refused { asked: "upload", reason }),

@@ -6,7 +6,7 @@ use alloc::vec;
 use palpate::body::{Body, BodyBuffer, BodyWitness, Edge, Face, Feature, FileHead, TableCursor};
 use palpate::math::Vec3;
 use palpate::patch::SplinePatch;
-use palpate::servo::{PatchWitness, Surface, Touched, Tracked};
+use palpate::servo::{BakedTables, PatchWitness, Surface, Touched, Tracked};
 use palpate::track::{Contact, Controller, Outcome, Probe, Witness};
 
 /// A surface that is chosen when the page runs.
@@ -66,10 +66,10 @@ impl Surface for Felt {
         }
     }
 
-    fn lose(&self, witness: &mut FeltWitness) {
+    fn release(&self, witness: &mut FeltWitness) {
         match (self, &mut witness.kept) {
-            (Self::Body(body), Kept::Body(witness)) => body.lose(witness),
-            (Self::Patch(patch), Kept::Patch(witness)) => patch.lose(witness),
+            (Self::Body(body), Kept::Body(witness)) => body.release(witness),
+            (Self::Patch(patch), Kept::Patch(witness)) => patch.release(witness),
             _ => {}
         }
     }
@@ -81,25 +81,27 @@ impl Surface for Felt {
             _ => false,
         }
     }
+}
 
+impl BakedTables for Felt {
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         match self {
             Self::Body(body) => body.table_word(cursor),
-            Self::Patch(patch) => Surface::table_word(patch, cursor),
+            Self::Patch(patch) => BakedTables::table_word(patch, cursor),
         }
     }
 
     fn table_records(&self) -> u32 {
         match self {
-            Self::Body(body) => Surface::table_records(body),
-            Self::Patch(patch) => Surface::table_records(patch),
+            Self::Body(body) => BakedTables::table_records(body),
+            Self::Patch(patch) => BakedTables::table_records(patch),
         }
     }
 
     fn baked_crc(&self) -> Option<u32> {
         match self {
             Self::Body(body) => body.baked_crc(),
-            Self::Patch(patch) => Surface::baked_crc(patch),
+            Self::Patch(patch) => BakedTables::baked_crc(patch),
         }
     }
 }

@@ -11,7 +11,7 @@ use palpate::device::drive::Feed;
 use palpate::device::{Counts, Device, Encoder, Kinematics, Motor, ProbePose};
 use palpate::math::{Vec3, vec3};
 use palpate::render::Friction;
-use palpate::servo::{Event, Guard, Input, Rendering, Servo, ServoState, Settings, Unguarded};
+use palpate::servo::{Config, Event, Guard, Input, Rendering, Servo, ServoState, Settings, Unguarded};
 use palpate::track::{Controller, FirstOrder};
 
 /// What the reader may change while the loop runs.
@@ -151,8 +151,9 @@ fn servo(device: &'static Device<Slides, 3>, felt: &'static Felt, choices: &Choi
         dynamic_coefficient: 0.75 * choices.friction,
     };
     let friction = (choices.friction > 0.0).then_some(friction);
-    let servo = Servo::try_new(device, felt, choices.controller(), settings).map_err(|error| error.to_string())?;
-    servo.try_rendering(Rendering { friction, ..Rendering::PLAIN }).map_err(|error| error.to_string())
+    let rendering = Rendering { friction, ..Rendering::PLAIN };
+    let config = Config { controller: choices.controller(), settings, rendering, ..Config::DEFAULT };
+    Servo::try_new(device, felt, config).map_err(|error| error.to_string())
 }
 
 // The device in the page's hand: three slides for the mouse.
@@ -162,8 +163,8 @@ fn servo(device: &'static Device<Slides, 3>, felt: &'static Felt, choices: &Choi
 pub struct Slides;
 
 impl Kinematics<3> for Slides {
-    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
-        ProbePose { position: Vec3::from_array(angles), jacobian: [Vec3::X, Vec3::Y, Vec3::Z] }
+    fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
+        Some(ProbePose { position: Vec3::from_array(angles), jacobian: [Vec3::X, Vec3::Y, Vec3::Z] })
     }
 }
 

@@ -10,10 +10,10 @@ use palpate::body::Body;
 use palpate::device::{Counts, Device};
 use palpate::math::Vec3;
 use palpate::scene::Scene;
-use palpate::servo::{Event, Guard, Input, Safety, Servo, ServoState, Settings};
+use palpate::servo::{Config, Event, Guard, Input, Safety, Servo, ServoState, Settings};
 use palpate::track::Controller;
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
-use palpate::wire::{Record, Told};
+use palpate::wire::{DeviceMessage, Record};
 use palpate_sim::recorded::{Mechanism, Recorded, SceneNumbers};
 
 /// How a run was made.
@@ -134,13 +134,12 @@ where
 {
     let device: &'static Device<Mechanism, 3> = Box::leak(Box::new(run.on.device));
     let safety = Safety { link_timeout_s: run.link_timeout, ..Safety::DEFAULT };
-    let servo =
-        Servo::try_new(device, surface, Controller::SECOND_ORDER, run.settings).map_err(|error| error.to_string())?;
+    let config = Config { settings: run.settings, safety, ..Config::DEFAULT };
     if let Some(protection) = run.on.protection {
-        let servo = servo.try_protect(protection).map_err(|error| error.to_string())?;
-        return started(surface, servo.try_safety(safety).map_err(|error| error.to_string())?);
+        let servo = Servo::try_protected(device, surface, protection, config).map_err(|error| error.to_string())?;
+        return started(surface, servo);
     }
-    started(surface, servo.try_safety(safety).map_err(|error| error.to_string())?)
+    started(surface, Servo::try_new(device, surface, config).map_err(|error| error.to_string())?)
 }
 
 fn started<S: Sighted + Sync, G: Guard<3> + Send + 'static>(
@@ -158,7 +157,7 @@ where
 
 /// What has come so far.
 pub struct Monitor {
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     /// Whether a frame has ended on the line: what comes before may be the rest of one.
     in_step: bool,
     /// Whole records.
@@ -182,7 +181,7 @@ impl Monitor {
                 continue;
             }
             match self.receiver.feed(*byte) {
-                Some(Received::Message(Told::Record(record))) => {
+                Some(Received::Message(DeviceMessage::Record(record))) => {
                     self.records += 1;
                     self.last = Some(record);
                 }

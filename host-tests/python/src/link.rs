@@ -3,7 +3,7 @@
 use crate::arrays::{line, table};
 use crate::refusal::Refusal;
 use palpate::wire::frame::{Received, Receiver};
-use palpate::wire::{Record, Told};
+use palpate::wire::{DeviceMessage, Record};
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt as _;
 use pyo3::types::PyDict;
@@ -17,7 +17,7 @@ const LOOK: Duration = Duration::from_millis(20);
 /// A serial port, and what came in parts.
 struct Open {
     port: Box<dyn serialport::SerialPort>,
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     damaged: u32,
 }
 
@@ -40,7 +40,7 @@ impl Open {
         let mut records = Vec::new();
         for byte in &bytes[..read] {
             match self.receiver.feed(*byte) {
-                Some(Received::Message(Told::Record(record))) => records.push(record),
+                Some(Received::Message(DeviceMessage::Record(record))) => records.push(record),
                 Some(Received::Damaged) => self.damaged += 1,
                 Some(Received::Empty | Received::Message(_)) | None => {}
             }

@@ -6,8 +6,7 @@ use palpate::body::Body;
 use palpate::device::{Counts, Device, Kinematics, Protection};
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
-use palpate::servo::{Event, Guard, Input, Safety, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Guard, Input, Safety, Servo, Settings};
 use palpate::wire::Report;
 use palpate_sim::plant::{HandSettings, PathError, Plant, PlantSettings, TouchingPath, direction_around};
 
@@ -102,14 +101,15 @@ pub fn run<K: Kinematics<3>>(
     let bound = |says: &dyn std::fmt::Display| {
         Refusal::Settings(format!("{says}: this device takes up to {most_stiffness} N/m and {most_damping} N·s/m"))
     };
-    let servo = Servo::try_new(device, body, Controller::SECOND_ORDER, settings).map_err(|error| bound(&error))?;
+    let config = Config { settings, safety: SAFETY, ..Config::DEFAULT };
+    let servo = Servo::try_new(device, body, config).map_err(|error| bound(&error))?;
     let mut plant = plant(device, simulated, body, settings.body_origin_m, wishes)?;
     let refused = |says: &dyn std::fmt::Display| Refusal::Settings(says.to_string());
     let samples = if wishes.protected {
-        let servo = servo.try_protect(protection).map_err(|error| refused(&error))?;
-        looped(&servo.try_safety(SAFETY).map_err(|error| refused(&error))?, &mut plant, wishes.rate, ticks as u32)
+        let servo = Servo::try_protected(device, body, protection, config).map_err(|error| refused(&error))?;
+        looped(&servo, &mut plant, wishes.rate, ticks as u32)
     } else {
-        looped(&servo.try_safety(SAFETY).map_err(|error| refused(&error))?, &mut plant, wishes.rate, ticks as u32)
+        looped(&servo, &mut plant, wishes.rate, ticks as u32)
     };
     Ok(Run { samples })
 }
@@ -127,7 +127,7 @@ fn looped<K: Kinematics<3>, G: Guard<3>>(
     for tick in 0..ticks {
         let (time, counts, hand) = (plant.time(), plant.counts(), plant.position());
         servo.note(&mut state, Event::LinkAlive);
-        servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: tick >= enable_at });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: tick >= enable_at });
         let report = Report::new(&state, 0);
         samples.push(Sample { time, counts, report, hand });
         plant.advance(report.duties);
@@ -153,7 +153,10 @@ fn plant<K: Kinematics<3>>(
     let has_room = |place| {
         mechanism.angles(place).is_some_and(|angles: [f64; 3]| {
             let angles = angles.map(|angle| angle as f32);
-            device.room(device.to_stop(&angles), &device.kinematics.pose(angles)) > 0.0
+            device
+                .kinematics
+                .pose(angles)
+                .is_some_and(|pose| device.workspace_margin(device.to_stop(&angles), &pose) > 0.0)
         })
     };
     let advice = |error: &dyn std::fmt::Display| Refusal::Settings(format!("{error} (move the model with `at`)"));

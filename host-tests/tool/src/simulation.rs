@@ -25,7 +25,7 @@ impl<'a, S: Surface, K: Kinematics<3>, G: Guard<3>> HostLoop<'a, S, K, G> {
     }
 
     fn tick(&mut self, input: Input<3>) {
-        self.servo.tick(&mut self.state, input);
+        let _ = self.servo.tick(&mut self.state, input);
         self.report = Some(Report::new(&self.state, 0));
     }
 }

@@ -62,7 +62,7 @@ mod tests {
         let delta = NOVINT_FALCON.kinematics;
         let pose = delta.pose(delta.angles(Vec3::ZERO).unwrap());
         for axis in [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)] {
-            let torques = pose.torques(axis * NOVINT_FALCON.max_force_n);
+            let torques = pose.unwrap().torques(axis * NOVINT_FALCON.max_force_n);
             assert!(torques.iter().all(|torque| torque.abs() <= 0.53), "{axis}: {torques:?}");
         }
     }

@@ -57,7 +57,8 @@ mod tests {
 
     #[test]
     fn the_greatest_force_is_within_the_motor_and_the_motor_within_its_supply() {
-        let [torque] = GIMBAL_KNOB.kinematics.pose([0.0]).torques(vec3(GIMBAL_KNOB.max_force_n, 0.0, 0.0));
+        let [torque] =
+            GIMBAL_KNOB.kinematics.pose([0.0]).expect("within reach").torques(vec3(GIMBAL_KNOB.max_force_n, 0.0, 0.0));
         let [motor] = GIMBAL_KNOB.motors;
         assert!(motor.fraction(torque) <= 1.0, "{}", motor.fraction(torque));
         // 60/(2π · 80) V·s/rad between two wires, over √2.

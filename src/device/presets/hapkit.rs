@@ -43,7 +43,7 @@ mod tests {
     #[test]
     fn full_duty_is_the_published_eight_newtons() {
         let [motor] = HAPKIT.motors;
-        let [torque] = HAPKIT.kinematics.pose([0.0]).torques(vec3(7.97, 0.0, 0.0));
+        let [torque] = HAPKIT.kinematics.pose([0.0]).expect("within reach").torques(vec3(7.97, 0.0, 0.0));
         // 0.03 N·m · 0.073152/0.004191 / 0.065659 m, to its three digits.
         assert!((motor.fraction(torque) - 1.0).abs() < 1e-3, "{}", motor.fraction(torque));
         // At standstill the supply gives all of it.

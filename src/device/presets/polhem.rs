@@ -102,7 +102,7 @@ mod tests {
                 + 0.112_65 * (a1[1] + up(lambda, 0.061_701, 0.000_576)))
         };
         let pose = arm.pose(CENTRE);
-        assert!(pose.position.length() < 1e-5, "{}", pose.position);
+        assert!(pose.unwrap().position.length() < 1e-5, "{}", pose.unwrap().position);
         for (db, dc) in [(0.0, 0.0), (0.2, 0.1), (-0.2, 0.3), (0.1, -0.3)] {
             let (b, c) = (0.912_695 + db, 2.360_105 + dc);
             let [_, first, second] = arm.holding_torques([0.3, b as f32, c as f32]);

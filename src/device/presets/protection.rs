@@ -5,7 +5,7 @@
 //! middle of their workspaces. Check yours against your motors' sheets. The greatest speeds are ours: a hand that
 //! touches does not reach them, a device that is let go under force does after some centimetres.
 
-use crate::device::{Endurance, Protection, SignWatch};
+use crate::device::{Endurance, PolarityCheck, Protection};
 
 /// A Maxon RE 30 of 24 V: 3.4 A for ever, 16 s; the device's amplifiers give 3 A.
 const RE_30_24_V: Endurance = Endurance { continuous: 1.1, time_constant_s: 16.0 };
@@ -22,7 +22,7 @@ pub const WOODEN_HAPTICS_2016_PROTECTION: Protection<3> = Protection {
     max_joint_rates_rad_per_s: [15.0; 3],
     max_probe_speed_m_per_s: 1.5,
     supply: None,
-    polarity: Some(SignWatch { inertia_kg_m2: [4.8e-3, 6.1e-3, 1.9e-3] }),
+    polarity: Some(PolarityCheck { inertia_kg_m2: [4.8e-3, 6.1e-3, 1.9e-3] }),
 };
 
 /// Of [`super::POLHEM_V2`].
@@ -31,7 +31,7 @@ pub const POLHEM_V2_PROTECTION: Protection<3> = Protection {
     max_joint_rates_rad_per_s: [20.0, 20.0, 30.0],
     max_probe_speed_m_per_s: 1.5,
     supply: None,
-    polarity: Some(SignWatch { inertia_kg_m2: [5.1e-3, 4.8e-3, 5.6e-4] }),
+    polarity: Some(PolarityCheck { inertia_kg_m2: [5.1e-3, 4.8e-3, 5.6e-4] }),
 };
 
 /// Of [`super::PHANTOM_PREMIUM`]. Its 1.4 N for ever is what a Phantom Premium 1.5 is sold with.
@@ -40,7 +40,7 @@ pub const PHANTOM_PREMIUM_PROTECTION: Protection<3> = Protection {
     max_joint_rates_rad_per_s: [15.0; 3],
     max_probe_speed_m_per_s: 1.5,
     supply: None,
-    polarity: Some(SignWatch { inertia_kg_m2: [3.0e-3, 2.9e-3, 1.0e-3] }),
+    polarity: Some(PolarityCheck { inertia_kg_m2: [3.0e-3, 2.9e-3, 1.0e-3] }),
 };
 
 /// Of [`super::NOVINT_FALCON`]: motors assumed, for no source states them.
@@ -49,5 +49,5 @@ pub const NOVINT_FALCON_PROTECTION: Protection<3> = Protection {
     max_joint_rates_rad_per_s: [40.0; 3],
     max_probe_speed_m_per_s: 1.5,
     supply: None,
-    polarity: Some(SignWatch { inertia_kg_m2: [3.7e-4; 3] }),
+    polarity: Some(PolarityCheck { inertia_kg_m2: [3.7e-4; 3] }),
 };

@@ -63,7 +63,7 @@ mod tests {
     #[test]
     fn wooden_haptics_gives_its_greatest_force_at_the_workspace_centre_or_all_but_four_percent() {
         // Joint angles that put the probe at the centre, to a millimetre.
-        let pose = WOODEN_HAPTICS_2016.kinematics.pose([0.0, 0.344, 0.907]);
+        let pose = WOODEN_HAPTICS_2016.kinematics.pose([0.0, 0.344, 0.907]).expect("within reach");
         assert!(pose.position.length() < 1e-3, "{}", pose.position);
         // 5 N × 0.205 m × cos 0.344 along x ask the first link for 0.965 N·m; 12 × 3 A × 0.0259 N·m/A are 0.932 N·m.
         for (axis, load) in [(vec3(1.0, 0.0, 0.0), 1.035), (vec3(0.0, 1.0, 0.0), 0.885), (vec3(0.0, 0.0, 1.0), 0.809)] {

@@ -1,11 +1,9 @@
 //! A protection, ready to run.
 
 use super::heat::{Heat, HeatModel, Winding};
-use super::protection_error::{ProtectionError, check};
-use super::sign::{SignState, Signs};
-use super::supply::SupplyWatch;
-use super::{Guard, Moving, Remembered};
-use crate::device::{Duty, Motor, Protection};
+use super::polarity::{Polarities, PolarityState};
+use super::{Guard, Motion, Remembered};
+use crate::device::{Duty, Motor, Protection, SupplyRange};
 use crate::math::Vec3;
 use crate::render::Penalty;
 use crate::servo::Fault;
@@ -23,7 +21,7 @@ pub struct Guarded<const JOINTS: usize> {
     /// m²/s².
     max_squared_speed: f32,
     supply: Option<SupplyWatch>,
-    signs: Option<Signs<JOINTS>>,
+    signs: Option<Polarities<JOINTS>>,
 }
 
 /// What [`Guarded`] remembers.
@@ -34,7 +32,7 @@ pub struct GuardState<const JOINTS: usize> {
     windings: [Winding; JOINTS],
     /// Ticks since the supply was measured.
     supply_age: u32,
-    signs: SignState<JOINTS>,
+    signs: PolarityState<JOINTS>,
 }
 
 impl<const JOINTS: usize> GuardState<JOINTS> {
@@ -87,7 +85,7 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
                 None => None,
             },
             signs: match protection.polarity {
-                Some(watch) => Some(Signs::new(&watch, dry_friction, rate, penalty)),
+                Some(watch) => Some(Polarities::new(&watch, dry_friction, rate, penalty)),
                 None => None,
             },
         })
@@ -111,7 +109,7 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
 
     fn start(&self) -> GuardState<JOINTS> {
         let windings = self.heat.map(|model| model.start());
-        GuardState { turn: 0, windings, supply_age: 0, signs: SignState::START }
+        GuardState { turn: 0, windings, supply_age: 0, signs: PolarityState::START }
     }
 
     fn measured(&self, state: &mut GuardState<JOINTS>, millivolts: u32) -> Result<(), Fault> {
@@ -124,20 +122,20 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
     }
 
     #[inline]
-    fn share(&self, state: &GuardState<JOINTS>) -> f32 {
+    fn force_fraction(&self, state: &GuardState<JOINTS>) -> f32 {
         if self.signs.is_some() { state.signs.share() } else { 1.0 }
     }
 
     #[inline]
-    fn is_busy(&self, state: &GuardState<JOINTS>) -> bool {
+    fn withholds_force(&self, state: &GuardState<JOINTS>) -> bool {
         state.signs.is_on_trial()
     }
 
     #[inline(always)]
-    fn motion(
+    fn limit(
         &self,
         state: &mut GuardState<JOINTS>,
-        moving: &Moving<'_, JOINTS>,
+        moving: &Motion<'_, JOINTS>,
         force: &mut Vec3,
         felt: &mut [f32; JOINTS],
     ) -> Result<(), Fault> {
@@ -153,7 +151,7 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
     }
 
     #[inline]
-    fn released(&self, state: &mut GuardState<JOINTS>) {
+    fn force_not_requested(&self, state: &mut GuardState<JOINTS>) {
         state.signs.end();
     }
 
@@ -170,7 +168,7 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
     }
 
     #[inline]
-    fn given(&self, state: &mut GuardState<JOINTS>, duties: &[Duty; JOINTS]) {
+    fn record_output(&self, state: &mut GuardState<JOINTS>, duties: &[Duty; JOINTS]) {
         for (winding, Duty(duty)) in state.windings.iter_mut().zip(duties) {
             let duty = i32::from(*duty);
             // Three squares of 32,767 at most.
@@ -193,4 +191,107 @@ impl<const JOINTS: usize> Remembered for GuardState<JOINTS> {
         take(self.supply_age << 2 | self.turn as u32);
         self.signs.for_each_word(take);
     }
+}
+
+/// Seconds for which a measurement of the supply holds.
+const FRESH: f32 = 0.1;
+
+/// The range as the tick needs it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SupplyWatch {
+    range: SupplyRange,
+    fresh_ticks: u32,
+}
+
+impl SupplyWatch {
+    pub(super) const fn new(range: SupplyRange, rate: f32) -> Self {
+        Self { range, fresh_ticks: (FRESH * rate) as u32 }
+    }
+
+    /// A measurement: the fault if it is outside of the range. `age` counts ticks since the last one.
+    pub(super) fn measured(&self, age: &mut u32, millivolts: u32) -> Result<(), Fault> {
+        *age = 0;
+        let good = self.range.min_mv <= millivolts && millivolts <= self.range.max_mv;
+        if good { Ok(()) } else { Err(Fault::Supply) }
+    }
+
+    /// A tick: the fault if nobody has measured for too long.
+    #[inline]
+    pub(super) fn tick(&self, age: &mut u32) -> Result<(), Fault> {
+        // A fault that is not looked at may stand for days.
+        *age = age.saturating_add(1);
+        if *age > self.fresh_ticks { Err(Fault::Supply) } else { Ok(()) }
+    }
+}
+
+/// Which number is refused. In a `static` it is a compile error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ProtectionError {
+    /// A motor's continuous torque is not above zero, or not finite.
+    Continuous,
+    /// A motor's time constant is below 100 ticks, above ten minutes, or not a number.
+    TimeConstant,
+    /// A speed is not above zero.
+    Speed,
+    /// The supply's range holds nothing.
+    Supply,
+    /// An inertia is not positive and finite.
+    Inertia,
+}
+
+impl ProtectionError {
+    /// The same as `Display`, for a panic at compile time.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Continuous => "a motor's continuous torque must be a positive share of full duty",
+            Self::TimeConstant => "a winding's time constant must be between 100 ticks and ten minutes",
+            Self::Speed => "the maximum speeds must be positive",
+            Self::Supply => "the supply's minimum voltage must be below its maximum",
+            Self::Inertia => "the joints' inertias must be positive and finite",
+        }
+    }
+}
+
+crate::message::display!(ProtectionError);
+
+/// Checks a protection for a loop of `rate`, Hz.
+pub(super) const fn check<const JOINTS: usize>(
+    protection: &Protection<JOINTS>,
+    rate: f32,
+) -> Result<(), ProtectionError> {
+    let mut joint = 0;
+    while joint < JOINTS {
+        let motor = protection.motors[joint];
+        let bears = motor.continuous > 0.0 && motor.continuous < f32::INFINITY;
+        if !bears {
+            return Err(ProtectionError::Continuous);
+        }
+        let lasts = motor.time_constant_s * rate >= 100.0 && motor.time_constant_s <= 600.0;
+        if !lasts {
+            return Err(ProtectionError::TimeConstant);
+        }
+        let moves = protection.max_joint_rates_rad_per_s[joint] > 0.0;
+        if !moves {
+            return Err(ProtectionError::Speed);
+        }
+        if let Some(signs) = &protection.polarity {
+            let turns = signs.inertia_kg_m2[joint] > 0.0 && signs.inertia_kg_m2[joint] < f32::INFINITY;
+            if !turns {
+                return Err(ProtectionError::Inertia);
+            }
+        }
+        joint += 1;
+    }
+    let moves = protection.max_probe_speed_m_per_s > 0.0;
+    if !moves {
+        return Err(ProtectionError::Speed);
+    }
+    if let Some(SupplyRange { min_mv: least, max_mv: most }) = protection.supply
+        && least >= most
+    {
+        return Err(ProtectionError::Supply);
+    }
+    Ok(())
 }

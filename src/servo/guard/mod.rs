@@ -1,18 +1,15 @@
 //! What guards motors and hand beyond the loop's own checks, and costs nothing where it is not chosen.
 //!
 //! A loop carries a [`Guard`] as a type: [`Unguarded`], which has no state and whose every answer is a constant, or
-//! [`Guarded`], made of a device's [`Protection`] by [`super::Servo::protect`]. So the instructions and the bytes of
+//! [`Guarded`], made from a device's [`Protection`] by [`super::Servo::protected`]. So the instructions and the bytes of
 //! what is not chosen are not there to be skipped.
 
 mod guarded;
 mod heat;
-mod protection_error;
-mod sign;
-mod supply;
+mod polarity;
 
-pub use guarded::{GuardState, Guarded};
+pub use guarded::{GuardState, Guarded, ProtectionError};
 pub use heat::Heat;
-pub use protection_error::ProtectionError;
 
 use super::Fault;
 use super::gate::gate;
@@ -22,7 +19,7 @@ use core::fmt::Debug;
 
 /// What a tick's motion is, as a guard looks at it.
 #[derive(Clone, Copy, Debug)]
-pub struct Moving<'a, const JOINTS: usize> {
+pub struct Motion<'a, const JOINTS: usize> {
     /// Joint angles, as the counts tell them, rad.
     pub angles: &'a [f32; JOINTS],
     /// Joint rates, rad/s.
@@ -57,27 +54,27 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
 
     /// The share of force and weight that may be given: less than 1 while it is not known that all motors push the way
     /// they should. What is given meanwhile is not the force that was asked for, nor does it grow out of that.
-    fn share(&self, state: &Self::State) -> f32;
+    fn force_fraction(&self, state: &Self::State) -> f32;
 
     /// Whether it withholds the force of a contact. The check of the tables and the watch over stuck sensors wait
     /// meanwhile: they pay for it, and nothing is felt that they would guard.
-    fn is_busy(&self, state: &Self::State) -> bool;
+    fn withholds_force(&self, state: &Self::State) -> bool;
 
     /// Looks at a tick in which force is given, and leaves of the force, N, and of its joint torques `felt`, N·m, what
     /// may be given.
     ///
     /// # Errors
     /// What it finds wrong.
-    fn motion(
+    fn limit(
         &self,
         state: &mut Self::State,
-        moving: &Moving<'_, JOINTS>,
+        moving: &Motion<'_, JOINTS>,
         force: &mut Vec3,
         felt: &mut [f32; JOINTS],
     ) -> Result<(), Fault>;
 
     /// A tick in which no force is asked for.
-    fn released(&self, state: &mut Self::State);
+    fn force_not_requested(&self, state: &mut Self::State);
 
     /// The last thing before the motors (`gate.rs`): the duties for these torques, N·m, and what the felt ones were
     /// scaled by.
@@ -94,7 +91,7 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     ) -> Result<([Duty; JOINTS], f32), Fault>;
 
     /// What the motors are given until the next tick, as duties of torque.
-    fn given(&self, state: &mut Self::State, duties: &[Duty; JOINTS]);
+    fn record_output(&self, state: &mut Self::State, duties: &[Duty; JOINTS]);
 }
 
 /// What a guard remembers.
@@ -135,22 +132,22 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     }
 
     #[inline]
-    fn share(&self, (): &()) -> f32 {
+    fn force_fraction(&self, (): &()) -> f32 {
         1.0
     }
 
     #[inline]
-    fn is_busy(&self, (): &()) -> bool {
+    fn withholds_force(&self, (): &()) -> bool {
         false
     }
 
     #[inline]
-    fn motion(&self, (): &mut (), _: &Moving<'_, JOINTS>, _: &mut Vec3, _: &mut [f32; JOINTS]) -> Result<(), Fault> {
+    fn limit(&self, (): &mut (), _: &Motion<'_, JOINTS>, _: &mut Vec3, _: &mut [f32; JOINTS]) -> Result<(), Fault> {
         Ok(())
     }
 
     #[inline]
-    fn released(&self, (): &mut ()) {}
+    fn force_not_requested(&self, (): &mut ()) {}
 
     #[inline]
     fn gate(
@@ -165,5 +162,5 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     }
 
     #[inline]
-    fn given(&self, (): &mut (), _: &[Duty; JOINTS]) {}
+    fn record_output(&self, (): &mut (), _: &[Duty; JOINTS]) {}
 }

@@ -5,7 +5,7 @@ use core::hint::black_box;
 use palpate::body::Body;
 use palpate::math::{Vec3, vec3};
 use palpate::scene::{Limits, Material, Motion, Part, Path, RigidBody, Scene, Sphere, Tether};
-use palpate::servo::{Event, Input, Safety, Servo, ServoState, Surface};
+use palpate::servo::{Config, Event, Input, Safety, Servo, ServoState, Surface};
 use palpate::track::{Contact, Controller, Placement};
 
 use super::closest::probe;
@@ -117,12 +117,15 @@ type Loop = Servo<'static, Scene<'static, Body<'static>, COUNT>, Mechanism, 3>;
 type State = ServoState<3, <Scene<'static, Body<'static>, COUNT> as Surface>::Witness>;
 
 /// The path leads right through, deeper than any hand presses: nothing ends contact.
-static SERVO: Loop =
-    Servo::new(&DEVICE, &SCENE, Controller::SECOND_ORDER, SETTINGS).safety(Safety { contact: None, ..Safety::DEFAULT });
+static SERVO: Loop = Servo::new(
+    &DEVICE,
+    &SCENE,
+    Config { settings: SETTINGS, safety: Safety { contact: None, ..Safety::DEFAULT }, ..Config::DEFAULT },
+);
 
 #[inline(never)]
 fn tick(state: &mut State, input: Input<3>) {
-    SERVO.tick(state, input);
+    let _ = SERVO.tick(state, input);
 }
 
 /// Counts the ticks of the image's scene.

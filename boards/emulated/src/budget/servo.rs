@@ -30,7 +30,7 @@ const NAME: &str = if cfg!(feature = "folded") {
 
 #[inline(never)]
 fn tick(state: &mut State, input: Input<3>) {
-    SERVO.tick(state, input);
+    let _ = SERVO.tick(state, input);
 }
 
 /// The joints of a device that follows a path exactly.
@@ -47,7 +47,7 @@ impl Walk {
     /// One step of Newton's method a tick, from the last tick's angles: the path moves a tenth of a millimetre in
     /// between.
     pub(super) fn counts(&mut self, position: Vec3) -> [Counts; 3] {
-        let pose = DEVICE.kinematics.pose(self.angles);
+        let Some(pose) = DEVICE.kinematics.pose(self.angles) else { panic!("the path leaves the workspace") };
         let [a, b, c] = pose.jacobian;
         let missing = position - pose.position;
         // Cramer's rule.

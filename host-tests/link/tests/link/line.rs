@@ -1,7 +1,7 @@
 //! A line to the simulated device that loses frames and spoils bytes.
 
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
-use palpate::wire::{Command, Told, Upload};
+use palpate::wire::{DeviceMessage, HostMessage, Upload};
 use palpate_link::{Device, Line, View};
 use palpate_sim::simulated::{Hand, Kind, Simulated};
 use rand::{Rng, SeedableRng};
@@ -34,7 +34,7 @@ pub struct Bad {
     /// Every order and part that was said, lost or not, by its number.
     pub numbers: Vec<u16>,
     random: Pcg64,
-    told: Receiver<Told>,
+    told: Receiver<DeviceMessage>,
     /// A frame on its way to the host.
     frame: Vec<u8>,
 }
@@ -114,9 +114,9 @@ impl Bad {
 
     /// A part of an upload that comes once more, much later.
     fn stray(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let mut receiver = Receiver::<Command>::new();
+        let mut receiver = Receiver::<HostMessage>::new();
         let heard = bytes.iter().find_map(|byte| receiver.feed(*byte));
-        let Some(Received::Message(Command::Upload { part, .. })) = heard else { return Ok(()) };
+        let Some(Received::Message(HostMessage::Upload { part, .. })) = heard else { return Ok(()) };
         if matches!(part, Upload::Begin { .. }) {
             self.begun = bytes.to_vec();
         }
@@ -141,12 +141,12 @@ impl Bad {
 
     /// Whether a frame of the host's is lost.
     fn loses(&mut self, bytes: &[u8]) -> bool {
-        let mut receiver = Receiver::<Command>::new();
+        let mut receiver = Receiver::<HostMessage>::new();
         let heard = bytes.iter().find_map(|byte| receiver.feed(*byte));
         let left = match heard {
-            Some(Received::Message(Command::Order { number, .. } | Command::Upload { number, .. })) => {
+            Some(Received::Message(HostMessage::Command { number, .. } | HostMessage::Upload { number, .. })) => {
                 self.numbers.push(number);
-                if matches!(heard, Some(Received::Message(Command::Upload { .. })))
+                if matches!(heard, Some(Received::Message(HostMessage::Upload { .. })))
                     && let Some(left) = &mut self.dies_after
                 {
                     let is_dead = *left == 0;
@@ -155,7 +155,7 @@ impl Bad {
                 }
                 &mut self.lose_orders
             }
-            Some(Received::Message(Command::Stop)) => &mut self.lose_stops,
+            Some(Received::Message(HostMessage::Stop)) => &mut self.lose_stops,
             _ => return false,
         };
         let is_lost = *left > 0;
@@ -188,7 +188,7 @@ impl Line for Bad {
                 continue;
             }
             let frame = std::mem::take(&mut self.frame);
-            if matches!(told, Some(Received::Message(Told::Answer(_)))) {
+            if matches!(told, Some(Received::Message(DeviceMessage::Answer(_)))) {
                 if self.holds_answers {
                     self.held.extend(&frame);
                     continue;

@@ -2,12 +2,12 @@
 
 use crate::line::{device, for_seconds, running};
 use palpate::scene::SceneError;
-use palpate_link::{Contact, Device, Error, Friction, Order, Phase, Pose, Refused};
+use palpate_link::{BodyPose, Command, Contact, Device, Error, Friction, Phase, Refused};
 use palpate_sim::simulated::Kind;
 
 /// Upright, here.
-pub fn at(position: [f32; 3]) -> Pose {
-    Pose { position, orientation: [0.0, 0.0, 0.0, 1.0] }
+pub fn at(position: [f32; 3]) -> BodyPose {
+    BodyPose { position, orientation: [0.0, 0.0, 0.0, 1.0] }
 }
 
 #[test]
@@ -109,9 +109,9 @@ fn every_order_is_done() -> Result<(), Error> {
 }
 
 /// What an order is refused for.
-fn refused<L: palpate_link::Line>(device: &mut Device<L>, order: Order) -> SceneError {
+fn refused<L: palpate_link::Line>(device: &mut Device<L>, order: Command) -> SceneError {
     match device.order(order) {
-        Err(Error::Refused { reason: Refused::Order(reason), .. }) => reason,
+        Err(Error::Refused { reason: Refused::Command(reason), .. }) => reason,
         other => panic!("{order:?}: {other:?}"),
     }
 }
@@ -120,21 +120,21 @@ fn refused<L: palpate_link::Line>(device: &mut Device<L>, order: Order) -> Scene
 fn what_is_out_of_range_is_refused_with_the_devices_reason() {
     let mut device = device(Kind::default());
     let pose = at([0.0; 3]);
-    let spun = Pose { orientation: [0.0, 0.0, 0.0, 2.0], ..pose };
+    let spun = BodyPose { orientation: [0.0, 0.0, 0.0, 2.0], ..pose };
     let (velocity, angular_velocity, seconds) = ([3.0, 0.0, 0.0], [0.0; 3], 1.0);
     for (order, reason) in [
-        (Order::Place { body: 5, pose }, SceneError::Missing(5)),
-        (Order::Place { body: 0, pose: spun }, SceneError::Placement(0)),
-        (Order::Place { body: 0, pose: at([f32::NAN, 0.0, 0.0]) }, SceneError::Placement(0)),
-        (Order::Move { body: 0, velocity, angular_velocity, seconds }, SceneError::TooFast(0)),
-        (Order::Harden { body: 1, stiffness: 1e4, damping: 0.0 }, SceneError::Stiffness(1)),
-        (Order::Harden { body: 1, stiffness: 1.0, damping: -1.0 }, SceneError::Damping(1)),
-        (Order::Rub { body: 1, friction: Some([100.0, 0.0, 0.2, 0.3]) }, SceneError::Friction(1)),
-        (Order::Tip { radius: -1.0 }, SceneError::TipRadius),
-        (Order::Limit { force: 100.0 }, SceneError::Force),
-        (Order::Push { force: [0.0, 0.0, 6.0] }, SceneError::Force),
-        (Order::Take { body: 1 }, SceneError::NotUploaded(1)),
-        (Order::Take { body: 0 }, SceneError::NotOffered),
+        (Command::Place { body: 5, pose }, SceneError::Missing(5)),
+        (Command::Place { body: 0, pose: spun }, SceneError::Placement(0)),
+        (Command::Place { body: 0, pose: at([f32::NAN, 0.0, 0.0]) }, SceneError::Placement(0)),
+        (Command::Move { body: 0, velocity, angular_velocity, seconds }, SceneError::TooFast(0)),
+        (Command::Harden { body: 1, stiffness: 1e4, damping: 0.0 }, SceneError::Stiffness(1)),
+        (Command::Harden { body: 1, stiffness: 1.0, damping: -1.0 }, SceneError::Damping(1)),
+        (Command::Rub { body: 1, friction: Some([100.0, 0.0, 0.2, 0.3]) }, SceneError::Friction(1)),
+        (Command::Tip { radius: -1.0 }, SceneError::TipRadius),
+        (Command::Limit { force: 100.0 }, SceneError::Force),
+        (Command::Push { force: [0.0, 0.0, 6.0] }, SceneError::Force),
+        (Command::Take { body: 1 }, SceneError::NotUploaded(1)),
+        (Command::Take { body: 0 }, SceneError::NotOffered),
     ] {
         assert_eq!(refused(&mut device, order), reason, "{order:?}");
     }

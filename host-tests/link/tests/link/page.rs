@@ -1,28 +1,31 @@
 //! The frames that `docs/howto/link.md` shows are those that are sent.
 
-use palpate::scene::{Order, Pose};
+use palpate::scene::{BodyPose, Command};
 use palpate::wire::frame::{MAX_FRAME, pack};
-use palpate::wire::{Command, PROTOCOL, Upload};
+use palpate::wire::{HostMessage, PROTOCOL, Upload};
 use std::path::Path;
 
 /// What the page says a frame says, and the message.
-const SHOWN: [(&str, Command); 7] = [
-    ("hello, in version 2", Command::Hello { protocol: PROTOCOL }),
-    ("the host is there", Command::Alive),
-    ("stop", Command::Stop),
-    ("order 1: a push of 0, 0, 0.5 N", Command::Order { number: 1, order: Order::Push { force: [0.0, 0.0, 0.5] } }),
-    ("order 2: at most 2 N", Command::Order { number: 2, order: Order::Limit { force: 2.0 } }),
+const SHOWN: [(&str, HostMessage); 7] = [
+    ("hello, in version 2", HostMessage::Hello { protocol: PROTOCOL }),
+    ("the host is there", HostMessage::Alive),
+    ("stop", HostMessage::Stop),
+    (
+        "order 1: a push of 0, 0, 0.5 N",
+        HostMessage::Command { number: 1, command: Command::Push { force: [0.0, 0.0, 0.5] } },
+    ),
+    ("order 2: at most 2 N", HostMessage::Command { number: 2, command: Command::Limit { force: 2.0 } }),
     (
         "order 3: body 1 at 0, 0.06, 0 m, upright",
-        Command::Order {
+        HostMessage::Command {
             number: 3,
-            order: Order::Place {
+            command: Command::Place {
                 body: 1,
-                pose: Pose { position: [0.0, 0.06, 0.0], orientation: [0.0, 0.0, 0.0, 1.0] },
+                pose: BodyPose { position: [0.0, 0.06, 0.0], orientation: [0.0, 0.0, 0.0, 1.0] },
             },
         },
     ),
-    ("part 4: a body of 6,896 bytes starts", Command::Upload { number: 4, part: Upload::Begin { bytes: 6_896 } }),
+    ("part 4: a body of 6,896 bytes starts", HostMessage::Upload { number: 4, part: Upload::Begin { bytes: 6_896 } }),
 ];
 
 #[test]
@@ -52,15 +55,15 @@ fn the_python_of_the_page_packs_the_same_frames() {
         println!("left out: there is no python3");
         return;
     };
-    let push = |number, force| Command::Order { number, order: Order::Push { force } };
+    let push = |number, force| HostMessage::Command { number, command: Command::Push { force } };
     let wanted = [
-        Command::Hello { protocol: PROTOCOL },
-        Command::Alive,
-        Command::Stop,
+        HostMessage::Hello { protocol: PROTOCOL },
+        HostMessage::Alive,
+        HostMessage::Stop,
         push(1, [0.0, 0.0, 0.5]),
         push(300, [1.5, -2.0, 0.1]),
     ];
-    let hex = |command: &Command| {
+    let hex = |command: &HostMessage| {
         let mut buffer = [0; MAX_FRAME];
         pack(command, &mut buffer).unwrap().iter().map(|byte| format!("{byte:02x}")).collect::<String>() + "\n"
     };

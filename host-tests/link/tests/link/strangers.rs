@@ -2,7 +2,7 @@
 
 use crate::line::device;
 use palpate::wire::frame::{self, MAX_FRAME};
-use palpate::wire::{Command, Told};
+use palpate::wire::{DeviceMessage, HostMessage};
 use palpate_link::{Device, Error, Hello, Line, PROTOCOL};
 use palpate_sim::simulated::Kind;
 use std::cell::Cell;
@@ -22,7 +22,7 @@ impl Stranger {
         Self { says, began: Instant::now(), passed: Cell::new(Duration::ZERO), is_gone: false }
     }
 
-    fn telling(told: &Told) -> Self {
+    fn telling(told: &DeviceMessage) -> Self {
         Self::saying(frame::pack(told, &mut [0; MAX_FRAME]).unwrap().to_vec())
     }
 }
@@ -73,7 +73,7 @@ fn one_that_cannot_be_understood_is_said_to_be() {
 #[test]
 fn one_of_another_version_is_refused_with_both_numbers() {
     let hello = Hello { protocol: PROTOCOL + 1, ..Hello::default() };
-    let error = error(Stranger::telling(&Told::Hello(hello)));
+    let error = error(Stranger::telling(&DeviceMessage::Hello(hello)));
     let wanted = format!(
         "/dev/ttyACM7: the device speaks version {} of the protocol, this program version {PROTOCOL}",
         PROTOCOL + 1
@@ -84,7 +84,7 @@ fn one_of_another_version_is_refused_with_both_numbers() {
 #[test]
 fn one_that_falls_silent_or_goes_is_said_to() {
     let hello = Hello { protocol: PROTOCOL, ..Hello::default() };
-    let mut device = Device::over(Stranger::telling(&Told::Hello(hello))).unwrap();
+    let mut device = Device::over(Stranger::telling(&DeviceMessage::Hello(hello))).unwrap();
     device.line().says.clear();
     assert!(matches!(device.position(), Err(Error::Silent { .. })));
     assert!(matches!(device.limit(1.0), Err(Error::Lost { .. })));
@@ -97,7 +97,7 @@ fn one_that_falls_silent_or_goes_is_said_to() {
 #[test]
 fn a_body_too_large_for_the_device_is_not_begun() {
     let hello = Hello { protocol: PROTOCOL, room: 1_024, faces: 6, edges: 12, ..Hello::default() };
-    let mut device = Device::over(Stranger::telling(&Told::Hello(hello))).unwrap();
+    let mut device = Device::over(Stranger::telling(&DeviceMessage::Hello(hello))).unwrap();
     device.line().says.clear();
     let error = device.upload(1, crate::uploads::BOX, |_, _| ()).unwrap_err();
     assert!(matches!(error, Error::TooLarge { room: 1_024, most_faces: 6, .. }), "{error}");
@@ -109,7 +109,7 @@ fn one_that_is_being_set_up_feels_nothing_and_says_so() {
     let mut buffer = [0; MAX_FRAME];
     // Its first ticks settle.
     crate::line::for_seconds(&mut device, 0.1);
-    let set_up = frame::pack(&Command::SetUp, &mut buffer).unwrap();
+    let set_up = frame::pack(&HostMessage::SetUp, &mut buffer).unwrap();
     device.line().send(set_up).unwrap();
     device.line().device.run(100);
     for _ in 0..10 {

@@ -73,7 +73,7 @@ fn literal(value: &impl Debug) -> String {
         "Protection {",
         "Endurance {",
         "SupplyRange {",
-        "SignWatch {",
+        "PolarityCheck {",
     ];
     names.iter().fold(text, |text, name| text.replace(name, &format!("palpate::device::{name}")))
 }

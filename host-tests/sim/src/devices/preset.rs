@@ -55,7 +55,7 @@ impl Preset {
     pub fn room(self, angles: [f64; 3]) -> f32 {
         fn of<K: Kinematics<JOINTS>, const JOINTS: usize>(device: &Device<K, JOINTS>, angles: [f64; 3]) -> f32 {
             let angles = core::array::from_fn(|joint| angles[joint] as f32);
-            device.room(device.to_stop(&angles), &device.kinematics.pose(angles))
+            device.kinematics.pose(angles).map_or(0.0, |pose| device.workspace_margin(device.to_stop(&angles), &pose))
         }
         match self {
             Self::SerialArm(device) => of(device, angles),

@@ -6,8 +6,8 @@ use crate::devices::preset::Preset;
 use crate::plant::PlantSettings;
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::{
-    Delta, Device, DeviceError, Encoder, Endurance, FiveBar, LinkMass, LinkageArm, Motor, Protection, SerialArm,
-    SignWatch,
+    Delta, Device, DeviceError, Encoder, Endurance, FiveBar, LinkMass, LinkageArm, Motor, PolarityCheck, Protection,
+    SerialArm,
 };
 use palpate::math::{Vec2, vec3};
 use std::fs;
@@ -299,6 +299,6 @@ fn protection(file: &DeviceFile) -> Protection<3> {
         polarity: inertias
             .iter()
             .all(Option::is_some)
-            .then(|| SignWatch { inertia_kg_m2: inertias.map(|inertia| inertia.unwrap_or_default() as f32) }),
+            .then(|| PolarityCheck { inertia_kg_m2: inertias.map(|inertia| inertia.unwrap_or_default() as f32) }),
     }
 }

@@ -71,7 +71,7 @@ pub fn record<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize>(
         let all = plant.counts();
         let counts = core::array::from_fn(|joint| Counts(all[joint]));
         let (probe, hand) = (plant.position(), plant.hand_force());
-        servo.tick(&mut state, Input::Sensors { counts, enable: plant.time() >= ENABLED_AT });
+        let _ = servo.tick(&mut state, Input::Sensors { counts, enable: plant.time() >= ENABLED_AT });
         if let Some((fault, _)) = state.fault() {
             return Err(RunError::Fault { script: script.name.clone(), time: plant.time(), fault });
         }

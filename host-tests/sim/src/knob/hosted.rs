@@ -89,7 +89,7 @@ impl HostKnob {
             Some(counts) => Input::Sensors { counts: [Counts(counts)], enable: self.enable },
             None => Input::Lost,
         };
-        self.servo.tick(&mut self.state, input);
+        let _ = self.servo.tick(&mut self.state, input);
         self.give();
     }
 

@@ -4,7 +4,7 @@ use crate::recorded::mechanism::Mechanism;
 use crate::recorded::walk::{Filled, Taken, Walk};
 use alloc::vec::Vec;
 use palpate::device::drive::{Feed, VoltageFeed};
-use palpate::device::{Device, Encoder, Endurance, Motor, Protection, SignWatch, SupplyRange};
+use palpate::device::{Device, Encoder, Endurance, Motor, PolarityCheck, Protection, SupplyRange};
 
 /// The device of a recorded run.
 #[derive(Clone, Copy, Debug)]
@@ -170,7 +170,7 @@ fn of_protection(walk: &mut impl Walk, protection: &mut Protection<3>) {
         *least = walk.count(*least);
         *most = walk.count(*most);
     });
-    walk.maybe(signs, SignWatch { inertia_kg_m2: [0.0; 3] }, |walk, SignWatch { inertia_kg_m2: inertia }| {
+    walk.maybe(signs, PolarityCheck { inertia_kg_m2: [0.0; 3] }, |walk, PolarityCheck { inertia_kg_m2: inertia }| {
         walk.numbers(inertia)
     });
 }

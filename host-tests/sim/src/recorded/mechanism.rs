@@ -34,7 +34,7 @@ impl From<Delta> for Mechanism {
 }
 
 impl Kinematics<3> for Mechanism {
-    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
+    fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
         match self {
             Self::Serial(arm) => arm.pose(angles),
             Self::Linkage(arm) => arm.pose(angles),
@@ -42,7 +42,7 @@ impl Kinematics<3> for Mechanism {
         }
     }
 
-    fn held_pose(&self, angles: [f32; 3]) -> (ProbePose<3>, [f32; 3]) {
+    fn held_pose(&self, angles: [f32; 3]) -> Option<(ProbePose<3>, [f32; 3])> {
         match self {
             Self::Serial(arm) => arm.held_pose(angles),
             Self::Linkage(arm) => arm.held_pose(angles),

@@ -9,8 +9,8 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Duty, ElectricalAngle, SerialArm};
 use palpate::math::{Vec3, vec3};
 use palpate::scene::{Limits, Material, Motion, Part, Scene, Slot};
-use palpate::servo::{ResetReason, Safety, Servo, Settings, Unguarded};
-use palpate::track::{Controller, Placement};
+use palpate::servo::{Config, ResetReason, Safety, Servo, Settings, Unguarded};
+use palpate::track::Placement;
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::store::{Bodies, Both, Kept, PretendedFlash};
 use palpate_bench::{Felt, Panel, Uploads};
@@ -153,8 +153,15 @@ impl Simulated {
             soft_start_s: 0.1,
             body_origin_m: -Vec3::from_array(MIDDLE),
         };
-        let servo = Servo::try_new(&WOODEN_HAPTICS_2016, scene, Controller::SECOND_ORDER, settings)?
-            .try_safety(Safety { link_timeout_s: kind.link_timeout, ..Safety::DEFAULT })?;
+        let servo = Servo::try_new(
+            &WOODEN_HAPTICS_2016,
+            scene,
+            Config {
+                settings,
+                safety: Safety { link_timeout_s: kind.link_timeout, ..Safety::DEFAULT },
+                ..Config::DEFAULT
+            },
+        )?;
         let hand = Hand::at(ABOVE, MIDDLE.map(f64::from));
         let grip = HandSettings::default();
         let path = Box::new(hand.clone());

@@ -5,10 +5,11 @@ use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashEr
 use palpate::commission::{Calibration, CalibrationError, Jog, JointCalibration, KEY};
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Device as Built, Encoder, SerialArm, ZeroOf};
-use palpate::servo::{Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{Answer, Calibrated, Command, KeepError, PROTOCOL, Reading, Refused, Told, Upload, hold};
+use palpate::wire::{
+    Answer, Calibrated, DeviceMessage, HostMessage, KeepError, PROTOCOL, Reading, Refused, Upload, hold,
+};
 use palpate_bench::store::KeptCalibration;
 use palpate_bench::{Calibrations as _, Idle};
 use palpate_sim::rig::{Made, Rig, SETTINGS, WALL, held_at, settings};
@@ -130,7 +131,7 @@ struct Device {
     rig: Rig<SerialArm>,
     idle: Idle<'static>,
     wire: Wire,
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     number: u16,
     jogs: u32,
     answer: Option<Answer>,
@@ -143,7 +144,7 @@ impl Device {
         let (kept, found) = Kept::find(page.clone(), &DEVICE, NOT_HOMED);
         let device: &'static _ = Box::leak(Box::new(found.device));
         let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
-        let built = Servo::new(&DEVICE, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+        let built = Servo::new(&DEVICE, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
         let made = Made(built.calibrated(device), found.is_miscalibrated);
         let mut rig = Rig::made(made, held_at([0.0, 0.0, -0.004]), &settings(), reset);
         let kept: &'static Kept = Box::leak(Box::new(kept));
@@ -154,20 +155,20 @@ impl Device {
 
     fn new(page: &Page) -> Self {
         let mut device = Self::start(page, ResetReason::PowerOn);
-        device.send(&Command::Hello { protocol: PROTOCOL });
+        device.send(&HostMessage::Hello { protocol: PROTOCOL });
         device.ticks(20);
         device
     }
 
     fn set_up(page: &Page) -> Self {
         let mut device = Self::new(page);
-        device.send(&Command::SetUp);
+        device.send(&HostMessage::SetUp);
         device.ticks(10);
         assert!(device.reading.is_some(), "it is being set up");
         device
     }
 
-    fn send(&mut self, command: &Command) {
+    fn send(&mut self, command: &HostMessage) {
         let mut buffer = [0; MAX_FRAME];
         self.wire.to_device.extend(pack(command, &mut buffer).unwrap());
         self.below();
@@ -179,9 +180,9 @@ impl Device {
         }
         for byte in self.wire.from_device.drain(..) {
             match self.receiver.feed(byte) {
-                Some(Received::Message(Told::Answer(answer))) => self.answer = Some(answer),
-                Some(Received::Message(Told::Calibrated(calibrated))) => self.calibrated = Some(calibrated),
-                Some(Received::Message(Told::Reading(reading))) => self.reading = Some(reading),
+                Some(Received::Message(DeviceMessage::Answer(answer))) => self.answer = Some(answer),
+                Some(Received::Message(DeviceMessage::Calibrated(calibrated))) => self.calibrated = Some(calibrated),
+                Some(Received::Message(DeviceMessage::Reading(reading))) => self.reading = Some(reading),
                 _ => {}
             }
         }
@@ -208,7 +209,7 @@ impl Device {
         for tick in 0..ticks {
             if tick % 80 == 0 {
                 self.jogs += 1;
-                self.send(&Command::Jog(Jog { number: self.jogs, key: KEY, motor: 1, duty: 5_000 }));
+                self.send(&HostMessage::Jog(Jog { number: self.jogs, key: KEY, motor: 1, duty: 5_000 }));
             }
             self.tick();
         }
@@ -217,7 +218,7 @@ impl Device {
     /// What comes of it a tick later.
     fn keep(&mut self, joints: Option<[JointCalibration; 3]>) -> Option<Refused> {
         (self.number, self.answer) = (self.number + 1, None);
-        self.send(&Command::Calibrate { number: self.number, joints });
+        self.send(&HostMessage::Calibrate { number: self.number, joints });
         self.tick();
         let answer = self.answer.expect("an answer");
         assert_eq!(answer.number, self.number);
@@ -260,7 +261,10 @@ fn an_order_of_the_same_number_answers_for_no_calibration_nor_the_other_way_roun
     let page = Page::erased();
     let mut device = Device::set_up(&page);
     let order = |device: &mut Device| {
-        device.send(&Command::Order { number: device.number + 1, order: palpate::scene::Order::Choose { index: 0 } });
+        device.send(&HostMessage::Command {
+            number: device.number + 1,
+            command: palpate::scene::Command::Choose { index: 0 },
+        });
         device.tick();
         device.answer.take().expect("an answer")
     };
@@ -290,8 +294,8 @@ fn words_that_a_chip_could_not_read_are_a_calibration_that_cannot_be_used_though
 #[test]
 fn a_loop_that_is_calibrated_is_the_loop_of_that_device_bit_for_bit() {
     let device: &'static _ = Box::leak(Box::new(DEVICE.calibrated(&Calibration(joints())).unwrap()));
-    let built = Servo::new(&DEVICE, &WALL, Controller::SECOND_ORDER, SETTINGS);
-    let anew = Servo::new(device, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let built = Servo::new(&DEVICE, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
+    let anew = Servo::new(device, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     assert_ne!(format!("{built:?}"), format!("{anew:?}"));
     assert_eq!(format!("{:?}", built.calibrated(device)), format!("{anew:?}"));
 }
@@ -322,7 +326,7 @@ fn nothing_is_written_while_a_motor_may_move_or_by_a_device_that_is_not_set_up()
     assert!(device.rig.is_off());
     assert_eq!(page.0.erased.get(), 1);
     // Bodies are not for a device that is being set up.
-    device.send(&Command::Upload { number: 900, part: Upload::Keep { bytes: 64 } });
+    device.send(&HostMessage::Upload { number: 900, part: Upload::Keep { bytes: 64 } });
     device.tick();
     assert!(device.answer.is_some_and(|answer| answer.refused.is_some()));
 }
@@ -337,17 +341,17 @@ fn a_host_says_hello_first_and_a_number_that_comes_again_is_not_written_again() 
     assert_eq!(device.keep(Some(joints())), None);
     for _ in 0..3 {
         device.answer = None;
-        device.send(&Command::Calibrate { number: device.number, joints: Some(joints()) });
+        device.send(&HostMessage::Calibrate { number: device.number, joints: Some(joints()) });
         device.tick();
         assert_eq!(device.answer, Some(Answer { number: device.number, refused: None }));
     }
     assert_eq!(page.0.erased.get(), 1);
     // A device without flash for it says so, and nothing of calibrations otherwise.
     let mut plain = Device::start(&page, ResetReason::PowerOn);
-    let servo = Servo::new(&DEVICE, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(&DEVICE, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     plain.rig = Rig::new(servo, held_at([0.0, 0.0, 0.02]), &settings(), ResetReason::PowerOn);
     plain.idle = Idle::new(plain.rig.mailbox, plain.rig.take_records(), Heartbeat::default());
-    plain.send(&Command::Hello { protocol: PROTOCOL });
+    plain.send(&HostMessage::Hello { protocol: PROTOCOL });
     plain.ticks(10);
     assert_eq!((plain.keep(Some(joints())), plain.calibrated), (refused(KeepError::NoFlash), None));
 }
@@ -417,7 +421,7 @@ fn any_bit_that_flips_is_found_and_keeps_the_motors_off_whatever_is_pressed_or_s
     page.0.bytes.borrow_mut()[20] ^= 4;
     for reset in ResetReason::ALL {
         let mut device = Device::start(&page, reset);
-        device.send(&Command::Hello { protocol: PROTOCOL });
+        device.send(&HostMessage::Hello { protocol: PROTOCOL });
         device.ticks_off(20);
         assert_eq!(device.calibrated, Some(Calibrated::Refused(CalibrationError::Damaged)));
         // A reset that is a fault comes first, and is acknowledged: it is a fault still.
@@ -428,7 +432,7 @@ fn any_bit_that_flips_is_found_and_keeps_the_motors_off_whatever_is_pressed_or_s
             }
         };
         by_hand(&mut device);
-        device.send(&Command::Acknowledge);
+        device.send(&HostMessage::Acknowledge);
         device.ticks_off(10);
         assert_eq!(device.rig.fault(), Some(Fault::Calibration), "{reset:?}");
         // It does not damp either, for nobody knows which way.
@@ -436,8 +440,8 @@ fn any_bit_that_flips_is_found_and_keeps_the_motors_off_whatever_is_pressed_or_s
         device.ticks_off(1_000);
         for _ in 0..3 {
             device.rig.set(|world| world.button = false);
-            device.send(&Command::Acknowledge);
-            device.send(&Command::Alive);
+            device.send(&HostMessage::Acknowledge);
+            device.send(&HostMessage::Alive);
             device.ticks_off(10);
             device.rig.set(|world| world.button = true);
             device.ticks_off(400);
@@ -447,7 +451,7 @@ fn any_bit_that_flips_is_found_and_keeps_the_motors_off_whatever_is_pressed_or_s
         // The way out.
         device.rig.set(|world| world.button = false);
         device.ticks_off(10);
-        device.send(&Command::SetUp);
+        device.send(&HostMessage::SetUp);
         device.ticks_off(10);
         let page = page.clone();
         assert!(device.reading.is_some(), "{reset:?}");
@@ -515,7 +519,7 @@ fn no_fuzzed_calibration_moves_a_motor_or_leaves_half_a_record() {
         let number = if draw & 0x300 == 0 { device.number } else { device.number.wrapping_add(1) };
         device.number = number;
         device.answer = None;
-        device.send(&Command::Calibrate { number, joints });
+        device.send(&HostMessage::Calibrate { number, joints });
         if draw & 0x400 != 0 {
             // Bytes of nobody in between.
             device.wire.to_device.extend(random.next_u64().to_le_bytes());

@@ -5,11 +5,10 @@ use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashEr
 use palpate::body::FileError;
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::scene::Shelf as _;
-use palpate::servo::{Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::track::Controller;
+use palpate::scene::BodyStore as _;
+use palpate::servo::{Config, Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{Answer, CHUNK, Command, PROTOCOL, Refused, Told, Upload, UploadError, hold};
+use palpate::wire::{Answer, CHUNK, DeviceMessage, HostMessage, PROTOCOL, Refused, Upload, UploadError, hold};
 use palpate_bench::store::{Bodies, Both, Kept, Pretended, PretendedFlash};
 use palpate_bench::{Idle, Uploads, Watchdog};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
@@ -53,14 +52,14 @@ struct Device {
     memory: &'static Takes,
     flash: &'static Takes,
     wire: Wire,
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     number: u16,
     answer: Option<Answer>,
 }
 
 impl Device {
     fn new(safety: Safety) -> Self {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
         let mut rig = Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
         let [memory, flash] = [Takes::default(), Takes::default()].map(kept_for_good);
         let idle = Idle::new(rig.mailbox, rig.take_records(), Heartbeat::default()).taking(memory).keeping(flash);
@@ -68,7 +67,7 @@ impl Device {
         Self { rig, idle, memory, flash, wire, receiver, number: 0, answer: None }
     }
 
-    fn send(&mut self, command: &Command) {
+    fn send(&mut self, command: &HostMessage) {
         let mut buffer = [0; MAX_FRAME];
         self.wire.to_device.extend(pack(command, &mut buffer).unwrap());
         self.below();
@@ -79,7 +78,7 @@ impl Device {
             self.idle.step(&mut self.wire, &mut NoWatchdog);
         }
         for byte in self.wire.from_device.drain(..) {
-            if let Some(Received::Message(Told::Answer(answer))) = self.receiver.feed(byte) {
+            if let Some(Received::Message(DeviceMessage::Answer(answer))) = self.receiver.feed(byte) {
                 self.answer = Some(answer);
             }
         }
@@ -98,14 +97,14 @@ impl Device {
     }
 
     fn hello(&mut self) {
-        self.send(&Command::Hello { protocol: PROTOCOL });
+        self.send(&HostMessage::Hello { protocol: PROTOCOL });
         self.tick();
     }
 
     /// Its answer, once a tick has gone by.
     fn part(&mut self, part: Upload) -> Option<Refused> {
         (self.number, self.answer) = (self.number + 1, None);
-        self.send(&Command::Upload { number: self.number, part });
+        self.send(&HostMessage::Upload { number: self.number, part });
         if matches!(part, Upload::Keep { .. }) {
             self.tick();
         }
@@ -123,7 +122,7 @@ impl Device {
                 self.idle.step(&mut self.wire, &mut NoWatchdog);
             }
             for byte in self.wire.from_device.drain(..) {
-                if let Some(Received::Message(Told::View(view))) = self.receiver.feed(byte) {
+                if let Some(Received::Message(DeviceMessage::View(view))) = self.receiver.feed(byte) {
                     hold = Some(view.hold);
                 }
             }
@@ -155,7 +154,7 @@ fn flash_is_not_touched_while_motors_are_driven_or_enable_is_held() {
     // A fault that is damped is driven too.
     device.rig.set(|world| world.stop_open = false);
     device.rig.press_until_it_runs();
-    device.send(&Command::Stop);
+    device.send(&HostMessage::Stop);
     device.tick();
     device.rig.set(|world| world.button = false);
     device.tick();
@@ -261,7 +260,7 @@ fn a_device_is_not_set_up_while_flash_is_written() {
     let mut device = Device::new(Safety::DEFAULT);
     device.hello();
     assert_eq!(device.part(KEEP), None);
-    device.send(&Command::SetUp);
+    device.send(&HostMessage::SetUp);
     device.ticks_off(10);
     assert_eq!(device.rig.fault(), None, "being set up stops the servo for good");
     assert_eq!(device.part(Upload::End), None);
@@ -272,7 +271,7 @@ fn a_device_is_not_set_up_while_flash_is_written() {
 fn a_device_that_is_set_up_writes_no_flash() {
     let mut device = Device::new(Safety::DEFAULT);
     device.hello();
-    device.send(&Command::SetUp);
+    device.send(&HostMessage::SetUp);
     device.tick();
     assert_eq!(device.part(KEEP), refused(UploadError::Driven));
     assert_eq!(*device.flash.came.borrow(), []);
@@ -289,15 +288,15 @@ fn a_loop_that_watches_its_link_waits_for_its_host_and_then_misses_it() {
     // A press from before asks for nothing now.
     device.hello();
     for _ in 0..10 {
-        device.send(&Command::Alive);
+        device.send(&HostMessage::Alive);
         device.ticks_off(100);
     }
-    device.send(&Command::Alive);
+    device.send(&HostMessage::Alive);
     device.rig.set(|world| world.button = false);
     device.ticks_off(10);
     device.rig.set(|world| world.button = true);
     for _ in 0..8 {
-        device.send(&Command::Alive);
+        device.send(&HostMessage::Alive);
         (0..100).for_each(|_| device.tick());
     }
     assert_eq!(device.rig.state().phase(), Phase::Running);
@@ -337,14 +336,15 @@ impl Watchdog for Counted {
 #[test]
 fn the_watchdog_is_fed_through_a_long_check_as_long_as_ticks_go_on() {
     for goes_on in [true, false] {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
         let mut rig = Rig::new(servo, held_at([0.0; 3]), &settings(), ResetReason::PowerOn);
         let (mailbox, records) = (rig.mailbox, rig.take_records());
         let slow = Slow(RefCell::new(rig), Cell::new(goes_on));
         let mut idle = Idle::new(mailbox, records, Heartbeat::default()).taking(&slow);
         let (mut wire, mut watchdog) = (Wire::default(), Counted::default());
         let mut buffer = [0; MAX_FRAME];
-        for command in [Command::Hello { protocol: PROTOCOL }, Command::Upload { number: 1, part: Upload::End }] {
+        for command in [HostMessage::Hello { protocol: PROTOCOL }, HostMessage::Upload { number: 1, part: Upload::End }]
+        {
             wire.to_device.extend(pack(&command, &mut buffer).unwrap());
         }
         for _ in 0..4 * MAX_FRAME {

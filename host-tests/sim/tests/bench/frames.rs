@@ -2,8 +2,7 @@
 
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::servo::{Fault, ResetReason, Safety, Servo, StuckLimits};
-use palpate::track::Controller;
+use palpate::servo::{Config, Fault, ResetReason, Safety, Servo, StuckLimits};
 use palpate_bench::Settings;
 use palpate_bench::sensors::BadFrame;
 use palpate_sim::plant::{EncoderFault, HandPath, HandSettings, Plant, PlantSettings, Vector};
@@ -32,7 +31,7 @@ fn rig(settings: &Settings) -> Rig<SerialArm> {
 }
 
 fn rig_with(settings: &Settings, safety: Safety) -> Rig<SerialArm> {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
     let hand = HandSettings { stiffness: 600.0, damping: 8.0, mass: 0.0 };
     let plant = Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Brush), RATE).unwrap();
     let mut rig = Rig::new(servo, plant, settings, ResetReason::PowerOn);
@@ -107,7 +106,7 @@ fn a_bridged_frame_is_not_felt() {
 
 #[test]
 fn nothing_is_bridged_before_the_first_counts_nor_after_a_fault() {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     let mut fresh = Rig::new(servo, palpate_sim::rig::held_at([0.0; 3]), &settings(), ResetReason::PowerOn);
     fresh.set(|world| (world.bad, world.kind) = (1, BadFrame::Absent));
     fresh.ticks_off(1);

@@ -2,8 +2,7 @@
 
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
 use palpate::device::{Endurance, Protection};
-use palpate::servo::{Fault, Guard, ResetReason, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Fault, Guard, ResetReason, Servo};
 use palpate_sim::plant::HandSettings;
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
@@ -28,19 +27,24 @@ fn let_go<G: Guard<3> + 'static>(
 
 #[test]
 fn a_device_that_is_let_go_under_force_is_disabled_in_the_tick_that_sees_it() {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     let slow = Protection { max_probe_speed_m_per_s: 0.3, polarity: None, ..WOODEN_HAPTICS_2016_PROTECTION };
-    assert_eq!(let_go(servo.protect(slow)), Some(Fault::Overspeed));
+    assert_eq!(let_go(Servo::protected(servo.device(), servo.surface(), slow, servo.config())), Some(Fault::Overspeed));
     assert_eq!(let_go(servo), None, "without a guard nobody looks");
 }
 
 #[test]
 fn a_motor_that_is_warm_is_given_less_at_its_pin() {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     // Warm from the start, as after any reset.
     let continuous = 0.05;
     let motors = [Endurance { continuous, time_constant_s: 16.0 }; 3];
-    let servo = servo.protect(Protection { motors, polarity: None, ..WOODEN_HAPTICS_2016_PROTECTION });
+    let servo = Servo::protected(
+        servo.device(),
+        servo.surface(),
+        Protection { motors, polarity: None, ..WOODEN_HAPTICS_2016_PROTECTION },
+        servo.config(),
+    );
     let mut rig = Rig::new(servo, held_at(PRESSED), &settings(), ResetReason::PowerOn);
     rig.press_until_it_runs();
     assert!(servo.guard().folds(rig.state().guard()));

@@ -2,8 +2,7 @@
 
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Homing, Reference, SerialArm};
-use palpate::servo::{Fault, Output, Phase, ResetReason, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Fault, Output, Phase, ResetReason, Servo};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, StillHand};
 use palpate_sim::rig::{RATE, Rig, SETTINGS, STOPS, WALL, settings};
 
@@ -18,7 +17,8 @@ fn put_down_anywhere() -> PlantSettings {
 
 fn rig(reference: Reference<3>, timeout: u32, plant: Plant) -> Rig<SerialArm> {
     let homing = Homing::try_new(WOODEN_HAPTICS_2016.encoders, reference, 400, 4, timeout).unwrap().when_asked();
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).homing(homing);
+    let servo =
+        Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, homing: Some(homing), ..Config::DEFAULT });
     Rig::new(servo, plant, &settings(), ResetReason::PowerOn)
 }
 

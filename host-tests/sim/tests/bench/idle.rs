@@ -1,10 +1,9 @@
 //! What runs below the tick: heartbeat, records, and a line that is never waited for.
 
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::servo::{Heartbeat, ResetReason, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Heartbeat, ResetReason, Servo};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver};
-use palpate::wire::{PROTOCOL, Told};
+use palpate::wire::{DeviceMessage, PROTOCOL};
 use palpate_bench::{Idle, Port, Watchdog};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
@@ -40,7 +39,7 @@ impl Port for Slow {
 }
 
 fn rig() -> Rig<palpate::device::SerialArm> {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     Rig::new(servo, held_at([0.0; 3]), &settings(), ResetReason::PowerOn)
 }
 
@@ -76,13 +75,16 @@ fn records_go_out_whole_over_a_line_that_takes_a_byte_now_and_then() {
     for _ in 0..200 * MAX_FRAME {
         idle.step(&mut line, &mut Counted::default());
     }
-    let mut receiver = Receiver::<Told>::new();
+    let mut receiver = Receiver::<DeviceMessage>::new();
     let received: Vec<_> = line.sent.iter().filter_map(|byte| receiver.feed(*byte)).collect();
     assert!(received.len() >= 10);
     let hello = received.first();
-    assert!(matches!(hello, Some(Received::Message(Told::Hello(hello))) if hello.protocol == PROTOCOL), "{hello:?}");
+    assert!(
+        matches!(hello, Some(Received::Message(DeviceMessage::Hello(hello))) if hello.protocol == PROTOCOL),
+        "{hello:?}"
+    );
     for (number, told) in received.into_iter().skip(1).enumerate() {
-        let Received::Message(Told::Record(record)) = told else { panic!("{told:?}") };
+        let Received::Message(DeviceMessage::Record(record)) = told else { panic!("{told:?}") };
         assert_eq!(record.number, number as u32);
     }
 }

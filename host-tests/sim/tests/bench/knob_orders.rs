@@ -1,10 +1,10 @@
 //! A host at the knob's line: it chooses what is felt, and nothing that it says makes a step or drives by itself.
 
 use crate::knob::Rig;
-use palpate::scene::{Order, Pose, SceneError};
+use palpate::scene::{BodyPose, Command, SceneError};
 use palpate::servo::{Heartbeat, ResetReason};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{Answer, Command, Hello, PROTOCOL, Refused, Told, Upload};
+use palpate::wire::{Answer, DeviceMessage, Hello, HostMessage, PROTOCOL, Refused, Upload};
 use palpate_bench::Idle;
 use palpate_sim::knob::{FEELS, LET_GO, SETTINGS};
 use palpate_sim::plant::Fingers;
@@ -17,8 +17,8 @@ pub struct Device {
     pub rig: Rig,
     idle: Idle<'static>,
     pub wire: Wire,
-    receiver: Receiver<Told>,
-    pub told: Vec<Told>,
+    receiver: Receiver<DeviceMessage>,
+    pub told: Vec<DeviceMessage>,
 }
 
 impl Device {
@@ -28,7 +28,7 @@ impl Device {
         Self { rig, idle, wire: Wire::default(), receiver: Receiver::new(), told: Vec::new() }
     }
 
-    pub fn send(&mut self, command: &Command) {
+    pub fn send(&mut self, command: &HostMessage) {
         let mut buffer = [0; MAX_FRAME];
         self.wire.to_device.extend(pack(command, &mut buffer).unwrap());
     }
@@ -50,12 +50,12 @@ impl Device {
     }
 
     /// What became of an order.
-    fn order(&mut self, number: u16, order: Order) -> Option<Refused> {
-        self.send(&Command::Order { number, order });
+    fn order(&mut self, number: u16, order: Command) -> Option<Refused> {
+        self.send(&HostMessage::Command { number, command: order });
         self.told.clear();
         (0..4).for_each(|_| self.tick());
-        let answer = |told: &Told| match told {
-            Told::Answer(Answer { number: of, refused }) if *of == number => Some(*refused),
+        let answer = |told: &DeviceMessage| match told {
+            DeviceMessage::Answer(Answer { number: of, refused }) if *of == number => Some(*refused),
             _ => None,
         };
         self.told.iter().find_map(answer).expect("an answer")
@@ -69,21 +69,23 @@ impl Device {
 #[test]
 fn a_host_chooses_what_is_felt_and_is_told_what_there_is_not() {
     let mut device = Device::new(Rig::running());
-    device.send(&Command::Hello { protocol: PROTOCOL });
+    device.send(&HostMessage::Hello { protocol: PROTOCOL });
     (0..4).for_each(|_| device.tick());
-    let says = |told: &Told| matches!(told, Told::Hello(Hello { rate: 4_000.0, max_force: 2.8, room: 0, .. }));
+    let says = |told: &DeviceMessage| {
+        matches!(told, DeviceMessage::Hello(Hello { rate: 4_000.0, max_force: 2.8, room: 0, .. }))
+    };
     assert!(device.told.iter().any(says), "{:?}", device.told);
     for (number, index) in (1..).zip(0..FEELS.len() as u8) {
-        assert_eq!(device.order(number, Order::Choose { index }), None);
+        assert_eq!(device.order(number, Command::Choose { index }), None);
         assert_eq!((device.feel(), device.rig.enabled()), (index, true));
     }
     let last = device.feel();
     for index in [FEELS.len() as u8, 255] {
-        let refused = device.order(u16::from(index) + 100, Order::Choose { index });
-        assert_eq!(refused, Some(Refused::Order(SceneError::Missing(index))));
+        let refused = device.order(u16::from(index) + 100, Command::Choose { index });
+        assert_eq!(refused, Some(Refused::Command(SceneError::Missing(index))));
     }
-    for (number, order) in (500..).zip([Order::Push { force: [1.0; 3] }, Order::Limit { force: 100.0 }]) {
-        assert_eq!(device.order(number, order), Some(Refused::Order(SceneError::NotOffered)));
+    for (number, order) in (500..).zip([Command::Push { force: [1.0; 3] }, Command::Limit { force: 100.0 }]) {
+        assert_eq!(device.order(number, order), Some(Refused::Command(SceneError::NotOffered)));
     }
     assert_eq!((device.feel(), device.rig.fault(), device.rig.enabled()), (last, None, true));
 }
@@ -95,24 +97,24 @@ fn anything(device: &mut Device, random: &mut Pcg64, number: u16) {
     let float = |bits: u64| f32::from_bits(bits as u32);
     let three = [float(a), float(a >> 32), float(b)];
     let index = if kind & 64 == 0 { a as u8 % FEELS.len() as u8 } else { a as u8 };
-    let pose = Pose { position: three, orientation: [float(b), float(a), float(b >> 32), 1.0] };
+    let pose = BodyPose { position: three, orientation: [float(b), float(a), float(b >> 32), 1.0] };
     let order = match kind % 12 {
-        0..=6 => Order::Choose { index },
-        7 => Order::Push { force: three },
-        8 => Order::Limit { force: float(b) },
-        9 => Order::Place { body: index, pose },
-        10 => Order::Harden { body: index, stiffness: float(a), damping: float(b) },
-        _ => Order::PutBack { body: index },
+        0..=6 => Command::Choose { index },
+        7 => Command::Push { force: three },
+        8 => Command::Limit { force: float(b) },
+        9 => Command::Place { body: index, pose },
+        10 => Command::Harden { body: index, stiffness: float(a), damping: float(b) },
+        _ => Command::PutBack { body: index },
     };
     match (kind >> 32) % 16 {
-        0 => device.send(&Command::Hello { protocol: if b & 7 == 0 { b as u16 } else { PROTOCOL } }),
-        1 => device.send(&Command::Alive),
-        2 => device.send(&Command::Acknowledge),
-        3 => device.send(&Command::Upload { number, part: Upload::Keep { bytes: a as u32 % 100 } }),
+        0 => device.send(&HostMessage::Hello { protocol: if b & 7 == 0 { b as u16 } else { PROTOCOL } }),
+        1 => device.send(&HostMessage::Alive),
+        2 => device.send(&HostMessage::Acknowledge),
+        3 => device.send(&HostMessage::Upload { number, part: Upload::Keep { bytes: a as u32 % 100 } }),
         4 => device.wire.to_device.extend(a.to_le_bytes()),
         // The same again, as if its answer had been lost.
-        5 => (0..2).for_each(|_| device.send(&Command::Order { number, order })),
-        _ => device.send(&Command::Order { number, order }),
+        5 => (0..2).for_each(|_| device.send(&HostMessage::Command { number, command: order })),
+        _ => device.send(&HostMessage::Command { number, command: order }),
     }
 }
 
@@ -125,7 +127,7 @@ fn torque(device: &Device) -> f32 {
 fn no_order_makes_a_step_in_torque() {
     // Held in the end stop, where feels differ most. What the sensor's noise makes of each feel by itself:
     let mut device = Device::new(Rig::running_quietly());
-    device.send(&Command::Hello { protocol: PROTOCOL });
+    device.send(&HostMessage::Hello { protocol: PROTOCOL });
     let from = device.rig.world.borrow().dial.angle();
     for tick in 1..=800 {
         let aim = from + (0.7 + 1.03 - from) * f64::from(tick) / 800.0;
@@ -134,7 +136,7 @@ fn no_order_makes_a_step_in_torque() {
     }
     let (mut noise, mut least, mut most) = (0.0_f32, f32::INFINITY, f32::NEG_INFINITY);
     for index in 0..FEELS.len() as u8 {
-        device.order(u16::from(index), Order::Choose { index });
+        device.order(u16::from(index), Command::Choose { index });
         (0..800).for_each(|_| device.tick());
         let mut before = torque(&device);
         for _ in 0..4_000 {
@@ -172,7 +174,7 @@ fn no_order_drives_a_knob_whose_button_is_up() {
     ] {
         let mut device = Device::new(rig);
         device.rig.set(|world| world.button = false);
-        device.send(&Command::Hello { protocol: PROTOCOL });
+        device.send(&HostMessage::Hello { protocol: PROTOCOL });
         device.tick();
         let mut random = Pcg64::seed_from_u64(7);
         for number in 0..20_000_u32 {

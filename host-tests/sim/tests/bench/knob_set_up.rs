@@ -5,7 +5,7 @@ use crate::knob::{HARMS, Rig};
 use crate::knob_orders::Device;
 use palpate::commission::{Jog, JogRefusal, KEY};
 use palpate::servo::ResetReason;
-use palpate::wire::{Command, PROTOCOL, Reading, Told};
+use palpate::wire::{DeviceMessage, HostMessage, PROTOCOL, Reading};
 use palpate_sim::knob::JOG;
 use palpate_sim::plant::Fingers;
 use rand::{Rng, SeedableRng};
@@ -22,9 +22,9 @@ impl Host {
     fn new() -> Self {
         let mut device = Device::new(Rig::new(ResetReason::PowerOn));
         (0..20).for_each(|_| device.tick());
-        device.send(&Command::SetUp);
+        device.send(&HostMessage::SetUp);
         (0..10).for_each(|_| device.tick());
-        assert!(device.told.iter().any(|told| matches!(told, Told::Reading(_))), "it is being set up");
+        assert!(device.told.iter().any(|told| matches!(told, DeviceMessage::Reading(_))), "it is being set up");
         Self { device, number: 0 }
     }
 
@@ -46,7 +46,7 @@ impl Host {
 
     fn jog(&mut self, key: u32, motor: u8, duty: i16) {
         self.number += 1;
-        self.device.send(&Command::Jog(Jog { number: self.number, key, motor, duty }));
+        self.device.send(&HostMessage::Jog(Jog { number: self.number, key, motor, duty }));
     }
 
     fn ticks(&mut self, ticks: u32) {
@@ -65,7 +65,8 @@ impl Host {
 
     /// The newest.
     fn reading(&self) -> Reading {
-        let reading = |told: &Told| if let Told::Reading(reading) = told { Some(*reading) } else { None };
+        let reading =
+            |told: &DeviceMessage| if let DeviceMessage::Reading(reading) = told { Some(*reading) } else { None };
         self.device.told.iter().rev().find_map(reading).expect("a reading")
     }
 
@@ -150,7 +151,7 @@ fn a_dial_that_is_turned_too_fast_or_too_far_is_let_go_of() {
 }
 
 /// A command that holds no key, whatever else it is.
-fn keyless(random: &mut Pcg64, number: u32) -> Command {
+fn keyless(random: &mut Pcg64, number: u32) -> HostMessage {
     let [kind, a, b] = [(); 3].map(|()| random.next_u64());
     let key = match a as u32 {
         // One in eight is nearly right.
@@ -161,12 +162,12 @@ fn keyless(random: &mut Pcg64, number: u32) -> Command {
     let jog =
         Jog { number: number.wrapping_add(b as u32 % 3), key, motor: (b >> 32) as u8 % 3, duty: (b >> 40) as i16 };
     match kind % 8 {
-        0 => Command::Alive,
-        1 => Command::Acknowledge,
-        2 => Command::SetUp,
-        3 => Command::Hello { protocol: PROTOCOL },
-        4 => Command::Order { number: a as u16, order: palpate::scene::Order::Choose { index: b as u8 } },
-        _ => Command::Jog(jog),
+        0 => HostMessage::Alive,
+        1 => HostMessage::Acknowledge,
+        2 => HostMessage::SetUp,
+        3 => HostMessage::Hello { protocol: PROTOCOL },
+        4 => HostMessage::Command { number: a as u16, command: palpate::scene::Command::Choose { index: b as u8 } },
+        _ => HostMessage::Jog(jog),
     }
 }
 
@@ -182,10 +183,10 @@ fn no_command_moves_the_motor_without_the_key_and_no_key_without_the_button() {
     for command in 0..COMMANDS {
         if command % 16 == 0 {
             let number = random.next_u64() as u32 % (stale + 1);
-            host.device.send(&Command::Jog(Jog { number, key: KEY, motor: 0, duty: 9_000 }));
+            host.device.send(&HostMessage::Jog(Jog { number, key: KEY, motor: 0, duty: 9_000 }));
         } else {
             let fuzzed = keyless(&mut random, host.number);
-            if let Command::Jog(Jog { number, .. }) = fuzzed {
+            if let HostMessage::Jog(Jog { number, .. }) = fuzzed {
                 host.number = number;
             }
             host.device.send(&fuzzed);

@@ -2,11 +2,10 @@
 
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::scene::{Order, SceneError, Shelf as _};
-use palpate::servo::{Heartbeat, ResetReason, Servo};
-use palpate::track::Controller;
+use palpate::scene::{BodyStore as _, Command, SceneError};
+use palpate::servo::{Config, Heartbeat, ResetReason, Servo};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{Answer, CHUNK, Command, PROTOCOL, Refused, Told, Upload, UploadError};
+use palpate::wire::{Answer, CHUNK, DeviceMessage, HostMessage, PROTOCOL, Refused, Upload, UploadError};
 use palpate_bench::store::Bodies;
 use palpate_bench::{Idle, Uploads as _};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
@@ -17,19 +16,19 @@ struct Device {
     rig: Rig<SerialArm>,
     idle: Idle<'static>,
     wire: Wire,
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     answers: Vec<Answer>,
 }
 
 impl Device {
     fn new() -> Self {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
         let mut rig = Rig::new(servo, held_at([0.0, 0.0, 0.02]), &settings(), ResetReason::PowerOn);
         let idle = Idle::new(rig.mailbox, rig.take_records(), Heartbeat::default());
         Self { rig, idle, wire: Wire::default(), receiver: Receiver::new(), answers: Vec::new() }
     }
 
-    fn send(&mut self, command: &Command) {
+    fn send(&mut self, command: &HostMessage) {
         let mut buffer = [0; MAX_FRAME];
         self.wire.to_device.extend(pack(command, &mut buffer).unwrap());
         self.idle();
@@ -40,7 +39,7 @@ impl Device {
             self.idle.step(&mut self.wire, &mut NoWatchdog);
         }
         for byte in self.wire.from_device.drain(..) {
-            if let Some(Received::Message(Told::Answer(answer))) = self.receiver.feed(byte) {
+            if let Some(Received::Message(DeviceMessage::Answer(answer))) = self.receiver.feed(byte) {
                 self.answers.push(answer);
             }
         }
@@ -52,21 +51,21 @@ impl Device {
     }
 
     fn order(&mut self, number: u16) {
-        self.send(&Command::Order { number, order: Order::Tip { radius: 0.001 } });
+        self.send(&HostMessage::Command { number, command: Command::Tip { radius: 0.001 } });
     }
 }
 
 #[test]
 fn an_order_is_answered_once_the_tick_has_had_it_and_again_where_it_comes_again() {
     let mut device = Device::new();
-    let not_offered = Some(Refused::Order(SceneError::NotOffered));
+    let not_offered = Some(Refused::Command(SceneError::NotOffered));
     device.order(1);
     assert_eq!(device.answers, [Answer { number: 1, refused: Some(Refused::Hello) }]);
     // Another version is not understood.
-    device.send(&Command::Hello { protocol: PROTOCOL + 1 });
+    device.send(&HostMessage::Hello { protocol: PROTOCOL + 1 });
     device.order(2);
     assert_eq!(device.answers[1..], [Answer { number: 2, refused: Some(Refused::Hello) }]);
-    device.send(&Command::Hello { protocol: PROTOCOL });
+    device.send(&HostMessage::Hello { protocol: PROTOCOL });
     device.answers.clear();
     device.order(3);
     assert_eq!(device.answers, [], "before the tick has had it");
@@ -84,15 +83,15 @@ fn an_order_is_answered_once_the_tick_has_had_it_and_again_where_it_comes_again(
     device.tick();
     assert_eq!(device.answers[1..], [Answer { number: 4, refused: not_offered }]);
     // Another host counts anew.
-    device.send(&Command::Hello { protocol: PROTOCOL });
+    device.send(&HostMessage::Hello { protocol: PROTOCOL });
     device.order(4);
     assert_eq!(device.answers.len(), 2, "a new order");
     // No memory for bodies; nothing is felt of a device that is being set up.
     device.tick();
     device.answers.clear();
-    device.send(&Command::Upload { number: 5, part: Upload::Begin { bytes: 4 } });
+    device.send(&HostMessage::Upload { number: 5, part: Upload::Begin { bytes: 4 } });
     assert_eq!(device.answers, [Answer { number: 5, refused: Some(Refused::Upload(UploadError::NoRoom)) }]);
-    device.send(&Command::SetUp);
+    device.send(&HostMessage::SetUp);
     device.tick();
     device.order(6);
     device.tick();

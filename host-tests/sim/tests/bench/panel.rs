@@ -2,13 +2,12 @@
 
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{SerialArm, SupplyRange};
-use palpate::servo::{Fault, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Fault, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::wire::hold;
 use palpate_sim::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
 
 fn rig() -> Rig<SerialArm> {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn)
 }
 
@@ -180,7 +179,7 @@ fn an_amplifiers_own_fault_is_latched() {
 #[test]
 fn an_amplifier_that_has_failed_damps_nothing_once_it_says_that_it_is_ready_again() {
     let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
     let mut rig = Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
     rig.press_until_it_runs();
     rig.set(|world| world.amplifiers_well = false);
@@ -204,7 +203,7 @@ fn a_broken_stop_wire_stops() {
 #[test]
 fn stop_stops_damping_too() {
     let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
     let mut rig = Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
     rig.press_until_it_runs();
     rig.set(|world| world.bad = 3);

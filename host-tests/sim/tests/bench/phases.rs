@@ -2,8 +2,7 @@
 
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Duty, SerialArm};
-use palpate::servo::{Event, Fault, Output, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Fault, Output, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate_bench::Passive;
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
@@ -12,7 +11,7 @@ fn servo(output: SafeOutput) -> Servo<'static, palpate::patch::SplinePatch<'stat
 }
 
 fn safe(safety: Safety) -> Servo<'static, palpate::patch::SplinePatch<'static>, SerialArm, 3> {
-    Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety)
+    Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT })
 }
 
 /// The pins do what the state says; which phase it is, and whether they drive.

@@ -2,9 +2,8 @@
 
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::servo::{Event, Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::track::Controller;
-use palpate::wire::{Command, frame};
+use palpate::servo::{Config, Event, Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
+use palpate::wire::{HostMessage, frame};
 use palpate_bench::{Cause, Idle, Memo, Port, ResetFlags, Watchdog};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
@@ -13,7 +12,7 @@ const HELD: u32 = 210;
 
 /// 4 mm inside the wall, where force is felt at once.
 fn rig(reset: ResetReason) -> Rig<SerialArm> {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), reset)
 }
 
@@ -148,7 +147,7 @@ impl Watchdog for Bowl {
 }
 
 /// Sends a command to the loop over its port.
-fn send(rig: &mut Rig<SerialArm>, command: Command) {
+fn send(rig: &mut Rig<SerialArm>, command: HostMessage) {
     let mut buffer = [0; frame::MAX_FRAME];
     let bytes = frame::pack(&command, &mut buffer).unwrap();
     let mut line = Line(bytes.iter());
@@ -164,17 +163,17 @@ fn send(rig: &mut Rig<SerialArm>, command: Command) {
 fn the_host_acknowledges_a_reset_and_nothing_else() {
     let mut rig = rig(ResetReason::Watchdog);
     rig.ticks_off(10);
-    send(&mut rig, Command::Alive);
+    send(&mut rig, HostMessage::Alive);
     rig.ticks_off(10);
     assert_eq!(rig.fault(), Some(Fault::WatchdogReset));
-    send(&mut rig, Command::Acknowledge);
+    send(&mut rig, HostMessage::Acknowledge);
     rig.ticks_off(10);
     assert_eq!(rig.fault(), None);
     rig.press_until_it_runs();
     // Its stop is latched, whoever acknowledges.
-    send(&mut rig, Command::Stop);
+    send(&mut rig, HostMessage::Stop);
     rig.ticks_off(1);
-    send(&mut rig, Command::Acknowledge);
+    send(&mut rig, HostMessage::Acknowledge);
     rig.ticks_off(10);
     assert_eq!(rig.fault(), Some(Fault::Stopped));
 }
@@ -186,7 +185,7 @@ fn an_enable_that_is_held_while_the_host_acknowledges_gives_no_force() {
     rig.ticks_off(100);
     rig.set(|world| world.button = true);
     rig.ticks_off(100);
-    send(&mut rig, Command::Acknowledge);
+    send(&mut rig, HostMessage::Acknowledge);
     rig.ticks_off(4_000);
     assert_eq!((rig.state().phase(), rig.fault()), (Phase::Armed, None));
     rig.press_until_it_runs();
@@ -194,7 +193,7 @@ fn an_enable_that_is_held_while_the_host_acknowledges_gives_no_force() {
 
 #[test]
 fn an_acknowledged_loop_checks_its_tables_and_angles_anew() {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     let mut state = servo.start_after(ResetReason::BrownOut);
     servo.note(&mut state, Event::Acknowledged);
     assert_eq!((state.phase(), state.counts(), state.fault()), (Phase::Reset, None, None));
@@ -256,7 +255,7 @@ fn memory_that_holds_anything_holds_no_memo() {
 fn after_a_reset_nothing_damps_by_itself() {
     let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
     let rig = |reset| {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
         Rig::new(servo, held_at([0.0, 0.0, 0.01]), &settings(), reset)
     };
     // A fault of the reset: not before it is acknowledged, whatever the button does.

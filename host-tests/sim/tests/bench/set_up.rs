@@ -6,10 +6,9 @@ use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
 use palpate::device::{Endurance, Protection, SerialArm};
 use palpate::patch::SplinePatch;
-use palpate::servo::{Fault, Guard, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo, Unguarded};
-use palpate::track::Controller;
+use palpate::servo::{Config, Fault, Guard, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo, Unguarded};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{Command, Reading, Told, hold};
+use palpate::wire::{DeviceMessage, HostMessage, Reading, hold};
 use palpate_bench::{Idle, Settings};
 use palpate_sim::rig::{RATE, Rig, SETTINGS, WALL, World, held_at, settings};
 use palpate_sim::simulated::{NoWatchdog, Wire};
@@ -22,7 +21,7 @@ struct Device<G: Guard<3> + 'static = Unguarded> {
     rig: Rig<SerialArm, G>,
     idle: Idle<'static>,
     wire: Wire,
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     last: Option<Reading>,
     number: u32,
 }
@@ -33,7 +32,7 @@ impl Device {
     }
 
     fn after(reset: ResetReason, settings: &Settings, safety: Safety) -> Self {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
         Self::of(servo, reset, settings)
     }
 
@@ -55,14 +54,14 @@ impl<G: Guard<3> + 'static> Device<G> {
         Self { rig, idle, wire: Wire::default(), receiver: Receiver::new(), last: None, number: 0 }
     }
 
-    fn send(&mut self, command: Command) {
+    fn send(&mut self, command: HostMessage) {
         let mut buffer = [0; MAX_FRAME];
         self.wire.to_device.extend(pack(&command, &mut buffer).unwrap());
     }
 
     fn jog(&mut self, key: u32, motor: u8, duty: i16) {
         self.number += 1;
-        self.send(Command::Jog(Jog { number: self.number, key, motor, duty }));
+        self.send(HostMessage::Jog(Jog { number: self.number, key, motor, duty }));
     }
 
     /// Main as long as it has something to do.
@@ -74,7 +73,7 @@ impl<G: Guard<3> + 'static> Device<G> {
             self.idle.step(&mut self.wire, &mut NoWatchdog);
         }
         for byte in self.wire.from_device.drain(..) {
-            if let Some(Received::Message(Told::Reading(reading))) = self.receiver.feed(byte) {
+            if let Some(Received::Message(DeviceMessage::Reading(reading))) = self.receiver.feed(byte) {
                 self.last = Some(reading);
             }
         }
@@ -93,7 +92,7 @@ impl<G: Guard<3> + 'static> Device<G> {
     /// The same being set up, with its enable button held.
     fn set_up(mut self) -> Self {
         self.ticks(50);
-        self.send(Command::SetUp);
+        self.send(HostMessage::SetUp);
         self.ticks(10);
         assert!(self.last.is_some(), "it is being set up");
         self.rig.set(|world| world.button = true);
@@ -161,7 +160,7 @@ fn a_bridge_that_gives_a_voltage_is_told_the_voltage_of_the_duty() {
     static FED: OnceLock<palpate::device::Device<SerialArm, 3>> = OnceLock::new();
     let feeds = [voltage(0.711), Feed::Current, voltage(2.0)];
     let fed = FED.get_or_init(|| palpate::device::Device { feeds, ..WOODEN_HAPTICS_2016 });
-    let servo = Servo::new(fed, &WALL, Controller::SECOND_ORDER, SETTINGS);
+    let servo = Servo::new(fed, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     let mut device = Device::of(servo, ResetReason::PowerOn, &settings()).set_up();
     // 1.2 A through each winding at rest: a stalled motor has no more current than a moving one.
     for (motor, told) in [(0, 0.4 * amps * 0.711 / 24.0), (1, 0.4), (2, 0.4 * amps * 2.0 / 24.0)] {
@@ -221,8 +220,12 @@ fn no_motor_is_jogged_with_more_than_every_motor_bears_for_ever() {
     // Which motor is on which output is not known yet, and nobody counts the heat.
     let endurance = |continuous| Endurance { continuous, time_constant_s: 16.0 };
     let motors = [1.1, 0.22, 0.5].map(endurance);
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
-        .protect(Protection { motors, ..WOODEN_HAPTICS_2016_PROTECTION });
+    let servo = Servo::protected(
+        &WOODEN_HAPTICS_2016,
+        &WALL,
+        Protection { motors, ..WOODEN_HAPTICS_2016_PROTECTION },
+        Config { settings: SETTINGS, ..Config::DEFAULT },
+    );
     let mut device = Device::of(servo, ResetReason::PowerOn, &settings()).set_up();
     for motor in 0..3 {
         device.hold_key(1_000, motor, i16::MAX);
@@ -274,7 +277,7 @@ fn whatever_goes_wrong_lets_go_in_the_same_tick() {
     // The host says stop, and stop it is until the next reset.
     let mut device = Device::being_set_up();
     device.hold_key(1_000, 0, 5_000);
-    device.send(Command::Stop);
+    device.send(HostMessage::Stop);
     device.assert_off(1);
     device.rig.set(|world| world.button = false);
     device.ticks(10);
@@ -310,7 +313,7 @@ fn nobody_is_surprised_by_it() {
     // Not while force is given, nor while the button is held, nor while something damps.
     let mut device = Device::new(&settings(), Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT });
     device.rig.press_until_it_runs();
-    device.send(Command::SetUp);
+    device.send(HostMessage::SetUp);
     device.ticks(10);
     assert_eq!((device.last, device.rig.state().phase()), (None, Phase::Running));
     device.rig.set(|world| world.bad = 3);
@@ -318,20 +321,20 @@ fn nobody_is_surprised_by_it() {
     device.rig.set(|world| world.button = false);
     device.ticks(10);
     assert!(device.rig.fault().is_some() && !device.rig.is_off(), "it damps");
-    device.send(Command::SetUp);
+    device.send(HostMessage::SetUp);
     device.ticks(10);
     assert_eq!(device.last, None);
     let mut device = Device::new(&settings(), Safety::DEFAULT);
     device.ticks(50);
     device.rig.set(|world| (world.button, world.stop_open) = (true, true));
     device.ticks(10);
-    device.send(Command::SetUp);
+    device.send(HostMessage::SetUp);
     device.ticks(10);
     assert_eq!(device.last, None);
     // A board that does not offer it is never set up.
     let mut device = Device::new(&Settings { jog: None, ..settings() }, Safety::DEFAULT);
     device.ticks(50);
-    device.send(Command::SetUp);
+    device.send(HostMessage::SetUp);
     device.ticks(10);
     assert_eq!((device.last, device.rig.fault()), (None, None));
 }
@@ -340,7 +343,7 @@ fn nobody_is_surprised_by_it() {
 fn the_servo_is_stopped_for_good() {
     let mut device = Device::being_set_up();
     assert_eq!(device.rig.fault(), Some(Fault::Stopped));
-    for command in [Command::Acknowledge, Command::Alive, Command::SetUp] {
+    for command in [HostMessage::Acknowledge, HostMessage::Alive, HostMessage::SetUp] {
         device.send(command);
         device.assert_off(100);
     }
@@ -357,7 +360,7 @@ fn a_jog_to_a_device_that_is_not_set_up_does_nothing_and_is_forgotten() {
     device.ticks(50);
     device.hold_key(200, 0, 5_000);
     assert!(device.rig.is_off());
-    device.send(Command::SetUp);
+    device.send(HostMessage::SetUp);
     device.ticks(10);
     device.rig.set(|world| world.button = true);
     device.assert_off(100);
@@ -378,7 +381,7 @@ fn no_fuzzed_command_moves_a_motor_without_the_key() {
     device.hold_key(400, 0, 5_000);
     assert!(!device.rig.is_off(), "the key does move it");
     for number in 0..=device.number {
-        let jog = Command::Jog(Jog { number, key: KEY, motor: (number % 3) as u8, duty: 9_000 });
+        let jog = HostMessage::Jog(Jog { number, key: KEY, motor: (number % 3) as u8, duty: 9_000 });
         stale.push(pack(&jog, &mut buffer).unwrap().to_vec());
     }
     device.jog(0, 0, 0);
@@ -401,11 +404,11 @@ fn no_fuzzed_command_moves_a_motor_without_the_key() {
                 // Not to run away with the number: what is older is refused by itself.
                 let number = device.number.wrapping_add(jog.number % 3);
                 let commands = [
-                    Command::Alive,
-                    Command::Acknowledge,
-                    Command::SetUp,
-                    Command::Jog(Jog { number, key, ..jog }),
-                    Command::Jog(Jog { number, key, motor: jog.motor % 4, ..jog }),
+                    HostMessage::Alive,
+                    HostMessage::Acknowledge,
+                    HostMessage::SetUp,
+                    HostMessage::Jog(Jog { number, key, ..jog }),
+                    HostMessage::Jog(Jog { number, key, motor: jog.motor % 4, ..jog }),
                 ];
                 device.number = number;
                 device.send(commands[(draw >> 8) as usize % commands.len()]);
@@ -413,7 +416,7 @@ fn no_fuzzed_command_moves_a_motor_without_the_key() {
             1 => device.wire.to_device.extend(&stale[(draw >> 8) as usize % stale.len()]),
             2 => {
                 let held = Jog { number: device.number.wrapping_add(1), key: KEY, motor: jog.motor % 3, duty: 9_000 };
-                let mut frame = pack(&Command::Jog(held), &mut buffer).unwrap().to_vec();
+                let mut frame = pack(&HostMessage::Jog(held), &mut buffer).unwrap().to_vec();
                 // One bit to three: that many any CRC-32 finds in a frame this short.
                 let bits = frame.len() * 8;
                 let first = a as usize % bits;
@@ -424,7 +427,7 @@ fn no_fuzzed_command_moves_a_motor_without_the_key() {
                     }
                 }
                 // Two flips of one bit are none.
-                if frame != pack(&Command::Jog(held), &mut buffer).unwrap() {
+                if frame != pack(&HostMessage::Jog(held), &mut buffer).unwrap() {
                     device.wire.to_device.extend(frame);
                 }
             }
@@ -458,7 +461,7 @@ fn no_fuzzed_command_moves_a_motor_without_the_key() {
 fn after_a_reset_by_the_watchdog_nothing_is_set_up_before_it_is_acknowledged() {
     let mut device = Device::after(ResetReason::Watchdog, &settings(), Safety::DEFAULT);
     device.ticks(50);
-    device.send(Command::SetUp);
+    device.send(HostMessage::SetUp);
     device.ticks(10);
     device.rig.set(|world| world.button = true);
     device.jog(KEY, 0, 3_000);
@@ -467,9 +470,9 @@ fn after_a_reset_by_the_watchdog_nothing_is_set_up_before_it_is_acknowledged() {
         assert!(device.rig.is_off() && device.last.is_none());
     }
     device.rig.set(|world| world.button = false);
-    device.send(Command::Acknowledge);
+    device.send(HostMessage::Acknowledge);
     device.ticks(10);
-    device.send(Command::SetUp);
+    device.send(HostMessage::SetUp);
     device.ticks(10);
     assert!(device.last.is_some(), "it is being set up");
 }

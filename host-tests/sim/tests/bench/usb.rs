@@ -3,10 +3,9 @@
 use crate::usb_bus::Mock;
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::servo::{Fault, Heartbeat, ResetReason, Safety, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Fault, Heartbeat, ResetReason, Safety, Servo};
 use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{Command, Told};
+use palpate::wire::{DeviceMessage, HostMessage};
 use palpate_bench::usb::{Bytes, Cdc, Either, PACKET, Plug, TURNS};
 use palpate_bench::{Idle, Port, Watchdog};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
@@ -51,12 +50,12 @@ fn open(mock: &Mock, port: &mut impl Port) -> Vec<u8> {
     request(mock, port, OPEN)
 }
 
-fn frame(command: &Command) -> Vec<u8> {
+fn frame(command: &HostMessage) -> Vec<u8> {
     pack(command, &mut [0; MAX_FRAME]).unwrap().to_vec()
 }
 
 /// What a receiver makes of bytes, without what is empty.
-fn received(bytes: &[u8]) -> Vec<Received<Command>> {
+fn received(bytes: &[u8]) -> Vec<Received<HostMessage>> {
     let mut receiver = Receiver::new();
     bytes.iter().filter_map(|byte| receiver.feed(*byte)).filter(|made| *made != Received::Empty).collect()
 }
@@ -131,7 +130,7 @@ fn nothing_is_taken_or_said_before_a_program_has_the_port_open() {
     turns(&mut plug);
     request(&mock, &mut plug, SET_ADDRESS);
     request(&mock, &mut plug, SET_CONFIGURATION);
-    mock.wires().out.push_back(frame(&Command::Stop));
+    mock.wires().out.push_back(frame(&HostMessage::Stop));
     assert_eq!((turns(&mut plug), plug.send(1), plug.is_open()), (vec![], false, false));
     assert_eq!(mock.wires().out.len(), 0, "and forgotten, lest it is done late");
     // Whatever came before, a frame begins here.
@@ -145,7 +144,7 @@ fn nothing_is_taken_or_said_before_a_program_has_the_port_open() {
 fn frames_come_whole_in_whatever_packets_and_none_goes_out_in_a_full_one() {
     let (mock, mut plug) = plug();
     open(&mock, &mut plug);
-    let said: Vec<u8> = [Command::Alive, Command::Stop, Command::Alive].iter().flat_map(frame).collect();
+    let said: Vec<u8> = [HostMessage::Alive, HostMessage::Stop, HostMessage::Alive].iter().flat_map(frame).collect();
     for packets in [1, 2, 5, PACKET] {
         mock.wires().out.extend(said.chunks(packets).map(<[u8]>::to_vec));
         let mut came = Vec::new();
@@ -180,7 +179,7 @@ impl Watchdog for Counted {
 }
 
 fn rig(safety: Safety) -> Rig<SerialArm> {
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
     Rig::new(servo, held_at([0.0; 3]), &settings(), ResetReason::PowerOn)
 }
 
@@ -212,10 +211,10 @@ fn a_host_that_does_not_read_stops_neither_main_nor_the_tick_and_reads_whole_fra
         idle.step(&mut plug, &mut watchdog);
         heard.extend(mock.take());
     }
-    let mut receiver = Receiver::<Told>::new();
+    let mut receiver = Receiver::<DeviceMessage>::new();
     let told: Vec<_> = heard.iter().filter_map(|byte| receiver.feed(*byte)).collect();
     assert!(told.iter().all(|told| matches!(told, Received::Message(_))), "{told:?}");
-    let Some(Received::Message(Told::Record(last))) = told.last() else { panic!("{told:?}") };
+    let Some(Received::Message(DeviceMessage::Record(last))) = told.last() else { panic!("{told:?}") };
     assert!(last.dropped > 4_000, "{last:?}");
     assert!(last.tick > ticks, "what is told is of now");
 }
@@ -228,7 +227,7 @@ fn a_plug_that_is_pulled_closed_reset_or_asleep_is_a_line_that_forgets_what_was_
         |mock, _| mock.sleep(),
         |mock, _| mock.wires().is_silent = true,
     ];
-    let whole = frame(&Command::Stop);
+    let whole = frame(&HostMessage::Stop);
     for (number, end) in ends.into_iter().enumerate() {
         let (mock, mut plug) = plug();
         open(&mock, &mut plug);
@@ -247,7 +246,7 @@ fn a_plug_that_is_pulled_closed_reset_or_asleep_is_a_line_that_forgets_what_was_
         assert!(mock.take().is_empty(), "{number}");
         mock.wires().out.push_back(whole.clone());
         came.extend(turns(&mut plug));
-        assert_eq!(received(&came), [Received::Damaged, Received::Message(Command::Stop)], "{number}");
+        assert_eq!(received(&came), [Received::Damaged, Received::Message(HostMessage::Stop)], "{number}");
     }
 }
 
@@ -286,7 +285,7 @@ fn the_uart_is_the_line_while_nobody_has_the_plug_open_and_halves_of_two_lines_m
     let uart = Uart::default();
     let (to_device, from_device) = (uart.to_device.clone(), uart.from_device.clone());
     let mut line = Either::new(plug, uart);
-    let whole = frame(&Command::Stop);
+    let whole = frame(&HostMessage::Stop);
     let (first, second) = whole.split_at(3);
 
     to_device.borrow_mut().extend(first);
@@ -313,7 +312,7 @@ fn the_uart_is_the_line_while_nobody_has_the_plug_open_and_halves_of_two_lines_m
     came.extend(turns(&mut line));
     to_device.borrow_mut().extend(&whole);
     came.extend(turns(&mut line));
-    let stop = Received::Message(Command::Stop);
+    let stop = Received::Message(HostMessage::Stop);
     assert_eq!(received(&came), [stop, Received::Damaged, Received::Damaged, stop]);
     assert!(line.send(3));
     assert_eq!(*from_device.borrow(), [1, 3]);
@@ -350,7 +349,7 @@ fn a_plug_that_is_pulled_is_a_link_that_is_lost() {
         }
     };
     for _ in 0..400 {
-        mock.wires().out.push_back(frame(&Command::Alive));
+        mock.wires().out.push_back(frame(&HostMessage::Alive));
         tick(&mut rig);
     }
     assert_eq!(rig.fault(), None);

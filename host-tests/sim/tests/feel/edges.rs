@@ -5,8 +5,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::math::{Vec3, vec3};
 use palpate::render::Ease;
 use palpate::servo::recommended::{self, Recommended};
-use palpate::servo::{Rendering, Servo, Settings, Surface};
-use palpate::track::Controller;
+use palpate::servo::{Config, Rendering, Servo, Settings, Surface};
 use palpate_bake::{BakedBody, Model};
 use palpate_sim::feel::{Deed, Recording, Script, Stage, Threshold, Tick, over_edges, record};
 use palpate_sim::plant::{HandSettings, PlantSettings, Vector};
@@ -28,8 +27,13 @@ fn step_block() -> BakedBody {
 
 fn felt<S: Surface>(surface: &S, origin: Vec3, ease: Ease, script: &Script) -> Recording {
     let settings = Settings { body_origin_m: origin, ..TOUCH.settings };
-    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, surface, Controller::SECOND_ORDER, settings).unwrap();
-    let servo = servo.try_rendering(Rendering { ease: Some(ease), ..TOUCH.rendering }).unwrap();
+    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, surface, Config { settings, ..Config::DEFAULT }).unwrap();
+    let servo = Servo::try_new(
+        servo.device(),
+        servo.surface(),
+        Config { rendering: Rendering { ease: Some(ease), ..TOUCH.rendering }, ..servo.config() },
+    )
+    .unwrap();
     record(&servo, &PlantSettings::wooden_haptics_2016(), HandSettings::default(), script).unwrap()
 }
 

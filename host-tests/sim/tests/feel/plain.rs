@@ -3,8 +3,7 @@
 use palpate::body::Body;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::math::{Vec3, vec3};
-use palpate::servo::{Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Servo, Settings};
 use palpate_sim::feel::{Deed, Recording, Script, Stage, Threshold, over_edges, record, wall};
 use palpate_sim::plant::{HandSettings, PlantSettings};
 
@@ -26,7 +25,7 @@ const SETTINGS: Settings = Settings {
 const STAGE: Stage = Stage { joints: 3, stiffness: 1_000.0, hand: 300.0, dry: 0.08, max_force: 5.0 };
 
 fn on_the_wall(settings: Settings, like: impl Fn(&Deed) -> bool) -> Vec<(Script, Recording)> {
-    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, wall(3), Controller::SECOND_ORDER, settings).unwrap();
+    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, wall(3), Config { settings, ..Config::DEFAULT }).unwrap();
     let plant = PlantSettings::wooden_haptics_2016();
     let scripts = STAGE.on_the_wall().into_iter().filter(|script| like(&script.deed));
     scripts
@@ -71,7 +70,7 @@ fn in_front_of_the_wall_there_is_no_force_at_all_and_on_it_stiffness_times_depth
 fn what_an_edge_takes_away_at_once_is_found_as_a_step() {
     let body: &Body<'_> = &capped_box::BODY;
     let settings = Settings { body_origin_m: AT, ..SETTINGS };
-    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, body, Controller::SECOND_ORDER, settings).unwrap();
+    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, body, Config { settings, ..Config::DEFAULT }).unwrap();
     let scripts = over_edges(body, AT, &STAGE);
     assert!(scripts.iter().any(|script| matches!(script.deed, Deed::Across(Some(_)))));
     let slow = scripts.into_iter().find(|script| script.deed == Deed::Off(0.1)).unwrap();

@@ -4,8 +4,7 @@
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Device, Encoder, VelocityMethod};
 use palpate::math::Vec3;
-use palpate::servo::{Rendering, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Rendering, Servo, Settings};
 use palpate_sim::feel::{Deed, Sensation, Stage, Threshold, record, wall};
 use palpate_sim::plant::{HandSettings, PlantSettings};
 
@@ -37,8 +36,13 @@ fn slide(rate: f32, stiffness: f32, finer: f64, (velocity, corner): (VelocityMet
         body_origin_m: Vec3::ZERO,
     };
     let stage = Stage { joints: 3, stiffness: f64::from(stiffness), hand: 300.0, dry: 0.076, max_force: 5.0 };
-    let servo = Servo::try_new(&device, wall(3), Controller::SECOND_ORDER, settings).unwrap();
-    let servo = servo.try_rendering(Rendering { velocity, ..Rendering::SMOOTH }).unwrap();
+    let servo = Servo::try_new(&device, wall(3), Config { settings, ..Config::DEFAULT }).unwrap();
+    let servo = Servo::try_new(
+        servo.device(),
+        servo.surface(),
+        Config { rendering: Rendering { velocity, ..Rendering::SMOOTH }, ..servo.config() },
+    )
+    .unwrap();
     let script = stage.on_the_wall().into_iter().rfind(|script| script.deed == Deed::Slide).unwrap();
     // A wall that shakes the device until its loop stops is felt.
     record(&servo, &plant, HandSettings::default(), &script)

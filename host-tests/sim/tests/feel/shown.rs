@@ -6,8 +6,7 @@ use palpate::device::presets::{NOVINT_FALCON, PHANTOM_PREMIUM, POLHEM_V2, WOODEN
 use palpate::device::{Device, Kinematics};
 use palpate::math::{Vec3, vec3};
 use palpate::servo::recommended::{self, Recommended};
-use palpate::servo::{Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Servo, Settings};
 use palpate_sim::feel::{Deed, Figures, Recording, Script, Stage, Threshold, over_edges, record, wall};
 use palpate_sim::plant::{HandSettings, PlantSettings};
 
@@ -48,9 +47,12 @@ impl<K: Kinematics<3> + Copy> Bench<'_, K> {
         };
         let on_body = Settings { body_origin_m: CAPPED_BOX_AT, ..settings };
         let threshold = Threshold::approximate();
-        let flat = Servo::try_new(device, wall(3), Controller::SECOND_ORDER, settings).unwrap();
-        let edged = Servo::try_new(device, body, Controller::SECOND_ORDER, on_body).unwrap();
-        let (flat, edged) = (flat.try_rendering(rendering).unwrap(), edged.try_rendering(rendering).unwrap());
+        let flat = Servo::try_new(device, wall(3), Config { settings, ..Config::DEFAULT }).unwrap();
+        let edged = Servo::try_new(device, body, Config { settings: on_body, ..Config::DEFAULT }).unwrap();
+        let (flat, edged) = (
+            Servo::try_new(flat.device(), flat.surface(), Config { rendering, ..flat.config() }).unwrap(),
+            Servo::try_new(edged.device(), edged.surface(), Config { rendering, ..edged.config() }).unwrap(),
+        );
         for script in stage.on_the_wall().into_iter().filter(|script| script.deed != Deed::Air) {
             let recording = record(&flat, &plant, HandSettings::default(), &script).unwrap();
             look(&script, &recording.figures(script.looked_at, &threshold), &recording);

@@ -7,8 +7,8 @@ use palpate::device::{Counts, SerialArm};
 use palpate::math::vec3;
 use palpate::render::Friction;
 use palpate::scene::{Material, Motion, Scene, SceneState};
-use palpate::servo::{Input, Phase, Rendering, Servo, Settings};
-use palpate::track::{Contact, Controller, Placement};
+use palpate::servo::{Config, Input, Phase, Rendering, Servo, Settings};
+use palpate::track::{Contact, Placement};
 
 const SETTINGS: Settings = Settings {
     rate_hz: 4_000.0,
@@ -61,15 +61,22 @@ fn a_scene_of_one_body_at_rest_feels_as_the_body() {
         )],
     );
     let rendering = Rendering { max_slew_n_per_s: 400.0, ..Rendering::PLAIN };
-    let alone: Servo<Body, SerialArm, 3> = Servo::new(&DEVICE, &BOX, Controller::SECOND_ORDER, SETTINGS)
-        .rendering(Rendering { friction: Some(FRICTION), ..rendering });
-    let scene = Servo::new(&DEVICE, &RESTING, Controller::SECOND_ORDER, SETTINGS).rendering(rendering);
+    let alone: Servo<Body, SerialArm, 3> = Servo::new(
+        &DEVICE,
+        &BOX,
+        Config {
+            settings: SETTINGS,
+            rendering: Rendering { friction: Some(FRICTION), ..rendering },
+            ..Config::DEFAULT
+        },
+    );
+    let scene = Servo::new(&DEVICE, &RESTING, Config { settings: SETTINGS, rendering, ..Config::DEFAULT });
     let (mut a, mut b) = (alone.start(), scene.start());
     let (mut touched, mut worst) = (0, 0.0_f32);
     for counts in strokes(300_000) {
         let input = Input::Sensors { counts, enable: true };
-        alone.tick(&mut a, input);
-        scene.tick(&mut b, input);
+        let _ = alone.tick(&mut a, input);
+        let _ = scene.tick(&mut b, input);
         assert_eq!((a.fault(), a.contact(), a.contacts_lost()), (b.fault(), b.contact(), b.contacts_lost()));
         // A scene fades what is lost by itself: begin anew then.
         if a.fault().is_some() || a.contacts_lost() > 0 {

@@ -4,14 +4,15 @@ use crate::common::{LIMITS, MATERIAL, PERIOD, RATE, Random, double, part, single
 use glam::{DQuat, DVec3};
 use palpate::body::Body;
 use palpate::math::Vec3;
-use palpate::scene::{HOLD, Motion, Order, Part, Path, Pose, Scene, SceneError};
+use palpate::scene::Commanded;
+use palpate::scene::{BodyPose, Command, HOLD, Motion, Part, Path, Scene, SceneError};
 use palpate::servo::Surface;
 use palpate::track::{Contact, Controller, Placement, Probe};
 
 const ORDERS: u32 = 100_000;
 
-fn pose(position: DVec3, orientation: DQuat) -> Pose {
-    Pose { position: single(position).to_array(), orientation: orientation.as_quat().to_array() }
+fn pose(position: DVec3, orientation: DQuat) -> BodyPose {
+    BodyPose { position: single(position).to_array(), orientation: orientation.as_quat().to_array() }
 }
 
 /// A number that a host might send: mostly sensible, now and then not.
@@ -29,7 +30,7 @@ fn numbers(random: &mut Random, size: f64) -> [f32; 3] {
 }
 
 /// Any order, of its kinds each as often.
-fn any_order(random: &mut Random) -> Order {
+fn any_order(random: &mut Random) -> Command {
     let body = random.below(4) as u8;
     let orientation = DQuat::from_axis_angle(random.direction(), random.between(0.0, 0.05));
     let at = DVec3::new(-0.03, -0.02, -0.033) + random.vector(0.003);
@@ -40,21 +41,21 @@ fn any_order(random: &mut Random) -> Order {
     let (velocity, angular_velocity) = (numbers(random, 0.05), numbers(random, 0.5));
     let seconds = number(random, 0.0, 0.02);
     match random.below(10) {
-        0 => Order::Place { body, pose },
-        1 => Order::Lead { body, pose, velocity, angular_velocity, seconds },
-        2 => Order::Move { body, velocity, angular_velocity, seconds },
-        3 => Order::Switch { groups: random.below(8) as u32 },
-        4 => Order::Choose { index: random.below(40) as u8 },
-        5 => Order::Harden { body, stiffness: number(random, 0.0, 900.0), damping: number(random, 0.0, 3.0) },
+        0 => Command::Place { body, pose },
+        1 => Command::Lead { body, pose, velocity, angular_velocity, seconds },
+        2 => Command::Move { body, velocity, angular_velocity, seconds },
+        3 => Command::Switch { groups: random.below(8) as u32 },
+        4 => Command::Choose { index: random.below(40) as u8 },
+        5 => Command::Harden { body, stiffness: number(random, 0.0, 900.0), damping: number(random, 0.0, 3.0) },
         6 => {
             let friction = [0.0, 600.0, 1.0, 0.4, 0.3];
             let scale = number(random, 0.0, 1.2);
             let numbers = [friction[1] * scale, friction[2], friction[3], friction[4] * scale];
-            Order::Rub { body, friction: (random.below(3) > 0).then_some(numbers) }
+            Command::Rub { body, friction: (random.below(3) > 0).then_some(numbers) }
         }
-        7 => Order::Tip { radius: number(random, 0.0, 0.004) },
-        8 => Order::Limit { force: number(random, 0.5, 5.0) },
-        _ => Order::Push { force: numbers(random, 2.0) },
+        7 => Command::Tip { radius: number(random, 0.0, 0.004) },
+        8 => Command::Limit { force: number(random, 0.5, 5.0) },
+        _ => Command::Push { force: numbers(random, 2.0) },
     }
 }
 
@@ -95,14 +96,14 @@ fn no_order_steps_the_force() {
             let before = state;
             given += 1;
             expected = match order {
-                Order::Push { .. } | Order::Limit { .. } => {
+                Command::Push { .. } | Command::Limit { .. } => {
                     let mut without = before;
                     scene.follow(&Controller::SECOND_ORDER, &mut without, seen, PERIOD);
                     Some(double(without.force()))
                 }
                 _ => Some(last),
             };
-            if scene.obey(&mut state, &order).is_err() {
+            if scene.apply(&mut state, &order).is_err() {
                 refused += 1;
                 // By every bit: what is not a number differs from itself.
                 assert_eq!(words(&state), words(&before), "{order:?}");
@@ -149,15 +150,15 @@ fn a_body_moves_along_as_it_was_told() {
         let (from, turned) = (random.vector(0.1), DQuat::from_axis_angle(random.direction(), random.between(0.0, 3.0)));
         let (velocity, spin) = (random.vector(0.05), random.vector(3.0));
         let seconds = random.between(0.5, 3.0);
-        let order = Order::Place { body: 1, pose: pose(from, turned) };
-        scene.obey(&mut state, &order).unwrap();
-        let order = Order::Move {
+        let order = Command::Place { body: 1, pose: pose(from, turned) };
+        scene.apply(&mut state, &order).unwrap();
+        let order = Command::Move {
             body: 1,
             velocity: single(velocity).to_array(),
             angular_velocity: single(spin).to_array(),
             seconds: seconds as f32,
         };
-        scene.obey(&mut state, &order).unwrap();
+        scene.apply(&mut state, &order).unwrap();
         for _ in 0..(4.0 * RATE) as u32 {
             scene.follow(&Controller::SECOND_ORDER, &mut state, Probe::at(Vec3::ZERO), PERIOD);
         }
@@ -185,15 +186,15 @@ fn a_force_of_the_host_s_fades_when_it_is_no_longer_asked_for() {
         }
         state.force()
     };
-    let push = Order::Push { force: [0.0, 2.0, 0.0] };
-    scene.obey(&mut state, &push).unwrap();
+    let push = Command::Push { force: [0.0, 2.0, 0.0] };
+    scene.apply(&mut state, &push).unwrap();
     // 2 N at 100 N/s.
     let up = (2.0 / LIMITS.release_n_per_s * RATE) as u32 + 1;
     assert_eq!(follow(&mut state, up), Vec3::new(0.0, 2.0, 0.0));
     assert_eq!(follow(&mut state, (HOLD * RATE) as u32 + up), Vec3::ZERO);
     // Asked for again and again it stays.
     for _ in 0..100 {
-        scene.obey(&mut state, &push).unwrap();
+        scene.apply(&mut state, &push).unwrap();
         follow(&mut state, (HOLD * RATE) as u32);
     }
     assert_eq!(state.force(), Vec3::new(0.0, 2.0, 0.0));
@@ -206,39 +207,39 @@ fn what_cannot_be_is_refused_by_its_reason() {
     let parts = [resting, Part { motion: Motion::Prescribed(moving), ..resting }];
     let scene = Scene::new(LIMITS, parts);
     let mut state = scene.rest();
-    let straight = Pose { position: [0.0; 3], orientation: [0.0, 0.0, 0.0, 1.0] };
+    let straight = BodyPose { position: [0.0; 3], orientation: [0.0, 0.0, 0.0, 1.0] };
     let (velocity, angular_velocity, seconds) = ([0.0; 3], [0.0; 3], 1.0);
     let before = words(&state);
     for (order, error) in [
-        (Order::Place { body: 2, pose: straight }, SceneError::Missing(2)),
-        (Order::Place { body: 1, pose: straight }, SceneError::Placement(1)),
+        (Command::Place { body: 2, pose: straight }, SceneError::Missing(2)),
+        (Command::Place { body: 1, pose: straight }, SceneError::Placement(1)),
         (
-            Order::Place { body: 0, pose: Pose { orientation: [0.0, 0.0, 0.0, 1.1], ..straight } },
+            Command::Place { body: 0, pose: BodyPose { orientation: [0.0, 0.0, 0.0, 1.1], ..straight } },
             SceneError::Placement(0),
         ),
-        (Order::Place { body: 0, pose: Pose { position: [f32::NAN; 3], ..straight } }, SceneError::Placement(0)),
-        (Order::Move { body: 0, velocity: [0.0, 2.1, 0.0], angular_velocity, seconds }, SceneError::TooFast(0)),
-        (Order::Move { body: 0, velocity, angular_velocity, seconds: -1.0 }, SceneError::Placement(0)),
-        (Order::Move { body: 1, velocity, angular_velocity, seconds }, SceneError::Placement(1)),
+        (Command::Place { body: 0, pose: BodyPose { position: [f32::NAN; 3], ..straight } }, SceneError::Placement(0)),
+        (Command::Move { body: 0, velocity: [0.0, 2.1, 0.0], angular_velocity, seconds }, SceneError::TooFast(0)),
+        (Command::Move { body: 0, velocity, angular_velocity, seconds: -1.0 }, SceneError::Placement(0)),
+        (Command::Move { body: 1, velocity, angular_velocity, seconds }, SceneError::Placement(1)),
         (
-            Order::Lead { body: 0, pose: straight, velocity: [f32::NAN; 3], angular_velocity, seconds },
+            Command::Lead { body: 0, pose: straight, velocity: [f32::NAN; 3], angular_velocity, seconds },
             SceneError::Placement(0),
         ),
         // Two at once push with both: 600 beside it.
-        (Order::Harden { body: 0, stiffness: 1_401.0, damping: 1.0 }, SceneError::Stiffness(0)),
-        (Order::Rub { body: 0, friction: Some([500.0, 1.0, 0.2, 0.3]) }, SceneError::Friction(0)),
-        (Order::Tip { radius: -1.0 }, SceneError::TipRadius),
-        (Order::Choose { index: 32 }, SceneError::Group(32)),
-        (Order::Limit { force: 5.1 }, SceneError::Force),
-        (Order::Push { force: [0.0, 0.0, 5.1] }, SceneError::Force),
-        (Order::Take { body: 0 }, SceneError::NotOffered),
+        (Command::Harden { body: 0, stiffness: 1_401.0, damping: 1.0 }, SceneError::Stiffness(0)),
+        (Command::Rub { body: 0, friction: Some([500.0, 1.0, 0.2, 0.3]) }, SceneError::Friction(0)),
+        (Command::Tip { radius: -1.0 }, SceneError::TipRadius),
+        (Command::Choose { index: 32 }, SceneError::Group(32)),
+        (Command::Limit { force: 5.1 }, SceneError::Force),
+        (Command::Push { force: [0.0, 0.0, 5.1] }, SceneError::Force),
+        (Command::Take { body: 0 }, SceneError::NotOffered),
     ] {
-        assert_eq!(scene.obey(&mut state, &order), Err(error), "{order:?}");
+        assert_eq!(scene.apply(&mut state, &order), Err(error), "{order:?}");
         assert_eq!(words(&state), before, "{order:?}");
     }
     // Hardened one after the other they are still within it together.
-    let harden = |body, stiffness| Order::Harden { body, stiffness, damping: 1.0 };
-    assert_eq!(scene.obey(&mut state, &harden(0, 1_400.0)), Ok(()));
-    assert_eq!(scene.obey(&mut state, &harden(1, 601.0)), Err(SceneError::Stiffness(1)));
-    assert_eq!(scene.obey(&mut state, &harden(1, 600.0)), Ok(()));
+    let harden = |body, stiffness| Command::Harden { body, stiffness, damping: 1.0 };
+    assert_eq!(scene.apply(&mut state, &harden(0, 1_400.0)), Ok(()));
+    assert_eq!(scene.apply(&mut state, &harden(1, 601.0)), Err(SceneError::Stiffness(1)));
+    assert_eq!(scene.apply(&mut state, &harden(1, 600.0)), Ok(()));
 }

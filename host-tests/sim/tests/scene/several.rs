@@ -5,6 +5,7 @@ use glam::DVec3;
 use palpate::body::{Body, BodyWitness};
 use palpate::math::{Vec3, vec3};
 use palpate::scene::{Material, Motion, Path, Scene};
+use palpate::servo::BakedTables;
 use palpate::servo::{Surface, TableCheck};
 use palpate::track::{Contact, Controller, Placement, Probe};
 

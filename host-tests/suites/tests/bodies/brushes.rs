@@ -104,7 +104,7 @@ fn brush(
         // As the loop does: a stroke that runs through the body lengthwise is no contact that a wall could explain.
         let is_given_up = step.unexplained || -state.gap > ContactLimits::DEFAULT.min_depth_m;
         if is_given_up {
-            body.lose(&mut state);
+            body.release(&mut state);
         }
         let (was_felt, along) = (is_felt, f64::from(probe.distance(from)));
         is_felt = state.contact == Contact::Touching && state.gap < 0.0;

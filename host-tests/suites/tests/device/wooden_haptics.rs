@@ -46,7 +46,7 @@ fn the_workspace_lies_within_the_joint_range() {
 fn forward_map_agrees_with_the_simulated_arm() {
     let mut worst: f64 = 0.0;
     for (single, double) in workspace() {
-        worst = worst.max(distance(to_f64(DEVICE.kinematics.pose(single).position), arm().position(double)));
+        worst = worst.max(distance(to_f64(DEVICE.kinematics.pose(single).unwrap().position), arm().position(double)));
     }
     // sin and cos err by 1.2e-7 each: 0.45 m of links twice over gives 1.1e-7 m; five roundings of lengths under 0.5 m
     // 0.8e-7. The finest encoder step is 43 µm.
@@ -57,7 +57,7 @@ fn forward_map_agrees_with_the_simulated_arm() {
 fn jacobian_agrees_with_central_differences_of_the_forward_map() {
     let mut worst: f64 = 0.0;
     for (single, double) in workspace() {
-        let columns = DEVICE.kinematics.pose(single).jacobian;
+        let columns = DEVICE.kinematics.pose(single).unwrap().jacobian;
         for joint in 0..3 {
             let place = |step: f64| {
                 let mut angles = double;
@@ -77,7 +77,7 @@ fn jacobian_agrees_with_central_differences_of_the_forward_map() {
 fn transposed_jacobian_does_the_work_of_the_force() {
     let force = vec3(1.3, -2.1, 0.7);
     for (single, double) in workspace() {
-        let torques = DEVICE.kinematics.pose(single).torques(force).map(f64::from);
+        let torques = DEVICE.kinematics.pose(single).unwrap().torques(force).map(f64::from);
         // A small motion of all joints at once; the probe's displacement from the simulated arm.
         let turn = [0.7e-5, -1.1e-5, 0.4e-5];
         let place = |sign: f64| arm().position(core::array::from_fn(|joint| double[joint] + sign * turn[joint]));
@@ -91,7 +91,7 @@ fn transposed_jacobian_does_the_work_of_the_force() {
 
 #[test]
 fn velocity_is_the_jacobian_times_the_rates() {
-    let pose: ProbePose<3> = DEVICE.kinematics.pose([0.3, 0.4, 0.9]);
+    let pose: ProbePose<3> = DEVICE.kinematics.pose([0.3, 0.4, 0.9]).unwrap();
     let rates = [1.5, -0.5, 2.0];
     let jacobian = arm().jacobian([0.3_f32, 0.4, 0.9].map(f64::from));
     let expected = jacobian.map(|row| (0..3).map(|joint| row[joint] * f64::from(rates[joint])).sum());
@@ -103,7 +103,7 @@ fn velocity_is_the_jacobian_times_the_rates() {
 fn pose(plant: &Plant) -> ProbePose<3> {
     let counts = plant.counts();
     let angles = core::array::from_fn(|joint| DEVICE.encoders[joint].angle(Counts(counts[joint])));
-    DEVICE.kinematics.pose(angles)
+    DEVICE.kinematics.pose(angles).unwrap()
 }
 
 /// The library's duties for a force at the probe.

@@ -6,18 +6,18 @@ use crate::surfaces::WALL;
 use crate::traces::SETTINGS;
 use palpate::device::{Counts, Duty};
 use palpate::math::Vec3;
-use palpate::servo::{Event, Fault, Input, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Fault, Input, Phase, ResetReason, SafeOutput, Safety, Servo};
 
 #[test]
 fn the_loop_is_armed_only_when_settled_homed_and_checked() {
     let (device, patch) = (device(), decayed());
-    let servo = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS).safety(safety(SafeOutput::Zero));
+    let servo =
+        Servo::new(&device, &patch, Config { settings: SETTINGS, safety: safety(SafeOutput::Zero), ..Config::DEFAULT });
     let mut state = servo.start();
     let good = Input::Sensors { counts: [Counts(0); 3], enable: true };
     assert_eq!(state.phase(), Phase::Reset);
     for _ in 0..80 {
-        servo.tick(&mut state, good);
+        let _ = servo.tick(&mut state, good);
         assert_eq!((state.phase(), state.duties()), (Phase::Calibrate, [Duty::ZERO; 3]));
     }
     servo.note(&mut state, Event::LinkAlive);
@@ -25,7 +25,7 @@ fn the_loop_is_armed_only_when_settled_homed_and_checked() {
     let mut phases = Vec::new();
     for _ in 0..200 {
         servo.note(&mut state, Event::LinkAlive);
-        servo.tick(&mut state, good);
+        let _ = servo.tick(&mut state, good);
         phases.push(state.phase());
     }
     let armed = phases.iter().position(|phase| *phase == Phase::Armed);
@@ -41,20 +41,24 @@ fn the_loop_is_armed_only_when_settled_homed_and_checked() {
 #[test]
 fn a_stale_table_is_never_armed() {
     let (device, mut patch) = (device(), decayed());
-    patch.baked = Some(WALL.table_crc() ^ 1);
-    let servo = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS);
+    patch.0.baked = Some(WALL.table_crc() ^ 1);
+    let servo = Servo::new(&device, &patch, Config { settings: SETTINGS, ..Config::DEFAULT });
     let mut state = servo.start();
     for _ in 0..10 {
-        servo.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
         assert!(matches!(state.phase(), Phase::Calibrate | Phase::Fault));
     }
     assert_eq!(state.fault().map(|(fault, _)| fault), Some(Fault::TableCorrupt));
     assert_eq!(state.force(), Vec3::ZERO);
     // Unless the check was turned off.
-    let unchecked = servo.safety(Safety { checks_tables: false, ..Safety::DEFAULT });
+    let unchecked = Servo::new(
+        servo.device(),
+        servo.surface(),
+        Config { safety: Safety { checks_tables: false, ..Safety::DEFAULT }, ..servo.config() },
+    );
     let mut state = unchecked.start();
     for _ in 0..10 {
-        unchecked.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
+        let _ = unchecked.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
     }
     assert_eq!((state.phase(), state.fault()), (Phase::Running, None));
 }

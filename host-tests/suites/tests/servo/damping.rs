@@ -4,8 +4,7 @@ use crate::surfaces::WALL;
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
 use palpate::device::{Counts, Duty, Protection, SupplyRange};
 use palpate::math::Vec3;
-use palpate::servo::{Event, Fault, Input, Output, Rendering, SafeOutput, Safety, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Fault, Input, Output, Rendering, SafeOutput, Safety, Servo, Settings};
 use palpate_sim::plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::f64::consts::TAU;
 
@@ -38,11 +37,17 @@ fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
         soft_start_s: 0.1,
         body_origin_m: Vec3::ZERO,
     };
-    let servo = Servo::new(device, &WALL, Controller::SECOND_ORDER, settings)
-        // A wrong motor makes of the weight that it carries a load, and the arm falls through the wall.
-        .rendering(Rendering { compensates_gravity: !wrong, ..Rendering::PLAIN })
-        .safety(Safety { output: SafeOutput::Damping(4.0), ..Safety::DEFAULT })
-        .protect(PROTECTION);
+    let servo = Servo::protected(
+        device,
+        &WALL,
+        PROTECTION,
+        Config {
+            settings,
+            rendering: Rendering { compensates_gravity: !wrong, ..Rendering::PLAIN },
+            safety: Safety { output: SafeOutput::Damping(4.0), ..Safety::DEFAULT },
+            ..Config::DEFAULT
+        },
+    );
     let mut plant = PlantSettings::wooden_haptics_2016();
     if wrong {
         for joint in &mut plant.joints {
@@ -61,7 +66,7 @@ fn driven_after(event: Option<Event>, wrong: bool) -> (Option<Fault>, u32) {
         {
             servo.note(&mut state, event);
         }
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         if state.fault().is_some() {
             let drives = matches!(state.output(), Output::Drive(duties) if duties != [Duty::ZERO; 3]);
             *after.get_or_insert(0) += u32::from(drives);
@@ -80,5 +85,5 @@ fn nothing_damps_after_a_fault_of_a_drive_of_the_supply_of_a_sign_or_of_the_cali
     // Which way they would push nobody knows.
     assert_eq!(driven_after(Some(Event::CalibrationRefused), false), (Some(Fault::Calibration), 0));
     // It would push, not brake.
-    assert_eq!(driven_after(None, true), (Some(Fault::WrongSign), 0));
+    assert_eq!(driven_after(None, true), (Some(Fault::WrongPolarity), 0));
 }

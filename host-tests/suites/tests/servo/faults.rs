@@ -6,7 +6,7 @@ use crate::traces::{SETTINGS, Trace, enable};
 use palpate::device::Duty;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{
-    ContactLimits, Event, Fault, Input, Phase, SafeOutput, Safety, Servo, ServoState, Settings, StuckLimits,
+    Config, ContactLimits, Event, Fault, Input, Phase, SafeOutput, Safety, Servo, ServoState, Settings, StuckLimits,
 };
 use palpate::track::{Controller, FirstOrder};
 use rand::SeedableRng;
@@ -47,8 +47,16 @@ fn phase_instants(trace: &Trace, phase: Phase) -> Vec<usize> {
 fn after_a_stop_the_device_is_limp_or_damped() {
     let (device, patch) = (device(), decayed());
     for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
-        let servo =
-            Servo::new(&device, &patch, Controller::FirstOrder(FirstOrder::CERTIFIED), SETTINGS).safety(safety(output));
+        let servo = Servo::new(
+            &device,
+            &patch,
+            Config {
+                controller: Controller::FirstOrder(FirstOrder::CERTIFIED),
+                settings: SETTINGS,
+                safety: safety(output),
+                ..Config::DEFAULT
+            },
+        );
         let trace = Trace::record(&servo, 7);
         let instants: Vec<usize> = phase_instants(&trace, Phase::Running).into_iter().step_by(50).collect();
         let mut braked = 0;
@@ -57,7 +65,7 @@ fn after_a_stop_the_device_is_limp_or_damped() {
             servo.note(&mut state, Event::Stop);
             assert_eq!(state.duties(), [Duty::ZERO; 3], "at once");
             for tick in from + 1..from + 4 {
-                servo.tick(&mut state, Input::Sensors { counts: trace.counts[tick], enable: enable(tick) });
+                let _ = servo.tick(&mut state, Input::Sensors { counts: trace.counts[tick], enable: enable(tick) });
                 assert_safe(&state, output, true);
             }
             braked += usize::from(state.duties() != [Duty::ZERO; 3]);
@@ -74,17 +82,35 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
     let (device, patch) = (device(), decayed());
     let mut seen = [[0_usize; Phase::ALL.len()]; Fault::ALL.len() + 1];
     for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
-        let servo = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS).safety(safety(output));
+        let servo =
+            Servo::new(&device, &patch, Config { settings: SETTINGS, safety: safety(output), ..Config::DEFAULT });
         let trace = Trace::record(&servo, 7);
-        let strict = Servo::new(&device, &patch, Controller::SECOND_ORDER, SETTINGS)
-            .safety(Safety { stuck: Some(StuckLimits { travel_rad: 1e-4, ..StuckLimits::DEFAULT }), ..safety(output) });
-        let shallow = Servo::new(&device, &patch, Controller::SECOND_ORDER, Settings { max_force_n: 1e-4, ..SETTINGS })
-            .safety(Safety {
-                contact: Some(ContactLimits { max_in_a_row: 0, min_depth_m: 0.0, ..ContactLimits::DEFAULT }),
-                ..safety(output)
-            });
+        let strict = Servo::new(
+            &device,
+            &patch,
+            Config {
+                settings: SETTINGS,
+                safety: Safety {
+                    stuck: Some(StuckLimits { travel_rad: 1e-4, ..StuckLimits::DEFAULT }),
+                    ..safety(output)
+                },
+                ..Config::DEFAULT
+            },
+        );
+        let shallow = Servo::new(
+            &device,
+            &patch,
+            Config {
+                settings: Settings { max_force_n: 1e-4, ..SETTINGS },
+                safety: Safety {
+                    contact: Some(ContactLimits { max_in_a_row: 0, min_depth_m: 0.0, ..ContactLimits::DEFAULT }),
+                    ..safety(output)
+                },
+                ..Config::DEFAULT
+            },
+        );
         let mut bench =
-            Bench { servo, strict, shallow, device: &device, patch: &patch, random: Pcg64::seed_from_u64(11) };
+            Bench { servo, strict, shallow, device: &device, patch: &patch.0, random: Pcg64::seed_from_u64(11) };
         for fault in Fault::ALL {
             for phase in Phase::ALL {
                 // The phase of a stopped loop is made from a running one, by hand.
@@ -134,7 +160,7 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
                     for later in tick + 1..tick + AFTER {
                         let counts = trace.counts[later];
                         bench.servo.note(&mut state, Event::LinkAlive);
-                        bench.servo.tick(&mut state, Input::Sensors { counts, enable: later % 3 > 0 });
+                        let _ = bench.servo.tick(&mut state, Input::Sensors { counts, enable: later % 3 > 0 });
                         assert_eq!((state.phase(), state.fault()), (Phase::Fault, latched));
                         assert_safe(&state, output, true);
                     }
@@ -149,7 +175,7 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
             let blind = match fault {
                 Fault::JointJumped => phase == Phase::Reset,
                 Fault::JointStuck | Fault::ContactLost => phase != Phase::Running,
-                Fault::Overspeed | Fault::Supply | Fault::WrongSign => true,
+                Fault::Overspeed | Fault::Supply | Fault::WrongPolarity => true,
                 _ => false,
             };
             let partly = matches!(fault, Fault::JointStuck | Fault::ContactLost);

@@ -5,10 +5,11 @@ use crate::traces::SETTINGS;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Device, Duty, Motor, SerialArm, VelocityMethod};
 use palpate::math::{Vec3, vec3};
-use palpate::patch::Patch;
 use palpate::render::{Coupling, Friction, Passivity, Texture, grating};
-use palpate::servo::{Event, Input, Phase, Rendering, ResetReason, SafeOutput, Safety, Servo, Settings, StuckLimits};
-use palpate::track::Controller;
+use palpate::servo::{
+    Config, Event, Input, OnePatch, Phase, Rendering, ResetReason, SafeOutput, Safety, Servo, Settings, StuckLimits,
+    Surface,
+};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -65,9 +66,9 @@ struct Tally {
     stopped: u64,
 }
 
-fn fuzz<P: Patch>(
+fn fuzz<S: Surface>(
     device: &Device<SerialArm, 3>,
-    patch: &P,
+    surface: &S,
     rendering: Rendering,
     output: SafeOutput,
     ticks: u64,
@@ -78,8 +79,7 @@ fn fuzz<P: Patch>(
     let settings = Settings { body_origin_m: vec3(0.025, 0.0, 0.205), ..SETTINGS };
     let stuck = Some(StuckLimits { load: 1.0, travel_rad: 0.2 });
     let safety = Safety { output, stuck, ..Safety::DEFAULT };
-    let servo = Servo::try_new(device, patch, Controller::SECOND_ORDER, settings).unwrap();
-    let servo = servo.try_rendering(rendering).unwrap().try_safety(safety).unwrap();
+    let servo = Servo::try_new(device, surface, Config { settings, rendering, safety, ..Config::DEFAULT }).unwrap();
     let mut random = Pcg64::seed_from_u64(seed);
     let mut state = servo.start();
     let mut counts = [0_i32; 3];
@@ -127,7 +127,7 @@ fn fuzz<P: Patch>(
             servo.note(&mut state, events[(bits >> 44) as usize % events.len()]);
         }
         let before = state.fault();
-        servo.tick(&mut state, input);
+        let _ = servo.tick(&mut state, input);
 
         assert!(state.duties().iter().all(|duty| duty.0 != i16::MIN), "{state:?}");
         // Rounding of the length.
@@ -166,7 +166,7 @@ fn ten_million_ticks_of_arbitrary_sensors_give_no_bad_output() {
             let seed = (index * 10 + other) as u64;
             for tally in [
                 fuzz(&WOODEN_HAPTICS_2016, &WALL, rendering, output, ticks / cases, seed),
-                fuzz(&WOODEN_HAPTICS_2016, &Cap { radius: 0.05 }, rendering, output, ticks / cases, seed + 5),
+                fuzz(&WOODEN_HAPTICS_2016, &OnePatch(Cap { radius: 0.05 }), rendering, output, ticks / cases, seed + 5),
             ] {
                 println!("{index} {output:?}: {tally:?}");
                 // It was alive: it ran, it stopped, and it drove the motors.

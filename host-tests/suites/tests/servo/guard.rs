@@ -7,8 +7,7 @@ use palpate::device::presets::{
 };
 use palpate::device::{Counts, Device, Duty, Kinematics, Motor, Protection, SupplyRange};
 use palpate::math::Vec3;
-use palpate::servo::{Event, Fault, Input, Phase, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Fault, Input, Phase, Servo, Settings};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Thermal, Vector};
 
 /// Comes straight down at a constant speed.
@@ -28,8 +27,12 @@ impl HandPath for Down {
 
 /// A hand that holds the probe in a wall, as deep as its greatest force reaches, for 25 s.
 fn stays_cool<K: Kinematics<3>>(bench: &Bench<K>) {
-    let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings(bench.device, Vec3::ZERO))
-        .protect(Protection { polarity: None, ..bench.protection });
+    let servo = Servo::protected(
+        bench.device,
+        &WALL,
+        Protection { polarity: None, ..bench.protection },
+        Config { settings: settings(bench.device, Vec3::ZERO), ..Config::DEFAULT },
+    );
     let hand = HandSettings { stiffness: 20_000.0, damping: 100.0, mass: 0.0 };
     // Deeper than its greatest force is, and not so deep that contact is lost.
     let deep = 1.3 * f64::from(bench.device.max_force_n / bench.device.max_stiffness_n_per_m);
@@ -39,12 +42,12 @@ fn stays_cool<K: Kinematics<3>>(bench: &Bench<K>) {
     let mut state = servo.start();
     // Cold, as after a rest of 100 s: the harder case, for the motors are then given all they have.
     for _ in 0..400_000 {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: false });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: false });
     }
     assert!(!servo.guard().folds(state.guard()));
     let (mut step, mut last, mut hottest, mut greatest) = (0.0_f32, 0.0_f32, [0.0_f64; 3], 0.0_f32);
     for tick in 0..100_000 {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         assert_eq!(state.fault(), None);
         plant.advance(state.duties().map(|duty| duty.0));
         for ((motor, current), hottest) in motors.iter_mut().zip(plant.currents()).zip(&mut hottest) {
@@ -92,13 +95,15 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
         for (on, off, reset) in
             [(1e9, 0.0, false), (3.0, 3.0, false), (10.0, 20.0, false), (20.0, 0.1, true), (2.0, 2.0, true)]
         {
-            let servo = Servo::new(
+            let servo = Servo::protected(
                 bench.device,
                 &WALL,
-                Controller::SECOND_ORDER,
-                Settings { rate_hz: LAW_RATE as f32, ..settings(bench.device, Vec3::ZERO) },
-            )
-            .protect(bench.protection);
+                bench.protection,
+                Config {
+                    settings: Settings { rate_hz: LAW_RATE as f32, ..settings(bench.device, Vec3::ZERO) },
+                    ..Config::DEFAULT
+                },
+            );
             // The law alone, for hours: the loop's own state, told what the motors were given.
             let mut worn = palpate::servo::Guard::<3>::start(servo.guard());
             let mut motor = Thermal::cold(*heat);
@@ -113,7 +118,7 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
                 let bound = worn.limits()[joint] / bench.device.motors[joint].torque_at_full_n_m.abs();
                 let mut duties = [Duty::ZERO; 3];
                 duties[joint] = Duty::from_fraction(if is_on { bound } else { 0.0 });
-                palpate::servo::Guard::<3>::given(servo.guard(), &mut worn, &duties);
+                palpate::servo::Guard::<3>::record_output(servo.guard(), &mut worn, &duties);
                 motor.step(f64::from(duties[joint].fraction()) * current_at_full, 1.0 / LAW_RATE);
                 hottest = hottest.max(motor.winding);
             }
@@ -129,15 +134,19 @@ fn never_burns<K: Kinematics<3>>(bench: &Bench<K>) {
 /// One motor's turn comes every third tick: duties that beat with it must count as fully as any others.
 #[test]
 fn a_motor_warms_by_what_it_is_given_in_every_tick_and_not_only_in_its_turn() {
-    let servo = Servo::new(&PHANTOM_PREMIUM, &WALL, Controller::SECOND_ORDER, settings(&PHANTOM_PREMIUM, Vec3::ZERO))
-        .protect(Protection { polarity: None, ..PHANTOM_PREMIUM_PROTECTION });
+    let servo = Servo::protected(
+        &PHANTOM_PREMIUM,
+        &WALL,
+        Protection { polarity: None, ..PHANTOM_PREMIUM_PROTECTION },
+        Config { settings: settings(&PHANTOM_PREMIUM, Vec3::ZERO), ..Config::DEFAULT },
+    );
     let endurance = PHANTOM_PREMIUM_PROTECTION.motors[0];
     for phase in 0..3 {
         let mut state = palpate::servo::Guard::<3>::start(servo.guard());
         let mut warmth = [f64::from(endurance.continuous).powi(2); 3];
         for tick in 0..200_000_u32 {
             let duties = [0, 1, 2].map(|joint| Duty(if tick % 3 == (phase + joint) % 3 { 20_000 } else { 100 }));
-            palpate::servo::Guard::<3>::given(servo.guard(), &mut state, &duties);
+            palpate::servo::Guard::<3>::record_output(servo.guard(), &mut state, &duties);
             for (warmth, duty) in warmth.iter_mut().zip(duties) {
                 let square = (f64::from(duty.0) / 32_767.0).powi(2);
                 *warmth += (square - *warmth) / (f64::from(endurance.time_constant_s) * RATE);
@@ -168,11 +177,17 @@ fn a_motor_that_warms_up_is_felt_as_less_force_and_not_as_a_step() {
 
 #[test]
 fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
-    let servo =
-        Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO));
+    let servo = Servo::new(
+        &WOODEN_HAPTICS_2016,
+        &WALL,
+        Config { settings: settings(&WOODEN_HAPTICS_2016, Vec3::ZERO), ..Config::DEFAULT },
+    );
     let slow = Protection { max_probe_speed_m_per_s: 0.3, polarity: None, ..WOODEN_HAPTICS_2016_PROTECTION };
     let slow_joints = Protection { max_joint_rates_rad_per_s: [2.0; 3], max_probe_speed_m_per_s: 1e3, ..slow };
-    for (servo, is_fast) in [(servo.protect(slow), 0), (servo.protect(slow_joints), 1)] {
+    for (servo, is_fast) in [
+        (Servo::protected(servo.device(), servo.surface(), slow, servo.config()), 0),
+        (Servo::protected(servo.device(), servo.surface(), slow_joints, servo.config()), 1),
+    ] {
         let path = Hold(Down { speed: 0.05, from: 0.002 }, 0.008);
         let mut plant = Plant::new(
             &PlantSettings::wooden_haptics_2016(),
@@ -186,15 +201,19 @@ fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
             if tick == 2_000 {
                 plant.hold(HandSettings::NONE);
             }
-            servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+            let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
             assert!(tick > 2_000 || state.fault().is_none(), "{tick} {:?}", state.fault());
             plant.advance(state.duties().map(|duty| duty.0));
         }
         assert_eq!(state.fault().map(|(fault, _)| fault), Some(Fault::Overspeed), "{is_fast}");
     }
     // Without force a hand may move it as fast as it likes.
-    let servo =
-        servo.protect(Protection { max_probe_speed_m_per_s: 1e-3, max_joint_rates_rad_per_s: [1e-3; 3], ..slow });
+    let servo = Servo::protected(
+        servo.device(),
+        servo.surface(),
+        Protection { max_probe_speed_m_per_s: 1e-3, max_joint_rates_rad_per_s: [1e-3; 3], ..slow },
+        servo.config(),
+    );
     let mut plant = Plant::new(
         &PlantSettings::wooden_haptics_2016(),
         HandSettings::default(),
@@ -204,7 +223,7 @@ fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
     .unwrap();
     let mut state = servo.start();
     for _ in 0..1_000 {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: false });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: false });
         plant.advance(state.duties().map(|duty| duty.0));
     }
     assert_eq!((state.phase(), state.fault()), (Phase::Armed, None));
@@ -212,17 +231,25 @@ fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
 
 #[test]
 fn a_supply_out_of_range_or_that_nobody_measures_is_a_fault() {
-    let servo =
-        Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO));
+    let servo = Servo::new(
+        &WOODEN_HAPTICS_2016,
+        &WALL,
+        Config { settings: settings(&WOODEN_HAPTICS_2016, Vec3::ZERO), ..Config::DEFAULT },
+    );
     let range = Some(SupplyRange { min_mv: 20_000, max_mv: 28_000 });
-    let servo = servo.protect(Protection { supply: range, ..WOODEN_HAPTICS_2016_PROTECTION });
+    let servo = Servo::protected(
+        servo.device(),
+        servo.surface(),
+        Protection { supply: range, ..WOODEN_HAPTICS_2016_PROTECTION },
+        servo.config(),
+    );
     let ends = |measured: &dyn Fn(u32) -> Option<u32>| {
         let mut state = servo.start();
         for tick in 0..2_000 {
             if let Some(millivolts) = measured(tick) {
                 servo.note(&mut state, Event::Supply { millivolts });
             }
-            servo.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
+            let _ = servo.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
         }
         state.fault()
     };
@@ -238,9 +265,12 @@ fn a_supply_out_of_range_or_that_nobody_measures_is_a_fault() {
 /// What a motor may be given is counted in torque: of a weaker one it is less.
 #[test]
 fn a_motor_that_was_found_weaker_is_bounded_by_its_own_torque() {
-    let servo =
-        Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings(&WOODEN_HAPTICS_2016, Vec3::ZERO))
-            .protect(WOODEN_HAPTICS_2016_PROTECTION);
+    let servo = Servo::protected(
+        &WOODEN_HAPTICS_2016,
+        &WALL,
+        WOODEN_HAPTICS_2016_PROTECTION,
+        Config { settings: settings(&WOODEN_HAPTICS_2016, Vec3::ZERO), ..Config::DEFAULT },
+    );
     let weaker = WOODEN_HAPTICS_2016.motors.map(|motor| Motor { torque_at_full_n_m: -0.5 * motor.torque_at_full_n_m });
     let device = Device { motors: weaker, ..WOODEN_HAPTICS_2016 };
     let limits = servo.calibrated(&device).start().guard().limits();

@@ -5,7 +5,7 @@ use crate::traces::RATE;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Device, Kinematics, ProbePose, SerialArm};
 use palpate::patch::{Patch, SecondDerivativeBounds, SplinePatch, SurfacePoint};
-use palpate::servo::{ContactLimits, SafeOutput, Safety, Servo, StuckLimits};
+use palpate::servo::{ContactLimits, OnePatch, SafeOutput, Safety, Servo, StuckLimits};
 use std::cell::Cell;
 
 /// Ticks without a sign from the link after which it is lost.
@@ -22,16 +22,16 @@ pub struct Poisoned {
 }
 
 impl Kinematics<3> for Poisoned {
-    fn pose(&self, angles: [f32; 3]) -> ProbePose<3> {
+    fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
         if self.open.get() {
-            return ProbePose::UNREACHABLE;
+            return None;
         }
-        let mut pose = self.arm.pose(angles);
+        let mut pose = self.arm.pose(angles)?;
         if let Some(bad) = self.with.get() {
             pose.jacobian[1].y = bad;
             pose.position.x = bad;
         }
-        pose
+        Some(pose)
     }
 }
 
@@ -70,7 +70,7 @@ impl Patch for Decayed {
 }
 
 /// A loop in which either can be harmed.
-pub type TestServo<'a> = Servo<'a, Decayed, Poisoned, 3>;
+pub type TestServo<'a> = Servo<'a, OnePatch<Decayed>, Poisoned, 3>;
 
 /// WoodenHaptics, on such an arm.
 pub fn device() -> Device<Poisoned, 3> {
@@ -91,8 +91,8 @@ pub fn device() -> Device<Poisoned, 3> {
 }
 
 /// The wall, sound so far.
-pub fn decayed() -> Decayed {
-    Decayed { wall: &WALL, baked: Some(WALL.table_crc()), bit: Cell::new(None) }
+pub fn decayed() -> OnePatch<Decayed> {
+    OnePatch(Decayed { wall: &WALL, baked: Some(WALL.table_crc()), bit: Cell::new(None) })
 }
 
 /// Everything watched.

@@ -4,8 +4,7 @@ use crate::surfaces::WALL;
 use crate::traces::{RATE, SETTINGS};
 use palpate::device::presets::{HAPLY_2DIY_V3, WOODEN_HAPTICS_2016};
 use palpate::device::{Counts, Device, Duty, Homing, Kinematics, Reference, Refusal, StopSearch};
-use palpate::servo::{Event, Fault, Input, Phase, SafeOutput, Safety, Servo, ServoState};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Fault, Input, Phase, SafeOutput, Safety, Servo, ServoState};
 use palpate::wire::Report;
 use palpate_sim::plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, StillHand, Vector};
 use std::f32::consts::PI;
@@ -62,7 +61,7 @@ fn home<K: Kinematics<JOINTS>, const JOINTS: usize>(
         meddle(tick, plant);
         let counts = plant.counts();
         let counts = core::array::from_fn(|joint| Counts(counts[joint]));
-        servo.tick(&mut run.state, Input::Sensors { counts, enable: true });
+        let _ = servo.tick(&mut run.state, Input::Sensors { counts, enable: true });
         let mut duties = [0; 3];
         for (joint, duty) in duties.iter_mut().enumerate().take(JOINTS) {
             *duty = run.state.duties()[joint].0;
@@ -84,11 +83,11 @@ fn arm_servo(
     stops: [StopSearch; 3],
     timeout: u32,
 ) -> Servo<'static, palpate::patch::SplinePatch<'static>, palpate::device::SerialArm, 3> {
-    Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).homing(homing(
+    Servo::new(
         &WOODEN_HAPTICS_2016,
-        stops,
-        timeout,
-    ))
+        &WALL,
+        Config { settings: SETTINGS, homing: Some(homing(&WOODEN_HAPTICS_2016, stops, timeout)), ..Config::DEFAULT },
+    )
 }
 
 #[test]
@@ -107,7 +106,7 @@ fn an_arm_finds_its_stops_and_then_its_angles() {
     assert!(run.torque <= 0.5 && run.speed < 3.2, "{} N·m, {} rad/s", run.torque, run.speed);
     for _ in 0..2_000 {
         let counts = plant.counts().map(Counts);
-        servo.tick(&mut state, Input::Sensors { counts, enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts, enable: true });
         let encoders = WOODEN_HAPTICS_2016.encoders;
         for joint in 0..3 {
             let off = (f64::from(state.angles()[joint]) - plant.angles()[joint]).abs();
@@ -145,10 +144,12 @@ fn a_pantograph_finds_the_stops_its_source_states() {
     let servo = Servo::new(
         &HAPLY_2DIY_V3,
         &WALL,
-        Controller::SECOND_ORDER,
-        palpate::servo::Settings { stiffness_n_per_m: 200.0, damping_n_s_per_m: 0.5, ..SETTINGS },
-    )
-    .homing(homing(&HAPLY_2DIY_V3, stops, TICKS));
+        Config {
+            settings: palpate::servo::Settings { stiffness_n_per_m: 200.0, damping_n_s_per_m: 0.5, ..SETTINGS },
+            homing: Some(homing(&HAPLY_2DIY_V3, stops, TICKS)),
+            ..Config::DEFAULT
+        },
+    );
     let mut settings = PlantSettings::haply_2diy_v3();
     settings.joints[0].angle_at_zero -= 0.8;
     let mut plant = start(&settings, StillHand([0.0; 3]));
@@ -186,7 +187,7 @@ fn refused(
         assert_eq!(state.duties(), [Duty::ZERO; 3]);
         plant.advance([0; 3]);
         servo.note(&mut state, Event::Homed);
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         assert_eq!((state.phase(), state.homing().refusal(), state.homed()), (Phase::Fault, Some(refusal), false));
     }
     println!("{refusal} after {:.2} s, {:.2} rad/s at most", f64::from(run.ticks) / RATE, run.speed);
@@ -248,7 +249,9 @@ fn what_homing_will_not_believe_it_refuses_and_says_why() {
 #[test]
 fn no_motor_moves_until_force_is_asked_for_and_none_after_any_fault() {
     for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
-        let servo = arm_servo(ARM_STOPS, TICKS).safety(Safety { output, ..Safety::DEFAULT });
+        let found = arm_servo(ARM_STOPS, TICKS);
+        let safety = Safety { output, ..Safety::DEFAULT };
+        let servo = Servo::new(found.device(), found.surface(), Config { safety, ..found.config() });
         let mut plant = start(&arm_plant(), StillHand([0.0; 3]));
         let mut state = servo.start();
         let mut driven = 0;
@@ -263,7 +266,7 @@ fn no_motor_moves_until_force_is_asked_for_and_none_after_any_fault() {
                 let inputs = [Input::Lost, Input::Damaged, Input::Sensors { counts: jumped, enable }];
                 for (index, input) in inputs.into_iter().enumerate().skip(if tick == 0 { 3 } else { 0 }) {
                     let mut faulty = state;
-                    servo.tick(&mut faulty, input);
+                    let _ = servo.tick(&mut faulty, input);
                     assert!(faulty.phase() == Phase::Fault && faulty.duties() == [Duty::ZERO; 3], "{index} {faulty:?}");
                 }
                 for event in [Event::Stop, Event::DriveFault, Event::Overrun, Event::HomingRefused] {
@@ -271,7 +274,7 @@ fn no_motor_moves_until_force_is_asked_for_and_none_after_any_fault() {
                     servo.note(&mut faulty, event);
                     assert!(faulty.phase() == Phase::Fault && faulty.duties() == [Duty::ZERO; 3], "{event:?}");
                     for _ in 0..5 {
-                        servo.tick(&mut faulty, sensors);
+                        let _ = servo.tick(&mut faulty, sensors);
                         assert_eq!(
                             faulty.duties(),
                             [Duty::ZERO; 3],
@@ -280,7 +283,7 @@ fn no_motor_moves_until_force_is_asked_for_and_none_after_any_fault() {
                     }
                 }
             }
-            servo.tick(&mut state, sensors);
+            let _ = servo.tick(&mut state, sensors);
             assert!(enable || state.duties() == [Duty::ZERO; 3], "tick {tick}");
             assert!(
                 !state.homed() && state.fault().is_none() && state.phase() == Phase::Calibrate,

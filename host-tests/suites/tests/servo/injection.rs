@@ -45,11 +45,11 @@ impl Bench<'_> {
         let sensors = |counts| Input::Sensors { counts, enable };
         match fault {
             Fault::FrameLost => {
-                self.servo.tick(state, Input::Lost);
+                let _ = self.servo.tick(state, Input::Lost);
                 Seen::Now { believable: false }
             }
             Fault::FrameDamaged => {
-                self.servo.tick(state, Input::Damaged);
+                let _ = self.servo.tick(state, Input::Damaged);
                 Seen::Now { believable: false }
             }
             Fault::JointOutOfRange => {
@@ -57,7 +57,7 @@ impl Bench<'_> {
                 let choices = [i32::MIN, i32::MAX, -1_000_000 - self.below(1 << 30) as i32, 1_000_000];
                 let mut bad = counts;
                 bad[joint] = Counts(choices[self.below(4) as usize]);
-                self.servo.tick(state, sensors(bad));
+                let _ = self.servo.tick(state, sensors(bad));
                 Seen::Now { believable: false }
             }
             Fault::JointJumped => {
@@ -68,19 +68,19 @@ impl Bench<'_> {
                 let jump = 40 + self.below(100) as i32;
                 let mut bad = counts;
                 bad[joint].0 += if self.below(2) == 0 { jump } else { -jump };
-                self.servo.tick(state, sensors(bad));
+                let _ = self.servo.tick(state, sensors(bad));
                 Seen::Now { believable: false }
             }
             Fault::NotFinite => {
                 let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][self.below(3) as usize];
                 self.device.kinematics.with.set(Some(bad));
-                self.servo.tick(state, sensors(counts));
+                let _ = self.servo.tick(state, sensors(counts));
                 self.device.kinematics.with.set(None);
                 Seen::Now { believable: false }
             }
             Fault::JointStuck => {
                 // Five times dry friction is a load; twice that, so that it still is one when this count stays behind.
-                let felt = self.device.kinematics.pose(state.angles()).torques(state.force())[joint];
+                let felt = self.device.kinematics.pose(state.angles()).unwrap().torques(state.force())[joint];
                 if felt.abs() < 10.0 * self.device.dry_friction_n_m[joint] || state.counts().is_none() {
                     return Seen::Not; // without load a joint may rest
                 }
@@ -90,7 +90,7 @@ impl Bench<'_> {
                 bad[joint] = state.counts().unwrap()[joint];
                 for _ in 0..STUCK_TICKS {
                     if state.fault().is_none() {
-                        self.strict.tick(state, sensors(bad));
+                        let _ = self.strict.tick(state, sensors(bad));
                         bad[(joint + 1) % 3].0 += 1;
                         bad[(joint + 2) % 3].0 += 1;
                     }
@@ -106,17 +106,17 @@ impl Bench<'_> {
                 if !(state.phase() == Phase::Running && enable && is_deep) {
                     return Seen::Not;
                 }
-                self.shallow.tick(state, sensors(counts));
+                let _ = self.shallow.tick(state, sensors(counts));
                 Seen::Now { believable: true }
             }
             Fault::Unreachable => {
                 self.device.kinematics.open.set(true);
-                self.servo.tick(state, sensors(counts));
+                let _ = self.servo.tick(state, sensors(counts));
                 self.device.kinematics.open.set(false);
                 Seen::Now { believable: false }
             }
             // Of a loop that is protected: see `guard.rs`.
-            Fault::Overspeed | Fault::Supply | Fault::WrongSign => Seen::Not,
+            Fault::Overspeed | Fault::Supply | Fault::WrongPolarity => Seen::Not,
             Fault::Overrun => {
                 self.servo.note(state, Event::Overrun);
                 Seen::Now { believable: false }
@@ -124,7 +124,7 @@ impl Bench<'_> {
             Fault::LinkLost => {
                 for silent in 0..=LINK_TICKS {
                     if silent == 0 || state.fault().is_none() {
-                        self.servo.tick(state, sensors(counts));
+                        let _ = self.servo.tick(state, sensors(counts));
                     }
                 }
                 Seen::Now { believable: true }
@@ -135,7 +135,7 @@ impl Bench<'_> {
                 for _ in 0..2 * TICKS_PER_PASS {
                     if state.fault().is_none() {
                         self.servo.note(state, Event::LinkAlive);
-                        self.servo.tick(state, sensors(counts));
+                        let _ = self.servo.tick(state, sensors(counts));
                     }
                 }
                 self.patch.bit.set(None);

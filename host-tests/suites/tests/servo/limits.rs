@@ -5,8 +5,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Device, SerialArm, VelocityMethod};
 use palpate::math::Vec3;
 use palpate::render::{Ease, Material};
-use palpate::servo::{Input, Rendering, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Input, Rendering, Servo, Settings};
 use palpate_sim::devices::{DEVICES, named};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use palpate_sim::zwidth::{Loop, Slice, max_stiffness};
@@ -39,15 +38,18 @@ fn swing(stiffness: f32, damping: f32, rate: f64) -> f64 {
         body_origin_m: Vec3::ZERO,
     };
     // 40 N/m and 20 mm: 0.8 N. The links' weight helps: it is not carried.
-    let servo = Servo::new(&FREE, &WALL, Controller::SECOND_ORDER, settings)
-        .rendering(Rendering { compensates_gravity: false, ..Rendering::PLAIN });
+    let servo = Servo::new(
+        &FREE,
+        &WALL,
+        Config { settings, rendering: Rendering { compensates_gravity: false, ..Rendering::PLAIN }, ..Config::DEFAULT },
+    );
     let hand = HandSettings { stiffness: 40.0, damping: 0.1, mass: 0.0 };
     let mut plant = Plant::new(&PlantSettings::wooden_haptics_2016(), hand, Box::new(Hit), rate).unwrap();
     let mut state = servo.start();
     let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
     let ticks = (2.4 * rate) as usize;
     for tick in 0..ticks {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         assert_eq!(state.fault(), None);
         plant.advance(state.duties().map(|duty| duty.0));
         if tick > ticks * 7 / 8 {

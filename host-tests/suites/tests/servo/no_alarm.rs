@@ -6,8 +6,8 @@ use crate::touch::Press;
 use palpate::device::{Counts, Kinematics};
 use palpate::math::Vec3;
 use palpate::servo::recommended::{self, Recommended};
-use palpate::servo::{Input, Rendering, Servo, Settings};
-use palpate::track::{Contact, Controller};
+use palpate::servo::{Config, Input, Rendering, Servo, Settings};
+use palpate::track::Contact;
 use palpate_sim::plant::{HandSettings, Plant};
 
 /// Presses on a wall with so many newtons, which the motors bear for ever, for 0.7 s: with the gains that the preset
@@ -16,9 +16,8 @@ fn presses<K: Kinematics<3>>(bench: &Bench<K>, recommended: &Recommended, push: 
     let most = settings(bench.device, Vec3::ZERO);
     let felt = Settings { body_origin_m: Vec3::ZERO, ..recommended.settings };
     for (settings, rendering) in [(most, Rendering::PLAIN), (felt, recommended.rendering)] {
-        let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings)
-            .rendering(rendering)
-            .protect(bench.protection);
+        let servo =
+            Servo::protected(bench.device, &WALL, bench.protection, Config { settings, rendering, ..Config::DEFAULT });
         let hand = HandSettings::default();
         // What the wall yields and what the hand does.
         let depth = push / f64::from(settings.stiffness_n_per_m) + push / hand.stiffness;
@@ -27,7 +26,7 @@ fn presses<K: Kinematics<3>>(bench: &Bench<K>, recommended: &Recommended, push: 
         let mut state = servo.start();
         let mut seen_at = None;
         for tick in 0..2_800 {
-            servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+            let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
             assert_eq!(state.fault(), None, "{} at {} N/m", bench.name, settings.stiffness_n_per_m);
             plant.advance(state.duties().map(|duty| duty.0));
             if state.guard().joints_seen() == [true; 3] {

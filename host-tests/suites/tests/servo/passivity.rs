@@ -5,8 +5,8 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Device, SerialArm, VelocityMethod};
 use palpate::math::Vec3;
 use palpate::render::Passivity;
-use palpate::servo::{Input, Rendering, Servo, Settings};
-use palpate::track::{Contact, Controller};
+use palpate::servo::{Config, Input, Rendering, Servo, Settings};
+use palpate::track::Contact;
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
 
 const RATE: f64 = 4_000.0;
@@ -38,7 +38,7 @@ fn touch(kind: Rendering, stiffness: f32, damping: f32, viscous: f64, control: P
         body_origin_m: Vec3::ZERO,
     };
     let rendering = Rendering { passivity: Some(control), ..kind };
-    let servo = Servo::new(&FREE, &WALL, Controller::SECOND_ORDER, settings).rendering(rendering);
+    let servo = Servo::new(&FREE, &WALL, Config { settings, rendering, ..Config::DEFAULT });
     let level = |u: f64, v: f64| ([0.1 * (u - 0.5), 0.1 * (v - 0.5), 0.0], [0.0, 0.0, 1.0]);
     let touching = TouchingSettings { duration: 10.0, touches: 15, ..TouchingSettings::default() };
     let path = TouchingPath::new(level, touching, seed).unwrap();
@@ -50,7 +50,7 @@ fn touch(kind: Rendering, stiffness: f32, damping: f32, viscous: f64, control: P
     let mut state = servo.start();
     let mut tally = Tally { ticks: 0, touching: 0, active: 0, debt: 0.0 };
     for _ in 0..40_000 {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         assert_eq!(state.fault(), None);
         plant.advance(state.duties().map(|duty| duty.0));
         tally.ticks += 1;

@@ -5,8 +5,8 @@ use crate::surfaces::{WALL, table1c};
 use palpate::device::{Counts, Duty, Kinematics};
 use palpate::math::{Vec3, vec3};
 use palpate::servo::recommended::{self, Recommended};
-use palpate::servo::{Fault, Input, Servo};
-use palpate::track::{Controller, Witness};
+use palpate::servo::{Config, Fault, Input, Servo};
+use palpate::track::Witness;
 use palpate_sim::plant::{
     Direction, HandPath, HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings, Vector,
 };
@@ -82,7 +82,7 @@ struct Harm {
 
 /// The force at a probe that is held, N, of these duties: `F` with `Jᵀ F = τ`, by Cramer's rule.
 fn pressed<K: Kinematics<3>>(bench: &Bench<K>, angles: [f32; 3], duties: [Duty; 3]) -> f64 {
-    let columns = bench.device.kinematics.pose(angles).jacobian.map(|column| column.to_array().map(f64::from));
+    let columns = bench.device.kinematics.pose(angles).unwrap().jacobian.map(|column| column.to_array().map(f64::from));
     let torque = |joint: usize| f64::from(duties[joint].fraction() * bench.device.motors[joint].torque_at_full_n_m);
     let cross = |[a, b, c]: Vector, [x, y, z]: Vector| [b * z - c * y, c * x - a * z, a * y - b * x];
     let [a, b, c] = columns;
@@ -94,8 +94,12 @@ fn pressed<K: Kinematics<3>>(bench: &Bench<K>, angles: [f32; 3], duties: [Duty; 
 /// Signs that are turned round in the plant, and a hand that comes twice. The links are carried, as they are by
 /// default: by no motor that was not seen to push the right way.
 fn runs_away<K: Kinematics<3>>(bench: &Bench<K>, wrong: [bool; 3], speed: f64) -> Harm {
-    let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings(bench.device, Vec3::ZERO))
-        .protect(bench.protection);
+    let servo = Servo::protected(
+        bench.device,
+        &WALL,
+        bench.protection,
+        Config { settings: settings(bench.device, Vec3::ZERO), ..Config::DEFAULT },
+    );
     let plant = turned(&bench.plant, &wrong);
     let [mut plant, mut free] =
         [(); 2].map(|()| Plant::new(&plant, HandSettings::default(), Box::new(Approaches { speed }), RATE).unwrap());
@@ -104,9 +108,9 @@ fn runs_away<K: Kinematics<3>>(bench: &Bench<K>, wrong: [bool; 3], speed: f64) -
     // Since when a wrong motor is driven, and how far the motors had moved the probe by then.
     let mut since: Option<(usize, Vector)> = None;
     for tick in 0..(2.0 * APPROACH * RATE) as usize {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         if let Some((fault, _)) = state.fault() {
-            assert_eq!(fault, Fault::WrongSign, "{} {wrong:?} {speed}", bench.name);
+            assert_eq!(fault, Fault::WrongPolarity, "{} {wrong:?} {speed}", bench.name);
             harm.told = harm.told.or(Some((tick as f64 / RATE / APPROACH) as usize));
             break;
         }
@@ -170,15 +174,14 @@ fn a_wrong_sign_is_stopped_within_ten_milliseconds_and_a_millimetre() {
 /// A hand that comes three times to a device as it is recommended: a force is felt, and the links are carried, neither
 /// before all joints were seen.
 fn as_recommended<K: Kinematics<3>>(bench: &Bench<K>, Recommended { settings, rendering }: Recommended) {
-    let servo = Servo::new(bench.device, &WALL, Controller::SECOND_ORDER, settings)
-        .rendering(rendering)
-        .protect(bench.protection);
+    let servo =
+        Servo::protected(bench.device, &WALL, bench.protection, Config { settings, rendering, ..Config::DEFAULT });
     let path = Box::new(Approaches { speed: 0.1 });
     let mut plant = Plant::new(&bench.plant, HandSettings::default(), path, RATE).unwrap();
     let mut state = servo.start();
     let (mut most, mut carried) = (0.0_f32, [false; 2]);
     for _ in 0..(3.0 * APPROACH * RATE) as usize {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         assert_eq!(state.fault(), None, "{}", bench.name);
         let seen = state.guard().joints_seen() == [true; 3];
         most = most.max(state.force().length());
@@ -191,7 +194,7 @@ fn as_recommended<K: Kinematics<3>>(bench: &Bench<K>, Recommended { settings, re
         bench.name
     );
     assert!(most > 0.5, "{}: {most} N", bench.name);
-    let has_weight = bench.device.kinematics.held_pose(state.angles()).1 != [0.0; 3];
+    let has_weight = bench.device.kinematics.held_pose(state.angles()).unwrap().1 != [0.0; 3];
     assert_eq!(carried, [false, has_weight], "{}", bench.name);
 }
 
@@ -233,8 +236,12 @@ fn somebody(seed: u64, stiffest: f64) -> Somebody {
 fn is_touched<K: Kinematics<3>>(bench: &Bench<K>, who: &Somebody, wrong: [bool; 3]) -> (Option<Fault>, [bool; 3], f64) {
     let table = table1c();
     let at = vec3(-0.05, -0.05, -0.065);
-    let servo = Servo::new(bench.device, &table, Controller::SECOND_ORDER, settings(bench.device, at))
-        .protect(bench.protection);
+    let servo = Servo::protected(
+        bench.device,
+        &table,
+        bench.protection,
+        Config { settings: settings(bench.device, at), ..Config::DEFAULT },
+    );
     let place = |u: f64, v: f64| {
         let witness = Witness::at(&table, (0.25 + 0.5 * u) as f32, (0.25 + 0.5 * v) as f32);
         let normal = witness.normal(&table).unwrap();
@@ -245,7 +252,7 @@ fn is_touched<K: Kinematics<3>>(bench: &Bench<K>, who: &Somebody, wrong: [bool; 
     let mut state = servo.start();
     let mut withheld = 0;
     for _ in 0..(who.touching.duration * RATE) as usize {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         let seen = state.guard().joints_seen();
         let touches = state.contact() == palpate::track::Contact::Touching;
         withheld += usize::from(touches && seen != [true; 3]);
@@ -264,7 +271,7 @@ fn hands<K: Kinematics<3>>(bench: &Bench<K>, count: u64, stiffest: f64) {
         let who = somebody(seed, stiffest);
         let (fault, seen, withheld) = is_touched(bench, &who, [false; 3]);
         match fault {
-            Some(Fault::WrongSign) => called.push(seed),
+            Some(Fault::WrongPolarity) => called.push(seed),
             Some(fault) => panic!("{} hand {seed} {:?}: {fault:?}", bench.name, who.hand),
             None if seen == [true; 3] => times.push(withheld),
             None => unseen.push(seed),
@@ -295,7 +302,7 @@ fn wrong_hands<K: Kinematics<3>>(bench: &Bench<K>, count: u64, stiffest: f64) {
         let (fault, seen, _) = is_touched(bench, &somebody(seed, stiffest), wrong);
         assert!(!seen[joint], "{} hand {seed}: joint {joint}, {fault:?}", bench.name);
         match fault {
-            Some(Fault::WrongSign) => told += 1,
+            Some(Fault::WrongPolarity) => told += 1,
             _ => withheld += 1,
         }
     }

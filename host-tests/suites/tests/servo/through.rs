@@ -4,8 +4,8 @@ use crate::traces::SETTINGS;
 use palpate::device::Counts;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::math::{Vec3, vec3};
-use palpate::servo::{ContactLimits, Input, Servo, Settings};
-use palpate::track::{Contact, Controller};
+use palpate::servo::{Config, ContactLimits, Input, Servo, Settings};
+use palpate::track::Contact;
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 
 const RATE: f64 = 4_000.0;
@@ -39,7 +39,7 @@ fn a_hand_that_goes_through_a_thin_plate_is_named_within_ten_milliseconds() {
     // The middle of its top over the middle of the workspace.
     let settings =
         Settings { stiffness_n_per_m: 1_000.0, max_force_n: 5.0, body_origin_m: vec3(-0.03, -0.02, 0.02), ..SETTINGS };
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &body, Controller::SECOND_ORDER, settings);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &body, Config { settings, ..Config::DEFAULT });
     let device = PlantSettings::wooden_haptics_2016();
     let path = Through { top: [0.0, 0.0, 0.022], depth: 0.046 };
     let mut plant = Plant::new(&device, HandSettings::default(), Box::new(path), RATE).unwrap();
@@ -48,7 +48,7 @@ fn a_hand_that_goes_through_a_thin_plate_is_named_within_ten_milliseconds() {
     let limit = limit.max(f64::from(ContactLimits::DEFAULT.min_depth_m));
     let (mut beyond, mut named, mut greatest) = (None, None, 0.0_f32);
     for tick in 0..TICKS {
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
         plant.advance(state.duties().map(|duty| duty.0));
         assert_eq!(state.fault(), None, "tick {tick}");
         let depth = 0.022 - plant.position()[2];

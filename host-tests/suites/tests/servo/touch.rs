@@ -6,7 +6,7 @@ use palpate::device::{Counts, Device, Kinematics, SerialArm};
 use palpate::math::{Vec3, vec3};
 use palpate::patch::Patch;
 use palpate::render::{Coupling, Friction};
-use palpate::servo::{Input, Phase, Rendering, Servo, ServoState, Settings};
+use palpate::servo::{Config, Input, OnePatch, PatchWitness, Phase, Rendering, Servo, ServoState, Settings, Surface};
 use palpate::track::{Contact, Controller, Probe, Witness};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 
@@ -78,15 +78,16 @@ const WOODEN_HAPTICS: Bench<SerialArm> = Bench {
 };
 
 /// Presses at a place of a patch for 1.6 s and looks at the last 0.4 s.
-fn press<P: Patch, K: Kinematics<3>>(
+fn press<S: Surface<Witness = PatchWitness>, K: Kinematics<3>>(
     bench: &Bench<K>,
-    patch: &P,
+    surface: &S,
+    patch: &impl Patch,
     settings: Settings,
     rendering: Rendering,
     [u, v]: [f32; 2],
     aim: f64,
 ) -> Held {
-    let servo = Servo::new(bench.device, patch, Controller::SECOND_ORDER, settings).rendering(rendering);
+    let servo = Servo::new(bench.device, surface, Config { settings, rendering, ..Config::DEFAULT });
     let witness = Witness::at(patch, u, v);
     let normal = witness.normal(patch).unwrap();
     let origin = settings.body_origin_m;
@@ -100,7 +101,7 @@ fn press<P: Patch, K: Kinematics<3>>(
     const LAST: usize = 1_600;
     for tick in 0..TICKS {
         let counts = plant.counts();
-        servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: true });
         assert_eq!(state.fault(), None);
         plant.advance(state.duties().map(|duty| duty.0));
         if tick < TICKS - LAST {
@@ -162,9 +163,9 @@ fn touches_cleanly<K: Kinematics<3>>(bench: &Bench<K>, softer: &[(f32, f32)]) {
             let aim = bench.push / f64::from(stiffness) + bench.push / HandSettings::default().stiffness;
             let gains = |settings| Settings { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, ..settings };
             for (name, held) in [
-                ("wall", press(bench, &WALL, gains(base), Rendering::PLAIN, place, aim)),
-                ("cap", press(bench, &cap, gains(base), Rendering::PLAIN, place, aim)),
-                ("table1c", press(bench, &table, gains(middle), Rendering::PLAIN, place, aim)),
+                ("wall", press(bench, &WALL, &WALL, gains(base), Rendering::PLAIN, place, aim)),
+                ("cap", press(bench, &OnePatch(cap), &cap, gains(base), Rendering::PLAIN, place, aim)),
+                ("table1c", press(bench, &table, &table, gains(middle), Rendering::PLAIN, place, aim)),
             ] {
                 println!(
                     "{name:<10}{stiffness:>10}{damping:>10}{:>12.3}{:>12.3}{:>10.4}{:>8}",
@@ -223,7 +224,7 @@ fn through_a_virtual_coupling_both_springs_share_the_depth() {
     };
     for friction in [None, Some(friction)] {
         let rendering = Rendering { coupling: Some(coupling), friction, ..Rendering::PLAIN };
-        let held = press(&WOODEN_HAPTICS, &WALL, settings, rendering, [0.5, 0.5], 0.016);
+        let held = press(&WOODEN_HAPTICS, &WALL, &WALL, settings, rendering, [0.5, 0.5], 0.016);
         println!("depth {:.3} mm, force {:.3} N, {} counts", held.depth * 1e3, held.force, held.swing);
         // In series: 1,500 / 2,500 of the wall's stiffness, to the 2 % that hold without a coupling.
         assert!((held.ratio / 0.6 - 1.0).abs() < 0.02 && held.swing <= 2, "{} {}", held.ratio, held.swing);
@@ -242,7 +243,7 @@ fn enabled_inside(soft_start: f32) -> (f64, f32) {
         soft_start_s: soft_start,
         body_origin_m: Vec3::ZERO,
     };
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings, ..Config::DEFAULT });
     let path = Press { point: [0.0; 3], normal: [0.0, 0.0, 1.0], depth: 0.004 };
     let device = PlantSettings::wooden_haptics_2016();
     let mut plant = Plant::new(&device, HandSettings::default(), Box::new(path), RATE).unwrap();
@@ -250,7 +251,7 @@ fn enabled_inside(soft_start: f32) -> (f64, f32) {
     let (mut speed, mut growth, mut last) = (0.0_f64, 0.0_f32, 0.0);
     for tick in 0..6_000 {
         let enable = tick >= 3_000;
-        servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable });
         plant.advance(state.duties().map(|duty| duty.0));
         if enable {
             assert!(tick > 3_000 || state.gap() < -0.003, "the probe is inside: {}", state.gap());
@@ -283,11 +284,11 @@ fn force_asked_for_inside_the_wall_does_not_kick() {
 #[test]
 fn a_start_inside_the_wall_gives_no_force() {
     let settings = Settings { soft_start_s: 0.0, ..crate::traces::SETTINGS };
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, settings);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings, ..Config::DEFAULT });
     let mut state: ServoState<3> = servo.start();
     // 6 mm under the wall at the middle of the workspace.
     for _ in 0..100 {
-        servo.tick(
+        let _ = servo.tick(
             &mut state,
             Input::Sensors { counts: [Counts(0), Counts(-1_314), Counts(3_465 + 160)], enable: true },
         );

@@ -2,8 +2,7 @@
 //! before each tick.
 
 use palpate::device::{Counts, Kinematics};
-use palpate::patch::Patch;
-use palpate::servo::{Event, Input, Servo, ServoState, Settings};
+use palpate::servo::{Event, Input, PatchWitness, Servo, ServoState, Settings, Surface};
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings};
 
 pub const RATE: f64 = 4_000.0;
@@ -30,7 +29,7 @@ pub struct Trace {
 
 impl Trace {
     /// A second of touching a level wall.
-    pub fn record<P: Patch, K: Kinematics<3>>(servo: &Servo<'_, P, K, 3>, seed: u64) -> Self {
+    pub fn record<S: Surface<Witness = PatchWitness>, K: Kinematics<3>>(servo: &Servo<'_, S, K, 3>, seed: u64) -> Self {
         let level = |u: f64, v: f64| ([0.12 * (u - 0.5), 0.12 * (v - 0.5), 0.0], [0.0, 0.0, 1.0]);
         let settings = TouchingSettings { duration: 1.0, touches: 3, ..TouchingSettings::default() };
         let path = TouchingPath::new(level, settings, seed).unwrap();
@@ -49,7 +48,7 @@ impl Trace {
             if tick == 100 {
                 servo.note(&mut state, Event::Homed);
             }
-            servo.tick(&mut state, Input::Sensors { counts, enable: enable(tick) });
+            let _ = servo.tick(&mut state, Input::Sensors { counts, enable: enable(tick) });
             plant.advance(state.duties().map(|duty| duty.0));
         }
         trace

@@ -4,15 +4,20 @@ use crate::surfaces::WALL;
 use crate::traces::SETTINGS;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Duty};
-use palpate::servo::{Event, Fault, Input, Phase, Safety, Servo, StuckLimits};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Fault, Input, Phase, Safety, Servo, StuckLimits};
 
 #[test]
 fn a_stuck_encoder_is_found_while_the_others_go_on() {
     // The turntable sweeps over the wall under load while the first link's encoder says the same again and again.
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
-        // Half the usual way: the wall ends after 0.4 rad.
-        .safety(Safety { stuck: Some(StuckLimits { travel_rad: 0.3, ..StuckLimits::DEFAULT }), ..Safety::DEFAULT });
+    let servo = Servo::new(
+        &WOODEN_HAPTICS_2016,
+        &WALL,
+        Config {
+            settings: SETTINGS,
+            safety: Safety { stuck: Some(StuckLimits { travel_rad: 0.3, ..StuckLimits::DEFAULT }), ..Safety::DEFAULT },
+            ..Config::DEFAULT
+        },
+    );
     let mut state = servo.start();
     let counts = |tick: i32| {
         // At (0.22, 0) over the foot, 3 mm below the wall, sweeping 0.5 rad a second; the second link's count lives on.
@@ -21,10 +26,10 @@ fn a_stuck_encoder_is_found_while_the_others_go_on() {
     // Down from above, so that contact begins in front.
     for step in 0..57 {
         let [a, b, c] = counts(0);
-        servo.tick(&mut state, Input::Sensors { counts: [a, b, Counts(c.0 - 280 + step * 5)], enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: [a, b, Counts(c.0 - 280 + step * 5)], enable: true });
     }
     let found = (0..8_000).find(|tick| {
-        servo.tick(&mut state, Input::Sensors { counts: counts(*tick), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: counts(*tick), enable: true });
         state.phase() == Phase::Fault
     });
     assert!(
@@ -37,21 +42,21 @@ fn a_stuck_encoder_is_found_while_the_others_go_on() {
 #[test]
 fn overruns_are_counted_and_tolerated_as_allowed() {
     let safety = Safety { max_overruns: 2, ..Safety::DEFAULT };
-    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS).safety(safety);
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
     let mut state = servo.start();
     let good = Input::Sensors { counts: [Counts(0); 3], enable: true };
     for _ in 0..100 {
-        servo.tick(&mut state, good);
+        let _ = servo.tick(&mut state, good);
         servo.note(&mut state, Event::Overrun);
-        servo.tick(&mut state, good);
+        let _ = servo.tick(&mut state, good);
         servo.note(&mut state, Event::Overrun);
-        servo.tick(&mut state, good);
-        servo.tick(&mut state, good);
+        let _ = servo.tick(&mut state, good);
+        let _ = servo.tick(&mut state, good);
     }
     assert_eq!((state.overruns(), state.fault()), (200, None));
     for _ in 0..3 {
         servo.note(&mut state, Event::Overrun);
-        servo.tick(&mut state, good);
+        let _ = servo.tick(&mut state, good);
     }
     assert_eq!(state.fault(), Some((Fault::Overrun, 402)));
 }

@@ -5,8 +5,7 @@ use crate::traces::{RATE, SETTINGS};
 use palpate::device::presets::{NOVINT_FALCON, PHANTOM_PREMIUM, POLHEM_V2, WOODEN_HAPTICS_2016};
 use palpate::device::{Counts, Device, Duty, Kinematics};
 use palpate::math::{Vec3, vec3};
-use palpate::servo::{Event, Input, Phase, Rendering, SafeOutput, Safety, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Input, Phase, Rendering, SafeOutput, Safety, Servo};
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings, StillHand, Vector};
 
 fn moved(a: Vector, b: Vector) -> f64 {
@@ -26,10 +25,12 @@ fn drifts<K: Kinematics<3>>(
     let servo = Servo::new(
         device,
         &WALL,
-        Controller::SECOND_ORDER,
-        palpate::servo::Settings { body_origin_m: vec3(0.0, 0.0, 0.5), ..SETTINGS },
-    )
-    .rendering(Rendering { compensates_gravity: carries_weight, ..Rendering::PLAIN });
+        Config {
+            settings: palpate::servo::Settings { body_origin_m: vec3(0.0, 0.0, 0.5), ..SETTINGS },
+            rendering: Rendering { compensates_gravity: carries_weight, ..Rendering::PLAIN },
+            ..Config::DEFAULT
+        },
+    );
     let mut plant = Plant::new(&plant, HandSettings::default(), Box::new(StillHand(place)), RATE).unwrap();
     let mut state = servo.start();
     let mut run = |plant: &mut Plant, ticks: u32| {
@@ -38,7 +39,7 @@ fn drifts<K: Kinematics<3>>(
             if moved(start, plant.position()) > far {
                 break;
             }
-            servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
+            let _ = servo.tick(&mut state, Input::Sensors { counts: plant.counts().map(Counts), enable: true });
             assert_eq!((state.fault(), state.force()), (None, Vec3::ZERO));
             plant.advance(state.duties().map(|duty| duty.0));
         }
@@ -86,18 +87,21 @@ fn with_the_hand_off_the_arm_stays_and_without_compensation_it_sags() {
 #[test]
 fn no_motor_carries_a_weight_after_a_fault_and_unless_asked() {
     for output in [SafeOutput::Zero, SafeOutput::Damping(4.0)] {
-        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
-            .safety(Safety { output, ..Safety::DEFAULT });
+        let servo = Servo::new(
+            &WOODEN_HAPTICS_2016,
+            &WALL,
+            Config { settings: SETTINGS, safety: Safety { output, ..Safety::DEFAULT }, ..Config::DEFAULT },
+        );
         // 30 mm over the wall, at rest.
         let input = |enable| Input::Sensors { counts: [Counts(0), Counts(-1_314), Counts(3_465 - 450)], enable };
         let mut state = servo.start();
         for _ in 0..10 {
-            servo.tick(&mut state, input(false));
+            let _ = servo.tick(&mut state, input(false));
             assert_eq!(state.duties(), [Duty::ZERO; 3]);
         }
         let mut last = 0;
         for tick in 0..400 {
-            servo.tick(&mut state, input(true));
+            let _ = servo.tick(&mut state, input(true));
             // With the force's own fade: a twentieth of a second, 200 ticks, of the 0.1 N·m or so at full.
             let duty = state.duties()[1].0;
             let step = (duty - last).abs();
@@ -109,7 +113,7 @@ fn no_motor_carries_a_weight_after_a_fault_and_unless_asked() {
         servo.note(&mut state, Event::Stop);
         assert_eq!(state.duties(), [Duty::ZERO; 3]);
         for _ in 0..10 {
-            servo.tick(&mut state, input(true));
+            let _ = servo.tick(&mut state, input(true));
             assert_eq!(state.duties(), [Duty::ZERO; 3], "at rest there is nothing to damp either");
         }
     }

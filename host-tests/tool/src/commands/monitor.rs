@@ -7,7 +7,7 @@ use crate::monitor::{Figures, Monitor, Table};
 use crate::simulation;
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
-use palpate::wire::Command;
+use palpate::wire::HostMessage;
 use palpate::wire::frame::{self, MAX_FRAME};
 use std::fs::File;
 use std::io::{self, ErrorKind, IsTerminal, Read, Write, stdout};
@@ -63,10 +63,10 @@ enum Sent {
 }
 
 impl Sent {
-    const fn command(self) -> Command {
+    const fn command(self) -> HostMessage {
         match self {
-            Self::Stop => Command::Stop,
-            Self::Acknowledge => Command::Acknowledge,
+            Self::Stop => HostMessage::Stop,
+            Self::Acknowledge => HostMessage::Acknowledge,
         }
     }
 }

@@ -12,8 +12,7 @@ use clap::Args;
 use glam::DVec3;
 use palpate::device::{Device, Kinematics, Protection};
 use palpate::scene::Limits;
-use palpate::servo::{Safety, Servo, Settings, Surface};
-use palpate::track::Controller;
+use palpate::servo::{Config, Safety, Servo, Settings, Surface};
 use palpate_bake::source::Origin;
 use palpate_bake::{BakedBody, Model, NurbsPatch};
 use palpate_sim::plant::{HandSettings, PathError, Plant, TouchingPath};
@@ -224,9 +223,11 @@ impl Scene {
         device: &'static Device<K, 3>,
         surface: &'static S,
     ) -> anyhow::Result<Box<dyn Link>> {
-        let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, self.settings)?;
-        let Some(protection) = self.protection else { return Ok(Box::new(HostLoop::new(servo.try_safety(SAFETY)?))) };
-        Ok(Box::new(HostLoop::new(servo.try_protect(protection)?.try_safety(SAFETY)?)))
+        let config = Config { settings: self.settings, safety: SAFETY, ..Config::DEFAULT };
+        Ok(match self.protection {
+            None => Box::new(HostLoop::new(Servo::try_new(device, surface, config)?)),
+            Some(protection) => Box::new(HostLoop::new(Servo::try_protected(device, surface, protection, config)?)),
+        })
     }
 
     /// A run of the scene as the page for the browser takes it.

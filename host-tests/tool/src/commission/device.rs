@@ -3,7 +3,7 @@
 use anyhow::{Context, bail};
 use palpate::commission::{Jog, JogRefusal, JointCalibration, KEY};
 use palpate::wire::frame::{self, MAX_FRAME, Received, Receiver};
-use palpate::wire::{Answer, Calibrated, Command, Marked, PROTOCOL, Reading, Told, hold};
+use palpate::wire::{Answer, Calibrated, DeviceMessage, HostMessage, Marked, PROTOCOL, Reading, hold};
 use std::collections::VecDeque;
 
 /// Ticks of a step: a fiftieth of a second at 4 kHz.
@@ -69,7 +69,7 @@ impl Key for NoKey {
 pub struct Device {
     line: Box<dyn Line>,
     key: Box<dyn Key>,
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     /// What came and was not looked at yet.
     bytes: VecDeque<u8>,
     /// Of the last jog sent.
@@ -109,8 +109,8 @@ impl Device {
     /// Greets it, hears how it is calibrated, and has it set up.
     fn set_up(&mut self) -> anyhow::Result<()> {
         for _ in 0..ASKED {
-            self.send(Command::Hello { protocol: PROTOCOL })?;
-            self.send(Command::SetUp)?;
+            self.send(HostMessage::Hello { protocol: PROTOCOL })?;
+            self.send(HostMessage::SetUp)?;
             for _ in 0..LOOKS {
                 if let Some(reading) = self.look()? {
                     (self.number, self.last) = (reading.number, reading);
@@ -144,7 +144,7 @@ impl Device {
         let number = self.last.tick as u16;
         self.answer = None;
         for _ in 0..ASKED {
-            self.send(Command::Calibrate { number, joints })?;
+            self.send(HostMessage::Calibrate { number, joints })?;
             for _ in 0..LOOKS {
                 self.look()?;
                 if let Some(Answer { refused, .. }) = self.answer.take_if(|answer| answer.number == number) {
@@ -203,7 +203,7 @@ impl Device {
             let (motor, duty) = held.unwrap_or_default();
             self.number = self.number.wrapping_add(1);
             let key = if held.is_some() { KEY } else { 0 };
-            self.send(Command::Jog(Jog { number: self.number, key, motor, duty }))?;
+            self.send(HostMessage::Jog(Jog { number: self.number, key, motor, duty }))?;
             let first = *first.get_or_insert(self.number);
             let reading = self.next()?;
             tell(&reading);
@@ -245,10 +245,10 @@ impl Device {
         let mut newest = None;
         for byte in self.bytes.drain(..) {
             match self.receiver.feed(byte) {
-                Some(Received::Message(Told::Reading(reading))) => newest = Some(reading),
-                Some(Received::Message(Told::Calibrated(calibrated))) => self.calibrated = Some(calibrated),
-                Some(Received::Message(Told::Marked(marked))) => self.marked = marked,
-                Some(Received::Message(Told::Answer(answer))) => self.answer = Some(answer),
+                Some(Received::Message(DeviceMessage::Reading(reading))) => newest = Some(reading),
+                Some(Received::Message(DeviceMessage::Calibrated(calibrated))) => self.calibrated = Some(calibrated),
+                Some(Received::Message(DeviceMessage::Marked(marked))) => self.marked = marked,
+                Some(Received::Message(DeviceMessage::Answer(answer))) => self.answer = Some(answer),
                 // Records of before are no readings.
                 _ => {}
             }
@@ -256,7 +256,7 @@ impl Device {
         Ok(newest)
     }
 
-    fn send(&mut self, command: Command) -> anyhow::Result<()> {
+    fn send(&mut self, command: HostMessage) -> anyhow::Result<()> {
         let mut buffer = [0; MAX_FRAME];
         let frame = frame::pack(&command, &mut buffer).context("a command is too long")?;
         self.line.send(frame)

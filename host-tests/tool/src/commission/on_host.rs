@@ -6,8 +6,7 @@ use palpate::commission::Wiring;
 use palpate::device::{Counts, Device, Duty, ElectricalAngle, Homing, Kinematics, Protection, Reference};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Guarded, ResetReason, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Guarded, ResetReason, Servo, Settings};
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::store::{Found, KeptCalibration, PretendedFlash};
 use palpate_bench::{Felt, Panel};
@@ -133,13 +132,13 @@ fn started<K: Kinematics<3> + Copy>(
         body_origin_m: vec3(0.0, 0.0, -1.0),
     };
     let writer = flash.writer().context("its flash has a writer already")?;
-    let servo = Servo::try_new(built, &WALL, Controller::SECOND_ORDER, settings)?.try_protect(protection)?;
+    let servo = Servo::try_protected(built, &WALL, protection, Config { settings, ..Config::DEFAULT })?;
     // As the boards are homed.
     let (still, patience) = ((0.1 * RATE) as u32, (10.0 * RATE) as u32);
     let by = |reference| Homing::try_new(built.encoders, reference, still, 4, patience).map(Homing::when_asked);
     let servo = match homing {
-        HomingEntry::Pose => servo.homing(by(Reference::Pose(built.angles_at_zero()))?),
-        HomingEntry::Index => servo.homing(by(Reference::Index(built.angles_at_zero()))?),
+        HomingEntry::Pose => servo.with_homing(by(Reference::Pose(built.angles_at_zero()))?),
+        HomingEntry::Index => servo.with_homing(by(Reference::Index(built.angles_at_zero()))?),
         HomingEntry::None => servo,
     };
     let (kept, found) = KeptCalibration::find(writer, built, servo.zero_of());

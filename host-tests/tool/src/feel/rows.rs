@@ -6,8 +6,7 @@ use palpate::body::Body;
 use palpate::device::{Device, Encoder, Kinematics};
 use palpate::math::Vec3;
 use palpate::render::{Friction, Material};
-use palpate::servo::{Rendering, Servo, Settings, Surface};
-use palpate::track::Controller;
+use palpate::servo::{Config, Rendering, Servo, Settings, Surface};
 use palpate_sim::devices::preset::Preset;
 use palpate_sim::feel::{Deed, Figures, Script, Sensation, Stage, Threshold, over_edges, record, wall};
 use palpate_sim::plant::{HandSettings, PlantSettings};
@@ -178,8 +177,11 @@ impl Bench<'_> {
         script: Script,
     ) -> anyhow::Result<Row> {
         let friction = (script.deed == Deed::Verge).then_some(FRICTION);
-        let servo = Servo::try_new(device, surface, Controller::SECOND_ORDER, settings)?
-            .try_rendering(Rendering { friction, ..self.wish.rendering })?;
+        let servo = Servo::try_new(
+            device,
+            surface,
+            Config { settings, rendering: Rendering { friction, ..self.wish.rendering }, ..Config::DEFAULT },
+        )?;
         let sub_steps = (SUB_STEPS_A_SECOND / f64::from(settings.rate_hz)).round() as u32;
         let plant = PlantSettings { sub_steps: sub_steps.max(LEAST_SUB_STEPS), ..*plant };
         let recording = record(&servo, &plant, HandSettings::default(), &script)?;

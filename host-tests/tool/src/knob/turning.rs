@@ -129,7 +129,7 @@ impl HostEnd {
         } else {
             Input::Sensors { counts: [Counts(counts)], enable: sensors.enable }
         };
-        self.servo.tick(&mut self.state, input);
+        let _ = self.servo.tick(&mut self.state, input);
         report(&self.state, widths(&self.servo, &self.state, &MODULATION), 0)
     }
 }

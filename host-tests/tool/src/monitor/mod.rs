@@ -7,12 +7,12 @@ pub use figures::Figures;
 pub use table::Table;
 
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
-use palpate::wire::{Record, Told};
+use palpate::wire::{DeviceMessage, Record};
 
 /// Takes the bytes of a line as they come and gives the records in them. Damaged and lost ones are counted.
 #[derive(Debug, Default)]
 pub struct Monitor {
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     /// Whether a delimiter was seen: what comes before it is the rest of a frame that began without us.
     in_step: bool,
     last: Option<Record>,
@@ -34,7 +34,7 @@ impl Monitor {
             return None;
         }
         match self.receiver.feed(byte)? {
-            Received::Message(Told::Record(record)) => Some(self.take(record)),
+            Received::Message(DeviceMessage::Record(record)) => Some(self.take(record)),
             Received::Message(_) => None,
             Received::Damaged => {
                 self.damaged += 1;
@@ -75,7 +75,7 @@ mod tests {
     }
 
     fn frame(record: &Record) -> Vec<u8> {
-        pack(&Told::Record(*record), &mut [0; MAX_FRAME]).unwrap().to_vec()
+        pack(&DeviceMessage::Record(*record), &mut [0; MAX_FRAME]).unwrap().to_vec()
     }
 
     #[test]

@@ -6,7 +6,7 @@ use palpate::servo::{Fault, Phase};
 use palpate::track::Contact;
 use palpate::wire::{Sensors, hold};
 use palpate_bake::file::BakedFile;
-use palpate_link::{Device, Error, Line, Order, Pose, View};
+use palpate_link::{BodyPose, Command, Device, Error, Line, View};
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings};
 use palpate_sim::simulated::Hand;
 use std::collections::BTreeMap;
@@ -38,7 +38,7 @@ pub struct Console<'a, L> {
     device: Device<L>,
     bake: &'a Bake,
     /// Where bodies were put from here; one that moves is nowhere known.
-    poses: BTreeMap<u8, Pose>,
+    poses: BTreeMap<u8, BodyPose>,
     /// A force, when it ends, and when it was asked for last.
     pushes: Option<([f32; 3], Instant, Option<Instant>)>,
     /// Until when the loop is shown, and when it was last.
@@ -129,13 +129,13 @@ impl<'a, L: Line> Console<'a, L> {
             }
             Asked::Place(body, position, orientation) => {
                 let upright = self.poses.get(&body).map_or([0.0, 0.0, 0.0, 1.0], |pose| pose.orientation);
-                self.place(body, Pose { position, orientation: orientation.unwrap_or(upright) })?;
+                self.place(body, BodyPose { position, orientation: orientation.unwrap_or(upright) })?;
             }
             Asked::Turn(body, orientation) => {
-                let Some(Pose { position, .. }) = self.poses.get(&body).copied() else {
+                let Some(BodyPose { position, .. }) = self.poses.get(&body).copied() else {
                     anyhow::bail!("the place of body {body} is unknown; place it first");
                 };
-                self.place(body, Pose { position, orientation })?;
+                self.place(body, BodyPose { position, orientation })?;
             }
             Asked::Move(body, motion, seconds) => {
                 self.poses.remove(&body);
@@ -144,7 +144,7 @@ impl<'a, L: Line> Console<'a, L> {
             Asked::Switch(groups) => self.device.switch(groups)?,
             Asked::Choose(index) => self.device.choose(index)?,
             Asked::Harden(body, stiffness, damping) => self.device.harden(body, stiffness, damping)?,
-            Asked::Rub(body, friction) => self.device.order(Order::Rub { body, friction })?,
+            Asked::Rub(body, friction) => self.device.order(Command::Rub { body, friction })?,
             Asked::Tip(radius) => self.device.tip(radius)?,
             Asked::Limit(newtons) => self.device.limit(newtons)?,
             Asked::Upload(body, path) => self.upload(body, &path, Memory::Ram, output)?,
@@ -184,7 +184,7 @@ impl<'a, L: Line> Console<'a, L> {
         Ok(())
     }
 
-    fn place(&mut self, body: u8, pose: Pose) -> Result<(), Error> {
+    fn place(&mut self, body: u8, pose: BodyPose) -> Result<(), Error> {
         self.device.place(body, pose)?;
         self.poses.insert(body, pose);
         Ok(())

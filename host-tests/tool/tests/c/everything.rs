@@ -9,8 +9,8 @@ use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTI
 use palpate::device::{Counts, Protection, SupplyRange};
 use palpate::math::vec3;
 use palpate::render::{Coupling, Passivity, Texture, Touch};
-use palpate::servo::{Event, Input, Rendering, Safety, Servo, Settings};
-use palpate::track::{Contact, Controller};
+use palpate::servo::{Config, Event, Input, Rendering, Safety, Servo, Settings};
+use palpate::track::Contact;
 use palpate_tool::commands::options::SceneOptions;
 use palpate_tool::commands::sim::run_on_host;
 use std::fs;
@@ -84,20 +84,19 @@ fn in_rust_on(body: &Body<'_>, counts: &[[i32; 3]], enable_at: usize) -> (u32, u
         }),
         ..Rendering::PLAIN
     };
-    let servo = Servo::try_new(&WOODEN_HAPTICS_2016, body, Controller::SECOND_ORDER, settings)
-        .expect("settings")
-        .try_rendering(rendering)
-        .expect("rendering")
-        .try_safety(Safety { link_timeout_s: 0.1, ..Safety::DEFAULT })
-        .expect("safety")
-        .try_protect(PROTECTION)
-        .expect("protection");
+    let servo = Servo::try_protected(
+        &WOODEN_HAPTICS_2016,
+        body,
+        PROTECTION,
+        Config { settings, rendering, safety: Safety { link_timeout_s: 0.1, ..Safety::DEFAULT }, ..Config::DEFAULT },
+    )
+    .expect("protection");
     let mut state = servo.start();
     let (mut hash, mut touched) = (0_u32, 0);
     for (tick, counts) in counts.iter().enumerate() {
         servo.note(&mut state, Event::LinkAlive);
         servo.note(&mut state, Event::Supply { millivolts: 24_000 });
-        servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: tick >= enable_at });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: tick >= enable_at });
         hash = (hash ^ state.digest()).wrapping_mul(0x0100_0193);
         touched += u32::from(state.contact() == Contact::Touching);
     }

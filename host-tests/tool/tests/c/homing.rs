@@ -7,8 +7,7 @@ use palpate::body::Body;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Homing, Reference, SerialArm, StopSearch};
 use palpate::math::vec3;
-use palpate::servo::{Event, Fault, Input, Phase, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Fault, Input, Phase, Servo, Settings};
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings, StillHand};
 use std::fs;
 
@@ -87,8 +86,8 @@ fn in_rust(body: &Body<'_>, way: &Way, ticks: usize) -> Run {
         body_origin_m: vec3(-0.03, -0.02, -0.01675),
     };
     let servo: Servo<'_, _, SerialArm, 3> =
-        Servo::try_new(&WOODEN_HAPTICS_2016, body, Controller::SECOND_ORDER, settings).expect("settings");
-    let servo = servo.homing(way.homing());
+        Servo::try_new(&WOODEN_HAPTICS_2016, body, Config { settings, ..Config::DEFAULT }).expect("settings");
+    let servo = Servo::new(servo.device(), servo.surface(), Config { homing: Some(way.homing()), ..servo.config() });
     let mut simulated = PlantSettings::wooden_haptics_2016();
     for (joint, off) in simulated.joints.iter_mut().zip([0.31, -0.47, 0.22]) {
         joint.angle_at_zero += off;
@@ -103,7 +102,7 @@ fn in_rust(body: &Body<'_>, way: &Way, ticks: usize) -> Run {
             run.marks.push([tick as i32, mark]);
             servo.note(&mut state, Event::IndexPassed { joint: tick, counts: Counts(mark) });
         }
-        servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: true });
         run.counts.push(counts);
         run.hash = (run.hash ^ state.digest()).wrapping_mul(0x0100_0193);
         if run.armed == 0 && matches!(state.phase(), Phase::Armed | Phase::Running) {

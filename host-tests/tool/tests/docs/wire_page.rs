@@ -7,7 +7,7 @@ use crate::pages::{compare, text};
 use palpate::commission::CalibrationError;
 use palpate::wire::acceptance::{Finding, Request};
 use palpate::wire::frame::{MAX_FRAME, pack};
-use palpate::wire::{Calibrated, Command, Report, Sensors, Told};
+use palpate::wire::{Calibrated, DeviceMessage, HostMessage, Report, Sensors};
 use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
 
@@ -65,10 +65,13 @@ fn every_byte_of_a_frame_is_documented() {
     with(with_frame::<Sensors>, &["Sensors"]);
     with(with_frame::<Report>, &["Report"]);
     let told = ["Record", "Hello", "Answer", "View", "Reading", "Calibrated", "Calibrated: refused", "Marked"];
-    with(with_frame::<Told>, &told);
-    let upload_and_calibrate = ["Command: upload", "Command: jog", "Command: calibrate"];
-    with(with_frame::<Command>, &["Command", "Command: hello", "Command: order", "Command: order, a force"]);
-    with(with_frame::<Command>, &upload_and_calibrate);
+    with(with_frame::<DeviceMessage>, &told);
+    let upload_and_calibrate = ["HostMessage: upload", "HostMessage: jog", "HostMessage: calibrate"];
+    with(
+        with_frame::<HostMessage>,
+        &["HostMessage", "HostMessage: hello", "HostMessage: order", "HostMessage: order, a force"],
+    );
+    with(with_frame::<HostMessage>, &upload_and_calibrate);
     with(with_frame::<Request>, &["Request"]);
     with(with_frame::<Finding>, &["Finding: Identity", "Finding: Line", "Finding: Ticks"]);
     assert_eq!(page.matches("\nFrame: `").count(), 21, "a section that is not compared");
@@ -94,7 +97,8 @@ fn reasons_of_a_refused_calibration_have_their_documented_numbers() {
     ];
     for (number, error) in (0..).zip(errors) {
         let mut buffer = [0; MAX_FRAME];
-        let packed = postcard::to_slice(&Told::Calibrated(Calibrated::Refused(error)), &mut buffer).expect("it fits");
+        let packed =
+            postcard::to_slice(&DeviceMessage::Calibrated(Calibrated::Refused(error)), &mut buffer).expect("it fits");
         let which: &[u8] = if packed.len() > 3 { &[7] } else { &[] };
         assert_eq!(*packed, [&[5, 2, number], which].concat(), "{error:?}");
     }

@@ -3,8 +3,7 @@
 use crate::path::{TICKS, sensors};
 use crate::running::{TRANSPORTS, firmware_of};
 use palpate::device::Counts;
-use palpate::servo::{Event, Input, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Event, Input, Servo};
 use palpate::wire::Report;
 use palpate_tool::firmware::{Board, Link};
 
@@ -17,9 +16,11 @@ mod settings {
     include!("../../../../boards/emulated/settings.rs");
 }
 
-static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> =
-    Servo::new(&settings::DEVICE, tables::SURFACE, Controller::SECOND_ORDER, settings::SETTINGS)
-        .safety(settings::SAFETY);
+static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> = Servo::new(
+    &settings::DEVICE,
+    tables::SURFACE,
+    Config { settings: settings::SETTINGS, safety: settings::SAFETY, ..Config::DEFAULT },
+);
 
 #[test]
 fn every_board_and_the_host_agree_in_every_bit_of_every_tick() {
@@ -40,7 +41,8 @@ fn agrees(board: Board) {
             let sensors = sensors(tick);
             let report = emulator.exchange(&sensors).unwrap();
             SERVO.note(&mut state, Event::LinkAlive);
-            SERVO.tick(&mut state, Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable });
+            let _ =
+                SERVO.tick(&mut state, Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable });
             assert_eq!(report, Report::new(&state, report.instructions), "{board:?}, {transport:?}");
             pushed += u32::from(report.duties != [0; 3]);
         }

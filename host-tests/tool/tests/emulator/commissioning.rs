@@ -3,7 +3,7 @@
 use crate::running::is_wanted;
 use palpate::servo::{Fault, Phase};
 use palpate::wire::frame::{Received, Receiver};
-use palpate::wire::{Calibrated, Record, Sensors, Told};
+use palpate::wire::{Calibrated, DeviceMessage, Record, Sensors};
 use palpate_sim::devices::{self, OwnDevice};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, Vector};
 use palpate_tool::commission::{
@@ -60,8 +60,8 @@ fn run(program: &Program, flash: &[u8], planted: &Planted) -> Felt {
         let came = port.read(&mut buffer).unwrap_or(0);
         for byte in &buffer[..came] {
             match receiver.feed(*byte) {
-                Some(Received::Message(Told::Calibrated(calibrated))) => felt.calibrated = Some(calibrated),
-                Some(Received::Message(Told::Record(record))) => {
+                Some(Received::Message(DeviceMessage::Calibrated(calibrated))) => felt.calibrated = Some(calibrated),
+                Some(Received::Message(DeviceMessage::Record(record))) => {
                     felt.record = record;
                     let [x, y, z] = record.force;
                     felt.force = felt.force.max((x * x + y * y + z * z).sqrt());

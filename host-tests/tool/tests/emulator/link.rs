@@ -2,11 +2,12 @@
 //! the line while another is felt. The simulated device is at the board's pins, the test at its serial port.
 
 use crate::running::is_wanted;
-use palpate::scene::{Order, Pose};
+use palpate::scene::{BodyPose, Command};
 use palpate::servo::{Fault, Phase};
 use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{
-    Answer, CHUNK, Command, Hello, PROTOCOL, Record, Refused, Sensors, Told, Upload, UploadError, View, hold,
+    Answer, CHUNK, DeviceMessage, Hello, HostMessage, PROTOCOL, Record, Refused, Sensors, Upload, UploadError, View,
+    hold,
 };
 use palpate_bake::{BakedBody, Model, file};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
@@ -52,7 +53,7 @@ struct Desk {
     tick: u32,
     /// What is still to be sent.
     out: VecDeque<u8>,
-    receiver: Receiver<Told>,
+    receiver: Receiver<DeviceMessage>,
     in_step: bool,
     damaged: u32,
     hellos: Vec<Hello>,
@@ -102,7 +103,7 @@ impl Desk {
         desk
     }
 
-    fn send(&mut self, command: &Command) {
+    fn send(&mut self, command: &HostMessage) {
         let mut buffer = [0; MAX_FRAME];
         self.out.extend(pack(command, &mut buffer).expect("it fits"));
     }
@@ -134,13 +135,13 @@ impl Desk {
             self.in_step = byte == DELIMITER;
         }
         match self.receiver.feed(byte) {
-            Some(Received::Message(Told::Hello(hello))) => self.hellos.push(hello),
-            Some(Received::Message(Told::Answer(answer))) => self.answers.push(answer),
-            Some(Received::Message(Told::View(view))) => {
+            Some(Received::Message(DeviceMessage::Hello(hello))) => self.hellos.push(hello),
+            Some(Received::Message(DeviceMessage::Answer(answer))) => self.answers.push(answer),
+            Some(Received::Message(DeviceMessage::View(view))) => {
                 (self.view, self.views) = (view, self.views + 1);
                 self.saw(view.force);
             }
-            Some(Received::Message(Told::Record(record))) => {
+            Some(Received::Message(DeviceMessage::Record(record))) => {
                 self.took = self.took.max(record.took);
                 self.record = record;
                 self.saw(record.force);
@@ -167,7 +168,7 @@ impl Desk {
 
     fn hello(&mut self) -> Hello {
         let heard = self.hellos.len();
-        self.send(&Command::Hello { protocol: PROTOCOL });
+        self.send(&HostMessage::Hello { protocol: PROTOCOL });
         self.until("a hello", |desk| desk.hellos.len() > heard);
         // Force only once the button was let go of since a host was heard.
         self.tick(false);
@@ -175,7 +176,7 @@ impl Desk {
     }
 
     /// Sends it, and waits for its answer.
-    fn ask(&mut self, number: u16, command: &Command) -> Option<Refused> {
+    fn ask(&mut self, number: u16, command: &HostMessage) -> Option<Refused> {
         self.send(command);
         self.until("an answer", |desk| desk.answers.last().is_some_and(|answer| answer.number == number));
         self.answers.last().expect("it came").refused
@@ -204,24 +205,24 @@ impl Desk {
     }
 
     /// An order that the scene takes.
-    fn good_order(&mut self) -> Order {
+    fn good_order(&mut self) -> Command {
         let body = self.random.random_range(0..2);
         let position = [self.between(-0.002, 0.002), self.between(-0.002, 0.002) + 0.06 * f32::from(body), 0.0];
         let angle = self.between(-0.05, 0.05);
-        let pose = Pose { position, orientation: [0.0, 0.0, (0.5 * angle).sin(), (0.5 * angle).cos()] };
+        let pose = BodyPose { position, orientation: [0.0, 0.0, (0.5 * angle).sin(), (0.5 * angle).cos()] };
         let (velocity, angular_velocity) = (self.numbers(0.03), self.numbers(0.3));
         let seconds = self.between(0.0, 0.01);
         match self.random.random_range(0..10) {
-            0 => Order::Place { body, pose },
-            1 => Order::Lead { body, pose, velocity, angular_velocity, seconds },
-            2 => Order::Move { body, velocity, angular_velocity, seconds },
-            3 => Order::Switch { groups: self.random.random_range(0..4) },
-            4 => Order::Choose { index: 0 },
-            5 => Order::Harden { body, stiffness: self.between(100.0, 500.0), damping: self.between(0.0, 1.5) },
-            6 => Order::Rub { body, friction: self.random.random_bool(0.5).then_some([400.0, 0.5, 0.5, 0.4]) },
-            7 => Order::Tip { radius: self.between(0.0, 0.003) },
-            8 => Order::Limit { force: self.between(1.0, MAX_FORCE) },
-            _ => Order::Push { force: self.numbers(1.0) },
+            0 => Command::Place { body, pose },
+            1 => Command::Lead { body, pose, velocity, angular_velocity, seconds },
+            2 => Command::Move { body, velocity, angular_velocity, seconds },
+            3 => Command::Switch { groups: self.random.random_range(0..4) },
+            4 => Command::Choose { index: 0 },
+            5 => Command::Harden { body, stiffness: self.between(100.0, 500.0), damping: self.between(0.0, 1.5) },
+            6 => Command::Rub { body, friction: self.random.random_bool(0.5).then_some([400.0, 0.5, 0.5, 0.4]) },
+            7 => Command::Tip { radius: self.between(0.0, 0.003) },
+            8 => Command::Limit { force: self.between(1.0, MAX_FORCE) },
+            _ => Command::Push { force: self.numbers(1.0) },
         }
     }
 }
@@ -240,14 +241,14 @@ fn orders_at_any_instant_are_answered_and_no_tick_is_late() {
     }
     let mut desk = Desk::new();
     // Before hello none is taken.
-    let early = Command::Order { number: 7, order: Order::Limit { force: 1.0 } };
+    let early = HostMessage::Command { number: 7, command: Command::Limit { force: 1.0 } };
     assert_eq!(desk.ask(7, &early), Some(Refused::Hello));
     let hello = desk.hello();
     assert_eq!((hello.protocol, hello.rate, hello.max_force), (PROTOCOL, RATE as f32, MAX_FORCE));
     let orders = count("PALPATE_ORDERS", 3_000);
     for number in 0..orders {
         let order = desk.good_order();
-        let answer = desk.ask(number as u16, &Command::Order { number: number as u16, order });
+        let answer = desk.ask(number as u16, &HostMessage::Command { number: number as u16, command: order });
         assert_eq!(answer, None, "{order:?}");
         for _ in 0..desk.random.random_range(0..3) {
             desk.tick(true);
@@ -287,24 +288,30 @@ fn whatever_comes_over_the_line_moves_nothing_that_nobody_asked_for() {
                 if kind == 3 {
                     let wrong = [f32::NAN, f32::INFINITY, -1e30][desk.random.random_range(0..3)];
                     order = match order {
-                        Order::Harden { body, damping, .. } => {
-                            Order::Harden { body: body + 3, stiffness: wrong, damping }
+                        Command::Harden { body, damping, .. } => {
+                            Command::Harden { body: body + 3, stiffness: wrong, damping }
                         }
-                        Order::Tip { .. } => Order::Tip { radius: wrong },
-                        Order::Limit { .. } => Order::Limit { force: wrong },
-                        Order::Push { .. } => Order::Push { force: [wrong; 3] },
-                        Order::Move { body, velocity, .. } => {
-                            Order::Move { body, velocity, angular_velocity: [wrong; 3], seconds: wrong }
+                        Command::Tip { .. } => Command::Tip { radius: wrong },
+                        Command::Limit { .. } => Command::Limit { force: wrong },
+                        Command::Push { .. } => Command::Push { force: [wrong; 3] },
+                        Command::Move { body, velocity, .. } => {
+                            Command::Move { body, velocity, angular_velocity: [wrong; 3], seconds: wrong }
                         }
-                        _ => Order::Place { body: 1, pose: Pose { position: [wrong; 3], orientation: [wrong; 4] } },
+                        _ => {
+                            Command::Place { body: 1, pose: BodyPose { position: [wrong; 3], orientation: [wrong; 4] } }
+                        }
                     };
                 }
                 let command = match desk.random.random_range(0..12) {
                     // What is begun in flash holds the motors off until it ends, or nobody goes on with it.
-                    0 => Command::Upload { number: sent as u16, part: Upload::Keep { bytes: desk.random.random() } },
-                    1 => Command::Upload { number: sent as u16, part: Upload::Begin { bytes: desk.random.random() } },
-                    2 => Command::Upload { number: sent as u16, part: Upload::End },
-                    _ => Command::Order { number: sent as u16, order },
+                    0 => {
+                        HostMessage::Upload { number: sent as u16, part: Upload::Keep { bytes: desk.random.random() } }
+                    }
+                    1 => {
+                        HostMessage::Upload { number: sent as u16, part: Upload::Begin { bytes: desk.random.random() } }
+                    }
+                    2 => HostMessage::Upload { number: sent as u16, part: Upload::End },
+                    _ => HostMessage::Command { number: sent as u16, command: order },
                 };
                 let length = pack(&command, &mut frame).expect("it fits").len();
                 if kind == 1 {
@@ -325,11 +332,11 @@ fn whatever_comes_over_the_line_moves_nothing_that_nobody_asked_for() {
     // And does what it is told.
     desk.out.push_back(DELIMITER);
     desk.hello();
-    assert_eq!(desk.ask(1, &Command::Order { number: 1, order: Order::Limit { force: 2.0 } }), None);
+    assert_eq!(desk.ask(1, &HostMessage::Command { number: 1, command: Command::Limit { force: 2.0 } }), None);
     assert_eq!(desk.damaged, 0);
     desk.is_well(&format!("{sent} bytes"));
     // And stops when it is told to.
-    desk.send(&Command::Stop);
+    desk.send(&HostMessage::Stop);
     desk.until("the stop", |desk| desk.record.fault == Fault::Stopped.code());
 }
 
@@ -361,7 +368,7 @@ fn a_body_comes_over_the_line_while_another_is_felt() {
     let mut number = 0;
     let mut ask = |desk: &mut Desk, part: Upload| {
         number += 1;
-        desk.ask(number, &Command::Upload { number, part })
+        desk.ask(number, &HostMessage::Upload { number, part })
     };
     let wrong = |error| Some(Refused::Upload(error));
     assert_eq!(ask(&mut desk, Upload::End), wrong(UploadError::NotBegun));
@@ -383,10 +390,10 @@ fn a_body_comes_over_the_line_while_another_is_felt() {
         let checked = ask(&mut desk, Upload::End);
         // A repeated number is answered again and not done again.
         let number = if is_spoiled { 60_000 } else { 60_001 };
-        let take = Command::Order { number, order: Order::Take { body: 1 } };
+        let take = HostMessage::Command { number, command: Command::Take { body: 1 } };
         if is_spoiled {
             assert_eq!(checked, wrong(UploadError::NoBody));
-            assert!(matches!(desk.ask(number, &take), Some(Refused::Order(_))));
+            assert!(matches!(desk.ask(number, &take), Some(Refused::Command(_))));
         } else {
             assert_eq!(checked, None);
             assert_eq!(desk.ask(number, &take), None);
@@ -395,14 +402,17 @@ fn a_body_comes_over_the_line_while_another_is_felt() {
         println!("it took {} ticks", desk.tick - began);
     }
     // Now it is felt, where it is put: a face that the one before has not.
-    let pose = Pose { position: [0.03, 0.08, 0.028], orientation: [0.0, 0.0, 0.0, 1.0] };
-    assert_eq!(desk.ask(60_002, &Command::Order { number: 60_002, order: Order::Place { body: 1, pose } }), None);
+    let pose = BodyPose { position: [0.03, 0.08, 0.028], orientation: [0.0, 0.0, 0.0, 1.0] };
+    assert_eq!(
+        desk.ask(60_002, &HostMessage::Command { number: 60_002, command: Command::Place { body: 1, pose } }),
+        None
+    );
     desk.until("a face of the new body", |Desk { view, .. }| {
         view.body == 1 && view.contact == 2 && view.force != [0.0; 3] && (6..1 << 14).contains(&view.feature)
     });
     for tick in 0..20_000 {
         if tick % 1_000 == 0 {
-            desk.send(&Command::Alive);
+            desk.send(&HostMessage::Alive);
         }
         desk.tick(true);
     }
@@ -423,27 +433,27 @@ fn a_body_is_kept_only_while_no_motor_is_driven_and_none_is_driven_until_it_is()
     let keep = Upload::Keep { bytes: file.len() as u32 };
     desk.until("force", |desk| desk.driven > 0);
     let refused = Some(Refused::Upload(UploadError::Driven));
-    assert_eq!(desk.ask(1, &Command::Upload { number: 1, part: keep }), refused);
+    assert_eq!(desk.ask(1, &HostMessage::Upload { number: 1, part: keep }), refused);
     // Let go of, and pressed again as soon as it has begun: nothing is driven until the last part, and not after it.
     for _ in 0..400 {
         desk.tick(false);
     }
-    desk.send(&Command::Upload { number: 2, part: keep });
+    desk.send(&HostMessage::Upload { number: 2, part: keep });
     while desk.answers.last().is_none_or(|answer| answer.number != 2) {
         desk.tick(false);
     }
     assert_eq!(desk.answers.last(), Some(&Answer { number: 2, refused: None }));
     let driven = desk.driven;
     for (number, at) in (3..).zip((0..file.len()).step_by(CHUNK)) {
-        let answer = desk.ask(number, &Command::Upload { number, part: chunk(&file, at) });
+        let answer = desk.ask(number, &HostMessage::Upload { number, part: chunk(&file, at) });
         assert_eq!(answer, None, "{at}");
         assert_ne!(desk.view.hold & hold::WRITING, 0);
     }
-    assert_eq!(desk.ask(60_000, &Command::Upload { number: 60_000, part: Upload::End }), None);
-    assert_eq!(desk.ask(60_001, &Command::Order { number: 60_001, order: Order::Take { body: 1 } }), None);
+    assert_eq!(desk.ask(60_000, &HostMessage::Upload { number: 60_000, part: Upload::End }), None);
+    assert_eq!(desk.ask(60_001, &HostMessage::Command { number: 60_001, command: Command::Take { body: 1 } }), None);
     for tick in 0..4_000 {
         if tick % 1_000 == 0 {
-            desk.send(&Command::Alive);
+            desk.send(&HostMessage::Alive);
         }
         desk.tick(true);
     }
@@ -453,8 +463,11 @@ fn a_body_is_kept_only_while_no_motor_is_driven_and_none_is_driven_until_it_is()
     assert_eq!(Some(&kept.to_le_bytes()), file.last_chunk());
     desk.tick(false);
     // Now it is felt, where it is put: a face that the one before has not.
-    let pose = Pose { position: [0.03, 0.08, 0.028], orientation: [0.0, 0.0, 0.0, 1.0] };
-    assert_eq!(desk.ask(60_002, &Command::Order { number: 60_002, order: Order::Place { body: 1, pose } }), None);
+    let pose = BodyPose { position: [0.03, 0.08, 0.028], orientation: [0.0, 0.0, 0.0, 1.0] };
+    assert_eq!(
+        desk.ask(60_002, &HostMessage::Command { number: 60_002, command: Command::Place { body: 1, pose } }),
+        None
+    );
     desk.until("a face of the new body", |Desk { view, .. }| {
         view.body == 1 && view.contact == 2 && view.force != [0.0; 3] && (6..1 << 14).contains(&view.feature)
     });

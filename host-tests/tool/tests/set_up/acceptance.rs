@@ -3,8 +3,7 @@
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Homing, Reference, SerialArm};
 use palpate::patch::SplinePatch;
-use palpate::servo::{Output, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Output, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::wire::acceptance::{Counted, Failure, Line, Ticks};
 use palpate::wire::telemetry::Queue;
 use palpate_bench::accept::{Acceptance, Chip, Examiner, Stopwatch};
@@ -22,7 +21,7 @@ type Arm = Servo<'static, SplinePatch<'static>, SerialArm, 3>;
 type Tick = Acceptance<'static, Made<SerialArm>, SimulatedBoard, 3>;
 
 fn arm() -> Arm {
-    Servo::new(&WOODEN_HAPTICS_2016, &WALL, Controller::SECOND_ORDER, SETTINGS)
+    Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT })
 }
 
 /// A stopwatch by which each tick takes as long.
@@ -216,10 +215,11 @@ fn nothing_is_driven_whatever_is_pressed_and_whatever_the_servo_asks_for() {
     /// Homing that searches for its stops by the motors.
     fn searches() -> Arm {
         let homing = Homing::new(WOODEN_HAPTICS_2016.encoders, Reference::Stops(STOPS), 400, 4, 60_000);
-        arm().homing(homing)
+        arm().with_homing(homing)
     }
     fn damps() -> Arm {
-        arm().safety(Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT })
+        let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
+        Servo::new(arm().device(), arm().surface(), Config { safety, ..arm().config() })
     }
     for servo in [arm, searches, damps] {
         let (world, mut tick, _) = start(servo, ResetReason::PowerOn);

@@ -4,8 +4,7 @@
 //! The device's side is the loop of every board, from the bytes on its line to the duties at its pins.
 
 use palpate::device::{Counts, Device, Kinematics};
-use palpate::servo::{Fault, Input, Phase, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Fault, Input, Phase, Servo, Settings};
 use palpate::wire::Calibrated;
 use palpate_sim::devices::{DEVICES, Preset, ShippedDevice};
 use palpate_sim::devices::{HomingEntry, OwnDevice};
@@ -86,7 +85,7 @@ fn runs_on<K: Kinematics<3>>(
         soft_start_s: 0.1,
         body_origin_m: palpate::math::Vec3::ZERO,
     };
-    let servo = Servo::new(device, &WALL, Controller::SECOND_ORDER, settings).protect(own.protection);
+    let servo = Servo::protected(device, &WALL, own.protection, Config { settings, ..Config::DEFAULT });
     let touching = TouchingSettings { duration: 4.0, touches: 4, press_depth: [0.004, 0.008], ..Default::default() };
     let place = |u: f64, v: f64| ([0.03 * (u - 0.5), 0.03 * (v - 0.5), 0.0], [0.0, 0.0, 1.0]);
     let path = TouchingPath::new(place, touching, 1).expect("a path");
@@ -97,7 +96,7 @@ fn runs_on<K: Kinematics<3>>(
         let at_joints = plant.counts();
         let at_inputs = planted.encoder_on.map(|joint| at_joints[joint]);
         let counts = core::array::from_fn(|joint| Counts(at_inputs[own.file.joint[joint].encoder.channel]));
-        servo.tick(&mut state, Input::Sensors { counts, enable: true });
+        let _ = servo.tick(&mut state, Input::Sensors { counts, enable: true });
         let mut at_outputs = [0; 3];
         for (joint, duty) in own.file.joint.iter().zip(state.duties()) {
             at_outputs[joint.motor.channel] = duty.0;

@@ -2,8 +2,7 @@
 
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Device as Built, Homing, Reference, SerialArm};
-use palpate::servo::{Phase, ResetReason, Servo};
-use palpate::track::Controller;
+use palpate::servo::{Config, Phase, ResetReason, Servo};
 use palpate::wire::Calibrated;
 use palpate_sim::devices;
 use palpate_sim::devices::{HomingEntry, OwnDevice};
@@ -54,7 +53,8 @@ fn reset_elsewhere(
 ) -> Rig<SerialArm> {
     // As the boards have it (boards/src/arm.rs).
     let homing = Homing::try_new(BUILT.encoders, reference, (0.1 * RATE) as u32, 4, 40_000).expect("homing");
-    let servo = Servo::new(&BUILT, &WALL, Controller::SECOND_ORDER, SETTINGS).homing(homing.when_asked());
+    let servo =
+        Servo::new(&BUILT, &WALL, Config { settings: SETTINGS, homing: Some(homing.when_asked()), ..Config::DEFAULT });
     let mut settings = planted.plant;
     for (joint, elsewhere) in settings.joints.iter_mut().zip(ELSEWHERE) {
         let counts = joint.counts_per_turn * joint.ratio * joint.encoder_direction.sign();

@@ -70,9 +70,9 @@ fn case<K: Kinematics<JOINTS> + Copy + 'static, const JOINTS: usize>(
         pose: Box::new(move |angles| {
             let pose = map.pose(few(angles));
             Pose {
-                position: widen(pose.position),
-                columns: fill(pose.jacobian.map(widen), [0.0; 3]),
-                margin: f64::from(pose.singularity_margin()),
+                position: widen(pose.unwrap().position),
+                columns: fill(pose.unwrap().jacobian.map(widen), [0.0; 3]),
+                margin: f64::from(pose.unwrap().singularity_margin()),
             }
         }),
         holding: Box::new(move |angles| fill(map.holding_torques(few(angles)).map(f64::from), 0.0)),
@@ -80,10 +80,10 @@ fn case<K: Kinematics<JOINTS> + Copy + 'static, const JOINTS: usize>(
         sense: Box::new(move |counts| {
             let angles: [f32; JOINTS] =
                 core::array::from_fn(|joint| device.encoders[joint].angle(Counts(counts[joint])));
-            Tick { angles: fill(angles, 0.0), position: map.pose(angles).position }
+            Tick { angles: fill(angles, 0.0), position: map.pose(angles).unwrap().position }
         }),
         drive: Box::new(move |angles, rates, force| {
-            let torques = map.pose(few(angles)).torques(force);
+            let torques = map.pose(few(angles)).unwrap().torques(force);
             let duties =
                 core::array::from_fn(|joint| Duty::from_fraction(device.motors[joint].fraction(torques[joint])));
             fill(device.feed(true, duties, few(rates)).map(|duty| duty.0), 0)

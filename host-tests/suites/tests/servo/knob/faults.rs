@@ -2,7 +2,7 @@
 
 use super::{SEARCH, dial};
 use palpate::device::{Device, Dial};
-use palpate::servo::{Event, Fault, Output, ResetReason, Safety};
+use palpate::servo::{Config, Event, Fault, Output, ResetReason, Safety, Servo};
 use palpate_sim::knob::{HostKnob, NAMES, TOLD_OF_SUPPLY, device, servo};
 use palpate_sim::plant::{DialSettings, Fingers, MagneticFault};
 
@@ -48,7 +48,7 @@ fn how(fault: Fault) -> How {
         }),
         Fault::Supply => How::Anytime(|knob| knob.dial.supply(9.9)),
         Fault::Calibration => How::Anytime(|knob| knob.note(Event::CalibrationRefused)),
-        Fault::WrongSign => How::Never("the alignment finds out which way the counts go"),
+        Fault::WrongPolarity => How::Never("the alignment finds out which way the counts go"),
     }
 }
 
@@ -60,7 +60,9 @@ const RANGE: [f32; 2] = [-2.0, 2.0];
 fn watched(settings: DialSettings) -> HostKnob {
     let device: &'static Device<Dial, 1> = Box::leak(Box::new(Device { joint_range_rad: [RANGE], ..device(None) }));
     let safety = Safety { link_timeout_s: LINK_TICKS as f32 / super::SETTINGS.rate_hz, ..Safety::DEFAULT };
-    HostKnob::new(servo(device, SEARCH, TOLD_OF_SUPPLY).safety(safety), dial(settings))
+    let servo = servo(device, SEARCH, TOLD_OF_SUPPLY);
+    let config = Config { safety, ..servo.config() };
+    HostKnob::new(Servo::protected(device, servo.surface(), TOLD_OF_SUPPLY, config), dial(settings))
 }
 
 /// A knob at each place of its life at which it drives, and whether something is felt there.

@@ -4,8 +4,7 @@ use super::{RATE, dial};
 use palpate::device::presets::GIMBAL_KNOB;
 use palpate::device::{Duty, Endurance, FieldSearch, Protection};
 use palpate::render::{Feel, Spring};
-use palpate::servo::{Guard, Knob, Phase, Servo, Settings};
-use palpate::track::Controller;
+use palpate::servo::{Config, Guard, Knob, Phase, Servo, Settings};
 use palpate_sim::knob::{FEELS, HostKnob, LET_GO, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, homing};
 use palpate_sim::plant::{DialSettings, Fingers, PhaseHeat, ThermalSettings};
 use palpate_truth::measured::measured;
@@ -31,11 +30,11 @@ fn asking(torque: f32) -> HostKnob {
     let feels = Box::leak(Box::new([feel]));
     let knob = Box::leak(Box::new(Knob::new(&GIMBAL_KNOB, feels, LET_GO)));
     let device = Box::leak(Box::new(device(None)));
-    let servo = Servo::new(device, knob, Controller::SECOND_ORDER, SETTINGS).protect(TOLD_OF_SUPPLY);
+    let servo = Servo::protected(device, knob, TOLD_OF_SUPPLY, Config { settings: SETTINGS, ..Config::DEFAULT });
     // The winding's time constant is hundreds of ticks' in which nothing but heat changes: large steps do.
     let settings = DialSettings { sub_steps: 4, ..DialSettings::gimbal_knob() };
     let guard = *servo.guard();
-    let mut knob = HostKnob::new(servo.homing(homing(SEARCH)), dial(settings));
+    let mut knob = HostKnob::new(servo.with_homing(homing(SEARCH)), dial(settings));
     knob.ticks(SEARCH.ticks() + 100);
     assert!(knob.state().homed(), "{:?}", knob.state().homing().refusal());
     knob.enable = false;
@@ -116,7 +115,7 @@ fn allowed(endurance: Endurance, motor: ThermalSettings, (on, off, reset): (f64,
     let settings = Settings { rate_hz: LAW_RATE as f32, ..SETTINGS };
     let device = Box::leak(Box::new(device(None)));
     let protection = Protection { motors: [endurance], ..TOLD_OF_SUPPLY };
-    let servo = Servo::new(device, knob, Controller::SECOND_ORDER, settings).protect(protection);
+    let servo = Servo::protected(device, knob, protection, Config { settings, ..Config::DEFAULT });
     // 0.75 A in the scale that keeps the power.
     let amplitude = 0.75 * (2.0_f64 / 3.0).sqrt();
     let (mut worn, mut motor) = (servo.guard().start(), PhaseHeat::cold(motor));
@@ -130,7 +129,7 @@ fn allowed(endurance: Endurance, motor: ThermalSettings, (on, off, reset): (f64,
         let [limit] = worn.limits();
         let bound = limit / GIMBAL_KNOB.motors[0].torque_at_full_n_m.abs();
         let duty = Duty::from_fraction(if is_on { bound } else { 0.0 });
-        servo.guard().given(&mut worn, &[duty]);
+        servo.guard().record_output(&mut worn, &[duty]);
         let current = f64::from(duty.fraction()) * amplitude;
         motor.step([current, -0.5 * current, -0.5 * current], 1.0 / LAW_RATE);
         hottest = hottest.max(motor.hottest());

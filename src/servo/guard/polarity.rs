@@ -21,8 +21,8 @@
 //! counts, is why no single knock decides: `Δx` as a share of `u T²/2I`, what it would be of the joint alone, is summed
 //! up until it is clear.
 
-use super::Moving;
-use crate::device::SignWatch;
+use super::Motion;
+use crate::device::PolarityCheck;
 use crate::math::{Vec3, inverse_sqrt_from_below};
 use crate::render::Penalty;
 use crate::servo::Fault;
@@ -57,7 +57,7 @@ const RISE: f32 = 0.05;
 
 /// The watch as the tick needs it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Signs<const JOINTS: usize> {
+pub(super) struct Polarities<const JOINTS: usize> {
     /// How far a unit of torque turns each joint in a knock, rad/(N·m).
     yields: [f32; JOINTS],
     /// The dry friction of each joint, N·m: what a knock has on top, for it moves nothing.
@@ -91,7 +91,7 @@ enum Stage {
 
 /// What the watch remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct SignState<const JOINTS: usize> {
+pub(super) struct PolarityState<const JOINTS: usize> {
     stage: Stage,
     /// Ticks until this slot ends.
     ticks: u16,
@@ -115,7 +115,7 @@ pub(super) struct SignState<const JOINTS: usize> {
     sums: [f32; JOINTS],
 }
 
-impl<const JOINTS: usize> SignState<JOINTS> {
+impl<const JOINTS: usize> PolarityState<JOINTS> {
     pub(super) const START: Self = Self {
         stage: Stage::FreeAir,
         ticks: 0,
@@ -183,8 +183,13 @@ impl<const JOINTS: usize> SignState<JOINTS> {
     }
 }
 
-impl<const JOINTS: usize> Signs<JOINTS> {
-    pub(super) const fn new(watch: &SignWatch<JOINTS>, friction: [f32; JOINTS], rate: f32, penalty: &Penalty) -> Self {
+impl<const JOINTS: usize> Polarities<JOINTS> {
+    pub(super) const fn new(
+        watch: &PolarityCheck<JOINTS>,
+        friction: [f32; JOINTS],
+        rate: f32,
+        penalty: &Penalty,
+    ) -> Self {
         let ticks = rate * SLOT;
         let slot = if ticks < 3.0 { 3.0 } else { ticks };
         let time = slot / rate;
@@ -218,8 +223,8 @@ impl<const JOINTS: usize> Signs<JOINTS> {
     #[inline(always)]
     pub(super) fn look(
         &self,
-        state: &mut SignState<JOINTS>,
-        moving: &Moving<'_, JOINTS>,
+        state: &mut PolarityState<JOINTS>,
+        moving: &Motion<'_, JOINTS>,
         force: &mut Vec3,
         felt: &mut [f32; JOINTS],
     ) -> Result<(), Fault> {
@@ -234,8 +239,8 @@ impl<const JOINTS: usize> Signs<JOINTS> {
     #[inline(never)]
     fn try_joints(
         &self,
-        state: &mut SignState<JOINTS>,
-        moving: &Moving<'_, JOINTS>,
+        state: &mut PolarityState<JOINTS>,
+        moving: &Motion<'_, JOINTS>,
         force: &mut Vec3,
         felt: &mut [f32; JOINTS],
     ) -> Result<(), Fault> {
@@ -269,7 +274,7 @@ impl<const JOINTS: usize> Signs<JOINTS> {
     }
 
     /// A slot has ended: what its knock says.
-    fn judge(&self, state: &mut SignState<JOINTS>, moving: &Moving<'_, JOINTS>) -> Result<(), Fault> {
+    fn judge(&self, state: &mut PolarityState<JOINTS>, moving: &Motion<'_, JOINTS>) -> Result<(), Fault> {
         let joint = state.slot;
         let [first, second, third] = state.places;
         if state.is_knocking && joint < JOINTS {
@@ -280,7 +285,7 @@ impl<const JOINTS: usize> Signs<JOINTS> {
                 state.sums[joint] += says.clamp(-SAYS, SAYS);
             }
             if state.sums[joint] <= WRONG {
-                return Err(Fault::WrongSign);
+                return Err(Fault::WrongPolarity);
             }
             if state.sums[joint] < DOUBTFUL {
                 state.rest = self.rest;
@@ -292,7 +297,13 @@ impl<const JOINTS: usize> Signs<JOINTS> {
     }
 
     /// The next slot begins: whose it is, and whether that joint knocks at what the contact would load it with.
-    fn next_slot(&self, state: &mut SignState<JOINTS>, moving: &Moving<'_, JOINTS>, force: Vec3, felt: &[f32; JOINTS]) {
+    fn next_slot(
+        &self,
+        state: &mut PolarityState<JOINTS>,
+        moving: &Motion<'_, JOINTS>,
+        force: Vec3,
+        felt: &[f32; JOINTS],
+    ) {
         state.slot = if state.slot + 1 < JOINTS.max(ROUND) { state.slot + 1 } else { 0 };
         state.rest = state.rest.saturating_sub(1);
         if state.sums.iter().all(|sum| *sum >= GOOD) {
@@ -335,10 +346,13 @@ mod tests {
     /// as much as a calibration may say.
     fn sees<K: Kinematics<3>>(device: &Device<K, 3>, protection: &Protection<3>, middle: [f32; 3]) {
         let penalty = Penalty { stiffness_n_per_m: 600.0, damping_n_s_per_m: 2.0, max_force_n: device.max_force_n };
-        let of_range = device.kinematics.pose(device.joint_range_rad.map(|[least, most]| 0.5 * (least + most)));
+        let of_range = device
+            .kinematics
+            .pose(device.joint_range_rad.map(|[least, most]| 0.5 * (least + most)))
+            .expect("within reach");
         let friction = of_range.jacobian.map(|column| FRICTION_WITHIN * device.max_force_n * column.length());
-        let signs = Signs::new(&protection.polarity.expect("watched"), friction, 4_000.0, &penalty);
-        for (joint, column) in device.kinematics.pose(middle).jacobian.into_iter().enumerate() {
+        let signs = Polarities::new(&protection.polarity.expect("watched"), friction, 4_000.0, &penalty);
+        for (joint, column) in device.kinematics.pose(middle).expect("within reach").jacobian.into_iter().enumerate() {
             let reach = column.length();
             let most = (signs.force * reach).min(signs.way / (signs.yields[joint] * reach) + friction[joint]);
             let way = (most - friction[joint]) * signs.yields[joint] * reach;

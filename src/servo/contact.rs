@@ -7,7 +7,10 @@
 //! until the probe has been in front of the surface. A hand that is stronger than the device and goes through a part
 //! ends it the same way. Where it happens again and again something is wrong: [`super::Fault::ContactLost`].
 
+use super::{Fault, Guard, Phase, Servo, ServoState, Surface, Tracked};
+use crate::device::Kinematics;
 use crate::math::Vec3;
+use crate::render::Penalty;
 
 /// What counts as contact that no motion explains, and what is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +59,8 @@ pub(super) struct ContactWatch {
 }
 
 impl ContactWatch {
-    pub(super) const fn new(limits: Option<ContactLimits>, full_force_depth: f32, rate: f32) -> Self {
+    pub(super) const fn new(limits: Option<ContactLimits>, wall: &Penalty, rate: f32) -> Self {
+        let full_force_depth = wall.max_force_n / wall.stiffness_n_per_m;
         match limits {
             Some(ContactLimits { depth, min_depth_m: min_depth, fade_s: fade, max_in_a_row, quiet_s: quiet }) => Self {
                 max_depth: if depth * full_force_depth < min_depth { min_depth } else { depth * full_force_depth },
@@ -83,4 +87,36 @@ pub(super) struct LostContact {
     pub force: Vec3,
     /// Which share of it is still given.
     pub share: f32,
+}
+
+impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
+    /// Ends contact that no motion explains.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn release_contact(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) -> Result<(), Fault> {
+        if self.core.safety.contact.is_none() {
+            return Ok(());
+        }
+        self.core.surface.release(&mut state.contact.witness);
+        let lost = &mut state.contact.lost;
+        let follows = state.ticks.wrapping_sub(lost.tick) <= self.core.contact_watch.quiet;
+        // Without force a hand may lead the probe through anything, as often as it likes.
+        let felt = u32::from(state.phase == Phase::Running);
+        lost.in_a_row = if follows { lost.in_a_row.saturating_add(felt) } else { felt };
+        lost.count = lost.count.saturating_add(1);
+        (lost.tick, lost.force, lost.share) =
+            (state.ticks, state.drive.force, if S::Witness::HAS_OWN_FORCE_ONLY { 0.0 } else { 1.0 });
+        if lost.in_a_row > self.core.contact_watch.max_in_a_row { Err(Fault::ContactLost) } else { Ok(()) }
+    }
+
+    /// What is still given of the force of contact that was lost, N; `None` of none.
+    #[inline]
+    pub(super) fn fading(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) -> Option<Vec3> {
+        let lost = &mut state.contact.lost;
+        if lost.share <= 0.0 {
+            return None;
+        }
+        lost.share -= self.core.contact_watch.fade_step;
+        (lost.share > 0.0).then(|| lost.force * lost.share)
+    }
 }

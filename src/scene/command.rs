@@ -1,0 +1,315 @@
+//! A host's commands to a scene, applied between two ticks, and the reasons for refusing one.
+
+use super::frame::axes;
+use super::scene::Scene;
+use super::state::SceneState;
+use crate::body::Body;
+use crate::device::Kinematics;
+use crate::math::{Vec3, inverse_sqrt, vec3};
+use crate::patch::{Patch, SplinePatch};
+use crate::render::Friction;
+use crate::servo::{Guard, Knob, KnobWitness, OnePatch, Servo, ServoState, Surface};
+use crate::track::Placement;
+use thiserror::Error;
+
+/// Where a body is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BodyPose {
+    /// Its origin, metres, in the scene.
+    pub position: [f32; 3],
+    /// Its orientation as a unit quaternion: x, y, z, w.
+    pub orientation: [f32; 4],
+}
+
+/// A command, applied whole between two ticks or not at all. Bodies go by their index in the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Command {
+    /// A resting body is somewhere else: [`crate::scene::Scene::place`].
+    Place {
+        /// Which.
+        body: u8,
+        /// Where.
+        pose: BodyPose,
+    },
+    /// A resting body is there by now, and moves on as [`Self::Move`] has it: [`crate::scene::Scene::lead`]. For a
+    /// motion that the host gives, pose by pose.
+    Lead {
+        /// Which.
+        body: u8,
+        /// Where.
+        pose: BodyPose,
+        /// Of its origin, m/s.
+        velocity: [f32; 3],
+        /// rad/s.
+        angular_velocity: [f32; 3],
+        /// For how long, unless another order comes, seconds.
+        seconds: f32,
+    },
+    /// A resting body moves on from where it is: [`crate::scene::Scene::move_along`].
+    Move {
+        /// Which.
+        body: u8,
+        /// Of its origin, m/s.
+        velocity: [f32; 3],
+        /// rad/s.
+        angular_velocity: [f32; 3],
+        /// For how long; then it rests, seconds.
+        seconds: f32,
+    },
+    /// Bodies of these groups are on, all others off, group 0 the lowest bit: [`crate::scene::Scene::switch`].
+    Switch {
+        /// The groups.
+        groups: u32,
+    },
+    /// Group `index` alone is on; of a knob, this feel: [`crate::servo::Event::Chosen`].
+    Choose {
+        /// Which.
+        index: u8,
+    },
+    /// Another stiffness and damping: [`crate::scene::Scene::harden`].
+    Harden {
+        /// Which.
+        body: u8,
+        /// N/m.
+        stiffness: f32,
+        /// N·s/m.
+        damping: f32,
+    },
+    /// Other friction, by [`crate::render::Friction`]'s four numbers in their order, or none:
+    /// [`crate::scene::Scene::rub`].
+    Rub {
+        /// Which.
+        body: u8,
+        /// The numbers.
+        friction: Option<[f32; 4]>,
+    },
+    /// A tool with a tip of another radius: [`crate::scene::Scene::set_tip_radius`].
+    Tip {
+        /// Metres.
+        radius: f32,
+    },
+    /// The greatest force of all of the scene, at most [`crate::scene::Limits::max_force`]. It comes without a step.
+    Limit {
+        /// N.
+        force: f32,
+    },
+    /// A force of the host's own, added to that of the bodies, in the scene's frame; at most
+    /// [`crate::scene::Limits::max_force`]. It stands for [`crate::scene::HOLD`] seconds, unless it is asked for anew.
+    Push {
+        /// N.
+        force: [f32; 3],
+    },
+    /// The body that was uploaded last takes the place of this one: [`crate::scene::Slot`].
+    Take {
+        /// Which.
+        body: u8,
+    },
+    /// The body that was built in takes this one's place again: [`crate::scene::Scene::put_back`].
+    PutBack {
+        /// Which.
+        body: u8,
+    },
+}
+
+/// Which choice is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum SceneError {
+    /// No body, or more than 32.
+    #[error("a scene has 1 to 32 bodies")]
+    Bodies,
+    /// A shared limit is not positive, or not finite.
+    #[error("the scene's limits must be positive and finite")]
+    Limits,
+    /// A stiffness is out of range. Where several bodies may be touched, two of them must be within it together.
+    #[error("body {0}: the stiffness must be between 0 and the maximum, together with that of the stiffest other body")]
+    Stiffness(u8),
+    /// A damping is out of range.
+    #[error("body {0}: the damping must be between 0 and the maximum")]
+    Damping(u8),
+    /// Friction is negative, not finite, or holds more slipping than sticking.
+    #[error("body {0}: friction must be finite and not negative, its dynamic coefficient not above the static one")]
+    Friction(u8),
+    /// A texture's share is not between 0 and 1.
+    #[error("body {0}: a texture's share must be between 0 and 1")]
+    Texture(u8),
+    /// Axes that are not orthonormal, a number that is not finite, no mass.
+    #[error("body {0}: its motion has axes that are not orthonormal, a number that is not finite, or no mass")]
+    Motion(u8),
+    /// A free body is lighter than its stiffness, damping and friction allow at this rate.
+    #[error("body {0}: it is too light for its stiffness, damping and friction at this rate")]
+    Light(u8),
+    /// The damping along a free body's surface is less than its stiffness there times half a tick.
+    #[error("body {0}: friction on a free body needs a damping of at least its stiffness times half a tick")]
+    Slack(u8),
+    /// A sphere that is not finite.
+    #[error("body {0}: its sphere must have a finite centre and a radius")]
+    Sphere(u8),
+    /// A group of 32 and more.
+    #[error("body {0}: groups are 0 to 31")]
+    Group(u8),
+    /// There is no such body.
+    #[error("there is no body {0}")]
+    Missing(u8),
+    /// A placement that is no rigid motion, or of a body that does not rest.
+    #[error("body {0}: only a resting body is placed, with orthonormal axes and finite numbers")]
+    Placement(u8),
+    /// The radius of a tool's tip is negative or not finite.
+    #[error("the radius of the tip must be finite and not negative")]
+    TipRadius,
+    /// A body is to move faster than [`crate::scene::Limits::max_speed`].
+    #[error("body {0}: it may not be moved faster than the scene's bodies are met at most")]
+    TooFast(u8),
+    /// A force of the host's, or a limit of the force, that is negative, not finite or above
+    /// [`crate::scene::Limits::max_force`].
+    #[error("a force must be finite and at most the scene's maximum")]
+    Force,
+    /// What is touched does not offer this.
+    #[error("this surface does not support the command")]
+    NotOffered,
+    /// There is no body that was uploaded, or it does not go there.
+    #[error("body {0}: nothing was uploaded for it")]
+    NotUploaded(u8),
+}
+
+impl SceneError {
+    /// The text without a body's number, for a panic at compile time.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Bodies => "a scene has 1 to 32 bodies",
+            Self::Limits => "the scene's limits must be positive and finite",
+            Self::Stiffness(_) => {
+                "the stiffness must be between 0 and the maximum, together with that of the stiffest other body"
+            }
+            Self::Damping(_) => "the damping must be between 0 and the maximum",
+            Self::Friction(_) => {
+                "friction must be finite and not negative, its dynamic coefficient not above the static one"
+            }
+            Self::Texture(_) => "a texture's share must be between 0 and 1",
+            Self::Motion(_) => "its motion has axes that are not orthonormal, a number that is not finite, or no mass",
+            Self::Light(_) => "it is too light for its stiffness, damping and friction at this rate",
+            Self::Slack(_) => "friction on a free body needs a damping of at least its stiffness times half a tick",
+            Self::Sphere(_) => "its sphere must have a finite centre and a radius",
+            Self::Group(_) => "groups are 0 to 31",
+            Self::Missing(_) => "there is no such body",
+            Self::Placement(_) => "only a resting body is placed, with orthonormal axes and finite numbers",
+            Self::TipRadius => "the radius of the tip must be finite and not negative",
+            Self::TooFast(_) => "it may not be moved faster than the scene's bodies are met at most",
+            Self::Force => "a force must be finite and at most the scene's maximum",
+            Self::NotOffered => "this surface does not support the command",
+            Self::NotUploaded(_) => "nothing was uploaded for it",
+        }
+    }
+}
+
+impl BodyPose {
+    /// The placement, at rest; `None` where the quaternion is not of length 1, within a thousandth.
+    pub fn placement(&self) -> Option<Placement> {
+        let [x, y, z, w] = self.orientation;
+        let squared = x * x + y * y + z * z + w * w;
+        // What is not a number is neither.
+        if !squared.is_finite() || (squared - 1.0).abs() > 2e-3 {
+            return None;
+        }
+        let scale = inverse_sqrt(squared);
+        let axes = axes(&self.orientation.map(|number| number * scale));
+        Some(Placement { axes, origin: Vec3::from_array(self.position), ..Placement::IDENTITY })
+    }
+}
+
+/// A surface that takes commands of a host.
+pub trait Commanded: Surface {
+    /// Applies a command between two ticks, or changes nothing. Bounded work.
+    ///
+    /// # Errors
+    /// [`SceneError::NotOffered`] unless the surface takes this command, or the value that is out of range.
+    fn apply(&self, witness: &mut Self::Witness, command: &Command) -> Result<(), SceneError> {
+        let _ = (witness, command);
+        Err(SceneError::NotOffered)
+    }
+}
+
+impl Commanded for Body<'_> {}
+impl Commanded for SplinePatch<'_> {}
+impl<P: Patch> Commanded for OnePatch<P> {}
+
+/// A knob takes [`Command::Choose`] of an entry that it has.
+impl Commanded for Knob {
+    fn apply(&self, witness: &mut KnobWitness, command: &Command) -> Result<(), SceneError> {
+        match command {
+            Command::Choose { index } if usize::from(*index) < self.feels().len() => {
+                self.choose(witness, *index);
+                Ok(())
+            }
+            Command::Choose { index } => Err(SceneError::Missing(*index)),
+            _ => Err(SceneError::NotOffered),
+        }
+    }
+}
+
+impl<S: Commanded, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
+    /// Applies a host's command between two ticks, or changes nothing. It neither drives a motor nor ends a fault: its
+    /// force comes in the ticks that follow, as far as there is force at all.
+    ///
+    /// # Errors
+    /// The value that is out of range, or a command that the surface does not take.
+    pub fn apply(
+        &self,
+        state: &mut ServoState<JOINTS, S::Witness, G::State>,
+        command: &Command,
+    ) -> Result<(), SceneError> {
+        self.surface().apply(state.witness_mut(), command)
+    }
+}
+
+impl<S: Commanded, const N: usize> Commanded for Scene<'_, S, N> {
+    fn apply(&self, state: &mut SceneState<S::Witness, N>, command: &Command) -> Result<(), SceneError> {
+        match *command {
+            Command::Place { body, pose } => {
+                let placement = pose.placement().ok_or(SceneError::Placement(body))?;
+                self.place(state, usize::from(body), placement)
+            }
+            Command::Lead { body, pose, velocity, angular_velocity, seconds } => {
+                let placement = pose.placement().ok_or(SceneError::Placement(body))?;
+                let motion = [velocity, angular_velocity].map(Vec3::from_array);
+                // Whether it may move so is seen before it is anywhere else.
+                self.may_move(usize::from(body), &placement, motion, seconds)?;
+                self.lead(state, usize::from(body), placement)?;
+                self.move_along(state, usize::from(body), motion, seconds)
+            }
+            Command::Move { body, velocity, angular_velocity, seconds } => {
+                let motion = [velocity, angular_velocity].map(Vec3::from_array);
+                self.move_along(state, usize::from(body), motion, seconds)
+            }
+            Command::Switch { groups } => {
+                self.switch(state, groups);
+                Ok(())
+            }
+            Command::Choose { index } if index > 31 => Err(SceneError::Group(index)),
+            Command::Choose { index } => {
+                self.choose(state, index);
+                Ok(())
+            }
+            Command::Harden { body, stiffness, damping } => self.harden(state, usize::from(body), stiffness, damping),
+            Command::Rub { body, friction } => {
+                let friction = friction.map(|[stiffness, damping, static_coefficient, dynamic_coefficient]| Friction {
+                    stiffness_n_per_m: stiffness,
+                    damping_n_s_per_m: damping,
+                    static_coefficient,
+                    dynamic_coefficient,
+                });
+                self.rub(state, usize::from(body), friction)
+            }
+            Command::Tip { radius } => self.set_tip_radius(state, radius),
+            Command::Limit { force } => state.host.set_limit(self.limits(), force),
+            Command::Push { force: [x, y, z] } => state.host.push(self.limits(), vec3(x, y, z)),
+            Command::Take { body } => self.take(state, usize::from(body)),
+            Command::PutBack { body } => self.put_back(state, usize::from(body)),
+        }
+    }
+}

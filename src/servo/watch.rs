@@ -1,0 +1,205 @@
+//! Watches beside the tick: bridged sensor frames, the tick's deadline, and stuck sensors.
+
+use super::{Guard, Input, Phase, Servo, ServoState, StuckLimits, Surface};
+use crate::device::{Counts, Kinematics};
+
+/// Puts a prediction in the place of a few bad frames in a row: the last good counts, carried on at the rates estimated
+/// then. The next bad one reaches the loop as it came, and is a fault in that tick.
+///
+/// **This is the one exception to "a fault in the same tick".** A motor's switching spoils a frame of a digital sensor
+/// now and then; a hand that is let go of for that feels a blow. For two ticks, half a millisecond at 4 kHz, a hand at
+/// 1 m/s that brakes with 20 m/s² comes 2.5 µm nearer than predicted: less than a count. After a fault, and before the
+/// first counts, nothing is bridged.
+///
+/// It stands before [`Servo::tick`]; a loop without it has no exception.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FrameBridge<const JOINTS: usize> {
+    max_in_a_row: u32,
+    in_a_row: u32,
+    total: u32,
+    /// The last good counts, and counts a tick.
+    from: ([Counts; JOINTS], [f32; JOINTS]),
+}
+
+impl<const JOINTS: usize> FrameBridge<JOINTS> {
+    /// How many bad frames in a row are bridged unless you choose.
+    pub const DEFAULT_IN_A_ROW: u32 = 2;
+
+    /// A bridge over at most so many bad frames in a row; 0 bridges none.
+    pub const fn new(max_in_a_row: u32) -> Self {
+        Self { max_in_a_row, in_a_row: 0, total: 0, from: ([Counts(0); JOINTS], [0.0; JOINTS]) }
+    }
+
+    /// Bad frames bridged so far.
+    pub const fn total(&self) -> u32 {
+        self.total
+    }
+
+    /// What the tick starts from: `input` as it came, or a prediction in its place, with `enable` as it is now.
+    #[inline]
+    pub fn input<S: Surface, K: Kinematics<JOINTS>, G: Guard<JOINTS>>(
+        &mut self,
+        servo: &Servo<'_, S, K, JOINTS, G>,
+        state: &ServoState<JOINTS, S::Witness, G::State>,
+        input: Input<JOINTS>,
+        enable: bool,
+    ) -> Input<JOINTS> {
+        if matches!(input, Input::Sensors { .. }) {
+            self.in_a_row = 0;
+            return input;
+        }
+        let Some(counts) = state.counts() else { return input };
+        if self.in_a_row >= self.max_in_a_row || state.phase() == Phase::Fault {
+            return input;
+        }
+        if self.in_a_row == 0 {
+            let mut steps = state.rates();
+            for (step, encoder) in steps.iter_mut().zip(&servo.core.device.encoders) {
+                *step *= servo.core.period / encoder.radians_per_count;
+            }
+            self.from = (counts, steps);
+        }
+        self.in_a_row += 1;
+        self.total = self.total.wrapping_add(1);
+        let (mut counts, steps) = self.from;
+        for (Counts(count), step) in counts.iter_mut().zip(steps) {
+            let moved = step * self.in_a_row as f32;
+            // To nearest: the cast truncates. It saturates, and makes a NaN 0.
+            *count = count.wrapping_add((moved + if moved < 0.0 { -0.5 } else { 0.5 }) as i32);
+        }
+        Input::Sensors { counts, enable }
+    }
+}
+
+/// The time a tick may take, in counts of the board's free-running counter (cycles, timer ticks).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Deadline {
+    /// The most counts from the tick's interrupt to the duties applied.
+    pub counts: u32,
+}
+
+impl Deadline {
+    /// The deadline of a loop at `rate` Hz timed by a counter of `frequency` Hz: one period.
+    pub const fn of_period(frequency: f32, rate: f32) -> Self {
+        Self { counts: (frequency / rate) as u32 }
+    }
+
+    /// Whether a tick that began and ended at these counts came too late. The counter may wrap once between.
+    pub const fn overrun(self, began: u32, ended: u32) -> bool {
+        ended.wrapping_sub(began) > self.counts
+    }
+}
+
+/// Decides whether the hardware watchdog may be fed: only where ticks have gone on since it was fed last.
+///
+/// Feed it from the idle loop with this, never from the tick's own interrupt: then either of the two that hangs is
+/// found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Heartbeat {
+    ticks: u32,
+}
+
+impl Heartbeat {
+    /// Whether to feed, from [`super::ServoState::ticks`].
+    pub const fn may_feed(&mut self, ticks: u32) -> bool {
+        let beats = ticks != self.ticks;
+        self.ticks = ticks;
+        beats
+    }
+}
+
+/// What the watch over stuck sensors remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stillness<const JOINTS: usize> {
+    /// The joint whose turn it is.
+    pub turn: u32,
+    /// The count of each joint when it was last seen to move, or to carry no load.
+    pub counts: [Counts; JOINTS],
+    /// The angles of all joints then, radians.
+    pub since: [[f32; JOINTS]; JOINTS],
+}
+
+impl<const JOINTS: usize> Stillness<JOINTS> {
+    /// Before the first tick.
+    pub const START: Self = Self { turn: 0, counts: [Counts(0); JOINTS], since: [[0.0; JOINTS]; JOINTS] };
+
+    /// Looks at the next joint, one a tick: whether it has not moved by a count under load while another moved far.
+    ///
+    /// `felt` is the torque on each joint of the force that the hand feels, N·m, without what carries the links, which
+    /// their weight balances; `friction` is each joint's dry friction. A joint whose friction is not known is not
+    /// watched.
+    #[inline]
+    pub(super) fn is_broken(
+        &mut self,
+        limits: StuckLimits,
+        friction: &[f32; JOINTS],
+        counts: &[Counts; JOINTS],
+        angles: &[f32; JOINTS],
+        felt: &[f32; JOINTS],
+    ) -> bool {
+        let joint = if (self.turn as usize) < JOINTS { self.turn as usize } else { 0 };
+        self.turn = joint as u32 + 1;
+        let bears = || felt[joint].abs() > limits.load * friction[joint] && friction[joint] > 0.0;
+        if counts[joint] == self.counts[joint] && bears() {
+            return angles
+                .iter()
+                .zip(self.since[joint])
+                .any(|(angle, since)| (angle - since).abs() > limits.travel_rad);
+        }
+        self.counts[joint] = counts[joint];
+        self.since[joint] = *angles;
+        false
+    }
+}
+
+#[cfg(test)]
+mod deadline_tests {
+    use super::*;
+
+    #[test]
+    fn a_tick_is_late_beyond_its_period_also_where_the_counter_wraps() {
+        let deadline = Deadline::of_period(168e6, 4_000.0);
+        assert_eq!(deadline.counts, 42_000);
+        assert!(!deadline.overrun(10, 42_010) && deadline.overrun(10, 42_011));
+        assert!(!deadline.overrun(u32::MAX - 9, 41_990) && deadline.overrun(u32::MAX - 9, 41_991));
+    }
+
+    #[test]
+    fn the_watchdog_starves_when_ticks_stop() {
+        let mut heartbeat = Heartbeat::default();
+        assert!(heartbeat.may_feed(5) && heartbeat.may_feed(6));
+        assert!(!heartbeat.may_feed(6));
+    }
+}
+
+#[cfg(test)]
+mod stuck_tests {
+    use super::*;
+
+    const LIMITS: StuckLimits = StuckLimits { load: 2.0, travel_rad: 0.2 };
+
+    /// The tick at which it is found, the second joint moving by 0.001 rad a tick and the first as told.
+    fn found(first: impl Fn(u32) -> i32, felt: f32, friction: f32) -> Option<u32> {
+        let mut stillness = Stillness::<2>::START;
+        (1..1_000).find(|tick| {
+            let counts = [Counts(first(*tick)), Counts(*tick as i32)];
+            let angles = counts.map(|count| count.0 as f32 * 0.001);
+            stillness.is_broken(LIMITS, &[friction; 2], &counts, &angles, &[felt; 2])
+        })
+    }
+
+    #[test]
+    fn a_joint_that_stands_still_under_load_while_another_moves_is_stuck() {
+        // Seen first at the first tick, and every second one.
+        assert!(matches!(found(|_| 500, -0.3, 0.1), Some(201..=204)));
+        assert_eq!(found(|_| 500, 0.19, 0.1), None, "what friction holds may rest");
+        assert_eq!(found(|_| 500, 0.3, 0.0), None, "friction that is not known may hold anything");
+        assert_eq!(
+            found(|tick| if tick % 150 < 75 { 500 } else { 501 }, 0.3, 0.1),
+            None,
+            "a count now and then is life"
+        );
+    }
+}
