@@ -1,7 +1,7 @@
 //! The plain loop in Rust that the wheel is held to: closest points of a `.palp` for points in a file of `f64`, three
 //! each, in the frame of the model. Writes (face, u, v, x, y, z) as words a point, and prints the seconds it took.
 //!
-//! `plain-loop BODY.palp POINTS.f64 OUT.u32`; the tests find it by `PALPATE_PLAIN_LOOP`.
+//! `plain_loop BODY.palp POINTS.f64 OUT.u32`; the tests find it by `PALPATE_PLAIN_LOOP`.
 
 use palpate::body::{Body, BodyBuffer, Edge, Face, FileHead};
 use palpate::math::vec3;

@@ -15,7 +15,7 @@ extern crate alloc;
 
 #[cfg(feature = "std")]
 pub mod devices;
-#[cfg(feature = "std")]
+#[cfg(feature = "feel")]
 pub mod feel;
 #[cfg(feature = "boards")]
 pub mod knob;

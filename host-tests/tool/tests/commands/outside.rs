@@ -1,4 +1,5 @@
-//! A crate of somebody else's, as `cargo new` makes it: two dependencies, three lines of build script, a closest point.
+//! A crate of somebody else's, as `cargo new` makes it: two dependencies, a few lines of build script, a closest point,
+//! and tables that have the bits that were baked.
 
 use std::error::Error;
 use std::fs;
@@ -6,7 +7,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 const BUILD: &str = r#"fn main() -> Result<(), Box<dyn std::error::Error>> {
-    palpate_bake::Bake::new("part.toml").write_to(std::env::var("OUT_DIR")?).map(drop).map_err(Into::into)
+    for model in ["half_ball.toml", "part.toml"] {
+        palpate_bake::Bake::new(model).write_to(std::env::var("OUT_DIR")?)?;
+    }
+    Ok(())
 }
 "#;
 
@@ -16,7 +20,18 @@ mod part {
     include!(concat!(env!("OUT_DIR"), "/part.rs"));
 }
 
+/// Rational faces, planes, ruled separators and poles.
+mod half_ball {
+    include!(concat!(env!("OUT_DIR"), "/half_ball.rs"));
+}
+
 fn main() {
+    for (body, crc) in [(&part::BODY, part::TABLE_CRC), (&half_ball::BODY, half_ball::TABLE_CRC)] {
+        assert_eq!((body.table_crc(), body.baked_crc()), (crc, Some(crc)));
+    }
+    // The same, whatever the model.
+    let surface: &half_ball::Surface = half_ball::SURFACE;
+    assert_eq!((surface.table_crc(), surface.faces().len()), (half_ball::TABLE_CRC, 8));
     let found = part::BODY.locate(palpate::math::vec3(0.02, 0.03, 0.08));
     let [u, v] = found.parameters;
     println!("{:?}", part::BODY.faces()[usize::from(found.face)].patch.evaluate(u, v).point.to_array());
@@ -60,6 +75,7 @@ fn a_crate_outside_of_the_repository_bakes_a_shipped_model_and_finds_a_closest_p
     fs::copy(repository().join("Cargo.lock"), folder.join("Cargo.lock"))?;
     fs::write(folder.join("build.rs"), BUILD)?;
     fs::write(folder.join("src/main.rs"), MAIN)?;
+    fs::write(folder.join("half_ball.toml"), palpate_truth::generate::models::half_ball())?;
     let model = include_str!("../../../models/capped_box.toml");
     fs::write(folder.join("part.toml"), model)?;
 

@@ -2,8 +2,10 @@
 //! `PALPATE_WRITE=1 cargo test -p palpate-suites --test tables models`.
 
 mod cube_sphere;
+mod half_ball;
 mod text;
 
+pub use half_ball::half_ball;
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::fmt::Write as _;
 use text::BezierPatch;
