@@ -2,7 +2,7 @@
 //!
 //! The numbers are read in place: a body from a file costs the same in a tick as one that was compiled in. Only faces
 //! and edges, which refer to their numbers, are built, in a [`BodyBuffer`] of the caller. All checks come first, in a
-//! time that the length of the file bounds. The repository's `docs/body-file.md` documents the format byte by byte.
+//! time that the length of the file bounds. The repository's `docs/reference/body-file.md` documents the format byte by byte.
 
 mod error;
 mod records;
