@@ -4,7 +4,6 @@ use palpate::body::{Body, Edge, Face, Spoke, Vertex};
 #[cfg(feature = "protected")]
 use palpate::device::{Endurance, PolarityCheck, Protection, SupplyRange};
 use palpate::servo::{self, Config, Guard, Input, Rendering, Servo, ServoState};
-use palpate::track::Controller;
 
 use crate::planted;
 
