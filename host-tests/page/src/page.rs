@@ -107,7 +107,7 @@ impl Stage {
             }
             let counts = counts_at(self.device, self.hand.position).map(Counts);
             self.servo.note(&mut self.state, Event::LinkAlive);
-            self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
+            let _ = self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
             let [_, error] =
                 view::next_step(&self.loaded.felt.sight(self.state.witness()), &controller, self.state.probe());
             self.errors.push(error);
@@ -119,7 +119,7 @@ impl Stage {
     pub fn tick_only(&mut self, ticks: u32) {
         let counts = counts_at(self.device, self.hand.position).map(Counts);
         for _ in 0..ticks {
-            self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
+            let _ = self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
         }
     }
 

@@ -84,7 +84,7 @@ where
 {
     fn tick(&mut self, counts: [i32; 3], enable: bool) {
         self.servo.note(&mut self.state, Event::LinkAlive);
-        self.servo.tick(&mut self.state, Input::Sensors { counts: counts.map(Counts), enable });
+        let _ = self.servo.tick(&mut self.state, Input::Sensors { counts: counts.map(Counts), enable });
         self.hash = (self.hash ^ self.state.digest()).wrapping_mul(0x0100_0193);
     }
 
