@@ -92,13 +92,13 @@ pub enum Command {
         /// Metres.
         radius: f32,
     },
-    /// The greatest force of all of the scene, at most [`crate::scene::Limits::max_force`]. It comes without a step.
+    /// The greatest force of all of the scene, at most [`crate::scene::Limits::max_force_n`]. It comes without a step.
     Limit {
         /// N.
         force: f32,
     },
     /// A force of the host's own, added to that of the bodies, in the scene's frame; at most
-    /// [`crate::scene::Limits::max_force`]. It stands for [`crate::scene::HOLD`] seconds, unless it is asked for anew.
+    /// [`crate::scene::Limits::max_force_n`]. It stands for [`crate::scene::HOLD`] seconds, unless it is asked for anew.
     Push {
         /// N.
         force: [f32; 3],
@@ -162,11 +162,11 @@ pub enum SceneError {
     /// The radius of a tool's tip is negative or not finite.
     #[error("the radius of the tip must be finite and not negative")]
     TipRadius,
-    /// A body is to move faster than [`crate::scene::Limits::max_speed`].
+    /// A body is to move faster than [`crate::scene::Limits::max_speed_m_per_s`].
     #[error("body {0}: it may not be moved faster than the scene's bodies are met at most")]
     TooFast(u8),
     /// A force of the host's, or a limit of the force, that is negative, not finite or above
-    /// [`crate::scene::Limits::max_force`].
+    /// [`crate::scene::Limits::max_force_n`].
     #[error("a force must be finite and at most the scene's maximum")]
     Force,
     /// What is touched does not offer this.

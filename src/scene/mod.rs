@@ -7,7 +7,7 @@
 //!
 //! A tick: the two bodies in hand are moved on and tracked; one other is looked at, and taken in hand if it is nearer;
 //! then both press, and a free one is pushed in turn. Whatever was switched since the last tick, the force is that of
-//! the last tick, and goes over to the new one at a bounded rate ([`Limits::let_go`]).
+//! the last tick, and goes over to the new one at a bounded rate ([`Limits::release_n_per_s`]).
 
 mod change;
 mod command;

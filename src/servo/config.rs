@@ -408,7 +408,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
         }
     }
 
-    /// Whether silence of the host is a fault ([`Safety::link_timeout`]).
+    /// Whether silence of the host is a fault ([`Safety::link_timeout_s`]).
     pub const fn watches_link(&self) -> bool {
         self.core.link_ticks < u32::MAX
     }

@@ -24,7 +24,7 @@ pub struct ContactLimits {
     pub min_depth_m: f32,
     /// Seconds over which the force fades out.
     pub fade_s: f32,
-    /// How many events may follow each other, none later than [`Self::quiet`] after the one before; one more is a
+    /// How many events may follow each other, none later than [`Self::quiet_s`] after the one before; one more is a
     /// fault.
     pub max_in_a_row: u32,
     /// Seconds after which an event is forgotten.

@@ -242,7 +242,7 @@ pub enum Event {
     Overrun,
     /// A motor driver reports a fault.
     DriveFault,
-    /// Homing is done elsewhere than in [`super::Servo::homing`]: counts are angles now.
+    /// Homing is done elsewhere than in [`super::Config::homing`]: counts are angles now.
     Homed,
     /// A joint passed its index mark at a count.
     IndexPassed {

@@ -15,7 +15,7 @@
 //! | encoders contradict the mechanism | [`crate::device::Kinematics::pose`] | `Unreachable` |
 //! | a force or torque that is NaN or infinite | the gate before the motors | `NotFinite` |
 //! | tick overrun | [`Deadline`], [`Event::Overrun`] | `Overrun` |
-//! | host link lost | [`Safety::link_timeout`], [`Event::LinkAlive`] | `LinkLost` |
+//! | host link lost | [`Safety::link_timeout_s`], [`Event::LinkAlive`] | `LinkLost` |
 //! | table corrupted or stale | [`Safety::checks_tables`], at boot and in every tick that withholds no force | `TableCorrupt` |
 //! | reset by watchdog or brown-out | [`ResetReason`], [`Servo::start_after`] | `WatchdogReset`, `BrownOut` |
 //! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
@@ -26,7 +26,7 @@
 //! | motor too warm | [`Heat`]: its force folds back to what it bears for ever | none: a limit |
 //! | too much force | scaled as a whole, its direction kept | none: a limit |
 //! | force asked for inside the wall | faded in | none |
-//! | rim of the workspace, singularity | faded out and in again ([`crate::device::Device::room`]) | none |
+//! | rim of the workspace, singularity | faded out and in again ([`crate::device::Device::workspace_margin`]) | none |
 //!
 //! A fault is latched with its tick, and the first one stands. From the very tick in which it is seen the motors are
 //! safe ([`SafeOutput`]). The one exception is asked for by name: a [`FrameBridge`] before the tick bridges a few bad

@@ -278,7 +278,7 @@ pub enum SafeOutput {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {
-    /// The least load, as a multiple of the joint's [`crate::device::Device::dry_friction`]; at least 1.
+    /// The least load, as a multiple of the joint's [`crate::device::Device::dry_friction_n_m`]; at least 1.
     pub load: f32,
     /// How far another joint moves meanwhile, radians.
     pub travel_rad: f32,

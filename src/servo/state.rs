@@ -349,7 +349,7 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         self.sensors.rates
     }
 
-    /// How much room there is to the rim of the workspace ([`crate::device::Device::room`]): 1 well inside; the force
+    /// How much room there is to the rim of the workspace ([`crate::device::Device::workspace_margin`]): 1 well inside; the force
     /// is multiplied by it.
     #[inline]
     pub const fn workspace_margin(&self) -> f32 {

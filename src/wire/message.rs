@@ -123,7 +123,7 @@ pub mod hold {
     pub const RELEASE_FIRST: u8 = 1 << 3;
     /// A body is being written into flash.
     pub const WRITING: u8 = 1 << 4;
-    /// The loop watches its link ([`crate::servo::Safety::link_timeout`]), and no host was heard yet.
+    /// The loop watches its link ([`crate::servo::Safety::link_timeout_s`]), and no host was heard yet.
     pub const NO_HOST: u8 = 1 << 5;
 }
 
