@@ -46,7 +46,7 @@ pub struct Config<const JOINTS: usize> {
 impl<const JOINTS: usize> Config<JOINTS> {
     /// [`Settings::DEFAULT`], [`Rendering::PLAIN`], [`Safety::DEFAULT`], no homing.
     pub const DEFAULT: Self = Self {
-        controller: Controller::SECOND_ORDER,
+        controller: Controller::SecondOrder,
         settings: Settings::DEFAULT,
         rendering: Rendering::PLAIN,
         safety: Safety::DEFAULT,

@@ -267,7 +267,7 @@ mod tests {
     const KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, LET_GO);
 
     fn follow(state: &mut KnobWitness, angle: f32) -> f32 {
-        KNOB.follow(&Controller::SECOND_ORDER, state, Probe::at(Vec3::X * (angle * 0.02)), PERIOD);
+        KNOB.follow(&Controller::SecondOrder, state, Probe::at(Vec3::X * (angle * 0.02)), PERIOD);
         state.torque()
     }
 

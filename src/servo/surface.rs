@@ -69,8 +69,8 @@ use core::fmt::Debug;
 /// }
 ///
 /// let mut below = Floor.rest();
-/// Floor.follow(&Controller::SECOND_ORDER, &mut below, Probe::at(Vec3::Z * 0.01), 1e-3);
-/// Floor.follow(&Controller::SECOND_ORDER, &mut below, Probe::at(Vec3::Z * -0.01), 1e-3);
+/// Floor.follow(&Controller::SecondOrder, &mut below, Probe::at(Vec3::Z * 0.01), 1e-3);
+/// Floor.follow(&Controller::SecondOrder, &mut below, Probe::at(Vec3::Z * -0.01), 1e-3);
 /// assert_eq!(below.contact(), Contact::Touching);
 /// ```
 pub trait Surface: BakedTables {

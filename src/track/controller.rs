@@ -32,9 +32,6 @@ pub enum Controller {
 }
 
 impl Controller {
-    /// [`Self::SecondOrder`].
-    pub const SECOND_ORDER: Self = Self::SecondOrder;
-
     /// One step of the witness point towards the point of the patch closest to the probe. `period_s` is the servo
     /// period, seconds; the second-order law does not use it.
     ///

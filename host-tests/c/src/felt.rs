@@ -19,7 +19,7 @@ impl Surface for Felt {
 
     #[inline]
     fn follow(&self, _: &Controller, witness: &mut BodyWitness, probe: Probe, period: f32) -> Touched {
-        self.0.follow(&Controller::SECOND_ORDER, witness, probe, period)
+        self.0.follow(&Controller::SecondOrder, witness, probe, period)
     }
 
     fn release(&self, witness: &mut BodyWitness) {

@@ -43,7 +43,7 @@ pub struct Touch {
 
 impl Tracking {
     fn track(&mut self, body: &Body<'_>, probe: Vec3) {
-        self.step = Some(body.track(&Controller::SECOND_ORDER, &mut self.witness, Probe::at(probe), PERIOD));
+        self.step = Some(body.track(&Controller::SecondOrder, &mut self.witness, Probe::at(probe), PERIOD));
         self.probe = probe;
     }
 
@@ -175,7 +175,7 @@ pub unsafe extern "C" fn palpate_step(tracker: *mut Handle<Tracking>, probe: *co
         // SAFETY: the body it was started on, which the caller keeps.
         let body = unsafe { tracking.standing.body() }?;
         let probe = Vec3::from_array(probe);
-        let step = body.step(&Controller::SECOND_ORDER, &mut tracking.witness, Probe::at(probe), PERIOD);
+        let step = body.step(&Controller::SecondOrder, &mut tracking.witness, Probe::at(probe), PERIOD);
         (tracking.step, tracking.probe) = (Some(step), probe);
         // SAFETY: the caller's place for it.
         unsafe { put(touch, tracking.touch()) }

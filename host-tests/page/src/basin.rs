@@ -18,7 +18,7 @@ impl Method {
     /// By its number on the page.
     pub const fn of(number: u32) -> Self {
         match number {
-            0 => Self::Certified(Controller::SECOND_ORDER),
+            0 => Self::Certified(Controller::SecondOrder),
             1 => Self::Certified(Controller::FirstOrder(FirstOrder::CERTIFIED)),
             2 => Self::Newton(Newton::Paper),
             3 => Self::Newton(Newton::Saturated),

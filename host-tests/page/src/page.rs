@@ -36,7 +36,7 @@ impl Choices {
     /// The controller of the law.
     pub const fn controller(&self) -> Controller {
         match self.law {
-            0 => Controller::SECOND_ORDER,
+            0 => Controller::SecondOrder,
             1 => Controller::FirstOrder(FirstOrder::CERTIFIED),
             _ => Controller::FirstOrder(FirstOrder::COVARIANT),
         }

@@ -89,7 +89,7 @@ where
     }
 
     fn view(&self, out: &mut Vec<f32>) {
-        view::write(&self.state, self.surface, &Controller::SECOND_ORDER, self.state.probe(), out);
+        view::write(&self.state, self.surface, &Controller::SecondOrder, self.state.probe(), out);
     }
 
     fn hash(&self) -> u32 {

@@ -19,7 +19,7 @@ const PERIOD: f32 = 1e-3;
 /// That there is none.
 pub fn law(name: &str) -> Result<Controller, Refusal> {
     match name {
-        "second-order" => Ok(Controller::SECOND_ORDER),
+        "second-order" => Ok(Controller::SecondOrder),
         "certified" => Ok(Controller::FirstOrder(FirstOrder::CERTIFIED)),
         _ => Err(Refusal::Settings(format!("there is no law {name:?}; there are \"second-order\" and \"certified\""))),
     }

@@ -33,7 +33,7 @@ pub fn track(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
     impl Contestant for Track {
         fn answer(&mut self, probe: &Probe) -> Answer {
             // The gain is certified, not a rate: the period does not matter.
-            Controller::SECOND_ORDER.step(&self.0, &mut self.1, at(probe), 1.0);
+            Controller::SecondOrder.step(&self.0, &mut self.1, at(probe), 1.0);
             parameters(self.1.parameters)
         }
     }
@@ -46,7 +46,7 @@ pub fn track_settled(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
     impl Contestant for Track {
         fn answer(&mut self, probe: &Probe) -> Answer {
             for _ in 0..STEPS {
-                let step = Controller::SECOND_ORDER.step(&self.0, &mut self.1, at(probe), 1.0);
+                let step = Controller::SecondOrder.step(&self.0, &mut self.1, at(probe), 1.0);
                 if step.outcome != Outcome::Moved || has_settled(&self.1, at(probe).position, self.0.size()) {
                     break;
                 }

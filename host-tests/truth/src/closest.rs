@@ -60,7 +60,7 @@ impl<'a> Solver<'a> {
         // The same search, one evaluation a tick; it ends within the bound of `Body::locate`.
         let located = self.body.locate(probe);
         while !state.is_located {
-            self.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), 1.0);
+            self.body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), 1.0);
         }
         let status = match (self.body.locator().holds(probe), located.complete) {
             (false, _) => Status::Far,
@@ -80,7 +80,7 @@ impl<'a> Solver<'a> {
         while spent < ticks || !state.is_located {
             spent += 1;
             // The gain is certified, not a rate: the period does not matter.
-            let step = self.body.step(&Controller::SECOND_ORDER, state, Probe::at(probe), 1.0);
+            let step = self.body.step(&Controller::SecondOrder, state, Probe::at(probe), 1.0);
             evaluations += u32::from(step.evaluations);
         }
         let (face, parameters) = self.on_a_face(state);

@@ -97,7 +97,7 @@ impl Rides {
     }
 
     fn step(&self, body: &Body, state: &mut BodyWitness, position: Vec3) {
-        body.step(&Controller::SECOND_ORDER, state, Probe::at(position), 1.0 / self.rate);
+        body.step(&Controller::SecondOrder, state, Probe::at(position), 1.0 / self.rate);
     }
 }
 

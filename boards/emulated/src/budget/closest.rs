@@ -21,7 +21,7 @@ const TRAVEL: Vec3 = vec3(0.045, 0.034, 0.032);
 
 #[inline(never)]
 fn tick(body: &Body, witness: &mut BodyWitness, position: &Vec3) -> BodyStep {
-    body.track(&Controller::SECOND_ORDER, witness, Probe::at(*position), 2.5e-4)
+    body.track(&Controller::SecondOrder, witness, Probe::at(*position), 2.5e-4)
 }
 
 #[inline(never)]

@@ -25,7 +25,7 @@ const MODES: [(BoundaryMode, &str); 6] = [
 
 #[inline(never)]
 fn step(patch: &SplinePatch, witness: &mut Witness, position: Vec3) -> Step {
-    Controller::SECOND_ORDER.step(patch, witness, Probe::at(position), 2.5e-4)
+    Controller::SecondOrder.step(patch, witness, Probe::at(position), 2.5e-4)
 }
 
 /// A path around and over the patch: three turns that never close, beyond its borders and through it.

@@ -180,7 +180,7 @@ fn pressed_into_a_corner_it_neither_drifts_nor_explodes() {
             last = probe;
             let velocity = DVec3::new(0.0, 0.0, -0.012 * phase.cos() * 4.0 * core::f64::consts::PI);
             let seen = Probe { position: single(probe), velocity: single(velocity) };
-            scene.follow(&Controller::SECOND_ORDER, &mut state, seen, PERIOD);
+            scene.follow(&Controller::SecondOrder, &mut state, seen, PERIOD);
             force = double(state.force());
             let part = state.part(0).unwrap();
             touched += u32::from(part.contact() == Contact::Touching);

@@ -49,8 +49,8 @@ fn a_body_moved_under_a_probe_is_felt_as_a_probe_moved_over_the_body() {
             }
             scene.lead(&mut state, 0, ride.placement()).unwrap();
             let probe = DVec3::ZERO;
-            scene.follow(&Controller::SECOND_ORDER, &mut state, Probe::at(Vec3::ZERO), PERIOD);
-            alone.follow(&ride, probe, &Controller::SECOND_ORDER);
+            scene.follow(&Controller::SecondOrder, &mut state, Probe::at(Vec3::ZERO), PERIOD);
+            alone.follow(&ride, probe, &Controller::SecondOrder);
             if tick < 200 {
                 continue;
             }
@@ -85,7 +85,7 @@ fn a_body_moved_under_a_probe_is_felt_as_a_probe_moved_over_the_body() {
 fn lag(witness: &BodyWitness, probe: Vec3) -> f64 {
     let mut settled = *witness;
     for _ in 0..30 {
-        BOX.step(&Controller::SECOND_ORDER, &mut settled, Probe::at(probe), PERIOD);
+        BOX.step(&Controller::SecondOrder, &mut settled, Probe::at(probe), PERIOD);
     }
     (double(witness.witness.surface.point) - double(settled.witness.surface.point)).length()
 }
@@ -159,7 +159,7 @@ fn motion_fed_forward_takes_the_lag_of_a_turning_body_away() {
     let certified = mean_lag(&Controller::FirstOrder(FirstOrder::CERTIFIED), path, probe);
     let certified_fed =
         mean_lag(&Controller::FirstOrder(FirstOrder::CERTIFIED.feed_forward(FeedForward::Full)), path, probe);
-    let default = mean_lag(&Controller::SECOND_ORDER, path, probe);
+    let default = mean_lag(&Controller::SecondOrder, path, probe);
     println!("gain 100/s: {plain:.2e} m, fed forward {fed:.2e} m; certified {certified:.2e}, {certified_fed:.2e} m");
     println!("second order {default:.2e} m");
     assert!(fed * 10.0 < plain, "{fed} {plain}");
@@ -177,7 +177,7 @@ fn a_body_that_jumps_into_the_tool_is_not_felt() {
     for (steps, is_felt) in [(1_u16, false), (1_000, true)] {
         let scene = Scene::new(LIMITS, [part(Motion::Resting(at(away.as_vec3())), MATERIAL)]);
         let mut state = scene.rest();
-        let tick = |state: &mut _| scene.follow(&Controller::SECOND_ORDER, state, Probe::at(Vec3::ZERO), PERIOD);
+        let tick = |state: &mut _| scene.follow(&Controller::SecondOrder, state, Probe::at(Vec3::ZERO), PERIOD);
         for _ in 0..200 {
             tick(&mut state);
         }

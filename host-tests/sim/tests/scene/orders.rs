@@ -98,7 +98,7 @@ fn no_order_steps_the_force() {
             expected = match order {
                 Command::Push { .. } | Command::Limit { .. } => {
                     let mut without = before;
-                    scene.follow(&Controller::SECOND_ORDER, &mut without, seen, PERIOD);
+                    scene.follow(&Controller::SecondOrder, &mut without, seen, PERIOD);
                     Some(double(without.force()))
                 }
                 _ => Some(last),
@@ -114,7 +114,7 @@ fn no_order_steps_the_force() {
             }
             felt += u32::from(last.length() > 0.0);
         }
-        scene.follow(&Controller::SECOND_ORDER, &mut state, seen, PERIOD);
+        scene.follow(&Controller::SecondOrder, &mut state, seen, PERIOD);
         let force = double(state.force());
         assert!(force.is_finite(), "{force}");
         touched += u32::from(state.part(state.felt()).unwrap().contact() == Contact::Touching);
@@ -160,7 +160,7 @@ fn a_body_moves_along_as_it_was_told() {
         };
         scene.apply(&mut state, &order).unwrap();
         for _ in 0..(4.0 * RATE) as u32 {
-            scene.follow(&Controller::SECOND_ORDER, &mut state, Probe::at(Vec3::ZERO), PERIOD);
+            scene.follow(&Controller::SecondOrder, &mut state, Probe::at(Vec3::ZERO), PERIOD);
         }
         let placement = state.part(1).unwrap().placement();
         let passed = (seconds * f64::from(RATE)).floor() / f64::from(RATE);
@@ -182,7 +182,7 @@ fn a_force_of_the_host_s_fades_when_it_is_no_longer_asked_for() {
     let mut state = scene.rest();
     let follow = |state: &mut _, ticks: u32| {
         for _ in 0..ticks {
-            scene.follow(&Controller::SECOND_ORDER, state, Probe::at(Vec3::new(0.0, 0.0, 0.2)), PERIOD);
+            scene.follow(&Controller::SecondOrder, state, Probe::at(Vec3::new(0.0, 0.0, 0.2)), PERIOD);
         }
         state.force()
     };

@@ -23,7 +23,7 @@ impl<const N: usize> Oracle<N> {
                 position: placement.point_to_b(probe.position),
                 velocity: placement.direction_to_b(probe.velocity - placement.velocity_at(probe.position)),
             };
-            BOX.step(&Controller::SECOND_ORDER, state, seen, PERIOD);
+            BOX.step(&Controller::SecondOrder, state, seen, PERIOD);
         }
     }
 
@@ -86,7 +86,7 @@ fn strokes<const N: usize>(seed: u64, speed: f64, ticks: u32) -> Delays {
             }
             let probe = Probe { position: single(position), velocity: single(velocity) };
             oracle.follow(now, probe);
-            scene.follow(&Controller::SECOND_ORDER, &mut state, probe, PERIOD);
+            scene.follow(&Controller::SecondOrder, &mut state, probe, PERIOD);
             let touched = (0..N).filter(|index| oracle.touches(*index)).count();
             for (index, since) in since.iter_mut().enumerate() {
                 let felt =
@@ -155,7 +155,7 @@ fn in_a_corner_between_two_bodies_both_push() {
         let down = (f64::from(tick) / 4_000.0).min(1.0);
         // From above the groove into it, along its middle.
         let probe = DVec3::new(0.032 + 0.016 * down, 0.02, 0.044 - 0.016 * down);
-        scene.follow(&Controller::SECOND_ORDER, &mut state, Probe::at(single(probe)), PERIOD);
+        scene.follow(&Controller::SecondOrder, &mut state, Probe::at(single(probe)), PERIOD);
         force = state.force();
     }
     let [level, wall] = [0, 1].map(|index| *state.part(index).unwrap());

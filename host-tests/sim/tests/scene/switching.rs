@@ -59,7 +59,7 @@ fn no_switch_changes_the_force_by_more_than_is_let_go_of_in_a_tick() {
         }
         let velocity = DVec3::new(0.0, 0.0, step / f64::from(PERIOD));
         let seen = Probe { position: single(probe), velocity: single(velocity) };
-        scene.follow(&Controller::SECOND_ORDER, &mut state, seen, PERIOD);
+        scene.follow(&Controller::SecondOrder, &mut state, seen, PERIOD);
         let force = double(state.force());
         touched += u32::from(state.part(state.felt()).unwrap().contact() == Contact::Touching);
         let change = (force - last).length();
@@ -87,7 +87,7 @@ fn contact_begins_only_from_the_front() {
             // No faster than 40 mm/s.
             height += (z - height).clamp(-1e-5, 1e-5);
             let at = Vec3::new(0.03, 0.02, height);
-            scene.follow(&Controller::SECOND_ORDER, state, Probe::at(at), PERIOD);
+            scene.follow(&Controller::SecondOrder, state, Probe::at(at), PERIOD);
         }
     };
     scene.switch(&mut state, 0);

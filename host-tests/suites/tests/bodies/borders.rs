@@ -58,7 +58,7 @@ fn moved(body: &Body, from: Vec3, to: Vec3) -> BodyWitness {
     let mut state = body.start();
     for tick in 0..2 * TICKS {
         let share = (f32::from(tick) / f32::from(TICKS)).min(1.0);
-        body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(from + (to - from) * share), PERIOD);
+        body.step(&Controller::SecondOrder, &mut state, Probe::at(from + (to - from) * share), PERIOD);
     }
     state
 }

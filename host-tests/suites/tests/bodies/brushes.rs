@@ -158,7 +158,7 @@ const HANDOVERS: u32 = 3;
 #[test]
 fn a_brush_is_not_felt_in_free_air() {
     for name in ["capped_box", "ellipsoid_body", "rounded_cylinder", "sphere_body", "thin_plate"] {
-        brushes(Scene::load(name), &Controller::SECOND_ORDER, 0);
+        brushes(Scene::load(name), &Controller::SecondOrder, 0);
     }
 }
 
@@ -172,7 +172,7 @@ fn a_brush_under_the_paper_s_law_is_not_felt_in_free_air() {
 #[test]
 fn a_brush_over_drawn_bodies_is_not_felt_in_free_air() {
     for body in [bodies::groove(), bodies::rounded(), bodies::slab()] {
-        brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, 0);
+        brushes(&Scene::parsed(body.name, &body.text), &Controller::SecondOrder, 0);
     }
 }
 
@@ -198,7 +198,7 @@ fn a_stroke_past_a_rounded_corner_is_not_felt_in_free_air() {
     for (body, [x, y, z, to_x, to_y, to_z, speed]) in strokes {
         let scene = Scene::parsed(body.name, &body.text);
         let stroke = (vec3(x, y, z), vec3(to_x, to_y, to_z), speed);
-        let felt = brush(&scene, &scene.oracle(), &Controller::SECOND_ORDER, stroke);
+        let felt = brush(&scene, &scene.oracle(), &Controller::SecondOrder, stroke);
         assert!(felt.touching > 0, "{}", body.name);
         assert_eq!((felt.in_free_air, felt.lost), (0, 0), "{}: {felt:?}", body.name);
     }
@@ -208,14 +208,14 @@ fn a_stroke_past_a_rounded_corner_is_not_felt_in_free_air() {
 #[test]
 fn a_brush_over_a_tetrahedron_is_not_felt_in_free_air() {
     let body = bodies::tetrahedron();
-    brushes(&Scene::parsed(body.name, &body.text), &Controller::SECOND_ORDER, 0);
+    brushes(&Scene::parsed(body.name, &body.text), &Controller::SecondOrder, 0);
 }
 
 /// Two poles of four patches each: its locator takes minutes.
 #[test]
 #[ignore = "takes minutes"]
 fn a_brush_over_the_ellipsoid_with_poles_is_not_felt_in_free_air() {
-    brushes(Scene::load("ellipsoid_poles"), &Controller::SECOND_ORDER, 0);
+    brushes(Scene::load("ellipsoid_poles"), &Controller::SecondOrder, 0);
 }
 
 #[test]
@@ -223,5 +223,5 @@ fn a_brush_over_the_ellipsoid_with_poles_is_not_felt_in_free_air() {
 fn a_brush_over_a_model_file_is_not_felt_in_free_air() {
     let file = std::env::var_os("PALPATE_MODEL").expect("PALPATE_MODEL names a file");
     let text = std::fs::read_to_string(&file).expect("it can be read");
-    brushes(&Scene::parsed("model", &text), &Controller::SECOND_ORDER, 0);
+    brushes(&Scene::parsed("model", &text), &Controller::SecondOrder, 0);
 }

@@ -22,7 +22,7 @@ fn check(name: &'static str) {
             let mut state =
                 scene.body.start_on(face, [random.between(0.0, 1.0) as f32, random.between(0.0, 1.0) as f32]);
             let arrived = (1..=PATIENCE).find(|_| {
-                scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), 2.5e-4);
+                scene.body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), 2.5e-4);
                 f64::from(state.witness.surface.point.distance(probe)) - truth < ARRIVED * scene.size()
             });
             arrived.unwrap_or_else(|| {

@@ -69,7 +69,7 @@ fn compare(is_wanted: &dyn Fn(&str) -> bool) {
                 }
                 probe += (aim - probe).clamp_length_max(1e-4);
                 let step = |body: &Body<'_>, state: &mut BodyWitness| {
-                    body.step(&Controller::SECOND_ORDER, state, Probe::at(probe), 1.0 / 4_000.0)
+                    body.step(&Controller::SecondOrder, state, Probe::at(probe), 1.0 / 4_000.0)
                 };
                 let (a, b) = (step(&from_file, &mut ours), step(&scene.body, &mut theirs));
                 if format!("{a:?}") != format!("{b:?}") || bits(&ours) != bits(&theirs) {

@@ -6,7 +6,7 @@ use palpate::math::{Vec3, vec3};
 use palpate::track::{Contact, Controller, Probe};
 
 fn tick(body: &Body, state: &mut BodyWitness, probe: Vec3) {
-    body.step(&Controller::SECOND_ORDER, state, Probe::at(probe), 2.5e-4);
+    body.step(&Controller::SecondOrder, state, Probe::at(probe), 2.5e-4);
 }
 
 /// From above the middle of the plate (60 × 40 × 2 mm, its top at z = 2 mm) down to a depth, in steps of 5 µm.

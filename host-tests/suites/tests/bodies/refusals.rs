@@ -83,7 +83,7 @@ fn an_edge_is_not_left_for_its_vertex_before_both_faces_have_declined() {
             let mut state = body.start();
             let mut go = |along: f32, out_of: [f32; 2]| {
                 let offset = spoke.direction * along + first * out_of[0] + second * out_of[1];
-                body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(vertex.point + offset * reach), PERIOD);
+                body.step(&Controller::SecondOrder, &mut state, Probe::at(vertex.point + offset * reach), PERIOD);
                 state.feature
             };
             let rested = (0..500).map(|_| go(-1.0, [1.0, 1.0])).last();
@@ -128,7 +128,7 @@ fn a_rejected_step_over_a_seam_leaves_the_witness_point_on_its_face() {
         let mut state = body.start_on(random.below(body.faces().len()) as u16, start);
         let mut rejected = 0;
         for tick in 0..60 {
-            let step = body.track(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
+            let step = body.track(&Controller::SecondOrder, &mut state, Probe::at(probe), PERIOD);
             rejected += u32::from(step.outcome == Outcome::Rejected);
             let Feature::Face(index) = state.feature else { continue };
             let [u, v] = state.witness.parameters;

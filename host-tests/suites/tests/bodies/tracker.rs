@@ -20,7 +20,7 @@ fn the_closest_point_needs_no_contact() {
             let mut state = scene.body.start();
             // The search, and a step or two on each of a few features, the audit in between.
             for _ in 0..2_000 {
-                scene.body.track(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
+                scene.body.track(&Controller::SecondOrder, &mut state, Probe::at(probe), PERIOD);
             }
             assert_eq!(state.contact, Contact::Behind, "{name}: touched without having been asked");
             f64::from(state.witness.surface.point.distance(probe)) - nearest[0].1.distance
@@ -44,7 +44,7 @@ fn a_start_inside_is_not_felt_before_the_probe_has_been_out() {
         let ticks = (from.distance(to) / stride).ceil() as u32;
         for tick in 1..=ticks {
             let probe = from + (to - from) * (tick as f32 / ticks as f32);
-            scene.body.step(&Controller::SECOND_ORDER, state, Probe::at(probe), PERIOD);
+            scene.body.step(&Controller::SecondOrder, state, Probe::at(probe), PERIOD);
             assert!(state.contact <= most, "{:?} at {probe}, on the way from {from} to {to}", state.contact);
         }
     };
@@ -60,7 +60,7 @@ fn a_start_inside_is_not_felt_before_the_probe_has_been_out() {
         walk(&mut state, at, out, Contact::InFront);
         // The last of the way to the closest point.
         for _ in 0..2_000 {
-            scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(out), PERIOD);
+            scene.body.step(&Controller::SecondOrder, &mut state, Probe::at(out), PERIOD);
         }
         assert!(state.contact == Contact::InFront && state.gap > 0.0, "{:?} outside at {out}", state.contact);
     });
@@ -79,7 +79,7 @@ fn the_contact_holds_over_an_obtuse_edge() {
         let ticks = (leg[0].distance(leg[1]) / 1e-5).ceil() as u32;
         for tick in 0..ticks {
             let probe = leg[0] + (leg[1] - leg[0]) * (tick as f32 / ticks as f32);
-            scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
+            scene.body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), PERIOD);
             let inside = oracle.is_inside_convex(oracle.nearest(probe.as_dvec3(), 0.0)[0].0, probe.as_dvec3());
             assert!(
                 !inside || state.contact == Contact::Touching,
@@ -101,7 +101,7 @@ fn no_contact_begins_with_a_witness_point_left_behind() {
     let mut state = scene.body.start();
     let above = |x: f32, z: f32| vec3(x, 0.02, z);
     for _ in 0..2_000 {
-        scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(above(0.03, 0.05)), PERIOD);
+        scene.body.step(&Controller::SecondOrder, &mut state, Probe::at(above(0.03, 0.05)), PERIOD);
     }
     assert_eq!(state.contact, Contact::InFront);
     let jump = scene.size() as f32 / 8.0;
@@ -137,19 +137,19 @@ fn a_probe_that_jumps_is_located_anew() {
         let mut held = scene.body.start();
         let place = |tick: u32| vec3(0.03, 0.02, 0.05 + (end - 0.05) * tick as f32 / 2_000.0);
         for tick in 0..=2_000 {
-            scene.body.step(&Controller::SECOND_ORDER, &mut held, Probe::at(place(tick)), PERIOD);
+            scene.body.step(&Controller::SecondOrder, &mut held, Probe::at(place(tick)), PERIOD);
         }
         assert_eq!(held.contact, contact);
         for (reach, jumps) in [(0.99, false), (1.01, true)] {
             for aside in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y] {
                 let mut state = held;
                 let probe = place(2_000) + aside * (reach * jump);
-                let step = scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
+                let step = scene.body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), PERIOD);
                 let seen = (step.searched, state.is_located, state.contact);
                 let wanted = (jumps, !jumps, if jumps { Contact::Behind } else { contact });
                 assert_eq!(seen, wanted, "{aside} by {reach} of a jump from {}", place(2_000));
                 for _ in 0..2_000 {
-                    scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
+                    scene.body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), PERIOD);
                 }
                 // Inside, a probe that has jumped has not been in front.
                 let wanted = if jumps && contact == Contact::Touching { Contact::Behind } else { contact };
@@ -181,14 +181,14 @@ fn what_is_no_probe_moves_nothing() {
         for tick in 0..2_000 {
             // From the front.
             let probe = place + Vec3::Z * (0.02 * (1.0 - tick as f32 / 2_000.0));
-            scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD);
+            scene.body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), PERIOD);
         }
         for value in bad {
             for axis in 0..3 {
                 let mut probe = place;
                 probe[axis] = value;
                 let mut after = state;
-                let step = scene.body.step(&Controller::SECOND_ORDER, &mut after, Probe::at(probe), PERIOD);
+                let step = scene.body.step(&Controller::SecondOrder, &mut after, Probe::at(probe), PERIOD);
                 assert!(!step.switched, "{place} {probe}");
                 assert_eq!(after, state, "{place} {probe}");
             }

@@ -48,7 +48,7 @@ fn track(scene: &Scene, way: impl Iterator<Item = DVec3>) -> Vec<Tick> {
     for probe in way.map(|probe| probe.as_vec3()) {
         let before = state.witness.surface.point.distance(probe);
         let was_located = state.is_located;
-        let step = scene.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), PERIOD as f32);
+        let step = scene.body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), PERIOD as f32);
         let distance = state.witness.surface.point.distance(probe);
         if was_located {
             let (rise, feature) = (distance - before, state.feature);

@@ -123,7 +123,7 @@ fn press<S: Surface<Witness = PatchWitness>, K: Kinematics<3>>(
         let place = plant.position().map(|entry| entry as f32);
         let place = vec3(place[0], place[1], place[2]) - origin;
         for _ in 0..30 {
-            Controller::SECOND_ORDER.step(patch, &mut oracle, Probe::at(place), 0.0);
+            Controller::SecondOrder.step(patch, &mut oracle, Probe::at(place), 0.0);
         }
         let normal = oracle.normal(patch).unwrap();
         force += (0..3).map(|axis| motor_force[axis] * wide(normal)[axis]).sum::<f64>() / LAST as f64;

@@ -277,7 +277,7 @@ fn feel(body: &Body<'_>, random: &mut Random) {
         let probe = vec3(place(), place(), place());
         body.locate(probe);
         for _ in 0..8 {
-            body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(probe), 1.0 / 4_000.0);
+            body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), 1.0 / 4_000.0);
         }
     }
 }

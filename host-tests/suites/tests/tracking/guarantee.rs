@@ -100,7 +100,7 @@ fn every_start_converges_without_leaving_the_patch_or_moving_away() {
 
 #[test]
 fn every_start_converges_to_second_order_in_a_few_ticks() {
-    let most = every_start_converges(&Controller::SECOND_ORDER, ", second order");
+    let most = every_start_converges(&Controller::SecondOrder, ", second order");
     measured("ticks to 1e-6 of the size from 441 starts on the convex companion, second order: at most", most);
     assert!(most <= MOST_TICKS, "{most} ticks");
 }

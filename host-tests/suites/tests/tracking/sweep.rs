@@ -168,7 +168,7 @@ fn no_step_leaves_the_patch_or_moves_away_and_every_run_converges() {
 
 #[test]
 fn no_step_of_second_order_leaves_the_patch_or_moves_away_and_every_run_converges() {
-    sweep(&Controller::SECOND_ORDER, ", second order");
+    sweep(&Controller::SecondOrder, ", second order");
 }
 
 fn sweep(controller: &Controller, law: &str) {

@@ -75,7 +75,7 @@ impl Contender {
     pub fn run(self, subject: &Subject, probe: Vec3, start: [f64; 2]) -> Run {
         let (method, errors) = match self {
             Self::Switching => return firmware(&Controller::FirstOrder(FirstOrder::CERTIFIED), subject, probe, start),
-            Self::SecondOrder => return firmware(&Controller::SECOND_ORDER, subject, probe, start),
+            Self::SecondOrder => return firmware(&Controller::SecondOrder, subject, probe, start),
             Self::Newton(errors) => (Method::Newton, errors),
             Self::SaturatedNewton(errors) => (Method::SaturatedNewton, errors),
             Self::ProjectedNewton => (Method::ProjectedNewton, Errors::Covariant),

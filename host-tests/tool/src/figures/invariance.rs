@@ -179,7 +179,7 @@ fn second_order(subject: &Subject, probe: Vec3, start: [f64; 2]) -> Vec<DVec3> {
     let mut witness = Witness::at(patch, start[0] as f32, start[1] as f32);
     let mut points = vec![witness.surface.point.as_dvec3()];
     while points.len() < STEP_LIMIT {
-        let step = Controller::SECOND_ORDER.step(patch, &mut witness, Probe::at(probe), PERIOD as f32);
+        let step = Controller::SecondOrder.step(patch, &mut witness, Probe::at(probe), PERIOD as f32);
         points.push(witness.surface.point.as_dvec3());
         if step.outcome != Outcome::Moved || step.residual() < 4.0 * f32::EPSILON * subject.size as f32 {
             break;

@@ -111,7 +111,7 @@ impl Touring {
             let probe = self.path(time);
             let at = probe.as_vec3();
             let before = state.witness.surface.point.distance(at);
-            self.body.step(&Controller::SECOND_ORDER, &mut state, Probe::at(at), PERIOD as f32);
+            self.body.step(&Controller::SecondOrder, &mut state, Probe::at(at), PERIOD as f32);
             let after = state.witness.surface.point.distance(at);
             let truth = oracle.closest(at.as_dvec3()).distance();
             Sample {
