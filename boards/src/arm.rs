@@ -1,5 +1,5 @@
 //! The servo of a board with three joints: an arm with all protection of its device, which runs by itself. No host
-//! watches it; if a host commands the scene, set `Safety::link_timeout`.
+//! watches it; if a host commands the scene, set `Safety::link_timeout_s`.
 
 use palpate::device::{Device, Homing, Protection, Reference, SerialArm};
 use palpate::scene::{BodyStore, Limits, Material, Motion, Part, Scene, Slot};

@@ -18,11 +18,10 @@ const MOST: usize = 1 << 16;
 
 /// A device that runs by itself, at the other end of a line.
 ///
-/// Nothing here runs behind your back. A device that watches its link ([`palpate::servo::Safety::link_timeout`]) goes
-/// on only while this program calls: each call sends [`HostMessage::Alive`] if nothing was said for [`ALIVE`]. Call
-/// something, [`Self::view`] or [`Self::tend`], at least every third of that timeout. There is no thread that would
-/// keep
-/// a device alive whose program hangs: whoever holds its handle could not let go of what hangs.
+/// No thread runs in the background. A device that watches its link ([`palpate::servo::Safety::link_timeout_s`]) goes
+/// on only while this program calls: each call sends [`HostMessage::Alive`] if no message was sent for [`ALIVE`]. Call
+/// any method, [`Self::view`] or [`Self::tend`], at least every third of that timeout. A background thread would keep the
+/// device alive while the program hangs, and the user could not stop it.
 #[derive(Debug)]
 pub struct Device<L = Port> {
     pub(crate) line: L,

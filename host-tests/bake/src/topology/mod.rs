@@ -1,8 +1,8 @@
 //! The features of a body, from its patches: faces, edges, vertices, poles, open borders.
 //!
-//! Neighbours are found by their borders alone: two that are the same parametrised curve, within [`TOLERANCE`] of the
-//! body's size, are one edge ([`matching`]). What nearly is one is refused by name (`partial`), and so are three faces
-//! on an edge and neighbours that disagree about outside.
+//! Neighbours are found by their borders alone: two borders that are the same parametrised curve, within [`TOLERANCE`]
+//! of the body's size, are one edge (`match_borders`). Borders that match in part only (`partial`), three faces on an edge
+//! and neighbours that disagree about outside are errors.
 
 pub mod border;
 mod edges;
