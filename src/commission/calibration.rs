@@ -1,4 +1,4 @@
-//! What commissioning found, as a record to keep in the chip's flash.
+//! The result of commissioning, as a record for the chip's flash.
 
 use super::{CalibrationError, Wiring};
 use crate::device::drive::{Feed, VoltageFeed};
@@ -21,13 +21,13 @@ const OF_JOINT: usize = 4;
 const ENCODER_WITHIN: f32 = 5.0;
 /// Motors may be stronger or weaker by this factor. More is another motor: a force would be as much too great.
 const TORQUE_WITHIN: f32 = 2.0;
-/// Dry friction may take this share of the torque that the device's greatest force loads a joint with, in the middle of
-/// the joints' ranges. The watch over signs ([`crate::device::PolarityCheck`]) knocks with a quarter of that force at most:
-/// half of a knock is left to move the joint. One that sticks more would never be seen to follow its motor, and no
-/// force would ever come, nor a fault.
+/// Maximum dry friction of a joint, as a fraction of the torque with which the device's maximum force loads the joint
+/// in the middle of the joints' ranges. The polarity check ([`crate::device::PolarityCheck`]) pulses with at most a
+/// quarter of that force, and half of a pulse must remain to move the joint. A joint with more friction would never
+/// follow its motor visibly: the loop would give neither force nor a fault.
 pub(crate) const FRICTION_WITHIN: f32 = 0.125;
 
-/// What was found of a joint.
+/// The measured values of one joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -38,7 +38,7 @@ pub struct JointCalibration {
     pub output: u8,
     /// Joint angle a count, radians; negative where the encoder counts the other way.
     pub radians_per_count: f32,
-    /// What `angle_at_zero_rad` is the angle at.
+    /// The reference of `angle_at_zero_rad`.
     pub zero_of: ZeroOf,
     /// Joint angle there, radians: in the middle of count zero, in the pose, or at the mark.
     pub angle_at_zero_rad: f32,
@@ -48,7 +48,7 @@ pub struct JointCalibration {
     pub dry_friction_n_m: f32,
 }
 
-/// What was found of a device: what differs from arm to arm, and not its mechanism.
+/// The measured values of a device: those that differ from unit to unit. The mechanism is not among them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Calibration<const JOINTS: usize>(
     /// Of each joint.
@@ -136,11 +136,11 @@ impl<const JOINTS: usize> Calibration<JOINTS> {
         Ok(Self(found))
     }
 
-    /// Checks that its zeroes are of what a device is homed by ([`crate::device::Homing::zero_of`]); all are where that
-    /// is found out anew each time.
+    /// Checks that the zeroes have the reference by which a device is homed ([`crate::device::Homing::zero_of`]).
+    /// `None` accepts every zero: that homing measures them at each start.
     ///
     /// # Errors
-    /// [`CalibrationError::ZeroOf`], with the first joint whose zero is of another kind.
+    /// [`CalibrationError::ZeroOf`], with the first joint whose zero has another reference.
     pub fn check_zeroes(&self, homed_by: Option<ZeroOf>) -> Result<(), CalibrationError> {
         let is_other = |joint: &JointCalibration| homed_by.is_some_and(|wanted| joint.zero_of != wanted);
         match self.0.iter().position(is_other) {
@@ -169,12 +169,12 @@ fn is_within(found: f32, built: f32, factor: f32) -> bool {
     ratio >= 1.0 / factor && ratio <= factor
 }
 
-/// The feed of a motor that was found to give so many times the torque it was built with.
+/// The feed of a motor whose measured torque is `factor` times the torque in the compiled-in preset.
 ///
-/// What it makes up for of the back-EMF turns round with the motor, and never grows: more of it than there is drives
-/// the motor on. A torque constant so many times as great has a back-EMF so many times as great; a supply so many times
-/// as great makes up for so many times as much; nothing tells which it is. So it is taken less by the factor either
-/// way, and what is then not made up for brakes.
+/// The compensated back-EMF never grows: more of it than the motor generates would accelerate the motor. A torque
+/// constant that is higher by a factor generates more back-EMF by that factor; a supply that is higher by a factor
+/// compensates more by that factor; the measurement cannot tell the two apart. So the compensation is reduced by the
+/// factor in both cases, and the uncompensated rest brakes.
 fn fed(feed: Feed, factor: f32) -> Feed {
     let Feed::Voltage(built) = feed else { return feed };
     let size = factor.abs();
@@ -183,14 +183,14 @@ fn fed(feed: Feed, factor: f32) -> Feed {
 }
 
 impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Device<K, JOINTS> {
-    /// The same device as commissioning found it: encoders, motors and dry friction. Its mechanism, ranges and limits
-    /// stay.
+    /// The same device with the values that commissioning measured: encoders, motors and dry friction. Its mechanism,
+    /// ranges and limits stay.
     ///
     /// # Errors
-    /// What cannot be of this device: a number that is not finite, a joint without an input or output of its own; an
-    /// encoder more than five times as fine or as coarse as it was built with, or whose zero lies more than a turn
-    /// outside of the joint's range; a motor more than twice as strong or as weak; a friction of more than an eighth of
-    /// what the greatest force loads the joint with, or one that the motor does not overcome.
+    /// A value that cannot belong to this device: a number that is not finite, a joint without an input or output of
+    /// its own; an encoder more than five times as fine or as coarse as in the preset, or whose zero lies more than a
+    /// turn outside of the joint's range; a motor more than twice as strong or as weak; a friction of more than an
+    /// eighth of the torque with which the maximum force loads the joint, or one that the motor does not overcome.
     pub fn calibrated(&self, found: &Calibration<JOINTS>) -> Result<Self, CalibrationError> {
         found.wiring()?;
         let loads = self.max_loads();

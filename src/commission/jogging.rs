@@ -3,11 +3,12 @@
 use crate::device::{Counts, Duty};
 use thiserror::Error;
 
-/// What a frame must carry while the key is held: no number that a broken host would send by itself.
+/// The value that a frame must carry while the key is held: not a number that a faulty host would send by accident.
 pub const KEY: u32 = 0x6865_6c64;
 /// Seconds in which a duty grows to its limit.
 const RAMP: f32 = 0.1;
-/// Seconds of motion at the greatest speed that come at once without being called too fast: counts are whole.
+/// Motion that is accepted at once, in seconds at maximum speed: counts are whole numbers, so one count in a tick is
+/// not excess speed.
 const SLACK: f32 = 0.02;
 
 /// A command, as it comes over the link.
@@ -25,12 +26,12 @@ pub struct Jog {
     pub duty: i16,
 }
 
-/// What the device allows. Constant, in its flash.
+/// The device's limits for jogging. Constant, in its flash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JogLimits<const JOINTS: usize> {
-    /// The greatest duty of each motor: above dry friction and weight, below what would hurt.
+    /// Maximum duty of each motor: above dry friction and the links' weight, below a force that hurts.
     pub max_duty: [Duty; JOINTS],
-    /// The greatest speed of any encoder, counts/s.
+    /// Maximum speed of each encoder, counts/s.
     pub max_speed_counts_per_s: f32,
     /// How far any encoder may go while the key is held, counts.
     pub max_travel_counts: u32,
@@ -53,7 +54,7 @@ pub enum JogLimitsError {
     Patience,
 }
 
-/// What ended a jog.
+/// Why a jog ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
@@ -73,7 +74,7 @@ pub enum JogRefusal {
     /// Another motor was asked for while the key was held.
     #[error("let the key go before another motor")]
     OtherMotor = 5,
-    /// A drive did not do what it was told, or its amplifier is no longer ready.
+    /// A drive did not apply its duty, or its amplifier is no longer ready.
     #[error("a drive does not respond")]
     Drive = 6,
     /// The tick took too long.
@@ -108,7 +109,7 @@ pub struct Jogging<const JOINTS: usize> {
     ramp: i32,
 }
 
-/// What changes from tick to tick.
+/// The state that changes from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JogState<const JOINTS: usize> {
     /// The last frame's number; `None` before the first.
@@ -142,12 +143,12 @@ impl<const JOINTS: usize> Default for JogState<JOINTS> {
 }
 
 impl<const JOINTS: usize> JogState<JOINTS> {
-    /// What the motors are given now.
+    /// The duties of the motors now.
     pub const fn duties(&self) -> [Duty; JOINTS] {
         self.duties
     }
 
-    /// What ended the last jog; it stands until the key is let go.
+    /// Why the last jog ended; latched until the key is released.
     pub const fn refusal(&self) -> Option<JogRefusal> {
         self.refusal
     }

@@ -9,11 +9,12 @@
 //! - the enable input of the device is held;
 //! - every sensor answers, and nothing moves faster or further than its limit.
 //!
-//! What ends a jog is a [`JogRefusal`], which stands until the key is let go. Another motor needs the key let go too.
+//! A jog that ends reports a [`JogRefusal`], which is latched until the key is released. To jog another motor, release
+//! the key first.
 
 //!
-//! What was found is a [`Calibration`]: a record that may be kept in the chip's flash, and is looked at with suspicion
-//! at every start ([`crate::device::Device::calibrated`]).
+//! The result is a [`Calibration`]: a record that may be kept in the chip's flash, and is validated at every start
+//! ([`crate::device::Device::calibrated`]).
 
 mod calibration;
 mod calibration_error;

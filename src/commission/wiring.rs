@@ -25,7 +25,7 @@ impl<const JOINTS: usize> Wiring<JOINTS> {
         (is_each_once(&inputs) && is_each_once(&outputs)).then_some(Self { inputs, outputs })
     }
 
-    /// What the joints are, of what the inputs are.
+    /// Reorders values from the inputs' order to the joints' order.
     #[inline]
     pub fn joints<T: Copy>(&self, at_inputs: [T; JOINTS]) -> [T; JOINTS] {
         let mut joints = at_inputs;
@@ -38,13 +38,13 @@ impl<const JOINTS: usize> Wiring<JOINTS> {
         joints
     }
 
-    /// What the inputs are, of what the joints are.
+    /// Reorders values from the joints' order to the inputs' order.
     #[inline]
     pub fn inputs<T: Copy>(&self, at_joints: [T; JOINTS]) -> [T; JOINTS] {
         spread(self.inputs, at_joints)
     }
 
-    /// What the outputs get, of what the joints get.
+    /// Reorders values from the joints' order to the outputs' order.
     #[inline]
     pub fn outputs<T: Copy>(&self, at_joints: [T; JOINTS]) -> [T; JOINTS] {
         spread(self.outputs, at_joints)

@@ -32,7 +32,7 @@ impl CoggingMap {
     #[inline]
     pub fn torque(&self, angle: f32) -> f32 {
         let turns = angle * (1.0 / core::f32::consts::TAU);
-        // The cast saturates and makes a NaN 0; the fraction of what is not finite is not finite.
+        // The cast saturates and turns NaN into 0; the fraction of a number that is not finite stays not finite.
         let whole = turns as i32 as f32;
         let fraction = turns - whole;
         let entries = self.table.len() as f32;

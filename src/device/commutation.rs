@@ -29,7 +29,7 @@ pub struct Commutation {
     pub pole_pairs: u16,
 }
 
-/// What an alignment finds out.
+/// The result of an alignment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Aligned {
@@ -46,7 +46,7 @@ impl Aligned {
         Counts(self.at_zero.0 as i32 | (self.reversed as i32) << 16)
     }
 
-    /// What [`Self::mark`] was made of.
+    /// The inverse of [`Self::mark`].
     pub(crate) const fn of_mark(Counts(mark): Counts) -> Self {
         Self { at_zero: ElectricalAngle(mark as u16), reversed: mark >> 16 & 1 != 0 }
     }
@@ -72,7 +72,7 @@ impl Commutation {
     pub fn rotor(&self, aligned: Aligned, Counts(counts): Counts) -> ElectricalAngle {
         // Nothing here divides by zero or wraps where the numbers are valid; elsewhere it is not to panic.
         let turn = if self.counts_per_turn == 0 { 1 } else { self.counts_per_turn };
-        // Below 2²⁰ · 2⁸ = 2²⁸, then what is left of an electrical turn, below 2²⁰, times 2¹⁶ as 64 bits.
+        // Below 2²⁰ · 2⁸ = 2²⁸; then the remainder of an electrical turn, below 2²⁰, times 2¹⁶ in 64 bits.
         let in_turn = i64::from(counts).rem_euclid(i64::from(turn)) as u32;
         let in_electrical = in_turn.wrapping_mul(u32::from(self.pole_pairs)) % turn;
         // Of the middle of the count, as the joint's angle is.

@@ -3,7 +3,7 @@
 use super::Device;
 use thiserror::Error;
 
-/// What is wrong with a device's constant, and of which joint, counted from 0.
+/// Which constant of a device is invalid, and of which joint, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum DeviceError {
@@ -16,7 +16,7 @@ pub enum DeviceError {
     /// The dry friction is negative or not finite.
     #[error("joint {0}: the dry friction must be finite and not negative")]
     Friction(usize),
-    /// The range's least angle is not below its greatest.
+    /// The range's minimum angle is not below its maximum.
     #[error("joint {0}: the range's minimum must be below its maximum, and both finite")]
     Range(usize),
     /// A limit of the whole device is not positive and finite.

@@ -3,15 +3,15 @@
 use super::{CoggingMap, Kinematics, ProbePose};
 use crate::math::vec3;
 
-/// A dial on a motor's shaft, felt at its rim.
+/// A dial on a motor's shaft, rendered at its rim.
 ///
-/// Joint angle, radians: as the sensor has it. As with [`super::Paddle`] the probe's place is the arc that the rim has
-/// gone, `x = r θ`, so that one dimension stays one, and turns are told apart; y and z stay zero.
+/// Joint angle, radians: as the sensor has it. As with [`super::Paddle`] the probe's place is the arc length of the
+/// rim, `x = r θ`, so that the device stays one-dimensional and turns differ; y and z stay zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dial {
     /// Radius of the rim, where the fingers are, `r`, metres.
     pub radius_m: f32,
-    /// What cancels the motor's cogging.
+    /// Compensation of the motor's cogging.
     pub cogging: Option<CoggingMap>,
 }
 

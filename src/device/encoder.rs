@@ -7,13 +7,13 @@ pub struct Counts(pub i32);
 
 /// An encoder on a motor shaft, seen through the transmission.
 ///
-/// A counter that reads `n` says that line `n` was passed and line `n + 1` not yet: the joint is anywhere between the
-/// two, and least wrong on average in the middle. Read at the line itself, every angle would lean half a count the same
-/// way, and a spring with it: 2 % of the force of a wall pressed in by 1.3 mm on a Falcon. So
-/// [`Self::angle_at_zero_rad`] is the middle of count zero, which costs the tick nothing.
+/// A counter reading of `n` means that line `n` was passed and line `n + 1` was not: the joint is anywhere between the
+/// two, and the middle has the smallest mean error. An angle read at the line itself would be off by half a count on
+/// average, always to the same side, and a spring with it: 2 % of the force of a wall pressed in by 1.3 mm on a Falcon.
+/// So [`Self::angle_at_zero_rad`] is the middle of count zero, which costs the tick nothing.
 ///
-/// Where the counter was set to zero by hand in some pose, and not at a line, the pose itself is anywhere in count
-/// zero: an offset of up to half a count stays, which only homing on a mark or a stop finds.
+/// If the counter was set to zero by hand in some pose, and not at a line, the pose itself is anywhere in count zero:
+/// an offset of up to half a count stays, which only homing on a mark or a stop removes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoder {
     /// Joint angle per count, radians; negative where the encoder counts the other way.
@@ -23,7 +23,7 @@ pub struct Encoder {
 }
 
 impl Encoder {
-    /// An encoder of so many radians of the joint a count, whose count steps from −1 to 0 at `angle_at_line`, radians.
+    /// An encoder from radians of the joint per count and the angle, radians, at which its count steps from −1 to 0.
     pub const fn new(radians_per_count: f32, angle_at_line: f32) -> Self {
         Self { radians_per_count, angle_at_zero_rad: angle_at_line + 0.5 * radians_per_count }
     }

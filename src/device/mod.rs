@@ -1,8 +1,8 @@
 //! The device: encoder counts to joint angles to the probe, and a force at the probe back to motor duty.
 //!
 //! One direction in, one out: [`sensor`] → [`Encoder`] → [`Kinematics`] → … → [`Kinematics`] (transposed Jacobian) →
-//! [`Motor`] → [`drive`]. [`Homing`] finds out where the joints are to begin with. A new device is a [`Kinematics`] and
-//! a preset in [`presets`]; one, two and three joints are alike to the servo.
+//! [`Motor`] → [`drive`]. [`Homing`] finds the joints' absolute angles at the start. A new device is a [`Kinematics`]
+//! and a preset in [`presets`]; the servo treats one, two and three joints alike.
 
 mod cogging;
 mod commutation;
@@ -79,23 +79,23 @@ pub struct Device<K, const JOINTS: usize> {
     pub feeds: [drive::Feed; JOINTS],
     /// Dry friction of each joint, N·m, generously; 0 where it is not known. A joint may stick under a load below it.
     pub dry_friction_n_m: [f32; JOINTS],
-    /// Least and greatest angle of each joint, radians: what lies outside is a sensor fault.
+    /// Minimum and maximum angle of each joint, radians: an angle outside is a sensor fault.
     pub joint_range_rad: [[f32; 2]; JOINTS],
     /// Below this [`ProbePose::singularity_margin`], m/rad, the device counts as outside its workspace.
     pub min_margin_m_per_rad: f32,
-    /// The greatest believable joint speed, rad/s: what is faster is a sensor fault.
+    /// Maximum plausible joint speed, rad/s: a faster one is a sensor fault.
     pub max_joint_rate_rad_per_s: f32,
-    /// The greatest force the device is to be asked for, N.
+    /// Maximum force of the device, N.
     pub max_force_n: f32,
-    /// The greatest stiffness recommended for it, N/m.
+    /// Maximum recommended stiffness, N/m.
     pub max_stiffness_n_per_m: f32,
-    /// The greatest damping recommended for it, N·s/m.
+    /// Maximum recommended damping, N·s/m.
     pub max_damping_n_s_per_m: f32,
 }
 
 impl<K, const JOINTS: usize> Device<K, JOINTS> {
-    /// The joint angles at which its encoders count zero, radians: the pose that homing by [`Reference::Pose`] is told
-    /// where the counts are to be zero.
+    /// The joint angles, radians, at which the encoders count zero: the pose in which homing by [`Reference::Pose`]
+    /// sets the counts to zero.
     pub const fn angles_at_zero(&self) -> [f32; JOINTS] {
         let mut angles = [0.0; JOINTS];
         let mut joint = 0;
@@ -109,7 +109,7 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
 
 /// How wide the rim of a joint's range is, radians.
 const RIM: f32 = 0.05;
-/// The rim of a singularity, as a share of the least margin.
+/// The width of the fade at a singularity, as a fraction of the minimum margin.
 const MARGIN_RIM: f32 = 0.25;
 
 impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
@@ -136,10 +136,10 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
         to_stop
     }
 
-    /// How much room there is to the rim of the workspace, for joints so far from their stops (radians,
-    /// [`Self::to_stop`]) and a pose that is finite: 1 well inside, 0 on the rim and outside, and in between the share
-    /// of the last 0.05 rad of a joint's range or of the last quarter of the least margin over a singularity, whichever
-    /// is less. A force times this lets go smoothly at the rim, and keeps its direction.
+    /// The workspace margin, 0 to 1, from the distance of the joints to their stops (radians, [`Self::to_stop`]) and a
+    /// finite pose: 1 well inside, 0 on the rim and outside. In between it is the smaller of two fractions: of the last
+    /// 0.05 rad of a joint's range, and of the last quarter above the minimum margin over a singularity. The loop
+    /// multiplies the force by it, so that the force fades out at the rim and keeps its direction.
     #[inline]
     pub fn workspace_margin(&self, to_stop: f32, pose: &ProbePose<JOINTS>) -> f32 {
         let over = pose.margin() - self.min_margin_m_per_rad;
@@ -151,10 +151,10 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
         saturate(if of_range < of_margin { of_range } else { of_margin }, 0.0, 1.0)
     }
 
-    /// What each drive is to be told so that its motor gives this duty of torque at this joint rate, rad/s.
+    /// Each drive's command for a duty of torque at a joint rate, rad/s.
     ///
-    /// Unless `live` it is zero: a bridge makes up for back-EMF even where no torque is asked for, and after a fault
-    /// the rates are not to be believed. On zero volts a motor brakes by itself.
+    /// Unless `live` it is zero: a bridge compensates back-EMF even where no torque is requested, and after a fault the
+    /// rates are untrusted. At zero volts a motor brakes by itself.
     #[inline]
     pub fn feed(&self, live: bool, duties: [Duty; JOINTS], joint_rates: [f32; JOINTS]) -> [Duty; JOINTS] {
         if !live {

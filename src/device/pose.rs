@@ -37,12 +37,13 @@ impl<const JOINTS: usize> ProbePose<JOINTS> {
         }
     }
 
-    /// How far from a singularity, m/rad: a lower bound of the Jacobian's least singular value, exact for one joint.
+    /// Distance from a singularity, m/rad: a lower bound of the Jacobian's smallest singular value, exact for one
+    /// joint.
     ///
-    /// However the joints turn, a unit of joint rates moves the probe at least this fast; a joint torque of 1 N·m can
-    /// press with at most its inverse, in newtons. From `σ₁σ₂σ₃ = |det J|` and `σ₁σ₂ ≤ (σ₁² + σ₂²)/2`: `σ₃ ≥ 2 |det J|
-    /// / ‖J‖²`; for two joints `σ₂ ≥ |j₁ × j₂| / ‖J‖` (Frobenius norms). Zero at a singularity and where the pose is
-    /// not finite, and for more than three joints.
+    /// For every direction of the joint rates, a unit of joint rates moves the probe at least this fast; a joint torque
+    /// of 1 N·m presses with at most the inverse, in newtons. From `σ₁σ₂σ₃ = |det J|` and `σ₁σ₂ ≤ (σ₁² + σ₂²)/2`: `σ₃ ≥
+    /// 2 |det J| / ‖J‖²`; for two joints `σ₂ ≥ |j₁ × j₂| / ‖J‖` (Frobenius norms). Zero at a singularity and where the
+    /// pose is not finite, and for more than three joints.
     pub fn singularity_margin(&self) -> f32 {
         let margin = self.margin();
         if margin.is_finite() && self.position.is_finite() { margin } else { 0.0 }
@@ -61,13 +62,13 @@ impl<const JOINTS: usize> ProbePose<JOINTS> {
     }
 }
 
-/// What has 1 with `column` and 0 with `other`, in their plane.
+/// The vector in their plane whose dot product with `column` is 1 and with `other` 0.
 fn beside(column: Vec3, other: Vec3) -> Vec3 {
     let rest = column - other * (column.dot(other) / other.length_squared());
     rest / rest.dot(column)
 }
 
-/// What has 1 with `column` and 0 with `a` and `b`.
+/// The vector whose dot product with `column` is 1 and with `a` and `b` 0.
 #[inline]
 fn across(column: Vec3, a: Vec3, b: Vec3) -> Vec3 {
     let normal = a.cross(b);

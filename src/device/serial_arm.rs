@@ -21,9 +21,9 @@ pub struct SerialArm {
     pub second_link_m: f32,
     /// The centre of the workspace, metres from the foot of the turntable.
     pub workspace_centre_m: Vec3,
-    /// What each link lifts, as a mass at its end, kg: its own mass times the distance of its centre from its axis over
-    /// its length, and for the first also all that hangs on its end. Negative where it is overbalanced; zero if not
-    /// known.
+    /// Mass that each link lifts, referred to its end, kg: its own mass times the distance of its centre from its axis
+    /// over its length, and for the first also all masses beyond its end. Negative where it is overbalanced; zero if
+    /// not known.
     pub end_masses_kg: [f32; 2],
 }
 

@@ -100,7 +100,7 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
     }
 }
 
-/// What a feed gives back of the back-EMF, V, at a rate of 2 rad/s.
+/// The back-EMF, V, that a feed compensates at a rate of 2 rad/s.
 fn made_up_for(feed: Feed) -> f32 {
     let Feed::Voltage(VoltageFeed { supply_v: supply, .. }) = feed else { panic!("a bridge") };
     feed.command(Duty::ZERO, 2.0).fraction() * supply
@@ -129,9 +129,9 @@ fn back_emf_is_made_up_for_the_way_a_motor_was_found_to_turn_and_never_by_more_t
             let now = made_up_for(device.feeds[1]) / before;
             // A motor that turns the other way has its back-EMF the other way.
             assert_eq!(now.signum(), factor.signum(), "{factor}");
-            // Whichever of them made the torque another one, what is made up for is no more of the back-EMF than was
-            // built: the torque constant (which the back-EMF goes with), the supply (which what is made up for goes
-            // with), the resistance (with which neither does). A step of 2⁻¹⁵ of 12 V is 0.05 %.
+            // Whichever of the three changed the torque, the compensation is no more of the back-EMF than the preset's:
+            // the torque constant (proportional to the back-EMF), the supply (proportional to the compensation), the
+            // resistance (proportional to neither). A step of 2⁻¹⁵ of 12 V is 0.05 %.
             let [by_constant, by_supply, by_resistance] = [now.abs() / size, now.abs() * size, now.abs()];
             for share in [by_constant, by_supply, by_resistance] {
                 assert!((0.2..=1.001).contains(&share), "{factor}: {share}");
@@ -144,7 +144,7 @@ fn back_emf_is_made_up_for_the_way_a_motor_was_found_to_turn_and_never_by_more_t
 
 #[test]
 fn no_word_makes_a_device_that_none_is() {
-    // Numbers as they come, with the CRC that they have: what is taken is a device all the same.
+    // Random numbers with a valid CRC: a record that is accepted gives a valid device.
     let mut random = 1_u32;
     let mut next = || {
         random ^= random << 13;

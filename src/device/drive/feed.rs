@@ -1,4 +1,4 @@
-//! What a drive is told so that its motor gives the torque asked for.
+//! The drive's command for a requested torque.
 
 use crate::device::Duty;
 
@@ -12,7 +12,7 @@ pub enum Feed {
 }
 
 impl Feed {
-    /// What the drive is to be told for a duty of torque at a joint rate, rad/s.
+    /// The drive's command, as a duty, for a duty of torque at a joint rate, rad/s.
     #[inline]
     pub fn command(&self, torque: Duty, joint_rate: f32) -> Duty {
         match self {
@@ -36,8 +36,8 @@ pub struct VoltageFeed {
     pub current_at_full_a: f32,
     /// Turns of the motor for one of the joint, `N`; negative where it turns the other way.
     pub ratio: f32,
-    /// How much of the back-EMF is made up for, 0 to 1. Short of 1, so that an error in `k` or in the rate cannot drive
-    /// the motor on; what is left brakes.
+    /// The compensated fraction of the back-EMF, 0 to 1. Below 1, so that an error in `k` or in the rate cannot
+    /// accelerate the motor; the uncompensated rest brakes.
     pub back_emf_fraction: f32,
 }
 
@@ -46,10 +46,10 @@ impl VoltageFeed {
     ///
     /// Seen from its rotor such a motor is a brushed one: `v = R i + k ω` and `τ = k i` across the magnets, with the
     /// scale of Park's transformation that keeps the power (R. H. Park, *Two-reaction theory of synchronous machines*,
-    /// 1929). In that scale the stage's full voltage is `supply/√2`, `phase_resistance` is that of one phase, half of
-    /// what is measured between two wires, and `k` follows from the speed at which the motor, turned, gives a volt
-    /// between two wires, `rpm_per_volt` (KV): `k = 30/(π KV √2)`. Along the magnets there is no voltage, and at a
-    /// dial's speeds next to no current either.
+    /// 1929). In that scale the stage's full voltage is `supply/√2`, and `phase_resistance` is that of one phase: half
+    /// of the resistance measured between two wires. `k` follows from `rpm_per_volt` (KV), the speed at which the
+    /// turned motor generates one volt between two wires: `k = 30/(π KV √2)`. Along the magnets there is no voltage,
+    /// and at a dial's speeds next to no current either.
     pub const fn three_phase(supply: f32, phase_resistance: f32, rpm_per_volt: f32, current_at_full: f32) -> Self {
         Self {
             supply_v: supply * core::f32::consts::FRAC_1_SQRT_2,

@@ -1,4 +1,4 @@
-//! What a motor with three phases is given.
+//! The field of a motor with three phases.
 
 use crate::device::{Duty, ElectricalAngle};
 

@@ -45,7 +45,7 @@ pub enum DriveError<W, P> {
 
 /// The stage between a duty and a motor.
 pub trait Drive {
-    /// What can go wrong at the pins.
+    /// The error of a pin or pulse-width output.
     type Error;
 
     /// Where the field is that the duties from now on make. A motor that has no phases takes no notice.
@@ -54,13 +54,13 @@ pub trait Drive {
     /// Drives the motor at a duty.
     ///
     /// # Errors
-    /// A pin or pulse-width output that did not obey. The drive's state is then unknown: call [`Self::release`].
+    /// A pin or pulse-width output that failed. The drive's state is then unknown: call [`Self::release`].
     fn apply(&mut self, duty: Duty) -> Result<(), Self::Error>;
 
-    /// Zero output. Tries every pin, whatever fails.
+    /// Zero output. Sets every pin, even after one failed.
     ///
     /// # Errors
-    /// The first pin or output that did not obey.
+    /// The first pin or output that failed.
     fn release(&mut self) -> Result<(), Self::Error>;
 }
 

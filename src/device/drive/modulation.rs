@@ -11,9 +11,9 @@ const HALF_ROOT_THREE: f32 = 0.866_025_4;
 /// How the voltages of three phases are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modulation {
-    /// The share of a pulse-width period in which neither switch of a leg conducts, at each change: dead time times
-    /// frequency. The current then goes through a diode, and the phase lacks that share of the supply against its
-    /// current; it is made up for. Zero for what is not known.
+    /// The fraction of a pulse-width period in which neither switch of a leg conducts, at each change: dead time times
+    /// frequency. The current then flows through a diode, and the phase loses that fraction of the supply, against its
+    /// current; the modulation compensates it. Zero if it is not known.
     pub dead_fraction: f32,
     /// The phase voltage, as a share of the supply, whose current is as large as half of its ripple. Below it the
     /// current has both signs within a period, and less and less of the dead time shows.

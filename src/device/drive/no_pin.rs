@@ -3,7 +3,7 @@
 use core::convert::Infallible;
 use embedded_hal::digital::{ErrorType, OutputPin};
 
-/// In the place of an output that a board does not have: it takes whatever it is told.
+/// Stands for an output that a board does not have: accepts every level and pulse width.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NoPin;
 

@@ -8,8 +8,8 @@ use embedded_hal::pwm::SetDutyCycle;
 /// Three half-bridges, each with a pulse width for its upper switch, behind a pin that enables them, high: DRV8313,
 /// L6234, and gate drivers of their kind.
 ///
-/// A motor on it is given the voltage of a [`super::VoltageFeed`] ([`super::VoltageFeed::three_phase`]) at the angle
-/// that [`Drive::aim`] was told last.
+/// The stage applies the voltage of a [`super::VoltageFeed`] ([`super::VoltageFeed::three_phase`]) at the electrical
+/// angle of the last [`Drive::aim`].
 #[derive(Debug)]
 pub struct ThreePhase<A, B, C, E> {
     widths: (A, B, C),
@@ -30,7 +30,7 @@ impl<A: SetDutyCycle, B: SetDutyCycle, C: SetDutyCycle, E: OutputPin> ThreePhase
         (self.widths, self.enable)
     }
 
-    /// Sends three widths, whatever fails; whether all obeyed.
+    /// Sets all three widths, even after one failed; true if none failed.
     fn send(&mut self, [a, b, c]: [f32; 3]) -> bool {
         fn set<W: SetDutyCycle>(output: &mut W, width: f32) -> bool {
             // At most 32,767, for a width is at most 1; the cast saturates.
@@ -40,7 +40,7 @@ impl<A: SetDutyCycle, B: SetDutyCycle, C: SetDutyCycle, E: OutputPin> ThreePhase
     }
 }
 
-/// What of a stage did not obey.
+/// The error of a stage: which output failed.
 type StageError = DriveError<(), ()>;
 
 impl<A: SetDutyCycle, B: SetDutyCycle, C: SetDutyCycle, E: OutputPin> Drive for ThreePhase<A, B, C, E> {
@@ -65,7 +65,7 @@ impl<A: SetDutyCycle, B: SetDutyCycle, C: SetDutyCycle, E: OutputPin> Drive for 
         Ok(())
     }
 
-    /// The enable pin first, then the widths at zero: the lower switches, should the pin not obey, brake the motor.
+    /// The enable pin first, then the widths at zero: if the pin fails, the lower switches brake the motor.
     fn release(&mut self) -> Result<(), StageError> {
         self.enabled = false;
         self.aim = None;

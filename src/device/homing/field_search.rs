@@ -30,18 +30,18 @@ pub struct FieldSearch {
 
 /// How far the rotor may be from where it is on average, in 65,536ths of an electrical turn: a sixth.
 const ASTRAY: i32 = 65_536 / 6;
-/// How much less or more than its field the rotor may turn on the way there, as a share: cogging at both ends. One pole
-/// pair more or less of up to 14 is told by it.
+/// Tolerance of the rotor's turn against its field's, as a fraction: cogging at both ends. It still detects an error of
+/// one pole pair in up to 14.
 const INEXACT: f32 = 0.07;
 /// How much less it may turn on the way back: it turns only once the field has pulled friction the other way.
 const HELD_BACK: f32 = 0.3;
 
-/// What changes from tick to tick.
+/// The state of a search, from tick to tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sweep {
     /// Ticks done.
     ticks: u32,
-    /// Where the rotor was when it was to be caught, and then where the measured way began.
+    /// The counts at which the field should catch the rotor, and later those at which the measured travel started.
     began: Counts,
     /// Where it turned back.
     turned: Counts,
@@ -51,7 +51,7 @@ pub(super) struct Sweep {
     mean: f32,
 }
 
-/// What a tick of it came to.
+/// The result of one tick.
 pub(super) enum Led {
     /// Go on with this torque, N·m, at the field of the state.
     Drive(f32),
@@ -77,8 +77,8 @@ impl FieldSearch {
         self.ramp_ticks.saturating_add(self.turn_ticks.saturating_mul(1 + 2 * self.turns as u32))
     }
 
-    /// Where the field is at a tick, how far it has come up, 0 to 1, and whether the rotor is measured there. What a
-    /// recording of the cogging needs to know besides the counts.
+    /// The field's angle at a tick, its amplitude so far, 0 to 1, and whether the rotor is measured in that tick. A
+    /// recording of the cogging needs these besides the counts.
     pub fn plan(&self, tick: u32) -> (ElectricalAngle, f32, bool) {
         let turn = if self.turn_ticks == 0 { 1 } else { self.turn_ticks };
         let Some(led) = tick.checked_sub(self.ramp_ticks) else {
@@ -87,7 +87,7 @@ impl FieldSearch {
         let there = turn.saturating_mul(1 + u32::from(self.turns));
         // There, and from its end back.
         let along = if led < there { led } else { there.saturating_sub(led - there) };
-        // What is left of a turn, below 2²⁰, times 2¹⁶ as 64 bits.
+        // The remainder of a turn, below 2²⁰, times 2¹⁶ in 64 bits.
         let angle = ((u64::from(along % turn) << 16) / u64::from(turn)) as u16;
         (ElectricalAngle(angle), 1.0, led >= turn)
     }
@@ -112,7 +112,7 @@ impl FieldSearch {
         Led::Drive(self.torque_n_m * share)
     }
 
-    /// Counts that the rotor goes in so many electrical turns.
+    /// Counts that the rotor travels in a number of electrical turns.
     fn counts_of(&self, turns: u16) -> f32 {
         self.commutation.counts_per_turn as f32 / f32::from(self.commutation.pole_pairs) * f32::from(turns)
     }
@@ -171,7 +171,7 @@ impl FieldSearch {
         self.plan(sweep.ticks.saturating_sub(1)).0
     }
 
-    /// Every bit of the state, once it has begun.
+    /// Every bit of the state, once the search has started.
     pub(super) fn bits(sweep: &Sweep) -> [u32; 5] {
         let Sweep { ticks, began, turned, first, mean } = *sweep;
         [ticks, began.0 as u32, turned.0 as u32, first.mark().0 as u32, mean.to_bits()]

@@ -1,4 +1,4 @@
-//! Where the joints are to begin with: from raw counts to calibrated encoders.
+//! Homing: from raw counts to calibrated encoders.
 
 mod field_search;
 mod reference;

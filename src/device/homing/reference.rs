@@ -1,19 +1,19 @@
-//! What is known of the joints before they are homed.
+//! The reference by which joints are homed.
 
 use super::{FieldSearch, StopSearch};
 use crate::device::Counts;
 
-/// What is known of the joints at a pose that can be recognised.
+/// The joint angles at a pose that can be recognised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reference<const JOINTS: usize> {
     /// The hand holds the device still in a mechanical reference pose, at these joint angles, radians.
     Pose([f32; JOINTS]),
-    /// As a pose, with absolute sensors that must read these counts there, give or take the tolerance: what is kept
-    /// from assembly tells a device that was put down wrong, or put together wrong.
+    /// As a pose, with absolute sensors that must read these counts there, within the tolerance: the counts stored at
+    /// assembly detect a device that was put down or assembled wrongly.
     KnownPose {
         /// Joint angles at the pose, radians.
         angles: [f32; JOINTS],
-        /// What the sensors read there.
+        /// The sensors' counts in the pose.
         counts: [Counts; JOINTS],
         /// How far off they may be, counts.
         tolerance: u32,

@@ -14,18 +14,18 @@ pub(super) enum Stage {
     Field(Sweep),
 }
 
-/// What changes from tick to tick.
+/// The state of homing, from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HomingState<const JOINTS: usize> {
     pub(super) ticks: u32,
     pub(super) still: u32,
-    /// What the device moved away from last.
+    /// The counts against which standing still is judged: those of the last movement.
     pub(super) anchor: Option<[Counts; JOINTS]>,
-    /// What has been found out: counts, or how a rotor stands to its field ([`Aligned::mark`]).
+    /// The results so far: counts, or a rotor's alignment to its field ([`Aligned::mark`]).
     pub(super) marks: [Option<Counts>; JOINTS],
     /// The search under way.
     pub(super) stage: Stage,
-    /// What that joint is driven with, N·m.
+    /// The torque on that joint, N·m.
     pub(super) torque: f32,
     pub(super) end: Option<Result<(), Refusal>>,
 }
@@ -50,8 +50,7 @@ impl<const JOINTS: usize> HomingState<JOINTS> {
         matches!(self.end, Some(Ok(())))
     }
 
-    /// Homing waits, and who knows where the joints go meanwhile: the stage it was in begins anew. What it has found
-    /// stays.
+    /// Pauses homing. Joints may move meanwhile, so the current stage starts again; results so far stay.
     pub(crate) fn pause(&mut self) {
         self.stage = match self.stage {
             Stage::Stop(search) => Stage::Stop(search.again()),
@@ -66,12 +65,12 @@ impl<const JOINTS: usize> HomingState<JOINTS> {
         self.marks.map(|mark| Aligned::of_mark(mark.unwrap_or_default()))
     }
 
-    /// The search for a stop that is under way, or one that begins.
+    /// The running search for a stop, or a new one.
     pub(super) fn search(&self) -> Search {
         if let Stage::Stop(search) = self.stage { search } else { Search::default() }
     }
 
-    /// The search for a field that is under way, or one that begins.
+    /// The running search for a field, or a new one.
     pub(super) fn sweep(&self) -> Sweep {
         if let Stage::Field(sweep) = self.stage { sweep } else { Sweep::default() }
     }

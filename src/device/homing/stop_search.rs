@@ -12,7 +12,7 @@ pub struct StopSearch {
     pub angle_rad: f32,
     /// Speed towards the stop, rad/s; its sign is the way. Beyond four times this the search is refused.
     pub speed_rad_per_s: f32,
-    /// The greatest torque, N·m: above dry friction and weight, below what would hurt.
+    /// Maximum torque, N·m: above dry friction and the links' weight, below a force that hurts.
     pub torque_n_m: f32,
     /// How far it moves away first, radians. Make it all of the way to the other stop, less a little, to prove that
     /// nothing is in between.
@@ -23,17 +23,17 @@ pub struct StopSearch {
 
 /// Seconds in which the torque grows to its limit where the joint does not move.
 const RAMP: f32 = 0.15;
-/// Share of the greatest torque that a joint at rest gets at once.
+/// Fraction of the maximum torque that a joint at rest gets at once.
 const AT_ONCE: f32 = 0.2;
 /// How far a joint may be moved against the way it is driven, radians: less is the sag of an arm that is not held yet.
 const ASTRAY: f32 = 0.1;
 /// How much faster than asked for a joint may move.
 const HASTE: f32 = 4.0;
 
-/// What changes from tick to tick.
+/// The state of a search, from tick to tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Search {
-    /// Where this stage began.
+    /// The counts at which this stage started.
     from: Option<Counts>,
     /// Whether it came off.
     cleared: bool,
@@ -51,7 +51,7 @@ impl Search {
     }
 }
 
-/// What a tick of the search came to.
+/// The result of one tick.
 pub(super) enum Seek {
     /// Go on with this torque, N·m.
     Drive(f32),
@@ -60,7 +60,7 @@ pub(super) enum Seek {
     Refused(Refusal),
 }
 
-/// What a tick of the search knows of its joint.
+/// The search's input of a tick: its joint.
 pub(super) struct Joint {
     pub encoder: Encoder,
     pub counts: Counts,

@@ -116,10 +116,10 @@ fn with_encoders_that_were_measured_each_way_of_homing_has_the_angles_that_they_
     };
     let (zeroes, counts) = (found.map(|encoder| encoder.angle_at_zero_rad), [Counts(100), Counts(-100)]);
     for (built, expected) in [
-        // What was measured is the angle in the pose, or at the mark.
+        // The measured zero is the angle in the pose, or at the mark.
         (Reference::Pose(ANGLES), Reference::Pose(zeroes)),
         (Reference::Index(ANGLES), Reference::Index(zeroes)),
-        // What was measured is the angle at count zero, and the pose is elsewhere.
+        // The measured zero is the angle at count zero; the pose is elsewhere.
         (
             Reference::KnownPose { angles: ANGLES, counts, tolerance: 3 },
             Reference::KnownPose {

@@ -13,8 +13,8 @@ const FEED: VoltageFeed = VoltageFeed::three_phase(12.0, 7.5, 80.0, CURRENT_AT_F
 ///
 /// Eleven pole pairs, 7.5 Ω a phase and 80 rpm/V as published by users of the motor (eliferin14/
 /// GBM5208-75T_system_identification, which cites its sellers). So 84 mN·m/A, and 63 mN·m at full duty, for which the
-/// motor needs 5.6 of the 8.5 V that the stage gives at most. Assumed: friction, and the greatest stiffness and
-/// damping, which the simulated knob takes. The cogging is each motor's own: record it ([`crate::device::CoggingMap`]).
+/// motor needs 5.6 of the 8.5 V that the stage gives at most. Assumed: friction, and the maximum stiffness and damping,
+/// which the simulated knob takes. The cogging is each motor's own: record it ([`crate::device::CoggingMap`]).
 pub const GIMBAL_KNOB: Device<Dial, 1> = Device {
     kinematics: Dial { radius_m: 0.02, cogging: None },
     encoders: [Encoder::geared(COUNTS, 1.0, 0.0)],
@@ -32,15 +32,15 @@ pub const GIMBAL_KNOB: Device<Dial, 1> = Device {
 /// How the sensor of [`GIMBAL_KNOB`] goes with the motor's poles.
 pub const GIMBAL_KNOB_COMMUTATION: Commutation = Commutation { counts_per_turn: 16_384, pole_pairs: 11 };
 
-/// What protects [`GIMBAL_KNOB`].
+/// Protection of [`GIMBAL_KNOB`].
 ///
-/// Users of the motor cite one point at which a seller has it hold, 0.47 A at 5 V, and not for how long; 0.4 A of it
-/// are counted on, in whichever phase has the most ([`Endurance::three_phase`]): 41 of the 63 mN·m for ever. 20 s are
-/// assumed, short for a winding of its weight. Faster than nine and a half turns a second under force is a motor that
-/// runs away, or a spring that was wound up by far and let go.
+/// Users of the motor cite one point at which a seller has it hold, 0.47 A at 5 V, without a duration. This protection
+/// assumes 0.4 A continuous, in whichever phase has the most ([`Endurance::three_phase`]): 41 of the 63 mN·m. It
+/// assumes 20 s, short for a winding of its weight. Above nine and a half turns a second under force, the motor runs
+/// away, or a spring that was wound up by far was released.
 ///
-/// No watch over signs: it would look for contacts that begin in free air, which a knob has none of, and the alignment
-/// sees at every start which way the counts go when the motor turns. The supply is for whoever measures it to add.
+/// No polarity check: it needs contacts that start in free air, which a knob does not have, and the alignment finds the
+/// polarity at every start. No supply range: add one if your board measures the supply.
 pub const GIMBAL_KNOB_PROTECTION: Protection<1> = Protection {
     motors: [Endurance::three_phase(0.4, CURRENT_AT_FULL, 20.0)],
     max_joint_rates_rad_per_s: [60.0],

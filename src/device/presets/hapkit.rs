@@ -11,7 +11,7 @@ const RATIO: f32 = 0.073_152 / 0.004_191;
 /// Handle 65.659 mm, sector 73.152 mm on a pulley of 4.191 mm; 726.6 sensor counts for ten degrees of the handle, so 16
 /// µm a count at the hand. Source: reitermarkus/hapkit, `constants.hpp`. Motor 0.03 N·m, which is 8 N at the handle.
 /// Assumed: the winding (10 Ω and 0.025 N·m/A on 12 V give those 0.03 N·m at standstill), directions (counts and duty
-/// rise towards x), greatest stiffness and damping; the paddle's weight is not known and left out.
+/// rise towards x), maximum stiffness and damping; the paddle's weight is not known and left out.
 pub const HAPKIT: Device<Paddle, 1> = Device {
     kinematics: Paddle { handle_m: 0.065_659, mass_moment_kg_m: 0.0 },
     encoders: [Encoder::new(core::f32::consts::PI / 18.0 / 726.6, 0.0)],

@@ -11,9 +11,9 @@ const DEGREE: f32 = core::f32::consts::PI / 180.0;
 /// Cranks 70 mm, rods 90 mm, pivots 38 mm apart; 4,880 counts a turn of the joint, so 90 µm at a crank's end; folded
 /// back against its stops the cranks stand at 168° and 12°, which is zero counts. Source: the `Pantograph` class and
 /// set-up of Haply's course material. 0.123 N·m a joint, as that software scales it. Assumed: the drive (2,048 counts a
-/// turn of the motor make the ratio; 4 Ω, 3 A on 12 V), directions, greatest stiffness and damping. 1.3 N is what the
-/// motors give in every direction at the workspace centre, which is ours. The frame: x to the right, y away from the
-/// pivots.
+/// turn of the motor make the ratio; 4 Ω, 3 A on 12 V), directions, maximum stiffness and damping. 1.3 N is the force
+/// that the motors reach in every direction at the workspace centre, which is ours. The frame: x to the right, y away
+/// from the pivots.
 pub const HAPLY_2DIY_V3: Device<FiveBar, 2> = Device {
     kinematics: FiveBar {
         second_pivot_m: 0.038,

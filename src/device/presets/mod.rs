@@ -1,7 +1,7 @@
 //! Devices by name, with where their numbers come from.
 //!
-//! What a source states is stated with it; what is ours is said to be assumed. Ranges, greatest rates and least margins
-//! are ours throughout: wide enough for the workspace and for a hand at 2 to 3 m/s.
+//! Published numbers name their source; our own are marked as assumed. Ranges, maximum rates and minimum margins are
+//! ours throughout: wide enough for the workspace and for a hand at 2 to 3 m/s.
 
 mod falcon;
 mod gimbal_knob;

@@ -9,12 +9,12 @@ use core::f32::consts::FRAC_PI_2;
 ///
 /// Links 209.55 and 169.545 mm; 13.3:1, 11.2:1 and 11.2:1; 0.0234 N·m/A, 0.129 N·m at most (5.5 A); and the balance of
 /// the links, which all but carry themselves (a counterweight of 31.75 mm lever among them): the dynamic model of
-/// Çavuşoğlu, Feygin and Tendick (2001) as measured anew in a public implementation, where the angles count the first
+/// Çavuşoğlu, Feygin and Tendick (2001) as measured again in a public implementation, where the angles count the first
 /// link up from level and the second up from hanging. Zero counts is that pose, and its probe the origin: first link
-/// level, second hanging. Resolution is published as 0.03 mm, so 4,000 counts are assumed; greatest force (what the
-/// motors give at the origin along every axis), stiffness and damping too. The frame: x away from the base, z up. At 4
-/// kHz 1,500 N/m and 5 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1.4 %, and no
-/// count moves.
+/// level, second hanging. Resolution is published as 0.03 mm, so 4,000 counts are assumed; maximum force (the force
+/// that the motors reach at the origin along every axis), stiffness and damping too. The frame: x away from the base, z
+/// up. At 4 kHz 1,500 N/m and 5 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1.4
+/// %, and no count moves.
 pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
         base_height_m: 0.0,

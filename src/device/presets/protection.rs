@@ -1,13 +1,13 @@
-//! What protects the devices that ship.
+//! Protection of the devices that ship.
 //!
 //! The continuous currents and time constants are those of motors with the torque constants that the sources state,
 //! from memory of their data sheets and not checked against these; inertias are those of the simulated devices at the
-//! middle of their workspaces. Check yours against your motors' sheets. The greatest speeds are ours: a hand that
-//! touches does not reach them, a device that is let go under force does after some centimetres.
+//! middle of their workspaces. Check yours against your motors' data sheets. The maximum speeds are ours: a hand that
+//! touches a surface stays below them, a device that is released under force exceeds them after some centimetres.
 
 use crate::device::{Endurance, PolarityCheck, Protection};
 
-/// A Maxon RE 30 of 24 V: 3.4 A for ever, 16 s; the device's amplifiers give 3 A.
+/// A Maxon RE 30 of 24 V: 3.4 A continuous, 16 s; the device's amplifiers give 3 A.
 const RE_30_24_V: Endurance = Endurance { continuous: 1.1, time_constant_s: 16.0 };
 /// A Maxon RE 30 of 48 V: 1.66 A of 3 A.
 const RE_30_48_V: Endurance = Endurance { continuous: 0.55, time_constant_s: 16.0 };
@@ -34,7 +34,7 @@ pub const POLHEM_V2_PROTECTION: Protection<3> = Protection {
     polarity: Some(PolarityCheck { inertia_kg_m2: [5.1e-3, 4.8e-3, 5.6e-4] }),
 };
 
-/// Of [`super::PHANTOM_PREMIUM`]. Its 1.4 N for ever is what a Phantom Premium 1.5 is sold with.
+/// Of [`super::PHANTOM_PREMIUM`]. Its continuous 1.4 N is the rating of a Phantom Premium 1.5.
 pub const PHANTOM_PREMIUM_PROTECTION: Protection<3> = Protection {
     motors: [RE_25_24_V; 3],
     max_joint_rates_rad_per_s: [15.0; 3],

@@ -14,7 +14,7 @@ use crate::math::vec3;
 /// masses 170 and 110 g with centres at 51 and 91 mm, from the same driver; its gravity compensation lifts the second
 /// link at the sum of both centres instead of at the first link's end, which is not followed here. At 4 kHz 1,000 N/m
 /// and 2 to 8 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1 %, and no count
-/// moves. The joint range and the greatest rate are ours: wide enough for its workspace and for a hand at 3 m/s.
+/// moves. The joint range and the maximum rate are ours: wide enough for its workspace and for a hand at 3 m/s.
 pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
         base_height_m: 0.080,

@@ -68,7 +68,7 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
     /// [`SensorError::Absent`], [`SensorError::Magnet`], and what a frame can suffer.
     pub fn start(&mut self) -> Result<(), SensorError<S::Error>> {
         self.asked = false;
-        // What answers this first frame was asked for by nobody we know: an error flag in it is about to be cleared.
+        // The answer to this first frame belongs to an unknown request: an error flag in it is about to be cleared.
         self.exchange(ERRORS)?;
         match self.exchange(self.diagnostics()).and_then(Self::checked) {
             // The answer to the command that clears the flag still carries it.

@@ -1,11 +1,11 @@
-//! A sensor that says the very same again and again.
+//! Detection of a sensor whose reading never changes.
 
-/// Tells a sensor that has frozen from a joint that is held still.
+/// Tells a frozen sensor from a joint that is held still.
 ///
-/// A magnetic sensor's last bits are never quiet: an AS5047P's noise is 0.068° (data sheet, 1 σ), three of its counts.
-/// A reading that does not change by a single count for hundreds of ticks is no measurement any more, whatever the
-/// frame's parity says. Where one joint alone is felt nothing else can tell: there is no other joint to compare it
-/// with. Do not use it with an encoder that counts lines, which may well stand still.
+/// A magnetic sensor's last bits always carry noise: an AS5047P's is 0.068° (data sheet, 1 σ), three of its counts. A
+/// reading that does not change by a single count for hundreds of ticks is no measurement any more, even if the frame's
+/// parity is correct. On a device with one joint there is no other joint to compare it with. Do not use it with an
+/// encoder that counts lines, which may well stand still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frozen {
     most: u32,
@@ -14,7 +14,7 @@ pub struct Frozen {
 }
 
 impl Frozen {
-    /// A watch that bears so many readings in a row that are all the same.
+    /// A detector that accepts up to `most` equal readings in a row.
     pub const fn after(most: u32) -> Self {
         Self { most, last: None, same: 0 }
     }

@@ -13,7 +13,7 @@ pub struct Mt6701<S> {
     bus: S,
 }
 
-/// What the sensor says.
+/// One reading of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mt6701Reading {
     /// The angle as the chip was selected, 0 to 16,383 a turn.

@@ -6,8 +6,8 @@ use crate::device::Counts;
 /// Counts on over the wrap of a number of `BITS` bits, 1 to 32: a timer that counts an encoder, or the angle of a
 /// single-turn sensor.
 ///
-/// Between two readings the position must move less than half the range, or the way round is unknown; a smaller
-/// greatest step tells a glitch from motion.
+/// Between two readings the position must move less than half the range, or the way round is unknown; a smaller maximum
+/// step tells a glitch from motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unwrap<const BITS: u32> {
     max_step: i32,
@@ -21,8 +21,7 @@ pub type TimerCount = Unwrap<16>;
 pub type TurnCount = Unwrap<14>;
 
 impl<const BITS: u32> Unwrap<BITS> {
-    /// What the count starts from is the first reading. A step beyond `max_step` counts between two readings is
-    /// refused.
+    /// The count starts from the first reading. A step beyond `max_step` counts between two readings is refused.
     pub const fn new(max_step: i32) -> Self {
         const { assert!(BITS >= 1 && BITS <= 32) };
         Self { max_step, last: None, total: 0 }
