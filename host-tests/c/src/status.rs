@@ -3,7 +3,7 @@
 use core::ffi::{CStr, c_char};
 use palpate_core::body::FileError;
 use palpate_core::device::{DeviceError, HomingError};
-use palpate_core::servo::{Fault, ProtectionError, RenderingError, SafetyError, SettingsError};
+use palpate_core::servo::{ConfigError, Fault, ProtectionError, RenderingError, SafetyError, SettingsError};
 
 /// What a call came to. Whatever it is but `Ok`, nothing has been done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -208,6 +208,18 @@ impl From<DeviceError> for Status {
     }
 }
 
+impl From<ConfigError> for Status {
+    fn from(error: ConfigError) -> Self {
+        match error {
+            ConfigError::Settings(error) => error.into(),
+            ConfigError::Rendering(error) => error.into(),
+            ConfigError::Safety(error) => error.into(),
+            ConfigError::Protection(error) => error.into(),
+            _ => Self::OutOfRange,
+        }
+    }
+}
+
 impl From<SettingsError> for Status {
     fn from(error: SettingsError) -> Self {
         match error {
@@ -218,6 +230,7 @@ impl From<SettingsError> for Status {
             SettingsError::VelocityCorner => Self::SettingsVelocityCorner,
             SettingsError::SoftStart => Self::SettingsSoftStart,
             SettingsError::BodyOrigin => Self::SettingsBodyOrigin,
+            _ => Self::OutOfRange,
         }
     }
 }
@@ -230,8 +243,8 @@ impl From<RenderingError> for Status {
             RenderingError::Texture => Self::SettingsTexture,
             RenderingError::Coupling => Self::SettingsCoupling,
             RenderingError::Passivity => Self::SettingsPassivity,
-            // What a C caller cannot choose.
-            RenderingError::Ease => Self::OutOfRange,
+            // Parts that a C caller cannot choose.
+            _ => Self::OutOfRange,
         }
     }
 }
@@ -241,8 +254,8 @@ impl From<SafetyError> for Status {
         match error {
             SafetyError::Damping => Self::SettingsSafeDamping,
             SafetyError::LinkTimeout => Self::SettingsLinkTimeout,
-            // The defaults, which are right.
-            SafetyError::Stuck | SafetyError::Contact => Self::OutOfRange,
+            // Limits that a C caller cannot choose.
+            _ => Self::OutOfRange,
         }
     }
 }
@@ -255,6 +268,7 @@ impl From<ProtectionError> for Status {
             ProtectionError::Speed => Self::ProtectionSpeed,
             ProtectionError::Supply => Self::ProtectionSupply,
             ProtectionError::Inertia => Self::ProtectionInertia,
+            _ => Self::OutOfRange,
         }
     }
 }
