@@ -385,30 +385,6 @@ typedef struct palpate_paddle {
     float mass_moment; /**< kg·m; 0 if balanced or not known. */
 } palpate_paddle;
 
-/** palpate_mechanism::kind. */
-enum {
-    PALPATE_SERIAL_ARM = 1,  /**< Three joints. */
-    PALPATE_DELTA = 2,       /**< Three joints. */
-    PALPATE_LINKAGE_ARM = 3, /**< Three joints. */
-    PALPATE_FIVE_BAR = 4,    /**< Two joints. */
-    PALPATE_PADDLE = 5       /**< One joint. */
-};
-
-/** The numbers of any mechanism. */
-typedef union palpate_any_mechanism {
-    palpate_serial_arm serial_arm;   /**< Of #PALPATE_SERIAL_ARM. */
-    palpate_delta delta;             /**< Of #PALPATE_DELTA. */
-    palpate_linkage_arm linkage_arm; /**< Of #PALPATE_LINKAGE_ARM. */
-    palpate_five_bar five_bar;       /**< Of #PALPATE_FIVE_BAR. */
-    palpate_paddle paddle;           /**< Of #PALPATE_PADDLE. */
-} palpate_any_mechanism;
-
-/** A mechanism: its kind, and its numbers. The union takes as much memory as its largest member. */
-typedef struct palpate_mechanism {
-    uint32_t kind;            /**< Which. */
-    palpate_any_mechanism of; /**< The member that the kind names is read. */
-} palpate_mechanism;
-
 /** A loop's settings. Begin with palpate_settings_default(). */
 typedef struct palpate_settings {
     float rate;               /**< Servo rate, Hz, 1 to 100,000. */
@@ -519,7 +495,7 @@ enum {
     PALPATE_PHASE_FAULT = 4      /**< Stopped; only a new start leaves it. */
 };
 
-/** Why the chip was reset: the last argument of palpate_servo_start(). */
+/** Why the chip was reset: the last argument of the functions that start a loop. */
 enum {
     PALPATE_RESET_POWER_ON = 0,  /**< Power was switched on. */
     PALPATE_RESET_PIN = 1,       /**< The reset pin, or a debugger. */
@@ -573,23 +549,78 @@ typedef struct palpate_state {
 } palpate_state;
 
 /**
- * Starts a loop. The library holds the loops of all mechanisms, protected or not, unless it was built with fewer of its
- * features (`--no-default-features --features serial-arm`); one that it does not hold is #PALPATE_OUT_OF_RANGE.
+ * Starts a loop without protection on a serial arm, which has three joints. The linker drops the loops that a program
+ * does not start.
  *
- * @param servo       where it goes
+ * @param servo       memory for the loop
  * @param servo_bytes `sizeof` it
  * @param mechanism   the mechanism
  * @param device      the device's numbers; as many joints are read as the mechanism has
- * @param body        the body to render, which stays
+ * @param body        the body to render; it must outlive the loop
  * @param settings    the settings
- * @param protection  the limits of motors and joints, for as many joints; NULL for a loop without protection, which is
- *                    smaller and faster
  * @param reset       why the chip was reset
  */
-palpate_status palpate_servo_start(palpate_servo *servo, size_t servo_bytes, const palpate_mechanism *mechanism,
-                                   const palpate_device *device, const palpate_body *body,
-                                   const palpate_settings *settings, const palpate_protection *protection,
-                                   uint32_t reset);
+palpate_status palpate_servo_start_serial_arm(palpate_servo *servo, size_t servo_bytes,
+                                              const palpate_serial_arm *mechanism, const palpate_device *device,
+                                              const palpate_body *body, const palpate_settings *settings,
+                                              uint32_t reset);
+/** The same on a delta, which has three joints. */
+palpate_status palpate_servo_start_delta(palpate_servo *servo, size_t servo_bytes, const palpate_delta *mechanism,
+                                         const palpate_device *device, const palpate_body *body,
+                                         const palpate_settings *settings, uint32_t reset);
+/** The same on a linkage arm, which has three joints. */
+palpate_status palpate_servo_start_linkage_arm(palpate_servo *servo, size_t servo_bytes,
+                                               const palpate_linkage_arm *mechanism, const palpate_device *device,
+                                               const palpate_body *body, const palpate_settings *settings,
+                                               uint32_t reset);
+/** The same on a five-bar, which has two joints. */
+palpate_status palpate_servo_start_five_bar(palpate_servo *servo, size_t servo_bytes,
+                                            const palpate_five_bar *mechanism, const palpate_device *device,
+                                            const palpate_body *body, const palpate_settings *settings,
+                                            uint32_t reset);
+/** The same on a paddle, which has one joint. */
+palpate_status palpate_servo_start_paddle(palpate_servo *servo, size_t servo_bytes, const palpate_paddle *mechanism,
+                                          const palpate_device *device, const palpate_body *body,
+                                          const palpate_settings *settings, uint32_t reset);
+
+/**
+ * Starts a loop with protection on a serial arm. It is larger and slower than a loop without.
+ *
+ * @param servo       memory for the loop
+ * @param servo_bytes `sizeof` it
+ * @param mechanism   the mechanism
+ * @param device      the device's numbers; as many joints are read as the mechanism has
+ * @param body        the body to render; it must outlive the loop
+ * @param settings    the settings
+ * @param protection  the limits of motors and joints, for as many joints
+ * @param reset       why the chip was reset
+ */
+palpate_status palpate_servo_start_serial_arm_protected(palpate_servo *servo, size_t servo_bytes,
+                                                        const palpate_serial_arm *mechanism,
+                                                        const palpate_device *device, const palpate_body *body,
+                                                        const palpate_settings *settings,
+                                                        const palpate_protection *protection, uint32_t reset);
+/** The same on a delta, which has three joints. */
+palpate_status palpate_servo_start_delta_protected(palpate_servo *servo, size_t servo_bytes,
+                                                   const palpate_delta *mechanism, const palpate_device *device,
+                                                   const palpate_body *body, const palpate_settings *settings,
+                                                   const palpate_protection *protection, uint32_t reset);
+/** The same on a linkage arm, which has three joints. */
+palpate_status palpate_servo_start_linkage_arm_protected(palpate_servo *servo, size_t servo_bytes,
+                                                         const palpate_linkage_arm *mechanism,
+                                                         const palpate_device *device, const palpate_body *body,
+                                                         const palpate_settings *settings,
+                                                         const palpate_protection *protection, uint32_t reset);
+/** The same on a five-bar, which has two joints. */
+palpate_status palpate_servo_start_five_bar_protected(palpate_servo *servo, size_t servo_bytes,
+                                                      const palpate_five_bar *mechanism, const palpate_device *device,
+                                                      const palpate_body *body, const palpate_settings *settings,
+                                                      const palpate_protection *protection, uint32_t reset);
+/** The same on a paddle, which has one joint. */
+palpate_status palpate_servo_start_paddle_protected(palpate_servo *servo, size_t servo_bytes,
+                                                    const palpate_paddle *mechanism, const palpate_device *device,
+                                                    const palpate_body *body, const palpate_settings *settings,
+                                                    const palpate_protection *protection, uint32_t reset);
 
 /**
  * One tick, from encoder counts to duties. The output is off unless the call comes back with #PALPATE_OK.

@@ -71,27 +71,6 @@ pub struct PaddleNumbers {
     pub mass_moment: f32,
 }
 
-/// The numbers of any mechanism.
-#[derive(Clone, Copy)]
-#[repr(C)]
-pub union AnyMechanism {
-    pub serial_arm: SerialArmNumbers,
-    pub delta: DeltaNumbers,
-    pub linkage_arm: LinkageArmNumbers,
-    pub five_bar: FiveBarNumbers,
-    pub paddle: PaddleNumbers,
-}
-
-/// A mechanism: its kind, and its numbers.
-#[derive(Clone, Copy)]
-#[repr(C)]
-pub struct Mechanism {
-    pub kind: u32,
-    pub of: AnyMechanism,
-}
-
-// SAFETY: an integer and floats; every member of the union may hold any bits.
-unsafe impl Plain for Mechanism {}
 // SAFETY: floats alone.
 unsafe impl Plain for SerialArmNumbers {}
 // SAFETY: floats alone.

@@ -60,7 +60,7 @@ pub struct Parts<P> {
 pub unsafe fn begin<M: MechanismNumbers, const JOINTS: usize, P: Guarding<JOINTS>>(
     servo: *mut Handle<Started>,
     servo_bytes: usize,
-    mechanism: &M,
+    mechanism: *const M,
     parts: Parts<P>,
 ) -> Result<(), Status>
 where
@@ -72,7 +72,7 @@ where
     // SAFETY: the caller's memory for the loop.
     let place = unsafe { Handle::vacate(servo, servo_bytes) }?;
     // SAFETY: the caller's numbers.
-    let (device, settings) = unsafe { (get(device)?, get(settings)?) };
+    let (mechanism, device, settings) = unsafe { (get(mechanism)?, get(device)?, get(settings)?) };
     // SAFETY: the caller's body, which stays.
     let (standing, body) = unsafe { Standing::on(body) }?;
     let device: Device<M::Mechanism, JOINTS> = device.device(mechanism.mechanism()?)?;

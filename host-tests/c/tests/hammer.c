@@ -26,8 +26,7 @@ static palpate_pair pair;
 static palpate_servo servo;
 static palpate_receiver receiver;
 
-static const palpate_mechanism arm = {
-    PALPATE_SERIAL_ARM, {.serial_arm = {0.08f, 0.205f, 0.245f, {0.22f, 0, 0.08f}, {0.15f, 0.04f}}}};
+static const palpate_serial_arm arm = {0.08f, 0.205f, 0.245f, {0.22f, 0, 0.08f}, {0.15f, 0.04f}};
 static palpate_device device;
 static palpate_settings settings;
 static const palpate_protection protection = {
@@ -242,21 +241,15 @@ static palpate_status bad_pair(void)
     return status;
 }
 
-static palpate_status start_arm(palpate_servo *one, size_t bytes, const palpate_mechanism *mechanism,
-                                const palpate_device *of, const palpate_body *on, const palpate_settings *set,
-                                uint32_t reset)
-{
-    return palpate_servo_start(one, bytes, mechanism, of, on, set, NULL, reset);
-}
+#define start_arm palpate_servo_start_serial_arm
 
 static palpate_status bad_servo(void)
 {
     palpate_servo *one = malloc(sizeof *one);
-    palpate_mechanism no_arm = arm, no_kind = arm;
+    palpate_serial_arm no_arm = arm;
     palpate_device no_device = device;
     palpate_settings no_settings = settings;
-    ((float *)&no_arm.of.serial_arm)[any(sizeof arm.of.serial_arm / sizeof(float))] = bad_float();
-    no_kind.kind = any(2) ? 0 : 6 + any(99);
+    ((float *)&no_arm)[any(sizeof arm / sizeof(float))] = bad_float();
     /* Every number of the device but the feed's ratio and what only a voltage needs must be finite. */
     ((float *)&no_device)[any(sizeof device / sizeof(float))] = NAN;
     /* Up to the timeout they are floats, and none may be NaN; without friction its stiffness is not looked at. */
@@ -266,7 +259,7 @@ static palpate_status bad_servo(void)
     ((float *)&no_settings)[any(offsetof(palpate_settings, max_overruns) / sizeof(float))] = NAN;
     void *no_body = no_handle(&body, sizeof body);
     palpate_status status;
-    switch (any(12)) {
+    switch (any(11)) {
     case 0: status = start_arm(one, sizeof *one, &no_arm, &device, &body, &settings, 0); break;
     case 1: status = start_arm(one, sizeof *one, &arm, &no_device, &body, &settings, 0); break;
     case 2: status = start_arm(one, sizeof *one, &arm, &device, &body, &no_settings, 0); break;
@@ -277,7 +270,6 @@ static palpate_status bad_servo(void)
     case 7: status = start_arm(one, sizeof *one, &arm, NULL, &body, &settings, 0); break;
     case 8: status = start_arm(one, sizeof *one, &arm, &device, &body, NULL, 0); break;
     case 9: status = start_arm(NULL, sizeof *one, &arm, &device, &body, &settings, 0); break;
-    case 10: status = start_arm(one, sizeof *one, &no_kind, &device, &body, &settings, 0); break;
     default: status = start_arm(ASKEW(one), sizeof *one, &arm, &device, &body, &settings, 0); break;
     }
     if (status != PALPATE_OK) {
@@ -289,7 +281,7 @@ static palpate_status bad_servo(void)
     return status;
 }
 
-#define start_protected palpate_servo_start
+#define start_protected palpate_servo_start_serial_arm_protected
 
 static palpate_status bad_protection(void)
 {
@@ -306,7 +298,7 @@ static palpate_status bad_protection(void)
     case 5: none.least_supply = none.most_supply + any(9); break;
     case 6: no_settings.texture_share = 1.5f; break;
     case 7:
-        status = start_protected(one, sizeof *one, &arm, &device, &body, &settings, ASKEW(&none), 0);
+        status = start_protected(one, sizeof *one, &arm, &device, &body, &settings, any(2) ? NULL : ASKEW(&none), 0);
         free(one);
         return status;
     default:
@@ -430,7 +422,7 @@ int main(int count, char **arguments)
     good("load", palpate_body_load(&body, sizeof body, file, file_bytes, buffer, info.buffer_bytes));
     good("start", palpate_start(&tracker, sizeof tracker, &body));
     good("pair", palpate_pair_start(&pair, sizeof pair, &body, 0, &body, 0));
-    good("servo", palpate_servo_start(&servo, sizeof servo, &arm, &device, &body, &settings, NULL, 0));
+    good("servo", start_arm(&servo, sizeof servo, &arm, &device, &body, &settings, 0));
     good("receiver", palpate_receiver_start(&receiver, sizeof receiver));
     use(&body);
 

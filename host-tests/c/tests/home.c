@@ -40,10 +40,9 @@ int main(int count, char **arguments)
     const size_t ticks = count_bytes / sizeof(int32_t[3]), passed = mark_bytes / sizeof(int32_t[2]);
     if (homing_bytes != sizeof *homing) return 2;
 
-    palpate_mechanism arm = {.kind = PALPATE_SERIAL_ARM};
+    palpate_serial_arm arm;
     palpate_device device;
-    for (size_t index = 0; index < sizeof arm.of.serial_arm / sizeof(float); index++)
-        ((float *)&arm.of.serial_arm)[index] = *numbers++;
+    for (size_t index = 0; index < sizeof arm / sizeof(float); index++) ((float *)&arm)[index] = *numbers++;
     for (size_t index = 0; index < sizeof device / sizeof(float); index++) ((float *)&device)[index] = *numbers++;
 
     palpate_settings settings;
@@ -56,7 +55,7 @@ int main(int count, char **arguments)
     good(palpate_file_head(file, file_bytes, &info));
     void *buffer = malloc(info.buffer_bytes);
     good(palpate_body_load(&body, sizeof body, file, file_bytes, buffer, info.buffer_bytes));
-    good(palpate_servo_start(&servo, sizeof servo, &arm, &device, &body, &settings, NULL, PALPATE_RESET_POWER_ON));
+    good(palpate_servo_start_serial_arm(&servo, sizeof servo, &arm, &device, &body, &settings, PALPATE_RESET_POWER_ON));
     good(palpate_servo_home(&servo, homing));
     uint32_t hash = 0, armed = 0, driven = 0;
     palpate_output output = {0};

@@ -42,11 +42,11 @@ int main(int count, char **arguments)
     const int32_t *counts = contents(arguments[3], &count_bytes);
     const size_t enable_at = strtoul(arguments[4], NULL, 10), ticks = count_bytes / sizeof(int32_t[3]);
 
-    palpate_mechanism arm = {.kind = PALPATE_SERIAL_ARM};
+    palpate_serial_arm arm;
     palpate_device device;
     palpate_protection protection = {0};
-    float *const places[] = {(float *)&arm.of.serial_arm, (float *)&device, (float *)&protection, protection.inertia};
-    const size_t lengths[] = {sizeof arm.of.serial_arm, sizeof device, offsetof(palpate_protection, watch_signs),
+    float *const places[] = {(float *)&arm, (float *)&device, (float *)&protection, protection.inertia};
+    const size_t lengths[] = {sizeof arm, sizeof device, offsetof(palpate_protection, watch_signs),
                               sizeof protection.inertia};
     for (int part = 0; part < 4; part++) {
         for (size_t index = 0; index < lengths[part] / sizeof(float); index++) places[part][index] = *numbers++;
@@ -68,11 +68,11 @@ int main(int count, char **arguments)
     good(palpate_file_head(file, file_bytes, &info));
     void *buffer = malloc(info.buffer_bytes);
     good(palpate_body_load(&body, sizeof body, file, file_bytes, buffer, info.buffer_bytes));
-    if (palpate_servo_start(&servo, sizeof servo, &arm, &device, &body, &settings, &protection,
-                            PALPATE_RESET_POWER_ON) != PALPATE_SETTINGS_TEXTURE) return 3;
+    if (palpate_servo_start_serial_arm_protected(&servo, sizeof servo, &arm, &device, &body, &settings, &protection,
+                                                 PALPATE_RESET_POWER_ON) != PALPATE_SETTINGS_TEXTURE) return 3;
     good(palpate_texture(bowl));
-    good(palpate_servo_start(&servo, sizeof servo, &arm, &device, &body, &settings, &protection,
-                            PALPATE_RESET_POWER_ON));
+    good(palpate_servo_start_serial_arm_protected(&servo, sizeof servo, &arm, &device, &body, &settings, &protection,
+                                                  PALPATE_RESET_POWER_ON));
     uint32_t hash = 0, touched = 0;
     palpate_output output = {0};
     for (size_t tick = 0; tick < ticks; tick++) {

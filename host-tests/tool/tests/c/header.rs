@@ -5,13 +5,13 @@ use crate::running::{file, is_wanted, run};
 use palpate_tool::in_c::{self, Core};
 use std::collections::BTreeMap;
 use std::fs;
-use syn::{Expr, Fields, FnArg, Item, ReturnType, Type};
+use syn::{Expr, Fields, FnArg, Item, ItemMacro, ReturnType, Type};
 
 /// What every number of the header begins with.
 const PREFIX: &str = "PALPATE";
 
 /// What a type of the library is called in the header, where the names do not tell.
-const NAMES: [(&str, &str); 29] = [
+const NAMES: [(&str, &str); 27] = [
     ("Loaded", "palpate_body"),
     ("Tracking", "palpate_tracker"),
     ("Paired", "palpate_pair"),
@@ -32,8 +32,6 @@ const NAMES: [(&str, &str); 29] = [
     ("FiveBarNumbers", "palpate_five_bar"),
     ("LinkageArmNumbers", "palpate_linkage_arm"),
     ("PaddleNumbers", "palpate_paddle"),
-    ("AnyMechanism", "palpate_any_mechanism"),
-    ("Mechanism", "palpate_mechanism"),
     ("Heard", "palpate_heard"),
     ("TouchedNumbers", "palpate_touched"),
     ("TextureForce", "palpate_texture_force"),
@@ -98,6 +96,37 @@ fn declared(name: &str, rust: &Type) -> String {
     format!("{before}{space}{name}{after}")
 }
 
+/// The items of a source, with the items that its macro of one rule makes: each parameter replaced by its argument.
+fn expanded(items: Vec<Item>) -> Vec<Item> {
+    let mut rule: Option<(String, Vec<String>, String)> = None;
+    let mut all = Vec::new();
+    for item in items {
+        let Item::Macro(ItemMacro { ident, mac, .. }) = &item else {
+            all.push(item);
+            continue;
+        };
+        let tokens = mac.tokens.to_string();
+        if let Some(name) = ident {
+            let (parameters, body) = tokens.split_once("=>").expect("a rule");
+            let parameters = parameters.split('$').skip(1);
+            let parameters =
+                parameters.map(|parameter| parameter.split(':').next().unwrap_or_default().trim().to_owned());
+            let body = body.trim().trim_end_matches(';').trim();
+            let body = body.strip_prefix('{').and_then(|body| body.strip_suffix('}')).expect("one rule");
+            rule = Some((name.to_string(), parameters.collect(), body.replace("$ ", "$")));
+        } else if let Some((_, parameters, body)) = rule.as_ref().filter(|(name, ..)| mac.path.is_ident(name)) {
+            let arguments: Vec<&str> = tokens.split(',').map(str::trim).collect();
+            assert_eq!(arguments.len(), parameters.len(), "{tokens}");
+            let made = parameters
+                .iter()
+                .zip(arguments)
+                .fold(body.clone(), |body, (parameter, argument)| body.replace(&format!("${parameter}"), argument));
+            all.extend(syn::parse_file(&made).expect("Rust").items);
+        }
+    }
+    all
+}
+
 /// What the library's source makes of the header: functions, structures, codes, words of handles.
 #[derive(Default)]
 struct Library {
@@ -112,17 +141,11 @@ impl Library {
         let mut library = Self::default();
         for entry in fs::read_dir(file("src")).expect("a folder").flatten() {
             let text = fs::read_to_string(entry.path()).expect("a source");
-            for item in syn::parse_file(&text).expect("Rust").items {
+            for item in expanded(syn::parse_file(&text).expect("Rust").items) {
                 library.take(&item);
             }
         }
         library
-    }
-
-    fn take_fields(&mut self, what: &str, in_header: &str, fields: &syn::FieldsNamed) {
-        let declared = |field: &syn::Field| declared(&field.ident.as_ref().expect("a name").to_string(), &field.ty);
-        let fields: String = fields.named.iter().map(|field| declared(field) + "; ").collect();
-        self.structures.push(format!("typedef {what} {in_header} {{ {fields}}} {in_header};"));
     }
 
     fn take(&mut self, item: &Item) {
@@ -144,10 +167,12 @@ impl Library {
                     return;
                 };
                 let Fields::Named(fields) = &structure.fields else { panic!("fields") };
-                self.take_fields("struct", in_header, fields);
-            }
-            Item::Union(union) if union.ident == "AnyMechanism" => {
-                self.take_fields("union", "palpate_any_mechanism", &union.fields);
+                let fields: String = fields
+                    .named
+                    .iter()
+                    .map(|field| declared(&field.ident.as_ref().expect("a name").to_string(), &field.ty) + "; ")
+                    .collect();
+                self.structures.push(format!("typedef struct {in_header} {{ {fields}}} {in_header};"));
             }
             Item::Enum(codes) if codes.ident == "Status" => {
                 for code in &codes.variants {
@@ -197,7 +222,7 @@ fn header() -> String {
 #[test]
 fn the_header_declares_what_the_library_has_and_nothing_else() {
     let (library, header) = (Library::read(), header());
-    assert!(library.functions.len() > 20 && library.structures.len() == 24, "{}", library.structures.len());
+    assert!(library.functions.len() > 20 && library.structures.len() == 22, "{}", library.structures.len());
     for declaration in library.functions.iter().chain(&library.structures) {
         assert!(header.contains(declaration.as_str()), "the header does not declare\n{declaration}");
     }
@@ -205,7 +230,7 @@ fn the_header_declares_what_the_library_has_and_nothing_else() {
     // And what a texture is, is a type of functions.
     let functions = header.matches(");").count() - header.matches("typedef void (*").count();
     assert_eq!(functions, library.functions.len(), "the header declares functions that the library does not have");
-    let structures = header.matches("typedef struct").count() + header.matches("typedef union").count();
+    let structures = header.matches("typedef struct").count();
     assert_eq!(structures, library.structures.len() + 5, "the header has structures that the library does not");
 }
 

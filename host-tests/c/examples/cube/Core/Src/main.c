@@ -28,13 +28,10 @@ static palpate_joint geared(float encoder_ratio, float motor_ratio, float least,
 
 static void servo_init(void)
 {
-    const palpate_mechanism arm = {
-        .kind = PALPATE_SERIAL_ARM,
-        .of.serial_arm = {
-            .base_height = 0.080f, .first_link = 0.205f, .second_link = 0.245f,
-            .workspace_centre = {0.220f, 0.0f, 0.080f},
-            .end_masses = {0.170f * 0.051f / 0.205f + 0.110f, 0.110f * 0.091f / 0.245f},
-        },
+    const palpate_serial_arm arm = {
+        .base_height = 0.080f, .first_link = 0.205f, .second_link = 0.245f,
+        .workspace_centre = {0.220f, 0.0f, 0.080f},
+        .end_masses = {0.170f * 0.051f / 0.205f + 0.110f, 0.110f * 0.091f / 0.245f},
     };
     const palpate_device device = {
         .joints = {geared(-16.0f, 16.0f, -1.6f, 1.6f), geared(-12.0f, -12.0f, -0.8f, 2.2f),
@@ -57,8 +54,8 @@ static void servo_init(void)
 
     size_t bytes = (size_t)(part_palp_end - part_palp);
     if (palpate_body_load(&body, sizeof body, part_palp, bytes, buffer, sizeof buffer) != PALPATE_OK) Error_Handler();
-    if (palpate_servo_start(&servo, sizeof servo, &arm, &device, &body, &settings, NULL,
-                            PALPATE_RESET_POWER_ON) != PALPATE_OK) Error_Handler();
+    if (palpate_servo_start_serial_arm(&servo, sizeof servo, &arm, &device, &body, &settings,
+                                       PALPATE_RESET_POWER_ON) != PALPATE_OK) Error_Handler();
     if (palpate_receiver_start(&receiver, sizeof receiver) != PALPATE_OK) Error_Handler();
 }
 
