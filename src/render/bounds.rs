@@ -5,7 +5,7 @@
 //! effects*, IEEE Trans. Robotics 22(2), 2006, who meet the same two conditions). `cargo palpate zwidth` finds the
 //! simulated limit and draws these in.
 
-/// What a device brings to the stability of a wall, at the probe and along the wall's normal.
+/// A device's contribution to the stability of a wall, at the probe and along the wall's normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeviceFriction {
     /// Viscous friction `b`, N·s/m.
@@ -16,20 +16,20 @@ pub struct DeviceFriction {
     pub resolution_m: f32,
 }
 
-/// The device damping a wall asks for, N·s/m: `b > K (T/2 + t_d) + |B|`.
+/// The minimum device damping for a wall, N·s/m: `b > K (T/2 + t_d) + |B|`.
 ///
 /// J. E. Colgate and G. Schenkel, *Passivity of a class of sampled-data systems*, 1994, for `t_d = 0`. Their criterion
-/// for a spring held back by `d` whole periods is `b > K T/2 · (cos dθ − cos (d+1)θ)/(1 − cos θ)` for all `θ`, which is
-/// greatest at `θ → 0`: `2d + 1`, hence the delay's term. A damper, behind any delay and any low-pass, asks for at most
-/// `|B|`.
+/// for a spring delayed by `d` whole periods is `b > K T/2 · (cos dθ − cos (d+1)θ)/(1 − cos θ)` for all `θ`, which has
+/// its maximum at `θ → 0`: `2d + 1`, hence the delay's term. A damper, behind any delay and any low-pass, requires at
+/// most `|B|`.
 ///
 /// `stiffness` N/m, `damping` N·s/m, `period` and `delay` s.
 pub const fn required_damping(stiffness: f32, damping: f32, period: f32, delay: f32) -> f32 {
     stiffness * (0.5 * period + delay) + damping.abs()
 }
 
-/// The greatest stiffness that is passive, N/m: [`required_damping`] solved for `K`; 0 if the wall's damping is above
-/// the device's.
+/// The maximum passive stiffness, N/m: [`required_damping`] solved for `K`; 0 if the wall's damping is above the
+/// device's.
 pub const fn passive_stiffness(device_damping: f32, damping: f32, period: f32, delay: f32) -> f32 {
     let left = device_damping - damping.abs();
     if left > 0.0 { left / (0.5 * period + delay) } else { 0.0 }
@@ -55,7 +55,7 @@ impl DeviceFriction {
         Self { resolution_m: BETWEEN_COUNTS * self.resolution_m, ..self }
     }
 
-    /// The greatest stiffness, N/m, that meets both conditions, with the wall's damping (N·s/m) and a delay (s).
+    /// The maximum stiffness, N/m, that meets both conditions, with the wall's damping (N·s/m) and a delay (s).
     pub const fn passive_stiffness(self, damping: f32, period: f32, delay: f32) -> f32 {
         let sampled = passive_stiffness(self.viscous_n_s_per_m, damping, period, delay);
         lesser(sampled, 2.0 * self.coulomb_n / self.resolution_m)
@@ -65,11 +65,11 @@ impl DeviceFriction {
 /// `2 (1 + 2 e⁻²)`.
 const BETWEEN_COUNTS: f32 = 2.541_341;
 
-/// The delay, s, that a spring on the position between counts has to be reckoned with, for a velocity corner (Hz) as
+/// The effective delay, s, of a spring on the position between counts, for a velocity corner (Hz) as
 /// [`crate::device::VelocityEstimator::new`] takes it: `1/(2ω)`.
 ///
-/// The observer, `ω = 2π · 2 corner`, gives the position `P = 1 − s²/(s + ω)²`. A spring behind it asks for damping of
-/// `−K Im P(jw)/w = K/ω · 2x²/(1 + x²)²` with `x = w/ω`, which is greatest at `x = 1`.
+/// The observer, `ω = 2π · 2 corner`, gives the position `P = 1 − s²/(s + ω)²`. A spring behind it requires a damping
+/// of `−K Im P(jw)/w = K/ω · 2x²/(1 + x²)²` with `x = w/ω`, which has its maximum at `x = 1`.
 pub const fn between_counts_delay(corner: f32) -> f32 {
     0.5 / (2.0 * core::f32::consts::TAU * corner)
 }

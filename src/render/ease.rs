@@ -1,26 +1,27 @@
-//! What keeps a force from clicking: damping that begins with the push, and no step that no motion explains.
+//! Easing: prevents clicks of the force. The damping rises with the push, and steps without a matching motion are
+//! spread out.
 
 use super::Penalty;
 use crate::math::{Vec3, inverse_sqrt_from_below};
 
-/// How a force comes, changes and ends.
+/// How a force rises, changes and ends.
 ///
 /// A damper that acts from the first tick of contact meets the whole speed at once, and an edge ends or turns a force
-/// between two ticks. Here the damping comes in with the spring's push, after K. H. Hunt and F. R. E. Crossley
+/// between two ticks. Here the damping rises with the spring's push, after K. H. Hunt and F. R. E. Crossley
 /// (*Coefficient of restitution interpreted as damping in vibroimpact*, J. Applied Mechanics 42(2), 1975), who make it
 /// proportional to the depth all the way; and a change of force is spread out unless the probe's motion explains it.
 ///
-/// What explains a change is what the wall's own spring and full damper make of the probe's motion against it. So
-/// nothing is held back on a flat wall but how the damping comes in; and nothing but the bound holds at an edge, where
-/// the probe moves along the surface, or on into the space where the body ends.
+/// A motion explains the change that the wall's own spring and full damper make of the probe's motion against it. So on
+/// a flat wall only the onset of the damping is limited; and the bound alone holds at an edge, where the probe moves
+/// along the surface, or on into the space where the body ends.
 ///
-/// What an edge throws away is given back late, and that feeds nothing as long as the probe is slow: a spring's push
-/// `F` that falls by `change` a second does work of at most `v F²/(2 change)` on a probe that moves away at `v`, and
-/// the spring that let go held `F²/(2K)`. Up to `v = change/K`, 0.4 m/s at 500 N/m, no more comes back than was put in.
+/// The force lost at an edge is given back late, which adds no energy as long as the probe is slow: a spring's push `F`
+/// that falls by `change` a second does work of at most `v F²/(2 change)` on a probe that moves away at `v`, and the
+/// released spring held `F²/(2K)`. Up to `v = change/K`, 0.4 m/s at 500 N/m, no more energy returns than was put in.
 ///
-/// A force that turns, by a difference `E` of vectors, lets nothing go that could pay for its lag. What is held back
-/// falls by `change − K v` a second or more while the wall's own force moves on by at most `K v`, so it does at most
-/// `v E²/(2(change − K v))`: 0.6 mJ of 1 N that turns by a right angle at 0.1 m/s and 300 N/m.
+/// A force that turns, by a difference `E` of vectors, releases no energy that could pay for its lag. The difference
+/// held back falls by `change − K v` a second or more while the wall's own force moves on by at most `K v`, so it does
+/// at most `v E²/(2(change − K v))`: 0.6 mJ for 1 N that turns by a right angle at 0.1 m/s and 300 N/m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ease {
     /// The spring's push over which the damping comes in, N. A force and not a depth, so that a stiff wall, which is
@@ -46,7 +47,7 @@ impl Ease {
 /// An [`Ease`] ready to run, for a wall and a period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eased {
-    /// What a wall's damping gains with the depth, N·s/m²; infinite if it is there at once.
+    /// Increase of a wall's damping with the depth, N·s/m²; infinite if it is there at once.
     damping_slope: f32,
     /// The change that is allowed in a tick whatever moves, N.
     free: f32,
@@ -56,7 +57,7 @@ pub struct Eased {
     damping: f32,
 }
 
-/// What may explain a change of force.
+/// The motion that may explain a change of force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reason {
     /// The probe's motion in this period, m.
@@ -83,8 +84,8 @@ impl Eased {
         if damping < wall.damping_n_s_per_m { Penalty { damping_n_s_per_m: damping, ..*wall } } else { *wall }
     }
 
-    /// `force`, or as near to it as one step from `last` may go for this reason. What is not finite stays so: the gate
-    /// makes a fault of it.
+    /// `force`, or the nearest force that one step from `last` may reach for this reason. A force that is not finite
+    /// stays so: the gate turns it into a fault.
     #[inline]
     pub fn next(&self, force: Vec3, last: Vec3, reason: &Reason) -> Vec3 {
         // Backwards, as a spring's force is to its motion.
@@ -93,7 +94,7 @@ impl Eased {
         if size <= self.free * self.free {
             return force;
         }
-        // What spring and damper make of the motion, along the change, times its length.
+        // The change that spring and damper make of the motion, along the change, times its length.
         let explained = (reason.moved * self.stiffness + reason.quickened * self.damping).dot(change);
         if explained >= size {
             return force;

@@ -1,4 +1,4 @@
-//! What a dial feels like: detents, clicks, a texture, a spring, end stops, put together.
+//! The feel of a dial: the sum of detents, clicks, a texture, a spring and end stops.
 
 use super::Detents;
 use crate::math::{saturate, sin_cos};
@@ -10,7 +10,7 @@ use core::f32::consts::TAU;
 pub struct Wave {
     /// From one detent to the next, radians.
     pub pitch_rad: f32,
-    /// The greatest torque, `T`, a quarter of a pitch from a detent, N·m.
+    /// Maximum torque, `T`, a quarter of a pitch from a detent, N·m.
     pub torque_n_m: f32,
     /// Where one of the detents is, radians.
     pub centre_rad: f32,
@@ -23,7 +23,7 @@ pub struct Spring {
     pub stiffness_n_m_per_rad: f32,
     /// Where it is at rest, radians.
     pub rest_rad: f32,
-    /// Its greatest torque, N·m: beyond, it is constant.
+    /// Maximum torque, N·m: beyond, it is constant.
     pub max_torque_n_m: f32,
 }
 
@@ -38,14 +38,14 @@ pub struct Ends {
     pub damping_n_m_s_per_rad: f32,
 }
 
-/// What a dial feels like. Its parts add up; begin with [`Feel::FREE`]. Constant, in flash.
+/// The feel of a dial. Its parts add up; start with [`Feel::FREE`]. Constant, in flash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feel {
     /// Detents that one turns through smoothly.
     pub detents: Option<Wave>,
     /// Detents that snap, with hysteresis.
     pub clicks: Option<Detents>,
-    /// What is felt under the fingers between detents.
+    /// Texture between detents.
     pub texture: Option<Wave>,
     /// A spring.
     pub spring: Option<Spring>,
@@ -109,7 +109,7 @@ impl Wave {
     #[inline]
     pub fn at(&self, angle: f32) -> f32 {
         let pitches = (angle - self.centre_rad) / self.pitch_rad;
-        // What is left after the whole ones: the cast saturates.
+        // The fraction of a pitch: the cast saturates.
         let (sine, _) = sin_cos((pitches - pitches as i32 as f32) * TAU);
         -self.torque_n_m * sine
     }
@@ -162,7 +162,7 @@ impl Feel {
         if is_size(self.damping_n_m_s_per_rad) { Ok(()) } else { Err(FeelError::Damping) }
     }
 
-    /// The greatest stiffness that may be felt at once, N·m/rad.
+    /// The maximum total stiffness, N·m/rad.
     pub const fn stiffness(&self) -> f32 {
         let mut sum = 0.0;
         if let Some(wave) = &self.detents {
@@ -183,7 +183,7 @@ impl Feel {
         sum
     }
 
-    /// The greatest damping that may be felt at once, N·m·s/rad.
+    /// The maximum total damping, N·m·s/rad.
     pub const fn greatest_damping(&self) -> f32 {
         let mut sum = self.damping_n_m_s_per_rad;
         if let Some(clicks) = &self.clicks {
@@ -195,7 +195,7 @@ impl Feel {
         sum
     }
 
-    /// The greatest torque between the end stops, N·m, damping left out.
+    /// The maximum torque between the end stops, N·m, without damping.
     pub const fn torque_between_ends(&self) -> f32 {
         let mut sum = 0.0;
         if let Some(wave) = &self.detents {

@@ -14,7 +14,7 @@ pub struct Friction {
     pub stiffness_n_per_m: f32,
     /// Damping along the surface while it sticks, N·s/m.
     pub damping_n_s_per_m: f32,
-    /// `μ_s`: tangential over normal force at which it begins to slip.
+    /// `μ_s`: tangential over normal force at which slip starts.
     pub static_coefficient: f32,
     /// `μ_d ≤ μ_s`: tangential over normal force while it slips.
     pub dynamic_coefficient: f32,

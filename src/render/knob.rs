@@ -18,7 +18,7 @@ pub struct Detents {
     pub last: i32,
     /// Force per distance beyond the first and the last.
     pub wall_stiffness: f32,
-    /// The greatest force.
+    /// Maximum force, N.
     pub max_force: f32,
 }
 
@@ -28,7 +28,7 @@ pub enum DetentsError {
     /// The pitch is not positive and finite.
     #[error("the pitch must be positive and finite")]
     Pitch,
-    /// A stiffness, the damping or the greatest force is negative or not finite.
+    /// A stiffness, the damping or the maximum force is negative or not finite.
     #[error("stiffnesses, damping and maximum force must be finite and not negative")]
     Force,
     /// The snap is not between ½ and 1.

@@ -2,7 +2,8 @@
 
 use crate::math::{Vec3, inverse_sqrt, saturate};
 
-/// `force` no longer than `greatest`, its direction kept. What is not finite stays so: the gate makes a fault of it.
+/// `force` with at most the length `greatest`, its direction kept. A force that is not finite stays so: the gate turns
+/// it into a fault.
 #[inline]
 pub fn saturated(force: Vec3, greatest: f32) -> Vec3 {
     let squared = force.length_squared();

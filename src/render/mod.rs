@@ -1,9 +1,9 @@
 //! From the witness point to a force.
 //!
-//! [`crate::track::Contact`] says whether the surface is touched. [`Penalty`] says how it pushes back, [`Friction`] how
-//! it holds along the surface, [`Texture`] what is added; [`Coupling`] puts a virtual tool between probe and surface.
-//! [`Ease`] keeps it from clicking. Then the force passes the limits of [`limit`] and, if configured, [`Passivity`]. [`bounds`] says beforehand what a device can bear; [`Feel`] is what a dial feels
-//! like, with [`Detents`] that click.
+//! [`crate::track::Contact`] is the state of contact. [`Penalty`] gives the push, [`Friction`] the force along the
+//! surface, [`Texture`] a ripple on top; [`Coupling`] puts a virtual tool between probe and surface. [`Ease`] prevents
+//! clicks. Then the force passes the limits of [`limit`] and, if configured, [`Passivity`]. [`bounds`] computes the
+//! stable stiffness of a device; [`Feel`] is the feel of a dial, with [`Detents`] that click.
 
 pub mod bounds;
 mod coupling;

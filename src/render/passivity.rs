@@ -6,30 +6,30 @@ use crate::math::{Vec3, saturate, sqrt};
 /// Time-domain passivity control of the port between probe and surface (B. Hannaford and J.-H. Ryu, *Time-domain
 /// passivity control of haptic interfaces*, IEEE Trans. Robotics and Automation 18(1), 2002).
 ///
-/// The *observer* sums what the surface took: `E += −F·Δx + b ‖Δx‖²/T + f_c ‖Δx‖`, with the force held over the period,
-/// the probe's move in it, and the device's own friction, which pays for some of what sampling gives out.
+/// The *observer* sums the energy that the surface took: `E += −F·Δx + b ‖Δx‖²/T + f_c ‖Δx‖`, with the force held over
+/// the period, the probe's move in it, and the device's own friction, which pays for some of the energy that sampling
+/// generates.
 ///
-/// The *controller* looks a period ahead at the present velocity. Where `E` would fall below half a quantum of debt it
-/// brakes with `α v`, `α = deficit/(T ‖v‖²)`. At a crawl, where velocity says little, braking cannot be relied on: so
-/// the force is also kept below `(E + quantum)/(‖Δx‖ + Δ)`, which a next move of at most a count more than this one
-/// cannot overdraw (in the manner of J.-P. Kim and J. Ryu's energy-bounding algorithm, Int. J. Robotics Research 29(6),
-/// 2010).
+/// The *controller* predicts a period ahead at the present velocity. Where `E` would fall below half a quantum of debt
+/// it brakes with `α v`, `α = deficit/(T ‖v‖²)`. At a crawl the velocity is too coarse for braking: so the force is
+/// also kept below `(E + quantum)/(‖Δx‖ + Δ)`, which a next move of at most a count more than this one cannot overdraw
+/// (in the manner of J.-P. Kim and J. Ryu's energy-bounding algorithm, Int. J. Robotics Research 29(6), 2010).
 ///
-/// The *quantum* is the work of the greatest force over one encoder count `Δ`: no observer of counts can see less. What
-/// the actuator's delay adds lies beyond the port and is not seen.
+/// The *quantum* is the work of the maximum force over one encoder count `Δ`: no observer of counts can resolve less.
+/// The energy that the actuator's delay adds lies beyond the port and is not observed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passivity {
     /// `b`: viscous friction the device has at least, N·s/m. 0 is the careful choice.
     pub device_damping_n_s_per_m: f32,
     /// `f_c`: dry friction the device has at least, N. 0 is the careful choice.
     pub device_friction_n: f32,
-    /// The greatest `α`, N·s/m: more damping than the device bears does harm.
+    /// Maximum `α`, N·s/m: damping beyond the device's limit destabilises it.
     pub max_damping_n_s_per_m: f32,
     /// `Δ`: how far the probe seems to move when every encoder counts one, m.
     pub resolution_m: f32,
 }
 
-/// What observer and controller remember.
+/// The state of observer and controller.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
     /// Energy the surface holds, J; negative is a debt, of at most a quantum.
@@ -59,7 +59,7 @@ pub struct Moved {
 }
 
 impl Passivity {
-    /// The quantum, J, of a surface with this greatest force, N.
+    /// The quantum, J, of a surface with this maximum force, N.
     pub const fn quantum(&self, max_force: f32) -> f32 {
         max_force * self.resolution_m
     }
@@ -72,8 +72,8 @@ impl Passivity {
         energy.stored = saturate(energy.stored + friction - held.dot(motion.moved), -f32::MAX, f32::MAX);
     }
 
-    /// The force to give in place of `force`, N, at most `max_force`. `touching` says whether the surface is felt:
-    /// out of contact a surplus is forgotten, so that it cannot be spent later; a debt stays.
+    /// The force to give in place of `force`, N, at most `max_force`. `touching`: whether the surface is in contact.
+    /// Out of contact a surplus is cleared, so that it cannot be spent later; a debt stays.
     #[inline]
     pub fn control(&self, energy: &mut Energy, force: Vec3, motion: &Moved, touching: bool, max_force: f32) -> Vec3 {
         (energy.damping, energy.cut) = (0.0, false);

@@ -10,13 +10,13 @@ pub struct Penalty {
     /// Damping, N·s/m. A sampled wall is passive only with the device's own damping above `stiffness · period / 2 +
     /// damping` (Colgate and Schenkel).
     pub damping_n_s_per_m: f32,
-    /// The greatest force, N.
+    /// Maximum force, N.
     pub max_force_n: f32,
 }
 
 impl Penalty {
-    /// The push along the outward normal, N, at a signed gap (m) that changes at a rate (m/s): from 0, for the wall
-    /// never pulls, to the greatest force.
+    /// The push along the outward normal, N, at a signed gap (m) that changes at a rate (m/s): from 0, because the wall
+    /// never pulls, to the maximum force.
     #[inline]
     pub fn push(&self, gap: f32, gap_rate: f32) -> f32 {
         if gap < 0.0 {

@@ -1,4 +1,4 @@
-//! The force of a surface that is pressed: the push along its normal, what holds along it, what is added.
+//! The force of a pressed surface: the push along its normal, friction along it, texture on top.
 
 use super::{Anchor, Friction, Texture, Touch};
 use crate::math::{Vec3, sqrt};

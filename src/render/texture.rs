@@ -2,7 +2,7 @@
 
 use crate::math::{Vec3, sin_cos, sqrt};
 
-/// What a texture may look at.
+/// The input of a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// `(u, v)` of the witness point.
@@ -48,7 +48,7 @@ impl Texture {
 /// height profile of the same period does to the normal (M. Minsky, *Computational haptics*, 1995).
 pub fn grating(touch: &Touch, ridges: f32, share: f32) -> Vec3 {
     let turns = touch.parameters[0] * ridges;
-    // The fraction of a turn: what is left after the whole ones, by a cast that saturates.
+    // The fraction of a turn: a cast that saturates removes the whole turns.
     let (sine, _) = sin_cos((turns - turns as i32 as f32) * core::f32::consts::TAU);
     touch.along_u * (-share * touch.push * sine)
 }

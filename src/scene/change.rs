@@ -1,4 +1,4 @@
-//! What may be changed of a scene between two ticks while it is felt. Nothing of it steps the force.
+//! Changes of a scene between two ticks while it is rendered. None of them steps the force.
 
 use super::frame::Frame;
 use super::part::{Motion, Part, PartState};
@@ -15,10 +15,10 @@ use crate::track::{Contact, Placement};
 const LATE: f32 = 4.0;
 
 impl<S: Surface, const N: usize> Scene<'_, S, N> {
-    /// Another stiffness (N/m) and damping (N·s/m) for a body. The force goes over to the new one without a step.
+    /// Another stiffness (N/m) and damping (N·s/m) for a body. The force moves to the new one without a step.
     ///
     /// # Errors
-    /// What is out of range; nothing changes then.
+    /// The value that is out of range; nothing changes then.
     pub fn harden(
         &self,
         state: &mut SceneState<S::Witness, N>,
@@ -34,10 +34,10 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         Ok(())
     }
 
-    /// Other friction for a body, or none. The force goes over to the new one without a step.
+    /// Other friction for a body, or none. The force moves to the new one without a step.
     ///
     /// # Errors
-    /// What is out of range; nothing changes then.
+    /// The value that is out of range; nothing changes then.
     pub fn rub(
         &self,
         state: &mut SceneState<S::Witness, N>,
@@ -52,11 +52,11 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         Ok(())
     }
 
-    /// Puts a resting body somewhere else: what was felt of it fades, and it is felt anew once the tool has been in
-    /// front of it.
+    /// Moves a resting body to another place: its force fades out, and it gives none until the tool has been in front
+    /// of it.
     ///
     /// # Errors
-    /// A placement that is none, or a body that moves by itself; nothing changes then.
+    /// An invalid placement, or a body that moves by itself; nothing changes then.
     pub fn place(
         &self,
         state: &mut SceneState<S::Witness, N>,
@@ -73,10 +73,9 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         Ok(())
     }
 
-    /// Leads a resting body on: this is where it is in the next tick, and how it moves. For a motion that is given from
-    /// outside tick by tick: one that its velocity explains. One that is farther off than it can have come at the
-    /// greatest speed in four ticks is somewhere else, as [`Self::place`] has it: no hand is pushed by a body that
-    /// jumps into it.
+    /// Guides a resting body: its placement and motion in the next tick. For a motion that is given from outside tick
+    /// by tick and agrees with its velocity. A placement farther away than the maximum speed allows in four ticks is
+    /// another place, as in [`Self::place`]: a body that jumps into the hand does not push it.
     ///
     /// # Errors
     /// As [`Self::place`].
@@ -102,12 +101,12 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         self.place(state, index, placement)
     }
 
-    /// Lets a resting body move on from where it is, at these velocities of its origin (m/s) and about it (rad/s), for
-    /// so many seconds; then it rests there.
+    /// Moves a resting body on from where it is, at these velocities of its origin (m/s) and about it (rad/s), for a
+    /// number of seconds; then it rests there.
     ///
     /// # Errors
-    /// A body that moves by itself, numbers that are not finite, or faster than the scene's bodies are met at most;
-    /// nothing changes then.
+    /// A body that moves by itself, numbers that are not finite, or faster than the scene's maximum speed; nothing
+    /// changes then.
     pub fn move_along(
         &self,
         state: &mut SceneState<S::Witness, N>,
@@ -149,8 +148,8 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         if fastest <= self.limits.max_speed_m_per_s { Ok(frame) } else { Err(SceneError::TooFast(number)) }
     }
 
-    /// Switches groups on and off: those of these bits, group 0 the lowest. What was felt of a body that is now off
-    /// fades; one that is now on is felt once the tool has been in front of it.
+    /// Switches groups on and off: those of these bits, group 0 the lowest. The force of a body that is switched off
+    /// fades out; a body that is switched on gives none until the tool has been in front of it.
     pub fn switch(&self, state: &mut SceneState<S::Witness, N>, groups: u32) {
         let changed = groups ^ state.groups;
         state.groups = groups;
@@ -161,11 +160,11 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         }
     }
 
-    /// A tool with a tip of another radius, metres. A body that only the larger tip would touch is felt once the tip
-    /// has been in front of it.
+    /// Sets the radius of the tool's tip, metres. A body that only the larger tip would touch gives no force until the
+    /// tip has been in front of it.
     ///
     /// # Errors
-    /// A radius that is none; nothing changes then.
+    /// An invalid radius; nothing changes then.
     pub fn set_tip_radius(&self, state: &mut SceneState<S::Witness, N>, radius: f32) -> Result<(), SceneError> {
         if !(0.0..f32::INFINITY).contains(&radius) {
             return Err(SceneError::TipRadius);
@@ -190,11 +189,11 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
 }
 
 impl<S: Commanded, const N: usize> Scene<'_, S, N> {
-    /// The body that was uploaded last takes the place of this one: what was felt of that fades, and the new one is
-    /// felt once the tool has been in front of it.
+    /// Replaces this body by the last uploaded one: the old force fades out, and the new body gives none until the tool
+    /// has been in front of it.
     ///
     /// # Errors
-    /// Nothing was uploaded, or not for this body; nothing changes then.
+    /// No body was uploaded, or not for this slot; nothing changes then.
     pub fn take(&self, state: &mut SceneState<S::Witness, N>, index: usize) -> Result<(), SceneError> {
         self.exchange(state, index, &Command::Take { body: saturated(index) })
     }

@@ -92,13 +92,13 @@ pub enum Command {
         /// Metres.
         radius: f32,
     },
-    /// The greatest force of all of the scene, at most [`crate::scene::Limits::max_force_n`]. It comes without a step.
+    /// Maximum force of the whole scene, at most [`crate::scene::Limits::max_force_n`]. The change gives no step.
     Limit {
         /// N.
         force: f32,
     },
     /// A force of the host's own, added to that of the bodies, in the scene's frame; at most
-    /// [`crate::scene::Limits::max_force_n`]. It stands for [`crate::scene::HOLD`] seconds, unless it is asked for anew.
+    /// [`crate::scene::Limits::max_force_n`]. It lasts [`crate::scene::HOLD`] seconds, unless the host repeats it.
     Push {
         /// N.
         force: [f32; 3],
@@ -169,7 +169,7 @@ pub enum SceneError {
     /// [`crate::scene::Limits::max_force_n`].
     #[error("a force must be finite and at most the scene's maximum")]
     Force,
-    /// What is touched does not offer this.
+    /// The surface does not support this command.
     #[error("this surface does not support the command")]
     NotOffered,
     /// There is no body that was uploaded, or it does not go there.
@@ -212,7 +212,7 @@ impl BodyPose {
     pub fn placement(&self) -> Option<Placement> {
         let [x, y, z, w] = self.orientation;
         let squared = x * x + y * y + z * z + w * w;
-        // What is not a number is neither.
+        // A NaN fails too.
         if !squared.is_finite() || (squared - 1.0).abs() > 2e-3 {
             return None;
         }

@@ -59,7 +59,7 @@ impl Frame {
         self.to_body(point - self.pivot) - self.offset
     }
 
-    /// Where it is after so many seconds of moving as it does: its origin on a straight line, turned about it.
+    /// The frame after `elapsed` seconds of constant velocity: its origin on a straight line, turned about it.
     pub fn go_along(&mut self, elapsed: f32) {
         let Placement { origin, velocity, angular_velocity, .. } = self.placement();
         let turned = axes(&turned_by(angular_velocity * (0.5 * elapsed), &quaternion(&self.axes)));

@@ -1,23 +1,22 @@
-//! What a host adds to the force of a scene, and to what it limits all of it.
+//! The host's own force in a scene, and its limit of the whole force.
 
 use super::SceneError;
 use super::limits::Limits;
 use crate::math::Vec3;
 use crate::render::limit;
 
-/// Seconds for which a force of the host's stands. One that is not asked for anew by then is let go of, as any other
-/// that is no longer backed.
+/// Seconds for which a force of the host lasts. If it is not repeated within that time, it fades out.
 pub const HOLD: f32 = 0.1;
 
 /// A force from outside, which no body backs. It comes and goes at the rate at which all is let go of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HostForce {
-    /// What was asked for, N, and for how many ticks more.
+    /// The requested force, N, and the ticks that are left of it.
     asked: Vec3,
     stands: u32,
-    /// What is given of it, N.
+    /// The part that is given now, N.
     given: Vec3,
-    /// The greatest force of all of the scene that was asked for, N, and the greatest now; infinite where none was.
+    /// The requested maximum force of the whole scene, N, and the maximum now; infinite without a request.
     limit: f32,
     most: f32,
 }
@@ -49,8 +48,8 @@ impl HostForce {
         Ok(())
     }
 
-    /// What the tool gets of the bodies' force and the host's, where neither the host's nor the limit moves by more
-    /// than `step` newtons.
+    /// The sum of the bodies' force and the host's, limited, where neither the host's nor the limit moves by more than
+    /// `step` newtons.
     #[inline]
     pub fn step(&mut self, backed: Vec3, step: f32) -> Vec3 {
         if self.stands == 0 && self.given == Vec3::ZERO && self.most == f32::INFINITY {

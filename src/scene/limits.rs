@@ -1,15 +1,15 @@
-//! What the bodies of a scene share.
+//! Limits of the bodies of a scene.
 
 use crate::device::Device;
 
-/// What the parts share.
+/// The limits of all bodies of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// The greatest stiffness that a body may be given, N/m.
+    /// Maximum stiffness of a body, N/m.
     pub max_stiffness_n_per_m: f32,
-    /// The greatest damping, N·s/m.
+    /// Maximum damping of a body, N·s/m.
     pub max_damping_n_s_per_m: f32,
-    /// The greatest force of a body, N.
+    /// Maximum force of a body, N.
     pub max_force_n: f32,
     /// How much of a force that is no longer backed by a body is let go of in a second, N/s; a force that a switch
     /// brings comes up as fast.

@@ -1,4 +1,4 @@
-//! A body of the scene: what it is, how it moves and feels; and what is kept of it between two ticks.
+//! A body of the scene: its surface, motion and feel; and its state between two ticks.
 
 use super::frame::Frame;
 use super::path::{Path, finite, is_rigid};
@@ -12,7 +12,7 @@ use crate::track::{Contact, Placement};
 /// How a body moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// It rests where it is, or goes where it is told ([`super::Scene::lead`]).
+    /// It rests, or is guided by [`super::Scene::lead`].
     Resting(Placement),
     /// It moves as prescribed.
     Prescribed(Path),
@@ -58,7 +58,7 @@ pub struct Part<'a, S> {
     pub motion: Motion,
     /// How it feels.
     pub material: Material,
-    /// What holds all of it.
+    /// The sphere that contains the whole body.
     pub sphere: Sphere,
     /// The group it belongs to, 0 to 31, which can be switched on and off.
     pub group: u8,
@@ -105,16 +105,16 @@ impl<S> Part<'_, S> {
     }
 }
 
-/// What is kept of a body between two ticks.
+/// The state of a body between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartState<W> {
-    /// What its tracker keeps, in its own frame.
+    /// The state of its tracker, in the body's frame.
     pub(super) witness: W,
     /// Where it is.
     pub(super) frame: Frame,
     /// How it moves, where it is free.
     pub(super) moving: Moving,
-    /// What pushed it in the last tick.
+    /// The push of the last tick.
     pub(super) push: Wrench,
     /// Where friction holds it, in its frame.
     pub(super) anchor: Anchor,
@@ -134,7 +134,7 @@ pub struct PartState<W> {
     pub(super) way: u32,
     /// The tick at which it was looked at last.
     pub(super) seen: u32,
-    /// No look is due for so many ticks from then.
+    /// Ticks from then on in which no look is due.
     pub(super) rests: u32,
     /// Whether the tracker lost it in this tick.
     pub(super) unexplained: bool,
@@ -169,7 +169,7 @@ impl<W: Tracked> PartState<W> {
         }
     }
 
-    /// What its tracker keeps; points are in the body's own frame.
+    /// The state of its tracker; points are in the body's own frame.
     pub const fn witness(&self) -> &W {
         &self.witness
     }
@@ -199,7 +199,7 @@ impl<W: Tracked> PartState<W> {
         self.force
     }
 
-    /// Moves a resting body along for so many ticks, of so many seconds together, and says whether it has arrived.
+    /// Moves a resting body along for a number of ticks, `elapsed` seconds together; true once it has arrived.
     #[inline(never)]
     pub(super) fn go_along(&mut self, ticks: u32, elapsed: f32) -> bool {
         let share = if ticks > self.way { self.way as f32 / ticks as f32 } else { 1.0 };

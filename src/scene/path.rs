@@ -1,4 +1,4 @@
-//! A body that moves as prescribed: it turns about an axis, and sways along a line, for ever.
+//! A body that moves as prescribed: it turns about an axis, and sways along a line, continuously.
 
 use super::frame::{Frame, axes};
 use super::quaternion::{product, quaternion};
@@ -9,7 +9,8 @@ use core::f32::consts::{PI, TAU};
 /// A turn is 2³² of a phase's units, so that a phase wraps by itself and no time is too long for it.
 const HALF_TURN: f32 = PI / (1_u32 << 31) as f32;
 
-/// Where a body is at each tick, in closed form: it can be asked at any tick, and costs what is in it.
+/// The placement of a body at each tick, in closed form. Can be evaluated at any tick; the cost grows with the motions
+/// enabled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Path {
     start: Placement,
@@ -36,7 +37,7 @@ struct Turn {
 struct Sway {
     step: u32,
     amplitude: Vec3,
-    /// The greatest velocity, m/s.
+    /// Maximum velocity, m/s.
     velocity: Vec3,
 }
 
@@ -77,7 +78,7 @@ impl Path {
         self
     }
 
-    /// Where the body is after so many ticks, and how it moves.
+    /// The placement of the body, with its motion, at a tick.
     pub fn at(&self, ticks: u32) -> Placement {
         let mut frame = self.frame();
         self.go_on(ticks, &mut frame);
@@ -94,7 +95,7 @@ impl Path {
         frame
     }
 
-    /// The same frame after so many ticks.
+    /// The same frame at a later tick.
     #[inline]
     pub(super) fn go_on(&self, ticks: u32, frame: &mut Frame) {
         if let Some(Turn { step, still, turning, .. }) = &self.turn {
@@ -138,7 +139,7 @@ impl Path {
     }
 }
 
-/// The angle after so many ticks, `−π ≤ φ ≤ π`: the product wraps as the angle does.
+/// The angle at a tick, `−π ≤ φ ≤ π`: the product wraps as the angle does.
 #[inline]
 fn angle(ticks: u32, step: u32) -> f32 {
     ticks.wrapping_mul(step) as i32 as f32 * HALF_TURN

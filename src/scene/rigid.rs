@@ -3,21 +3,21 @@
 //! # The step
 //!
 //! A push is held over a tick of length `h`. The state is the velocity `v` of the centre of mass and the angular
-//! momentum `L` about it, both in the world's frame. What damps, `c`, is taken at the middle of the tick: with `u` the
+//! momentum `L` about it, both in the world's frame. The damping, `c`, acts at the middle of the tick: with `u` the
 //! mean of `v` and `v'`, `m (v' − v)/h = F − c u` is `u − v = (F − c v)/(2m/h + c)`, and `x' = x + h u`. Multiplied by
-//! `h u`: `½ m v'² − ½ m v² = F · (x' − x) − h c u²`, exactly. **What the body gains is the work of the push over the
-//! way that the body has gone, less what is damped**: as a port it is passive at any `h` and `m` and at no negative
-//! `c`. The same holds of its turning, in the body's principal axes, with `L`, `I` and the mean angular velocity.
+//! `h u`: `½ m v'² − ½ m v² = F · (x' − x) − h c u²`, exactly. **The body gains the work of the push over the body's
+//! displacement, less the damped energy**: as a port it is passive at any `h` and `m` and at no negative `c`. The same
+//! holds of its turning, in the body's principal axes, with `L`, `I` and the mean angular velocity.
 //!
 //! A spring that is pulled at the start of the tick, where its potential `U` has a second derivative of at most `k`,
-//! gives `U' ≤ U + ∇U · Δx + ½ k Δx²` (the descent lemma), which is `½ k h² u²` too much: a damper of `c = ½ k h`
-//! takes exactly that. For a linear spring it is the implicit midpoint rule. So the tether, the turning spring and a
-//! hinge's weight are passive, too, at any stiffness.
+//! gives `U' ≤ U + ∇U · Δx + ½ k Δx²` (the descent lemma), which is `½ k h² u²` too much: a damper of `c = ½ k h` takes
+//! exactly that. For a linear spring it is the implicit midpoint rule. So the tether, the turning spring and a hinge's
+//! weight are passive, too, at any stiffness.
 //!
-//! What is left is the turning itself: with no torque `L` stays, and the body is turned by the mean angular velocity
-//! of the tick, to second order. Rounding and the third order change the energy of that `L`: where it rises beyond
-//! what it began with and what came in since, which is kept, `L` is scaled down. So the energy of the whole never
-//! rises beyond the push's work by more than rounding.
+//! The turning itself remains: with no torque `L` stays, and the body is turned by the mean angular velocity of the
+//! tick, to second order. Rounding and the third order change the energy of that `L`: the state keeps its initial
+//! energy and the input since then, and where the energy rises beyond their sum, `L` is scaled down. So the energy of
+//! the whole never rises beyond the push's work by more than rounding.
 
 use super::frame::{Frame, axes};
 use super::path::{dot, finite, is_rigid};
@@ -25,7 +25,7 @@ use super::quaternion::{product, quaternion, turned_by};
 use crate::math::{Vec3, saturate, sqrt, vec3};
 use crate::track::Placement;
 
-/// A body of some mass, what holds it, and where it starts. Begin with [`RigidBody::new`].
+/// A body with a mass, its suspension, and its initial placement. Start with [`RigidBody::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBody {
     /// Where it starts, and how it moves then.
@@ -41,14 +41,14 @@ pub struct RigidBody {
     pub joint: Joint,
     /// Acceleration of gravity, m/s².
     pub gravity_m_per_s2: Vec3,
-    /// What the air takes, N·s/m.
+    /// Linear damping, N·s/m.
     pub damping_n_s_per_m: f32,
-    /// What it takes of turning, N·m·s/rad.
+    /// Angular damping, N·m·s/rad.
     pub angular_damping_n_m_s_per_rad: f32,
-    /// What pulls the centre of mass back.
+    /// The spring that pulls the centre of mass back.
     pub tether: Option<Tether>,
-    /// What turns a [`Joint::Free`] or [`Joint::Hinge`] body back to how it started, N·m/rad for small angles; the
-    /// torque is that times the sine of the angle.
+    /// The spring that turns a [`Joint::Free`] or [`Joint::Hinge`] body back to its initial orientation, N·m/rad for
+    /// small angles; the torque is that times the sine of the angle.
     pub angular_stiffness_n_m_per_rad: f32,
 }
 
@@ -71,7 +71,7 @@ pub enum Joint {
 }
 
 /// A spring from the centre of mass to a place in the world: slack within a box, stiff beyond it. Without slack it is a
-/// spring; with much of it and stiff, the walls of a room.
+/// spring; with a large slack and stiff, it is the walls of a container.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tether {
     /// The middle, metres.
@@ -95,7 +95,7 @@ pub struct Moving {
     velocity: Vec3,
     /// Angular momentum about it, kg·m²/s, in the world's frame; of a hinge about the pivot.
     momentum: Vec3,
-    /// Twice the energy that its turning may have, J: what it began with, and what came in since.
+    /// Twice the permitted energy of its turning, J: the initial energy and the input since then.
     turning: f32,
 }
 
@@ -201,7 +201,7 @@ impl RigidBody {
     }
 
     /// By how much a unit force along `direction` at `point` of the world moves that point along it, per kg⁻¹: the
-    /// inverse of the mass that is felt there.
+    /// inverse of the effective mass there.
     pub(super) fn mobility(&self, state: &Moving, frame: &Frame, point: Vec3, direction: Vec3) -> f32 {
         match self.joint {
             Joint::Fixed => 0.0,

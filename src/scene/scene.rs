@@ -15,14 +15,14 @@ use crate::track::{Contact, Controller, Probe};
 /// No body.
 pub(super) const NOBODY: u8 = u8::MAX;
 
-/// What a step of the CRC (its register, and a word of 0) takes to all ones, which is how a CRC begins.
+/// The register from which a step of the CRC (with a word of 0) gives all ones, the initial value of a CRC.
 const TO_ALL_ONES: u32 = 0x9226_f562;
 
-/// Bodies that stand and move in one frame, felt by one tool. Constant, in flash; `N` is their greatest number, at most
-/// 32.
+/// Bodies that stand and move in one frame, touched by one tool. Constant, in flash; `N` is their maximum number, at
+/// most 32.
 ///
-/// A [`Surface`] like any other, whose force is all its own: give it to a [`crate::servo::Servo`]. The two bodies that
-/// are nearest are tracked at each tick, touched ones first; of the others one a tick is looked at.
+/// A [`Surface`] like any other, whose force is all its own: give it to a [`crate::servo::Servo`]. The two nearest
+/// bodies are tracked at each tick, touched ones first; one of the others is checked per tick.
 #[derive(Debug)]
 pub struct Scene<'a, S, const N: usize> {
     pub(super) parts: [Part<'a, S>; N],
@@ -85,7 +85,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         &self.parts
     }
 
-    /// What they share.
+    /// The limits of all bodies.
     pub const fn limits(&self) -> &Limits {
         &self.limits
     }
@@ -201,7 +201,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
             _ => Contact::Behind,
         };
         if N > 2 {
-            // A witness point that has been left behind by an eighth of the body's size is searched for anew.
+            // A witness point that has been left behind by an eighth of the body's size is searched for again.
             let clear = (position - sphere.centre_m).length() - sphere.radius_m - tip_radius;
             let most = sphere.radius_m * (1.0 / 32.0);
             let clear = saturate(clear, 0.0, if most < f32::INFINITY { most } else { 0.0 });
@@ -264,7 +264,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
             };
             push = penalty.push(part.gap, part.velocity.dot(part.normal));
             if let Motion::Free(body) = motion {
-                // What the spring gives with the body in the middle of the tick, not at its start.
+                // The spring's force with the body in the middle of the tick, not at its start.
                 let (at, normal) = (part.frame.point_to_scene(point), part.frame.to_scene(part.normal));
                 let mobility = body.mobility(&part.moving, &part.frame, at, normal);
                 let towards = part.frame.velocity_at(at).dot(normal);
@@ -285,7 +285,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         part.force
     }
 
-    /// The body that is felt: the one touched deepest, or the nearer of the two.
+    /// The foremost body: the one touched deepest, or the nearer of the two.
     #[inline]
     fn foremost(&self, state: &SceneState<S::Witness, N>) -> u8 {
         let [first, second] = state.tracked;

@@ -1,4 +1,4 @@
-//! A place in a scene whose body may be exchanged while the scene is felt.
+//! A place in a scene whose body may be exchanged while the scene is rendered.
 
 use super::part::{Material, Motion, Part, Sphere};
 use super::{Command, Commanded, SceneError};
@@ -7,9 +7,9 @@ use crate::math::Vec3;
 use crate::servo::{BakedTables, Surface, Touched, Tracked};
 use crate::track::{Contact, Controller, Probe, Witness};
 
-/// Where uploaded bodies lie: banks of memory, so that one can be written while another is felt.
+/// Storage of uploaded bodies: banks of memory, so that one can be written while another is rendered.
 ///
-/// A bank that was taken does not change until it is left. Nothing here waits: it is asked from the servo's interrupt.
+/// A bank that was taken does not change until it is left. No method may wait: the servo's interrupt calls them.
 pub trait BodyStore {
     /// Takes the body that was uploaded and checked last, if nobody has taken it yet; gives the bank it lies in.
     fn take(&self) -> Option<u8>;
@@ -27,7 +27,7 @@ pub struct Slot<'a, H> {
     store: Option<&'a H>,
 }
 
-/// What a slot keeps between two ticks.
+/// The state of a slot between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlotWitness {
     /// The bank of the body, while it is not the one baked.

@@ -1,4 +1,4 @@
-//! What a scene keeps between two ticks, and what may be changed there while it is felt.
+//! The state of a scene between two ticks, with the changes that are possible while it is rendered.
 
 use super::host_force::HostForce;
 use super::part::PartState;
@@ -17,7 +17,7 @@ pub struct SceneState<W, const N: usize> {
     pub(super) tracked: [u8; 2],
     /// The body that was looked at last beside these.
     pub(super) turn: u8,
-    /// The one that is felt most, or nearest.
+    /// The body in foremost contact, or the nearest.
     pub(super) felt: u8,
     /// Which groups are on.
     pub(super) groups: u32,
@@ -25,11 +25,11 @@ pub struct SceneState<W, const N: usize> {
     pub(super) tip_radius: f32,
     /// The force of all bodies on the tool, N.
     pub(super) backed: Vec3,
-    /// Of it what is left over from before a switch.
+    /// The part that is left over from before a switch.
     pub(super) left_over: Vec3,
     /// Whether something was switched since the last tick.
     pub(super) switched: bool,
-    /// What a host adds, and to what it limits all.
+    /// The host's own force, and its limit of the whole force.
     pub(super) host: HostForce,
     /// The force of all of it on the tool, N.
     pub(super) force: Vec3,
@@ -90,7 +90,7 @@ impl<W: Tracked, const N: usize> Tracked for SceneState<W, N> {
         Some(self.force)
     }
 
-    /// In the frame of the body that is felt.
+    /// In the frame of the foremost body.
     fn witness(&self) -> &Witness {
         self.primary().witness.witness()
     }
@@ -103,7 +103,7 @@ impl<W: Tracked, const N: usize> Tracked for SceneState<W, N> {
         self.primary().contact
     }
 
-    /// That of the body that is felt: [`SceneState::felt`] says which.
+    /// The feature of the foremost body: see [`SceneState::felt`].
     fn feature(&self) -> u16 {
         self.primary().witness.feature()
     }

@@ -109,7 +109,7 @@ impl ConfigError {
 pub trait Loop {
     /// The input of a tick.
     type Input;
-    /// What the motors get.
+    /// The drive commands: the result of a tick.
     type Output;
     /// Everything that changes from tick to tick.
     type State: Copy;

@@ -1,26 +1,26 @@
-//! Contact that no motion explains: a depth that no wall holds a hand at, or a witness point farther off than the probe
-//! has moved since contact began.
+//! Implausible contact: a depth at which no wall holds a hand, or a witness point farther away than the probe has moved
+//! since the contact started.
 //!
-//! A witness point that is left behind would pull the hand back to it with all the force there is, through free air. So
-//! such contact is no force but an event,
-//! [`super::ServoState::contacts_lost`]: the force fades out, the closest point is located anew, and nothing is felt
-//! until the probe has been in front of the surface. A hand that is stronger than the device and goes through a part
-//! ends it the same way. Where it happens again and again something is wrong: [`super::Fault::ContactLost`].
+//! A witness point that is left behind would pull the hand back to it with full force, through free air. So such
+//! contact gives no force but an event, [`super::ServoState::contacts_lost`]: the force fades out, the closest point is
+//! located again, and there is no new force until the probe has been in front of the surface. A hand that is stronger
+//! than the device and goes through a part ends the contact the same way. Repeated events are a fault:
+//! [`super::Fault::ContactLost`].
 
 use super::{Fault, Guard, Phase, Servo, ServoState, Surface, Tracked};
 use crate::device::Kinematics;
 use crate::math::Vec3;
 use crate::render::Penalty;
 
-/// What counts as contact that no motion explains, and what is done.
+/// When a contact counts as implausible, and the reaction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactLimits {
-    /// The greatest depth, as a multiple of the one at which the surface's stiffness alone gives the greatest force;
-    /// above 1.
+    /// Maximum depth, as a multiple of the depth at which the surface's stiffness alone gives the maximum force; above
+    /// 1.
     pub depth: f32,
-    /// Metres up to which any depth is taken for contact: a stiff wall that is struck gives way by more than its
-    /// greatest force asks for.
+    /// Depth, metres, up to which every contact is plausible: a stiff wall that is struck yields by more than its
+    /// maximum force implies.
     pub min_depth_m: f32,
     /// Seconds over which the force fades out.
     pub fade_s: f32,
@@ -32,8 +32,8 @@ pub struct ContactLimits {
 }
 
 impl ContactLimits {
-    /// Twice the depth of the greatest force, for beyond it the wall has given all it has, and no less than 10 mm; 5 ms
-    /// of fading, which no hand takes for a blow; three events within a second of each other.
+    /// Twice the depth of the maximum force, because beyond it the wall's force no longer grows, and no less than 10
+    /// mm; 5 ms of fading, too gentle for a blow; three events within a second of each other.
     pub const DEFAULT: Self = Self { depth: 2.0, min_depth_m: 0.01, fade_s: 0.005, max_in_a_row: 3, quiet_s: 1.0 };
 
     pub(super) const fn is_valid(&self) -> bool {
@@ -74,7 +74,7 @@ impl ContactWatch {
     }
 }
 
-/// What is left of contact that was lost.
+/// The fading force of a released contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LostContact {
     /// Events so far.
@@ -109,7 +109,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         if lost.in_a_row > self.core.contact_watch.max_in_a_row { Err(Fault::ContactLost) } else { Ok(()) }
     }
 
-    /// What is still given of the force of contact that was lost, N; `None` of none.
+    /// The remaining force of a released contact, N; `None` once it has faded out.
     #[inline]
     pub(super) fn fading(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) -> Option<Vec3> {
         let lost = &mut state.contact.lost;

@@ -69,7 +69,8 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
     }
 }
 
-/// What stopped the loop. The number is its code in a report, where 0 means no fault; `Display` gives it in words.
+/// The fault that stopped the loop. The number is its code in a report, where 0 means no fault; `Display` gives it in
+/// words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
@@ -119,7 +120,7 @@ pub enum Fault {
     /// Joint angles that the mechanism cannot have: a sensor is wrong, or something broke.
     #[error("pose out of the mechanism's reach")]
     Unreachable = 15,
-    /// Contact that no motion explains, again and again: see [`super::ContactLimits`].
+    /// Repeated implausible contact: see [`super::ContactLimits`].
     #[error("contact lost repeatedly")]
     ContactLost = 16,
     /// A joint or the probe moves faster than it may while force is given.
@@ -232,7 +233,7 @@ impl ResetReason {
     }
 }
 
-/// What happens outside a tick and matters to the loop: see [`super::Servo::note`].
+/// An event between two ticks that matters to the loop: see [`super::Servo::note`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Event {
@@ -257,17 +258,17 @@ pub enum Event {
     CalibrationRefused,
     /// Stop.
     Stop,
-    /// Somebody has looked at the device after a reset that is a fault, and wants it to go on: takes back
-    /// [`Fault::WatchdogReset`] and [`Fault::BrownOut`], and nothing else. The loop begins anew.
+    /// A person has checked the device after a reset that is a fault: clears [`Fault::WatchdogReset`] and
+    /// [`Fault::BrownOut`], and no other fault. The loop starts again.
     Acknowledged,
-    /// Somebody has chosen what is felt, where there is a choice ([`super::Knob`]).
+    /// A person has selected a body or feel, where there is a choice ([`super::Knob`]).
     Chosen {
         /// Which, counted from 0.
         index: u8,
     },
     /// The motors' supply was measured. A loop that is not protected takes no notice.
     Supply {
-        /// What was measured.
+        /// The measured voltage.
         millivolts: u32,
     },
 }

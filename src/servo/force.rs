@@ -38,7 +38,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         };
         let faded = limit::saturated(felt * (state.drive.fade * state.drive.margin), self.core.penalty.max_force_n);
         let slewed = if self.guard.force_fraction(&state.guard) < 1.0 {
-            // What is withheld cannot grow out of what was given, and once it may be given the guard lets it come
+            // The slew limit must not start from a withheld force; once the force is permitted, the guard lets it rise
             // slowly.
             faded
         } else {

@@ -1,15 +1,15 @@
-//! The last thing before the motors: only what is finite, in range and allowed passes.
+//! The last stage before the motors: passes only duties that are finite, in range and permitted.
 
 use super::Fault;
 use crate::device::{Duty, Motor};
 
-/// The duties for joint torques, N·m: those of the force that is `felt`, on top of those that carry the `weight`. And
-/// what the felt ones were scaled by.
+/// The duties for joint torques, N·m: those of the contact force, `felt`, plus those of gravity compensation, `weight`.
+/// Also returns the scale of the contact torques.
 ///
-/// The weight comes first: it is not given up for a force, or the arm would sag just where it presses hardest. What the
-/// motors have left above it, on either side, bounds the felt torques; beyond that they are scaled, all together, so
-/// that the felt force keeps its direction. (A weight beyond full scale by itself is scaled as a whole, and a force
-/// that would add to it is zero.) Unless `drives`, the duties are zero.
+/// Gravity compensation has priority, or the arm would sag just where it presses hardest. The motors' remaining range,
+/// on either side, bounds the contact torques; beyond it they are scaled, all together, so that the contact force keeps
+/// its direction. (A gravity compensation beyond full scale by itself is scaled as a whole, and a force that would add
+/// to it is zero.) Unless `drives`, the duties are zero.
 ///
 /// # Errors
 /// [`Fault::NotFinite`] if a torque is not a finite number.
@@ -51,7 +51,7 @@ fn saturate<const JOINTS: usize>(
     let mut scale = 1.0;
     for ((fractions, motor), (felt, weight)) in fractions.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
         *fractions = [motor.fraction(felt), motor.fraction(weight)];
-        // A weight beyond the scale shows by what it leaves, if anything is felt.
+        // A weight beyond the scale shows in the remaining range, if there is a contact torque.
         scale = least_scale(scale, *fractions);
     }
     if scale < 0.0 {
@@ -102,12 +102,13 @@ fn relieved<const JOINTS: usize>(weight: [f32; JOINTS], limits: &[f32; JOINTS]) 
         let share = weight.abs() / limit;
         heaviest = if share > heaviest { share } else { heaviest };
     }
-    // Short of the limit by more than roundings: what is left for the force is then never below zero.
+    // Short of the limit by more than rounding errors, so that the range left for the force is never negative.
     let scale = 0.999_999 / heaviest;
     weight.map(|weight| weight * scale)
 }
 
-/// Scales a weight that no motor carries to what they can. Each joint has what is asked for and what is carried.
+/// Scales a gravity compensation beyond the motors' range to what they can give. Each joint has the requested torque
+/// and the carried one.
 #[cold]
 fn relieve<const JOINTS: usize>(fractions: &mut [[f32; 2]; JOINTS]) -> f32 {
     let heaviest = fractions.iter().fold(1.0, |most: f32, [_, carried]| carried.abs().max(most));

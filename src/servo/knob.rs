@@ -7,13 +7,13 @@ use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::render::{Feel, FeelError};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 
-/// What is felt of a dial: a table of feels in flash, switched while it runs ([`super::Event::Chosen`]).
+/// The feel of a dial: a table of feels in flash, switched while it runs ([`super::Event::Chosen`]).
 ///
-/// The loop is the one that touches surfaces: phases, faults, soft start, limits and the gate are the same. There is
-/// just nothing to touch; the force is a function of where the dial is ([`Tracked::own_force`]).
+/// The loop is the same as on surfaces: phases, faults, soft start, limits and the gate. Only the surface is missing;
+/// the force is a function of the dial's position ([`Tracked::own_force`]).
 ///
-/// A switch never gives a step: what the old feel gave beyond the new one goes on, and is let go of by so much torque a
-/// second.
+/// A switch never gives a step: the difference between the old feel's torque and the new one's decays at a constant
+/// rate, N·m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knob {
     feels: &'static [Feel],
@@ -59,7 +59,7 @@ impl KnobError {
 
 crate::message::display!(KnobError);
 
-/// What is kept of a knob between two ticks.
+/// The state of a knob between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KnobWitness {
     witness: Witness,
@@ -71,16 +71,16 @@ pub struct KnobWitness {
     click: i32,
     /// The torque now, N·m.
     torque: f32,
-    /// What of it is left over from another feel, N·m.
+    /// The torque left over from another feel, N·m.
     left_over: f32,
     /// The force at the rim, N.
     force: f32,
-    /// Room to the nearer end stop at the rim, metres; negative beyond. Zero where there is none.
+    /// Distance to the nearer end stop at the rim, metres; negative beyond. Zero without end stops.
     gap: f32,
 }
 
 impl KnobWitness {
-    /// Which feel is felt, counted from 0.
+    /// The index of the active feel, from 0.
     pub const fn feel(&self) -> u8 {
         self.feel
     }
@@ -131,7 +131,7 @@ impl Knob {
         }
     }
 
-    /// [`Self::try_new`] for a `static`: what is refused does not compile.
+    /// [`Self::try_new`] for a `static`: invalid numbers are compile errors.
     ///
     /// # Panics
     /// At compile time, naming the number.
@@ -223,7 +223,7 @@ impl Tracked for KnobWitness {
         Contact::InFront
     }
 
-    /// Which feel is felt.
+    /// The index of the active feel.
     fn feature(&self) -> u16 {
         u16::from(self.feel)
     }

@@ -1,17 +1,17 @@
 //! The servo loop: one tick from encoder counts to motor duty.
 //!
-//! [`Servo`] is the configuration and lives in flash; [`ServoState`] is everything that changes and is `Copy`;
+//! [`Servo`] is the configuration and lives in flash; [`ServoState`] holds everything that changes and is `Copy`;
 //! [`Servo::tick`] is a function of the two and the tick's [`Input`]. Follow a tick in `tick.rs` from top to bottom. It
-//! cannot fail: it returns duties, and in its state says what it thinks of them ([`Phase`], [`Fault`]).
+//! cannot fail: it returns duties, and its state reports the [`Phase`] and the [`Fault`].
 //!
-//! # What is a fault
+//! # Faults
 //!
-//! | what happens | who sees it | [`Fault`] |
+//! | cause | detected by | [`Fault`] |
 //! |---|---|---|
 //! | sensor frame lost, late or damaged | [`Input::Lost`], [`Input::Damaged`] | `FrameLost`, `FrameDamaged` |
-//! | encoder absent, glitching | range and greatest joint rate of the [`crate::device::Device`] | `JointOutOfRange`, `JointJumped` |
+//! | encoder absent, glitching | range and maximum joint rate of the [`crate::device::Device`] | `JointOutOfRange`, `JointJumped` |
 //! | encoder stuck | [`Safety::stuck`] | `JointStuck` |
-//! | contact that no motion explains, again and again | [`ContactLimits`] | `ContactLost` |
+//! | repeated implausible contact | [`ContactLimits`] | `ContactLost` |
 //! | encoders contradict the mechanism | [`crate::device::Kinematics::pose`] | `Unreachable` |
 //! | a force or torque that is NaN or infinite | the gate before the motors | `NotFinite` |
 //! | tick overrun | [`Deadline`], [`Event::Overrun`] | `Overrun` |
@@ -19,18 +19,18 @@
 //! | table corrupted or stale | [`Safety::checks_tables`], at boot and in every tick that withholds no force | `TableCorrupt` |
 //! | reset by watchdog or brown-out | [`ResetReason`], [`Servo::start_after`] | `WatchdogReset`, `BrownOut` |
 //! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
-//! | calibration in flash that is damaged, or not of this device | [`Event`] | `Calibration` |
-//! | supply out of range, or nobody measures it | [`crate::device::SupplyRange`], [`Event::Supply`] | `Supply` |
+//! | calibration in flash damaged, or of another device | [`Event`] | `Calibration` |
+//! | supply out of range, or not measured | [`crate::device::SupplyRange`], [`Event::Supply`] | `Supply` |
 //! | joint or probe too fast under force | [`crate::device::Protection`] | `Overspeed` |
 //! | encoder against its motor | [`crate::device::PolarityCheck`] | `WrongPolarity` |
-//! | motor too warm | [`Heat`]: its force folds back to what it bears for ever | none: a limit |
+//! | motor too warm | [`Heat`]: its force folds back to the continuous limit | none: a limit |
 //! | too much force | scaled as a whole, its direction kept | none: a limit |
-//! | force asked for inside the wall | faded in | none |
+//! | force requested inside the wall | faded in | none |
 //! | rim of the workspace, singularity | faded out and in again ([`crate::device::Device::workspace_margin`]) | none |
 //!
-//! A fault is latched with its tick, and the first one stands. From the very tick in which it is seen the motors are
-//! safe ([`SafeOutput`]). The one exception is asked for by name: a [`FrameBridge`] before the tick bridges a few bad
-//! frames in a row, and the next one is the fault. What the motors get is [`ServoState::output`], in every phase.
+//! A fault is latched with its tick, and the first one stands. From the very tick in which it is detected the motors
+//! are safe ([`SafeOutput`]). The one exception is explicit: a [`FrameBridge`] before the tick bridges a few bad frames
+//! in a row, and the next one is the fault. The motors get [`ServoState::output`], in every phase.
 
 mod config;
 mod contact;

@@ -1,10 +1,11 @@
-//! What each device that ships is recommended to be driven with at 4 kHz, so that a hand feels the surface and not the
-//! loop. Found by `palpate feel`, which takes them unless told otherwise; simulated.
+//! Recommended settings of each device that ships, at 4 kHz, so that a hand feels the surface and not the loop.
+//! Measured in simulation by `palpate feel`, which uses them by default.
 //!
-//! All have [`Rendering::SMOOTH`]: counts of 23 to 146 µm are felt through a spring of 500 N/m on any device whose own
-//! friction does not hide them. The corner of 80 Hz is as fast as a count that a resting probe leaves does not make a
-//! damper of 2 N·s/m step by more than 50 mN on WoodenHaptics; at other rates take a fiftieth of the rate. What differs
-//! is the stiffness: 500 N/m, whose spring alone steps by 38 mN in a tick at 0.3 m/s, unless said otherwise below.
+//! All have [`Rendering::SMOOTH`]: with a spring of 500 N/m a hand feels counts of 23 to 146 µm on every device whose
+//! own friction does not hide them. The corner of 80 Hz is the fastest with which one count that a resting probe
+//! crosses makes a damper of 2 N·s/m step by at most 50 mN on WoodenHaptics; at other rates take a fiftieth of the
+//! rate. The devices differ in stiffness: 500 N/m, whose spring alone steps by 38 mN in a tick at 0.3 m/s, except where
+//! noted below.
 
 use super::{Rendering, Settings};
 use crate::device::presets;
@@ -21,13 +22,13 @@ use crate::device::presets;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Recommended {
-    /// Rate, wall, greatest force and velocity corner; the body's origin is yours to set.
+    /// Rate, wall, maximum force and velocity corner; the body's origin is yours to set.
     pub settings: Settings,
-    /// What becomes of the force.
+    /// Filters and easing of the force.
     pub rendering: Rendering,
 }
 
-/// A wall of so many N/m and N·s/m for a device that gives so much force, N.
+/// A wall of a stiffness, N/m, and a damping, N·s/m, for a device with a maximum force, N.
 const fn wall(stiffness: f32, damping: f32, max_force: f32) -> Recommended {
     Recommended {
         settings: Settings {
@@ -43,14 +44,14 @@ const fn wall(stiffness: f32, damping: f32, max_force: f32) -> Recommended {
     }
 }
 
-/// For [`presets::WOODEN_HAPTICS_2016`]. Its counts are felt even at 200 N/m if they are taken as they are.
+/// For [`presets::WOODEN_HAPTICS_2016`]. Without smoothing a hand feels its counts even at 200 N/m.
 pub const WOODEN_HAPTICS_2016: Recommended = wall(500.0, 2.0, presets::WOODEN_HAPTICS_2016.max_force_n);
 
 /// For [`presets::POLHEM_V2`]. Its friction hides its counts: the smooth rendering is for contact and edges.
 pub const POLHEM_V2: Recommended = wall(500.0, 2.0, presets::POLHEM_V2.max_force_n);
 
-/// For [`presets::PHANTOM_PREMIUM`]: softer, for its friction is too little to hide that a believed position lags
-/// behind by a count where a joint turns back: at 500 N/m that is felt, if barely.
+/// For [`presets::PHANTOM_PREMIUM`]: softer, because the estimated position lags by a count where a joint turns back,
+/// and its friction is too low to hide that: a hand just feels it at 500 N/m.
 pub const PHANTOM_PREMIUM: Recommended = wall(400.0, 2.0, presets::PHANTOM_PREMIUM.max_force_n);
 
 /// For [`presets::NOVINT_FALCON`]: softer, for its third of a kilogram swings ahead of a hand that draws it at 0.3 m/s

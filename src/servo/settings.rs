@@ -5,7 +5,7 @@ use crate::device::VelocityMethod;
 use crate::math::Vec3;
 use crate::render::{Coupling, Ease, Friction, Passivity, Penalty, Texture};
 
-/// The loop's settings. Begin with [`Settings::DEFAULT`].
+/// The loop's settings. Start with [`Settings::DEFAULT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Servo rate, Hz.
@@ -14,7 +14,7 @@ pub struct Settings {
     pub stiffness_n_per_m: f32,
     /// Damping of the surface, N·s/m.
     pub damping_n_s_per_m: f32,
-    /// The greatest force, N. The device's own limit applies as well.
+    /// Maximum force, N. The device's own limit applies as well.
     pub max_force_n: f32,
     /// Corner frequency of the velocity filter, Hz.
     pub velocity_corner_hz: f32,
@@ -36,7 +36,7 @@ pub enum SettingsError {
     Stiffness,
     /// The damping is negative, not finite or above the device's.
     Damping,
-    /// The greatest force is negative or not finite.
+    /// The maximum force is negative or not finite.
     MaxForce,
     /// The corner frequency is not positive and finite.
     VelocityCorner,
@@ -76,7 +76,7 @@ impl Settings {
         body_origin_m: Vec3::ZERO,
     };
 
-    /// Checks the settings against a device's greatest stiffness (N/m) and damping (N·s/m).
+    /// Checks the settings against a device's maximum stiffness (N/m) and damping (N·s/m).
     ///
     /// # Errors
     /// The first setting that is refused.
@@ -127,7 +127,7 @@ const fn within(x: f32, low: f32, high: f32) -> bool {
     x >= low && x <= high
 }
 
-/// How the surface feels. Begin with [`Rendering::PLAIN`].
+/// How the surface feels. Start with [`Rendering::PLAIN`].
 #[derive(Clone, Copy, Debug)]
 pub struct Rendering {
     /// The velocity estimator.
@@ -140,18 +140,19 @@ pub struct Rendering {
     pub coupling: Option<Coupling>,
     /// Passivity control.
     pub passivity: Option<Passivity>,
-    /// What keeps the force from clicking at contact and over edges. In a scene the damping of its bodies is there at
-    /// once, and the settings' stiffness should be that of the stiffest: a spring that is stiffer is held back.
+    /// Easing: prevents clicks of the force at contact and over edges. In a scene the damping of its bodies is there at
+    /// once, and the settings' stiffness should be that of the stiffest body: easing limits a stiffer spring.
     pub ease: Option<Ease>,
     /// How fast the force may grow, N/s. It may always fall at once.
     pub max_slew_n_per_s: f32,
-    /// Whether the motors carry the weight of the device's own links, as far as its kinematics knows it.
+    /// Gravity compensation: whether the motors carry the weight of the device's own links, as far as its kinematics
+    /// knows it.
     ///
-    /// The torques that do come on top of the force's, last before the gate, which gives them what they need first.
-    /// They fade in with the force, for at the start the hand still carries what the motors did not, and would be
-    /// lifted by a step. They are no part of [`super::ServoState::force`], nor of what the greatest force, the slew
-    /// limit and the passivity control look at: they are conservative, and give back what they took. At the rim of the
-    /// workspace they stay. Without [`super::Phase::Running`], and so after any fault, they are zero.
+    /// Its torques are added to those of the force, last before the gate, which serves them first. They fade in with
+    /// the force: at the start the hand still supports the links, and a step would lift it. They are not part of
+    /// [`super::ServoState::force`], and the maximum force, the slew limit and the passivity control exclude them: they
+    /// are conservative, and return the energy that they took. At the rim of the workspace they stay. Without
+    /// [`super::Phase::Running`], and so after any fault, they are zero.
     pub compensates_gravity: bool,
 }
 
@@ -210,8 +211,8 @@ impl Rendering {
     /// position's delay costs stiffness.
     pub const SMOOTH: Self = Self { velocity: VelocityMethod::BetweenCounts, ..Self::EASED };
 
-    /// For stiff walls: nothing clicks at contact and over edges, but counts are felt as they are. It costs little
-    /// stiffness, for nothing lags.
+    /// For stiff walls: no clicks at contact and over edges, but the encoder's counts stay perceptible. It costs little
+    /// stiffness, because nothing lags.
     pub const EASED: Self = Self { ease: Some(Ease::SMOOTH), ..Self::PLAIN };
 
     /// Checks the choices, for a surface's stiffness (N/m) and a period (s).
@@ -255,30 +256,29 @@ impl Default for Rendering {
     }
 }
 
-/// What the motors do from the tick in which a fault is seen.
+/// The motors' output from the tick in which a fault is detected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SafeOutput {
     /// Nothing.
     Zero,
-    /// They brake the probe with this damping, N·s/m, in every tick whose sensors can be believed; nothing in the
-    /// others, nor after a fault of a drive, of the supply or of a sign ([`super::Fault::leaves_damping`]), nor where
-    /// signs are watched and not all joints have been seen to follow their motors. It helps where the device would
-    /// fall.
+    /// They brake the probe with this damping, N·s/m, in every tick whose sensors are trusted. They give zero in all
+    /// other ticks, after a fault of a drive, of the supply or of a polarity ([`super::Fault::leaves_damping`]), and
+    /// while a polarity check has not confirmed all joints. Use it where the device would fall.
     Damping(f32),
 }
 
-/// When a joint sensor counts as stuck: the force that the hand feels loads its joint beyond dry friction, and its
-/// count stays the same, while another joint moves far.
+/// When a joint sensor counts as stuck: the contact force loads its joint beyond dry friction, and its count stays the
+/// same, while another joint moves far.
 ///
-/// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves another joint by `travel`
+/// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves another joint by `travel_rad`
 /// meanwhile would have to balance the load on this one to within its dry friction all the way, on the one curve on
-/// which it does not turn. Below friction no hand is needed for that, so what is below counts as no load. A device with
-/// one joint has no others: there this finds nothing. One joint is looked at a tick.
+/// which it does not turn. Below friction no hand is needed for that, so a smaller torque counts as no load. A device
+/// with one joint has no others: this check never trips there. One joint is checked per tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {
-    /// The least load, as a multiple of the joint's [`crate::device::Device::dry_friction_n_m`]; at least 1.
+    /// Minimum load, as a multiple of the joint's [`crate::device::Device::dry_friction_n_m`]; at least 1.
     pub load: f32,
     /// How far another joint moves meanwhile, radians.
     pub travel_rad: f32,
@@ -293,11 +293,11 @@ impl StuckLimits {
     pub const DEFAULT: Self = Self { load: 5.0, travel_rad: 0.6 };
 }
 
-/// Limits and reactions of the loop. Begin with [`Safety::DEFAULT`].
+/// Limits and reactions of the loop. Start with [`Safety::DEFAULT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Safety {
-    /// What the motors do after a fault.
+    /// The motors' output after a fault.
     pub output: SafeOutput,
     /// How many ticks in a row may overrun before it is a fault.
     pub max_overruns: u32,
@@ -327,7 +327,7 @@ pub enum SafetyError {
     LinkTimeout,
     /// The load is below dry friction, or the travel is not above zero.
     Stuck,
-    /// The depth is not above that of the greatest force, or a time is negative or not finite.
+    /// The depth is not above that of the maximum force, or a time is negative or not finite.
     Contact,
 }
 
@@ -360,7 +360,7 @@ impl Safety {
         checks_tables: true,
     };
 
-    /// Checks the limits against a device's greatest damping (N·s/m).
+    /// Checks the limits against a device's maximum damping (N·s/m).
     ///
     /// # Errors
     /// The first that is refused.

@@ -237,7 +237,7 @@ impl<'a, S, K, const JOINTS: usize, G> Servo<'a, S, K, JOINTS, G> {
         self.core.device
     }
 
-    /// What it feels.
+    /// The surface that it renders.
     #[inline]
     pub const fn surface(&self) -> &'a S {
         self.core.surface
@@ -245,19 +245,19 @@ impl<'a, S, K, const JOINTS: usize, G> Servo<'a, S, K, JOINTS, G> {
 }
 
 impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
-    /// What the loop is doing.
+    /// The phase of the loop.
     #[inline]
     pub const fn phase(&self) -> Phase {
         self.phase
     }
 
-    /// What stopped it, and at which tick. Latched.
+    /// The fault that stopped the loop, and its tick. Latched.
     #[inline]
     pub const fn fault(&self) -> Option<(Fault, u32)> {
         self.faults.first
     }
 
-    /// Why the chip was reset before the loop began.
+    /// The reason for the chip's last reset.
     #[inline]
     pub const fn reset(&self) -> ResetReason {
         self.faults.reset
@@ -287,9 +287,9 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         self.contact.lost.count
     }
 
-    /// Whether the surface is touched and the probe deeper inside than its least radius of curvature: the closest point
-    /// is no longer unique there, and the witness point not proved to follow (theory §11). Ordinary where a small
-    /// fillet is pressed.
+    /// Whether the probe is in contact and deeper inside than the surface's minimum radius of curvature: the closest
+    /// point is no longer unique there, and the theory no longer bounds the witness point's error (theory §11). Normal
+    /// where a small fillet is pressed.
     #[inline]
     pub const fn is_too_deep(&self) -> bool {
         self.contact.is_too_deep
@@ -349,8 +349,8 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         self.sensors.rates
     }
 
-    /// How much room there is to the rim of the workspace ([`crate::device::Device::workspace_margin`]): 1 well inside; the force
-    /// is multiplied by it.
+    /// The workspace margin, 0 to 1 ([`crate::device::Device::workspace_margin`]): 1 well inside; the force is
+    /// multiplied by it.
     #[inline]
     pub const fn workspace_margin(&self) -> f32 {
         self.drive.margin
@@ -386,7 +386,7 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         self.contact.anchor
     }
 
-    /// What the passivity observer counted.
+    /// The energy that the passivity observer counted.
     #[inline]
     pub const fn energy(&self) -> Energy {
         self.drive.energy
@@ -410,7 +410,7 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         self.drive.duties
     }
 
-    /// What the guard remembers.
+    /// The guard's state.
     #[inline]
     pub const fn guard(&self) -> &G {
         &self.guard

@@ -135,7 +135,7 @@ pub trait Tracked: Copy + Debug + PartialEq {
         0
     }
 
-    /// The index of the body that is felt, of several.
+    /// The index of the body in contact, of several.
     fn body(&self) -> u8 {
         0
     }
@@ -151,14 +151,14 @@ pub trait Tracked: Copy + Debug + PartialEq {
     fn for_each_word(&self, take: impl FnMut(u32));
 }
 
-/// What a tick has found, beside what the witness keeps.
+/// The result of a tick that the witness does not keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touched {
     /// Unit vector out of the body at the witness point, or zero where there is none.
     pub normal: Vec3,
     /// Whether the controller's step was rejected.
     pub rejected: bool,
-    /// Whether the witness point is farther from the probe than the probe has moved since contact began.
+    /// Whether the witness point is farther from the probe than the probe has moved since the contact started.
     pub unexplained: bool,
 }
 
@@ -253,7 +253,7 @@ impl Feature {
     }
 }
 
-/// What is kept of a patch between two ticks.
+/// The state of a patch between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchWitness {
     witness: Witness,

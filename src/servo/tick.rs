@@ -7,11 +7,11 @@ use crate::math::Vec3;
 use crate::render::{Moved, Tool, limit};
 use crate::track::{Contact, Probe};
 
-/// What a tick starts from.
+/// The input of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Input<const JOINTS: usize> {
-    /// What the sensors say.
+    /// The sensors' readings.
     Sensors {
         /// Encoder counts, one per joint.
         counts: [Counts; JOINTS],
@@ -28,7 +28,7 @@ pub enum Input<const JOINTS: usize> {
 struct Torques<const JOINTS: usize> {
     /// Those of the force that the hand feels.
     felt: [f32; JOINTS],
-    /// Those that carry the links.
+    /// The torques of gravity compensation.
     weight: [f32; JOINTS],
     /// Whether any may reach the motors.
     live: bool,
@@ -57,7 +57,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             Event::Stop => stop(state, Fault::Stopped),
             Event::Acknowledged => {
                 if state.faults.reset.fault().is_some_and(|fault| state.faults.first == Some((fault, 0))) {
-                    // What was found since is not what somebody has looked at.
+                    // The person has not seen the faults that came later.
                     state.faults.first = state.faults.later.take().map(|fault| (fault, state.ticks));
                     if state.faults.first.is_none() {
                         state.phase = Phase::Reset;
@@ -117,13 +117,13 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         if leads { [0.0; JOINTS] } else { state.sensors.rates }
     }
 
-    /// What the CRC of the tables must be, if they are to be checked and carry one.
+    /// The expected CRC of the tables, if they are to be checked and carry one.
     #[inline]
     pub(super) fn expected_crc(&self) -> Option<u32> {
         if self.core.safety.checks_tables { self.core.surface.baked_crc() } else { None }
     }
 
-    /// What can be wrong whatever the sensors say.
+    /// The checks that need no sensors.
     #[inline]
     fn watch(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) {
         if !state.faults.overran {
@@ -260,7 +260,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             return Ok(Torques::NONE);
         }
         state.phase = self.next_phase(state, enable);
-        // No motor moves by itself: whoever wants force wants homing.
+        // Homing that moves motors requires enable: no motor may start on its own.
         if homing.waits_for_enable() && !enable {
             state.readiness.homing.pause();
             return Ok(Torques::NONE);
@@ -317,7 +317,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         }
     }
 
-    /// What the motors do after a fault, in a tick whose sensors can be believed.
+    /// The motors' torques after a fault, in a tick whose sensors are trusted.
     #[inline]
     fn safe_torques(
         &self,

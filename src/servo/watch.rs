@@ -26,7 +26,7 @@ impl<const JOINTS: usize> FrameBridge<JOINTS> {
     /// How many bad frames in a row are bridged unless you choose.
     pub const DEFAULT_IN_A_ROW: u32 = 2;
 
-    /// A bridge over at most so many bad frames in a row; 0 bridges none.
+    /// A bridge over at most `max_in_a_row` consecutive bad frames; 0 bridges none.
     pub const fn new(max_in_a_row: u32) -> Self {
         Self { max_in_a_row, in_a_row: 0, total: 0, from: ([Counts(0); JOINTS], [0.0; JOINTS]) }
     }
@@ -36,7 +36,7 @@ impl<const JOINTS: usize> FrameBridge<JOINTS> {
         self.total
     }
 
-    /// What the tick starts from: `input` as it came, or a prediction in its place, with `enable` as it is now.
+    /// The input of the tick: `input` itself, or a prediction in its place, with `enable` as it is now.
     #[inline]
     pub fn input<S: Surface, K: Kinematics<JOINTS>, G: Guard<JOINTS>>(
         &mut self,
@@ -86,7 +86,7 @@ impl Deadline {
         Self { counts: (frequency / rate) as u32 }
     }
 
-    /// Whether a tick that began and ended at these counts came too late. The counter may wrap once between.
+    /// Whether a tick was late, from the counts at its start and end. The counter may wrap once between.
     pub const fn overrun(self, began: u32, ended: u32) -> bool {
         ended.wrapping_sub(began) > self.counts
     }
@@ -110,7 +110,7 @@ impl Heartbeat {
     }
 }
 
-/// What the watch over stuck sensors remembers.
+/// The state of the check for stuck sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stillness<const JOINTS: usize> {
     /// The joint whose turn it is.
@@ -125,11 +125,10 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
     /// Before the first tick.
     pub const START: Self = Self { turn: 0, counts: [Counts(0); JOINTS], since: [[0.0; JOINTS]; JOINTS] };
 
-    /// Looks at the next joint, one a tick: whether it has not moved by a count under load while another moved far.
+    /// Checks the next joint, one per tick: whether it has not moved by a count under load while another moved far.
     ///
-    /// `felt` is the torque on each joint of the force that the hand feels, N·m, without what carries the links, which
-    /// their weight balances; `friction` is each joint's dry friction. A joint whose friction is not known is not
-    /// watched.
+    /// `felt` is the torque of the contact force on each joint, N·m, without gravity compensation, which the links'
+    /// weight balances; `friction` is each joint's dry friction. A joint whose friction is not known is not checked.
     #[inline]
     pub(super) fn is_broken(
         &mut self,

@@ -1,5 +1,5 @@
-//! What passes between a host and a device that is being accepted, motors disabled: the protocol and what each figure
-//! must be are in `docs/howto/acceptance.md` of the repository.
+//! Messages between a host and a device in acceptance, motors disabled. The protocol and the expected figures are in
+//! `docs/howto/acceptance.md` of the repository.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Request {
-    /// Who it is: a [`Finding::Identity`] comes back.
+    /// Identify yourself: the device answers with a [`Finding::Identity`].
     Identity,
-    /// Runs the script, of each lap at most so many ticks: a [`Finding::Line`] for each line of it, then
-    /// [`Finding::Done`].
+    /// Runs the script, each lap for a maximum number of ticks: the device answers with a [`Finding::Line`] for each
+    /// line of it, then [`Finding::Done`].
     Script {
         /// Ticks.
         most: u32,
@@ -29,7 +29,7 @@ pub enum Failure {
     Hang,
     /// It panics.
     Panic,
-    /// It executes what is no instruction.
+    /// Executes an invalid instruction.
     Exception,
 }
 
@@ -37,9 +37,9 @@ pub enum Failure {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Finding {
-    /// Who it is.
+    /// The device's identity.
     Identity(Identity),
-    /// What the script came to so far.
+    /// A line's result so far.
     Line(Line),
     /// The script is over.
     Done,
@@ -47,7 +47,7 @@ pub enum Finding {
     Ticks(Ticks),
 }
 
-/// What a tick of the script is counted in.
+/// The unit in which a tick of the script is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Counted {
@@ -58,7 +58,7 @@ pub enum Counted {
     Instructions,
 }
 
-/// Who a device is.
+/// The identity of a device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Identity {
@@ -66,7 +66,7 @@ pub struct Identity {
     pub core: u32,
     /// Counts of the board's counter in a second, Hz.
     pub clock: u32,
-    /// What a tick of the script is counted in.
+    /// The unit in which a tick of the script is measured.
     pub counted: Counted,
     /// Servo rate, Hz.
     pub rate: f32,
@@ -78,7 +78,7 @@ pub struct Identity {
     pub baked: u32,
 }
 
-/// What the script came to so far.
+/// A line's result so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Line {
@@ -96,7 +96,7 @@ pub struct Line {
     pub faults: u32,
     /// Ticks in contact.
     pub touching: u32,
-    /// What the longest tick of the lap took so far, counts.
+    /// The longest tick of the lap so far, counts.
     pub longest: u32,
 }
 
@@ -122,7 +122,7 @@ pub struct Ticks {
     pub bad: [u32; 3],
     /// The most bad frames in a row since the reset.
     pub in_a_row: u32,
-    /// What the person's side says ([`panel`]).
+    /// The inputs of the operator's panel ([`panel`]).
     pub panel: u8,
     /// The motors' supply, mV; 0 where it is not measured.
     pub supply: u32,

@@ -1,4 +1,4 @@
-//! What a device that runs by itself says, and what it makes of what it is told.
+//! The messages of a standalone device, and its answers to a host.
 
 use super::message::{Reading, Record};
 use super::upload::UploadError;
@@ -71,7 +71,7 @@ pub enum KeepError {
     /// A motor is driven, or somebody holds the enable input.
     #[error("flash is written only while the motors are off; release the enable input first")]
     Driven,
-    /// It cannot be this device's. What was kept before still is.
+    /// The calibration cannot belong to this device. The stored one is unchanged.
     #[error("{0}")]
     Calibration(CalibrationError),
     /// The flash did not take it: none is kept now that is whole.
@@ -79,7 +79,7 @@ pub enum KeepError {
     Flash,
 }
 
-/// What a device is.
+/// The identity and limits of a device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Hello {
@@ -87,7 +87,7 @@ pub struct Hello {
     pub protocol: u16,
     /// Servo rate, Hz.
     pub rate: f32,
-    /// The greatest force of the device's settings, N.
+    /// Maximum force of the device's settings, N.
     pub max_force: f32,
     /// Bytes of a body that can be uploaded; 0 where none can.
     pub room: u32,
@@ -101,13 +101,13 @@ pub struct Hello {
     pub kept: u32,
 }
 
-/// What became of an order or of a part of an upload.
+/// The result of a command or of a part of an upload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Answer {
     /// Its number.
     pub number: u16,
-    /// What was wrong with it; nothing has changed then.
+    /// Why it was refused; nothing has changed then.
     pub refused: Option<Refused>,
 }
 
@@ -115,7 +115,7 @@ pub struct Answer {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refused {
-    /// The host has not said hello in the device's version since the device began.
+    /// No hello in the device's version since the device's start.
     #[error("send a hello with the device's protocol version first")]
     Hello,
     /// An order.
@@ -127,7 +127,7 @@ pub enum Refused {
     /// The order before is still on its way.
     #[error("busy: the previous command is pending")]
     Busy,
-    /// The device is being set up: nothing is felt.
+    /// The device is in commissioning mode: it renders nothing.
     #[error("the device is in commissioning mode")]
     SetUp,
     /// A calibration.
@@ -135,7 +135,7 @@ pub enum Refused {
     Calibration(KeepError),
 }
 
-/// What a host sees of the loop.
+/// The host's view of the loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct View {
@@ -145,9 +145,9 @@ pub struct View {
     pub phase: u8,
     /// [`crate::servo::Fault`] as its code, 0 for none. Latched.
     pub fault: u8,
-    /// What of the person's side keeps the motors off, as bits ([`super::hold`]).
+    /// External reasons that keep the motors off, as bits ([`super::hold`]).
     pub hold: u8,
-    /// The body that is felt, by its index in the scene.
+    /// The foremost body, by its index in the scene.
     pub body: u8,
     /// [`crate::track::Contact`] as its number.
     pub contact: u8,

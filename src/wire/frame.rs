@@ -13,7 +13,7 @@ use postcard::ser_flavors::{Cobs, Slice, crc::CrcModifier};
 use serde::{Serialize, de::DeserializeOwned};
 use thiserror::Error;
 
-/// Bytes that hold any frame of this crate's messages, the final `0x00` included, with room for a message to grow.
+/// The capacity for any frame of this crate's messages, bytes, the final `0x00` included; a message may still grow.
 pub const MAX_FRAME: usize = 128;
 
 /// Ends a frame, and never occurs inside one. Alone it is an empty frame: nothing to say this tick.
@@ -44,7 +44,7 @@ pub fn pack<'a, M: Serialize>(message: &M, buffer: &'a mut [u8]) -> Result<&'a [
         .map_err(|_| FrameError::BufferTooSmall)
 }
 
-/// What a delimiter completed.
+/// The result of a delimiter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Received<M> {
     /// A whole message.
@@ -55,7 +55,7 @@ pub enum Received<M> {
     Empty,
 }
 
-/// Takes bytes as they come and gives messages. Starts anew at every [`DELIMITER`].
+/// Takes bytes as they arrive and returns messages. Starts again at every [`DELIMITER`].
 #[derive(Debug)]
 pub struct Receiver<M> {
     decoder: DecoderState,
@@ -120,7 +120,7 @@ impl<M: DeserializeOwned> Receiver<M> {
         if CHECKSUM.checksum(message) != u32::from_le_bytes(*checksum) {
             return None;
         }
-        // postcard stops where the message ends: what is left over means that the other side sent another message.
+        // postcard stops at the message's end: more bytes mean that the other side sent another message.
         match postcard::take_from_bytes(message) {
             Ok((message, [])) => Some(message),
             _ => None,

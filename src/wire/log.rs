@@ -1,5 +1,5 @@
-//! What changes, logged with defmt (feature `defmt`). Call it where the records of [`super::telemetry`] come out, below
-//! the servo: the log's transport may wait, the loop may not.
+//! Logs changes with defmt (feature `defmt`). Call it where the records of [`super::telemetry`] come out, below the
+//! servo: the log's transport may wait, the loop may not.
 
 use super::Record;
 use crate::servo::{Fault, Phase, ResetReason};

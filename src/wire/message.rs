@@ -1,4 +1,4 @@
-//! What is said, a tick, each way. Arrays hold three joints; a device with fewer leaves the rest zero.
+//! Messages in each direction. Arrays hold three joints; a device with fewer leaves the rest zero.
 
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +30,7 @@ pub struct Report {
     pub fault_tick: u32,
     /// [`crate::device::Refusal`] as its code, 0 for none: why homing was refused.
     pub refusal: u8,
-    /// [`crate::servo::ResetReason`] as its number: why the chip was reset before the loop began.
+    /// [`crate::servo::ResetReason`] as its number: the reason for the chip's last reset.
     pub reset: u8,
     /// Ticks that overran so far.
     pub overruns: u32,
@@ -40,7 +40,7 @@ pub struct Report {
     pub mode: u8,
     /// [`crate::track::Contact`] as its number.
     pub contact: u8,
-    /// Room to the rim of the workspace, percent: below 100 the force lets go.
+    /// Workspace margin, percent: below 100 the force fades out.
     pub room: u8,
     /// The witness point's parameters.
     pub parameters: [f32; 2],
@@ -79,7 +79,7 @@ pub struct Record {
     pub longest: u32,
     /// The longest that a tick took since the record before, from its interrupt to its end, counts.
     pub took: u32,
-    /// Records that found no room in the queue so far.
+    /// Records dropped so far because the queue was full.
     pub dropped: u32,
     /// [`crate::servo::Phase`] as its number.
     pub phase: u8,
@@ -93,7 +93,7 @@ pub struct Record {
     pub overruns: u32,
     /// Bad sensor frames bridged so far ([`crate::servo::FrameBridge`]).
     pub bridged: u32,
-    /// What of the person's side keeps the motors off, as bits ([`hold`]).
+    /// External reasons that keep the motors off, as bits ([`hold`]).
     pub hold: u8,
     /// [`crate::body::Feature`] as its code; 0 for a surface of one patch.
     pub feature: u16,
@@ -142,17 +142,17 @@ pub enum HostMessage {
     SetUp,
     /// One motor, while a key is held; taken only by a device that is being set up.
     Jog(crate::commission::Jog),
-    /// A host begins to speak, in this version ([`super::PROTOCOL`]). The device says [`super::Hello`]; it takes orders
-    /// and uploads only from a host of its own version.
+    /// Starts a session in this version ([`super::PROTOCOL`]). The device answers with [`super::Hello`]; it takes
+    /// commands and uploads only from a host of its own version.
     Hello {
         /// The host's.
         protocol: u16,
     },
-    /// What is felt is to be changed between two ticks. Answered by its number ([`super::Answer`]).
+    /// Changes the scene between two ticks. Answered by its number ([`super::Answer`]).
     Command {
         /// The next higher one, wrapping.
         number: u16,
-        /// What.
+        /// The command.
         command: crate::scene::Command,
     },
     /// A part of a body on its way into the device's memory. Answered by its number ([`super::Answer`]).
@@ -162,13 +162,13 @@ pub enum HostMessage {
         /// Which part.
         part: super::upload::Upload,
     },
-    /// What commissioning found is kept in the device's flash, or forgotten; used from the next reset on. Taken only by
-    /// a device that is being set up, while no motor is driven and the enable input is released. Answered by its number
+    /// Stores the results of commissioning in the device's flash, or clears them; used from the next reset on. Only in
+    /// commissioning mode, while no motor is driven and the enable input is released. Answered by its number
     /// ([`super::Answer`]).
     Calibrate {
         /// As an order's.
         number: u16,
-        /// Of each joint; a device with fewer takes the first. `None` forgets what is kept.
+        /// The values of each joint; a device with fewer takes the first. `None` clears the stored calibration.
         joints: Option<[crate::commission::JointCalibration; 3]>,
     },
 }
@@ -193,6 +193,6 @@ pub struct Reading {
     pub enable: bool,
     /// [`crate::commission::JogRefusal`] as its code, 0 for none.
     pub refusal: u8,
-    /// What of the person's side keeps the motors off, as bits ([`hold`]).
+    /// External reasons that keep the motors off, as bits ([`hold`]).
     pub hold: u8,
 }

@@ -6,7 +6,7 @@ use crate::device::Refusal;
 use crate::servo::{Remembered, ServoState, Tracked};
 
 impl Report {
-    /// What to say of a tick once it is done. `instructions` is what the board counted, 0 where it cannot.
+    /// The report of a finished tick. `instructions` is the board's count, 0 where it cannot count.
     pub fn new<const JOINTS: usize, W: Tracked, G: Remembered>(
         state: &ServoState<JOINTS, W, G>,
         instructions: u32,

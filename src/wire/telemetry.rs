@@ -1,8 +1,8 @@
 //! Telemetry that does not disturb the loop: a queue of fixed capacity from the servo's interrupt to a sender below it.
 //!
 //! [`Recorder`] runs in the interrupt, after the duties are applied: a few comparisons a tick, and now and then one
-//! record copied into the queue. It never waits. A queue without room costs records, which are counted, and never time.
-//! Whoever holds the other end packs and sends them ([`super::frame::pack`]), or logs them, at its leisure.
+//! record copied into the queue. It never waits. A full queue drops records, and counts them, but costs no time. The
+//! code at the other end packs and sends them ([`super::frame::pack`]), or logs them, at low priority.
 
 use super::Record;
 use crate::device::Duty;
@@ -12,7 +12,7 @@ use crate::track::{BoundaryMode, Contact};
 /// The queue's type, for those who make one: `Queue<Record, N>` holds `N − 1` records.
 pub use heapless::spsc::{Consumer, Producer, Queue};
 
-/// What is told at once when it changes.
+/// The fields whose change is reported at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct DeviceMessage {
     phase: Phase,
@@ -43,7 +43,7 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder that makes a record every so many ticks, and in between whenever phase, fault, feature, boundary mode
+    /// A recorder that makes a record every `every` ticks, and in between whenever phase, fault, feature, boundary mode
     /// or contact changes. `clock` is the frequency of the board's counter, Hz.
     pub const fn new(queue: Producer<'a, Record>, clock: u32, every: u32) -> Self {
         Self {
@@ -63,7 +63,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// What the board knows beside the loop: bad frames bridged so far, and what keeps the motors off
+    /// Values that only the board knows: bad frames bridged so far, and the reasons that keep the motors off
     /// ([`super::hold`]). It goes into the records from the next tick's on.
     #[inline]
     pub const fn set_board(&mut self, bridged: u32, hold: u8) {
@@ -98,7 +98,7 @@ impl<'a> Recorder<'a> {
             return;
         }
         if self.queue.enqueue(self.record(state, began)).is_err() {
-            // What was to be told stays due: the next tick tries again.
+            // The change stays due: the next tick tries again.
             self.dropped = self.dropped.saturating_add(1);
             return;
         }

@@ -10,7 +10,7 @@ pub const CHUNK: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Upload {
-    /// A file of so many bytes begins; what was uploaded before and not taken is forgotten.
+    /// Starts a file of this number of bytes; an earlier upload that was not taken is discarded.
     Begin {
         /// Its length.
         bytes: u32,
@@ -24,9 +24,10 @@ pub enum Upload {
     },
     /// All of it has come: it is checked, and ready to be taken ([`crate::scene::Command::Take`]).
     End,
-    /// As [`Self::Begin`], but into the device's flash, where it stays without power and is felt from the next reset
-    /// on. From this word to [`Self::End`] the device keeps its motors off; it refuses while they are driven, or
-    /// somebody asks for force. What was kept before is gone. A file of no bytes forgets it, and ends with this.
+    /// As [`Self::Begin`], but into the device's flash, where it stays without power and is rendered from the next
+    /// reset on. From this message to [`Self::End`] the device keeps its motors off; it refuses while they are driven,
+    /// or force is requested. The earlier stored body is erased. A file of zero bytes only erases, and needs no
+    /// [`Self::End`].
     Keep {
         /// Its length.
         bytes: u32,
@@ -43,7 +44,7 @@ pub enum UploadError {
     /// More bytes than there is memory for.
     #[error("the body is larger than the device's {room} bytes")]
     TooLong {
-        /// What is there.
+        /// The available capacity.
         room: u32,
     },
     /// More faces or edges than there is memory for.
@@ -58,10 +59,10 @@ pub enum UploadError {
         /// The next byte's place.
         at: u32,
     },
-    /// Nothing was begun.
+    /// No upload was started.
     #[error("no upload was started")]
     NotBegun,
-    /// What came is no body: changed on the way, or of another version. The host's own check says what is wrong.
+    /// The received bytes are no valid body: damaged, or of another version. The host's own check gives the details.
     #[error("damaged or unsupported body file")]
     NoBody,
     /// No flash was set aside for bodies.
@@ -70,7 +71,7 @@ pub enum UploadError {
     /// The motors are driven, or somebody holds the enable input: flash is written only while they are off.
     #[error("flash is written only while the motors are off; release the enable input first")]
     Driven,
-    /// The kept body is felt: another is to take its place first ([`crate::scene::Command::PutBack`]).
+    /// The stored body is in use: replace it first ([`crate::scene::Command::PutBack`]).
     #[error("the body stored in flash is in use; put the built-in one back first")]
     Felt,
     /// The flash did not take what was written.

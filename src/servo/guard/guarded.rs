@@ -11,9 +11,9 @@ use crate::servo::gate::gate_within;
 
 /// A device's [`Protection`] for a loop's rate and gains.
 ///
-/// The joints take turns, one a tick: a tick looks at the rate of one joint and takes the heat of one motor on. What
-/// that costs in time is a tick less than there are joints: half a millisecond of three at 4 kHz. The probe's speed,
-/// the signs and the supply are looked at in every tick.
+/// The joints take turns, one per tick: a tick checks the rate of one joint and updates the heat of one motor. The
+/// delay is one tick less than the number of joints: half a millisecond for three at 4 kHz. The probe's speed, the
+/// polarity and the supply are checked in every tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Guarded<const JOINTS: usize> {
     heat: [HeatModel; JOINTS],
@@ -24,7 +24,7 @@ pub struct Guarded<const JOINTS: usize> {
     signs: Option<Polarities<JOINTS>>,
 }
 
-/// What [`Guarded`] remembers.
+/// The state of [`Guarded`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GuardState<const JOINTS: usize> {
     /// The joint whose turn it is.

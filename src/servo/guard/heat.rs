@@ -1,24 +1,23 @@
-//! I²t: how warm a winding is, from what it was given, and how much more it bears.
+//! I²t: the temperature of a winding, from its duties, and the torque limit that follows.
 //!
-//! A winding's temperature over its housing follows the square of its current with the winding's time constant `θ`:
-//! `θ ẋ = i² − x`, with `x` in squares of the current at full duty. While `x` stays below the square of the continuous
-//! current `c`, the winding stays below the temperature that `c` gives it for ever, for the warming of the housing is
-//! driven by the same power (theory of linear systems that keep order: more heat never makes anything colder).
+//! A winding's temperature over its housing follows the square of its current with the winding's time constant `θ`: `θ
+//! ẋ = i² − x`, with `x` in squares of the current at full duty. While `x` stays below the square of the continuous
+//! current `c`, the winding stays below the steady temperature of `c`, because the same power drives the warming of the
+//! housing (theory of monotone linear systems: more heat never makes any part colder).
 //!
-//! So the current is bounded by `b(x)`, which falls from full scale at `x = c²/2` to `c` at `x = c²`:
-//! `b = 1 − (1 − c)(2x/c² − 1)`. There `i² ≤ c²`, so `x` cannot pass it: what is asked for does not matter. `b` is
-//! continuous in `x`, and `x` moves by at most `1/(θ rate)` a tick: the force fades to what can be borne, and there is
-//! no step.
+//! So the current is bounded by `b(x)`, which falls from full scale at `x = c²/2` to `c` at `x = c²`: `b = 1 − (1 −
+//! c)(2x/c² − 1)`. There `i² ≤ c²`, so `x` cannot exceed it, whatever torque is requested. `b` is continuous in `x`,
+//! and `x` moves by at most `1/(θ rate)` a tick: the force fades to the limit without a step.
 //!
-//! A tick takes one motor's turn, and only adds up the squares of the others' duties: `x` goes on by the mean of all
-//! squares since its last turn, over as many ticks, so nothing that a winding was given is left out. The bound is as
-//! old as that turn, a tick less than there are joints: `x` passes `c²` by what it moves in that time, below `2/(θ
-//! rate)` of full scale, which the settings' least `θ rate` of 100 keeps small and any real motor's makes nothing (16 s
-//! at 4 kHz: 3·10⁻⁵).
+//! A tick updates one motor, and only adds up the squares of the others' duties: `x` advances by the mean of all
+//! squares since its last turn, over the same number of ticks, so no duty is left out. The bound is as old as that
+//! turn, a tick less than the number of joints: `x` exceeds `c²` by its change in that time, below `2/(θ rate)` of full
+//! scale. The settings' minimum `θ rate` of 100 keeps that small, and with a real motor it is negligible (16 s at 4
+//! kHz: 3·10⁻⁵).
 //!
 //! A motor with three phases has one `x`, that of a phase which has the whole amplitude all the time: no phase ever has
 //! more, wherever the rotor stands ([`Endurance::three_phase`]). And where the winding's own constant is `ϑ ≥ θ`, its
-//! warmth is `(θ/ϑ) x + (1 − θ/ϑ) LP(x)`, with a low-pass `LP` of `ϑ`: not above `c²` either. So a `θ` that is too
+//! temperature is `(θ/ϑ) x + (1 − θ/ϑ) LP(x)`, with a low-pass `LP` of `ϑ`: not above `c²` either. So a `θ` that is too
 //! short is safe.
 
 use crate::device::{Endurance, Motor};
@@ -38,7 +37,7 @@ pub(super) struct HeatModel {
     full: f32,
 }
 
-/// What is remembered of one motor.
+/// The thermal state of one motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Winding {
     /// How warm it may be.
@@ -49,13 +48,13 @@ pub(super) struct Winding {
     pub limit: f32,
 }
 
-/// Warmth of a winding: the mean square of its duty, of which full duty for ever is 2³⁰ − 2¹⁶ + 1 (32,767²).
+/// Temperature of a winding: the mean square of its duty. Continuous full duty gives 2³⁰ − 2¹⁶ + 1 (32,767²).
 ///
-/// An integer, for what a tick adds is far below the rounding of an `f32`.
+/// An integer, because the increment of one tick is far below the rounding of an `f32`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Heat(pub i32);
 
-/// Full duty for ever.
+/// Continuous full duty.
 const FULL: f32 = 32_767.0 * 32_767.0;
 
 impl Heat {
@@ -66,10 +65,10 @@ impl Heat {
 }
 
 impl HeatModel {
-    /// Of a motor that has its turn every so many ticks: 1 to 3.
+    /// Of a motor that is updated every `turns` ticks: 1 to 3.
     ///
     /// # Panics
-    /// Never; numbers that make no sense were refused before ([`super::ProtectionError`]).
+    /// Never; invalid numbers were refused before ([`super::ProtectionError`]).
     pub(super) const fn new(
         Endurance { continuous, time_constant_s: time_constant }: Endurance,
         motor: Motor,
@@ -81,22 +80,22 @@ impl HeatModel {
         Self::bearing(share as i32, continuous, motor.torque_at_full_n_m.abs())
     }
 
-    /// Of a motor that bears this share of full scale for ever, of which the torque is `full`, N·m.
+    /// Of a motor with this continuous fraction of full duty, which gives a torque of `full`, N·m.
     const fn bearing(share: i32, continuous: f32, full: f32) -> Self {
         let half = 0.5 * continuous * continuous * FULL;
         let fold = if continuous < 1.0 { Heat(half as i32) } else { Heat(i32::MAX) };
         Self { share, fold, slope: (1.0 - continuous) / half, continuous, full }
     }
 
-    /// The same of a motor of another torque. One that is stronger may be so because its amplifier gives more current
-    /// than it should: it bears no more for ever than was known. One that is weaker bears no more current.
+    /// The same of a motor of another torque. A motor may be stronger because its amplifier gives more current than it
+    /// should: its continuous torque stays. A weaker motor keeps its continuous current.
     pub(super) fn of_motor(self, motor: Motor) -> Self {
         let full = motor.torque_at_full_n_m.abs();
         let continuous = if full > self.full { self.continuous * self.full / full } else { self.continuous };
         Self::bearing(self.share, continuous, full)
     }
 
-    /// What it bears for ever, as a share of full duty.
+    /// Continuous torque limit, as a fraction of full duty.
     pub(super) fn continuous(&self) -> f32 {
         if self.continuous < 1.0 { self.continuous } else { 1.0 }
     }

@@ -1,8 +1,8 @@
-//! What guards motors and hand beyond the loop's own checks, and costs nothing where it is not chosen.
+//! Protection of motors and hand beyond the loop's own checks, which costs nothing in a loop without it.
 //!
-//! A loop carries a [`Guard`] as a type: [`Unguarded`], which has no state and whose every answer is a constant, or
-//! [`Guarded`], made from a device's [`Protection`] by [`super::Servo::protected`]. So the instructions and the bytes of
-//! what is not chosen are not there to be skipped.
+//! A loop carries a [`Guard`] as a type: [`Unguarded`], which has no state and whose methods return constants, or
+//! [`Guarded`], made from a device's [`Protection`] by [`super::Servo::protected`]. So an unguarded loop contains
+//! neither its instructions nor its bytes.
 
 mod guarded;
 mod heat;
@@ -17,7 +17,7 @@ use crate::device::{Duty, Motor, ProbePose};
 use crate::math::Vec3;
 use core::fmt::Debug;
 
-/// What a tick's motion is, as a guard looks at it.
+/// The motion of a tick: the input of a guard.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<'a, const JOINTS: usize> {
     /// Joint angles, as the counts tell them, rad.
@@ -30,17 +30,17 @@ pub struct Motion<'a, const JOINTS: usize> {
     pub pose: &'a ProbePose<JOINTS>,
 }
 
-/// What guards a loop. Every call is bounded, and none panics.
+/// Protection of a loop. Every call is bounded, and none panics.
 pub trait Guard<const JOINTS: usize>: Copy + Debug {
-    /// What it remembers from tick to tick.
+    /// Its state from tick to tick.
     type State: Remembered;
 
     /// The same for motors, and joints of a dry friction, N·m, that are not those it was made for.
     #[must_use]
     fn of_motors(self, motors: &[Motor; JOINTS], dry_friction: &[f32; JOINTS]) -> Self;
 
-    /// The duty of torque that each motor may be given for ever, as a share of full duty, 0 to 1: for whoever drives it
-    /// where no heat is counted.
+    /// Continuous torque limit of each motor, as a fraction of full duty, 0 to 1: for code that drives the motors
+    /// without a heat model.
     fn continuous(&self) -> [f32; JOINTS];
 
     /// Before the first tick after any reset.
@@ -49,22 +49,21 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     /// The supply was measured, between two ticks.
     fn measured(&self, state: &mut Self::State, millivolts: u32) -> Result<(), Fault>;
 
-    /// What can be wrong whatever the sensors say; once a tick.
+    /// The checks that need no sensors; once a tick.
     fn watch(&self, state: &mut Self::State) -> Result<(), Fault>;
 
-    /// The share of force and weight that may be given: less than 1 while it is not known that all motors push the way
-    /// they should. What is given meanwhile is not the force that was asked for, nor does it grow out of that.
+    /// The permitted fraction of force and gravity compensation: below 1 until the polarity of all motors is confirmed.
+    /// The force until then is that of the polarity pulses, and the slew limit does not start from it.
     fn force_fraction(&self, state: &Self::State) -> f32;
 
-    /// Whether it withholds the force of a contact. The check of the tables and the watch over stuck sensors wait
-    /// meanwhile: they pay for it, and nothing is felt that they would guard.
+    /// Whether it withholds the force of a contact. The check of the tables and the check for stuck sensors pause
+    /// meanwhile, which saves their time: no force depends on them then.
     fn withholds_force(&self, state: &Self::State) -> bool;
 
-    /// Looks at a tick in which force is given, and leaves of the force, N, and of its joint torques `felt`, N·m, what
-    /// may be given.
+    /// Checks a tick in which force is given, and limits the force, N, and its joint torques `felt`, N·m.
     ///
     /// # Errors
-    /// What it finds wrong.
+    /// The fault that it detects.
     fn limit(
         &self,
         state: &mut Self::State,
@@ -90,11 +89,11 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
         weight: [f32; JOINTS],
     ) -> Result<([Duty; JOINTS], f32), Fault>;
 
-    /// What the motors are given until the next tick, as duties of torque.
+    /// The motors' duties of torque until the next tick.
     fn record_output(&self, state: &mut Self::State, duties: &[Duty; JOINTS]);
 }
 
-/// What a guard remembers.
+/// The state of a guard.
 pub trait Remembered: Copy + Debug + PartialEq {
     /// Gives every word of it to a hash.
     fn for_each_word(&self, take: impl FnMut(u32));

@@ -1,25 +1,24 @@
-//! Whether a joint moves the way its motor pushes.
+//! Polarity check: whether a joint moves the way its motor pushes.
 //!
-//! An encoder that counts against its motor makes of every wall a slope: the force grows with the depth and pulls
-//! further in, and of the weight that a motor carries a weight that it adds. So no joint bears either before all were
-//! seen to follow their motors. Where a surface asks for a force and a joint has not been seen yet, the force is
-//! withheld, and one motor at a time knocks at its joint: a constant torque `u` the way the contact loads it, for
-//! [`SLOT`], as strong as a quarter of the greatest force at most. That force is what a hand feels that keeps the probe
-//! where it is: `F` with `Jᵀ F = u eⱼ`, past what the other joints could bear of it.
+//! An encoder that counts against its motor turns every wall into an attractor: the force grows with the depth and
+//! pulls further in, and gravity compensation adds weight instead of carrying it. So both are withheld until every
+//! joint has followed its motor. If a surface requests a force and a joint is unconfirmed, the force is withheld, and
+//! one motor at a time gives a polarity pulse to its joint: a constant torque `u` in the direction in which the contact
+//! loads it, for [`SLOT`], of at most a quarter of the maximum force. That is the force on a hand that keeps the probe
+//! in place: `F` with `Jᵀ F = u eⱼ`, which loads no other joint.
 //!
-//! What tells the two signs apart is power. A hand that holds a device is passive, and so is the device: from whatever
-//! motion they are in, as far as that goes on evenly by itself, the work `u·Δx` that a constant torque does on the
+//! Power tells the two polarities apart. A hand that holds a device is passive, and so is the device: from whatever
+//! motion they are in, as far as that continues evenly by itself, the work `u·Δx` that a constant torque does on the
 //! *change* of motion is never negative. (The change starts from rest, and a passive system gives back no more than it
-//! was given.) So `Δx` has the sign of `u`, or nothing moves; with a wrong sign it has the other. This holds for any
-//! inertia, spring and friction that is felt alike whichever way the joint moves; the stiffer and heavier the grip, the
-//! smaller is `Δx`.
+//! received.) So `Δx` has the sign of `u`, or nothing moves; with the wrong polarity it has the other. This holds for
+//! every inertia, spring and friction that does not depend on the direction of motion; the stiffer and heavier the
+//! grip, the smaller is `Δx`.
 //!
-//! What the hand does by itself meanwhile is what the last three places tell of it: `Δx = x − 3x₁ + 3x₂ − x₃`, a
-//! [`SLOT`] apart, which is blind to any constant speed and acceleration. The motion that an equal torque left behind a
-//! slot ago cancels too (½ + 1 − 3·½; all but a fifteenth, for a knock begins a tick late), and three slots ago; so
-//! the joints knock in turn, one a slot, each third slot at most. What is left, jerks of the hand and the encoder's
-//! counts, is why no single knock decides: `Δx` as a share of `u T²/2I`, what it would be of the joint alone, is summed
-//! up until it is clear.
+//! The last three positions predict the hand's own motion: `Δx = x − 3x₁ + 3x₂ − x₃`, a [`SLOT`] apart, which cancels
+//! every constant speed and acceleration. The motion that an equal torque left behind a slot ago cancels too (½ + 1 −
+//! 3·½; all but a fifteenth, because a pulse starts one tick after its slot), and three slots ago; so the joints take
+//! turns, one a slot, each in every third slot at most. Jerks of the hand and the encoder's counts remain, so no single
+//! pulse decides: `Δx` as a fraction of `u T²/2I`, the motion of the joint alone, is summed up until the sum is clear.
 
 use super::Motion;
 use crate::device::PolarityCheck;
@@ -27,30 +26,32 @@ use crate::math::{Vec3, inverse_sqrt_from_below};
 use crate::render::Penalty;
 use crate::servo::Fault;
 
-/// The length of a knock, s: of so many ticks that counts add up to something, and short of what a hand answers in.
+/// Pulse length, s: long enough to accumulate counts, shorter than a human reaction.
 const SLOT: f32 = 8e-3;
-/// The speed at the probe that a knock gives at most to a joint alone, m/s: 0.4 mm in its time.
+/// Maximum speed of the probe at the end of a pulse on a joint alone, m/s: 0.4 mm of travel.
 const SPEED: f32 = 0.1;
-/// The share of the greatest force that a knock has at most: below a quarter, for its torque is that of the pose in
-/// which it begins.
+/// Maximum force of a pulse, as a fraction of the maximum force: below a quarter, because its torque is computed for
+/// the pose at its start.
 const ON_TRIAL: f32 = 0.245;
-/// The share of that which a contact must ask for, so that whoever touches softly is felt too.
+/// The contact force from which on joints are pulsed, as a fraction of a pulse's maximum force: low, so that a light
+/// touch is rendered too.
 const ASKED: f32 = 1.0 / 3.0;
-/// Each joint knocks every so many slots, or as many as there are joints.
+/// Slots between two pulses of a joint; the number of joints, if that is more.
 const ROUND: usize = 3;
-/// The most that one knock says either way.
+/// Maximum contribution of one pulse to the sum, either way.
 const SAYS: f32 = 0.5;
-/// From this sum on a joint follows its motor: two knocks at least.
+/// Sum from which on the polarity is confirmed: two pulses at least.
 const GOOD: f32 = 0.75;
-/// Down from this sum on it goes the other way: three knocks at least.
+/// Sum below which the polarity is wrong: three pulses at least.
 const WRONG: f32 = -1.25;
-/// Below this sum there is a rest before the next knock.
+/// Sum below which there is a rest before the next pulse.
 const DOUBTFUL: f32 = -0.2;
-/// That rest, s: what the knocks before have set off dies away.
+/// Length of that rest, s: the motion of the pulses before decays.
 const REST: f32 = 0.06;
-/// The knocks of a contact at most. A force that is in doubt by then is withheld until the contact ends.
+/// Maximum number of pulses per contact. If the polarity is still unconfirmed, the force is withheld until the contact
+/// ends.
 const KNOCKS: u8 = 24;
-/// The least displacement of the probe that is asked for, m: what says less says nothing.
+/// Minimum expected displacement of the probe, m: a pulse with less is ignored.
 const LEAST: f32 = 2e-5;
 /// The time in which force and weight come once all joints were seen, s.
 const RISE: f32 = 0.05;
@@ -58,13 +59,13 @@ const RISE: f32 = 0.05;
 /// The watch as the tick needs it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polarities<const JOINTS: usize> {
-    /// How far a unit of torque turns each joint in a knock, rad/(N·m).
+    /// Turn of each joint per unit of torque in a pulse, rad/(N·m).
     yields: [f32; JOINTS],
-    /// The dry friction of each joint, N·m: what a knock has on top, for it moves nothing.
+    /// The dry friction of each joint, N·m: the part of a pulse that moves nothing.
     friction: [f32; JOINTS],
-    /// How far a knock moves the probe of a joint alone at most, m.
+    /// Maximum displacement of the probe by a pulse on a joint alone, m.
     way: f32,
-    /// The force of a knock at most, N.
+    /// Maximum force of a pulse, N.
     force: f32,
     /// The square of the force that a contact asks for at least, N².
     asked: f32,
@@ -81,7 +82,7 @@ pub(super) struct Polarities<const JOINTS: usize> {
 enum Stage {
     /// There is none.
     FreeAir,
-    /// The force is withheld, and joints knock.
+    /// The force is withheld, and joints are pulsed.
     OnTrial,
     /// All joints were seen: force and weight come.
     Rising,
@@ -89,29 +90,29 @@ enum Stage {
     Over,
 }
 
-/// What the watch remembers.
+/// The state of the polarity check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PolarityState<const JOINTS: usize> {
     stage: Stage,
     /// Ticks until this slot ends.
     ticks: u16,
-    /// Slots until joints may knock.
+    /// Slots until joints may be pulsed.
     rest: u16,
     /// Slots so far of this contact, from 0 again after each round.
     slot: usize,
-    /// Knocks left in this contact.
+    /// Pulses left in this contact.
     knocks: u8,
-    /// Whether a joint knocks: the one that has this slot.
+    /// Whether the joint of this slot is pulsed.
     is_knocking: bool,
-    /// The torque of a knock, N·m.
+    /// The torque of a pulse, N·m.
     torque: f32,
     /// The force of that at a probe that is held, N.
     force: Vec3,
     /// The share of force and weight that is given: 0 until all joints were seen, and then rising to 1.
     share: f32,
-    /// The angles at the beginnings of this slot and of the two before, the newest first, rad.
+    /// The angles at the starts of this slot and of the two before, the newest first, rad.
     places: [[f32; JOINTS]; 3],
-    /// What the knocks of each joint have said so far.
+    /// The sum of each joint's pulses so far.
     sums: [f32; JOINTS],
 }
 
@@ -135,7 +136,7 @@ impl<const JOINTS: usize> PolarityState<JOINTS> {
         self.sums.map(|sum| sum >= GOOD)
     }
 
-    /// Whether a contact is on trial: no force is given but knocks.
+    /// Whether a contact is on trial: the pulses are its only force.
     #[inline]
     pub(super) fn is_on_trial(&self) -> bool {
         self.stage == Stage::OnTrial
@@ -152,7 +153,7 @@ impl<const JOINTS: usize> PolarityState<JOINTS> {
             .for_each(|float| take(float.to_bits()));
     }
 
-    /// A contact begins: two slots must pass before it is known how the hand moves.
+    /// Starts a contact: two slots must pass before the hand's motion is known.
     #[cold]
     fn begin(&mut self) {
         *self = Self { stage: Stage::OnTrial, rest: 3, knocks: KNOCKS, sums: self.sums, ..Self::START };
@@ -193,7 +194,7 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         let ticks = rate * SLOT;
         let slot = if ticks < 3.0 { 3.0 } else { ticks };
         let time = slot / rate;
-        // A knock begins a tick after its slot.
+        // A pulse starts a tick after its slot.
         let knock = (slot - 1.0) / rate;
         let mut yields = watch.inertia_kg_m2;
         let mut joint = 0;
@@ -273,7 +274,7 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         Ok(())
     }
 
-    /// A slot has ended: what its knock says.
+    /// Evaluates the pulse of the slot that has ended.
     fn judge(&self, state: &mut PolarityState<JOINTS>, moving: &Motion<'_, JOINTS>) -> Result<(), Fault> {
         let joint = state.slot;
         let [first, second, third] = state.places;
@@ -296,7 +297,8 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         Ok(())
     }
 
-    /// The next slot begins: whose it is, and whether that joint knocks at what the contact would load it with.
+    /// Starts the next slot: selects its joint, and pulses it with the sign of the contact's load if that is large
+    /// enough.
     fn next_slot(
         &self,
         state: &mut PolarityState<JOINTS>,

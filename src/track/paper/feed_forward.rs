@@ -7,11 +7,11 @@ use crate::track::ProjectionErrors;
 
 /// The gradient that stands in for `g` when a step of the given gain also follows the probe's motion.
 ///
-/// A tick sees the probe where it is now, so `g` already holds what the motion of the last period, `moved`, added to
-/// it: `g_m = −(moved · f_u, moved · f_v)`. A step `−a I⁻¹ g` follows the fraction `a` of it; with the rest, `1 − a`,
-/// `−I⁻¹ (a g + (1 − a) g_m) = −a I⁻¹ (g + (1 − a)/a g_m)`, it corrects the old error with gain `a` and follows all of
-/// the motion: `ẋ = I⁻¹ Jᵀ q̇ − K Ψ` in discrete time. What the surface's curvature makes of the motion is left to the
-/// correction: the lag shrinks by about `κ ‖ΔR‖`, not to zero.
+/// A tick sees the probe where it is now, so `g` already contains the motion of the last period, `moved`, as `g_m =
+/// −(moved · f_u, moved · f_v)`. A step `−a I⁻¹ g` follows the fraction `a` of it; with the rest, `1 − a`, `−I⁻¹ (a g +
+/// (1 − a) g_m) = −a I⁻¹ (g + (1 − a)/a g_m)`, it corrects the old error with gain `a` and follows all of the motion:
+/// `ẋ = I⁻¹ Jᵀ q̇ − K Ψ` in discrete time. The part of the motion that comes from the surface's curvature is left to
+/// the correction: the lag shrinks by about `κ ‖ΔR‖`, not to zero.
 #[inline]
 pub fn gradient(
     feed_forward: FeedForward,

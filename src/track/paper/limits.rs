@@ -10,7 +10,7 @@ use crate::patch::{Curvature, ShapeBounds};
 /// Near the closest point `P*` of a probe at the signed gap `d` (positive outside, negative inside), half the squared
 /// distance has the curvature `μ = 1 + κ d` along the principal direction of curvature `κ` (per squared metre moved on
 /// the surface), and a tick of explicit Euler multiplies that part of the error by `1 − K h μ`. All limits follow from
-/// the minimum and maximum `μ`; each states what is proved and under which hypotheses. A missing bound gives no
+/// the minimum and maximum `μ`; each states its claim and hypotheses. A missing bound gives no
 /// promise: an infinite curvature gives a stable gain of 0, an infinite lag, a depth of 0.
 ///
 /// `const`, so that a firmware can check its gain at compile time:
