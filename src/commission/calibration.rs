@@ -49,6 +49,17 @@ pub struct JointCalibration {
 }
 
 /// The measured values of a device: those that differ from unit to unit. The mechanism is not among them.
+///
+/// ```
+/// use palpate::commission::{Calibration, CalibrationError, JointCalibration};
+///
+/// let joint = JointCalibration { radians_per_count: 2.4e-4, torque_at_full_n_m: 0.52, ..JointCalibration::default() };
+/// let words = Calibration([joint]).to_words();
+/// assert_eq!(Calibration::from_words(&words), Ok(Calibration([joint])));
+///
+/// let erased_flash = [u32::MAX; Calibration::<1>::WORDS];
+/// assert_eq!(Calibration::<1>::from_words(&erased_flash), Err(CalibrationError::Absent));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Calibration<const JOINTS: usize>(
     /// Of each joint.

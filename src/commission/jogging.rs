@@ -99,6 +99,28 @@ impl JogRefusal {
 }
 
 /// The limits, ready to run.
+///
+/// ```
+/// use palpate::commission::{Jog, JogLimits, JogState, Jogging, KEY};
+/// use palpate::device::{Counts, Duty};
+///
+/// let limits = JogLimits {
+///     max_duty: [Duty(6_000)],
+///     max_speed_counts_per_s: 20_000.0,
+///     max_travel_counts: 4_000,
+///     patience_s: 0.2,
+/// };
+/// let jogging = Jogging::try_new(limits, 4_000.0)?;
+/// let mut state = JogState::default();
+/// jogging.tick(&mut state, Some([Counts(0)]), true);
+/// jogging.command(&mut state, Jog { number: 1, key: KEY, motor: 0, duty: 5_000 });
+/// jogging.tick(&mut state, Some([Counts(0)]), true);
+/// assert!(state.is_live() && state.duties()[0].0 > 0, "the duty rises");
+/// // Enable is released: off in the same tick.
+/// jogging.tick(&mut state, Some([Counts(1)]), false);
+/// assert_eq!(state.duties(), [Duty::ZERO]);
+/// # Ok::<(), palpate::commission::JogLimitsError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Jogging<const JOINTS: usize> {
     limits: JogLimits<JOINTS>,

@@ -19,6 +19,16 @@ const REFINEMENTS: usize = 3;
 /// speed.
 ///
 /// The frame: z out of the base towards the probe, x and y as the legs' directions say, origin in the workspace centre.
+///
+/// ```
+/// use palpate::device::{Delta, Kinematics as _, presets::NOVINT_FALCON};
+/// use palpate::math::Vec3;
+///
+/// let delta: Delta = NOVINT_FALCON.kinematics;
+/// let angles = delta.angles(Vec3::ZERO).expect("within reach");
+/// let pose = delta.pose(angles).expect("within reach");
+/// assert!(pose.position.length() < 1e-5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delta {
     /// Length of a thigh, `a`, metres.

@@ -7,6 +7,15 @@ use crate::math::vec3;
 ///
 /// Joint angle, radians: as the sensor has it. As with [`super::Paddle`] the probe's place is the arc length of the
 /// rim, `x = r θ`, so that the device stays one-dimensional and turns differ; y and z stay zero.
+///
+/// ```
+/// use core::f32::consts::TAU;
+/// use palpate::device::{Dial, Kinematics as _};
+///
+/// let dial = Dial { radius_m: 0.02, cogging: None };
+/// let after_two_turns = dial.pose([2.0 * TAU]).expect("always");
+/// assert!((after_two_turns.position.x - 0.02 * 2.0 * TAU).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dial {
     /// Radius of the rim, where the fingers are, `r`, metres.

@@ -14,6 +14,16 @@ pub struct Counts(pub i32);
 ///
 /// If the counter was set to zero by hand in some pose, and not at a line, the pose itself is anywhere in count zero:
 /// an offset of up to half a count stays, which only homing on a mark or a stop removes.
+///
+/// ```
+/// use core::f32::consts::TAU;
+/// use palpate::device::{Counts, Encoder};
+///
+/// /// 2,000 counts a turn of the motor, 16:1; the joint is at 0.25 rad where the counter steps from −1 to 0.
+/// const ENCODER: Encoder = Encoder::geared(2_000.0, 16.0, 0.25);
+/// let turn_of_motor = ENCODER.angle(Counts(2_000)) - ENCODER.angle(Counts(0));
+/// assert!((turn_of_motor - TAU / 16.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoder {
     /// Joint angle per count, radians; negative where the encoder counts the other way.

@@ -13,6 +13,23 @@ use crate::math::{Vec2, Vec3, sin_cos, sqrt, vec2};
 /// Forward map: circles about `A` and `B` intersect. With `h = B − A`:
 /// `C = A + (L₁² − L₂² + h²)/(2 h²) · h ± √(…) · h⊥`. Jacobian: the rods keep their lengths,
 /// `(C − A)·(Ċ − Ȧ) = 0` and `(C − B)·(Ċ − Ḃ) = 0`.
+///
+/// ```
+/// use palpate::device::{FiveBar, Kinematics as _};
+/// use palpate::math::Vec2;
+///
+/// let five_bar = FiveBar {
+///     second_pivot_m: 0.04,
+///     cranks_m: [0.07; 2],
+///     rods_m: [0.09; 2],
+///     side: 1.0,
+///     tool_m: 0.09,
+///     workspace_centre_m: Vec2::ZERO,
+/// };
+/// // Cranks in mirrored positions: the tool is half-way between the pivots.
+/// let pose = five_bar.pose([2.0, core::f32::consts::PI - 2.0]).expect("closes");
+/// assert!((pose.position.x - 0.02).abs() < 1e-6 && pose.position.y > 0.07);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FiveBar {
     /// The second crank's pivot on the x axis, metres.

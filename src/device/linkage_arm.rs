@@ -25,6 +25,16 @@ impl LinkMass {
 /// Joint angles, radians: `a` turns the table about the vertical z axis; the other two are the cranks',
 /// counter-clockwise from the horizontal. The five-bar's x is the distance from the turntable's axis less
 /// `pivot_reach`, its y the height: `x = r cos a`, `y = r sin a`, `z = h`, less the workspace centre.
+///
+/// ```
+/// use palpate::device::{Kinematics as _, LinkageArm, presets::POLHEM_V2};
+///
+/// let arm: LinkageArm = POLHEM_V2.kinematics;
+/// let angles = [0.0, 0.912_695, 2.360_105];
+/// assert!(POLHEM_V2.in_workspace(angles));
+/// // The turntable lifts no link.
+/// assert_eq!(arm.holding_torques(angles)[0], 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkageArm {
     /// The linkage in the upright plane. Its own workspace centre is not used.

@@ -67,6 +67,20 @@ pub trait Kinematics<const JOINTS: usize> {
 }
 
 /// A device as the servo sees it: mechanism, encoders, motors and limits. Lives in flash.
+///
+/// ```
+/// use palpate::device::{Device, Kinematics as _, SerialArm, presets::WOODEN_HAPTICS_2016};
+/// use palpate::math::Vec3;
+///
+/// /// A preset with a lower limit.
+/// static DEVICE: Device<SerialArm, 3> = Device { max_force_n: 3.0, ..WOODEN_HAPTICS_2016 };
+/// let angles = DEVICE.angles_at_zero();
+/// assert!(DEVICE.in_workspace(angles));
+///
+/// // The turntable's axis is vertical: it has no part in a force along z.
+/// let pose = DEVICE.kinematics.pose(angles).expect("within reach");
+/// assert_eq!(pose.torques(Vec3::Z)[0], 0.0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Device<K, const JOINTS: usize> {
     /// The mechanism.

@@ -38,6 +38,15 @@ impl Duty {
 }
 
 /// A motor on a current-controlled amplifier, seen through the transmission.
+///
+/// ```
+/// use palpate::device::{Duty, Motor};
+///
+/// /// 0.0259 N·m/A, 3 A at full duty, 12:1.
+/// const MOTOR: Motor = Motor::current_driven(0.0259, 3.0, 12.0);
+/// let half = 0.5 * 0.0259 * 3.0 * 12.0;
+/// assert_eq!(Duty::from_fraction(MOTOR.fraction(half)), Duty(16_384));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor {
     /// Joint torque at full duty, N·m; negative where the motor turns the joint the other way.

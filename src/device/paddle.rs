@@ -8,6 +8,17 @@ use crate::math::{sin_cos, vec3};
 /// Joint angle, radians: zero with the handle upright, positive towards x. The probe's place is the arc the handle has
 /// gone, as such devices are programmed: `x = r θ`, so that one dimension stays one. The frame's x axis points the way
 /// the handle goes; y and z stay zero.
+///
+/// ```
+/// use palpate::device::{Kinematics as _, Paddle};
+///
+/// let paddle = Paddle { handle_m: 0.07, mass_moment_kg_m: 0.0 };
+/// let pose = paddle.pose([0.1]).expect("always");
+/// assert!((pose.position.x - 0.007).abs() < 1e-7);
+/// // 2 N at the handle.
+/// let [torque] = pose.torques(palpate::math::vec3(2.0, 0.0, 0.0));
+/// assert!((torque - 0.14).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paddle {
     /// From the axis to the hand, `r`, metres.

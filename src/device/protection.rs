@@ -64,6 +64,20 @@ pub struct PolarityCheck<const JOINTS: usize> {
 }
 
 /// Limits that protect a device's motors and the user's hand. Constant, in flash.
+///
+/// ```
+/// use palpate::device::{Endurance, Protection, SupplyRange};
+///
+/// const PROTECTION: Protection<1> = Protection {
+///     // Continuous current over current at full duty.
+///     motors: [Endurance { continuous: 1.2 / 3.0, time_constant_s: 16.0 }],
+///     max_joint_rates_rad_per_s: [20.0],
+///     max_probe_speed_m_per_s: 1.5,
+///     supply: Some(SupplyRange::TWENTY_FOUR),
+///     polarity: None,
+/// };
+/// assert!(PROTECTION.supply.is_some_and(|range| range.holds(24.0) && !range.holds(12.0)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protection<const JOINTS: usize> {
     /// Each motor's thermal rating.

@@ -11,6 +11,22 @@ use crate::math::{Vec3, sin_cos, vec3};
 /// the second link down from the horizontal. Both link motors sit on the turntable, so `c` is absolute, not relative
 /// to `b`. With `r = B sin b + C cos c`:
 /// `x = r cos a`, `y = r sin a`, `z = A + B cos b − C sin c`, less the workspace centre.
+///
+/// ```
+/// use palpate::device::{Kinematics as _, SerialArm};
+/// use palpate::math::{Vec3, vec3};
+///
+/// let arm = SerialArm {
+///     base_height_m: 0.08,
+///     first_link_m: 0.2,
+///     second_link_m: 0.25,
+///     workspace_centre_m: Vec3::ZERO,
+///     end_masses_kg: [0.0; 2],
+/// };
+/// // First link upright, second level.
+/// let pose = arm.pose([0.0; 3]).expect("within reach");
+/// assert!((pose.position - vec3(0.25, 0.0, 0.28)).length() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SerialArm {
     /// Height of the first link's axis, `A`, metres.

@@ -5,6 +5,14 @@ use crate::math::Vec3;
 /// The device feels the coupling alone, and the surface meets the tool: what the device can bear sets the coupling, and
 /// the surface may be as stiff as the tool's mass can follow (R. J. Adams and B. Hannaford, *Stable haptic interaction
 /// with virtual environments*, IEEE Trans. Robotics and Automation 15(3), 1999).
+///
+/// ```
+/// use palpate::render::Coupling;
+///
+/// let coupling = Coupling { stiffness_n_per_m: 500.0, damping_n_s_per_m: 5.0, mass_kg: 0.02 };
+/// assert!(coupling.is_valid(1_000.0, 1.0 / 4_000.0));
+/// assert!(!coupling.is_valid(1_000.0, 1.0 / 100.0), "20 g is too light for a surface of 1,000 N/m at 100 Hz");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coupling {
     /// N/m.

@@ -8,6 +8,25 @@ use crate::math::{Vec3, sqrt};
 /// god-object method for haptic display*, 1995). While it sticks, a spring and damper pull the witness point back to
 /// it. Where the pull would leave the Coulomb cone `‖F_t‖ ≤ μ F_n` it slips: the anchor is dragged after the witness
 /// point so that the pull is `μ_d F_n`.
+///
+/// ```
+/// use palpate::math::{Vec3, vec3};
+/// use palpate::render::{Anchor, Friction};
+///
+/// let friction = Friction {
+///     stiffness_n_per_m: 500.0,
+///     damping_n_s_per_m: 1.0,
+///     static_coefficient: 0.4,
+///     dynamic_coefficient: 0.3,
+/// };
+/// let mut anchor = Anchor::default();
+/// // Pressed with 2 N: it sticks.
+/// let at_first = friction.pull(&mut anchor, Vec3::ZERO, Vec3::Z, 2.0, Vec3::ZERO);
+/// assert!(at_first == Vec3::ZERO && !anchor.slips);
+/// // Dragged by 10 mm the spring would pull with 5 N: it slips at 0.3 · 2 N.
+/// let dragged = friction.pull(&mut anchor, vec3(0.01, 0.0, 0.0), Vec3::Z, 2.0, Vec3::ZERO);
+/// assert!(anchor.slips && (dragged.length() - 0.6).abs() < 1e-5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
     /// Stiffness along the surface while it sticks, N/m.

@@ -1,7 +1,7 @@
 //! Forces for a device with one joint: detents and end walls. Angles and torques, or lengths and forces: any consistent
 //! pair.
 
-/// Detents at every `pitch`, numbered from `least` to `greatest`, with a wall beyond either end.
+/// Detents at every `pitch`, numbered from `first` to `last`, with a wall beyond either end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detents {
     /// Distance of one detent from the next.

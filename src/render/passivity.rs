@@ -17,6 +17,20 @@ use crate::math::{Vec3, saturate, sqrt};
 ///
 /// The *quantum* is the work of the maximum force over one encoder count `Δ`: no observer of counts can resolve less.
 /// The energy that the actuator's delay adds lies beyond the port and is not observed.
+///
+/// ```
+/// use palpate::render::Passivity;
+/// use palpate::servo::Rendering;
+///
+/// let passivity = Passivity {
+///     device_damping_n_s_per_m: 0.0,
+///     device_friction_n: 0.0,
+///     max_damping_n_s_per_m: 8.0,
+///     resolution_m: 40e-6,
+/// };
+/// let rendering = Rendering { passivity: Some(passivity), ..Rendering::PLAIN };
+/// assert_eq!(rendering.check(1_000.0, 1.0 / 4_000.0), Ok(()));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passivity {
     /// `b`: viscous friction the device has at least, N·s/m. 0 is the careful choice.

@@ -20,6 +20,16 @@ pub struct Touch {
 }
 
 /// A texture: a function of the touch, and what its force is bounded by.
+///
+/// ```
+/// use palpate::render::{Texture, grating};
+/// use palpate::servo::Rendering;
+///
+/// /// 40 ridges across `u`, of up to 0.2 of the normal force.
+/// const RIDGES: Texture = Texture { force: |touch| grating(touch, 40.0, 0.2), max_fraction: 0.2 };
+/// let rendering = Rendering { texture: Some(RIDGES), ..Rendering::PLAIN };
+/// assert_eq!(rendering.check(500.0, 1.0 / 4_000.0), Ok(()));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Texture {
     /// The extra force on the probe, N. Called in the tick while the surface is touched: it must not wait or panic.

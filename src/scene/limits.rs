@@ -3,6 +3,15 @@
 use crate::device::Device;
 
 /// The limits of all bodies of a scene.
+///
+/// ```
+/// use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
+/// use palpate::scene::Limits;
+///
+/// // The device's own, with half of its force.
+/// let limits = Limits { max_force_n: 0.5 * DEVICE.max_force_n, ..Limits::of(&DEVICE, 4_000.0) };
+/// assert_eq!(limits.max_force_n, 2.5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Maximum stiffness of a body, N/m.

@@ -11,6 +11,20 @@ const HALF_TURN: f32 = PI / (1_u32 << 31) as f32;
 
 /// The placement of a body at each tick, in closed form. Can be evaluated at any tick; the cost grows with the motions
 /// enabled.
+///
+/// ```
+/// use core::f32::consts::TAU;
+/// use palpate::math::Vec3;
+/// use palpate::scene::{Motion, Path};
+/// use palpate::track::Placement;
+///
+/// // One turn a second about z, at 4 kHz.
+/// let path = Path::new(Placement::IDENTITY).turning(Vec3::Z, Vec3::ZERO, TAU, 4_000.0);
+/// let quarter = path.at(1_000);
+/// assert!((quarter.axes[0] - Vec3::Y).length() < 1e-5);
+/// let motion = Motion::Prescribed(path);
+/// # let _ = motion;
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Path {
     start: Placement,

@@ -26,6 +26,21 @@ use crate::math::{Vec3, saturate, sqrt, vec3};
 use crate::track::Placement;
 
 /// A body with a mass, its suspension, and its initial placement. Start with [`RigidBody::new`].
+///
+/// ```
+/// use palpate::math::{Vec3, vec3};
+/// use palpate::scene::{Joint, Motion, RigidBody};
+/// use palpate::track::Placement;
+///
+/// /// A slider of 200 g along x, damped.
+/// const SLIDER: RigidBody = RigidBody {
+///     joint: Joint::Slider(Vec3::X),
+///     damping_n_s_per_m: 2.0,
+///     ..RigidBody::new(Placement::IDENTITY, 0.2, vec3(1e-4, 1e-4, 1e-4))
+/// };
+/// let motion = Motion::Free(SLIDER);
+/// # let _ = motion;
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBody {
     /// Where it starts, and how it moves then.

@@ -23,6 +23,41 @@ const TO_ALL_ONES: u32 = 0x9226_f562;
 ///
 /// A [`Surface`] like any other, whose force is all its own: give it to a [`crate::servo::Servo`]. The two nearest
 /// bodies are tracked at each tick, touched ones first; one of the others is checked per tick.
+///
+/// ```
+/// use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
+/// use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
+/// use palpate::math::Vec3;
+/// use palpate::scene::{Limits, Material, Motion, Part, Scene, SceneError, Sphere};
+/// use palpate::track::Placement;
+///
+/// static WALL: SplinePatch = SplineTable {
+///     // …
+/// #   degree: [1, 1],
+/// #   breaks_u: &[0.0, 1.0],
+/// #   breaks_v: &[0.0, 1.0],
+/// #   coefficients: Coefficients::Polynomial(&[[0.0; 3], [0.0, 0.0, 0.2], [0.0, 0.2, 0.0], [0.0; 3]]),
+/// #   shape: ShapeBounds::unknown(SecondDerivativeBounds::ZERO),
+/// #   orientation: Orientation::Outward,
+/// #   size_m: 0.2,
+/// #   crc: None,
+/// }
+/// .checked();
+///
+/// let part = |material| Part {
+///     surface: &WALL,
+///     motion: Motion::Resting(Placement::IDENTITY),
+///     material,
+///     sphere: Sphere { centre_m: Vec3::ZERO, radius_m: 0.15 },
+///     group: 0,
+/// };
+/// let limits = Limits::of(&DEVICE, 4_000.0);
+/// let soft = part(Material::new(300.0, 1.0));
+/// assert!(Scene::try_new(limits, [soft, soft]).is_ok());
+/// // Two bodies may push at once: their stiffnesses together must be within the device's.
+/// let hard = part(Material::new(900.0, 1.0));
+/// assert_eq!(Scene::try_new(limits, [soft, hard]).err(), Some(SceneError::Stiffness(0)));
+/// ```
 #[derive(Debug)]
 pub struct Scene<'a, S, const N: usize> {
     pub(super) parts: [Part<'a, S>; N],

@@ -14,6 +14,21 @@ use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 ///
 /// A switch never gives a step: the difference between the old feel's torque and the new one's decays at a constant
 /// rate, N·m/s.
+///
+/// ```
+/// use palpate::device::{Dial, presets::GIMBAL_KNOB};
+/// use palpate::render::{Feel, Wave};
+/// use palpate::servo::{Config, Knob, Servo};
+///
+/// /// Free, and 24 detents a turn.
+/// static FEELS: [Feel; 2] = [
+///     Feel::FREE,
+///     Feel { detents: Some(Wave { pitch_rad: 0.2618, torque_n_m: 0.01, centre_rad: 0.0 }), ..Feel::FREE },
+/// ];
+/// static KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, 0.5);
+/// static SERVO: Servo<Knob, Dial, 1> = Servo::new(&GIMBAL_KNOB, &KNOB, Config::DEFAULT);
+/// assert_eq!(SERVO.start().witness().feel(), 0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knob {
     feels: &'static [Feel],

@@ -6,6 +6,16 @@ use crate::math::Vec3;
 use crate::render::{Coupling, Ease, Friction, Passivity, Penalty, Texture};
 
 /// The loop's settings. Start with [`Settings::DEFAULT`].
+///
+/// ```
+/// use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
+/// use palpate::servo::{Settings, SettingsError};
+///
+/// let settings = Settings { rate_hz: 4_000.0, stiffness_n_per_m: 500.0, damping_n_s_per_m: 2.0, ..Settings::DEFAULT };
+/// let check = |settings: Settings| settings.check(DEVICE.max_stiffness_n_per_m, DEVICE.max_damping_n_s_per_m);
+/// assert_eq!(check(settings), Ok(()));
+/// assert_eq!(check(Settings { stiffness_n_per_m: 10_000.0, ..settings }), Err(SettingsError::Stiffness));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Servo rate, Hz.
@@ -128,6 +138,20 @@ const fn within(x: f32, low: f32, high: f32) -> bool {
 }
 
 /// How the surface feels. Start with [`Rendering::PLAIN`].
+///
+/// ```
+/// use palpate::render::Friction;
+/// use palpate::servo::Rendering;
+///
+/// let friction = Friction {
+///     stiffness_n_per_m: 500.0,
+///     damping_n_s_per_m: 1.0,
+///     static_coefficient: 0.4,
+///     dynamic_coefficient: 0.3,
+/// };
+/// let rendering = Rendering { friction: Some(friction), ..Rendering::SMOOTH };
+/// assert_eq!(rendering.check(500.0, 1.0 / 4_000.0), Ok(()));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Rendering {
     /// The velocity estimator.
@@ -294,6 +318,15 @@ impl StuckLimits {
 }
 
 /// Limits and reactions of the loop. Start with [`Safety::DEFAULT`].
+///
+/// ```
+/// use palpate::servo::{SafeOutput, Safety, SafetyError};
+///
+/// // For a device that would fall, with a host that must send a message every 50 ms.
+/// let safety = Safety { output: SafeOutput::Damping(2.0), link_timeout_s: 0.05, ..Safety::DEFAULT };
+/// assert_eq!(safety.check(8.0), Ok(()));
+/// assert_eq!(safety.check(1.0), Err(SafetyError::Damping));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Safety {

@@ -8,6 +8,21 @@ use crate::render::{Moved, Tool, limit};
 use crate::track::{Contact, Probe};
 
 /// The input of a tick.
+///
+/// ```
+/// use palpate::device::Counts;
+/// use palpate::servo::Input;
+///
+/// /// `frame`: the sensors' answer, or whether it came at all.
+/// fn input(frame: Result<[i32; 3], bool>, enable: bool) -> Input<3> {
+///     match frame {
+///         Ok(counts) => Input::Sensors { counts: counts.map(Counts), enable },
+///         Err(true) => Input::Damaged,
+///         Err(false) => Input::Lost,
+///     }
+/// }
+/// assert_eq!(input(Err(false), true), Input::Lost);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Input<const JOINTS: usize> {

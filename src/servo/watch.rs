@@ -12,6 +12,27 @@ use crate::device::{Counts, Kinematics};
 /// first counts, nothing is bridged.
 ///
 /// It stands before [`Servo::tick`]; a loop without it has no exception.
+///
+/// ```
+/// use palpate::device::SerialArm;
+/// use palpate::patch::SplinePatch;
+/// use palpate::servo::{FrameBridge, Input, Output, Servo, State};
+///
+/// type App = Servo<'static, SplinePatch<'static>, SerialArm, 3>;
+///
+/// /// The timer's interrupt.
+/// fn on_timer(
+///     servo: &App,
+///     state: &mut State<App>,
+///     bridge: &mut FrameBridge<3>,
+///     input: Input<3>,
+///     enable: bool,
+/// ) -> Output<3> {
+///     let input = bridge.input(servo, state, input, enable);
+///     servo.tick(state, input)
+/// }
+/// # let _ = on_timer;
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FrameBridge<const JOINTS: usize> {
@@ -73,6 +94,16 @@ impl<const JOINTS: usize> FrameBridge<JOINTS> {
 }
 
 /// The time a tick may take, in counts of the board's free-running counter (cycles, timer ticks).
+///
+/// ```
+/// use palpate::servo::Deadline;
+///
+/// /// A cycle counter of 170 MHz, and a loop at 4 kHz.
+/// const DEADLINE: Deadline = Deadline::of_period(170e6, 4_000.0);
+/// assert_eq!(DEADLINE.counts, 42_500);
+/// assert!(!DEADLINE.overrun(u32::MAX - 999, 20_000), "21,000 counts, over the counter's wrap");
+/// assert!(DEADLINE.overrun(0, 42_501));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Deadline {

@@ -35,6 +35,16 @@ pub enum FrameError {
 
 /// Packs a message into a frame at the start of `buffer` and gives that part back.
 ///
+/// ```
+/// use palpate::wire::{Sensors, frame};
+///
+/// let mut buffer = [0; frame::MAX_FRAME];
+/// let sensors = Sensors { tick: 7, counts: [-1, 0, 1], enable: true };
+/// let bytes = frame::pack(&sensors, &mut buffer)?;
+/// assert_eq!(bytes.last(), Some(&frame::DELIMITER));
+/// # Ok::<(), frame::FrameError>(())
+/// ```
+///
 /// # Errors
 /// [`FrameError::BufferTooSmall`]; the buffer then holds rubbish.
 pub fn pack<'a, M: Serialize>(message: &M, buffer: &'a mut [u8]) -> Result<&'a [u8], FrameError> {
@@ -56,6 +66,20 @@ pub enum Received<M> {
 }
 
 /// Takes bytes as they arrive and returns messages. Starts again at every [`DELIMITER`].
+///
+/// ```
+/// use palpate::wire::{Sensors, frame};
+/// use palpate::wire::frame::{Received, Receiver};
+///
+/// let mut buffer = [0; frame::MAX_FRAME];
+/// let sensors = Sensors { tick: 7, counts: [-1, 0, 1], enable: true };
+/// let bytes = frame::pack(&sensors, &mut buffer)?;
+///
+/// let mut receiver = Receiver::<Sensors>::new();
+/// let received = bytes.iter().find_map(|byte| receiver.feed(*byte));
+/// assert_eq!(received, Some(Received::Message(sensors)));
+/// # Ok::<(), frame::FrameError>(())
+/// ```
 #[derive(Debug)]
 pub struct Receiver<M> {
     decoder: DecoderState,

@@ -1,13 +1,13 @@
 //! Frames between the device and a host.
 //!
 //! A frame is `COBS(postcard(message) · CRC-32) · 0x00`. [`frame`] packs and unpacks. In lockstep with a simulated
-//! device [`Sensors`] goes to the device and [`Report`] comes back, one of each a tick; a device that runs by itself
-//! takes [`HostMessage`]s and is [`DeviceMessage`] of: a [`Hello`] first, a [`Record`] now and then ([`telemetry`]), to a host that
-//! speaks with it [`Answer`]s and [`View`]s, and while it is being set up a [`Reading`]; one that is being accepted
+//! device [`Sensors`] goes to the device and [`Report`] comes back, one of each a tick. A standalone device takes
+//! [`HostMessage`]s and sends [`DeviceMessage`]s: a [`Hello`] first and a [`Record`] now and then ([`telemetry`]);
+//! [`Answer`]s and [`View`]s to a host that sends commands; [`Reading`]s in commissioning mode. A device in acceptance
 //! answers requests ([`acceptance`]).
 //!
 //! In lockstep the host sends the sensors of tick `n`, the device answers with the report of tick `n`, and only then
-//! comes `n + 1`. A host that has nothing to say in a tick sends an empty frame, so that the device need not wait.
+//! comes `n + 1`. A host without a message in a tick sends an empty frame, so that the device need not wait.
 
 #![doc = include_str!("../../docs/reference/wire.md")]
 

@@ -24,6 +24,22 @@ struct DeviceMessage {
 }
 
 /// The interrupt's end of the queue.
+///
+/// ```
+/// use palpate::wire::Record;
+/// use palpate::wire::telemetry::{Queue, Recorder};
+///
+/// let mut queue = Queue::<Record, 16>::new();
+/// let (producer, mut consumer) = queue.split();
+/// // A counter of 170 MHz, and a record every 40 ticks. Call `note` at the end of each tick's interrupt.
+/// let recorder = Recorder::new(producer, 170_000_000, 40);
+/// # let _ = recorder;
+/// // In the idle loop: pack and send what is there.
+/// while let Some(record) = consumer.dequeue() {
+///     // …
+/// #   let _ = record;
+/// }
+/// ```
 pub struct Recorder<'a> {
     queue: Producer<'a, Record>,
     clock: u32,

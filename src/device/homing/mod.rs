@@ -19,6 +19,19 @@ use super::{Counts, Encoder};
 use thiserror::Error;
 
 /// How a device finds its joint angles. Constant, in flash.
+///
+/// ```
+/// use palpate::device::{Homing, Reference, presets::WOODEN_HAPTICS_2016 as DEVICE};
+/// use palpate::servo::Config;
+///
+/// /// The user holds the arm in its calibration pose: still for 1 s to within 2 counts, 60 s after the start at the
+/// /// latest, at 4 kHz.
+/// const HOMING: Homing<3> =
+///     Homing::new(DEVICE.encoders, Reference::Pose(DEVICE.angles_at_zero()), 4_000, 2, 240_000);
+/// const CONFIG: Config<3> = Config { homing: Some(HOMING), ..Config::DEFAULT };
+/// assert!(!HOMING.drives(), "no motor moves");
+/// # let _ = CONFIG;
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Homing<const JOINTS: usize> {
     encoders: [Encoder; JOINTS],
