@@ -32,7 +32,8 @@ pub struct Case {
     pub plant: PlantSettings,
     /// Half the size of the workspace that is tested, m: a ball, a disc or a stretch about its centre.
     pub radius: f64,
-    pub pose: Box<dyn Fn([f32; 3]) -> Pose>,
+    /// `None` where the mechanism cannot be closed.
+    pub pose: Box<dyn Fn([f32; 3]) -> Option<Pose>>,
     pub holding: Box<dyn Fn([f32; 3]) -> Triple>,
     pub in_workspace: Box<dyn Fn([f32; 3]) -> bool>,
     pub sense: Box<dyn Fn([i32; 3]) -> Tick>,
@@ -68,12 +69,11 @@ fn case<K: Kinematics<JOINTS> + Copy + 'static, const JOINTS: usize>(
         plant,
         radius,
         pose: Box::new(move |angles| {
-            let pose = map.pose(few(angles));
-            Pose {
-                position: widen(pose.unwrap().position),
-                columns: fill(pose.unwrap().jacobian.map(widen), [0.0; 3]),
-                margin: f64::from(pose.unwrap().singularity_margin()),
-            }
+            map.pose(few(angles)).map(|pose| Pose {
+                position: widen(pose.position),
+                columns: fill(pose.jacobian.map(widen), [0.0; 3]),
+                margin: f64::from(pose.singularity_margin()),
+            })
         }),
         holding: Box::new(move |angles| fill(map.holding_torques(few(angles)).map(f64::from), 0.0)),
         in_workspace: Box::new(move |angles| device.in_workspace(few(angles))),

@@ -35,7 +35,7 @@ fn encoders_tell_the_probe_s_place_to_a_count() {
             let place = core::array::from_fn(|axis| if axis < case.joints { case.radius * share[axis] } else { 0.0 });
             let plant = Plant::new(&case.plant, HandSettings::NONE, Box::new(StillHand(place)), 4_000.0).unwrap();
             let tick = (case.sense)(plant.counts());
-            let pose = (case.pose)(tick.angles);
+            let pose = (case.pose)(tick.angles).unwrap();
             let lag = distance(pose.position, place);
             // Each joint is off by half a count at most, and the probe by that times its lever.
             let bound: f64 = (0..case.joints)
