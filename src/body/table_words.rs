@@ -1,4 +1,4 @@
-//! Every number of a body's tables as 32-bit words, for the check that flash still holds what was baked.
+//! Every number of a body's tables as 32-bit words, for the check that flash still holds the baked tables.
 //!
 //! The tables are a list of *records* (one for the body, then the faces' sides and patches, edges, vertices, spokes, and
 //! the locator's nodes and entries), and a record is a list of words. A [`TableCursor`] finds a word in a bounded number

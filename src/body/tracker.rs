@@ -16,7 +16,7 @@ const JUMP: f32 = 0.125;
 /// is computed from the patch and from the edge's own curve.
 const ROUNDING: f32 = 64.0 * f32::EPSILON;
 /// Excess over the reach, relative to the body's size, above which the witness point is unexplained: a hundred times
-/// what a sum of rounded paths loses in a second.
+/// the rounding loss of a sum of paths in a second.
 const UNEXPLAINED: f32 = 1.0e-3;
 
 /// State of the tracker: at most 256 bytes for a body of any size.

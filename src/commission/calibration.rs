@@ -102,8 +102,7 @@ impl<const JOINTS: usize> Calibration<JOINTS> {
     /// Reads a record.
     ///
     /// # Errors
-    /// Why there is none, or none that can be believed. Whether it can be that of a device is for
-    /// [`Device::calibrated`] to say.
+    /// Why there is no record, or no valid one. [`Device::calibrated`] checks whether it can belong to a device.
     pub fn from_words(words: &[u32; HEAD + 3 * OF_JOINT + 1]) -> Result<Self, CalibrationError> {
         let [magic, shape, channels, numbers @ .., crc] = words;
         if words.iter().all(|word| *word == BLANK) {

@@ -7,7 +7,7 @@ use thiserror::Error;
 #[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CalibrationError {
-    /// There is none: flash that was erased.
+    /// No record: the flash is erased.
     #[error("no calibration is stored")]
     Absent,
     /// Its first words are missing: the power went while it was written.
@@ -37,7 +37,7 @@ pub enum CalibrationError {
         /// Which.
         joint: u8,
     },
-    /// The encoder is too fine or too coarse for what the device was built with.
+    /// The encoder is too fine or too coarse compared with the preset's.
     #[error("joint {joint}: the encoder's counts are more than five times off those that the device was built with")]
     Encoder {
         /// Which.
@@ -49,7 +49,7 @@ pub enum CalibrationError {
         /// Which.
         joint: u8,
     },
-    /// The motor is too strong or too weak for what the device was built with.
+    /// The motor is too strong or too weak compared with the preset's.
     #[error("joint {joint}: the motor's torque is more than two times off that which the device was built with")]
     Torque {
         /// Which.

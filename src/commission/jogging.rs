@@ -22,7 +22,7 @@ pub struct Jog {
     pub key: u32,
     /// The motor, from 0.
     pub motor: u8,
-    /// The duty asked for; the device's limit applies.
+    /// The requested duty; the device's limit applies.
     pub duty: i16,
 }
 
@@ -35,7 +35,7 @@ pub struct JogLimits<const JOINTS: usize> {
     pub max_speed_counts_per_s: f32,
     /// How far any encoder may go while the key is held, counts.
     pub max_travel_counts: u32,
-    /// Seconds without a frame after which the key counts as let go.
+    /// Seconds without a frame after which the key counts as released.
     pub patience_s: f32,
 }
 
@@ -71,7 +71,7 @@ pub enum JogRefusal {
     /// There is no such motor.
     #[error("there is no such motor")]
     NoMotor = 4,
-    /// Another motor was asked for while the key was held.
+    /// Another motor was requested while the key was held.
     #[error("let the key go before another motor")]
     OtherMotor = 5,
     /// A drive did not apply its duty, or its amplifier is no longer ready.
@@ -136,7 +136,7 @@ pub struct Jogging<const JOINTS: usize> {
 pub struct JogState<const JOINTS: usize> {
     /// The last frame's number; `None` before the first.
     number: Option<u32>,
-    /// Motor and duty asked for, while the key is held.
+    /// Requested motor and duty, while the key is held.
     held: Option<(usize, i16)>,
     /// Ticks since a frame held the key.
     silent: u32,
@@ -303,8 +303,8 @@ impl<const JOINTS: usize> Jogging<JOINTS> {
         }
     }
 
-    /// Ends a jog, if there is one, for what the loop around it has seen. The first refusal stands until the key is let
-    /// go.
+    /// Ends a jog, if there is one, for a reason that the loop around it has detected. The first refusal is latched
+    /// until the key is released.
     pub fn refuse(&self, state: &mut JogState<JOINTS>, refusal: JogRefusal) {
         state.held = None;
         state.refusal = state.refusal.or(Some(refusal));

@@ -1,8 +1,8 @@
-//! Setting up a device on the bench: one motor at a time, gently, while somebody holds a key.
+//! Commissioning on the bench: one motor at a time, gently, while a person holds a key.
 //!
-//! [`Jogging`] runs in the place of the servo, before anything is known of the device: it thinks in counts and duties.
-//! Its limits lie in the device's own flash; what comes over the link can only ask for less. A motor is driven only
-//! while all of this holds, and otherwise has no current in the same tick:
+//! [`Jogging`] runs in the place of the servo, before the device's parameters are known: it works in counts and duties.
+//! Its limits lie in the device's own flash; the host can only request less. A motor is driven only while all of this
+//! holds, and otherwise has no current in the same tick:
 //!
 //! - [`Jog`] frames with [`KEY`] in them keep coming, each with a higher number than the one before, and the last one
 //!   not longer ago than [`JogLimits::patience_s`];

@@ -5,8 +5,8 @@ use crate::math::saturate;
 /// The torque that cancels a joint's cogging, all around a turn. Recorded once ([`crate::device`] says how), a table in
 /// flash.
 ///
-/// Cogging comes from a potential, like weight: what cancels it gives back what it took. So it goes the way of the
-/// links' weight ([`super::Kinematics::held_pose`]): given first, no part of the force, and nothing without
+/// Cogging comes from a potential, like weight: its compensation returns the energy that it took. So it is part of
+/// gravity compensation ([`super::Kinematics::held_pose`]): given first, no part of the force, and zero without
 /// [`crate::servo::Phase::Running`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoggingMap {

@@ -67,7 +67,7 @@ impl Commutation {
         if self.pole_pairs == 0 { 0 } else { self.counts_per_turn / self.pole_pairs as u32 }
     }
 
-    /// The rotor's electrical angle at a count, from what it is at count zero.
+    /// The rotor's electrical angle at a count, from its angle at count zero.
     #[inline]
     pub fn rotor(&self, aligned: Aligned, Counts(counts): Counts) -> ElectricalAngle {
         // Nothing here divides by zero or wraps where the numbers are valid; elsewhere it is not to panic.

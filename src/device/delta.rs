@@ -54,7 +54,7 @@ pub struct Delta {
     pub thigh_moment_kg_m: f32,
 }
 
-/// A leg at one angle: the knee brought in by what the probe's plate sticks out, and its speed per radian.
+/// A leg at one angle: the knee, moved in by the plate's stub, and its speed per radian.
 #[derive(Clone, Copy)]
 struct Leg {
     outward: Vec3,

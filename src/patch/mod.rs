@@ -128,7 +128,7 @@ pub trait Patch {
     /// Largest side of the bounding box, metres: relative tolerances refer to it.
     fn size(&self) -> f32;
 
-    /// The `index`-th word of the patch's table, for the check that flash still holds what was baked; `None` past the
+    /// The `index`-th word of the patch's table, for the check that flash still holds the baked table; `None` past the
     /// end, and always for a patch without a table.
     fn table_word(&self, _index: usize) -> Option<u32> {
         None

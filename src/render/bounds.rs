@@ -35,8 +35,8 @@ pub const fn passive_stiffness(device_damping: f32, damping: f32, period: f32, d
     if left > 0.0 { left / (0.5 * period + delay) } else { 0.0 }
 }
 
-/// `K ≤ min(2 b/T, 2 f_c/Δ)`, N/m: with quantised position the dry friction must absorb what a count's rounding gives
-/// out.
+/// `K ≤ min(2 b/T, 2 f_c/Δ)`, N/m: with quantised position the dry friction must absorb the energy that a count's
+/// rounding generates.
 ///
 /// J. J. Abbott and A. M. Okamura, *Effects of position quantization and sampling rate on virtual-wall passivity*, IEEE
 /// Trans. Robotics 21(5), 2005; for a wall without damping and without delay.

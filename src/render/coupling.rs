@@ -2,9 +2,9 @@
 
 use crate::math::Vec3;
 
-/// The device feels the coupling alone, and the surface meets the tool: what the device can bear sets the coupling, and
-/// the surface may be as stiff as the tool's mass can follow (R. J. Adams and B. Hannaford, *Stable haptic interaction
-/// with virtual environments*, IEEE Trans. Robotics and Automation 15(3), 1999).
+/// A coupling separates device and surface: the device meets the coupling alone, whose stiffness is within the device's
+/// limits, and the surface meets the tool, and may be as stiff as the tool's mass can follow (R. J. Adams and B.
+/// Hannaford, *Stable haptic interaction with virtual environments*, IEEE Trans. Robotics and Automation 15(3), 1999).
 ///
 /// ```
 /// use palpate::render::Coupling;
@@ -51,7 +51,7 @@ impl Coupling {
     }
 
     /// Whether a tool that meets a surface of this stiffness (N/m) is integrated stably: all positive and finite, and
-    /// `(K_coupling + K_surface) h² < 2 m`, half of what the rule allows without damping.
+    /// `(K_coupling + K_surface) h² < 2 m`, half of the rule's limit without damping.
     pub const fn is_valid(&self, surface_stiffness: f32, period: f32) -> bool {
         let Self { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, mass_kg: mass } = *self;
         let sensible = stiffness > 0.0 && damping >= 0.0 && damping < f32::INFINITY && mass < f32::INFINITY;

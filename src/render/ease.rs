@@ -87,7 +87,7 @@ impl Eased {
         }
     }
 
-    /// The wall at a gap of what touches it, m, which is negative: its damping as far as it has come in.
+    /// The wall at a negative gap, m: with its damping as far as it has risen.
     #[inline]
     pub fn wall(&self, wall: &Penalty, gap: f32) -> Penalty {
         let damping = self.damping_slope * -gap;

@@ -4,8 +4,8 @@ use super::Detents;
 use crate::math::{saturate, sin_cos};
 use core::f32::consts::TAU;
 
-/// A torque that comes again with every pitch: `−T sin(2π (θ − centre)/pitch)`. A coarse one is detents, a fine one a
-/// texture. It comes from a potential: turned there and back it gives back what it took.
+/// A torque that repeats with every pitch: `−T sin(2π (θ − centre)/pitch)`. A coarse one is detents, a fine one a
+/// texture. It comes from a potential: turned there and back it returns the energy that it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
     /// From one detent to the next, radians.

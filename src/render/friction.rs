@@ -61,7 +61,7 @@ impl Friction {
             return Vec3::ZERO;
         }
         let along = |vector: Vec3| vector - normal * vector.dot(normal);
-        // The surface may have turned since: only what lies along it now counts.
+        // The surface may have turned since: only the part along it now counts.
         let stretch = along(anchor.point.unwrap_or(witness) - witness);
         let damping = along(velocity) * -self.damping_n_s_per_m;
         let pull = stretch * self.stiffness_n_per_m + damping;

@@ -21,8 +21,8 @@ pub fn saturated(force: Vec3, greatest: f32) -> Vec3 {
     force
 }
 
-/// `force`, grown from `last` by at most `most` (N). Letting go is free: only what lies beyond the nearest weaker force
-/// of the last direction counts as growth, so a limit never holds a probe that has left the surface.
+/// `force`, grown from `last` by at most `most` (N). A fall is not limited: only the difference from the nearest weaker
+/// force of the last direction counts as growth, so a limit never holds a probe that has left the surface.
 #[inline]
 pub fn slewed(force: Vec3, last: Vec3, most: f32) -> Vec3 {
     if most == f32::INFINITY {

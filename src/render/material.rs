@@ -2,8 +2,8 @@
 
 use super::Friction;
 
-/// How a surface of some material is to feel. Take its stiffness and damping into the loop's settings, as far as the
-/// device bears them, and its friction into the rendering, best a smooth one; `palpate feel` says what the hand gets.
+/// The feel of a material's surface. Copy its stiffness and damping into the loop's settings, within the device's
+/// limits, and its friction into the rendering, best a smooth one; `palpate feel` measures the result.
 ///
 /// ```
 /// use palpate::render::Material;

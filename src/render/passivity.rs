@@ -1,4 +1,4 @@
-//! Passivity observer and controller: what the surface gives out is never more than it took in.
+//! Passivity observer and controller: the surface never gives out more energy than it took in.
 
 use super::limit::saturated;
 use crate::math::{Vec3, saturate, sqrt};

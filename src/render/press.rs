@@ -10,15 +10,15 @@ pub struct Press {
     pub point: Vec3,
     /// Its outward unit normal.
     pub normal: Vec3,
-    /// Velocity of what touches, past the surface, m/s.
+    /// Velocity of the probe or tool along the surface, m/s.
     pub velocity: Vec3,
     /// The push along the normal, N, see [`super::Penalty::push`].
     pub push: f32,
 }
 
 impl Press {
-    /// The force on what touches, N. The anchor is let go of where there is no push. `place` says, where there is a
-    /// texture, `(u, v)` of the witness point and its tangent along `u`.
+    /// The force on the probe or tool, N. Without a push the anchor is released. `place` is needed for a texture: `(u,
+    /// v)` of the witness point and its tangent along `u`.
     #[inline(always)]
     pub fn force(
         &self,

@@ -19,7 +19,7 @@ pub struct Touch {
     pub push: f32,
 }
 
-/// A texture: a function of the touch, and what its force is bounded by.
+/// A texture: a function of the touch, and the bound of its force.
 ///
 /// ```
 /// use palpate::render::{Texture, grating};
@@ -54,8 +54,8 @@ impl Texture {
     }
 }
 
-/// A grating of ridges across `u`, as a tangential force `−share · push · sin(2π u · ridges) · f_u/‖f_u‖`: what a
-/// height profile of the same period does to the normal (M. Minsky, *Computational haptics*, 1995).
+/// A grating of ridges across `u`, as a tangential force `−share · push · sin(2π u · ridges) · f_u/‖f_u‖`: the effect
+/// of a height profile of the same period on the normal (M. Minsky, *Computational haptics*, 1995).
 pub fn grating(touch: &Touch, ridges: f32, share: f32) -> Vec3 {
     let turns = touch.parameters[0] * ridges;
     // The fraction of a turn: a cast that saturates removes the whole turns.

@@ -4,8 +4,8 @@ use super::quaternion::{quaternion, turned_by};
 use crate::math::{Vec3, vec3};
 use crate::track::Placement;
 
-/// A rigid motion `Q = R (q + offset) + pivot`, `q` in the body's frame: about what the body turns, `pivot` and
-/// `offset` stay.
+/// A rigid motion `Q = R (q + offset) + pivot`, `q` in the body's frame: `pivot` and `offset` stay constant while the
+/// body turns about its pivot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame {
     /// The body's axes, the columns of `R`.

@@ -8,7 +8,7 @@ use crate::render::limit;
 /// Seconds for which a force of the host lasts. If it is not repeated within that time, it fades out.
 pub const HOLD: f32 = 0.1;
 
-/// A force from outside, which no body backs. It comes and goes at the rate at which all is let go of.
+/// A force from outside, which no body backs. It rises and falls at the scene's release rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HostForce {
     /// The requested force, N, and the ticks that are left of it.

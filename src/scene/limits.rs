@@ -20,18 +20,18 @@ pub struct Limits {
     pub max_damping_n_s_per_m: f32,
     /// Maximum force of a body, N.
     pub max_force_n: f32,
-    /// How much of a force that is no longer backed by a body is let go of in a second, N/s; a force that a switch
-    /// brings comes up as fast.
+    /// Release rate, N/s: how fast a force falls that no body backs any more, and how fast a force rises that a switch
+    /// brings.
     pub release_n_per_s: f32,
     /// Ticks a second.
     pub rate_hz: f32,
-    /// No body is met faster than this, m/s: by the tool's speed and its own. It says how long a body that is far off
-    /// need not be looked at.
+    /// Maximum approach speed, m/s: the tool's speed plus the body's own. It determines for how long a distant body
+    /// needs no check.
     pub max_speed_m_per_s: f32,
 }
 
 impl Limits {
-    /// Those of a device, at a servo rate: no more force than it has, let go of in 50 ms; bodies met at up to 2 m/s.
+    /// The limits of a device, at a servo rate: its own maximum force, released in 50 ms; approach at up to 2 m/s.
     pub const fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>, rate: f32) -> Self {
         let Device {
             max_stiffness_n_per_m: max_stiffness,

@@ -1,13 +1,13 @@
 //! A scene: bodies that move, felt by one tool.
 //!
-//! [`Scene`] is a [`crate::servo::Surface`] made of surfaces: the servo loop that feels one body feels a scene. Each
-//! [`Part`] has a surface in its own frame, a [`Motion`] that places this frame at each tick, and a [`Material`]. The
-//! tracker works in the body's frame, where the probe's velocity is the relative one: `Rᵀ (q̇ − v − ω × (Q − o))`,
-//! which is what Remark 3's feed-forward wants; friction holds there, too, so that it rides on the body.
+//! [`Scene`] is a [`crate::servo::Surface`] made of surfaces: the servo loop that renders one body renders a scene.
+//! Each [`Part`] has a surface in its own frame, a [`Motion`] that places this frame at each tick, and a [`Material`].
+//! The tracker works in the body's frame, where the probe's velocity is the relative one: `Rᵀ (q̇ − v − ω × (Q − o))`,
+//! as Remark 3's feed-forward requires; friction acts in that frame too, so that it moves with the body.
 //!
-//! A tick: the two bodies in hand are moved on and tracked; one other is looked at, and taken in hand if it is nearer;
-//! then both press, and a free one is pushed in turn. Whatever was switched since the last tick, the force is that of
-//! the last tick, and goes over to the new one at a bounded rate ([`Limits::release_n_per_s`]).
+//! A tick moves and tracks the two nearest bodies and checks one other, which replaces one of them if it is nearer;
+//! then both press, and a free one is pushed in turn. After a switch the force starts from that of the last tick, and
+//! moves to the new one at a bounded rate ([`Limits::release_n_per_s`]).
 
 mod change;
 mod command;

@@ -16,7 +16,7 @@ pub enum Motion {
     Resting(Placement),
     /// It moves as prescribed.
     Prescribed(Path),
-    /// It is free, and pushed by what touches it.
+    /// It is free, and the tool pushes it.
     Free(RigidBody),
 }
 
@@ -72,8 +72,8 @@ impl<S> Clone for Part<'_, S> {
 impl<S> Copy for Part<'_, S> {}
 
 impl<'a, 'b> Part<'a, Body<'b>> {
-    /// A body of group 0. Its sphere is what its tables prove: no two points of a body are farther from each other than
-    /// `√3` times its size. A smaller one that you know is a better one.
+    /// A body of group 0. Its sphere follows from its tables: no two points of a body are farther from each other than
+    /// `√3` times its size. Set a smaller one if you know it.
     pub const fn new(body: &'a Body<'b>, motion: Motion, material: Material) -> Self {
         let sphere = match body.vertices() {
             [first, ..] => Sphere { centre_m: first.point, radius_m: 1.732_051 * body.size() },
@@ -132,7 +132,7 @@ pub struct PartState<W> {
     pub(super) friction: Option<Friction>,
     /// For how many ticks more a resting body moves along.
     pub(super) way: u32,
-    /// The tick at which it was looked at last.
+    /// The tick of its last check.
     pub(super) seen: u32,
     /// Ticks from then on in which no look is due.
     pub(super) rests: u32,
@@ -174,7 +174,7 @@ impl<W: Tracked> PartState<W> {
         &self.witness
     }
 
-    /// Where it was when it was looked at last: in this tick, if it is near.
+    /// Its placement at its last check: in this tick, if it is near.
     pub fn placement(&self) -> Placement {
         self.frame.placement()
     }

@@ -56,7 +56,7 @@ struct Sway {
 }
 
 impl Path {
-    /// A body that stays where it is placed, until something is added. `start`'s velocities are not looked at.
+    /// A body that stays where it is placed, until a motion is added. `start`'s velocities are ignored.
     pub const fn new(start: Placement) -> Self {
         Self {
             start: Placement { velocity: Vec3::ZERO, angular_velocity: Vec3::ZERO, ..start },
@@ -99,7 +99,7 @@ impl Path {
         frame.placement()
     }
 
-    /// The frame at the start: what a turn does not change stands in it from then on.
+    /// The frame at the start: it contains everything that a turn does not change.
     pub(super) fn frame(&self) -> Frame {
         let mut frame = Frame::new(&self.start);
         if let Some(Turn { pivot, offset, angular_velocity, .. }) = &self.turn {
@@ -142,7 +142,7 @@ impl Path {
     pub(super) const fn is_valid(&self) -> bool {
         let mut is_finite = is_rigid(&self.start);
         if let Some(Turn { pivot, offset, angular_velocity, turning: [x, y, z, w], .. }) = &self.turn {
-            // An axis that is no unit vector makes a quaternion that is none.
+            // An axis that is not a unit vector gives a quaternion that is not one.
             let whole = *x * *x + *y * *y + *z * *z + *w * *w;
             is_finite &= finite(*angular_velocity) && finite(*pivot) && finite(*offset) && near_one(whole);
         }

@@ -290,7 +290,7 @@ impl RigidBody {
         if let Some(axis) = axis {
             force = axis * axis.dot(force);
         }
-        // Half the change: what a rounded factor does to it evens out over a swing; of the mean itself it would not.
+        // Half the change: the error of a rounded factor cancels over a swing; with the mean itself it would not.
         let change = (force - state.velocity * damping) * (1.0 / (2.0 * self.mass_kg / period + damping));
         state.position += (state.velocity + change) * period;
         state.velocity += change * 2.0;
@@ -310,7 +310,7 @@ impl RigidBody {
         let torque = frame.to_body(torque);
         let inertial = inertia * (2.0 / period);
         let mean = (momentum * (2.0 / period) + torque) / (inertial + Vec3::splat(damping));
-        // The change alone is added: what nothing turns is not rounded.
+        // Only the change is added: without a torque there is no rounding.
         let change = (torque - mean * damping) * period;
         let pushed = momentum + change;
         state.momentum += frame.to_scene(change);

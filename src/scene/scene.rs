@@ -1,4 +1,4 @@
-//! The scene: bodies, the checks of what was chosen of them, and the tick.
+//! The scene: bodies, the checks of their parameters, and the tick.
 
 use super::SceneError;
 use super::host_force::HostForce;
@@ -279,12 +279,12 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
                 state.parts[left].force = Vec3::ZERO;
             }
             state.tracked[slot] = index as u8;
-            // It may be touched since it was last looked at: its force comes up from nothing.
+            // It may be in contact since its last check: its force rises from zero.
             state.switched |= state.parts[index].contact == Contact::Touching;
         }
     }
 
-    /// The force of a body on the tool, N, in the scene's frame; what pushes it in turn is kept for its next tick.
+    /// The force of a body on the tool, N, in the scene's frame; the reaction is kept for its next tick.
     #[inline(never)]
     fn press(&self, state: &mut SceneState<S::Witness, N>, index: usize, period: f32) -> Vec3 {
         let Part { material, motion, .. } = &self.parts[index];

@@ -11,13 +11,13 @@ use crate::track::{Contact, Controller, Probe, Witness};
 ///
 /// A bank that was taken does not change until it is left. No method may wait: the servo's interrupt calls them.
 pub trait BodyStore {
-    /// Takes the body that was uploaded and checked last, if nobody has taken it yet; gives the bank it lies in.
+    /// Takes the last uploaded and checked body, if it was not taken yet; returns its bank.
     fn take(&self) -> Option<u8>;
 
     /// The body of a bank that was taken.
     fn body(&self, bank: u8) -> Option<&Body<'_>>;
 
-    /// A bank that was taken is no longer looked at.
+    /// Releases a bank that was taken: the scene no longer reads it.
     fn leave(&self, bank: u8);
 }
 
@@ -59,8 +59,8 @@ impl<H> core::fmt::Debug for Slot<'_, H> {
 }
 
 impl<'a, H> Part<'a, Slot<'a, H>> {
-    /// A body of group 0 in a slot. Nothing is known of how large a body may be that comes into it: if its body can be
-    /// exchanged, it is looked at whenever it is its turn.
+    /// A body of group 0 in a slot. The size of a future body is unknown: a body that can be exchanged is checked
+    /// whenever it is its turn.
     pub const fn in_slot(slot: &'a Slot<'a, H>, motion: Motion, material: Material) -> Self {
         let sphere = match slot.store {
             None => Part::new(slot.baked, motion, material).sphere,

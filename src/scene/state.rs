@@ -15,7 +15,7 @@ pub struct SceneState<W, const N: usize> {
     pub(super) ticks: u32,
     /// The bodies that are tracked at each tick.
     pub(super) tracked: [u8; 2],
-    /// The body that was looked at last beside these.
+    /// The last checked one of the other bodies.
     pub(super) turn: u8,
     /// The body in foremost contact, or the nearest.
     pub(super) felt: u8,

@@ -6,7 +6,7 @@ use crate::device::{Counts, Duty};
 /// The phase of the loop, in the order in which it goes through them; at most one step a tick.
 ///
 /// Force comes from [`Phase::Running`] alone. A fault leads from any phase to [`Phase::Fault`], where the motors are at
-/// zero or, if [`super::SafeOutput`] says so and the sensors can be believed, damp.
+/// zero or, if [`super::SafeOutput`] says so and the sensors are trusted, damp.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
@@ -16,7 +16,7 @@ pub enum Phase {
     Reset = 0,
     /// The sensors settle, the device is homed and the tables are checked, as far as [`super::Safety`] asks for it.
     Calibrate = 1,
-    /// Tracking, with the motors at zero, until force is asked for.
+    /// Tracking, with the motors at zero, until force is requested.
     Armed = 2,
     /// Rendering force.
     Running = 3,
@@ -126,10 +126,10 @@ pub enum Fault {
     /// A joint or the probe moves faster than it may while force is given.
     #[error("moving too fast under force")]
     Overspeed = 17,
-    /// The motors' supply is out of its range, or nobody has measured it.
+    /// The motors' supply is out of its range, or not measured.
     #[error("motor supply out of range or not measured")]
     Supply = 18,
-    /// A joint goes against what its motor pushes: its encoder counts the other way, or its motor is wired so.
+    /// A joint moves against its motor's torque: its encoder counts the other way, or its motor is wired so.
     #[error("encoder and motor polarity disagree")]
     WrongPolarity = 19,
     /// The calibration that is kept in flash cannot be used ([`crate::commission::CalibrationError`]).
@@ -193,7 +193,7 @@ pub enum ResetReason {
     PowerOn = 0,
     /// The reset pin, or a debugger.
     Pin = 1,
-    /// The program asked for it.
+    /// The program requested it.
     Software = 2,
     /// A watchdog ran out. The loop starts in [`Fault::WatchdogReset`].
     Watchdog = 3,

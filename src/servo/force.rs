@@ -7,8 +7,8 @@ use crate::render::{Moved, Press, Reason, Tool, limit};
 use crate::track::Contact;
 
 impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
-    /// The force on the probe, N. `tool` is what touches the surface, `motion` is the probe's. The velocity of the
-    /// state's own tool is still the last tick's, and set here.
+    /// The force on the probe, N. `tool` touches the surface, `motion` is the probe's. The velocity of the state's own
+    /// tool is still the last tick's, and set here.
     #[inline]
     pub(super) fn force(
         &self,
@@ -56,7 +56,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         passivity.control(&mut state.drive.energy, slewed, motion, touching, self.core.penalty.max_force_n)
     }
 
-    /// The surface's force on what touches it, N.
+    /// The surface's force on the probe or tool, N.
     #[inline]
     fn surface_force(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, tool: Tool, normal: Vec3) -> Vec3 {
         if S::Witness::HAS_OWN_FORCE_ONLY {
@@ -79,7 +79,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         })
     }
 
-    /// The force comes up slowly after each start, so that nothing kicks, and is gone at once when it is not asked for.
+    /// The force rises slowly after each start, so that nothing kicks, and is zero at once without a request.
     #[inline]
     pub(super) fn next_fade(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) -> f32 {
         if state.phase != Phase::Running {

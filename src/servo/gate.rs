@@ -33,7 +33,7 @@ pub fn gate<const JOINTS: usize>(
     if !drives {
         return Ok(([Duty::ZERO; JOINTS], 0.0));
     }
-    // Mostly: what all of them give together, one alone could.
+    // The usual case: the sum of all fits into one motor's range.
     if sum <= 1.0 {
         return Ok((fractions.map(Duty::from_fraction), 1.0));
     }
@@ -94,7 +94,7 @@ pub fn gate_within<const JOINTS: usize>(
     if drives { Ok((duties, scale)) } else { Ok(([Duty::ZERO; JOINTS], 0.0)) }
 }
 
-/// A weight that the motors may not carry, scaled as a whole to what they may.
+/// A gravity compensation beyond the motors' limits, scaled as a whole to fit.
 #[cold]
 fn relieved<const JOINTS: usize>(weight: [f32; JOINTS], limits: &[f32; JOINTS]) -> [f32; JOINTS] {
     let mut heaviest = 1.0;
@@ -121,8 +121,8 @@ fn relieve<const JOINTS: usize>(fractions: &mut [[f32; 2]; JOINTS]) -> f32 {
     if scale > 0.0 { scale } else { 0.0 }
 }
 
-/// By what the felt force must be scaled, `scale` at most, for a joint's share `asked` to fit in what the weight
-/// `carried` has left; below 0 where that is nothing.
+/// The scale of the contact torques, `scale` at most, for a joint's fraction `asked` to fit in the range left by
+/// gravity compensation, `carried`; below 0 if there is none.
 #[inline(always)]
 fn least_scale(scale: f32, [asked, carried]: [f32; 2]) -> f32 {
     let left = if asked > 0.0 { 1.0 - carried } else { 1.0 + carried };

@@ -1,4 +1,4 @@
-//! A dial as what the loop feels: a table of feels, one of them chosen at a time.
+//! A dial as a surface of the loop: a table of feels, one of them active at a time.
 
 use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
 use crate::device::{Device, Dial};
@@ -48,13 +48,13 @@ pub enum KnobError {
     Feels,
     /// A feel makes no sense by itself.
     Feel(FeelError),
-    /// A feel is stiffer than the device bears.
+    /// A feel is stiffer than the device's limit.
     Stiffness,
-    /// A feel damps more than the device bears.
+    /// A feel has more damping than the device's limit.
     Damping,
     /// A feel asks for more torque than the device has.
     Torque,
-    /// The torque that is let go of in a second is not positive and finite.
+    /// The release rate is not positive and finite.
     LetGo,
 }
 
@@ -107,8 +107,8 @@ impl KnobWitness {
 }
 
 impl Knob {
-    /// The feels of a dial, checked against its device. `let_go` is how much torque is let go of in a second after a
-    /// switch, N·m/s.
+    /// The feels of a dial, checked against its device. `let_go` is the release rate of the old torque after a switch,
+    /// N·m/s.
     ///
     /// # Errors
     /// The first number that is refused.
@@ -124,7 +124,7 @@ impl Knob {
             if let Err(error) = feel.check() {
                 return Err(KnobError::Feel(error));
             }
-            // Asked so that a number that is none is refused.
+            // Written so that NaN is refused.
             let bears_stiffness = feel.stiffness() <= device.max_stiffness_n_per_m * radius * radius;
             let bears_damping = feel.greatest_damping() <= device.max_damping_n_s_per_m * radius * radius;
             let bears_torque = feel.torque_between_ends() <= most;

@@ -1,4 +1,4 @@
-//! From encoder counts to joint angles that can be believed.
+//! From encoder counts to validated joint angles.
 
 use super::Fault;
 use super::state::Sensors;

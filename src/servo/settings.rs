@@ -28,7 +28,7 @@ pub struct Settings {
     pub max_force_n: f32,
     /// Corner frequency of the velocity filter, Hz.
     pub velocity_corner_hz: f32,
-    /// Seconds over which the force is faded in after force was asked for.
+    /// Seconds over which the force fades in after a request.
     pub soft_start_s: f32,
     /// Where the origin of the body's tables lies in the device's frame, metres. Baked source says with `CENTRE` where
     /// that lies in the model.
@@ -74,8 +74,8 @@ impl SettingsError {
 crate::message::display!(SettingsError);
 
 impl Settings {
-    /// 1 kHz, a soft wall and little force, within what every device that ships takes; the body's origin in that of the
-    /// device.
+    /// 1 kHz, a soft wall and little force, within the limits of every device that ships; the body's origin is the
+    /// device's.
     pub const DEFAULT: Self = Self {
         rate_hz: 1_000.0,
         stiffness_n_per_m: 200.0,

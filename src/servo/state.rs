@@ -313,7 +313,7 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         &self.readiness.homing
     }
 
-    /// Joint angle in the middle of count zero, radians: the encoders' own, or what homing found.
+    /// Joint angle in the middle of count zero, radians: the encoders' own, or the homed one.
     #[inline]
     pub const fn angles_at_zero(&self) -> [f32; JOINTS] {
         self.sensors.angles_at_zero
@@ -374,7 +374,7 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         &self.contact.witness
     }
 
-    /// The same for what its surface lets be changed between two ticks, as a [`crate::scene::Scene`] does.
+    /// The same, for changes between two ticks that its surface permits, as a [`crate::scene::Scene`] does.
     #[inline]
     pub const fn witness_mut(&mut self) -> &mut W {
         &mut self.contact.witness

@@ -30,7 +30,7 @@ pub enum Input<const JOINTS: usize> {
     Sensors {
         /// Encoder counts, one per joint.
         counts: [Counts; JOINTS],
-        /// Whether force is asked for.
+        /// Whether force is requested.
         enable: bool,
     },
     /// No frame came, or one that belongs to another tick.
@@ -54,8 +54,8 @@ impl<const JOINTS: usize> Torques<JOINTS> {
 }
 
 impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
-    /// Takes note of what happened outside a tick, at any time between two ticks. A fault is latched at once and the
-    /// motors are off when this returns: apply [`ServoState::output`].
+    /// Records an event between two ticks. A fault is latched at once and the motors are off when this returns: apply
+    /// [`ServoState::output`].
     pub fn note(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, event: Event) {
         match event {
             Event::LinkAlive => state.faults.link_silence = 0,
@@ -262,7 +262,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         Ok(Torques { felt, weight: weight.map(|torque| torque * carried), live: state.phase == Phase::Running })
     }
 
-    /// A tick of homing: no angle can be believed yet, only how it changes.
+    /// A tick of homing: angles are untrusted, only their changes count.
     fn home(
         &self,
         homing: &Homing<JOINTS>,

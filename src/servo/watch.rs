@@ -6,10 +6,10 @@ use crate::device::{Counts, Kinematics};
 /// Puts a prediction in the place of a few bad frames in a row: the last good counts, carried on at the rates estimated
 /// then. The next bad one reaches the loop as it came, and is a fault in that tick.
 ///
-/// **This is the one exception to "a fault in the same tick".** A motor's switching spoils a frame of a digital sensor
-/// now and then; a hand that is let go of for that feels a blow. For two ticks, half a millisecond at 4 kHz, a hand at
-/// 1 m/s that brakes with 20 m/s² comes 2.5 µm nearer than predicted: less than a count. After a fault, and before the
-/// first counts, nothing is bridged.
+/// **This is the one exception to "a fault in the same tick".** A motor's switching corrupts a frame of a digital
+/// sensor now and then, and a loop that then drops its force hits the hand. For two ticks, half a millisecond at 4 kHz,
+/// a hand at 1 m/s that brakes with 20 m/s² comes 2.5 µm nearer than predicted: less than a count. After a fault, and
+/// before the first counts, nothing is bridged.
 ///
 /// It stands before [`Servo::tick`]; a loop without it has no exception.
 ///

@@ -175,7 +175,7 @@ fn fraction_inside(parameter: f32, change: f32) -> f32 {
     }
 }
 
-/// The end of one parameter: exactly on its border if that is what cut the step.
+/// The end of one parameter: exactly on its border if the border cut the step.
 #[inline]
 fn land(parameter: f32, change: f32, own_cut: f32, cut: f32) -> f32 {
     if own_cut < 1.0 && own_cut <= cut {

@@ -99,7 +99,7 @@ impl Step {
         sqrt(self.distance_squared_before)
     }
 
-    /// Length in space of the full correction that was asked for, metres: the projection error, 0 at the closest point.
+    /// Length in space of the full requested correction, metres: the projection error, 0 at the closest point.
     pub fn residual(&self) -> f32 {
         sqrt(self.residual_squared)
     }

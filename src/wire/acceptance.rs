@@ -17,7 +17,7 @@ pub enum Request {
     },
     /// Whether it tells of its own ticks, ten times a second: a [`Finding::Ticks`] each time.
     Watch(bool),
-    /// Fails on purpose: what comes after is the identity of a device that was reset, with the reason.
+    /// Fails on purpose: then the device answers with its identity after the reset, with the reason.
     Fail(Failure),
 }
 
@@ -118,7 +118,7 @@ pub struct Ticks {
     pub took: u32,
     /// Ticks since the reset that took longer than their period.
     pub overruns: u32,
-    /// Bad sensor frames since the reset: that did not come, that came damaged, that said what no hand does.
+    /// Bad sensor frames since the reset: missing, damaged, implausible.
     pub bad: [u32; 3],
     /// The most bad frames in a row since the reset.
     pub in_a_row: u32,
@@ -130,7 +130,7 @@ pub struct Ticks {
 
 /// The bits of [`Ticks::panel`].
 pub mod panel {
-    /// Force is asked for.
+    /// Force is requested.
     pub const ENABLE: u8 = 1 << 0;
     /// The stop input is pressed, or its wire is broken.
     pub const STOP: u8 = 1 << 1;

@@ -46,7 +46,7 @@ pub struct Marked {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Calibrated {
-    /// None is kept: it is what it was built with.
+    /// No stored calibration: the compiled-in one is used.
     #[default]
     BuiltIn,
     /// The one that is kept.
@@ -68,7 +68,7 @@ pub enum KeepError {
     /// The device is not being set up.
     #[error("a calibration is saved only in commissioning mode")]
     NotSetUp,
-    /// A motor is driven, or somebody holds the enable input.
+    /// A motor is driven, or the enable input is held.
     #[error("flash is written only while the motors are off; release the enable input first")]
     Driven,
     /// The calibration cannot belong to this device. The stored one is unchanged.
@@ -164,7 +164,7 @@ pub struct View {
 }
 
 impl View {
-    /// Of the loop after a tick, with the probe's velocity (m/s) and what holds.
+    /// Of the loop after a tick, with the probe's velocity (m/s) and the holds.
     pub fn new<const JOINTS: usize, W: Tracked, G: Remembered>(
         state: &ServoState<JOINTS, W, G>,
         velocity: Vec3,

@@ -46,7 +46,7 @@ pub enum FrameError {
 /// ```
 ///
 /// # Errors
-/// [`FrameError::BufferTooSmall`]; the buffer then holds rubbish.
+/// [`FrameError::BufferTooSmall`]; the buffer's contents are then undefined.
 pub fn pack<'a, M: Serialize>(message: &M, buffer: &'a mut [u8]) -> Result<&'a [u8], FrameError> {
     let encoder = Cobs::try_new(Slice::new(buffer)).map_err(|_| FrameError::BufferTooSmall)?;
     postcard::serialize_with_flavor(message, CrcModifier::new(encoder, CHECKSUM.digest()))
@@ -108,7 +108,7 @@ impl<M: DeserializeOwned> Receiver<M> {
         }
     }
 
-    /// Takes the next byte; a delimiter gives what it completed. Bounded work: a frame is decoded as it comes and
+    /// Takes the next byte; a delimiter returns the frame's result. Bounded work: a frame is decoded as it arrives and
     /// checked once at its end.
     pub fn feed(&mut self, byte: u8) -> Option<Received<M>> {
         let step = self.decoder.feed(byte);

@@ -5,14 +5,14 @@ use super::Record;
 use crate::servo::{Fault, Phase, ResetReason};
 use crate::track::{BoundaryMode, Contact};
 
-/// Logs what differs from the record before.
+/// Logs the differences from the record before.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Changes {
     last: Option<Record>,
 }
 
 impl Changes {
-    /// Logs what this record changes: phase, feature, boundary mode and contact as information, overruns and dropped
+    /// Logs the record's changes: phase, feature, boundary mode and contact as information, overruns and dropped
     /// records as warnings, a fault as an error.
     pub fn log(&mut self, record: &Record) {
         let tick = record.tick;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// To the device: what its sensors would say at this tick.
+/// To the device: its simulated sensors at this tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sensors {
@@ -54,7 +54,7 @@ pub struct Report {
     pub frames_lost: u32,
     /// How often the controller undid a step that brought the witness point no nearer.
     pub rejected_steps: u32,
-    /// Instructions the servo tick took, from the counter of the board; 0 where there is none.
+    /// Instructions of the servo tick, from the counter of the board; 0 where there is none.
     pub instructions: u32,
     /// [`crate::servo::ServoState::digest`] after this tick: the same on host and target, bit for bit.
     pub digest: u32,
@@ -111,7 +111,7 @@ pub struct Record {
     pub duties: [i16; 3],
 }
 
-/// The bits of [`Record::hold`]: what keeps the motors off although nothing is wrong with the loop.
+/// The bits of [`Record::hold`]: external reasons that keep the motors off without a fault of the loop.
 pub mod hold {
     /// The stop input is pressed, or its wire is broken.
     pub const STOP: u8 = 1 << 0;
@@ -173,7 +173,7 @@ pub enum HostMessage {
     },
 }
 
-/// From a device that is being set up: what it reads and what it gives its motors.
+/// From a device in commissioning mode: its readings and its motors' duties.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reading {

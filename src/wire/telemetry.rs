@@ -34,7 +34,7 @@ struct DeviceMessage {
 /// // A counter of 170 MHz, and a record every 40 ticks. Call `note` at the end of each tick's interrupt.
 /// let recorder = Recorder::new(producer, 170_000_000, 40);
 /// # let _ = recorder;
-/// // In the idle loop: pack and send what is there.
+/// // In the idle loop: pack and send the records.
 /// while let Some(record) = consumer.dequeue() {
 ///     // …
 /// #   let _ = record;

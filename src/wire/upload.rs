@@ -68,13 +68,13 @@ pub enum UploadError {
     /// No flash was set aside for bodies.
     #[error("this device has no flash for bodies")]
     NoFlash,
-    /// The motors are driven, or somebody holds the enable input: flash is written only while they are off.
+    /// The motors are driven, or the enable input is held: flash is written only while they are off.
     #[error("flash is written only while the motors are off; release the enable input first")]
     Driven,
     /// The stored body is in use: replace it first ([`crate::scene::Command::PutBack`]).
     #[error("the body stored in flash is in use; put the built-in one back first")]
     Felt,
-    /// The flash did not take what was written.
+    /// The flash write failed verification.
     #[error("flash write error at byte {at}")]
     Flash {
         /// Where.

@@ -146,7 +146,7 @@ impl<'a> Body<'a> {
         };
         let body = tables.try_checked_without_crc()?;
         pause();
-        // The words are those of the same body as a static: the result is what was baked.
+        // The words equal those of the same body as a static: the result is the baked CRC.
         match body.table_crc_with(pause) {
             found if found == stated => Ok(body.with_crc(stated)),
             found => Err(FileError::Tables { stated, found }),

@@ -42,7 +42,7 @@ impl<P: OutputPin> Direction<P> {
         Ok(true)
     }
 
-    /// The next command must wait again: who knows what the pin did meanwhile.
+    /// The next command must wait again: the pin's state is unknown.
     pub const fn forget(&mut self) {
         (self.forward, self.given) = (None, 0);
     }

@@ -32,7 +32,7 @@ pub struct VoltageFeed {
     pub resistance_ohm: f32,
     /// Torque constant, `k`, N·m/A, which is the back-EMF constant in V·s/rad.
     pub torque_constant_n_m_per_a: f32,
-    /// Current that full duty of torque stands for, A.
+    /// Current at full duty of torque, A.
     pub current_at_full_a: f32,
     /// Turns of the motor for one of the joint, `N`; negative where it turns the other way.
     pub ratio: f32,

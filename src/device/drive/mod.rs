@@ -38,7 +38,7 @@ pub enum DriveError<W, P> {
     /// The enable pin, or a bridge's direction pin.
     #[error("the pin failed")]
     Pin(P),
-    /// The direction pin of an amplifier, or nobody has said where the field is to be.
+    /// The direction pin of an amplifier failed, or the field's angle was never set.
     #[error("the direction failed")]
     Direction,
 }

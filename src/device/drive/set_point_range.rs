@@ -1,10 +1,10 @@
-//! Which set-points stand for which currents.
+//! The range of set-points of an amplifier.
 
 use crate::device::Duty;
 use thiserror::Error;
 
-/// The two ends of a set-point's range, as fractions of 32,767. With a sign they stand for full current back and ahead
-/// and their middle for none; as a magnitude, for none and for full current.
+/// The two ends of a set-point's range, as fractions of 32,767. With a sign they mean full current back and ahead, and
+/// their middle none; as a magnitude, none and full current.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SetPointRange {
     start: u16,
@@ -17,15 +17,15 @@ pub struct SetPointRange {
 pub struct SetPointRangeError;
 
 impl SetPointRange {
-    /// 10 % to 90 %, which Maxon's ESCON amplifiers take as a pulse-width set-point (10 Hz to 5 kHz): what lies outside
-    /// is a broken wire.
+    /// 10 % to 90 %, which Maxon's ESCON amplifiers take as a pulse-width set-point (10 Hz to 5 kHz): a set-point
+    /// outside means a broken wire.
     pub const TEN_TO_NINETY: Self = Self { start: 3_277, end: 29_490 };
     /// All of it: an analog set-point from a converter, as a magnitude; its 0 V is no current, and so is a chip that
     /// has no power.
     pub const WHOLE: Self = Self { start: 0, end: 32_767 };
 
-    /// A range between two set-points, each from 0 to 1. The first stands for full current back, or for none where the
-    /// set-point is a magnitude; it may be the larger.
+    /// A range between two set-points, each from 0 to 1. The first means full current back, or none where the set-point
+    /// is a magnitude; it may be the larger.
     ///
     /// # Errors
     /// A range that is empty or not within 0 and 1.

@@ -1,15 +1,15 @@
-//! A motor with three phases that finds out how its rotor stands to its field: the field is led round, slowly and
-//! gently, and the rotor follows.
+//! A motor with three phases that measures its rotor's alignment to its field: the field turns, slowly and gently, and
+//! the rotor follows.
 
 use super::Refusal;
 use crate::device::{Aligned, Commutation, Counts, ElectricalAngle};
 
-/// How a motor's field is led round.
+/// How a motor's field turns in the search.
 ///
-/// The field comes up within `ramp_ticks` and is led round once, which catches the rotor wherever it was. Then it is
-/// led round as many electrical turns as are asked for, there and back; how far behind the field the rotor is on
-/// average over both ways is the alignment. Friction holds the rotor back as much on the way there as on the way back,
-/// and cogging over whole electrical turns pulls it ahead as much as back: both leave the average.
+/// The field rises within `ramp_ticks` and turns once, which catches the rotor wherever it was. Then it turns by
+/// `turns` electrical turns, there and back; the rotor's mean lag behind the field over both ways is the alignment.
+/// Friction holds the rotor back as much on the way there as on the way back, and cogging over whole electrical turns
+/// pulls it ahead as much as back: both leave the average.
 ///
 /// It is refused unless the rotor has gone as far as its field, there and back, and was never more than a sixth of an
 /// electrical turn away from the average: another number of pole pairs, a phase without current, a sensor that does
@@ -20,7 +20,7 @@ pub struct FieldSearch {
     pub commutation: Commutation,
     /// Torque of the field on a rotor a quarter turn behind it, N·m: well above dry friction and cogging.
     pub torque_n_m: f32,
-    /// Ticks within which it comes up.
+    /// Ticks in which the field rises.
     pub ramp_ticks: u32,
     /// Ticks of an electrical turn.
     pub turn_ticks: u32,
@@ -101,7 +101,7 @@ impl FieldSearch {
             sweep.began = counts;
         }
         if measured {
-            // The field of the tick before is what the rotor follows now.
+            // The rotor now follows the field of the tick before.
             if let Some(refusal) = self.measure(sweep, counts, tick) {
                 return Led::Refused(refusal);
             }

@@ -63,7 +63,7 @@ pub enum HomingError {
     Field,
 }
 
-/// What a tick of homing starts from.
+/// The input of a tick of homing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HomingInput<const JOINTS: usize> {
     /// This tick's counts; `None` if a sensor failed.
@@ -130,7 +130,7 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         Ok(Self { encoders, reference, still_ticks, still_counts, timeout_ticks, when_asked: false })
     }
 
-    /// [`Self::try_new`] for a `static`: what is refused does not compile.
+    /// [`Self::try_new`] for a `static`: invalid numbers are compile errors.
     ///
     /// # Panics
     /// At compile time, naming the number.
@@ -151,8 +151,8 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         }
     }
 
-    /// The same, which goes on only while force is asked for, as a search for stops or fields does anyway: whoever
-    /// holds the device in its reference pose says so with the enable button.
+    /// The same, but it runs only while force is requested, as a search for stops or fields always does: the user
+    /// confirms the reference pose with the enable button.
     pub const fn when_asked(self) -> Self {
         Self { when_asked: true, ..self }
     }
@@ -186,7 +186,7 @@ impl<const JOINTS: usize> Homing<JOINTS> {
         }
     }
 
-    /// Whether it goes on only while force is asked for.
+    /// Whether it runs only while force is requested.
     pub const fn waits_for_enable(&self) -> bool {
         self.when_asked || self.drives()
     }

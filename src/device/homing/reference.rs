@@ -3,7 +3,7 @@
 use super::{FieldSearch, StopSearch};
 use crate::device::Counts;
 
-/// The joint angles at a pose that can be recognised.
+/// The reference: a pose, index marks, end stops or magnetic fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reference<const JOINTS: usize> {
     /// The hand holds the device still in a mechanical reference pose, at these joint angles, radians.
@@ -22,9 +22,9 @@ pub enum Reference<const JOINTS: usize> {
     Index([f32; JOINTS]),
     /// The motors drive one joint after the other to its end stop, while the others hang free.
     Stops([StopSearch; JOINTS]),
-    /// The motors have three phases, and lead one joint after the other round with their fields: how each rotor stands
-    /// to its field is found out, and [`Homing::fields`](super::Homing::fields) says from then on where each field is
-    /// to be. The joints' angles stay what the encoders say.
+    /// The motors have three phases. Their fields lead one joint after the other: homing measures the alignment of each
+    /// rotor, and from then on [`Homing::fields`](super::Homing::fields) gives the field's angle. The joints' angles
+    /// stay those of the encoders.
     Fields([FieldSearch; JOINTS]),
 }
 

@@ -1,4 +1,4 @@
-//! A joint that looks for its end stop: slowly, gently, and only believing what it finds if it could first move away.
+//! A joint that searches its end stop: slowly, gently, and with a result only if it could first move away from it.
 
 use super::Refusal;
 use crate::device::{Counts, Encoder};
@@ -17,7 +17,7 @@ pub struct StopSearch {
     /// How far it moves away first, radians. Make it all of the way to the other stop, less a little, to prove that
     /// nothing is in between.
     pub clearance_rad: f32,
-    /// How far the stop may be from there, radians: beyond there is none.
+    /// Maximum distance of the stop from there, radians: a joint that travels further is refused.
     pub travel_rad: f32,
 }
 
@@ -27,7 +27,7 @@ const RAMP: f32 = 0.15;
 const AT_ONCE: f32 = 0.2;
 /// How far a joint may be moved against the way it is driven, radians: less is the sag of an arm that is not held yet.
 const ASTRAY: f32 = 0.1;
-/// How much faster than asked for a joint may move.
+/// Maximum speed of a joint, as a multiple of the requested one.
 const HASTE: f32 = 4.0;
 
 /// The state of a search, from tick to tick.
@@ -107,7 +107,7 @@ impl StopSearch {
             return Seek::Drive(0.0);
         }
 
-        // Full torque at rest in RAMP seconds; a joint that moves as fast as asked for gets what it needs for that.
+        // Full torque at rest in RAMP seconds; a joint at the requested speed gets the torque that keeps it.
         let share = (wanted - rate) / self.speed_rad_per_s.abs();
         search.grown =
             saturate(search.grown + share * self.torque_n_m * (period / RAMP), -self.torque_n_m, self.torque_n_m);

@@ -21,11 +21,11 @@ const RATIO: f32 = 0.110 / 0.014_25;
 /// the origin is moved to the middle of the workspace, 120 mm before the base. At 4 kHz 2,000 N/m and 5 N·s/m are
 /// recommended at most: pressed in simulation the force is stiffness times depth to 2 %, and there is no limit cycle.
 /// At the 3,000 N/m and 20 N·s/m in use on it none is either, but dry friction holds the grip anywhere in a count, and
-/// half a count of 65 µm is 3 % of the millimetre that such a wall yields to a hand. The joint range keeps out what
-/// lies 80 mm and more to the side, where the forward map's steps leave up to 41 µm. Assumed, for no source was found
-/// that states them: torque of the motors, such that they give 8.9 N in every direction there; friction of a joint; and
-/// the masses: 150 g of plate and grip, shins of 15 g, thighs of 60 g with their centre 20 mm out, together 1.7 N at
-/// the grip. Weigh yours: a grip that rises or sinks by itself says by how much they are wrong.
+/// half a count of 65 µm is 3 % of the millimetre that such a wall yields to a hand. The joint range keeps out the
+/// region 80 mm and more to the side, where the forward map's steps leave up to 41 µm. Assumed, because no source
+/// states them: torque of the motors, such that they give 8.9 N in every direction there; friction of a joint; and the
+/// masses: 150 g of plate and grip, shins of 15 g, thighs of 60 g with their centre 20 mm out, together 1.7 N at the
+/// grip. Weigh yours: a grip that rises or sinks by itself shows how wrong they are.
 pub const NOVINT_FALCON: Device<Delta, 3> = Device {
     kinematics: Delta {
         thigh_m: 0.060,

@@ -65,7 +65,7 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
     /// A bus that is stuck low reads as parity-clean zeros; the settled bit, which is then missing, tells that apart.
     ///
     /// # Errors
-    /// [`SensorError::Absent`], [`SensorError::Magnet`], and what a frame can suffer.
+    /// [`SensorError::Absent`], [`SensorError::Magnet`], and the errors of a frame.
     pub fn start(&mut self) -> Result<(), SensorError<S::Error>> {
         self.asked = false;
         // The answer to this first frame belongs to an unknown request: an error flag in it is about to be cleared.
@@ -86,9 +86,9 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
         Ok(())
     }
 
-    /// The angle as it was at the end of the last frame, 0 to 16,383 a turn; asks for the next. One frame. `None` if
-    /// the last frame did not ask for it: after an error, before [`Self::start`]. At angle zero, three frames: that is
-    /// what a dead line reads too.
+    /// The angle as it was at the end of the last frame, 0 to 16,383 a turn; requests the next. One frame. `None` if
+    /// the last frame did not request it: after an error, before [`Self::start`]. At angle zero, three frames, because
+    /// a dead line reads zero too.
     ///
     /// # Errors
     /// Bus, parity, the error flag, or a bus that gives only ones or only zeros.
@@ -139,9 +139,9 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
         Ok(u16::from_be_bytes(frame))
     }
 
-    /// The data of a frame that can be believed.
+    /// The data of a valid frame.
     fn checked(frame: u16) -> Result<u16, SensorError<S::Error>> {
-        // All ones is a whole frame with its error flag set, but far more likely nobody is there.
+        // All ones is a whole frame with its error flag set, but far more likely no sensor is connected.
         if frame == u16::MAX {
             return Err(SensorError::Absent);
         }

@@ -1,4 +1,4 @@
-//! Position sensors, by embedded-hal: what comes over the wire becomes [`Counts`](super::Counts) that can be believed.
+//! Position sensors, by embedded-hal: from frames to validated [`Counts`](super::Counts).
 
 mod ams;
 mod frozen;

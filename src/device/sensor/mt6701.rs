@@ -41,8 +41,8 @@ impl<S: SpiDevice<u8>> Mt6701<S> {
     /// The angle now. One frame.
     ///
     /// # Errors
-    /// Bus, CRC, or what the status says. All zeros is a clean frame of angle zero with CRC 0, but also what a dead bus
-    /// reads, so it is refused: at most one reading in 16,384 of a good sensor is lost to that.
+    /// Bus, CRC, or the error that the status reports. All zeros is a clean frame of angle zero with CRC 0, but a dead
+    /// bus reads the same, so it is refused: that costs at most one reading in 16,384 of a good sensor.
     pub fn read(&mut self) -> Result<Mt6701Reading, SensorError<S::Error>> {
         let mut bytes = [0; 3];
         self.bus.read(&mut bytes).map_err(SensorError::Bus)?;

@@ -215,10 +215,10 @@ impl SupplyWatch {
         if good { Ok(()) } else { Err(Fault::Supply) }
     }
 
-    /// A tick: the fault if nobody has measured for too long.
+    /// A tick: the fault if the last measurement is too old.
     #[inline]
     pub(super) fn tick(&self, age: &mut u32) -> Result<(), Fault> {
-        // A fault that is not looked at may stand for days.
+        // A latched fault may last for days.
         *age = age.saturating_add(1);
         if *age > self.fresh_ticks { Err(Fault::Supply) } else { Ok(()) }
     }

@@ -58,7 +58,7 @@ pub struct Heat(pub i32);
 const FULL: f32 = 32_767.0 * 32_767.0;
 
 impl Heat {
-    /// As a share of what full duty comes to in the end.
+    /// As a fraction of the final value of full duty.
     pub fn fraction(self) -> f32 {
         self.0 as f32 / FULL
     }

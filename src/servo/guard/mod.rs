@@ -72,11 +72,11 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
         felt: &mut [f32; JOINTS],
     ) -> Result<(), Fault>;
 
-    /// A tick in which no force is asked for.
+    /// A tick without a request for force.
     fn force_not_requested(&self, state: &mut Self::State);
 
-    /// The last thing before the motors (`gate.rs`): the duties for these torques, N·m, and what the felt ones were
-    /// scaled by.
+    /// The last stage before the motors (`gate.rs`): the duties for these torques, N·m, and the scale of the contact
+    /// torques.
     ///
     /// # Errors
     /// [`Fault::NotFinite`].

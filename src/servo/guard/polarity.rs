@@ -80,7 +80,7 @@ pub(super) struct Polarities<const JOINTS: usize> {
 /// How far the contact at hand has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
-    /// There is none.
+    /// No contact.
     FreeAir,
     /// The force is withheld, and joints are pulsed.
     OnTrial,
@@ -171,7 +171,7 @@ impl<const JOINTS: usize> PolarityState<JOINTS> {
         match self.stage {
             Stage::FreeAir | Stage::Over => (),
             Stage::OnTrial => self.stage = Stage::FreeAir,
-            // When it is asked for again, all of it is faded in.
+            // With the next request all of it fades in.
             Stage::Rising => self.rise_by(1.0),
         }
     }
@@ -219,8 +219,8 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         Self { friction, ..self }
     }
 
-    /// Looks at a tick in which force may be given. `force` and `felt`, its joint torques, are what may be given of
-    /// them when this returns.
+    /// Checks a tick in which force may be given. On return `force` and its joint torques, `felt`, are the permitted
+    /// ones.
     #[inline(always)]
     pub(super) fn look(
         &self,
