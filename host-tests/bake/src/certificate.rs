@@ -1,16 +1,16 @@
-//! What is proved of one patch: that a probe over it is led to its closest point (theory §8).
+//! The certificate of one patch: every probe over it reaches its closest point (theory §8).
 //!
-//! - *Regular*: the least stretch is proved positive.
+//! - *Regular*: the minimum stretch is proved positive.
 //! - *Smooth*: no knot is a crease.
 //! - *Normal cone*: the normal `f_u × f_v` is, up to a positive factor, a polynomial; on a cell it is a mean of its
 //!   Bernstein coefficients. If all of them lie within less than 45° of one axis, any two normals are less than 90°
 //!   apart.
-//! - *Equilibrium*: for every probe `f(x₀) + s N(x₀)` with `x₀` in the patch and `0 ≤ s ≤ range`, all that no
-//!   first-order step within the outline improves is one point. Boxes of probes cover that region; [`super::locator`]
+//! - *Equilibrium*: for every probe `f(x₀) + s N(x₀)` with `x₀` in the patch and `0 ≤ s ≤ range`, exactly one point is
+//!   not improved by any first-order step within the outline. Boxes of probes cover that region; [`super::locator`]
 //!   proves one minimum for each, borders and corners included: a boundary that traps would be a second one, so the
 //!   *outline* is proved with it.
 //!
-//! Where a proof fails, random probes are tried; they can disprove, or be all that is known.
+//! Where a proof fails, random probes are sampled; they can disprove the property, or remain the only evidence.
 
 use super::BakedPatch;
 use super::convexity::Convexity;
@@ -20,7 +20,7 @@ use crate::random::Random;
 use glam::DVec3;
 use std::fmt;
 
-/// What is known of a property.
+/// The evidence for a property.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
     /// Proved of the stored table.
@@ -85,7 +85,7 @@ pub struct Cut {
 const SAMPLES: usize = 400;
 /// Boxes of probes tried for the proof at one range.
 const BOXES: usize = 1000;
-/// Ranges tried: the whole and so many less one halves of it.
+/// Number of ranges tried: the whole, its half, its quarter and so on.
 const HALVINGS: usize = 5;
 
 impl Certificate {
@@ -162,7 +162,7 @@ impl Certificate {
             && self.equilibrium.is_proved()
     }
 
-    /// What stands between the patch and a certificate, for the person at the terminal.
+    /// The reasons why a patch has no certificate, for the person at the terminal.
     pub fn reasons(&self, range: f64) -> Vec<String> {
         let findings = [
             ("regular", &self.regular),

@@ -1,4 +1,4 @@
-//! What can be wrong with a model file, as the person who wrote it reads it.
+//! The errors of a model file, for the person who wrote it.
 
 use crate::patch::Axis;
 use palpate::patch::{MAX_DEGREE, MAX_SPANS};
@@ -20,7 +20,7 @@ pub enum ModelError {
     Syntax {
         /// The file.
         file: String,
-        /// What the parser says, with line and column.
+        /// The parser's message, with line and column.
         message: String,
     },
     /// The unit is none of those known.
@@ -28,7 +28,7 @@ pub enum ModelError {
     Unit {
         /// The file.
         file: String,
-        /// What it says.
+        /// The unit in the file.
         unit: String,
     },
     /// There is no patch.
@@ -56,7 +56,7 @@ pub enum ModelError {
         file: String,
         /// Its name, or its index if it has none.
         patch: String,
-        /// What is wrong.
+        /// The fault.
         fault: PatchFault,
     },
     /// The body lies too far away from the origin for the digits of its own file.
@@ -78,12 +78,12 @@ pub enum ModelError {
     Seam {
         /// The file.
         file: String,
-        /// What is wrong between its patches.
+        /// The fault between its patches.
         fault: SeamFault,
     },
 }
 
-/// What is wrong with a patch.
+/// A fault of a patch.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PatchFault {
     /// The name is empty.
@@ -100,7 +100,7 @@ pub enum PatchFault {
     Degree {
         /// Along which parameter.
         axis: Axis,
-        /// What the file says.
+        /// The degree in the file.
         degree: i64,
     },
     /// Fewer control points than degree + 1.
@@ -152,7 +152,7 @@ pub enum PatchFault {
         column: usize,
         /// `x`, `y` or `z`.
         coordinate: char,
-        /// What the file says.
+        /// The value in the file.
         value: f64,
     },
     /// A weight is not a positive finite number.
@@ -162,7 +162,7 @@ pub enum PatchFault {
         row: usize,
         /// The column.
         column: usize,
-        /// What the file says.
+        /// The value in the file.
         value: f64,
     },
     /// The number of knots does not match.
@@ -184,7 +184,7 @@ pub enum PatchFault {
         axis: Axis,
         /// Which.
         index: usize,
-        /// What the file says.
+        /// The value in the file.
         value: f64,
     },
     /// A knot with which nothing can be computed.
@@ -194,7 +194,7 @@ pub enum PatchFault {
         axis: Axis,
         /// Which.
         index: usize,
-        /// What the file says.
+        /// The value in the file.
         value: f64,
         /// The limit.
         limit: f64,
@@ -281,7 +281,7 @@ pub enum PatchFault {
         axis: Axis,
         /// Length of its longest control polygon along it, metres.
         width: f64,
-        /// What counts as one, metres.
+        /// The tolerance, metres.
         tolerance: f64,
     },
     /// The patch is smaller or larger than the arithmetic is meant for.
@@ -297,7 +297,7 @@ pub enum PatchFault {
         size: f64,
         /// The body's, metres.
         body: f64,
-        /// What share of it is the least.
+        /// The minimum fraction of the body's size.
         share: f64,
     },
     /// A bound does not fit single precision.
@@ -358,7 +358,7 @@ pub enum SeamFault {
         first: String,
         /// The other.
         second: String,
-        /// Where the common part begins on the first, of its parameter.
+        /// The start of the common part on the first, in its parameter.
         from: f64,
         /// Where it ends.
         to: f64,
@@ -385,7 +385,7 @@ pub enum SeamFault {
         second: String,
         /// How far apart, metres.
         deviation: f64,
-        /// What would count as one curve, metres.
+        /// The tolerance for one curve, metres.
         tolerance: f64,
     },
     /// A closed body whose normals point inward.

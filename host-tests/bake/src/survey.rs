@@ -1,4 +1,4 @@
-//! What is known of a baked patch, and what is not.
+//! The certified and sampled properties of a baked patch.
 
 use super::baked::BakedPatch;
 use super::certificate::{Certificate, Cut};
@@ -13,7 +13,7 @@ use std::fmt;
 pub enum Verdict {
     /// Proved: no false equilibrium for any probe over it, up to the range that was asked for.
     Certified,
-    /// It can be felt; that the witness point always ends at the closest point is not proved.
+    /// It can be rendered; there is no proof that the witness point always ends at the closest point.
     Usable,
 }
 
@@ -29,7 +29,7 @@ impl fmt::Display for Verdict {
 /// How the tangents stand to each other, on a grid of 12 intervals a span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Regularity {
-    /// The least sine of the angle between the tangents, away from poles.
+    /// The minimum sine of the angle between the tangents, away from poles.
     Regular {
         /// The sine.
         least_sine: f64,
@@ -41,7 +41,7 @@ pub enum Regularity {
     },
 }
 
-/// What is known of a patch.
+/// The properties of a patch.
 #[derive(Clone, Debug)]
 pub struct Survey {
     /// Degrees.
@@ -62,11 +62,11 @@ pub struct Survey {
     pub shape: ShapeBounds,
     /// Proved or disproved.
     pub convexity: Convexity,
-    /// What is proved of the controller on it.
+    /// The certificate of the controller on it.
     pub certificate: Certificate,
     /// Bytes in flash.
     pub bytes: TableBytes,
-    /// What follows.
+    /// The verdict.
     pub verdict: Verdict,
     /// Why it is not better.
     pub reasons: Vec<String>,

@@ -1,4 +1,4 @@
-//! A device at its line: what is said and heard.
+//! A device on a line: sending and receiving.
 
 use crate::{Error, Line, Port};
 use palpate::wire::frame::{self, DELIMITER, MAX_FRAME, Received, Receiver};
@@ -13,7 +13,7 @@ const GREETS: Duration = Duration::from_millis(1_500);
 const GREETS_EVERY: Duration = Duration::from_millis(150);
 /// How long one look at the line waits at most.
 const LOOK: Duration = Duration::from_millis(5);
-/// What one call reads at most: a line that brings more faster than it is read must not hold the caller.
+/// Maximum bytes read per call: a line that delivers faster than it is read must not block the caller.
 const MOST: usize = 1 << 16;
 
 /// A device that runs by itself, at the other end of a line.
@@ -29,7 +29,7 @@ pub struct Device<L = Port> {
     hello: Hello,
     /// Of the last order or part of an upload.
     pub(crate) number: u16,
-    /// What became of it.
+    /// The answer to it.
     pub(crate) answer: Option<Answer>,
     pub(crate) view: Option<(View, Instant)>,
     pub(crate) views: u64,
@@ -37,7 +37,7 @@ pub struct Device<L = Port> {
     /// Of a device that is being set up.
     pub(crate) reading: Option<Reading>,
     calibrated: Option<Calibrated>,
-    /// When something was said last, and when the device was greeted last.
+    /// The times of the last message sent and of the last greeting.
     said: Instant,
     greeted: Instant,
     /// A greeting that was heard.
@@ -123,7 +123,7 @@ impl<L: Line> Device<L> {
         Ok(hello)
     }
 
-    /// What the device has said of itself when it was greeted.
+    /// The device's answer to the greeting.
     pub const fn hello(&self) -> Hello {
         self.hello
     }
@@ -134,7 +134,7 @@ impl<L: Line> Device<L> {
         self.calibrated
     }
 
-    /// What is kept in its flash by now.
+    /// Records the CRC of the body stored in its flash.
     pub(crate) const fn set_kept(&mut self, crc: u32) {
         self.hello.kept = crc;
     }
@@ -149,15 +149,15 @@ impl<L: Line> Device<L> {
         self.line.now()
     }
 
-    /// Frames that came damaged so far. Each was passed over; what matters of them is asked for anew.
+    /// Damaged frames so far. Each was discarded; requests among them are repeated.
     pub const fn damaged(&self) -> u64 {
         self.damaged
     }
 
-    /// Lets the device know that this program is there, and reads what has come.
+    /// Tells the device that this program runs, and reads the received messages.
     ///
     /// # Errors
-    /// A line that broke; a device that has begun anew, or is being set up.
+    /// A line that broke; a device that was reset, or is in commissioning mode.
     pub fn tend(&mut self) -> Result<(), Error> {
         self.drain()?;
         self.usable()
@@ -170,7 +170,7 @@ impl<L: Line> Device<L> {
         Ok(())
     }
 
-    /// That what is said to the device is heard as it is meant.
+    /// Checks that the device accepts messages in this session.
     pub(crate) fn usable(&self) -> Result<(), Error> {
         if self.is_anew {
             return Err(Error::BeganAnew { line: self.line.name() });
@@ -200,7 +200,7 @@ impl<L: Line> Device<L> {
         Ok(())
     }
 
-    /// Looks at the line once, for a moment at most, and takes what is there; how many bytes came.
+    /// Reads the line once, waiting for a moment at most; returns the number of bytes.
     pub(crate) fn hear(&mut self, wait: Duration) -> Result<usize, Error> {
         if self.since(self.said) >= ALIVE {
             self.send(&HostMessage::Alive)?;

@@ -1,4 +1,4 @@
-//! What can go wrong between a host and a device, each with its culprit.
+//! The errors between a host and a device, each with its cause.
 
 use palpate::body::FileError;
 use palpate::servo::Fault;
@@ -15,7 +15,7 @@ pub enum Error {
     Open {
         /// Its name.
         port: String,
-        /// What the system says.
+        /// The operating system's error.
         #[source]
         cause: serialport::Error,
     },
@@ -24,7 +24,7 @@ pub enum Error {
     Line {
         /// Which.
         line: String,
-        /// What the system says.
+        /// The operating system's error.
         #[source]
         cause: io::Error,
     },
@@ -41,7 +41,7 @@ pub enum Error {
     Garbled {
         /// Which line.
         line: String,
-        /// What came.
+        /// Bytes received.
         bytes: u64,
     },
     /// The device speaks another version.
@@ -60,7 +60,7 @@ pub enum Error {
         /// Which line.
         line: String,
     },
-    /// The device is being set up (`palpate commission`): nothing is felt until it is reset.
+    /// The device is in commissioning mode (`palpate commission`): it renders nothing until it is reset.
     #[error("{line}: the device is in commissioning mode, and feels nothing until it is reset")]
     SetUp {
         /// Which line.
@@ -69,7 +69,7 @@ pub enum Error {
     /// The device has refused it; nothing has changed.
     #[error("{asked} was refused by the device: {reason}")]
     Refused {
-        /// What was asked for.
+        /// The request.
         asked: &'static str,
         /// The device's reason.
         reason: Refused,
@@ -77,14 +77,14 @@ pub enum Error {
     /// No answer came. It may have been done or not.
     #[error("{asked}, number {number}: no answer in {tries} tries; whether it was done is not known")]
     Lost {
-        /// What was asked for.
+        /// The request.
         asked: &'static str,
         /// The order's number.
         number: u16,
         /// How often it was sent.
         tries: u32,
     },
-    /// What was to be uploaded is no body; nothing was sent.
+    /// The bytes to upload are not a valid body file; nothing was sent.
     #[error("not a valid body file")]
     Body(#[from] FileError),
     /// The body does not fit into the device's memory; nothing was sent.

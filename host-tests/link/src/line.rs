@@ -1,4 +1,4 @@
-//! What carries the bytes.
+//! The line that carries the bytes.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 /// The bytes between this program and a device: a serial port, a socket, a simulation.
 pub trait Line {
-    /// What messages call it.
+    /// Its name in messages.
     fn name(&self) -> String;
 
     /// Sends all of it.

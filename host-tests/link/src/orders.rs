@@ -1,4 +1,4 @@
-//! What a host asks for.
+//! A host's commands.
 
 use crate::{Device, Error, Line};
 use palpate::render::Friction;
@@ -6,8 +6,8 @@ use palpate::scene::{BodyPose, Command};
 use palpate::wire::{HostMessage, Refused};
 use std::time::Duration;
 
-/// How long an answer is waited for before what was asked for is asked for anew, under the same number. An adapter may
-/// hold bytes back for 16 ms each way, and at 115,200 baud the frame on its way takes 8 ms more.
+/// Time without an answer after which a request is repeated, under the same number. An adapter may hold bytes back for
+/// 16 ms each way, and at 115,200 baud the frame on its way takes 8 ms more.
 pub const ANSWER: Duration = Duration::from_millis(100);
 /// How often something is asked for in all.
 pub const TRIES: u32 = 5;
@@ -15,11 +15,10 @@ pub const TRIES: u32 = 5;
 pub(crate) const BUSY: (u32, Duration) = (50, Duration::from_millis(10));
 
 impl<L: Line> Device<L> {
-    /// Asks for an order, and waits for the answer.
+    /// Sends a command, and waits for the answer.
     ///
     /// # Errors
-    /// The device's refusal, or that no answer came; a line that broke, a device that has begun anew or is being set
-    /// up.
+    /// The device's refusal, or no answer; a line that broke, a device that was reset or is in commissioning mode.
     pub fn order(&mut self, order: Command) -> Result<(), Error> {
         self.usable()?;
         let asked = name(&order);
@@ -27,8 +26,8 @@ impl<L: Line> Device<L> {
         refused.map_or(Ok(()), |reason| Err(Error::Refused { asked, reason }))
     }
 
-    /// Asks for something that is answered by its number, anew where no answer comes; what it was refused for, if it
-    /// was.
+    /// Sends a request that is answered by its number, and repeats it without an answer; returns the refusal, if there
+    /// is one.
     pub(crate) fn ask(
         &mut self,
         asked: &'static str,
@@ -60,8 +59,8 @@ impl<L: Line> Device<L> {
         Err(Error::Lost { asked, number, tries })
     }
 
-    /// A force of this program's own, N, in the scene's frame, added to that of the bodies. It stands for a tenth of a
-    /// second ([`palpate::scene::HOLD`]) and fades unless it is asked for anew: call this at 20 Hz and more.
+    /// A force of this program's own, N, in the scene's frame, added to that of the bodies. It lasts a tenth of a
+    /// second ([`palpate::scene::HOLD`]) and fades unless it is repeated: call this at 20 Hz or more.
     ///
     /// # Errors
     /// As [`Self::order`].
@@ -69,7 +68,8 @@ impl<L: Line> Device<L> {
         self.order(Command::Push { force })
     }
 
-    /// Puts a resting body somewhere else. What was felt of it fades, and it is felt anew from its front.
+    /// Moves a resting body to another place. Its force fades out, and it gives none until the tool has been in front
+    /// of it.
     ///
     /// # Errors
     /// As [`Self::order`].
@@ -77,9 +77,8 @@ impl<L: Line> Device<L> {
         self.order(Command::Place { body, pose })
     }
 
-    /// Leads a resting body along: it is there by now, and moves on at these velocities of its origin (m/s) and about
-    /// it
-    /// (rad/s) for so many seconds, unless the next call comes. For a motion that this program gives pose by pose.
+    /// Guides a resting body: it has this pose now, and moves on at these velocities of its origin (m/s) and about it
+    /// (rad/s) for `seconds`, unless the next call comes. For a motion that this program gives pose by pose.
     ///
     /// # Errors
     /// As [`Self::order`].
@@ -155,7 +154,7 @@ impl<L: Line> Device<L> {
         self.order(Command::PutBack { body })
     }
 
-    /// The greatest force of all of the scene, N; at most what the device's settings have ([`Self::hello`]).
+    /// Maximum force of the whole scene, N; at most that of the device's settings ([`Self::hello`]).
     ///
     /// # Errors
     /// As [`Self::order`].
@@ -164,7 +163,7 @@ impl<L: Line> Device<L> {
     }
 }
 
-/// What messages call it.
+/// The command's name in messages.
 const fn name(order: &Command) -> &'static str {
     match order {
         Command::Place { .. } => "place",

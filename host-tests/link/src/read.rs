@@ -1,4 +1,4 @@
-//! What is read of the loop.
+//! Reading the loop's state.
 
 use crate::{Device, Error, Line};
 use palpate::servo::{Fault, Phase};
@@ -10,11 +10,11 @@ use std::time::Duration;
 pub const SILENCE: Duration = Duration::from_millis(250);
 
 impl<L: Line> Device<L> {
-    /// The newest view of the loop. If none has come since the last call, one is waited for as long as asked, and the
-    /// newest from before is given where none comes. Only the first one after a greeting is waited for longer.
+    /// The newest view of the loop. Without a new one since the last call this waits for up to `wait`, and then returns
+    /// the last one. Only the first one after a greeting may take longer.
     ///
     /// # Errors
-    /// A line that broke, a device that has been silent for [`SILENCE`], has begun anew, or is being set up.
+    /// A line that broke, a device that has been silent for [`SILENCE`], was reset, or is in commissioning mode.
     pub fn view(&mut self, wait: Duration) -> Result<View, Error> {
         let (began, views) = (self.line.now(), self.views);
         // The first one of all is on its way.
@@ -57,7 +57,7 @@ impl<L: Line> Device<L> {
         Ok(self.newest()?.velocity)
     }
 
-    /// The force on the hand, N: of the bodies and the host's own, as the motors are told.
+    /// The force on the hand, N: that of the bodies plus the host's own, as applied to the motors.
     ///
     /// # Errors
     /// As [`Self::view`].
@@ -65,7 +65,7 @@ impl<L: Line> Device<L> {
         Ok(self.newest()?.force)
     }
 
-    /// The body that is felt or nearest, by its index in the scene.
+    /// The foremost body, by its index in the scene: the one in contact, or the nearest.
     ///
     /// # Errors
     /// As [`Self::view`].
@@ -90,7 +90,7 @@ impl<L: Line> Device<L> {
         Ok(Contact::ALL.into_iter().find(|contact| *contact as u8 == number).unwrap_or_default())
     }
 
-    /// What the loop is doing.
+    /// The phase of the loop.
     ///
     /// # Errors
     /// As [`Self::view`].
@@ -99,7 +99,7 @@ impl<L: Line> Device<L> {
         Ok(Phase::ALL.into_iter().find(|phase| *phase as u8 == number).unwrap_or_default())
     }
 
-    /// What has stopped it, if anything has.
+    /// The fault that stopped the loop, if any.
     ///
     /// # Errors
     /// As [`Self::view`].
@@ -107,7 +107,7 @@ impl<L: Line> Device<L> {
         Ok(Fault::from_code(self.newest()?.fault))
     }
 
-    /// What of the person's side keeps the motors off, as the bits of [`palpate::wire::hold`].
+    /// External reasons that keep the motors off, as the bits of [`palpate::wire::hold`].
     ///
     /// # Errors
     /// As [`Self::view`].

@@ -5,15 +5,15 @@ use palpate::servo::Fault;
 use palpate::wire::HostMessage;
 use std::time::Duration;
 
-/// For how long a device is told to stop until it says that it has.
+/// How long the stop is repeated without a confirmation.
 const STOPS: Duration = Duration::from_millis(500);
 
 impl<L: Line> Device<L> {
-    /// Stops the device, whatever it does, until it is reset: said again and again until the device says that it is
-    /// stopped. A device of this version says so in its views and records, also one that was not greeted.
+    /// Stops the device, in any state, until it is reset: repeats the message until the device confirms the stop. A
+    /// device of this version confirms it in its views and records, even without a greeting.
     ///
     /// # Errors
-    /// A line that broke, or a device that does not say that it has stopped: then take its supply away.
+    /// A line that broke, or no confirmation: then disconnect the device's supply.
     pub fn stop(&mut self) -> Result<(), Error> {
         // What was heard before is from before.
         (self.view, self.record, self.reading) = (None, None, None);
@@ -36,11 +36,11 @@ impl<L: Line> Device<L> {
         Err(Error::NotStopped { line: self.line.name(), tries })
     }
 
-    /// Goes on after a reset by the watchdog or a brown-out, once somebody has looked at the device. Its enable button
-    /// has to be released and pressed anew before there is force.
+    /// Continues after a reset by the watchdog or a brown-out, once a person has checked the device. The enable button
+    /// has to be released and pressed again before there is force.
     ///
     /// # Errors
-    /// A line that broke, a device that is silent, or [`Error::Fault`] where something else has stopped it.
+    /// A line that broke, a device that is silent, or [`Error::Fault`] if another fault has stopped it.
     pub fn acknowledge(&mut self) -> Result<(), Error> {
         self.usable()?;
         self.view = None;

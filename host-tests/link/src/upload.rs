@@ -15,14 +15,14 @@ const RESUMES: u32 = 100;
 const PART_TRIES: u32 = 20;
 
 impl<L: Line> Device<L> {
-    /// Puts a body's file (`palpate bake --out part.palp`) in the place of a body of the scene. The file is checked
-    /// here first, with the device's own code; then it is sent while the old body is felt, checked there, and taken.
-    /// Parts that are lost are sent anew. `progress` is told the bytes that have come, and all; nothing else can be
-    /// asked of the device meanwhile.
+    /// Replaces a body of the scene by a body's file (`palpate bake --out part.palp`). This program checks the file
+    /// first, with the device's own code, then sends it while the device renders the old body; the device checks it and
+    /// takes it. Lost parts are repeated. `progress` gets the bytes sent and the total; no other request is possible
+    /// meanwhile.
     ///
     /// # Errors
-    /// What is wrong with the file; a body too large for the device; the device's refusal; a line or device that is
-    /// gone. The old body is felt on then.
+    /// An invalid file; a body too large for the device; the device's refusal; a line or device that is gone. The
+    /// device then keeps the old body.
     pub fn upload(&mut self, body: u8, file: &[u8], progress: impl FnMut(usize, usize)) -> Result<(), Error> {
         self.usable()?;
         let head = check(file)?;
@@ -32,13 +32,13 @@ impl<L: Line> Device<L> {
         self.order(Command::Take { body })
     }
 
-    /// Puts a body's file into the device's flash, and in the place of a body of the scene: it is felt from now on, and
-    /// after every reset, with or without a host. The motors are held off until it is written. What was kept before is
-    /// gone as soon as this begins.
+    /// Writes a body's file into the device's flash, and replaces a body of the scene by it: now and after every reset,
+    /// with or without a host. The motors are off until it is written. The start of the write erases the earlier stored
+    /// body.
     ///
     /// # Errors
-    /// As [`Self::upload`]; motors that are driven, or an enable input that is held; flash that does not take it. Once
-    /// it has begun nothing is kept until it succeeds.
+    /// As [`Self::upload`]; motors that are driven, or an enable input that is held; a flash write that fails. After
+    /// the start of the write no body is stored until it succeeds.
     pub fn keep(&mut self, body: u8, file: &[u8], progress: impl FnMut(usize, usize)) -> Result<(), Error> {
         self.usable()?;
         let head = check(file)?;
@@ -49,7 +49,7 @@ impl<L: Line> Device<L> {
         self.order(Command::Take { body })
     }
 
-    /// Forgets what is kept in flash; the body that was built in takes this one's place again. The motors must be off.
+    /// Erases the body stored in flash; the built-in body takes this one's place again. The motors must be off.
     ///
     /// # Errors
     /// As [`Self::keep`].
@@ -59,7 +59,7 @@ impl<L: Line> Device<L> {
         self.put_back(body)
     }
 
-    /// Flash is not written while what lies there is felt: then the built-in body is put back first.
+    /// Flash is not written while its body is in use: the built-in body is put back first.
     fn begin_to_keep(&mut self, body: u8, bytes: u32) -> Result<(), Error> {
         let begin = Upload::Keep { bytes };
         match self.part(begin, ANSWER) {
@@ -77,7 +77,7 @@ impl<L: Line> Device<L> {
         Ok(())
     }
 
-    /// Sends a file that has been begun.
+    /// Sends a file after its start message.
     fn send_file(&mut self, file: &[u8], mut progress: impl FnMut(usize, usize)) -> Result<(), Error> {
         let (mut at, mut resumes) = (0, RESUMES);
         loop {
@@ -131,7 +131,7 @@ impl<L: Line> Device<L> {
     }
 }
 
-/// The part of a file that begins here; its end beyond it.
+/// The part of a file that starts here, or its end.
 fn part(file: &[u8], at: usize) -> Upload {
     let Some(rest) = file.get(at..).filter(|rest| !rest.is_empty()) else { return Upload::End };
     let mut bytes = [[0; 16]; CHUNK / 16];

@@ -58,7 +58,7 @@ pub struct BakedFace {
     pub source: Provenance,
 }
 
-/// What lies along a border.
+/// The neighbour along a border.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BakedSide {
     /// An edge.
@@ -92,7 +92,7 @@ pub struct BakedEdge {
     pub kind: EdgeKind,
 }
 
-/// What the library finds wrong with baked tables: a bug of the baker.
+/// The library's refusal of baked tables: a bug of the baker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum TableFault {
     /// In a patch.
@@ -100,7 +100,7 @@ pub enum TableFault {
     Patch {
         /// Which.
         face: usize,
-        /// What.
+        /// The refusal.
         error: TableError,
     },
     /// In the body.
@@ -109,22 +109,22 @@ pub enum TableFault {
 }
 
 impl BakedBody {
-    /// Bakes a model, in pieces where it must be ([`super::split::prepared`]); `file` is what messages call it.
+    /// Bakes a model, in pieces where it must be ([`super::split::prepared`]); `file` is its name in messages.
     ///
     /// The body counts as convex if it is closed and of one piece, if every face is convex (proved, or proved up to
     /// rounding where it is straight: see [`super::survey`]), and if every edge is [`EdgeKind::Convex`] or
     /// [`EdgeKind::Smooth`]. Then it is locally convex everywhere, and a closed surface that is so bounds a convex body
-    /// (van Heijenoort, *On locally convex manifolds*, 1952). Of this the faces' share is proved; the edges' kinds are
-    /// sampled, and nothing is proved of poles: a body with poles is never called convex, for the curvature has no
-    /// bound there.
+    /// (van Heijenoort, *On locally convex manifolds*, 1952). The convexity of the faces is proved; the edges' kinds
+    /// are sampled, and there is no proof for poles: a body with poles is never called convex, because the curvature
+    /// has no bound there.
     ///
     /// # Errors
-    /// What is wrong with the model's patches, or between them.
+    /// A fault of the model's patches, or between them.
     pub fn new(model: &Model, file: &str) -> Result<Self, ModelError> {
         Self::of_pieces(super::split::prepared(model, file)?, model, file)
     }
 
-    /// What suits the locator of this body: short lists if it is convex, a far reach if it is one patch.
+    /// Options that suit the locator of this body: short lists if it is convex, a far reach if it is one patch.
     pub fn locator_options(&self) -> LocatorOptions {
         let is_one_patch = self.faces.iter().all(|face| face.source.patch == 0);
         match (self.is_convex, is_one_patch) {
@@ -174,7 +174,7 @@ impl BakedBody {
     /// Bakes the pieces that a model was split into.
     ///
     /// # Errors
-    /// What is wrong with the pieces, or between them.
+    /// A fault of the pieces, or between them.
     pub fn of_pieces(pieces: Vec<Piece>, model: &Model, file: &str) -> Result<Self, ModelError> {
         let seam = |fault| ModelError::Seam { file: file.to_owned(), fault };
         if pieces.len() > MAX_FACES {
@@ -262,16 +262,16 @@ impl BakedBody {
         distinct
     }
 
-    /// What messages and comments call each face.
+    /// The name of each face in messages and comments.
     pub fn labels(&self, model: &Model) -> Vec<String> {
         self.faces.iter().map(|face| super::split::label(face.source, model)).collect()
     }
 
-    /// The body as the firmware has it, with the same bits. Its numbers stay allocated for good: for a host that bakes
-    /// a few models in its life.
+    /// The body as the firmware has it, with the same bits. Its numbers stay allocated permanently: for a host that
+    /// bakes a few models in its life.
     ///
     /// # Errors
-    /// What the library finds wrong with the tables: nothing, if they were baked.
+    /// The library's refusal of the tables: never for baked ones.
     pub fn to_body(&self) -> Result<Body<'static>, TableFault> {
         let mut faces = Vec::with_capacity(self.faces.len());
         for (index, face) in self.faces.iter().enumerate() {
@@ -377,8 +377,8 @@ pub struct LocatorTable {
 }
 
 impl LocatorTable {
-    /// One node whose cells all list the whole of every face: complete for any probe, and nothing is said of convexity.
-    /// The cube holds the body with half its size to spare on every side.
+    /// One node whose cells all list every face as a whole: complete for any probe, without a claim of convexity. The
+    /// cube holds the body with half its size to spare on every side.
     pub fn of_everything(faces: usize, low: [f64; 3], high: [f64; 3]) -> Self {
         let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
         let corner = Vec3::from_array([0, 1, 2].map(|axis| (0.5 * (low[axis] + high[axis]) - size) as f32));
