@@ -1,7 +1,7 @@
-//! What JavaScript calls: functions on numbers over one state.
+//! Functions for JavaScript, on numbers, over one state.
 //!
-//! Bytes come in through [`input`]: ask for room, write there, then call. Numbers come out through [`output`] and
-//! [`output_length`], words through [`text`] and [`text_length`]; all four hold until the next call.
+//! Bytes come in through [`input`]: request a buffer, write there, then call. Numbers come out through [`output`] and
+//! [`output_length`], words through [`text`] and [`text_length`]; all four are valid until the next call.
 
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -48,12 +48,12 @@ impl Exports {
         -1
     }
 
-    /// The first so many bytes of the input.
+    /// The first `length` bytes of the input.
     fn bytes(&self, length: usize) -> &[u8] {
         bytemuck::cast_slice(&self.input).get(..length).unwrap_or_default()
     }
 
-    /// What `write` makes of the stage, as output; how many numbers.
+    /// Writes the stage's numbers to the output; returns their number.
     fn write(&mut self, write: impl FnOnce(&Stage, &mut Vec<f32>)) -> usize {
         self.output.clear();
         if let Some(stage) = &self.stage {
@@ -67,7 +67,7 @@ fn patch_of(stage: &Stage, face: u32) -> Option<&'static SplinePatch<'static>> {
     stage.loaded.body.faces().get(face as usize).map(|face| &face.patch)
 }
 
-/// Room for so many bytes.
+/// A buffer of this number of bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn input(bytes: usize) -> *const u32 {
     let mut state = STATE.lock();
@@ -100,9 +100,9 @@ pub extern "C" fn text_length() -> usize {
     STATE.lock().text.len()
 }
 
-/// Takes the body's file in the input, once in the life of an instance, with the hand at a place: 0, or −1 and why
-/// not. The output then is: faces, edges, vertices, whether it is convex, its size, where its origin lies in the
-/// model, and whether it is felt as a patch.
+/// Takes the body's file in the input, once in the life of an instance, with the hand at a place: 0, or −1 with a
+/// message. The output then is: faces, edges, vertices, whether it is convex, its size, its origin in the model, and
+/// whether it is rendered as a patch.
 #[unsafe(no_mangle)]
 pub extern "C" fn load(length: usize, x: f32, y: f32, z: f32) -> i32 {
     let mut state = STATE.lock();
@@ -136,7 +136,7 @@ pub extern "C" fn choose(rate: f32, stiffness: f32, damping: f32, friction: f32,
     }
 }
 
-/// Begins anew with the hand at a place.
+/// Restarts with the hand at a place.
 #[unsafe(no_mangle)]
 pub extern "C" fn restart(x: f32, y: f32, z: f32) {
     if let Some(stage) = &mut STATE.lock().stage {
@@ -144,7 +144,7 @@ pub extern "C" fn restart(x: f32, y: f32, z: f32) {
     }
 }
 
-/// So many ticks, in which the pointer moves straight to a place; the hand yields or not.
+/// Runs a number of ticks, in which the pointer moves straight to a place; the hand yields or not.
 #[unsafe(no_mangle)]
 pub extern "C" fn run(ticks: u32, x: f32, y: f32, z: f32, yields: u32) {
     if let Some(stage) = &mut STATE.lock().stage {
@@ -152,7 +152,7 @@ pub extern "C" fn run(ticks: u32, x: f32, y: f32, z: f32, yields: u32) {
     }
 }
 
-/// So many ticks where the hand is, and nothing else: for a clock.
+/// Runs a number of ticks with the hand at rest, and nothing else: for a clock.
 #[unsafe(no_mangle)]
 pub extern "C" fn tick_only(ticks: u32) {
     if let Some(stage) = &mut STATE.lock().stage {
@@ -203,7 +203,7 @@ pub extern "C" fn edge(index: u32, steps: u32) -> usize {
     STATE.lock().write(|stage, out| mesh::edge(stage.loaded.body, index, steps, out))
 }
 
-/// What kind of edge it is: 0 convex, 1 smooth, 2 reflex, 3 mixed, 4 open.
+/// The kind of edge: 0 convex, 1 smooth, 2 reflex, 3 mixed, 4 open.
 #[unsafe(no_mangle)]
 pub extern "C" fn edge_kind(index: u32) -> u32 {
     let state = STATE.lock();
@@ -271,8 +271,8 @@ pub extern "C" fn replay_body(length: usize) -> i32 {
     }
 }
 
-/// A recorded run on what is loaded, as so many numbers in the input, of which so many are the device's (see
-/// [`Run::of`]): 0, or −1 and why not.
+/// Starts a recorded run on the loaded body, from `count` numbers in the input, of which `of_device` are the device's
+/// (see [`Run::of`]): 0, or −1 with a message.
 #[unsafe(no_mangle)]
 pub extern "C" fn replay_begin(count: usize, of_device: usize, link_timeout: f32) -> i32 {
     let mut state = STATE.lock();
@@ -290,7 +290,7 @@ pub extern "C" fn replay_begin(count: usize, of_device: usize, link_timeout: f32
     }
 }
 
-/// So many recorded ticks: three counts and whether force is asked for, four words each, in the input.
+/// Runs recorded ticks: three counts and whether force is requested, four words each, in the input.
 #[unsafe(no_mangle)]
 pub extern "C" fn replay_run(ticks: usize) {
     let mut state = STATE.lock();
@@ -300,7 +300,7 @@ pub extern "C" fn replay_run(ticks: usize) {
     }
 }
 
-/// The state after the last recorded tick, as `view.rs` has it; of a scene also which body is felt, and where each is.
+/// The state after the last recorded tick, as in `view.rs`; of a scene also the foremost body, and each placement.
 #[unsafe(no_mangle)]
 pub extern "C" fn replay_view() -> usize {
     let mut state = STATE.lock();

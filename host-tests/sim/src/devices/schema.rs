@@ -1,4 +1,4 @@
-//! What stands in a `device.toml`: see `docs/reference/device-format.md`. SI units throughout.
+//! The schema of a `device.toml`: see `docs/reference/device-format.md`. SI units throughout.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceFile {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// By what its board finds where the joints are.
     #[serde(default)]
     pub homing: HomingEntry,
     /// The mechanism.
     pub mechanism: MechanismEntry,
-    /// What the whole device bears.
+    /// The limits of the whole device.
     pub limits: LimitsEntry,
     /// Its three joints, in the mechanism's order.
     pub joint: Vec<JointEntry>,
@@ -23,7 +23,7 @@ pub struct DeviceFile {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HomingEntry {
-    /// The counters begin anywhere, and the hand holds the device in a pose: `zero` is the angle there.
+    /// The counters start anywhere, and the hand holds the device in a pose: `zero` is the angle there.
     #[default]
     Pose,
     /// The same, and the hand moves each joint past its index mark: `zero` is the angle there.
@@ -46,7 +46,7 @@ pub enum MechanismEntry {
         second_link: f64,
         /// From the foot of the turntable.
         workspace_centre: [f64; 3],
-        /// What each link lifts, as a mass at its end, kg.
+        /// Mass that each link lifts, referred to its end, kg.
         #[serde(default)]
         end_masses: [f64; 2],
     },
@@ -112,13 +112,13 @@ pub struct MassEntry {
     pub across: f64,
 }
 
-/// What the whole device bears.
+/// The limits of the whole device.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsEntry {
     /// m/rad.
     pub min_margin: f64,
-    /// rad/s: what is faster is a sensor fault.
+    /// rad/s: a faster motion is a sensor fault.
     pub max_joint_rate: f64,
     /// N.
     pub max_force: f64,
@@ -139,14 +139,14 @@ fn default_speed() -> f64 {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointEntry {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// Least and greatest angle, rad.
+    /// Minimum and maximum angle, rad.
     pub range: [f64; 2],
     /// Dry friction, N·m.
     #[serde(default)]
     pub friction: f64,
-    /// What turns with it, kg·m²; without it its sign is not watched.
+    /// Moment of inertia that turns with it, kg·m²; without it there is no polarity check.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<f64>,
     /// Its encoder.
@@ -182,11 +182,11 @@ pub struct MotorEntry {
     pub current_at_full: f64,
     /// Turns of the motor for one of the joint; negative where it turns it the other way.
     pub ratio: f64,
-    /// What it bears for ever, A.
+    /// Continuous current, A.
     pub continuous_current: f64,
     /// Of its winding, s.
     pub time_constant: f64,
-    /// The greatest speed of its joint under force, rad/s.
+    /// Maximum speed of its joint under force, rad/s.
     pub max_rate: f64,
     /// The supply of a bridge without a current loop, V.
     #[serde(default, skip_serializing_if = "Option::is_none")]

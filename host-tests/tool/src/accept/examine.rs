@@ -12,14 +12,14 @@ use std::time::{Duration, Instant};
 /// How long a device may take to say who it is, a reset included, and how often it is asked meanwhile.
 pub const GREETING: Duration = Duration::from_secs(20);
 const AGAIN: Duration = Duration::from_millis(500);
-/// How often a line that broke is tried anew.
+/// Time between attempts to reopen a broken line.
 const TRIED: Duration = Duration::from_millis(50);
 /// How long it may be silent in the midst of its script or of its ticks: an emulated one on a busy machine is slow.
 const SILENCE: Duration = Duration::from_secs(120);
 
 /// The line to a device.
 pub trait DeviceLine: Read + Write {
-    /// Opens it anew, where the device went and took it along: its own USB plug goes at every reset.
+    /// Opens it again after the device took the line along: a USB port of its own disconnects at every reset.
     ///
     /// # Errors
     /// If it is not there, or not yet.
@@ -31,7 +31,7 @@ pub trait DeviceLine: Read + Write {
 /// An emulated board's, which stays.
 impl DeviceLine for TcpStream {}
 
-/// What is asked.
+/// The requests of an examination.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Ticks of each lap of the script, at most.
@@ -44,30 +44,30 @@ pub struct Plan {
     pub greeting: Duration,
 }
 
-/// What a device said.
+/// The device's answers.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
-    /// Who it is.
+    /// The device's identity.
     pub identity: Identity,
     /// The lines of its script.
     pub lines: Vec<Line>,
-    /// Its own ticks. The first one is where they begin.
+    /// Its own ticks, from the first.
     pub ticks: Vec<Ticks>,
     /// Seconds by the host's clock from the first of them to the last.
     pub seconds: f64,
     /// Frames that came damaged.
     pub damaged: u32,
-    /// How it was told to fail, and the reset reason that it gave afterwards, as its number.
+    /// The failures that were requested, and the reset reason after each, as its number.
     pub failures: Vec<(Failure, u8)>,
     /// Why not everything was asked, if so.
     pub broken_off: Option<String>,
 }
 
-/// Asks a device everything, over a line whose reading gives up after a moment. What it has said is kept where it falls
-/// silent later on, or its line fails: [`Found::broken_off`].
+/// Sends a device every request, over a line whose reading times out after a moment. If the device falls silent or its
+/// line fails later on, the answers so far are kept: [`Found::broken_off`].
 ///
 /// # Errors
-/// If it does not say who it is.
+/// If it does not identify itself.
 pub fn examine<L: DeviceLine>(line: &mut L, plan: &Plan) -> anyhow::Result<Found> {
     let mut talk = Talk { line, receiver: Receiver::new(), came: VecDeque::new(), damaged: 0 };
     let mut found = Found { identity: talk.greet(plan.greeting)?, ..Found::default() };
@@ -156,8 +156,8 @@ impl<L: DeviceLine> Talk<'_, L> {
         Ok(None)
     }
 
-    /// The same of a device that goes, and comes again. Its line may go with it, at once or only when its watchdog
-    /// bites, and is then opened anew.
+    /// The same of a device that resets. Its line may go with it, at once or only when its watchdog resets it, and is
+    /// then opened again.
     fn greet_anew(&mut self, patience: Duration) -> anyhow::Result<Identity> {
         let began = Instant::now();
         // It is gone before it is asked again.
@@ -187,7 +187,7 @@ impl<L: DeviceLine> Talk<'_, L> {
         Err(broken.unwrap_or_else(|| anyhow::anyhow!("it did not come back")))
     }
 
-    /// What it says next; `None` if it says nothing for so long.
+    /// Its next message; `None` after the timeout.
     fn next(&mut self, patience: Duration) -> anyhow::Result<Option<Finding>> {
         let began = Instant::now();
         let mut buffer = [0; 512];

@@ -1,24 +1,24 @@
-//! What the figures must be.
+//! The expected figures.
 
 use super::{Check, ExpectedLine, Found};
 use palpate::servo::ResetReason;
 use palpate::wire::acceptance::{Counted, Failure, Line, Ticks, panel};
 
-/// How far a period may be from the one that is set, as a share of it. The servo's interrupt waits for nothing but an
-/// instruction at hand and what is not yet in a cache: 5 µs of 250 are generous.
+/// Maximum deviation of a period, as a fraction of it. The servo's interrupt waits only for the running instruction and
+/// for cache misses: 5 µs of 250 are generous.
 const JITTER: f64 = 0.02;
 /// How far the mean rate may be off, by the device's own clock, from which its timer runs too: a count of a period.
 const RATE: f64 = 1e-4;
 /// How far the device's clock may be from the host's: 1 % of a chip's own oscillator, and as much for the host's line.
 const CLOCK: f64 = 0.02;
-/// What a tick may take, as a share of its period: the rest is for what the script has not met.
+/// Maximum length of a tick, as a fraction of its period: the rest is for cases that the script does not contain.
 const TICK: f64 = 0.75;
-/// Bad sensor frames: one in so many ticks.
+/// Bad sensor frames: at most one in this number of ticks.
 const TICKS_PER_BAD_FRAME: f64 = 10_000.0;
-/// So many in a row are bridged by the loop; the next one would be its fault.
+/// The loop bridges this number in a row; the next one would be its fault.
 const BRIDGED: u32 = palpate::servo::FrameBridge::<1>::DEFAULT_IN_A_ROW;
 
-/// What is known of a device beside what it says.
+/// The facts about a device beyond its own answers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Surroundings<'a> {
     /// It is emulated: it has no sensors, and its time is not the host's.

@@ -1,9 +1,9 @@
-//! Acceptance of a board: it computes the very bits, in how many cycles, how evenly its ticks come, how well its
-//! sensors answer, and why it was reset. What each figure must be, and how to read one that is not, is in
+//! Acceptance of a board: whether its bits are the host's, its cycles, the jitter of its ticks, the quality of its
+//! sensors, and the reasons of its resets. The expected figures, and advice on deviations, are in
 //! `docs/howto/acceptance.md`.
 //!
-//! [`examine`] asks the device, [`expected`] has what the host makes of the same script, [`judge`] compares, and
-//! [`Report`] says it.
+//! [`examine`] asks the device, [`expected`] runs the same script on the host, [`judge`] compares, and [`Report`]
+//! prints the result.
 
 mod examine;
 mod judge;
@@ -24,7 +24,7 @@ pub const PATIENCE: Duration = Duration::from_millis(50);
 /// The image of an emulated board's acceptance.
 ///
 /// # Errors
-/// What is missing, or what the compiler says.
+/// A missing tool, or the compiler's error.
 pub fn prepared(board: Board, features: &[&str]) -> Result<Program, SetUpError> {
     Program::prepare(board, "accept", features, &Progress::new())
 }
@@ -32,7 +32,7 @@ pub fn prepared(board: Board, features: &[&str]) -> Result<Program, SetUpError> 
 /// Examines the emulated board that runs this image.
 ///
 /// # Errors
-/// What the board did not say.
+/// The board's missing answer.
 pub fn on_emulator(program: &Program, plan: &Plan) -> anyhow::Result<Found> {
     let (_running, mut line) = program.start_with_line()?;
     line.set_read_timeout(Some(PATIENCE))?;
@@ -48,7 +48,7 @@ pub enum Verdict {
     Passed,
     /// It does not.
     Failed,
-    /// It cannot be told here.
+    /// It cannot be determined here.
     NotHere,
 }
 
@@ -73,9 +73,9 @@ impl Verdict {
 pub struct Check {
     /// Its name.
     pub name: &'static str,
-    /// What was found.
+    /// The figure found.
     pub found: String,
-    /// What it must be.
+    /// The expected figure.
     pub must: String,
     /// How it came out.
     pub verdict: Verdict,
@@ -87,7 +87,7 @@ impl Check {
         Self { name, found, must: must.into(), verdict: Verdict::of(holds) }
     }
 
-    /// One that cannot be told here, and why.
+    /// A figure that cannot be determined here, with the reason.
     pub fn not_here(name: &'static str, found: impl Into<String>, must: impl Into<String>) -> Self {
         Self { name, found: found.into(), must: must.into(), verdict: Verdict::NotHere }
     }
@@ -100,7 +100,7 @@ impl Check {
 pub struct ExpectedLine {
     /// The lap it belongs to.
     pub lap: &'static str,
-    /// What the lap came to so far.
+    /// The lap's tally so far.
     pub tally: Tally,
     /// Whether that is all of the lap.
     pub is_last: bool,
@@ -119,7 +119,7 @@ impl Runner for Lines {
     }
 }
 
-/// Runs the script here, of each lap at most so many ticks.
+/// Runs the script here, each lap for at most `most` ticks.
 pub fn expected(most: u32) -> Vec<ExpectedLine> {
     let mut lines = Lines::default();
     palpate_bench::exercise::run_by(&mut lines, most);

@@ -284,8 +284,8 @@ fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::
     Ok(())
 }
 
-/// The verdict on a model is that on its worst patch; what is proved of patches does not hold of a body that cuts
-/// itself.
+/// The verdict on a model is that on its worst patch; a certificate of its patches does not hold for a body that
+/// intersects itself.
 pub(super) fn worst(surveys: &[Survey], flaws: &[Flaw]) -> Verdict {
     if flaws.iter().any(Flaw::is_wrong) {
         return Verdict::Usable;

@@ -147,7 +147,7 @@ fn in_degrees(curve: &[(f64, f64)]) -> Line {
     curve.iter().map(|(angle, torque)| (angle.to_degrees(), 1e3 * torque)).collect()
 }
 
-/// What the table asks for at the angles of a curve.
+/// The table's torque at the angles of a curve.
 fn asked(feel: u8, curve: &[(f64, f64)]) -> Line {
     let feel = &FEELS[usize::from(feel)];
     let mut click = 0;
@@ -230,7 +230,7 @@ fn chart(area: &Drawing<'_>, [x, y]: [&str; 2], lines: &[(Line, RGBColor)]) -> D
     Ok(())
 }
 
-/// The cogging of the simulated dial, recorded anew over the line of the boards' loop, as the source that the image is
+/// The cogging of the simulated dial, recorded again over the line of the boards' loop, as the source that the image is
 /// built with.
 ///
 /// # Errors

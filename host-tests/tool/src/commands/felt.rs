@@ -17,7 +17,7 @@ use palpate_sim::plant::direction_around;
 use palpate_truth::oracle::OraclePoint;
 use std::path::Path;
 
-/// What the servo touches. It lives as long as the program: a servo keeps its surface in flash.
+/// The surface of the servo. It lives as long as the program: a servo keeps its surface in flash.
 #[derive(Debug)]
 pub enum Felt {
     /// One patch.
@@ -33,7 +33,7 @@ pub enum Felt {
     Body {
         /// Its tables.
         baked: Box<BakedBody>,
-        /// What its faces are called.
+        /// The names of its faces.
         labels: Vec<String>,
         /// As the servo sees it.
         body: &'static Body<'static>,
@@ -48,7 +48,7 @@ impl Felt {
     /// The patch of this name or number; without one, the body, or the only patch.
     ///
     /// # Errors
-    /// What is wrong with the model, or that there is no such patch.
+    /// A fault of the model, or no such patch.
     pub fn read(model: &Model, from: &ModelFile, file: &Path, patch: Option<&str>) -> anyhow::Result<Self> {
         let index = match patch {
             Some(wanted) => Some(patch_index(model, file, wanted)?),
@@ -70,7 +70,7 @@ impl Felt {
         Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone() })
     }
 
-    /// What to call it.
+    /// Its name.
     pub fn name(&self) -> &str {
         match self {
             Self::Patch { surface, .. } => surface.name.as_deref().unwrap_or("a patch"),

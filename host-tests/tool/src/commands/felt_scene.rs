@@ -1,4 +1,4 @@
-//! A scene file as what is felt: its bodies, baked, in their places.
+//! A scene file as a surface: its bodies, baked, in their places.
 
 use super::progress;
 use crate::drawing::View;
@@ -24,7 +24,7 @@ const DRAWN_AT: [f32; 2] = [1.0, 2.0];
 /// How far into the highest top the hand's level is, metres: it reaches for the tops of all.
 const REACH: f64 = 0.004;
 
-/// A scene that is felt. It lives as long as the program, as other surfaces do.
+/// A scene as a surface. It lives as long as the program, as other surfaces do.
 #[derive(Debug)]
 pub struct FeltScene {
     file: SceneFile,
@@ -33,7 +33,7 @@ pub struct FeltScene {
     sources: Vec<Source>,
 }
 
-/// What a body was baked from, and what came of it.
+/// The source of a body, and the baked result.
 #[derive(Debug)]
 struct Source {
     digest: [u8; 32],
@@ -45,7 +45,7 @@ impl FeltScene {
     /// Reads a scene file, and bakes its bodies.
     ///
     /// # Errors
-    /// What is wrong with the file, or with one of its models.
+    /// A fault of the file, or of one of its models.
     pub fn read(from: &ModelFile, path: &Path) -> anyhow::Result<Self> {
         let file = SceneFile::read(&from.text).with_context(|| from.label.clone())?;
         let (mut bodies, mut tables, mut sources) = (Vec::new(), Vec::new(), Vec::new());
@@ -76,7 +76,7 @@ impl FeltScene {
         Ok(Self { file, bodies, tables, sources })
     }
 
-    /// What to call it.
+    /// Its name.
     pub fn name(&self) -> &str {
         &self.file.name
     }
@@ -103,7 +103,7 @@ impl FeltScene {
     /// The scene, of `N` bodies.
     ///
     /// # Errors
-    /// What the library refuses.
+    /// The library's refusal.
     pub fn scene<const N: usize>(&self, limits: Limits) -> anyhow::Result<&'static Scene<'static, Body<'static>, N>> {
         Ok(Box::leak(Box::new(self.file.scene(limits, &self.bodies)?)))
     }
@@ -111,12 +111,12 @@ impl FeltScene {
     /// As Rust source.
     ///
     /// # Errors
-    /// What the library would refuse when that is compiled.
+    /// The refusal that the library would give at compile time.
     pub fn source(&self, limits: Limits) -> anyhow::Result<String> {
         Ok(source(&self.file, limits, &self.bodies, &self.tables))
     }
 
-    /// What a recording carries of it: each body once, and the scene of them.
+    /// Its part of a recording: each body once, and the scene of them.
     ///
     /// # Errors
     /// A bug of the baker.

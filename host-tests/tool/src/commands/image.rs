@@ -1,4 +1,4 @@
-//! `palpate image`: what the firmware image takes, and what is proved of it.
+//! `palpate image`: the sizes of the firmware image, and the bounds proved of it.
 
 use crate::firmware::{Board, Program, Progress};
 use crate::proof::{Code, Lines, LoopList, Tree, deepest, flash_by_part};
@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 /// The function whose call tree is the tick's.
 pub const TICK: &str = "palpate_emulated::body::tick";
-/// What a core puts on the stack when an interrupt comes: 8 words of integers, 18 of floats, and one to align.
+/// Bytes that a core puts on the stack at an interrupt: 8 words of integers, 18 of floats, and one to align.
 pub const EXCEPTION_FRAME: i64 = 4 * (8 + 18 + 1);
 
 /// Prints the flash, RAM and stack of an emulated board's image, and what its machine code proves of the tick.
@@ -78,7 +78,7 @@ pub fn deepest_stack(code: &Code) -> anyhow::Result<i64> {
     Ok(program + EXCEPTION_FRAME + interrupt)
 }
 
-/// What must not be anywhere in an image, in the tick or not: an allocator, or a routine for `f64`.
+/// Symbols that must not be anywhere in an image, in the tick or not: an allocator, or a routine for `f64`.
 pub fn unwanted(code: &Code, lines: &Lines) -> Vec<String> {
     let mut found = Vec::new();
     for function in code.functions() {

@@ -44,7 +44,7 @@ pub struct Arguments {
 /// Runs the command.
 ///
 /// # Errors
-/// What is wrong with the part, or that the importer does not build.
+/// A fault of the part, or an importer that does not build.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let importer = Importer::build(&Progress::new())?;
     // Nothing is written before all is right.

@@ -129,7 +129,7 @@ fn watch_emulator(arguments: &Arguments, board: Board, view: &mut View) -> anyho
     Ok(())
 }
 
-/// What is shown and recorded.
+/// The display and the recording.
 struct View {
     monitor: Monitor,
     table: Option<Table>,
@@ -227,7 +227,7 @@ impl View {
         output.flush()
     }
 
-    /// What went missing, if anything did.
+    /// The missing records, if there are any.
     fn losses(&self, figures: &Figures) -> String {
         let counts = [
             ("overruns", u64::from(figures.record.overruns)),

@@ -1,4 +1,4 @@
-//! What `demo` and `sim` share: the scene, and how it is set up from the command line.
+//! Options shared by `demo` and `sim`: the scene, and its set-up from the command line.
 
 use super::felt::Felt;
 use super::felt_scene::FeltScene;
@@ -82,13 +82,13 @@ pub struct Scene {
     file: ModelFile,
     /// Where the frame of its tables lies in the model, metres.
     pub centre: DVec3,
-    /// What is touched.
+    /// The surface.
     pub felt: Felt,
     /// The device.
     pub device: &'static ShippedDevice,
     /// The loop's settings.
     pub settings: Settings,
-    /// What protects the device, if that was asked for.
+    /// The device's protection, if it was requested.
     pub protection: Option<Protection<3>>,
     /// Ticks to run.
     pub ticks: u32,
@@ -100,7 +100,7 @@ impl SceneOptions {
     /// Reads the model and checks every option.
     ///
     /// # Errors
-    /// What is wrong, naming the file or the option.
+    /// The invalid file or option, by name.
     pub fn scene(&self) -> anyhow::Result<Scene> {
         let file = ModelFile::read(&self.model)?;
         let is_scene = SceneFile::is_one(&file.text);
@@ -164,7 +164,7 @@ impl SceneOptions {
     /// The simulated device with a hand that touches the scene's surface.
     ///
     /// # Errors
-    /// What the plant refuses.
+    /// The plant's refusal.
     pub fn plant(&self, scene: &Scene) -> anyhow::Result<Plant> {
         let places = scene.felt.places();
         let origin = scene.settings.body_origin_m.as_dvec3();
@@ -279,15 +279,15 @@ impl Scene {
         })
     }
 
-    /// What the bodies of a scene share on this device.
+    /// The limits of the bodies of a scene on this device.
     fn limits(&self) -> Limits {
         FeltScene::limits(self.device.preset.limits(), self.settings.max_force_n, self.settings.rate_hz)
     }
 
-    /// What is felt as the source file that an image is built with.
+    /// The surface as the source file that an image is built with.
     ///
     /// # Errors
-    /// What the library refuses, or a bug of the baker.
+    /// The library's refusal, or a bug of the baker.
     pub fn source(&self) -> anyhow::Result<String> {
         // What would not compile is said here.
         self.host_loop()?;

@@ -81,7 +81,7 @@ pub fn view(arguments: &ViewArguments) -> anyhow::Result<ExitCode> {
 /// here before: this sets nothing up.
 ///
 /// # Errors
-/// What the compiler says, or a file that cannot be written.
+/// The compiler's error, or a file that cannot be written.
 pub(super) fn write_replay(recording: &Recording, path: &Path) -> anyhow::Result<bool> {
     let Some(firmware) = page::compiled(&Progress::new())? else { return Ok(false) };
     let bodies: Vec<Shown> =
@@ -108,7 +108,7 @@ fn shipped() -> anyhow::Result<Vec<Shown>> {
     Ok(bodies.into_iter().map(|(_, body)| body).collect())
 }
 
-/// What the script of the emulated boards comes to.
+/// The result of the emulated boards' script.
 fn script() -> String {
     let mut text = String::new();
     palpate_bench::exercise::run(&mut |name, tally| text += &format!("{name} {tally}\n"));

@@ -29,7 +29,7 @@ pub struct Arguments {
     parts: Vec<PathBuf>,
 }
 
-/// What the columns are called.
+/// The names of the columns.
 const HEADER: &str = "\
 | part | faces | patches | deviation, mm | flash, bytes | bake, processor s | clock s | proved, % | cold, mm | wrong side | track, mm |
 |---|---|---|---|---|---|---|---|---|---|---|
@@ -105,7 +105,7 @@ enum Mode {
 struct Errors {
     /// Of a distance, in the model's unit.
     greatest: f64,
-    /// Rows that are told to lie on the other side, of those that are farther from the surface than the greatest error.
+    /// Rows with the wrong side, of those that are farther from the surface than the maximum error.
     wrong_side: usize,
 }
 

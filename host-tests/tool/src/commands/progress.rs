@@ -15,10 +15,10 @@ pub fn ticks(length: u32) -> Ticks {
     Ticks(bar)
 }
 
-/// A bar for work of some kind, of which the length is told as it goes; goes when dropped.
+/// A progress bar for work whose length is set as it proceeds; removed when dropped.
 pub struct Work(ProgressBar);
 
-/// A bar for work that is about to begin.
+/// A progress bar for work that is about to start.
 pub fn work() -> Work {
     let bar = ProgressBar::no_length();
     let style = ProgressStyle::with_template("  {bar:40} {pos}/{len} {msg}, {eta} left");
@@ -45,7 +45,7 @@ impl Drop for Work {
 }
 
 impl Ticks {
-    /// So many are done.
+    /// Sets the number of finished steps.
     pub fn tell(&self, done: u32) {
         // Redrawing costs more than a tick does.
         if done.is_multiple_of(64) {

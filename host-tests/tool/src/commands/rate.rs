@@ -9,7 +9,7 @@ use palpate::servo::Fault;
 /// Runs a scene, and again at the next lower of [`RATES`] as long as the run ends with a tick that took too long.
 ///
 /// # Errors
-/// What a run says, or that the scene cannot be taken to a rate.
+/// A run's error, or a scene that cannot run at a rate.
 pub fn in_time<R>(
     options: &SceneOptions,
     scene: &mut Scene,

@@ -55,7 +55,7 @@ pub(super) fn write_recording(recording: &Recording, path: &Path) -> anyhow::Res
 /// Runs a scene's loop, compiled for the host.
 ///
 /// # Errors
-/// What the settings or the plant refuse.
+/// A refusal of the settings or the plant.
 pub fn run_on_host(options: &SceneOptions, scene: &Scene) -> anyhow::Result<Trace> {
     let mut plant = options.plant(scene)?;
     let mut servo = scene.host_loop()?;

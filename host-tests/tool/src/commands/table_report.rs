@@ -1,4 +1,4 @@
-//! What baked tables take in flash, and what is known of their locator.
+//! The size of baked tables in flash, and the properties of their locator.
 
 use crate::firmware::{BenchBoard, Kind};
 use palpate::body::{
@@ -45,7 +45,7 @@ pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
     Ok(report)
 }
 
-/// What the body takes as a file, and what of it is built in RAM.
+/// The size of the body as a file, and of the part that is built in RAM.
 pub(super) fn as_file(bytes: usize, body: &BakedBody) -> Result<String, Error> {
     let mut report = String::new();
     row(&mut report, "as a file", bytes, "bytes (.palp), read where they lie")?;
@@ -53,7 +53,7 @@ pub(super) fn as_file(bytes: usize, body: &BakedBody) -> Result<String, Error> {
     Ok(report)
 }
 
-/// Where so many bytes of tables would lie on each board for the bench.
+/// The place of tables of this size on each bench board.
 pub(super) fn on_boards(bytes: u64) -> Result<String, Error> {
     let mut report = String::new();
     for board in BenchBoard::ALL {
@@ -62,8 +62,8 @@ pub(super) fn on_boards(bytes: u64) -> Result<String, Error> {
     Ok(report)
 }
 
-/// What is known of the locator's leaves. Each is a cell of space, with the list of what can own the closest point of
-/// its probes.
+/// The properties of the locator's leaves. Each is a cell of space, with the list of faces that can own the closest
+/// point of its probes.
 fn leaves(report: &mut String, locator: &LocatorReport) -> Result<(), Error> {
     let LeafCounts { proved, convex, sampled, deep } = locator.leaves_by;
     let share = |count: usize| format!("{:5.1} %", 100.0 * count as f64 / locator.leaves as f64);

@@ -92,7 +92,7 @@ fn is_passing(error: &anyhow::Error) -> bool {
     error.is::<Misunderstood>() || !gone
 }
 
-/// What somebody types, without waiting for it.
+/// The lines typed so far, without waiting for one.
 fn lines() -> Receiver<std::io::Result<String>> {
     let (sender, lines) = sync_channel(1);
     std::thread::spawn(move || {

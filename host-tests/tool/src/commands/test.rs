@@ -13,7 +13,7 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-/// What `--quick` asks of `cargo test`: an argument a line. `.ci/quick` reads the same file.
+/// The arguments of `cargo test` for `--quick`, one a line. `.ci/quick` reads the same file.
 const QUICK: &str = include_str!("../../../../.ci/quick.tests");
 
 /// Runs every test: host, emulator, drift and budgets. Installs missing tools and lists them.

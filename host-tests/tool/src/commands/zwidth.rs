@@ -1,4 +1,4 @@
-//! `palpate zwidth`: the greatest stiffness against damping, for a device, its rates and delays.
+//! `palpate zwidth`: the maximum stiffness against damping, for a device, its rates and delays.
 
 mod plot;
 mod summary;

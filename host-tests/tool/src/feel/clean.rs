@@ -1,8 +1,8 @@
-//! The greatest clean stiffness: the stiffest wall along which a hand slides without feeling the loop.
+//! The maximum clean stiffness: the stiffest wall along which a hand slides without feeling the loop.
 //!
-//! How position and velocity are estimated decides it as much as the rate: an observer that believes positions between
-//! counts lags by a time of its own, and on a stiff wall its lag rings, however often it is asked; a faster one lets
-//! counts through. So the estimator is chosen anew for each device, encoder and rate.
+//! The estimates of position and velocity decide it as much as the rate: an observer that estimates positions between
+//! counts has a lag of its own, and on a stiff wall its lag rings at every rate; a faster one lets counts through. So
+//! the estimator is chosen again for each device, encoder and rate.
 
 use super::rows::{Wish, slide};
 use crate::devices::ShippedDevice;
@@ -13,7 +13,7 @@ use palpate_sim::zwidth::{Loop, Slice, max_stiffness};
 
 /// Servo rates, Hz.
 pub const RATES: [f32; 5] = [1_000.0, 2_000.0, 4_000.0, 8_000.0, 10_000.0];
-/// Encoders: the device's own, and so many times as fine.
+/// Encoders: the device's own, and finer ones by these factors.
 pub const ENCODERS: [f64; 3] = [1.0, 4.0, 16.0];
 /// The softest and the stiffest wall that is tried, N/m.
 pub const TRIED: [f64; 2] = [100.0, 10_000.0];
@@ -30,7 +30,7 @@ const COUNTED: [f32; 2] = [80.0, 320.0];
 /// The observer's corner as a share of the rate, at most: faster it is held back ([`palpate::device::BetweenCounts`]).
 const FASTEST: f32 = 0.5 / (2.0 * core::f32::consts::TAU);
 
-/// What a device gives at a rate.
+/// The result of a device at a rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clean {
     /// Servo rate, Hz.
@@ -56,7 +56,7 @@ fn estimators(rate: f32) -> Vec<(VelocityMethod, f32)> {
     between.chain(COUNTED.map(|corner| (VelocityMethod::LowPass, corner))).collect()
 }
 
-/// The greatest clean stiffness at a rate with the best estimator, whatever the device is recommended for; beside it
+/// The maximum clean stiffness at a rate with the best estimator, independent of the device's recommendation; beside it
 /// the Z-width's.
 ///
 /// # Errors
@@ -101,7 +101,7 @@ pub fn clean_stiffness(
     Ok(Clean { rate: wish.rate, finer, clean, method, corner, stable: max_stiffness(&slice, damping, &servo) })
 }
 
-/// A device along the wall's normal, with encoders so many times as fine.
+/// A device along the wall's normal, with encoders finer by a factor.
 pub fn slice(device: &ShippedDevice, finer: f64) -> Slice {
     let own = Slice::of(device);
     Slice { resolution: own.resolution / finer, ..own }

@@ -1,7 +1,7 @@
-//! What a hand feels on the devices that ship: the scripts of [`palpate_sim::feel`] on each, as rows of figures.
+//! The hand's perception on the devices that ship: the scripts of [`palpate_sim::feel`] on each, as rows of figures.
 //!
-//! [`rows`] runs them, [`table`] prints them and writes them as CSV, [`plot`] draws what is felt beside the threshold,
-//! [`clean_stiffness`] finds the stiffest wall that is not felt to buzz.
+//! [`rows`] runs them, [`table`] prints them and writes them as CSV, [`plot`] draws the motion beside the threshold,
+//! [`clean_stiffness`] finds the stiffest wall without a perceptible buzz.
 
 mod clean;
 pub mod plot;

@@ -1,4 +1,4 @@
-//! What the probe does under a hand that rests or slides, by frequency, beside what people feel.
+//! The probe's motion under a hand that rests or slides, by frequency, beside the threshold of perception.
 
 use super::clean::{Clean, ENCODERS, TRIED};
 use super::rows::Row;
@@ -14,7 +14,7 @@ const INKS: [RGBColor; 6] = [BLUE_INK, RED_INK, GREEN_INK, SURFACE_INK, RGBColor
 /// The curves of a device, as SVG text.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// An error of the drawing.
 pub fn spectra(rows: &[Row], threshold: &Threshold) -> anyhow::Result<String> {
     let steady = |row: &&Row| matches!(row.script.deed, Deed::Rest | Deed::Slide | Deed::Across(None) | Deed::Air);
     let curves: Vec<(&str, &Spectrum)> =
@@ -25,7 +25,7 @@ pub fn spectra(rows: &[Row], threshold: &Threshold) -> anyhow::Result<String> {
 /// Displacement by third of an octave.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// An error of the drawing.
 pub fn of_curves(curves: &[(&str, &Spectrum)], threshold: &Threshold) -> anyhow::Result<String> {
     draw((900, 460), |area| {
         area.fill(&WHITE)?;
@@ -68,10 +68,10 @@ pub fn of_curves(curves: &[(&str, &Spectrum)], threshold: &Threshold) -> anyhow:
     })
 }
 
-/// The greatest clean stiffness by rate, a panel a device and a curve an encoder, as SVG text.
+/// The maximum clean stiffness by rate, a panel a device and a curve an encoder, as SVG text.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// An error of the drawing.
 pub fn clean(all: &[(&str, Vec<Clean>)]) -> anyhow::Result<String> {
     let lines = all.len().div_ceil(3) as u32;
     draw((1_080, 300 * lines.max(1)), |area| {

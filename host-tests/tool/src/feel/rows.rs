@@ -14,14 +14,14 @@ use palpate_sim::zwidth::Slice;
 
 /// Friction of the wall where the hand pulls on the verge of slipping.
 const FRICTION: Friction = Material::WOOD.friction;
-/// How much finer encoders are tried where a slide is felt.
+/// Factors of finer encoders to try where a slide is perceptible.
 const FINER: [f64; 6] = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 
 /// Steps of integration in a second, and at least in a period: the simulated device is the same at every rate.
 const SUB_STEPS_A_SECOND: f64 = 80_000.0;
 const LEAST_SUB_STEPS: u32 = 8;
 
-/// What the surface is to be.
+/// The wished surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Wish {
     /// Servo rate, Hz.
@@ -57,14 +57,14 @@ impl Wish {
 pub struct Row {
     /// The script.
     pub script: Script,
-    /// What the hand got.
+    /// The figures at the hand.
     pub figures: Figures,
     /// By how much the mean force differs from stiffness times depth, as a share of it; of the loop's own depth.
     pub force_error: Option<f64>,
     /// Over how much travel the direction turned, m.
     pub turn: Option<f64>,
-    /// For a slide that is felt: how much finer the encoders must be for it not to be; infinite if none tried is
-    /// enough.
+    /// For a perceptible slide: the factor by which the encoders must be finer to hide it; infinite if none of the
+    /// tried ones is enough.
     pub finer: Option<f64>,
 }
 
@@ -89,8 +89,8 @@ pub fn rows(
     rows.with_context(|| device.name.to_owned())
 }
 
-/// What is felt of a firm slide on a wall of the wished stiffness, even one that the device is not recommended for,
-/// with encoders so many times as fine as its own. With one joint there is no slide: nothing is felt of it.
+/// The perception of a firm slide on a wall of the wished stiffness, even beyond the device's recommendation, with
+/// encoders finer than its own by a factor. With one joint there is no slide, and no perception of it.
 ///
 /// # Errors
 /// Settings that are refused, a start out of reach, a fault of the loop.
@@ -106,7 +106,7 @@ pub fn slide(device: &ShippedDevice, wish: &Wish, finer: f64, threshold: &Thresh
     }
 }
 
-/// A device and its simulated other half with encoders so many times as fine.
+/// A device and its simulated other half with encoders finer by a factor.
 fn with_finer<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     plant: &PlantSettings,
@@ -210,7 +210,7 @@ impl Bench<'_> {
         Ok(row.figures.sensation)
     }
 
-    /// How much finer the encoders must be for a script not to be felt.
+    /// The factor by which the encoders must be finer to hide a script from the hand.
     fn finer<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(
         &self,
         device: &Device<K, JOINTS>,

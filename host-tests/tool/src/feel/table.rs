@@ -8,7 +8,7 @@ use std::path::Path;
 /// Steps are held against their bound up to this speed, m/s.
 pub const BOUND_SPEED: f64 = 0.3;
 
-/// A level, dB, in words: what is not there at all has none.
+/// A level, dB, in words: a missing signal has none.
 fn in_words(level: f64) -> String {
     if level > -60.0 { format!("{level:.1}") } else { "none".to_owned() }
 }
@@ -66,7 +66,7 @@ pub fn text(rows: &[Row]) -> String {
 /// Writes the rows of all devices; SI units.
 ///
 /// # Errors
-/// What the file system says.
+/// The file system's error.
 pub fn write_csv(rows: &[(&str, Vec<Row>)], path: &Path) -> csv::Result<()> {
     let mut writer = csv::Writer::from_path(path)?;
     let mut header = vec!["device", "hand", "contact_step", "release_step", "any_step", "ripple"];
@@ -118,11 +118,11 @@ pub struct Worst {
     pub rest: f64,
     /// Sliding, smooth seams included, dB.
     pub slide: Option<f64>,
-    /// How much finer encoders must be where sliding is felt.
+    /// The factor of finer encoders that hides a perceptible slide.
     pub finer: Option<f64>,
-    /// The greatest error of the steady force, a share.
+    /// Maximum error of the steady force, as a fraction.
     pub error: f64,
-    /// The greatest force in front of the wall, N.
+    /// Maximum force in front of the wall, N.
     pub hover: f64,
     /// Drag in free air, N.
     pub drag: f64,

@@ -5,30 +5,30 @@ use std::path::PathBuf;
 use std::str::{FromStr, SplitWhitespace};
 use thiserror::Error;
 
-/// What somebody asks for.
+/// A command of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Asked {
     /// An empty line.
     Nothing,
-    /// What can be asked for.
+    /// The list of commands.
     Help,
     /// The end.
     Quit,
-    /// What the device is.
+    /// The device's identity.
     Who,
     /// The loop as it is now.
     Where,
-    /// The same again and again, for so many seconds.
+    /// The same repeatedly, for a number of seconds.
     Watch(f32),
-    /// For so many seconds the next line is not looked at, where lines come from a file.
+    /// Waits this number of seconds before the next line, where lines come from a file.
     Wait(f32),
-    /// A force, N, for so many seconds.
+    /// A force, N, for a number of seconds.
     Push([f32; 3], f32),
     /// A body's origin, metres, and its orientation, if that is to be another.
     Place(u8, [f32; 3], Option<[f32; 4]>),
     /// A body's orientation.
     Turn(u8, [f32; 4]),
-    /// Velocity (m/s) and angular velocity (rad/s) of a body, for so many seconds.
+    /// Velocity (m/s) and angular velocity (rad/s) of a body, for a number of seconds.
     Move(u8, [[f32; 3]; 2], f32),
     /// Groups, as bits.
     Switch(u32),
@@ -40,7 +40,7 @@ pub enum Asked {
     Rub(u8, Option<[f32; 4]>),
     /// Radius of the tip, metres.
     Tip(f32),
-    /// The greatest force, N.
+    /// Maximum force, N.
     Limit(f32),
     /// A body's file, or a model, in the place of a body.
     Upload(u8, PathBuf),
@@ -48,7 +48,7 @@ pub enum Asked {
     Keep(u8, PathBuf),
     /// The body that was built in, in the place of a body.
     PutBack(u8),
-    /// The same, and what is kept in flash is forgotten.
+    /// The same, and the body stored in flash is erased.
     Forget(u8),
     /// Stop.
     Stop,
@@ -65,32 +65,32 @@ pub enum Misunderstood {
     /// Something is missing.
     #[error("{form}: {what} is missing")]
     Missing {
-        /// How it is said.
+        /// Its syntax.
         form: &'static str,
-        /// What is missing.
+        /// The missing part.
         what: &'static str,
     },
     /// Something is not what it should be.
     #[error("{form}: expected {what}, found {word:?}")]
     Wrong {
-        /// How it is said.
+        /// Its syntax.
         form: &'static str,
-        /// What was said.
+        /// The word.
         word: String,
-        /// What it should be.
+        /// The expected kind of word.
         what: &'static str,
     },
     /// Something is left over.
     #[error("{form}: {word:?} is one argument too many")]
     TooMuch {
-        /// How it is said.
+        /// Its syntax.
         form: &'static str,
-        /// What was said.
+        /// The word.
         word: String,
     },
 }
 
-/// Every command: how it is said, and what it does.
+/// Every command: its syntax, and its effect.
 pub const FORMS: [(&str, &str); 22] = [
     ("who", "what the device says of itself"),
     ("where", "tip, velocity, body, gap, force, phase and fault as they are now"),

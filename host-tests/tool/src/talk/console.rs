@@ -1,4 +1,4 @@
-//! A device, and whoever speaks with it a line at a time.
+//! A device, and a user who sends it commands a line at a time.
 
 use super::asked::{Asked, FORMS};
 use crate::firmware::{Board, Emulator, Link as _, Program, Progress};
@@ -15,7 +15,7 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// How often a force is asked for anew, and the loop shown.
+/// Interval at which a force is repeated and the loop shown.
 const PUSHES: Duration = Duration::from_millis(30);
 const SHOWS: Duration = Duration::from_millis(100);
 /// How long one look at the device takes at most.
@@ -33,7 +33,7 @@ pub enum Step {
 /// Makes a body's file of what somebody names.
 pub type Bake = dyn Fn(&Path) -> anyhow::Result<Vec<u8>> + Sync;
 
-/// A conversation with a device. Nothing in it waits for a person: call [`Self::tend`] while nothing is said.
+/// A session with a device. No method waits for a person: call [`Self::tend`] while no command comes.
 pub struct Console<'a, L> {
     device: Device<L>,
     bake: &'a Bake,
@@ -57,7 +57,7 @@ impl<'a, L: Line> Console<'a, L> {
         self.watches.is_some() || self.waits.is_some()
     }
 
-    /// Keeps the conversation alive: for a moment, again and again.
+    /// Keeps the session alive for a moment; call it repeatedly.
     ///
     /// # Errors
     /// A device that is gone, or output that cannot be written.
@@ -161,7 +161,7 @@ impl<'a, L: Line> Console<'a, L> {
         Ok(Step::GoesOn)
     }
 
-    /// What the device says of itself.
+    /// The device's identity.
     pub fn who(&self) -> String {
         let hello = self.device.hello();
         let memory = match hello.room {
@@ -267,7 +267,7 @@ fn said(view: &View) -> String {
 
 /// Of the image, Hz.
 const RATE: u32 = 4_000;
-/// Ticks that the device runs before the line is looked at anew: a millisecond.
+/// Ticks that the device runs before the line is read again: a millisecond.
 const TICKS: u32 = 4;
 /// How long a byte may take on its way: emulated time stands still meanwhile.
 const WAIT: Duration = Duration::from_micros(200);
@@ -291,7 +291,7 @@ impl Emulated {
     /// Starts a board whose scene is two capped boxes side by side.
     ///
     /// # Errors
-    /// What is missing, or an emulator that does not start.
+    /// A missing tool, or an emulator that does not start.
     pub fn start(board: Board) -> anyhow::Result<Self> {
         let program = Program::prepare(board, "link", &["link"], &Progress::new())?;
         let (pins, port) = program.start_with_telemetry()?;
@@ -302,7 +302,7 @@ impl Emulated {
         Ok(Self { pins, port, plant, hand, tick: 0, began: Instant::now(), _program: program })
     }
 
-    /// Whoever stands at it.
+    /// The user's hand at it.
     pub fn hand(&self) -> Hand {
         self.hand.clone()
     }

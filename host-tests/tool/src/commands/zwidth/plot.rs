@@ -1,4 +1,4 @@
-//! The plot: greatest stiffness against damping, one panel a rate, one curve a delay, the passive bound dashed.
+//! The plot: maximum stiffness against damping, one panel a rate, one curve a delay, the passive bound dashed.
 
 use palpate_sim::zwidth::{Limit, Slice};
 use plotters::prelude::*;
@@ -10,7 +10,7 @@ const ZERO: f64 = 0.003;
 /// Writes the plot of a sweep as SVG.
 ///
 /// # Errors
-/// What the file system or the drawing says.
+/// An error of the file system or the drawing.
 pub fn plot(path: &Path, slice: &Slice, limits: &[Limit]) -> anyhow::Result<()> {
     let mut rates: Vec<f64> = limits.iter().map(|limit| limit.rate).collect();
     rates.dedup();

@@ -7,7 +7,7 @@ use palpate_sim::zwidth::{Loop, Slice, in_words};
 /// The delay of the simulated devices, periods: a tick's duty takes effect at the next.
 const DELAY: f64 = 1.0;
 
-/// Sweeps every device and prints the greatest stiffness at each rate.
+/// Sweeps every device and prints the maximum stiffness at each rate.
 ///
 /// # Errors
 /// If the progress bar cannot be drawn.

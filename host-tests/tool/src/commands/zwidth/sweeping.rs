@@ -11,7 +11,7 @@ pub(super) fn sweep_with_bar(slice: &Slice, rates: &[f64], delays: &[f64], like:
     Ok(limits)
 }
 
-/// The greatest stiffness at a rate and a delay, of any damping: simulated, and passive.
+/// The maximum stiffness at a rate and a delay, of any damping: simulated, and passive.
 pub(super) fn best(limits: &[Limit], rate: f64, delay: f64) -> [f64; 2] {
     let here = limits.iter().filter(|limit| limit.rate == rate && limit.delay_periods == delay);
     here.fold([0.0, 0.0], |[simulated, passive], limit| {
