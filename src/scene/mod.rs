@@ -1,4 +1,4 @@
-//! A scene: bodies that move, felt by one tool.
+//! A scene: bodies that move, touched by one tool.
 //!
 //! [`Scene`] is a [`crate::servo::Surface`] made of surfaces: the servo loop that renders one body renders a scene.
 //! Each [`Part`] has a surface in its own frame, a [`Motion`] that places this frame at each tick, and a [`Material`].

@@ -14,7 +14,7 @@ pub enum Phase {
     /// Nothing has been sensed yet.
     #[default]
     Reset = 0,
-    /// The sensors settle, the device is homed and the tables are checked, as far as [`super::Safety`] asks for it.
+    /// The sensors settle, the device is homed and the tables are checked, as configured in [`super::Safety`].
     Calibrate = 1,
     /// Tracking, with the motors at zero, until force is requested.
     Armed = 2,
@@ -237,7 +237,7 @@ impl ResetReason {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Event {
-    /// The host said something: the link is alive.
+    /// A message of the host arrived: the link is alive.
     LinkAlive,
     /// A tick took longer than its period (see [`super::Deadline`]).
     Overrun,

@@ -40,7 +40,8 @@ pub fn gate<const JOINTS: usize>(
     Ok(saturate(motors, felt, weight))
 }
 
-/// The most of the felt torques that the motors have left above the weight.
+/// The duties of gravity compensation plus the scaled contact torques, and the scale: the largest that the motors'
+/// remaining range permits.
 #[inline]
 fn saturate<const JOINTS: usize>(
     motors: &[Motor; JOINTS],

@@ -52,7 +52,7 @@ pub enum KnobError {
     Stiffness,
     /// A feel has more damping than the device's limit.
     Damping,
-    /// A feel asks for more torque than the device has.
+    /// A feel has more torque than the device.
     Torque,
     /// The release rate is not positive and finite.
     LetGo,
@@ -100,7 +100,7 @@ impl KnobWitness {
         self.feel
     }
 
-    /// The torque on the dial that the feel asks for, N·m, before soft start and limits.
+    /// The torque on the dial by the feel, N·m, before soft start and limits.
     pub const fn torque(&self) -> f32 {
         self.torque
     }

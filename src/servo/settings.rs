@@ -30,8 +30,8 @@ pub struct Settings {
     pub velocity_corner_hz: f32,
     /// Seconds over which the force fades in after a request.
     pub soft_start_s: f32,
-    /// Where the origin of the body's tables lies in the device's frame, metres. Baked source says with `CENTRE` where
-    /// that lies in the model.
+    /// The origin of the body's tables in the device's frame, metres. `CENTRE` in baked source is that origin in the
+    /// model.
     pub body_origin_m: Vec3,
 }
 

@@ -1,4 +1,4 @@
-//! Watches beside the tick: bridged sensor frames, the tick's deadline, and stuck sensors.
+//! Checks around the tick: bridged sensor frames, the tick's deadline, and stuck sensors.
 
 use super::{Guard, Input, Phase, Servo, ServoState, StuckLimits, Surface};
 use crate::device::{Counts, Kinematics};

@@ -134,6 +134,6 @@ pub mod panel {
     pub const ENABLE: u8 = 1 << 0;
     /// The stop input is pressed, or its wire is broken.
     pub const STOP: u8 = 1 << 1;
-    /// Every amplifier says that it is ready.
+    /// Every amplifier reports that it is ready.
     pub const READY: u8 = 1 << 2;
 }

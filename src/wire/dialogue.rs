@@ -24,7 +24,7 @@ pub enum DeviceMessage {
     Reading(Reading),
     /// To an order, or a part of an upload.
     Answer(Answer),
-    /// To a host that has said hello: the loop as it is, as often as the line carries it.
+    /// To a host that has sent a hello: the loop's state, as often as the line can carry it.
     View(View),
     /// After each hello, by a device that can keep a calibration in flash: which one it uses.
     Calibrated(Calibrated),

@@ -1,9 +1,9 @@
 //! Packing and unpacking of frames: `COBS(postcard(message) · CRC-32) · 0x00`.
 //!
-//! COBS keeps `0x00` out of a frame, so whatever happened on the line, the next `0x00` is where the next frame starts.
-//! The CRC (IEEE 802.3, little-endian) covers the message and lets one frame in four thousand million through that is
-//! damaged at random; every single flipped bit of a frame is found, also in the lengths that COBS puts between, where
-//! one bit moves zeros about. A frame is taken only if it holds one message and nothing else.
+//! COBS keeps `0x00` out of a frame, so after any error on the line the next frame starts at the next `0x00`. The CRC
+//! (IEEE 802.3, little-endian) covers the message and accepts one in four thousand million randomly damaged frames; it
+//! detects every single flipped bit of a frame, also in the lengths that COBS inserts, where one bit moves zeros about.
+//! A frame is accepted only if it holds exactly one message.
 
 use core::marker::PhantomData;
 

@@ -10,7 +10,7 @@ pub struct Sensors {
     pub tick: u32,
     /// Encoder counts.
     pub counts: [i32; 3],
-    /// Whether the person at the device wants force. The loop leaves standby only while it is true.
+    /// Whether the enable input is held. The loop leaves standby only while it is true.
     pub enable: bool,
 }
 
@@ -189,7 +189,7 @@ pub struct Reading {
     pub duties: [i16; 3],
     /// Whether a motor is being driven.
     pub live: bool,
-    /// Whether the enable input asks for it: pressed, and seen released before.
+    /// Whether the enable input is held, and was seen released before.
     pub enable: bool,
     /// [`crate::commission::JogRefusal`] as its code, 0 for none.
     pub refusal: u8,

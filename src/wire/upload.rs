@@ -50,7 +50,7 @@ pub enum UploadError {
     /// More faces or edges than there is memory for.
     #[error("the body has more faces or edges than the device has memory for")]
     TooMany,
-    /// Both banks are in use: the body uploaded last has just been taken, and the one before is still felt.
+    /// Both banks are in use: the last uploaded body has just been taken, and the one before still fades out.
     #[error("both banks are in use; try again in a moment")]
     Busy,
     /// A part that does not follow on the one before: the next byte wanted is this.

@@ -1,9 +1,9 @@
 //! From duty of torque to the pins of a drive, by embedded-hal.
 //!
 //! A [`Duty`] is a fraction of full torque. A current-controlled amplifier takes it as it is ([`SetPointDrive`]); a
-//! bare bridge gives a voltage ([`HBridge`]), so the duty goes through a [`VoltageFeed`] before, which makes up for
-//! resistance and back-EMF. Three bridges that make the field of a motor with three phases ([`ThreePhase`]) are fed the
-//! same way, and told besides where the field is to be.
+//! bare bridge gives a voltage ([`HBridge`]), so the duty first passes a [`VoltageFeed`], which compensates resistance
+//! and back-EMF. Three bridges that make the field of a motor with three phases ([`ThreePhase`]) are fed the same way,
+//! and also get the field's angle.
 
 mod direction;
 mod feed;

@@ -50,7 +50,7 @@ impl<A: SetDutyCycle, B: SetDutyCycle, C: SetDutyCycle, E: OutputPin> Drive for 
         self.aim = Some(angle);
     }
 
-    /// A stage that was never told where the rotor is takes no duty.
+    /// A stage without a rotor angle takes no duty.
     fn apply(&mut self, duty: Duty) -> Result<(), StageError> {
         let Some(angle) = self.aim else { return Err(DriveError::Direction) };
         let widths = self.modulation.widths(Field { angle, duty });

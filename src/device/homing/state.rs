@@ -75,7 +75,7 @@ impl<const JOINTS: usize> HomingState<JOINTS> {
         if let Stage::Field(sweep) = self.stage { sweep } else { Sweep::default() }
     }
 
-    /// The joint torques that homing asks for, N·m; all zero but in a search for stops or fields.
+    /// The joint torques of homing, N·m; all zero except in a search for stops or fields.
     pub fn torques(&self) -> [f32; JOINTS] {
         let mut torques = [0.0; JOINTS];
         let sought = torques.iter_mut().zip(&self.marks).find(|(_, mark)| mark.is_none());

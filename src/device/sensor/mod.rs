@@ -24,7 +24,7 @@ pub enum SensorError<E> {
     /// A reading came damaged: parity or CRC is wrong.
     #[error("the reading came damaged")]
     Damaged,
-    /// The sensor says that our last command reached it damaged.
+    /// The sensor reports that the last command reached it damaged.
     #[error("the sensor refused the last command")]
     Refused,
     /// Nothing but ones or zeros: no sensor answers, or it is not ready.

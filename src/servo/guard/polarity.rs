@@ -165,7 +165,7 @@ impl<const JOINTS: usize> PolarityState<JOINTS> {
         self.share
     }
 
-    /// Nobody asks for force any more.
+    /// Force is no longer requested.
     #[inline]
     pub(super) fn end(&mut self) {
         match self.stage {
