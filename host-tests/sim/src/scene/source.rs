@@ -36,8 +36,8 @@ pub fn source(
         text,
         "/// What is felt.\npub type Surface = palpate::scene::Scene<'static, palpate::body::Body<'static>, {count}>;\n\
          /// The scene.\n#[rustfmt::skip]\nstatic SCENE: Surface = palpate::scene::Scene::new(\n    \
-         palpate::scene::Limits {{ max_stiffness: {max_stiffness:?}, max_damping: {max_damping:?}, \
-         max_force: {max_force:?}, let_go: {let_go:?}, rate: {rate:?}, max_speed: {max_speed:?} }},\n    ["
+         palpate::scene::Limits {{ max_stiffness_n_per_m: {max_stiffness:?}, max_damping_n_s_per_m: {max_damping:?}, \
+         max_force_n: {max_force:?}, release_n_per_s: {let_go:?}, rate_hz: {rate:?}, max_speed_m_per_s: {max_speed:?} }},\n    ["
     );
     let entries = file.body.iter().zip(bodies).zip(file.parts(limits.rate_hz, bodies));
     for (index, ((entry, (_, shape)), part)) in entries.enumerate() {
@@ -45,7 +45,7 @@ pub fn source(
         let _ = writeln!(
             text,
             "        palpate::scene::Part {{ surface: &body_{}::BODY, motion: {}, material: {}, \
-             sphere: palpate::scene::Sphere {{ centre: {centre}, radius: {radius:?} }}, group: {} }},",
+             sphere: palpate::scene::Sphere {{ centre_m: {centre}, radius_m: {radius:?} }}, group: {} }},",
             first(index),
             motion(&entry.movement(shape), limits.rate_hz),
             material(&part),
@@ -75,7 +75,7 @@ fn material(part: &Part<'static, Body<'static>>) -> String {
         || "None".to_owned(),
         |friction| {
             format!(
-                "Some(palpate::render::Friction {{ stiffness: {:?}, damping: {:?}, static_coefficient: {:?}, \
+                "Some(palpate::render::Friction {{ stiffness_n_per_m: {:?}, damping_n_s_per_m: {:?}, static_coefficient: {:?}, \
                  dynamic_coefficient: {:?} }})",
                 friction.stiffness_n_per_m,
                 friction.damping_n_s_per_m,
@@ -116,16 +116,16 @@ fn motion(movement: &Movement, rate: f32) -> String {
                 || "None".to_owned(),
                 |Tether { anchor_m: anchor, slack_m: slack, stiffness_n_per_m: stiffness, damping_n_s_per_m: damping }| {
                     format!(
-                        "Some(palpate::scene::Tether {{ anchor: {}, slack: {}, stiffness: {stiffness:?}, damping: {damping:?} }})",
+                        "Some(palpate::scene::Tether {{ anchor_m: {}, slack_m: {}, stiffness_n_per_m: {stiffness:?}, damping_n_s_per_m: {damping:?} }})",
                         vector(anchor),
                         vector(slack)
                     )
                 },
             );
             format!(
-                "palpate::scene::Motion::Free(palpate::scene::RigidBody {{ start: {}, mass: {:?}, inertia: {}, \
-                 centre: {}, joint: palpate::scene::Joint::{joint}, gravity: {}, damping: {:?}, \
-                 angular_damping: {:?}, tether: {tether}, angular_stiffness: {:?} }})",
+                "palpate::scene::Motion::Free(palpate::scene::RigidBody {{ start: {}, mass_kg: {:?}, inertia_kg_m2: {}, \
+                 centre_m: {}, joint: palpate::scene::Joint::{joint}, gravity_m_per_s2: {}, damping_n_s_per_m: {:?}, \
+                 angular_damping_n_m_s_per_rad: {:?}, tether: {tether}, angular_stiffness_n_m_per_rad: {:?} }})",
                 placement(&body.start),
                 body.mass_kg,
                 vector(body.inertia_kg_m2),

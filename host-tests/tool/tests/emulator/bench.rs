@@ -39,6 +39,9 @@ fn on_every_board(test: &str, look: impl Fn(BenchBoard, &object::File<'_>)) {
     }
 }
 
+/// The boards' USB driver in a mangled name: as a path, and as a type.
+const USB: [&str; 2] = ["13palpate_bench3usb", "palpate_bench..usb"];
+
 /// The right to build boards, if they are to be built.
 fn alone(test: &str) -> Option<MutexGuard<'static, ()>> {
     is_wanted(test).then(|| ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner))
@@ -67,7 +70,7 @@ fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest(
         }
         // The driver of the Pico's USB masks the tick's interrupt: it may not wait for a cache meanwhile. Names of
         // functions and of the crates that they are compiled from.
-        let of_the_plug = ["palpate_bench::usb", "usb_device", "usbd_serial", "rp235x_hal..usb", "critical_section"];
+        let of_the_plug = [USB[0], USB[1], "usb_device", "usbd_serial", "rp235x_hal..usb", "critical_section"];
         let of_the_plug = |name: &str| of_the_plug.iter().any(|part| name.contains(part)) && !name.contains("Thunk");
         let plug: Vec<_> = functions.iter().filter(|(name, ..)| of_the_plug(name)).collect();
         if matches!(board, BenchBoard::Pico2) {
@@ -75,7 +78,7 @@ fn the_boards_for_the_bench_build_and_their_tick_lies_where_the_chip_is_fastest(
                 assert!((first..end).contains(address), "{board:?}: {name} lies at {address:#x}");
             }
         }
-        let has_plug = plug.iter().any(|(name, ..)| name.contains("palpate_bench::usb"));
+        let has_plug = plug.iter().any(|(name, ..)| USB.iter().any(|part| name.contains(part)));
         assert_eq!(has_plug, !matches!(board, BenchBoard::Stm32g4), "{board:?}: {plug:?}");
         assert!(functions.iter().any(|(name, ..)| name == interrupt(board)), "{board:?}: no {}", interrupt(board));
         assert!(bytes > 4_000, "{board:?}: a tick of {bytes} bytes is none");
