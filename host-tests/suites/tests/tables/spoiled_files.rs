@@ -162,7 +162,7 @@ fn what_is_wrong_with_a_file_is_told() {
     let degree = spoilt(&|words| words[of(Section::Faces)] ^= 4);
     assert_eq!(
         degree.map(|error| error.to_string()).as_deref(),
-        Some("face 0: the degree must be 1 to 5 along u and along v")
+        Some("face 0: degree: must be 1 to 5 along u and along v")
     );
     let spoke = spoilt(&|words| words[of(Section::Spokes) + 3] = 12);
     assert_eq!(

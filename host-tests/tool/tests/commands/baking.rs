@@ -199,7 +199,7 @@ fn a_refused_model_ends_with_2_names_its_file_and_writes_nothing() -> Result<(),
         let run = Command::new(env!("CARGO_BIN_EXE_palpate")).arg("bake").arg(&file).arg("--out").arg(&out).output()?;
         let message = String::from_utf8_lossy(&run.stderr);
         assert_eq!(run.status.code(), Some(status), "{message}");
-        assert_eq!(message.contains("spoiled.toml"), status == 2, "{message}");
+        assert!(message.contains("spoiled.toml"), "{message}");
         assert_eq!(fs::read_dir(&directory)?.count(), if status == 2 { 1 } else { 2 }, "{message}");
         if status == 0 {
             fs::remove_file(&out)?;

@@ -95,7 +95,7 @@ fn the_tool_does_not_know_where_it_was_built() -> Result<(), Box<dyn Error>> {
     }
     let host = palpate_tool::repository::root()?.join("host-tests");
     let mut all = Vec::new();
-    for package in ["bake", "plant", "tool", "truth"] {
+    for package in ["bake", "sim", "tool", "truth"] {
         files(&host.join(package).join("src"), &mut all)?;
     }
     assert!(all.len() > 100, "{}", all.len());

@@ -1,6 +1,7 @@
 //! `docs/reference/measured.md`: each row is held by a test or a budget, and names a command that is there.
 
 use crate::pages::{cells, sources, text};
+use palpate::body::BodyWitness;
 use palpate::servo::ServoState;
 use palpate_tool::budgets::Budget;
 use palpate_tool::firmware::Board;
@@ -89,7 +90,7 @@ fn every_command_of_a_row_is_one_that_there_is() {
 
 #[test]
 fn the_state_of_a_loop_on_a_body() {
-    measured::measured("RAM of the state of a loop of three joints on a body", size_of::<ServoState<3>>());
+    measured::measured("RAM of the state of a loop of three joints on a body", size_of::<ServoState<3, BodyWitness>>());
 }
 
 #[test]
