@@ -62,7 +62,11 @@ const SPOILED: &[(&str, &str, &str)] = &[
     ("0.5, 1, 1, 1]", "0.5, 1, 1, 1, 1]", r#"patch "top": knots_u has 8 knots"#),
     ("0.5, 1, 1, 1]", "1.5, 1, 1, 1]", r#"patch "top": knots_u[4] = 1 is below knots_u[3] = 1.5"#),
     ("0.5, 1, 1, 1]", "nan, 1, 1, 1]", r#"patch "top": knots_u[3] is NaN"#),
-    ("0.5, 1, 1, 1]", "1e-9, 1, 1, 1]", r#"patch "top": knots_u: 0 and 0.000000001 are too close to be distinguished in single precision"#),
+    (
+        "0.5, 1, 1, 1]",
+        "1e-9, 1, 1, 1]",
+        r#"patch "top": knots_u: 0 and 0.000000001 are too close to be distinguished in single precision"#,
+    ),
     ("0, 0, 0, 0.5, 1, 1, 1]", "0, 0, 0.1, 0.1, 0.1, 0.1, 1]", r#"patch "top": knots_u: the range of u is empty"#),
     (
         "0, 0, 0, 0.5, 1, 1, 1]",
