@@ -1,4 +1,4 @@
-//! What can be wrong with a part, as the person who made it reads it.
+//! The errors of a part, for the person who made it.
 
 use crate::part::Part;
 use thiserror::Error;
@@ -20,7 +20,7 @@ pub enum ImportError {
     Syntax {
         /// Which.
         file: String,
-        /// What the reader says, with line and column.
+        /// The reader's message, with line and column.
         message: String,
     },
     /// An entity that the shape needs cannot be read.
@@ -40,7 +40,7 @@ pub enum ImportError {
     Schema {
         /// Which file.
         file: String,
-        /// What it says.
+        /// The schema in the file.
         schema: String,
     },
     /// Nothing to feel.
@@ -58,9 +58,9 @@ pub enum ImportError {
     NoSolid {
         /// Which file.
         file: String,
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What there is.
+        /// The known names.
         known: String,
     },
     /// More than is worth trying.
@@ -90,7 +90,7 @@ pub enum ImportError {
     Face {
         /// Its name.
         face: String,
-        /// What.
+        /// The reason.
         reason: String,
         /// Its place in the part, where dividing it might help.
         index: Option<usize>,

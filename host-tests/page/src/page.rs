@@ -14,7 +14,7 @@ use palpate::render::Friction;
 use palpate::servo::{Config, Event, Guard, Input, Rendering, Servo, ServoState, Settings, Unguarded};
 use palpate::track::{Controller, FirstOrder};
 
-/// What the reader may change while the loop runs.
+/// The reader's choices, which may change while the loop runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choices {
     /// Hz.
@@ -46,9 +46,9 @@ impl Choices {
 type Loop = Servo<'static, Felt, Slides, 3>;
 type State = ServoState<3, FeltWitness, <Unguarded as Guard<3>>::State>;
 
-/// A body that is felt.
+/// A body as a surface.
 pub struct Stage {
-    /// What is felt.
+    /// The surface.
     pub loaded: Loaded,
     device: &'static Device<Slides, 3>,
     choices: Choices,
@@ -64,7 +64,7 @@ impl Stage {
     /// The stage of a body, its hand at a place in the frame of the tables, metres.
     ///
     /// # Errors
-    /// What the loop refuses, in a sentence.
+    /// The loop's refusal, in a sentence.
     pub fn new(loaded: Loaded, place: Vec3) -> Result<Self, String> {
         let device: &'static _ = Box::leak(Box::new(slides(loaded.body.size())));
         let choices = Choices::DEFAULT;
@@ -83,15 +83,15 @@ impl Stage {
         Ok(())
     }
 
-    /// Begins anew with the hand at a place, as after power-on.
+    /// Restarts with the hand at a place, as after power-on.
     pub fn restart(&mut self, place: Vec3) {
         self.state = self.servo.start();
         self.hand = Hand { position: place, velocity: Vec3::ZERO };
         self.target = place;
     }
 
-    /// So many ticks, in which the pointer moves straight to a place. A yielding hand is pushed back by the device; a
-    /// rigid one is where the pointer is.
+    /// Runs a number of ticks, in which the pointer moves straight to a place. A yielding hand is pushed back by the
+    /// device; a rigid one is where the pointer is.
     pub fn run(&mut self, ticks: u32, to: Vec3, yields: bool) {
         let (from, period) = (self.target, 1.0 / self.choices.rate);
         let controller = self.choices.controller();
@@ -123,7 +123,7 @@ impl Stage {
         }
     }
 
-    /// What there is to see.
+    /// The visible state.
     pub fn view(&self, out: &mut Vec<f32>) {
         view::write(&self.state, self.loaded.felt, &self.choices.controller(), self.target, out);
     }
@@ -158,7 +158,7 @@ fn servo(device: &'static Device<Slides, 3>, felt: &'static Felt, choices: &Choi
 
 // The device in the page's hand: three slides for the mouse.
 
-/// Three slides at right angles: where a joint is said to turn by a radian, it slides by a metre.
+/// Three slides at right angles: a joint angle of a radian is a metre.
 #[derive(Clone, Copy, Debug)]
 pub struct Slides;
 
@@ -168,10 +168,10 @@ impl Kinematics<3> for Slides {
     }
 }
 
-/// What the slides' motors give at most, N.
+/// Maximum force of the slides' motors, N.
 const GREATEST_FORCE: f32 = 20.0;
 
-/// The slides for a thing of this size, metres. An encoder resolves the 2⁻¹⁸th part of what is felt: a quarter of a
+/// The slides for a body of this size, metres. An encoder resolves the 2⁻¹⁸th part of the size: a quarter of a
 /// micrometre of 6 cm.
 pub fn slides(size: f32) -> Device<Slides, 3> {
     let reach = 16.0 * size;

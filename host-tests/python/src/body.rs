@@ -14,7 +14,7 @@ pub struct Body {
     pub tables: &'static palpate::body::Body<'static>,
     /// As the baker has it.
     pub baked: BakedBody,
-    /// What is known of its model.
+    /// Its model, as far as it is known.
     pub model: Model,
     /// Its file.
     pub bytes: Vec<u8>,
@@ -24,7 +24,7 @@ impl Body {
     /// Bakes it, if it is not baked already.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// A fault of it.
     pub fn of(source: Source) -> Result<Self, Refusal> {
         let Made { model, baked, bytes } = source.made()?;
         let tables = baked.to_body().map_err(|fault| Refusal::Model(format!("{}: {fault}", model.name)))?;

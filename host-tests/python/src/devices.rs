@@ -20,11 +20,11 @@ pub fn devices() -> Vec<&'static str> {
     NAMES.to_vec()
 }
 
-/// Runs the loop on one's own device, from its file, or on the one of this name: what ends in `.toml` is a file, as on
-/// the command line.
+/// Runs the loop on one's own device, from its file, or on the one of this name: a name that ends in `.toml` is a file,
+/// as on the command line.
 ///
 /// # Errors
-/// That there is none, or what is wrong with it or with what is wished.
+/// No such device, or a fault of it or of the request.
 pub fn run_on(device: &Path, body: &'static Body<'static>, wishes: &Wishes) -> Result<Run, Refusal> {
     if device.extension().is_none_or(|extension| extension != "toml") {
         return run_named(&device.to_string_lossy(), body, wishes);

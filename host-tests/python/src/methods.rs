@@ -1,4 +1,4 @@
-//! What Python asks of a body.
+//! The methods of a body in Python.
 
 use crate::arrays::{Line, Table, line, rows, table, usable};
 use crate::body::Body;

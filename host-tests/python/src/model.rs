@@ -1,4 +1,4 @@
-//! What a body is made of: a file of any kind, a model that ships, or patches from Python.
+//! The source of a body: a file of any kind, a model that ships, or patches from Python.
 
 use crate::refusal::Refusal;
 use palpate_bake::file::BakedFile;
@@ -13,7 +13,7 @@ use std::path::Path;
 /// The models that ship, as text, by name.
 const SHIPPED: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 
-/// What a body is made of, read.
+/// The source of a body, read.
 pub enum Source {
     /// The text of a model file, and what messages call it.
     Text(Cow<'static, str>, String),
@@ -23,7 +23,7 @@ pub enum Source {
 
 /// A body's tables with all that is known of it.
 pub struct Made {
-    /// What is known of the model.
+    /// The model, as far as it is known.
     pub model: Model,
     /// Its tables.
     pub baked: BakedBody,
@@ -35,7 +35,7 @@ pub struct Made {
 /// of this name a model that ships.
 ///
 /// # Errors
-/// That there is none, or what is wrong with it.
+/// No such file, or a fault of it.
 pub fn of_file(path: &Path, tolerance: f64) -> Result<Source, Refusal> {
     let label = path.display().to_string();
     if let Some((_, text)) = SHIPPED.iter().find(|(name, _)| path.as_os_str() == *name)
@@ -60,7 +60,7 @@ pub fn of_file(path: &Path, tolerance: f64) -> Result<Source, Refusal> {
 /// Reads a body's file, with everything in it checked.
 ///
 /// # Errors
-/// That there is none, or what is wrong with it.
+/// No such file, or a fault of it.
 pub fn of_baked(path: &Path) -> Result<Source, Refusal> {
     let label = path.display().to_string();
     let bytes = fs::read(path).map_err(|cause| Refusal::Path(label.clone(), cause))?;
@@ -86,7 +86,7 @@ impl Source {
     /// Bakes it, if it is not baked already.
     ///
     /// # Errors
-    /// What is wrong with its patches, or between them.
+    /// A fault of its patches, or between them.
     pub fn made(self) -> Result<Made, Refusal> {
         let (text, label) = match self {
             Self::Tables(file, bytes) => return Ok(Made { model: file.model, baked: file.body, bytes }),

@@ -20,7 +20,7 @@ pub struct Pair {
     witness: PairWitness,
 }
 
-/// What comes of each row: both points, each in its own model's frame, and how far they are apart.
+/// The result of each row: both points, each in its own model's frame, and their distance.
 type Apart<'py> = (Table<'py, f64>, Table<'py, f64>, Line<'py, f32>);
 
 impl Pair {

@@ -7,9 +7,9 @@ use pyo3::types::PyDict;
 use std::borrow::Cow;
 use toml::{Table, Value};
 
-/// What a patch may say.
+/// The keys of a patch.
 const KEYS: [&str; 6] = ["name", "degree", "points", "knots_u", "knots_v", "flip"];
-/// What messages call the model.
+/// The model's name in messages.
 const LABEL: &str = "patches";
 
 /// The model of these patches, in metres, centimetres or millimetres.

@@ -1,4 +1,4 @@
-//! What is refused, and as which of Python's exceptions.
+//! Refusals, and their Python exceptions.
 
 use pyo3::create_exception;
 use pyo3::exceptions::{PyIndexError, PyOSError, PyValueError};
@@ -16,7 +16,7 @@ create_exception!(palpate, LinkError, PyOSError, "A device's line that cannot be
 pub enum Refusal {
     /// An array.
     Array(String),
-    /// What a body was to be baked from.
+    /// The source of a body.
     Model(String),
     /// A body's file.
     File(String),

@@ -23,7 +23,7 @@ const SAFETY: Safety = Safety { link_timeout_s: 0.1, ..Safety::DEFAULT };
 /// Steps along each parameter of the grid on which a body's bounding box is taken.
 const GRID: u16 = 16;
 
-/// What is asked for.
+/// The request.
 pub struct Wishes {
     /// Servo rate, Hz.
     pub rate: f32,
@@ -51,9 +51,9 @@ pub struct Wishes {
 pub struct Sample {
     /// Seconds since the start.
     pub time: f64,
-    /// What the encoders said.
+    /// The encoders' counts.
     pub counts: [i32; 3],
-    /// What the loop answered.
+    /// The loop's answer.
     pub report: Report,
     /// Where the simulated probe really was, m, in the device's frame.
     pub hand: [f64; 3],

@@ -7,7 +7,7 @@ use crate::split::Provenance;
 use palpate::body::FileError;
 use thiserror::Error;
 
-/// What a host knows of a body beside its tables.
+/// A host's notes on a body beside its tables.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notes {
     /// The model's unit.
@@ -16,11 +16,11 @@ pub struct Notes {
     pub name: String,
     /// The names of its patches, where they have one.
     pub patches: Vec<Option<String>>,
-    /// What is known of each face.
+    /// The notes on each face.
     pub faces: Vec<FaceNotes>,
 }
 
-/// What a host knows of a face.
+/// A host's notes on a face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceNotes {
     /// Which part of the model it is.
@@ -112,7 +112,7 @@ fn pad(bytes: &mut Vec<u8>) {
     bytes.resize(bytes.len().next_multiple_of(4), 0);
 }
 
-/// What is still to be read.
+/// The unread rest.
 struct Rest<'a> {
     bytes: &'a [u8],
     at: usize,

@@ -14,7 +14,7 @@ use palpate::patch::{Coefficients, Orientation, Patch as _, span_centre};
 pub struct BakedFile {
     /// SHA-256 of the model's file.
     pub source: [u8; 32],
-    /// What the host knows of the model: of a patch that is cut into several faces, the surface of the first.
+    /// The model, as far as the file describes it: of a patch that is cut into several faces, the surface of the first.
     pub model: Model,
     /// The tables, with their locator.
     pub body: BakedBody,
@@ -223,7 +223,7 @@ struct Reached {
 }
 
 impl Reached {
-    /// From the widest span that the point reaches: there the knots lie least far outside.
+    /// From the widest span that the point reaches: there the knots lie outside by the minimum.
     fn new(breaks: &[f32], knots: &[f64], degree: usize, point: usize) -> Self {
         let [first, last] = [point, point + degree + 1].map(|knot| knots[knot]);
         let width = |span: usize| f64::from(breaks[span + 1]) - f64::from(breaks[span]);

@@ -78,7 +78,7 @@ fn coefficients(body: &BakedBody) -> Vec<u32> {
 struct Numbers(Vec<Vec<f32>>);
 
 impl Numbers {
-    /// Where a list begins.
+    /// The start of a list.
     fn place(&self, breaks: &[f32]) -> u32 {
         self.0.iter().take_while(|known| *known != breaks).map(|known| known.len() as u32).sum()
     }

@@ -44,7 +44,7 @@ pub(crate) enum Region<'a> {
 }
 
 impl Faces {
-    /// `None` if a weight is not proved positive, or the library refuses a table. `reach` is the greatest coordinate of
+    /// `None` if a weight is not proved positive, or the library refuses a table. `reach` is the maximum coordinate of
     /// a probe, in absolute value.
     pub(crate) fn new(patches: &[BakedPatch], seams: Seams, creases: &[[Vec<f64>; 2]], reach: f64) -> Option<Self> {
         let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
@@ -235,7 +235,7 @@ impl<'a> Region<'a> {
     }
 }
 
-/// What a test needs of a search: the probes and points that the closest one must beat.
+/// The inputs of a test: the probes and points that the closest one must beat.
 pub(super) struct Query<'a> {
     pub probes: Probes,
     pub references: &'a [Reference],
@@ -356,7 +356,7 @@ impl Query<'_> {
 /// A slope counts if it is more than this, relative to the longest vectors it could be the product of: what rounding
 /// the table to `f32` can turn a tangent by from one span to the next.
 const SURE: f64 = 1e-6;
-/// The same between faces, whose borders lie apart by the seam: so that what is gained across makes up for it.
+/// The same between faces, whose borders lie apart by the seam: so that the gain across exceeds it.
 const OTHER: f64 = 1e-4;
 
 /// The part of a piece on which a gradient is to be bounded: it vanishes on a pole it runs around.
@@ -371,7 +371,7 @@ pub(super) fn free_of_poles(piece: &Piece, axis: usize) -> Part {
 
 // Rectangles of parameters on the grid of a list's entries.
 
-/// A rectangle on the grid: least and greatest step along `u` and `v`.
+/// A rectangle on the grid: minimum and maximum step along `u` and `v`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Rectangle {
     pub lower: [u8; 2],
@@ -379,7 +379,7 @@ pub(crate) struct Rectangle {
 }
 
 impl Rectangle {
-    /// The least one that holds a rectangle of parameters.
+    /// The smallest one that holds a rectangle of parameters.
     pub(super) fn around([low, high]: [[f64; 2]; 2]) -> Self {
         let grid = f64::from(GRID);
         // A rectangle that ends on the grid, as all borders do, ends there; anything else is rounded outward by more

@@ -1,4 +1,4 @@
-//! The list of a cell: what is left of the body, in rectangles that have one minimum each.
+//! The list of a cell: the remaining parts of the body, in rectangles that have one minimum each.
 
 use super::faces::{Faces, Query, Rectangle, Region};
 use super::unique::{Minima, Proof, Subject, nearest};
@@ -7,7 +7,7 @@ use palpate::body::Candidate;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
 
-/// An entry with what is proved of it.
+/// An entry with its proof.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     pub face: u16,
@@ -24,15 +24,15 @@ impl Entry {
     }
 }
 
-/// What makes lists.
+/// The maker of lists.
 pub(super) struct Lister<'a> {
     pub faces: &'a Faces,
     pub query: &'a Query<'a>,
     /// A rectangle that loses no more is good enough, metres.
     pub tolerance: f64,
-    /// How often what is left of a face is divided for want of a proof.
+    /// Maximum divisions of a face's remaining part where the proof fails.
     pub divisions: usize,
-    /// What is proved of rectangles of faces, and how far their minimum is from the cell's centre: they come up again.
+    /// Proofs of rectangles of faces, and the distance of their minimum from the cell's centre: they are needed again.
     pub known: RefCell<HashMap<(u16, Rectangle), (Proof, f64)>>,
 }
 
@@ -67,8 +67,8 @@ impl Lister<'_> {
         entries
     }
 
-    /// Adds what is left of open borders to entries that are not all proved, by itself: a descent that begins inside a
-    /// face can end there and pass by a minimum at its border, where no other face has a start for it.
+    /// Adds the remaining open borders to entries that are not all proved, as entries of their own: a descent that
+    /// starts inside a face can end there and miss a minimum at its border, where no other face has a start for it.
     pub(super) fn add_open_borders(&self, regions: &[Region<'_>], entries: &mut Vec<Entry>) {
         let mut borders: BTreeMap<(u16, u8), Vec<Region<'_>>> = BTreeMap::new();
         for region in regions {

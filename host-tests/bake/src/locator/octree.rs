@@ -20,15 +20,15 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// What came of a cell.
+/// The result of a cell.
 enum Outcome<'a> {
     Leaf(Box<Listed<'a>>),
     Inner(Inherited<'a>),
 }
 
-/// What a cell hands on to its children.
+/// The inputs that a cell passes to its children.
 struct Inherited<'a> {
-    /// What can own the closest point.
+    /// The regions that can own the closest point.
     regions: Vec<Region<'a>>,
     /// Where half the squared distance is convex.
     convex: Vec<(u16, Rectangle)>,
@@ -44,7 +44,7 @@ struct Listed<'a> {
     unproved: Option<Unproved<'a>>,
 }
 
-/// What it takes to sample a list.
+/// The inputs of sampling a list.
 struct Unproved<'a> {
     inherited: Inherited<'a>,
     is_loose: bool,
@@ -59,18 +59,18 @@ enum Grown<L> {
 /// A leaf with its list.
 type Done = (Leaf, Vec<Entry>);
 
-/// How often what is left of a face is divided at most for want of a proof.
+/// Maximum divisions of a face's remaining part where the proof fails.
 const DIVISIONS: usize = 2;
 
-/// What a rectangle may lose, in sizes, before it is sampled more densely.
+/// Maximum loss of a rectangle, in sizes, before it is sampled more densely.
 const LOOSE: f64 = 0.01;
-/// So many times.
+/// Factor of the denser sampling.
 const CLOSER: usize = 4;
 
 /// How often a list that samples show to fail is mended by dividing a rectangle.
 const REPAIRS: usize = 24;
 
-/// What a search needs.
+/// The inputs of a search.
 pub(super) struct Search<'a> {
     pub faces: &'a Faces,
     pub options: &'a LocatorOptions,
@@ -82,13 +82,13 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Divides the root cube; `progress` hears how much is done, and how much there is: each of the smallest cells
-    /// once for its list and once for its samples.
+    /// Divides the root cube; `progress` gets the finished and the total number: each of the smallest cells once for
+    /// its list and once for its samples.
     ///
-    /// A cell is done before its neighbours are begun: they look at the same parts of faces.
+    /// A cell is finished before its neighbours start: they read the same parts of faces.
     ///
     /// # Errors
-    /// How many entries there are, as soon as they are more than indices can name.
+    /// The number of entries, as soon as it exceeds the range of indices.
     pub(super) fn run(&self, root: Probes, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Octree, usize> {
         let done = AtomicUsize::new(0);
         let cells = cells_at(self.options.depth + self.options.deeper);
@@ -260,7 +260,7 @@ impl<'a> Search<'a> {
         Ok((leaf, entries))
     }
 
-    /// What is left of some regions, divided as finely as the cell deserves.
+    /// The remaining parts of some regions, divided to a depth that suits the cell.
     fn survivors(&self, regions: &[Region<'a>], query: &Query<'_>) -> Vec<Region<'a>> {
         let fine = self.options.fineness * query.probes.radius();
         let mut open: Vec<_> = regions.iter().rev().copied().collect();

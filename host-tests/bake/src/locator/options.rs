@@ -23,8 +23,8 @@ pub struct LocatorOptions {
     pub inside: f64,
     /// Entries of such a list at most.
     pub deep_entries: usize,
-    /// Entries of a list at most where the depth is used up: what is not proved is divided less to stay below, as far
-    /// as that goes.
+    /// Maximum entries of a list where the depth is used up: unproved parts are divided less to stay below, if
+    /// possible.
     pub longest: usize,
     /// Whether the body is proved convex: a probe outside then has no nearest point but the closest, so that cells that
     /// are wholly outside need no proof of one minimum.
@@ -62,7 +62,7 @@ impl LocatorOptions {
     }
 
     /// With a root cube that reaches at least so far beyond the bounding box, in sizes, at the same resolution: each
-    /// doubling of its side is a level more. What the firmware's descent has no rounds for stays outside.
+    /// doubling of its side is a level more. Levels beyond the rounds of the firmware's descent are left out.
     pub fn reaching(mut self, margin: f64) -> Self {
         while self.margin < margin && self.depth + self.deeper < MAX_DEPTH {
             self.margin = 2.0 * self.margin + 0.5;

@@ -4,7 +4,7 @@ use super::stored::StoredSurface;
 use glam::DVec3;
 use palpate::math::Vec3;
 
-/// What the surface's third order makes of the distance, relative to what it is at the corners.
+/// Allowance for the surface's third order in the distance, relative to its value at the corners.
 const SAFETY: f64 = 1.5;
 
 /// The surface about the middle of a rectangle of its parameters; lengths in metres.
@@ -72,7 +72,7 @@ impl Osculating {
     }
 
     /// About the distance of a probe, rather too little than too much: that of the place where half its square, to
-    /// second order, is least.
+    /// second order, has its minimum.
     #[inline]
     pub(super) fn distance(&self, probe: Vec3) -> f32 {
         let from = self.middle - probe;

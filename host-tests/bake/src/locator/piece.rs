@@ -21,7 +21,7 @@ pub(crate) const LEVELS: u8 = 6;
 #[derive(Debug)]
 pub(crate) struct Piece {
     pub face: u16,
-    /// The least and greatest `u` and `v`, parameters of the face.
+    /// The minimum and maximum `u` and `v`, parameters of the face.
     pub low: [f64; 2],
     pub high: [f64; 2],
     pub level: u8,
@@ -48,7 +48,7 @@ pub(crate) struct Piece {
     near: OnceLock<Osculating>,
 }
 
-/// What a span's pieces begin with.
+/// The common start of a span's pieces.
 pub(super) struct Span<'a> {
     pub face: u16,
     pub low: [f64; 2],
@@ -235,7 +235,7 @@ impl Probes {
 #[derive(Clone, Debug)]
 pub(crate) struct Field<const D: usize> {
     pub polynomial: Bernstein<D>,
-    /// What a component can be multiplied with at most.
+    /// Maximum factor of each component.
     reach: [f64; D],
     /// At least what rounding can add to a sum of all components times their factors.
     pub slack: f64,
@@ -286,7 +286,7 @@ impl<const D: usize> Field<D> {
 /// A component that is affine in the probe, `a − Q · b`, of entries `[a, b]`.
 impl Field<4> {
     /// Its sign on a part of the cell for all probes: 0 unless it stays farther from zero than `margin` times the
-    /// greatest length of `b`.
+    /// maximum length of `b`.
     pub(crate) fn sign(&self, part: Part, probes: &Probes, margin: f64) -> i8 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut steepest: f64 = 0.0;
@@ -306,7 +306,7 @@ impl Field<4> {
     }
 }
 
-/// What part of a cell is meant.
+/// The part of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
     /// All of it.

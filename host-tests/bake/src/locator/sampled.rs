@@ -19,12 +19,12 @@ const STARTS: usize = 16;
 const ABOUT: usize = 256;
 /// How far they are from it, beside half a side of the cell.
 const FARTHEST_ABOUT: f64 = 0.5;
-/// The least of them.
+/// The smallest of them.
 const NEAREST_ABOUT: f64 = 1e-3;
 
-/// What is wrong with a list.
+/// A fault of a list.
 pub(super) enum Fault {
-    /// A point, of a face at parameters, is nearer than what is found.
+    /// A point, of a face at parameters, is nearer than the result.
     Nearer((u16, [f64; 2])),
     /// The evaluations are used up before the nearest is found.
     Spent,
@@ -82,7 +82,7 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// What is wrong with a list for the next probe for which it fails; `None` once all have passed with this list.
+    /// The fault of a list for the next probe for which it fails; `None` once all have passed with this list.
     ///
     /// Where one probe failed others near it will: they are added.
     pub(super) fn fault(&mut self, entries: &[Entry]) -> Option<Fault> {
@@ -133,8 +133,8 @@ impl<'a> Sampler<'a> {
         Some(if left == 0 { Fault::Spent } else { Fault::Nearer(point) })
     }
 
-    /// The parameters at which a descent on a rectangle ends. `best` is the least `½ ‖P − Q‖²` known, m², this
-    /// descent's included; `left` the evaluations that the search may still cost.
+    /// The parameters at which a descent on a rectangle ends. `best` is the smallest known `½ ‖P − Q‖²`, m², including
+    /// this descent's; `left` the evaluations left for the search.
     fn descended(&self, candidate: &Candidate, probe: Vec3, best: &mut f32, left: &mut u16) -> [f32; 2] {
         let mut descending = CandidateSearch::new(*candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX);
         loop {

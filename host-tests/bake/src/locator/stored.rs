@@ -251,7 +251,7 @@ const BLOCK: usize = 4;
 /// Grids of points on all faces.
 pub(super) struct Samples {
     points: Vec<Sample>,
-    /// The root first; a node's second half begins where it says.
+    /// The root first; a node stores the start of its second half.
     nodes: Vec<Node>,
 }
 
@@ -263,7 +263,7 @@ pub(super) struct Sample {
     pub point: DVec3,
 }
 
-/// A box with what is in it.
+/// A box with its content.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     low: DVec3,

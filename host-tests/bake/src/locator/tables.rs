@@ -20,11 +20,11 @@ pub struct BakedLocator {
     pub nodes: Vec<[u16; 8]>,
     /// Lists of candidates.
     pub entries: Vec<u32>,
-    /// What is in them.
+    /// The report on them.
     pub report: LocatorReport,
 }
 
-/// What a locator's tables hold and what is proved of them.
+/// The sizes and proofs of a locator's tables.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LocatorReport {
     /// Leaves.
@@ -43,21 +43,20 @@ pub struct LocatorReport {
     pub within: f64,
     /// Share with some that may have several, within a known bound of the best, [`Self::loosest`] at most.
     pub loose: f64,
-    /// The greatest such bound, metres: how far the distance could be off at worst.
+    /// The maximum of these bounds, metres: the worst-case error of the distance.
     pub loosest: f64,
     /// Share with some of which nothing is proved: only samples speak for them.
     pub sampled: f64,
     /// Share that lies outside a convex body, with rectangles that are not proved by themselves.
     pub convex: f64,
-    /// Leaves by what is known of them.
+    /// Leaves by the evidence for them.
     pub leaves_by: LeafCounts,
     /// Bytes in flash.
     pub bytes: usize,
 }
 
-/// Leaves of the octree by what is known of their lists. That a list holds the closest point of every probe of its cell
-/// is proved of all of them; these count what is known of the way to it, from the middle of a rectangle to its least
-/// distance.
+/// Leaves of the octree by the evidence for their lists. Every list is proved to hold the closest point of every probe
+/// of its cell; these count the evidence for the way to it, from the middle of a rectangle to its minimum distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LeafCounts {
     /// Every rectangle is proved to have one minimum, or none that loses more than [`LocatorOptions::tolerance`].

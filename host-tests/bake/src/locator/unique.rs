@@ -8,7 +8,7 @@
 //!   convex along the other, or where `φ` is convex. The basins of strict minima under projected gradient flow are open
 //!   and fill the rectangle, which is connected: there is one.
 //! - *Within*: along the segment from any point that no first-order step improves to the best one, `φ` falls by at most
-//!   `½ max(−δᵀHδ)`, `δ` not beyond the rectangle: the distance is off by no more than what is returned.
+//!   `½ max(−δᵀHδ)`, `δ` not beyond the rectangle: the error of the distance is at most the returned value.
 //!
 //! A crease inside the rectangle is never passed.
 
@@ -18,7 +18,7 @@ use super::piece::{Field, Part, Probes};
 use super::piece::{LEVELS, Piece};
 use glam::DVec3;
 
-/// What is proved of the minima on a rectangle, best first.
+/// The proof of the minima on a rectangle, best first.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(crate) enum Minima {
     /// `φ` is convex.
@@ -31,7 +31,7 @@ pub(crate) enum Minima {
     Unknown,
 }
 
-/// What is proved of the minima on a rectangle wherever the closest point is.
+/// The proof of the minima on a rectangle wherever the closest point is.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Proof {
     Minima(Minima),
@@ -58,7 +58,7 @@ pub(super) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// What is proved.
+    /// The proof.
     pub(super) fn proof(&self) -> Proof {
         let [low, high] = self.rectangle.parameters();
         let flat = [0, 1].map(|axis| low[axis] == high[axis]);
@@ -240,8 +240,8 @@ impl Subject<'_> {
         }
     }
 
-    /// The same of a piece whose own bound is known and greater. What is bounded below the loss as a whole is in its
-    /// quarters too: the worst of them go first, so that few others are divided.
+    /// The same of a piece whose own bound is known and larger. A piece that is below the loss as a whole is below it
+    /// in its quarters too: the worst of them go first, so that few others are divided.
     fn raise_to(&self, piece: &Piece, loss: f64, most: &mut f64) -> Option<()> {
         let quarters = if piece.level < LEVELS - 1 { piece.quarters() } else { None };
         let Some(quarters) = quarters else {

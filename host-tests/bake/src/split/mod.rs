@@ -13,13 +13,13 @@ use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use palpate::body::MAX_FACES;
 use std::f64::consts::PI;
 
-/// Cuts that are found one after the other: closed patches first, then what is left of poles and creases.
+/// Maximum rounds of cuts: closed patches first, then the remaining poles and creases.
 const ROUNDS: usize = 8;
 
 /// A model in pieces that the tables can hold.
 ///
 /// # Errors
-/// Weights too uneven for `f32`; what is wrong between its patches; more pieces than a body can have.
+/// Weights too uneven for `f32`; a fault between its patches; more pieces than a body can have.
 pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
     let mut pieces = Piece::whole(model);
     for piece in &pieces {
@@ -56,14 +56,14 @@ pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
 /// How pieces hang together.
 ///
 /// # Errors
-/// What is wrong between them.
+/// A fault between them.
 pub fn topology(pieces: &[Piece], model: &Model, file: &str) -> Result<Topology, ModelError> {
     let patches: Vec<_> = pieces.iter().map(|piece| piece.patch.clone()).collect();
     Topology::new(&patches, &|index| label(pieces[index].source, model))
         .map_err(|fault| ModelError::Seam { file: file.to_owned(), fault })
 }
 
-/// What messages call a piece: its patch, and which part of it unless it is the whole.
+/// The name of a piece in messages: its patch, and which part of it unless it is the whole.
 pub fn label(source: Provenance, model: &Model) -> String {
     let Provenance { patch, lower, upper } = source;
     let name = model.patches[patch].name.as_ref().map_or_else(|| patch.to_string(), |name| format!("\"{name}\""));
@@ -80,9 +80,9 @@ pub fn label(source: Provenance, model: &Model) -> String {
 pub struct Provenance {
     /// Index of the patch.
     pub patch: usize,
-    /// The least parameters.
+    /// The minimum parameters.
     pub lower: [f64; 2],
-    /// The greatest.
+    /// The maximum parameters.
     pub upper: [f64; 2],
 }
 
@@ -312,7 +312,7 @@ fn lines(patch: &NurbsPatch, axis: usize) -> Vec<Vec<DVec4>> {
     (0..across).map(|line| (0..along).map(|k| control(k, line)).collect()).collect()
 }
 
-/// One line with the knot `at` inserted, which lies in the span that begins with knot `span`.
+/// One line with the knot `at` inserted, which lies in the span that starts with knot `span`.
 fn inserted(knots: &[f64], degree: usize, line: &[DVec4], span: usize, at: f64) -> Vec<DVec4> {
     let point = |k: usize| {
         if k + degree <= span {
