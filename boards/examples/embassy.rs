@@ -7,39 +7,37 @@
 
 mod board;
 
-use board::{Board, DEVICE, SETTINGS};
+use board::{Board, DEVICE, SETTINGS, body};
 use core::cell::Cell;
 use cortex_m::interrupt::{Mutex, free};
 use embassy_sync::{blocking_mutex::raw::CriticalSectionRawMutex, signal::Signal};
 use palpate::device::SerialArm;
-use palpate::servo::{Config, Output, Servo, State};
+use palpate::servo::{Config, Event, Output, Servo, State};
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, interrupt};
 
-/// The tables of a body, baked when the program is built.
-mod body {
-    include!(env!("PALPATE_BODY_FILE"));
-}
-
-/// The loop's type, named once.
+/// The loop's type, named once, and what the interrupt owns.
 type Loop = Servo<'static, body::Surface, SerialArm, 3>;
+type Own = (Board, State<Loop>);
 
 /// In flash; settings beyond the device's limits are compile errors.
 static SERVO: Loop = Servo::new(&DEVICE, body::SURFACE, Config { settings: SETTINGS, ..Config::DEFAULT });
 
-/// On its way from main to the interrupt, which owns it from the first tick on.
-static BOARD: Mutex<Cell<Option<Board>>> = Mutex::new(Cell::new(None));
+/// On its way from main to the interrupt, before the first tick.
+static PARTS: Mutex<Cell<Option<Own>>> = Mutex::new(Cell::new(None));
 /// The last tick's number: tasks await it, the interrupt never waits.
 static TICK: Signal<CriticalSectionRawMutex, u32> = Signal::new();
 
 #[interrupt]
 fn TIM7() {
-    static mut OWN: Option<(Board, State<Loop>)> = None;
+    static mut OWN: Option<Own> = None;
 
     if OWN.is_none() {
-        *OWN = free(|section| BOARD.borrow(section).take()).map(|board| (board, SERVO.start()));
+        *OWN = free(|section| PARTS.borrow(section).take());
     }
     let Some((board, state)) = OWN else { return };
-    board.acknowledge();
+    if board.acknowledge() {
+        SERVO.note(state, Event::Overrun);
+    }
     // `Off` disables the amplifiers. Zero duty would keep them enabled, and braking.
     match SERVO.tick(state, board.input()) {
         Output::Off => board.release(),
@@ -50,8 +48,10 @@ fn TIM7() {
 
 #[embassy_executor::main]
 async fn main(_spawner: embassy_executor::Spawner) {
-    let chip = Peripherals::take().unwrap();
-    free(|section| BOARD.borrow(section).set(Some(Board::new(chip, SETTINGS.rate_hz))));
+    let mut board = Board::new(Peripherals::take().unwrap());
+    let state = SERVO.start_after(board.reset_reason());
+    board.start(SETTINGS.rate_hz);
+    free(|section| PARTS.borrow(section).set(Some((board, state))));
     // SAFETY: the interrupt's data is in place.
     unsafe { cortex_m::peripheral::NVIC::unmask(Interrupt::TIM7) };
     loop {

@@ -7,14 +7,9 @@
 
 mod board;
 
-use board::{Board, DEVICE, SETTINGS};
+use board::{Board, DEVICE, SETTINGS, body};
 use palpate::device::SerialArm;
-use palpate::servo::{Config, Output, Servo, State};
-
-/// The tables of a body, baked when the program is built.
-mod body {
-    include!(env!("PALPATE_BODY_FILE"));
-}
+use palpate::servo::{Config, Event, Output, Servo, State};
 
 /// The loop's type, named once.
 type Loop = Servo<'static, body::Surface, SerialArm, 3>;
@@ -37,14 +32,19 @@ mod app {
 
     #[init]
     fn init(context: init::Context) -> (Shared, Local) {
-        (Shared {}, Local { board: Board::new(context.device, SETTINGS.rate_hz), state: SERVO.start() })
+        let mut board = Board::new(context.device);
+        let state = SERVO.start_after(board.reset_reason());
+        board.start(SETTINGS.rate_hz);
+        (Shared {}, Local { board, state })
     }
 
     /// Telemetry and commands go into software tasks below this priority.
     #[task(binds = TIM7, priority = 15, local = [board, state])]
     fn tick(context: tick::Context) {
         let tick::LocalResources { board, state, .. } = context.local;
-        board.acknowledge();
+        if board.acknowledge() {
+            SERVO.note(state, Event::Overrun);
+        }
         // `Off` disables the amplifiers. Zero duty would keep them enabled, and braking.
         match SERVO.tick(state, board.input()) {
             Output::Off => board.release(),

@@ -57,6 +57,13 @@ impl<D: Drive, const JOINTS: usize> Drives<JOINTS> for [D; JOINTS] {
 /// Three whose channels are types of their own.
 impl<A: Drive, B: Drive, C: Drive> Drives<3> for (A, B, C) {
     #[inline]
+    fn aim(&mut self, [a, b, c]: [ElectricalAngle; 3]) {
+        self.0.aim(a);
+        self.1.aim(b);
+        self.2.aim(c);
+    }
+
+    #[inline]
     fn apply(&mut self, [a, b, c]: [Duty; 3]) -> Result<(), NotObeyed> {
         obeyed(self.0.apply(a).is_ok() & self.1.apply(b).is_ok() & self.2.apply(c).is_ok())
     }
@@ -82,6 +89,11 @@ impl<D, E> Switched<D, E> {
 }
 
 impl<D: Drives<JOINTS>, E: OutputPin, const JOINTS: usize> Drives<JOINTS> for Switched<D, E> {
+    #[inline]
+    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+        self.drives.aim(fields);
+    }
+
     #[inline]
     fn apply(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
         self.drives.apply(duties)?;

@@ -3,8 +3,8 @@
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as PinStep};
 use embedded_hal_mock::eh1::pwm::{Mock as Width, Transaction as WidthStep};
-use palpate::device::drive::{HBridge, SetPointDrive, SetPointRange};
-use palpate::device::{Counts, Duty};
+use palpate::device::drive::{Drive, HBridge, SetPointDrive, SetPointRange};
+use palpate::device::{Counts, Duty, ElectricalAngle};
 use palpate_bench::sensors::{BadFrame, Counters, Readings};
 use palpate_bench::{
     Board, Counter, Divider, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Passive, Switched, Timer,
@@ -159,6 +159,36 @@ fn bridges_behind_one_enable_line_are_off_before_their_widths_are() {
         width.done();
         pin.done();
     });
+}
+
+/// Where its field was aimed.
+struct Aimed<'a>(&'a core::cell::Cell<u16>);
+
+impl Drive for Aimed<'_> {
+    type Error = core::convert::Infallible;
+
+    fn aim(&mut self, ElectricalAngle(angle): ElectricalAngle) {
+        self.0.set(angle);
+    }
+
+    fn apply(&mut self, _: Duty) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    fn release(&mut self) -> Result<(), Self::Error> {
+        Ok(())
+    }
+}
+
+#[test]
+fn fields_reach_drives_of_three_types_behind_one_enable_line() {
+    let aimed = [const { core::cell::Cell::new(0) }; 3];
+    let [a, b, c] = &aimed;
+    let mut enable = Pin::new(&[]);
+    let mut all = Switched::new((Aimed(a), Aimed(b), Aimed(c)), enable.clone());
+    all.aim([1, 2, 3].map(ElectricalAngle));
+    assert_eq!(aimed.map(|angle| angle.get()), [1, 2, 3]);
+    enable.done();
 }
 
 #[test]
