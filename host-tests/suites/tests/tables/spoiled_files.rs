@@ -167,7 +167,7 @@ fn what_is_wrong_with_a_file_is_told() {
     let spoke = spoilt(&|words| words[of(Section::Spokes) + 3] = 12);
     assert_eq!(
         spoke.map(|error| error.to_string()).as_deref(),
-        Some("spoke 0 names no edge of the body or is not finite")
+        Some("spokes: a spoke names no edge of the body or is not finite (number 0)")
     );
     // A number that means something is not the one that was baked.
     let other = spoilt(&|words| words[of(Section::Coefficients)] ^= 1);
