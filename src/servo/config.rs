@@ -234,18 +234,12 @@ impl<'a, S, K, const JOINTS: usize> Core<'a, S, K, JOINTS> {
         config: Config<JOINTS>,
     ) -> Result<Self, ConfigError> {
         const { assert!(JOINTS >= 1 && JOINTS <= 3, "a device has one to three joints") };
-        let Config { controller, settings, rendering, safety, homing } = config;
-        if let Err(error) = settings.check(device.max_stiffness_n_per_m, device.max_damping_n_s_per_m) {
-            return Err(ConfigError::Settings(error));
+        if let Err(error) = check(device, &config) {
+            return Err(error);
         }
+        let Config { controller, settings, rendering, safety, homing } = config;
         let rate = settings.rate_hz;
         let period = 1.0 / rate;
-        if let Err(error) = rendering.check(settings.stiffness_n_per_m, period) {
-            return Err(ConfigError::Rendering(error));
-        }
-        if let Err(error) = safety.check(device.max_damping_n_s_per_m) {
-            return Err(ConfigError::Safety(error));
-        }
         let penalty = settings.penalty(device.max_force_n);
         Ok(Self {
             device,
@@ -269,6 +263,32 @@ impl<'a, S, K, const JOINTS: usize> Core<'a, S, K, JOINTS> {
             contact_watch: ContactWatch::new(safety.contact, &penalty, rate),
         })
     }
+
+    /// Other gains: all numbers that follow from them, as [`Self::try_new`] has them.
+    pub(super) fn retune(&mut self, settings: Settings, penalty: Penalty) {
+        self.settings = settings;
+        self.penalty = penalty;
+        self.eased = eased(&self.rendering, &penalty, self.period);
+        self.contact_watch = ContactWatch::new(self.safety.contact, &penalty, self.rate);
+    }
+}
+
+/// Checks a configuration for a device.
+pub(super) const fn check<K, const JOINTS: usize>(
+    device: &Device<K, JOINTS>,
+    config: &Config<JOINTS>,
+) -> Result<(), ConfigError> {
+    let Config { settings, rendering, safety, .. } = config;
+    if let Err(error) = settings.check(device.max_stiffness_n_per_m, device.max_damping_n_s_per_m) {
+        return Err(ConfigError::Settings(error));
+    }
+    if let Err(error) = rendering.check(settings.stiffness_n_per_m, 1.0 / settings.rate_hz) {
+        return Err(ConfigError::Rendering(error));
+    }
+    if let Err(error) = safety.check(device.max_damping_n_s_per_m) {
+        return Err(ConfigError::Safety(error));
+    }
+    Ok(())
 }
 
 const fn estimators<K, const JOINTS: usize>(
@@ -365,7 +385,8 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             Ok(core) => core,
             Err(error) => return Err(error),
         };
-        match Guarded::try_new(protection, &device.motors, device.dry_friction_n_m, core.rate, &core.penalty) {
+        match Guarded::try_new(protection, &device.motors, device.dry_friction_n_m, core.rate, core.penalty.max_force_n)
+        {
             Ok(guard) => Ok(Self { core, guard }),
             Err(error) => Err(ConfigError::Protection(error)),
         }

@@ -60,7 +60,8 @@ pub(super) struct ContactWatch {
 
 impl ContactWatch {
     pub(super) const fn new(limits: Option<ContactLimits>, wall: &Penalty, rate: f32) -> Self {
-        let full_force_depth = wall.max_force_n / wall.stiffness_n_per_m;
+        let full_force_depth =
+            if wall.stiffness_n_per_m > 0.0 { wall.max_force_n / wall.stiffness_n_per_m } else { f32::INFINITY };
         match limits {
             Some(ContactLimits { depth, min_depth_m: min_depth, fade_s: fade, max_in_a_row, quiet_s: quiet }) => Self {
                 max_depth: if depth * full_force_depth < min_depth { min_depth } else { depth * full_force_depth },

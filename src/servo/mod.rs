@@ -45,6 +45,7 @@ mod settings;
 mod state;
 mod surface;
 mod tick;
+mod tunable;
 mod watch;
 
 pub use config::{Config, ConfigError, Loop, Servo, State};
@@ -56,4 +57,5 @@ pub use settings::{Rendering, RenderingError, SafeOutput, Safety, SafetyError, S
 pub use state::ServoState;
 pub use surface::{BakedTables, OnePatch, PatchWitness, Surface, TableCheck, Touched, Tracked};
 pub use tick::Input;
+pub use tunable::{Tunable, TunableState, Tuning};
 pub use watch::{Deadline, FrameBridge, Heartbeat, Stillness};

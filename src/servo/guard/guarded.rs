@@ -5,7 +5,6 @@ use super::polarity::{Polarities, PolarityState};
 use super::{Guard, Motion, Remembered};
 use crate::device::{Duty, Motor, Protection, SupplyRange};
 use crate::math::Vec3;
-use crate::render::Penalty;
 use crate::servo::Fault;
 use crate::servo::gate::gate_within;
 
@@ -65,7 +64,7 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
         motors: &[Motor; JOINTS],
         dry_friction: [f32; JOINTS],
         rate: f32,
-        penalty: &Penalty,
+        max_force_n: f32,
     ) -> Result<Self, ProtectionError> {
         if let Err(error) = check(&protection, rate) {
             return Err(error);
@@ -85,7 +84,7 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
                 None => None,
             },
             signs: match protection.polarity {
-                Some(watch) => Some(Polarities::new(&watch, dry_friction, rate, penalty)),
+                Some(watch) => Some(Polarities::new(&watch, dry_friction, rate, max_force_n)),
                 None => None,
             },
         })
@@ -100,6 +99,11 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
             *heat = heat.of_motor(*motor);
         }
         self.signs = self.signs.map(|signs| signs.of_friction(*dry_friction));
+        self
+    }
+
+    fn of_max_force(mut self, max_force_n: f32) -> Self {
+        self.signs = self.signs.map(|signs| signs.of_max_force(max_force_n));
         self
     }
 

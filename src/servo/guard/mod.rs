@@ -39,6 +39,10 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     #[must_use]
     fn of_motors(self, motors: &[Motor; JOINTS], dry_friction: &[f32; JOINTS]) -> Self;
 
+    /// The same for a loop of another maximum force, N.
+    #[must_use]
+    fn of_max_force(self, max_force_n: f32) -> Self;
+
     /// Continuous torque limit of each motor, as a fraction of full duty, 0 to 1: for code that drives the motors
     /// without a heat model.
     fn continuous(&self) -> [f32; JOINTS];
@@ -111,6 +115,10 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     type State = ();
 
     fn of_motors(self, _: &[Motor; JOINTS], _: &[f32; JOINTS]) -> Self {
+        self
+    }
+
+    fn of_max_force(self, _: f32) -> Self {
         self
     }
 

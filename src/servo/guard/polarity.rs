@@ -23,7 +23,6 @@
 use super::Motion;
 use crate::device::PolarityCheck;
 use crate::math::{Vec3, inverse_sqrt_from_below};
-use crate::render::Penalty;
 use crate::servo::Fault;
 
 /// Pulse length, s: long enough to accumulate counts, shorter than a human reaction.
@@ -189,7 +188,7 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         watch: &PolarityCheck<JOINTS>,
         friction: [f32; JOINTS],
         rate: f32,
-        penalty: &Penalty,
+        max_force_n: f32,
     ) -> Self {
         let ticks = rate * SLOT;
         let slot = if ticks < 3.0 { 3.0 } else { ticks };
@@ -206,17 +205,24 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
             yields,
             friction,
             way: 0.5 * SPEED * knock,
-            force: ON_TRIAL * penalty.max_force_n,
-            asked: (ASKED * ON_TRIAL * penalty.max_force_n) * (ASKED * ON_TRIAL * penalty.max_force_n),
+            force: 0.0,
+            asked: 0.0,
             slot: slot as u16,
             rest: (REST / time) as u16,
             rise: 1.0 / (RISE * rate),
         }
+        .of_max_force(max_force_n)
     }
 
     /// The same of joints of another dry friction, N·m.
     pub(super) fn of_friction(self, friction: [f32; JOINTS]) -> Self {
         Self { friction, ..self }
+    }
+
+    /// The same for a loop of another maximum force, N.
+    pub(super) const fn of_max_force(self, max_force_n: f32) -> Self {
+        let asked = ASKED * ON_TRIAL * max_force_n;
+        Self { force: ON_TRIAL * max_force_n, asked: asked * asked, ..self }
     }
 
     /// Checks a tick in which force may be given. On return `force` and its joint torques, `felt`, are the permitted
@@ -347,13 +353,12 @@ mod tests {
     /// Whether each joint of a device moves far enough when it knocks in the middle of its workspace, though it sticks
     /// as much as a calibration may say.
     fn sees<K: Kinematics<3>>(device: &Device<K, 3>, protection: &Protection<3>, middle: [f32; 3]) {
-        let penalty = Penalty { stiffness_n_per_m: 600.0, damping_n_s_per_m: 2.0, max_force_n: device.max_force_n };
         let of_range = device
             .kinematics
             .pose(device.joint_range_rad.map(|[least, most]| 0.5 * (least + most)))
             .expect("within reach");
         let friction = of_range.jacobian.map(|column| FRICTION_WITHIN * device.max_force_n * column.length());
-        let signs = Polarities::new(&protection.polarity.expect("watched"), friction, 4_000.0, &penalty);
+        let signs = Polarities::new(&protection.polarity.expect("watched"), friction, 4_000.0, device.max_force_n);
         for (joint, column) in device.kinematics.pose(middle).expect("within reach").jacobian.into_iter().enumerate() {
             let reach = column.length();
             let most = (signs.force * reach).min(signs.way / (signs.yields[joint] * reach) + friction[joint]);

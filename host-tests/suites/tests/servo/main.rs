@@ -20,6 +20,7 @@ mod surfaces;
 mod through;
 mod touch;
 mod traces;
+mod tuning;
 mod velocity;
 mod watched;
 mod weight;
