@@ -66,6 +66,6 @@ pub const SURFACE: &Surface = &PATCHES[0];
 #[allow(dead_code)]
 pub const TABLE_CRC: u32 = 2552934459;
 /// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
-/// tables. With the model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
+/// tables. With the model's own origin at `o` in the device's frame, `body_origin_m` is `o + CENTRE`.
 #[allow(dead_code)]
 pub const CENTRE: palpate::math::Vec3 = palpate::math::vec3(0.0, 0.0, 0.0);

@@ -1,5 +1,8 @@
 //! The servo in the interrupt of a timer, with cortex-m-rt alone, on an STM32G474.
 //!
+//! Minimal: hold the arm in its calibration pose at reset, button up. No homing, no stop, ready or supply input, and no
+//! protection beyond the loop's own checks.
+//!
 //! `cargo palpate firmware --board stm32g4 build --release --example bare`
 
 #![no_std]

@@ -1,5 +1,6 @@
 //! Device, body, settings and pins of the examples, on an STM32G474 at the 16 MHz it has after reset: the part to
-//! replace by your own.
+//! replace by your own. For bridges that take a pulse width of 0 to 100 % and a direction; not for the tutorial's
+//! ESCONs, which take 10 to 90 %.
 //!
 //! Encoders on TIM2 to TIM4, pulse widths of TIM1 on PA8 to PA10 with their directions on PB13 to PB15, enable lines on
 //! PC0 to PC2 (high enables), the button that asks for force on PC13 (high while pressed). Each enable line needs a

@@ -1,5 +1,8 @@
 //! The servo as RTIC's task of highest priority, in the interrupt of a timer of an STM32G474.
 //!
+//! Minimal: hold the arm in its calibration pose at reset, button up. No homing, no stop, ready or supply input, and no
+//! protection beyond the loop's own checks.
+//!
 //! `cargo palpate firmware --board stm32g4 build --release --example rtic`
 
 #![no_std]

@@ -54,7 +54,7 @@ impl Origin<'_> {
         let [x, y, z] = self.centre.as_vec3().to_array().map(number);
         quote! {
             /// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
-            /// tables. With the model's own origin at `o` in the device's frame, `body_origin` is `o + CENTRE`.
+            /// tables. With the model's own origin at `o` in the device's frame, `body_origin_m` is `o + CENTRE`.
             #[allow(dead_code)]
             pub const CENTRE: palpate::math::Vec3 = palpate::math::vec3(#x, #y, #z);
         }
