@@ -1,7 +1,4 @@
-//! The servo in an interrupt above Embassy's executor, whose tasks hear of it, on an STM32G474.
-//!
-//! Minimal: hold the arm in its calibration pose at reset, button up. No homing, no stop, ready or supply input, and no
-//! protection beyond the loop's own checks.
+//! The servo in an interrupt above Embassy's executor, on an STM32G474. Read the warning in `bare.rs` first.
 //!
 //! `cargo palpate firmware --board stm32g4 build --release --example embassy`
 

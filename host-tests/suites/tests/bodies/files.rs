@@ -41,7 +41,6 @@ fn a_file_gives_the_bits_of_statics_for_every_model_that_ships() {
 
 fn compare(is_wanted: &dyn Fn(&str) -> bool) {
     for name in palpate_suites::models().into_iter().filter(|name| is_wanted(name)) {
-        let name = &*name;
         let text = &*fs::read_to_string(palpate_suites::model_file(name)).unwrap();
         let begun = std::time::Instant::now();
         let scene = Scene::located(name, BakedBody::locator_options);
