@@ -13,8 +13,8 @@ use std::fmt::Debug;
 
 const PAGE: &str = "docs/reference/wire.md";
 /// Rows that are no field of a struct: which variant follows, whether an option is there, and fields of tuples.
-const TAGS: [&str; 9] =
-    ["message", "request", "finding", "calibrated", "error", "which", "is_refused", "is_kept", "body"];
+const TAGS: [&str; 10] =
+    ["message", "command", "request", "finding", "calibrated", "error", "which", "is_refused", "is_kept", "body"];
 
 /// Asserts that a row is the next field of the message: its name and, where both are numbers, its value.
 fn assert_field(row: &Row, left: &mut &str) {
