@@ -234,5 +234,5 @@ def test_telemetry_comes_from_a_port_and_nothing_goes_to_it():
 
 def test_a_link_opens_at_the_speed_that_monitor_takes():
     monitor = (ROOT / "host-tests/tool/src/commands/monitor.rs").read_text()
-    [speed] = re.findall(r"default_value_t = ([\d_]+)\)\]\s+baud:", monitor)
+    [speed] = re.findall(r"default_value_t = ([\d_]+)[^\]]*\]\s+baud:", monitor)
     assert inspect.signature(palpate.Link).parameters["baud"].default == int(speed)
