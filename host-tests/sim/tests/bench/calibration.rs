@@ -295,9 +295,9 @@ fn words_that_a_chip_could_not_read_are_a_calibration_that_cannot_be_used_though
 fn a_loop_that_is_calibrated_is_the_loop_of_that_device_bit_for_bit() {
     let device: &'static _ = Box::leak(Box::new(DEVICE.calibrated(&Calibration(joints())).unwrap()));
     let built = Servo::new(&DEVICE, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
-    let anew = Servo::new(device, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
-    assert_ne!(format!("{built:?}"), format!("{anew:?}"));
-    assert_eq!(format!("{:?}", built.calibrated(device)), format!("{anew:?}"));
+    let rebuilt = Servo::new(device, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
+    assert_ne!(format!("{built:?}"), format!("{rebuilt:?}"));
+    assert_eq!(format!("{:?}", built.calibrated(device)), format!("{rebuilt:?}"));
 }
 
 #[test]
@@ -384,7 +384,7 @@ fn whenever_the_power_goes_there_is_the_whole_calibration_or_none() {
     let kept = Calibrated::Kept { crc: Calibration(joints()).crc() };
     let mut other = joints();
     other[0].dry_friction_n_m = 0.03;
-    let anew = Calibrated::Kept { crc: Calibration(other).crc() };
+    let rebuilt = Calibrated::Kept { crc: Calibration(other).crc() };
     // One erasure, and eight double words.
     for left in 0..=9 {
         let page = Page::of(*old.0.bytes.borrow());
@@ -395,7 +395,7 @@ fn whenever_the_power_goes_there_is_the_whole_calibration_or_none() {
         let wanted = match left {
             0 => kept,
             1 => Calibrated::BuiltIn,
-            9 => anew,
+            9 => rebuilt,
             _ => Calibrated::Refused(CalibrationError::Interrupted),
         };
         page.0.left.set(u32::MAX);
@@ -404,7 +404,7 @@ fn whenever_the_power_goes_there_is_the_whole_calibration_or_none() {
         let device = Device::new(&page);
         assert_eq!(device.rig.fault(), matches!(wanted, Calibrated::Refused(_)).then_some(Fault::Calibration));
         assert_eq!(Device::set_up(&page).keep(Some(other)), None);
-        assert_eq!(found(&page), anew);
+        assert_eq!(found(&page), rebuilt);
     }
 }
 
