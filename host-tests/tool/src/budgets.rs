@@ -8,14 +8,14 @@ use std::fs;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// How much worse a figure may get, percent: room for another compiler's whim, not for another call.
+/// Allowed growth of a figure, percent: covers variations between compilers, but not another call.
 pub const ALLOWANCE: u32 = 3;
 
 fn budget_file(board: Board) -> Result<PathBuf, NoRepository> {
     Ok(repository::root()?.join("host-tests/budgets").join(board.name()).with_extension("toml"))
 }
 
-/// What was counted, in the order in which it was.
+/// Counted instructions by name, in the order of measurement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figures(pub Vec<(String, u32)>);
 
@@ -26,7 +26,7 @@ impl Figures {
     }
 }
 
-/// What the figures may be.
+/// Recorded limits of the figures.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Budget {
@@ -60,9 +60,9 @@ pub enum BudgetError {
 pub struct Verdict {
     /// Its name.
     pub name: String,
-    /// What was counted; `None` if it was not.
+    /// The counted number; `None` if it is missing.
     pub found: Option<u32>,
-    /// What was recorded; `None` if it is new.
+    /// The recorded number; `None` if it is new.
     pub allowed: Option<u32>,
 }
 
@@ -75,7 +75,7 @@ impl Verdict {
         }
     }
 
-    /// What to say of it; nothing where it is as recorded.
+    /// A remark for the table; empty if the figure is as recorded.
     pub fn remark(&self) -> String {
         match (self.found, self.allowed) {
             (Some(found), Some(allowed)) if found != allowed => {
@@ -137,7 +137,7 @@ impl Budget {
         toml::from_str(&text).map_err(|error| refused(&path, &error))
     }
 
-    /// What a figure may be.
+    /// The recorded limit of a figure.
     pub fn of(&self, name: &str) -> Option<u32> {
         self.instructions.get(name).copied()
     }

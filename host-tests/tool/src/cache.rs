@@ -1,8 +1,6 @@
-//! What is kept from one run to the next: locators, by the hash of what they are made of, so that no model is baked
-//! twice.
+//! Cache between runs: locators, by the hash of their inputs, so that no model is baked twice.
 //!
-//! The cache can be deleted at any time. What cannot be read, or is not whole, is baked anew; what cannot be written is
-//! not kept.
+//! The cache can be deleted at any time. An unreadable or incomplete entry is baked again; a failed write is ignored.
 
 use glam::DVec3;
 use palpate::math::Vec3;
@@ -25,8 +23,8 @@ pub fn folder() -> Option<PathBuf> {
         .or_else(|| variable("HOME").map(|home| home.join(".cache/palpate")))
 }
 
-/// A body with its locator, kept or baked; `text` is its model's. With `wanted`, metres, only what is good for these
-/// probes is baked.
+/// A body with its locator, from the cache or baked; `text` is its model's. With `wanted`, metres, the locator covers
+/// only these probes.
 ///
 /// # Errors
 /// Tables that would not fit their indices.

@@ -23,10 +23,11 @@ pub fn is_part(path: &Path) -> bool {
     path.extension().and_then(|extension| extension.to_str()).is_some_and(is)
 }
 
-/// The text of a model file made of a part, within [`TOLERANCE`]; what was measured goes to the terminal.
+/// Imports a part within [`TOLERANCE`] and returns the text of the model file; prints the measured deviations on
+/// standard error.
 ///
 /// # Errors
-/// What is wrong with the part.
+/// A faulty part.
 pub fn model_of(part: &Path) -> anyhow::Result<String> {
     let importer = Importer::build(&Progress::new())?;
     let folder = tempfile::tempdir()?;
@@ -36,22 +37,22 @@ pub fn model_of(part: &Path) -> anyhow::Result<String> {
     Ok(std::fs::read_to_string(out)?)
 }
 
-/// What is asked of it.
+/// Settings of an import.
 #[derive(Clone, Debug)]
 pub struct Wishes {
-    /// The largest deviation that is allowed, millimetres.
+    /// Maximum deviation, millimetres.
     pub tolerance: f64,
     /// Only the solids of this name.
     pub solid: Option<String>,
-    /// Where a picture is to go.
+    /// File of the picture.
     pub picture: Option<PathBuf>,
 }
 
 impl Importer {
-    /// Builds it; of a later time that is a moment.
+    /// Builds the importer; after the first time this is quick.
     ///
     /// # Errors
-    /// What the compiler said.
+    /// An error of the compiler.
     pub fn build(progress: &Progress) -> Result<Self, SetUpError> {
         let repository = repository::root()?;
         let path = repository.join("target/apart/palpate-cad");
@@ -64,10 +65,10 @@ impl Importer {
         Ok(Self { path })
     }
 
-    /// Imports a part into a model file; gives what it says of it.
+    /// Imports a part into a model file and returns the importer's report.
     ///
     /// # Errors
-    /// What is wrong with the part. Then there is no file.
+    /// A faulty part; then no file is written.
     pub fn import(&self, part: &Path, out: &Path, wishes: &Wishes) -> anyhow::Result<String> {
         let mut command = Command::new(&self.path);
         command.arg(part).arg(out).arg(wishes.tolerance.to_string());

@@ -1,4 +1,4 @@
-//! What all drawings share: inks, the view of a surface, and SVG text.
+//! Parts shared by all drawings: inks, the view of a surface, and SVG text.
 
 use anyhow::anyhow;
 use glam::DVec3;
@@ -95,7 +95,7 @@ pub fn equal_scale(
     ((x - half)..(x + half), (y - half * height / width)..(y + half * height / width))
 }
 
-/// Keeps the least and the greatest of each bin, so that no peak is lost.
+/// Keeps the minimum and the maximum of each bin, so that no peak is lost.
 pub fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     if points.len() <= MOST_POINTS {
         return points.to_vec();

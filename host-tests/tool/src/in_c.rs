@@ -1,4 +1,4 @@
-//! palpate for C: the static library for each kind of core, and what is made of it.
+//! palpate for C: the static library for each kind of core, and its example.
 
 use crate::firmware::{
     Board, Program, Progress, SetUpError, Toolchain, apt_install, on_path, output, without_outer_cargo,
@@ -15,7 +15,7 @@ pub const WITH_C: &str = "PALPATE_C";
 const GCC: &str = "arm-none-eabi-gcc";
 const PACKAGES: [&str; 2] = ["gcc-arm-none-eabi", "libnewlib-arm-none-eabi"];
 
-/// What a library is for.
+/// Target of a library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Core {
     /// Cortex-M4F, and M7 as well.
@@ -24,12 +24,12 @@ pub enum Core {
     M33,
     /// This machine.
     Host,
-    /// This machine, with every access to memory looked at.
+    /// This machine, with checked memory accesses.
     Sanitized,
 }
 
 impl Core {
-    /// What gcc must be told to compile for it, beside the warnings.
+    /// Options of gcc for this target, apart from warnings.
     pub const fn gcc(self) -> &'static [&'static str] {
         match self {
             Self::M4 => &["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16", "-ffreestanding"],
@@ -74,10 +74,10 @@ pub fn set_up(progress: &Progress) -> Result<String, SetUpError> {
     Ok(said.lines().next().unwrap_or_default().to_owned())
 }
 
-/// Builds the library and gives its file.
+/// Builds the library and returns its file.
 ///
 /// # Errors
-/// What is missing, or what the compiler says.
+/// Missing tools or an error of the compiler.
 pub fn library(core: Core, progress: &Progress) -> Result<PathBuf, SetUpError> {
     let target = match core {
         Core::M4 => Board::M4.target(),
@@ -136,10 +136,10 @@ pub fn compiler(core: Core, program: &str) -> Result<Command, SetUpError> {
     Ok(gcc)
 }
 
-/// Builds the example for the emulated board, with a body's file in it: an image, and the emulator for it.
+/// Builds the example for the emulated board, with a body's file in it; returns the image with its emulator.
 ///
 /// # Errors
-/// What is missing, or what a compiler says.
+/// Missing tools or an error of a compiler.
 pub fn example(body: &Path, elf: &Path, progress: &Progress) -> Result<Program, SetUpError> {
     let library = library(Core::M4, progress)?;
     let folder = folder()?.join("examples/cube");

@@ -5,10 +5,10 @@ use crate::repository;
 use anyhow::Context as _;
 use std::process::{Command, ExitCode};
 
-/// What runs them. Its script sets up everything else, and says so.
+/// The interpreter that runs their script. The script installs everything else and lists it.
 const PYTHON: &str = "python3";
 
-/// Whether everything is there that they need: they have run here before, and nothing has to be installed.
+/// Whether all their requirements are installed because they ran here before.
 pub fn is_set_up() -> bool {
     let builder = repository::root().map(|root| root.join("target/python/builder/complete"));
     on_path(PYTHON).is_some() && builder.is_ok_and(|mark| mark.exists())

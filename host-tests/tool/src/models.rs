@@ -30,31 +30,31 @@ pub const SHIPPED: [(&str, &str); 12] = [
 /// A model file that has been read.
 #[derive(Clone, Debug)]
 pub struct ModelFile {
-    /// What messages call it.
+    /// Name in messages.
     pub label: String,
-    /// Its name without a directory, as it stands in the head of the tables.
+    /// File name without the folder, as in the head of the tables.
     pub name: String,
-    /// What stands in it; nothing where it holds tables.
+    /// Text of the model; empty if the file holds tables.
     pub text: Cow<'static, str>,
     tables: Option<Box<Tables>>,
 }
 
-/// A body that is baked already.
+/// A baked body.
 #[derive(Clone, Debug)]
 struct Tables {
     bytes: Vec<u8>,
     file: BakedFile,
 }
 
-/// How a body's file is called.
+/// Extension of a body's file.
 const BAKED: &str = "palp";
 
 impl ModelFile {
-    /// Reads a file. Where there is none, and the path is a bare name, the model of this name that ships. A CAD part is
-    /// imported within the importer's own tolerance.
+    /// Reads a file. A bare name without such a file means the shipped model of this name. A CAD part is imported
+    /// within the importer's own tolerance.
     ///
     /// # Errors
-    /// If there is neither, or what is wrong with the part.
+    /// If there is neither a file nor a shipped model, or if the part is faulty.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let label = path.display().to_string();
         if let Some((name, text)) = SHIPPED.iter().find(|(name, _)| path.as_os_str() == *name)
@@ -77,7 +77,7 @@ impl ModelFile {
         }
     }
 
-    /// What was made of a CAD part; messages name the part.
+    /// The result of importing a CAD part; messages name the part.
     pub fn imported(part: &Path, text: String) -> Self {
         let name = part.file_name().unwrap_or(part.as_os_str()).to_string_lossy().into_owned();
         Self { label: part.display().to_string(), name, text: Cow::Owned(text), tables: None }
@@ -94,12 +94,12 @@ impl ModelFile {
         }
     }
 
-    /// What stands in it, as it is hashed.
+    /// The bytes of the file that are hashed.
     pub fn bytes(&self) -> &[u8] {
         self.tables.as_ref().map_or_else(|| self.text.as_bytes(), |tables| &tables.bytes)
     }
 
-    /// SHA-256 of the model file: of the one that was baked, if this holds tables.
+    /// SHA-256 of the model file; for a file of tables, of the model that they were baked from.
     pub fn digest(&self) -> [u8; 32] {
         self.tables.as_ref().map_or_else(|| Sha256::digest(self.text.as_bytes()).into(), |tables| tables.file.source)
     }
@@ -109,10 +109,10 @@ impl ModelFile {
         self.tables.as_ref().map(|tables| &tables.file.body)
     }
 
-    /// The tables of the model: those of the file, or baked, with a locator that lists everything everywhere.
+    /// The tables of the model: those of the file, or baked with a locator that lists all faces in every cell.
     ///
     /// # Errors
-    /// What is wrong with the model's patches, or between them.
+    /// A fault of the model's patches or of the joints between them.
     pub fn body(&self, model: &Model) -> Result<BakedBody, ModelError> {
         self.baked().map_or_else(|| BakedBody::new(model, &self.label), |body| Ok(body.clone()))
     }

@@ -1,6 +1,6 @@
 //! Processor time.
 
-/// What this process has spent so far, seconds, all its threads together; none where that is not known.
+/// Processor time of this process so far, seconds, all threads together; `None` if unknown.
 #[cfg(unix)]
 pub fn seconds() -> Option<f64> {
     use nix::sys::resource::{UsageWho, getrusage};
@@ -9,7 +9,7 @@ pub fn seconds() -> Option<f64> {
     Some(seconds(usage.user_time()) + seconds(usage.system_time()))
 }
 
-/// What this process has spent so far, seconds, all its threads together; none where that is not known.
+/// Processor time of this process so far, seconds, all threads together; `None` if unknown.
 #[cfg(not(unix))]
 pub fn seconds() -> Option<f64> {
     None

@@ -15,13 +15,14 @@ pub struct Query {
     pub probe: Vec3,
 }
 
-/// Its square, the largest number the controller forms of it, is far below the end of `f32`, 3e38.
+/// Maximum coordinate: its square, the largest number that the controller forms of it, is far below the maximum of
+/// `f32`, 3e38.
 const FARTHEST: f64 = 1e9;
 
-/// Reads the columns `qx`, `qy`, `qz`, in the unit and the frame of a model. Lines that begin with `#` are comments.
+/// Reads the columns `qx`, `qy`, `qz`, in the unit and the frame of a model. Lines that start with `#` are comments.
 ///
 /// # Errors
-/// What is wrong, with file and line.
+/// The first fault, with file and line.
 pub fn read(path: &Path, model: &Model) -> anyhow::Result<Vec<Query>> {
     let file = path.display();
     let per_metre = model.unit.per_metre();

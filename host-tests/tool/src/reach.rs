@@ -55,14 +55,14 @@ impl Reach {
         Ok(Self { shipped, far })
     }
 
-    /// What answers.
+    /// The solvers of the queries.
     pub fn solvers(&self) -> Solvers<'_> {
         let far = self.far.as_ref().map(Tables::solver);
         Solvers { reach: self, shipped: self.shipped.solver(), far }
     }
 }
 
-/// What answers queries.
+/// Solvers of queries.
 #[derive(Debug)]
 pub struct Solvers<'a> {
     reach: &'a Reach,

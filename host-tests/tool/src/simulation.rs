@@ -64,11 +64,11 @@ impl<S: Surface, K: Kinematics<3>, G: Guard<3>> Link for HostLoop<'_, S, K, G> {
 pub struct Sample {
     /// Seconds since the start.
     pub time: f64,
-    /// What the sensors said.
+    /// The sensors' values.
     pub sensors: Sensors,
-    /// What the loop answered.
+    /// The loop's report.
     pub report: Report,
-    /// Where the simulated probe really was, metres, in the device's frame.
+    /// True position of the simulated probe, metres, in the device's frame.
     pub probe: [f64; 3],
 }
 
@@ -81,11 +81,11 @@ pub struct Trace {
     pub samples: Vec<Sample>,
 }
 
-/// Runs `ticks` ticks of a loop against a plant. Force is asked for from tick `enable_at` on; before it the witness
-/// point converges in standby. `progress` is told each tick done.
+/// Runs `ticks` ticks of a loop against a plant. Force is requested from tick `enable_at` on; before it the witness
+/// point converges in standby. `progress` receives the number of each finished tick.
 ///
 /// # Errors
-/// What the link reports.
+/// An error of the link.
 pub fn run(
     link: &mut dyn Link,
     plant: &mut Plant,

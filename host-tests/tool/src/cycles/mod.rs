@@ -1,8 +1,8 @@
 //! Estimated cycles of the hot path on cores that the emulator does not time: each instruction that was executed, in
 //! its order, through a stated model of the core.
 //!
-//! An estimate, not a measurement: the emulator executes the right instructions and knows nothing of pipelines. What is
-//! stated is a range, and a real core with code and tables in memory without wait states is expected within it.
+//! An estimate, not a measurement: the emulator executes the right instructions but models no pipeline. The result is a
+//! range that should contain the cycles of a real core with code and tables in memory without wait states.
 
 mod model;
 mod trace;
@@ -17,11 +17,11 @@ use crate::race::Spread;
 pub struct Root {
     /// The function.
     pub function: &'static str,
-    /// What one call is.
+    /// Name of a call in the table.
     pub title: &'static str,
-    /// Number of first calls that are left out.
+    /// Number of first calls to skip.
     pub skip: usize,
-    /// Number of calls that are followed.
+    /// Number of calls to follow.
     pub take: usize,
 }
 
@@ -42,21 +42,21 @@ pub const ROOTS: [Root; 5] = [
     Root { function: "palpate_emulated::budget::servo::tick", title: "servo tick", skip: 0, take: 20_000 },
 ];
 
-/// What the calls of a root took.
+/// Instructions and cycles of the calls of a root.
 #[derive(Clone, Debug, Default)]
 pub struct Calls {
-    /// Instructions executed, a call.
+    /// Instructions executed in each call.
     pub instructions: Vec<u32>,
-    /// Cycles of the lower and of the upper end of the range, a call.
+    /// Cycles of each call, at the lower and the upper end of the range.
     pub cycles: [Vec<u32>; 2],
 }
 
-/// A figure of the table: median and greatest.
+/// A figure of the table: median and maximum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Figure {
     /// The lower median.
     pub median: u32,
-    /// The greatest.
+    /// The maximum.
     pub worst: u32,
 }
 

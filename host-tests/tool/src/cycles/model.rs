@@ -1,4 +1,4 @@
-//! What an instruction costs on a core.
+//! Cost of an instruction on a core.
 //!
 //! Cortex-M4F: Arm's *Cortex-M4 Technical Reference Manual*, "Processor instruction timings" and "FPU instruction set".
 //! Arm publishes no such table of the Cortex-M7; its range runs from two instructions in every cycle and every branch
@@ -19,11 +19,11 @@ pub enum Core {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cycles(pub [u32; 2]);
 
-/// What a division and a square root of floats take on either core.
+/// Cycles of a division and of a square root of floats, on either core.
 const FLOAT_DIVISION: u32 = 14;
-/// Multiply and add in one.
+/// Cycles of a fused multiply-add.
 const FLOAT_MULTIPLY_ADD: u32 = 3;
-/// A division of integers, as the operands are.
+/// Range of cycles of an integer division, depending on its operands.
 const DIVISION: [u32; 2] = [2, 12];
 /// Filling the M4's pipeline again.
 const M4_REFILL: [u32; 2] = [1, 3];
@@ -32,7 +32,7 @@ const M7_REFILL: u32 = 6;
 /// Cycles until the M7's next instruction can have the result of a float operation, beyond the one it took.
 const M7_FLOAT_STALL: u32 = 2;
 
-/// What of an instruction its cost hangs on.
+/// Properties of an instruction that determine its cost.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cost {
     kind: Kind,

@@ -25,7 +25,7 @@ pub enum TraceError {
     NotCalled(&'static str),
 }
 
-/// What an instruction costs, where it leads, and the address behind it.
+/// Cost of an instruction, its target, and the address behind it.
 type Costs = HashMap<u64, (Cost, Flow, u64)>;
 
 /// A call that is being followed.
@@ -36,11 +36,11 @@ struct Window {
     executed: Vec<u64>,
 }
 
-/// Runs the program that counts on a board until each of these roots was called often enough, and gives the
+/// Runs the program that counts on a board until each of these roots was called often enough, and returns the
 /// instructions and cycles of the calls on its core.
 ///
 /// # Errors
-/// What cannot be built, run or read.
+/// A program that cannot be built, run or read.
 pub fn estimate(
     board: Board,
     core: Core,

@@ -16,8 +16,8 @@ pub const STARTS: usize = 21;
 /// the runs leave a wide gap: Newton's end within 3e-8 of it, ours within 2e-6 (roundings of `f32`), and all others
 /// beyond 5e-2 or outside.
 pub const TOLERANCE: f64 = 1e-4;
-/// Steps a run may take. What arrives on the patches at hand needs 600 at most (ours, from a probe near to Table I),
-/// Newton's methods 81: those that still bounce about after so many are counted as lost.
+/// Maximum number of steps of a run. On the patches of the figures, a run that converges needs at most 600 steps (ours,
+/// from a probe near Table I) or 81 (Newton's methods). A run that still bounces at the limit counts as not converged.
 const STEP_LIMIT: usize = 1_000;
 
 /// A controller of the comparison.
@@ -47,7 +47,7 @@ impl Contender {
         Self::SecondOrder,
     ];
 
-    /// What tables call it.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Newton(Errors::MeasureNumbers) => "newton",
@@ -60,7 +60,7 @@ impl Contender {
         }
     }
 
-    /// What figures call it.
+    /// Name in figures.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Newton(_) => "Newton",
@@ -271,7 +271,7 @@ impl Comparison {
         }
     }
 
-    /// The mean and the least share of a controller over all probes.
+    /// The mean and the minimum share of a controller over all probes.
     pub fn mean_and_worst(&self, contender: Contender) -> (f64, f64) {
         let index = Contender::ALL.iter().position(|other| *other == contender).unwrap_or_default();
         let shares = || self.shares.iter().map(|row| row[index]);
@@ -279,9 +279,9 @@ impl Comparison {
     }
 }
 
-/// The probe whose basin under Newton is nearest to the mean in size, among those with a start that tells the paper's
-/// story: Newton leaves the patch, saturation bounces off the border at least twice and still arrives. Of its starts
-/// the one that bounces least, then the one that saturation is done with first. Without such a probe, the most average
+/// The probe whose basin under Newton is nearest to the mean in size, among those with a start that shows the paper's
+/// argument: Newton leaves the patch, while saturation reaches the border at least twice and still converges. Among its
+/// starts, the one with the fewest bounces, then the one with the fewest steps. Without such a probe, the most average
 /// one and its first start from which Newton fails.
 fn representative(subject: &Subject, targets: &[Target], shares: &[[f64; Contender::ALL.len()]]) -> (usize, [f64; 2]) {
     let mean = shares.iter().map(|row| row[0]).sum::<f64>() / shares.len() as f64;

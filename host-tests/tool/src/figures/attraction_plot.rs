@@ -10,9 +10,9 @@ use plotters::prelude::*;
 
 /// Does not converge.
 const DARK: RGBColor = RGBColor(87, 96, 106);
-/// A step is drawn on the surface through so many points.
+/// Number of points of the surface that a drawn step passes through.
 const STEP_POINTS: usize = 16;
-/// A path of more steps is drawn without their dots.
+/// Maximum number of steps of a path that is drawn with dots.
 const MOST_DOTS: usize = 60;
 
 /// The figure, as SVG text.

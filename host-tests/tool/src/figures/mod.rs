@@ -1,4 +1,4 @@
-//! The paper's figures, computed anew: the numbers first, then what draws them.
+//! The paper's figures, recomputed: first the numbers, then the drawings.
 
 pub mod attraction;
 mod attraction_plot;

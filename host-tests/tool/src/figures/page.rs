@@ -1,4 +1,4 @@
-//! What the panels of all figures share.
+//! Parts shared by the panels of all figures.
 
 use super::subject::Subject;
 use crate::drawing::{Drawing, DrawingResult, RED_INK, SURFACE_INK, TEXT_INK, View, draw, equal_scale};
@@ -147,7 +147,7 @@ pub fn view_across(subject: &Subject, lines: &[([f64; 2], DVec3)]) -> View {
         .unwrap_or(View::FRONT_RIGHT)
 }
 
-/// The patch as a net, with room for these points besides.
+/// Draws the patch as a net, scaled so that the given points fit too.
 pub fn scene<'a, 'b>(
     area: &'a Drawing<'b>,
     title: &str,

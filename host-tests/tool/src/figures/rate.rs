@@ -78,7 +78,7 @@ fn off(witness: &Witness, closest: [f64; 2]) -> f64 {
     (u - closest[0]).hypot(v - closest[1])
 }
 
-/// The greatest error of a probe that moves evenly.
+/// The maximum error while a probe moves evenly.
 #[derive(Clone, Copy, Debug)]
 pub struct Lag {
     /// Of the probe's foot in the middle of its way, m/s.

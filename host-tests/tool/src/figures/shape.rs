@@ -1,4 +1,4 @@
-//! What a model looks like: its patches as nets of lines.
+//! Drawing of a model: its patches as nets of lines.
 
 use crate::drawing::{BLUE_INK, SURFACE_INK, View, draw, equal_scale};
 use palpate::patch::SplinePatch;

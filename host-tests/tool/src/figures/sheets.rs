@@ -16,18 +16,18 @@ use anyhow::ensure;
 use palpate::track::Integrator;
 use std::fmt::Write as _;
 
-/// What can be chosen.
+/// Settings of the figures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Probes of Figure 7.
     pub probes: usize,
-    /// Their least and greatest distance from the patch, in its sizes.
+    /// Minimum and maximum distance of the probes from the patch, as multiples of its size.
     pub distances: [f64; 2],
     /// Their seed.
     pub seed: u64,
 }
 
-/// What is being computed.
+/// Stage of the computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Figure 6: the search for a passage.
@@ -51,7 +51,7 @@ impl Sheet {
     }
 }
 
-/// Computes all figures of a patch. `progress` hears the stage, what is done of it and how much there is.
+/// Computes all figures of a patch. `progress` receives the stage, the number of finished parts and their total.
 ///
 /// # Errors
 /// A patch without a probe for Figure 7, a measured limit far from the prediction, or a drawing that failed.

@@ -12,7 +12,7 @@ use std::path::Path;
 /// The first patch of a model.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// What files and headings call it.
+    /// Name in files and headings.
     pub name: String,
     /// In double precision, for the oracle and the baselines.
     pub surface: NurbsPatch,

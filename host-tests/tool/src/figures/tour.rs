@@ -62,7 +62,7 @@ pub struct Slice {
     pub axes: [&'static str; 2],
     /// Ranges along them, metres.
     pub ranges: [[f64; 2]; 2],
-    /// Who owns each cell of a square grid; `None` inside the body.
+    /// Owner of each cell of a square grid; `None` inside the body.
     pub cells: Vec<Vec<Option<Feature>>>,
 }
 
@@ -127,7 +127,7 @@ impl Touring {
         (0..ticks).map(sample).collect()
     }
 
-    /// A horizontal and an upright slice through the middle, so many cells wide.
+    /// A horizontal and an upright slice through the middle, each `cells` wide.
     pub fn slices(&self, cells: usize) -> [Slice; 2] {
         let surfaces: Vec<_> = self.baked.faces.iter().map(|face| face.surface.clone()).collect();
         let oracle = BodyOracle::new(&surfaces);
@@ -152,7 +152,7 @@ impl Touring {
         })
     }
 
-    /// Who claims a probe by the tables; on a border between regions the first of those that do.
+    /// The feature that owns a probe according to the tables; on a border between regions the first match.
     fn owner(&self, oracle: &BodyOracle<'_>, probe: Vec3) -> Option<Feature> {
         let truth = oracle.closest(probe.as_dvec3());
         if truth.is_inside_convex() {

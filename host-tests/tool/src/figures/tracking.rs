@@ -1,4 +1,4 @@
-//! Figure 8: following a probe that moves, with gains that are good, too high and too low; and where too high begins.
+//! Figure 8: following a moving probe with a good gain, one too high and one too low; and the limit of the gain.
 
 use super::page::{Axes, THICK, THIN, dot, key, legend, page, scene, view_across};
 use super::subject::Subject;
@@ -67,16 +67,16 @@ impl Configuration {
         Some(Self { foot, curvature, distance, probe })
     }
 
-    /// The greatest stable gain, 1/s: `z / (h (1 + κ ‖ΔR‖))`.
+    /// The maximum stable gain, 1/s: `z / (h (1 + κ ‖ΔR‖))`.
     pub fn predicted_limit(&self, integrator: Integrator) -> f64 {
         f64::from(integrator.stability_bound()) / (PERIOD * (1.0 + self.curvature * self.distance))
     }
 
-    /// The greatest stable gain, 1/s, by bisection: from a witness point that is a little off along the worst
-    /// direction, the error shrinks below it and grows above it.
+    /// The maximum stable gain, 1/s, by bisection: a small error of the witness point along the worst direction shrinks
+    /// below this gain and grows above it.
     ///
     /// # Errors
-    /// A limit that is nowhere near the prediction.
+    /// If the limit is far from the prediction.
     pub fn measured_limit(&self, subject: &Subject, integrator: Integrator) -> anyhow::Result<f64> {
         let predicted = self.predicted_limit(integrator);
         let (mut stable, mut unstable) = (0.5 * predicted, 1.5 * predicted);
@@ -150,7 +150,7 @@ pub fn certified_runs(subject: &Subject, rest: &Configuration) -> [Vec<Sample>; 
         .map(|controller| track(subject, rest, &controller, 0.7))
 }
 
-/// Follows the moving probe, whatever comes of it, for so many seconds.
+/// Follows the moving probe for `seconds`, even if the witness point is lost.
 fn track(subject: &Subject, rest: &Configuration, controller: &Controller, seconds: f64) -> Vec<Sample> {
     let patch = &subject.patch;
     let start = [0, 1].map(|i| (rest.foot[i] + START[i]) as f32);
@@ -251,7 +251,7 @@ pub fn draw_tracking(
     })
 }
 
-/// What single precision leaves of the errors, and what is drawn of less.
+/// Smallest error that is drawn: about the resolution of single precision.
 const LEAST: f64 = 1e-8;
 
 fn lags(area: &Drawing<'_>, runs: [&Vec<Sample>; 3]) -> DrawingResult {

@@ -64,7 +64,7 @@ impl Board {
         Ok(repository::root()?.join("boards/emulated"))
     }
 
-    /// What cargo must be told to build for this one, by `--config`.
+    /// The file to pass to cargo's `--config` for this board.
     ///
     /// # Errors
     /// Outside of the repository.
@@ -160,7 +160,7 @@ impl AnyBoard {
         }
     }
 
-    /// What cargo must be told besides, by `--config`.
+    /// The file to pass to cargo's `--config` in addition, if the board needs one.
     ///
     /// # Errors
     /// Outside of the repository.

@@ -12,7 +12,7 @@ use std::process::Command;
 pub(super) const RUSTC: &str = "/usr/bin/rustc";
 pub(super) const CARGO: &str = "/usr/bin/cargo";
 pub(super) const CARGO_CLIPPY: &str = "/usr/bin/cargo-clippy";
-/// The least minor version of Rust 1 that compiles the library.
+/// The minimum minor version of Rust 1 that compiles the library.
 const LEAST_MINOR: u32 = 88;
 /// Part of the stamp: raise it when this file lays the cache out differently.
 const LAYOUT: u32 = 1;
@@ -25,7 +25,7 @@ pub(super) fn is_at_hand(target: &str) -> bool {
     is_built(target, &compiler.sysroot(&cache, target), &compiler.stamp())
 }
 
-/// Installs what is missing and builds the library, unless the cache holds it.
+/// Installs the missing packages and builds the library, unless the cache holds it.
 pub(super) fn set_up(target: &str, progress: &Progress) -> Result<Way, SetUpError> {
     install_missing(target, progress)?;
     let missing =
@@ -90,7 +90,7 @@ impl Compiler {
         cache.join(format!("debian-rust-{}-{target}", self.release))
     }
 
-    /// What says that it was built by this compiler, in this way.
+    /// The stamp: names this compiler and this layout of the cache.
     fn stamp(&self) -> String {
         format!("layout {LAYOUT}\n{}", self.version)
     }

@@ -89,7 +89,7 @@ impl Emulator {
         Self { child, transport, line, receiver: Receiver::new(), buffer: [0; MAX_FRAME], next: 0, end: 0, folder }
     }
 
-    /// What lies in its flash now; nothing, if it has never been written.
+    /// The content of its flash; empty if it was never written.
     ///
     /// # Errors
     /// If it cannot be read.
@@ -116,7 +116,7 @@ impl Emulator {
         Err(LinkError::Silent(patience))
     }
 
-    /// Reads what is there, or waits for it.
+    /// Reads the available bytes, or waits for some.
     fn fill(&mut self) -> Result<(), LinkError> {
         self.next = 0;
         self.end = 0;

@@ -9,7 +9,7 @@ use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 use tempfile::TempDir;
 
-/// What goes into the image.
+/// Contents of the image.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
     /// The board.
@@ -22,10 +22,10 @@ pub struct Choice {
     pub protected: bool,
 }
 
-/// An image and what it takes.
+/// An image and its sizes.
 #[derive(Clone, Debug)]
 pub struct Image {
-    /// What it runs on.
+    /// The board that it runs on.
     pub board: Board,
     /// The ELF file.
     pub elf: PathBuf,
@@ -55,8 +55,8 @@ impl Images {
 }
 
 impl Choice {
-    /// Where it is built. A body or settings of its own go apart from the rest: cargo builds anew what was built with
-    /// others.
+    /// The folder of the build. Images with another body or other settings have a folder of their own, because cargo
+    /// rebuilds when these change.
     fn target_folder(&self, toolchain: &Toolchain) -> Result<PathBuf, SetUpError> {
         let folder = toolchain.target_folder()?;
         Ok(if self.body.is_some() || self.settings.is_some() { folder.join("chosen") } else { folder })
@@ -66,7 +66,7 @@ impl Choice {
 /// Builds the images with the body and settings of `choice`.
 ///
 /// # Errors
-/// What the compiler says, or what is wrong with a file.
+/// An error of the compiler or a faulty file.
 pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Result<Images, SetUpError> {
     let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
     let build =
@@ -77,7 +77,7 @@ pub fn build(toolchain: &Toolchain, choice: &Choice, progress: &Progress) -> Res
 /// Builds one of the board's programs into a folder, with features of its crate.
 ///
 /// # Errors
-/// What the compiler says, or what is wrong with a file.
+/// An error of the compiler or a faulty file.
 pub fn build_program(
     toolchain: &Toolchain,
     choice: &Choice,
@@ -110,7 +110,7 @@ const ON_EVERY_CORE: [&str; 4] = ["uart", "fifo", "parity", "accept"];
 /// Builds the programs that the tests run on a board, in parallel: each is ready when it is asked for.
 ///
 /// # Errors
-/// What is missing, or what the compiler says.
+/// Missing tools or an error of the compiler.
 pub fn build_all(board: Board, progress: &Progress) -> Result<(), SetUpError> {
     let toolchain = Toolchain::set_up(board.target(), progress)?;
     let mut cargo = cargo_build(&toolchain, &Choice { board, ..Choice::default() })?;
@@ -152,7 +152,7 @@ pub type BenchBody<'a> = (&'a Path, Place);
 /// Builds the program of a board for the bench, with its own body or another, and gives the ELF file.
 ///
 /// # Errors
-/// What the compiler says.
+/// An error of the compiler.
 pub fn build_bench(board: BenchBoard, body: Option<BenchBody<'_>>, progress: &Progress) -> Result<PathBuf, SetUpError> {
     let toolchain = Toolchain::set_up(board.target(), progress)?;
     let target_folder = toolchain.target_folder()?;

@@ -26,8 +26,8 @@ impl Line {
         }
     }
 
-    /// Reads what is there, or waits for it: how many bytes, 0 if the other end has hung up, `None` if nothing came in
-    /// that time.
+    /// Reads the available bytes, or waits for some: their number, 0 if the other end has closed the line, `None` if
+    /// nothing arrived within `wait`.
     pub fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
         let read = match self {
             Self::Socket(stream) => {

@@ -12,7 +12,7 @@ pub enum LinkError {
     /// Nothing came in time.
     #[error("no report from the device within {0:?}")]
     Silent(Duration),
-    /// What came is no report.
+    /// The frame is not a report.
     #[error("a damaged frame came from the device")]
     Damaged,
     /// The report is of another tick than the sensors.
@@ -28,7 +28,7 @@ pub enum LinkError {
     Ended {
         /// How it ended.
         status: String,
-        /// What it said.
+        /// Its output.
         output: String,
     },
     /// The line itself failed.

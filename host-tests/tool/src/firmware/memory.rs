@@ -1,4 +1,4 @@
-//! The memories of the boards for the bench: where a body's tables would lie, and where the linker put everything.
+//! The memories of the bench boards: place of a body's tables, and the linker's use of each memory.
 
 use super::{BenchBoard, SetUpError};
 use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind, elf};
@@ -11,29 +11,29 @@ use std::path::Path;
 pub struct Memory {
     /// Its name, as the board's memory map has it.
     pub name: &'static str,
-    /// Its first address.
+    /// Its name in the board's memory map.
     pub start: u64,
     /// Its bytes.
     pub bytes: u64,
-    /// What it is.
+    /// Kind of memory.
     pub kind: &'static str,
 }
 
-/// Where a body's tables lie.
+/// Place of a body's tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// All in the fastest memory.
     Fast,
-    /// In flash, behind its cache, as far as the board does not find room for some of them in faster memory.
+    /// In flash, behind its cache, except for tables that the board copies to faster memory.
     Flash,
 }
 
-/// Which image of a board it is: each has a memory map of its own.
+/// Kind of a board's image; each kind has its own memory map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It feels what it was built with.
+    /// It renders the body that it was built with.
     Alone,
-    /// A host may order about what is felt (feature `host`).
+    /// A host may change the rendered body (feature `host`).
     Hosted,
 }
 
@@ -86,26 +86,26 @@ impl BenchBoard {
         }
     }
 
-    /// Bytes of tables that its fastest memory has room for, and its flash: what the loop and its largest body's code
-    /// need is left out.
+    /// Bytes available for tables in the fastest memory and in flash: the capacity less the needs of the loop and of
+    /// the code of its largest body.
     const fn room(self, kind: Kind) -> [u64; 2] {
         match (self, kind) {
             // 16 KB of TABLES for code that CCM does not take and for constants; 32 KB of flash for the program.
             (Self::Stm32g4, Kind::Alone) => [56 * KB, 352 * KB],
-            // 96 KB for code: that of the largest kind of body and of the plug, and constants.
+            // 96 KB for the code of the largest kind of body and of the plug, and for constants.
             (Self::Pico2, Kind::Alone) => [352 * KB, (3 * KB - 64) * KB],
-            // 32 KB of stack, 32 KB of variables and constants, the USB controller's lists among them.
+            // 32 KB of stack, 32 KB of variables and constants, including the USB controller's lists.
             (Self::Teensy41, Kind::Alone) => [256 * KB, (7_936 - 256) * KB],
-            // A scene's code takes most of CCM and TABLES. With what variables begin with it takes 83 KB of the
+            // A scene's code takes most of CCM and TABLES. With the initial values of variables it takes 83 KB of the
             // program's bank of flash.
             (Self::Stm32g4, Kind::Hosted) => [4 * KB, 44 * KB],
             (Self::Pico2, Kind::Hosted) => [160 * KB, (3 * KB - 64) * KB],
-            // Two banks for bodies of a host take 182 KB.
+            // The two banks for bodies of a host take 182 KB.
             (Self::Teensy41, Kind::Hosted) => [64 * KB, (7_936 - 256) * KB],
         }
     }
 
-    /// Where so many bytes of tables lie on this board; `None` if they do not fit.
+    /// The memory that holds `tables` bytes of tables on this board; `None` if they do not fit.
     pub const fn place(self, kind: Kind, tables: u64) -> Option<Place> {
         let [fast, flash] = self.room(kind);
         if tables <= fast {
@@ -131,7 +131,7 @@ impl BenchBoard {
     }
 }
 
-/// What an image of a board takes of each of its memories, and where the body's tables lie.
+/// Reports the size of an image in each memory of a board, and the memory that holds the body's tables.
 ///
 /// # Errors
 /// If the file cannot be read.

@@ -25,11 +25,11 @@ pub enum SetUpError {
     /// A program ended with an error.
     #[error("`{command}` failed ({status})\n{output}")]
     Failed {
-        /// What was run.
+        /// The command line.
         command: String,
-        /// How it ended.
+        /// Its exit status.
         status: String,
-        /// The end of what it said.
+        /// The end of its output.
         output: String,
     },
     /// A file or program could not be reached.
@@ -45,7 +45,7 @@ pub enum SetUpError {
     Image {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault of the image.
         reason: String,
     },
 }

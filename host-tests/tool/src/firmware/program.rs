@@ -20,10 +20,10 @@ pub struct Program {
 }
 
 impl Program {
-    /// Sets up what is missing and builds a program, with features of the board's crate.
+    /// Installs missing tools and builds a program, with features of the board's crate.
     ///
     /// # Errors
-    /// What is missing or wrong.
+    /// Missing tools or a failed build.
     pub fn prepare(board: Board, program: &str, features: &[&str], progress: &Progress) -> Result<Self, SetUpError> {
         Self::prepare_with(&Choice { board, ..Choice::default() }, program, features, progress)
     }
@@ -31,7 +31,7 @@ impl Program {
     /// The same with a choice of body and settings.
     ///
     /// # Errors
-    /// What is missing or wrong.
+    /// Missing tools or a failed build.
     pub fn prepare_with(
         choice: &Choice,
         program: &str,
@@ -56,16 +56,16 @@ impl Program {
         Ok(Self { qemu: Qemu::set_up(progress)?, image: image::measure(board, elf)?, _folder: folder })
     }
 
-    /// Runs it to its end, by itself, and gives what it printed.
+    /// Runs the program alone, without a link to the host, and returns its output.
     ///
     /// # Errors
-    /// What it printed before it failed.
+    /// The program's output, if it failed.
     pub fn run(&self, pace: Pace) -> Result<String, SetUpError> {
         output(&mut self.qemu.board(&self.image.elf, self.image.board, pace))
     }
 
-    /// Runs it with every block of instructions logged that begins in one of these ranges (start, length): a line
-    /// `Trace …` each on its standard error.
+    /// Runs the program and logs every block of instructions that starts in one of these ranges (start, length), as a
+    /// line `Trace …` on its standard error.
     ///
     /// # Errors
     /// If the emulator does not start.

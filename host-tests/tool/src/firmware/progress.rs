@@ -1,11 +1,11 @@
-//! What is going on, for the person who waits: a spinner on a terminal, plain lines elsewhere.
+//! Progress display of long steps: a spinner on a terminal, plain lines elsewhere.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::env;
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};
 
-/// Says on standard error what is being done.
+/// Prints the current step on standard error.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     spins: bool,

@@ -8,16 +8,16 @@ use std::process::{Command, Stdio};
 
 const PROGRAM: &str = "qemu-system-arm";
 
-/// What the emulated clock goes by.
+/// Pace of the emulated clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// 64 ns an instruction whatever the host does, and time that is slept is skipped: every run is the same, and a
-    /// count of 25 MHz tells one instruction from the next.
+    /// 64 ns an instruction independent of the host, and sleep is skipped: runs are reproducible, and a counter of 25
+    /// MHz resolves single instructions.
     Counting,
-    /// The same with 8 ns, as on a real board: time is left between two ticks for what runs below them, though a tick
-    /// here has frames to read and write that a real one has not. Instructions are not counted.
+    /// The same with 8 ns, as on a real board: time remains between two ticks for tasks of lower priority, although a
+    /// tick here also has to read and write frames. Instructions are not counted.
     Brisk,
-    /// The host's clock, which is faster: nothing can be counted, and what does not look at a clock is the same.
+    /// The host's clock, which is faster: counts are meaningless, and only code that reads no clock behaves the same.
     Free,
 }
 
@@ -31,11 +31,11 @@ impl Pace {
     }
 }
 
-/// An emulator that starts.
+/// An emulator, ready to start.
 #[derive(Clone, Debug)]
 pub struct Qemu {
     program: PathBuf,
-    /// What it says about its version.
+    /// Its version, as it prints it.
     pub version: String,
 }
 

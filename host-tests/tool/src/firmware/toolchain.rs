@@ -36,7 +36,7 @@ impl Toolchain {
         has_target(target) || debian::is_at_hand(target)
     }
 
-    /// What it compiles for.
+    /// The target triple.
     pub const fn target(&self) -> &'static str {
         self.target
     }

@@ -1,6 +1,6 @@
-//! What carries the frames between host and emulator.
+//! Transports of frames between host and emulator.
 
-/// What carries the frames.
+/// Transport of the frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transport {
     /// The board's UART: the real link.

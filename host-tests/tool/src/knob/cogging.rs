@@ -21,17 +21,17 @@ const SLOW: usize = 4;
 const FAST: usize = ENTRIES / 6;
 /// An electrical turn of the field.
 const TURN: i32 = 65_536;
-/// Where the measured part of both ways begins: friction has come round, and the rotor was caught before.
+/// Start of the measured part in both directions: by then friction has reversed and the rotor follows the field.
 const BEGIN: i32 = TURN + TURN / 4 * 3;
-/// How far the field is led, 65,536ths of an electrical turn: all of a turn of the motor is measured, and on the way
-/// back friction comes round before that.
+/// Travel of the field, 65,536ths of an electrical turn: a whole turn of the motor is measured, and on the way back
+/// friction reverses before that part.
 pub const LED: i32 = BEGIN + SEARCH.commutation.pole_pairs as i32 * TURN + TURN / 4 * 3;
-/// How far the rotor may be from where it is on average, radians: a sixth of an electrical turn. Farther, it slips.
+/// Maximum distance of the rotor from its average position, radians: a sixth of an electrical turn. Beyond, it slips.
 const ASTRAY: f64 = TAU / 6.0;
 
 const COMMUTATION: Commutation = SEARCH.commutation;
 
-/// What is seen at a time.
+/// Field and rotor at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sample {
     /// How far the field has been led, 65,536ths of an electrical turn.
@@ -55,7 +55,7 @@ pub enum Unbelievable {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording(Vec<f64>);
 
-/// What is seen of a place on the way there and back.
+/// Sums of the samples near a place, there and back.
 #[derive(Clone, Copy, Default)]
 struct Place {
     sum: [f64; 2],
@@ -112,7 +112,7 @@ pub fn analyse(ways: [&[Sample]; 2], torque: f64) -> Result<Recording, Unbelieva
     Ok(Recording(smooth(&filled(&places))))
 }
 
-/// The mean of both ways at each place; where the rotor jumped over one, what is on its left.
+/// The mean of both directions at each place; a place that the rotor jumped over takes the value to its left.
 fn filled(places: &[Place]) -> Vec<f64> {
     let mean = |place: &Place, way: usize| (place.seen[way] > 0).then(|| place.sum[way] / f64::from(place.seen[way]));
     let mut torques: Vec<Option<f64>> =
@@ -184,7 +184,7 @@ impl Recording {
 /// Steps of a fiftieth of a second in which the key may be found: half a minute.
 const PATIENCE: u32 = 1_500;
 
-/// What a reading says of field and rotor.
+/// Field and rotor according to a reading.
 const fn sample(reading: &Reading) -> Sample {
     Sample { field: reading.counts[2], counts: reading.counts[0] }
 }

@@ -37,7 +37,7 @@ impl SharedKnob {
         Self(Arc::new(Mutex::new(KnobWorld { dial, enable: false })))
     }
 
-    /// What it is now.
+    /// The current state of the simulated knob.
     pub fn world(&self) -> MutexGuard<'_, KnobWorld> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,4 +1,4 @@
-//! A hand that turns the knob through every feel, and what is measured meanwhile.
+//! A hand that turns the knob through every feel, and the measurements during that.
 
 use super::{DIAL_ZERO, FEELS, FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, report, widths};
 use crate::firmware::LinkError;
@@ -12,9 +12,9 @@ use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
 const UNTIL_FELT: u32 = SEARCH.ticks() + 1_200;
 /// Ticks of a way, there or back.
 const WAY: u32 = 4_800;
-/// How far a way goes, radians: a whole number of detents and of the finest cogging.
+/// Length of a way, radians: a whole number of detents and of the finest cogging.
 const FAR: f64 = std::f64::consts::TAU / 4.0;
-/// Ticks between two feels, for the hand to come to where the next begins.
+/// Ticks between two feels, in which the hand moves to the start of the next one.
 const BETWEEN: u32 = 800;
 /// Ticks after the magnet has slipped.
 const AFTER: u32 = 400;
@@ -39,14 +39,15 @@ pub struct Turned {
     pub torque: f64,
     /// The largest of the phases' currents, A.
     pub current: f64,
-    /// What the loop answered.
+    /// The loop's report.
     pub report: Report,
 }
 
-/// Turns a dial through every feel, there and back, and lets its magnet slip at the end. `exchange` is the loop's end.
+/// Turns a dial through every feel, there and back, and lets its magnet slip at the end. `exchange` passes the sensors
+/// to the loop.
 ///
 /// # Errors
-/// What the link says.
+/// An error of the link.
 pub fn turn(
     settings: DialSettings,
     mut exchange: impl FnMut(&Sensors) -> Result<Report, LinkError>,
@@ -74,7 +75,7 @@ pub fn turn(
     Ok(turned)
 }
 
-/// What the hand does at a tick, which feel is chosen, and the way it is on.
+/// The hand's action at a tick, the chosen feel, and the current way.
 fn grip(dial: &mut Dial, tick: u32) -> (u8, Option<usize>) {
     let Some(felt) = tick.checked_sub(UNTIL_FELT) else { return (0, None) };
     let feels = FEELS.len() as u32;
@@ -151,8 +152,8 @@ pub fn curve(turned: &[Turned], feel: u8) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// How far the peaks of the detents on the ways are from their torque at most, as a share: the greatest torque within
-/// three tenths of a pitch, on either side of each detent that is whole.
+/// Maximum relative error of the detents' peak torques on the ways. A peak is the maximum torque within three tenths of
+/// a pitch, on either side of each complete detent.
 pub fn worst_detent(curve: &[(f64, f64)], pitch: f64, torque: f64) -> f64 {
     let whole = (0.5 * FAR / pitch) as i32 - 1;
     let peak = |detent: i32, side: f64| {

@@ -4,7 +4,7 @@ use palpate::servo::{Fault, Phase};
 use palpate::track::Contact;
 use palpate::wire::Record;
 
-/// What a record says.
+/// Figures of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     /// The record itself.

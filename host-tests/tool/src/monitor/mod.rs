@@ -1,4 +1,4 @@
-//! What a running device tells of itself: from the bytes of its line to figures that a person can read.
+//! Monitor of a running device: turns the bytes of its line into readable figures.
 
 mod figures;
 mod table;
@@ -9,25 +9,25 @@ pub use table::Table;
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
 use palpate::wire::{DeviceMessage, Record};
 
-/// Takes the bytes of a line as they come and gives the records in them. Damaged and lost ones are counted.
+/// Extracts the records from the bytes of a line and counts the damaged and the lost ones.
 #[derive(Debug, Default)]
 pub struct Monitor {
     receiver: Receiver<DeviceMessage>,
-    /// Whether a delimiter was seen: what comes before it is the rest of a frame that began without us.
+    /// Whether a delimiter was seen; the bytes before it are the rest of a frame whose start was missed.
     in_step: bool,
     last: Option<Record>,
-    /// Records taken.
+    /// Received records.
     pub records: u64,
-    /// Frames that came damaged.
+    /// Damaged frames.
     pub damaged: u64,
-    /// Records that the device sent and that did not come, the damaged ones among them.
+    /// Records that were sent but not received, including the damaged ones.
     pub lost: u64,
-    /// How often the device began anew.
+    /// Number of resets of the device.
     pub resets: u64,
 }
 
 impl Monitor {
-    /// Takes the next byte; the last one of a record gives its figures.
+    /// Takes the next byte; the last byte of a record completes its figures.
     pub fn feed(&mut self, byte: u8) -> Option<Figures> {
         if !self.in_step {
             self.in_step = byte == DELIMITER;
@@ -46,7 +46,7 @@ impl Monitor {
 
     fn take(&mut self, record: Record) -> Figures {
         self.records += 1;
-        // The numbers of a device that began anew begin anew too; nothing can be measured across that.
+        // After a reset the numbers start again, so that no difference to the previous record makes sense.
         let last = self.last.replace(record).filter(|last| {
             let goes_on = record.number > last.number && record.tick >= last.tick;
             self.resets += u64::from(!goes_on);

@@ -13,16 +13,17 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// What a page is made with, as its modules read it.
+/// Data of a page, as its modules read it.
 #[derive(Debug, Serialize)]
 pub struct Given {
     /// The name of the body that is shown first.
     pub first: String,
     /// The bodies to choose from.
     pub bodies: Vec<Shown>,
-    /// What the million ticks of `palpate_bench::exercise` come to on the host, and so on every board that is tested.
+    /// State hash after the million ticks of `palpate_bench::exercise` on the host; every tested board must reach the
+    /// same.
     pub script: String,
-    /// A run to be shown at once.
+    /// A run to show at once.
     pub recording: Option<Recording>,
 }
 
@@ -31,7 +32,7 @@ pub struct Given {
 pub struct Shown {
     /// Its name.
     pub name: String,
-    /// What the list calls it.
+    /// Its title in the list.
     pub title: String,
     /// Its file, in base64.
     pub palp: String,
@@ -52,7 +53,7 @@ impl Shown {
 /// The page, with its firmware.
 ///
 /// # Errors
-/// A file of the page that is not there, or a place in it for what is to be put in.
+/// If a file of the page, or a placeholder in it, is missing.
 pub fn bundle(given: &Given, firmware: &[u8]) -> anyhow::Result<String> {
     let folder = repository::root()?.join("host-tests/page");
     let web = folder.join("web");

@@ -21,11 +21,11 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// Longer than any request line of a browser.
 const LONGEST_REQUEST: u64 = 16 * 1024;
 
-/// Answers every request with the page until it is stopped; `ready` is told the address first. Port 0 is any free
-/// one.
+/// Answers every request with the page until the process is stopped; passes the address to `ready` first. Port 0 means
+/// any free port.
 ///
 /// # Errors
-/// A port that cannot be had.
+/// If the port is taken or not allowed.
 pub fn serve(page: &str, port: u16, ready: impl FnOnce(&str)) -> anyhow::Result<()> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).with_context(|| format!("port {port}"))?;
     ready(&format!("http://{}/", listener.local_addr()?));
@@ -56,10 +56,10 @@ fn answer(mut stream: TcpStream, page: &str) -> std::io::Result<()> {
 /// The compiler's name for a browser.
 pub const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Sets up the compiler as far as it is missing, builds the module and gives its bytes.
+/// Installs missing parts of the compiler, builds the module and returns its bytes.
 ///
 /// # Errors
-/// What is missing, or what the compiler says.
+/// Missing tools or an error of the compiler.
 pub fn compile(progress: &Progress) -> Result<Vec<u8>, SetUpError> {
     let (toolchain, target_folder, module) = places(progress)?;
     let mut cargo = toolchain.cargo();
@@ -70,10 +70,10 @@ pub fn compile(progress: &Progress) -> Result<Vec<u8>, SetUpError> {
     fs::read(&module).map_err(SetUpError::io(module.display()))
 }
 
-/// The module where it has been built here before, as [`compile`] gives it; `None` where that would take setting up.
+/// Builds the module as [`compile`] does, or returns `None` if it was never built here.
 ///
 /// # Errors
-/// What the compiler says.
+/// An error of the compiler.
 pub fn compiled(progress: &Progress) -> Result<Option<Vec<u8>>, SetUpError> {
     if !Toolchain::is_at_hand(TARGET) || !places(progress)?.2.exists() {
         return Ok(None);
@@ -91,7 +91,7 @@ fn places(progress: &Progress) -> Result<(Toolchain, PathBuf, PathBuf), SetUpErr
 
 // The browser that the page is tested in.
 
-/// What Chromium is called.
+/// Names of the Chromium executable.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
 /// A Chromium.

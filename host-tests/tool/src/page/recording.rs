@@ -1,5 +1,5 @@
-//! A run as the page takes it: what the sensors said, tick by tick, and how the loop was set. The page feels it
-//! anew with the firmware's code and compares the hash.
+//! A run as the page reads it: the sensors' values, tick by tick, and the settings of the loop. The page renders it
+//! again with the firmware's code and compares the hash.
 
 use crate::report::Summary;
 use crate::simulation::Trace;
@@ -15,25 +15,25 @@ use thiserror::Error;
 pub struct Recording {
     /// `recording`.
     pub palpate: String,
-    /// On what it was run.
+    /// The board or machine of the run.
     pub on: String,
     /// The name of the model, or of the scene.
     pub model: String,
-    /// The bodies: one, or each of a scene's once.
+    /// The bodies; each body of a scene once.
     pub bodies: Vec<RecordedBody>,
-    /// The scene's numbers, as `palpate_sim::recorded` has them, in base64; none, where one body is felt.
+    /// The scene's numbers, in the format of `palpate_sim::recorded`, in base64; `None` for a single body.
     pub scene: Option<RecordedScene>,
     /// The device's name.
     pub device: String,
-    /// Its numbers, as `palpate_sim::recorded` has them, in base64, with those of what protects it.
+    /// Its numbers, in the format of `palpate_sim::recorded`, in base64, with those of its protection.
     pub device_numbers: String,
-    /// Rate, stiffness, damping, greatest force, velocity corner, soft start, and the body's origin: SI units.
+    /// Rate, stiffness, damping, maximum force, velocity corner, soft start, and the body's origin: SI units.
     pub settings: [f32; 9],
     /// Seconds without a host after which the loop stops.
     pub link_timeout: f32,
     /// Ticks.
     pub ticks: usize,
-    /// The tick from which force was asked for.
+    /// The tick from which force is requested.
     pub enable_at: u32,
     /// Differences of the three counts from tick to tick, zig-zag and LEB128, in base64.
     pub counts: String,
@@ -53,9 +53,9 @@ pub struct RecordedBody {
 /// A scene of a recorded run.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub struct RecordedScene {
-    /// What each of its parts is called, and which of the recorded bodies it is.
+    /// Name of each part, and index of its body among the recorded ones.
     pub parts: Vec<(String, u32)>,
-    /// Its numbers, as `palpate_sim::recorded` has them, in base64.
+    /// Its numbers, in the format of `palpate_sim::recorded`, in base64.
     pub numbers: String,
 }
 
@@ -77,7 +77,7 @@ impl RecordedScene {
 /// Why a run is not recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum Cut {
-    /// One patch was felt that a body's file has in several pieces.
+    /// The run rendered a single patch, which a body's file would split into several pieces.
     #[error("this patch is not recorded: a body's file has it in {0} pieces, and the run felt it in one")]
     Pieces(usize),
     /// A device with fewer joints.
@@ -90,7 +90,7 @@ pub enum Cut {
 pub struct Loop<'a> {
     /// The name of the model, or of the scene.
     pub model: &'a str,
-    /// What was felt.
+    /// The rendered bodies.
     pub bodies: Vec<RecordedBody>,
     /// As a scene, if it was one.
     pub scene: Option<RecordedScene>,

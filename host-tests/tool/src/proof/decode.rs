@@ -3,28 +3,29 @@
 use capstone::arch::arm::{ArchMode, ArmCC, ArmInsn};
 use capstone::prelude::*;
 
-/// Where an instruction leads, apart from the one behind it.
+/// Target of an instruction, apart from the instruction behind it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// Nowhere else.
+    /// None.
     Next,
-    /// To this address, and to none other.
+    /// Always this address.
     Jump(u64),
-    /// To this address or on.
+    /// This address, or the next instruction.
     Branch(u64),
-    /// To one of the entries of the table behind it; each entry has so many bytes and counts half-words.
+    /// One of the entries of the table behind it; the parameter is the size of an entry in bytes. Entries count
+    /// half-words.
     Table(u64),
-    /// There and back.
+    /// A call to this address.
     Call(u64),
-    /// To an address in a register, and back.
+    /// A call through a register.
     IndirectCall,
-    /// To an address in a register.
+    /// An address in a register.
     IndirectJump,
     /// Back to the caller.
     Return,
-    /// Back to the caller, or on.
+    /// Back to the caller, or the next instruction.
     MaybeReturn,
-    /// Nowhere: it stops the program.
+    /// None: it stops the program.
     Trap,
 }
 
@@ -35,11 +36,11 @@ pub struct Instruction {
     pub address: u64,
     /// Its length, bytes.
     pub length: u64,
-    /// As an assembler would take it.
+    /// Its text in assembler syntax.
     pub text: String,
-    /// Where it leads.
+    /// Its target.
     pub flow: Flow,
-    /// By how many bytes the stack grows; `None` where that cannot be told.
+    /// Bytes by which the stack grows; `None` if unknown.
     pub grows: Option<i64>,
     /// Whether it computes in double precision. Moving a pair of floats as if it were a double is no computing.
     pub double: bool,
@@ -52,7 +53,7 @@ impl Decoder {
     /// A decoder.
     ///
     /// # Errors
-    /// What the library says.
+    /// An error of the library.
     pub fn new() -> Result<Self, capstone::Error> {
         let capstone = Capstone::new()
             .arm()

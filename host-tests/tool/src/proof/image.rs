@@ -80,7 +80,7 @@ impl Code {
     /// Reads an image.
     ///
     /// # Errors
-    /// What cannot be read.
+    /// A file that cannot be read.
     pub fn read(path: &Path) -> Result<Self, CodeError> {
         let content = fs::read(path).map_err(|error| CodeError::Io(path.to_path_buf(), error))?;
         let refused = |error| CodeError::File(path.to_path_buf(), error);
@@ -120,7 +120,7 @@ impl Code {
         self.functions.values()
     }
 
-    /// The function that begins here.
+    /// The function that starts at this address.
     pub fn at(&self, address: u64) -> Option<&Function> {
         self.functions.get(&address)
     }

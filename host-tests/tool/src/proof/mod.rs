@@ -1,8 +1,8 @@
-//! What can be proved of an image from its machine code alone, whatever the compiler made of the source.
+//! Proofs about an image from its machine code alone, independent of the compiler's treatment of the source.
 //!
-//! The whole call tree of a function is read: each instruction, each branch, each call. What cannot be followed (a call
+//! They read the whole call tree of a function: each instruction, branch and call. Code that cannot be followed (a call
 //! through a pointer, a jump into the middle of another function, a stack pointer set from a register) is itself a
-//! finding, never passed over.
+//! finding and is never skipped.
 
 mod decode;
 mod flow;
@@ -22,8 +22,8 @@ pub use tree::{StackError, deepest};
 
 // What takes how much flash.
 
-/// Bytes of code by part of the project; each instruction belongs to the innermost function that is not the core
-/// library's, whatever it was inlined into. `flash` is what the image takes in all; what is no code is `tables and
+/// Bytes of code by part of the project; each instruction belongs to the innermost function outside the core library,
+/// even when inlined. `flash` is the size of the whole image; the bytes that are not code count as `tables and
 /// constants`.
 pub fn flash_by_part(code: &Code, lines: &Lines, flash: u64) -> Vec<(String, u64)> {
     let mut parts: BTreeMap<String, u64> = BTreeMap::new();
@@ -90,7 +90,7 @@ impl LoopList {
     /// Reads the list.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// An unreadable or malformed file.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         use anyhow::Context;
         let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;

@@ -1,4 +1,4 @@
-//! The call tree of a function, and what is wrong with it.
+//! The call tree of a function, and its faults.
 
 use super::{Code, Flow, Function, Loop, flow};
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,7 +16,7 @@ pub enum Finding {
     Double(String, String),
     /// A call through a pointer, or a jump to one.
     Indirect(String, u64),
-    /// A branch to what is no function's beginning.
+    /// A branch to an address where no function starts.
     Astray(String, u64),
     /// The way from a function to itself.
     Recursion(Vec<String>),
@@ -46,7 +46,7 @@ pub struct Tree<'a> {
     findings: Vec<Finding>,
 }
 
-/// Whether a function is where a panic begins or ends.
+/// Whether a function starts or ends a panic.
 fn is_panic(name: &str) -> bool {
     let parts =
         ["panic", "unwrap_failed", "expect_failed", "_index_fail", "_order_fail", "_overflow", "rust_begin_unwind"];
@@ -109,7 +109,7 @@ impl<'a> Tree<'a> {
         self.functions.values().copied()
     }
 
-    /// What must not be there.
+    /// The faults found.
     pub fn findings(&self) -> &[Finding] {
         &self.findings
     }
@@ -196,7 +196,7 @@ pub enum StackError {
         /// Which.
         function: String,
     },
-    /// A call to what is no function, or through a pointer.
+    /// A call through a pointer or to an address without a function.
     #[error("{function} has an unknown call target at {address:#x}")]
     UnknownCall {
         /// Where.

@@ -1,4 +1,4 @@
-//! What palpate may spend: counted instructions that must not grow.
+//! Instruction budgets of palpate's queries: counts that must not grow.
 
 use super::judge::Spread;
 use super::program::Counted;
@@ -9,7 +9,7 @@ use serde::Deserialize;
 /// Growth that is let pass.
 const MARGIN: f64 = 1.03;
 
-/// The greatest numbers of instructions of a contestant's query on a scene.
+/// The maximum numbers of instructions of a contestant's query on a scene.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub struct Budget {
@@ -29,15 +29,15 @@ pub struct Budget {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{contestant} on {scene}: {spent} instructions in the {which} query, over 3 % more than the budget's {budget}")]
 pub struct Excess {
-    /// Who.
+    /// The contestant.
     pub contestant: String,
-    /// On what.
+    /// The scene.
     pub scene: String,
     /// `median` or `dearest`.
     pub which: &'static str,
-    /// What was counted.
+    /// The counted instructions.
     pub spent: u64,
-    /// What was allowed.
+    /// The allowed instructions.
     pub budget: u64,
 }
 
@@ -68,7 +68,7 @@ impl Budget {
     }
 }
 
-/// What passes its budget by more than 3 %.
+/// The figures that exceed their budget by more than 3 %.
 pub fn excesses(budget: &Budget, scene: &Scene, counted: &Counted) -> Vec<Excess> {
     let Some(Spread { median, worst, .. }) = Spread::of(&counted.instructions) else { return Vec::new() };
     [("median", median, budget.median), ("dearest", worst, budget.worst)]

@@ -8,8 +8,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The function that is one query, for both options that name it. Two patterns, because callgrind keeps what it is told
-/// of a pattern in one place and forgets the first option when the second names the same.
+/// The function that is one query, for both options that name it. The patterns differ because callgrind keeps one set
+/// of options for each pattern and forgets the first option when the second repeats the pattern.
 const COLLECT: &str = "palpate_race::measure::counted*";
 const DUMP: &str = "*measure::counted*";
 

@@ -9,14 +9,14 @@ use palpate_truth::oracle::OraclePoint;
 /// A distance that is wrong by more, relative to the patch's size, is a miss.
 pub const MISS: f64 = 1e-4;
 
-/// Median, 99th percentile and greatest.
+/// Median, 99th percentile and maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread<T> {
     /// The median.
     pub median: T,
-    /// What 99 % do not pass.
+    /// The 99th percentile.
     pub most: T,
-    /// The greatest.
+    /// The maximum.
     pub worst: T,
 }
 

@@ -20,7 +20,7 @@ const DECADES: std::ops::RangeInclusive<i32> = 2..=8;
 /// One panel a scene, as SVG text.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// If the drawing fails.
 pub fn draw(scenes: &[Vec<Score>]) -> anyhow::Result<String> {
     let panels: Vec<Vec<&Score>> =
         scenes.iter().map(|scores| scores.iter().filter(|score| score.contestant != CALL).collect()).collect();

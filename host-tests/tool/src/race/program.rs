@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Who is in the program.
+/// Contestants compiled into the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Who {
     /// palpate and Newton's method: seconds to compile.
@@ -26,7 +26,7 @@ pub struct Program {
     path: PathBuf,
 }
 
-/// What one contestant did on one scene.
+/// Result of one contestant on one scene.
 #[derive(Clone, Debug)]
 pub(super) struct Run {
     /// Its name.
@@ -35,7 +35,7 @@ pub(super) struct Run {
     pub answers: Vec<Line>,
 }
 
-/// What one contestant spent on one scene.
+/// Instructions spent by one contestant on one scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Counted {
     /// Its name.
@@ -55,7 +55,7 @@ pub(super) struct Line {
     pub nanoseconds: Option<u64>,
 }
 
-/// What an answer is.
+/// Kind of an answer.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Kind {
@@ -68,7 +68,7 @@ impl Program {
     /// Builds the program.
     ///
     /// # Errors
-    /// What the compiler said.
+    /// An error of the compiler.
     pub fn build(who: Who, progress: &Progress) -> Result<Self, SetUpError> {
         let (features, what) = match who {
             Who::Own => ("", "building palpate's contestants"),

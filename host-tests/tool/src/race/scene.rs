@@ -1,4 +1,4 @@
-//! What is raced on: a patch and its queries, with the right answers.
+//! Scenes of the race: a patch and its queries, with the right answers.
 
 use super::path;
 use crate::{models, repository};
@@ -29,11 +29,11 @@ impl Task {
     }
 }
 
-/// As many queries as this are counted at least, if there are so many: enough for 99 %, and counting one takes
-/// milliseconds.
+/// Minimum number of queries to count, where there are that many: enough for the 99th percentile, and counting one
+/// takes milliseconds.
 const COUNTED: usize = 2_000;
 
-/// A query and how far the closest point really is, metres.
+/// A query and its true distance, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Query {
     /// `Q`.
@@ -73,12 +73,12 @@ impl Scene {
         ])
     }
 
-    /// Of so many queries one is counted.
+    /// Step between counted queries.
     pub fn stride(&self) -> usize {
         (self.queries.len() / COUNTED).max(1)
     }
 
-    /// What it is called in tables: `table1 cold`.
+    /// Title in tables: `table1 cold`.
     pub fn title(&self) -> String {
         format!("{} {}", self.model, self.task.name())
     }

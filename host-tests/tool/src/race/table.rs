@@ -9,7 +9,7 @@ pub(super) const OURS: &str = "palpate";
 /// The contestant that answers nothing.
 pub(super) const CALL: &str = "call";
 
-/// What a contestant is, in a few words.
+/// Short description of a contestant.
 pub(super) fn described(score: &Score) -> &'static str {
     match (score.contestant.as_str(), score.task) {
         (CALL, _) => "an empty call",

@@ -54,7 +54,7 @@ pub fn write_sections(
     write_linked(headline, None, figures, sections, path)
 }
 
-/// The same with a link below the headline: a file, and what is there.
+/// The same with a link below the headline: a file and its description.
 fn write_linked(
     [title, subtitle]: [&str; 2],
     link: Option<(&str, &str)>,

@@ -1,4 +1,4 @@
-//! What a run shows: its figures as text, and one HTML file with the plots inside.
+//! Report of a run: its figures as text, and one HTML file that contains the plots.
 
 mod html;
 pub mod plots;
@@ -11,11 +11,11 @@ pub use summary::{Instructions, Summary};
 
 // What a page shows.
 
-/// What goes on the page.
+/// Content of the page.
 pub struct Page<'a> {
     /// The headline.
     pub title: &'a str,
-    /// One sentence: what was run, on what.
+    /// One sentence: the run and its device.
     pub subtitle: &'a str,
     /// Name and value of each figure.
     pub figures: &'a [(&'static str, String)],

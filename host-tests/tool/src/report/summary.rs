@@ -29,7 +29,7 @@ pub struct Summary {
     pub feature_changes: usize,
     /// Features that had it: faces, edges, vertices.
     pub features: [usize; 3],
-    /// Times the surface was touched anew.
+    /// Number of times that contact started.
     pub touches: usize,
     /// Seconds in contact.
     pub contact_time: f64,
