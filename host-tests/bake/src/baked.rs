@@ -19,9 +19,9 @@ pub struct BakedPatch {
     pub breaks: [Vec<f32>; 2],
     /// Coefficients of all spans, in the order of the table.
     pub coefficients: BakedCoefficients,
-    /// What is proved of its shape.
+    /// Proved bounds of its shape.
     pub shape: ShapeBounds,
-    /// Which way the outward normal points.
+    /// Direction of the outward normal.
     pub orientation: Orientation,
     /// The largest side of the bounding box, metres.
     pub size: f32,
@@ -89,11 +89,11 @@ impl BakedPatch {
         model.patches.iter().enumerate().map(bake).collect()
     }
 
-    /// The patch as the firmware has it, with the same bits. Its numbers stay allocated for good: for a host that bakes
-    /// a few models in its life.
+    /// The patch as the firmware has it, with the same bits. Its numbers are leaked: meant for a host that bakes a few
+    /// models in its life.
     ///
     /// # Errors
-    /// What the library finds wrong with the table: nothing, if it was baked.
+    /// A fault that the library finds in the table; a baked table has none.
     pub fn to_patch(&self) -> Result<SplinePatch<'static>, TableError> {
         let coefficients = match &self.coefficients {
             BakedCoefficients::Polynomial(entries) => Coefficients::Polynomial(entries.clone().leak()),

@@ -29,7 +29,7 @@ pub const SLACK: f64 = 0.05;
 pub const HALVINGS: usize = 20;
 /// How often the border between two spans is halved for the bound of a jump.
 const JUMP_HALVINGS: usize = 5;
-/// What rounding in `f64` can add to `‖N‖`, relative to `max‖A‖ · max w²` on the unit square. Each difference of
+/// Error bound of `‖N‖` from rounding in `f64`, relative to `max‖A‖ · max w²` on the unit square. Each difference of
 /// neighbours is at most 2 · 5 times the coefficients (two of them: 100), at most 10 terms of `N` have that size, and
 /// no coefficient has seen more than 4000 roundings of 2⁻⁵³ (sums of up to 36 products, twice; 20 rounds of up to 15
 /// averages): 100 · 10 · 4000 · 1.1e-16.
@@ -39,9 +39,8 @@ const ROUNDING: f64 = 4.5e-10;
 /// `M ≤ 20`, `N ≤ 2 · 20 · 20`, and `N_z w − 3 N w_z ≤ 800 · (30 + 3 · 10)`; no coefficient has seen more than 8000
 /// roundings: 48 000 · 8000 · 1.1e-16.
 const ROUNDING_THIRD: f64 = 4.3e-8;
-/// What rounding can take from `w³` or `w⁴`, relatively: sums and means of positive numbers lose nothing to
-/// cancellation, only the change of basis does, 50 roundings of the largest weight where the least is a thousandth of
-/// it.
+/// Bound of the relative loss of `w³` or `w⁴` from rounding: sums and means of positive numbers have no cancellation;
+/// only the change of basis does: 50 roundings of the largest weight, where the smallest is a thousandth of it.
 const WEIGHT_ROUNDING: f64 = 1e-10;
 
 /// The bounds of a table, or `None` if a weight is not proved positive or a bound is beyond `f32`.
@@ -260,7 +259,7 @@ impl DerivativeCell {
         Some(Self { field, rounding, halvings: 0 })
     }
 
-    /// An upper bound of the difference of two cells' quotients along the border where the second begins.
+    /// An upper bound of the difference of two cells' quotients along the border where the second one starts.
     fn jump(before: &Self, after: &Self, axis: usize) -> Option<f64> {
         let border = |cell: &Self, at: usize| {
             let [p, q] = cell.field.degree;
@@ -299,7 +298,7 @@ pub(super) fn local_range(left: f32, right: f32) -> [f64; 2] {
     [left, right].map(|border| (f64::from(border) - centre) * (1.0 + f64::from(f32::EPSILON)))
 }
 
-/// The least `f32` that is not below.
+/// The smallest `f32` that is not below `value`.
 fn round_up(value: f64) -> Option<f32> {
     let nearest = value as f32;
     let above = if f64::from(nearest) < value { nearest.next_up() } else { nearest };

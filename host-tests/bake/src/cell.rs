@@ -14,7 +14,7 @@ use super::form::{Form, eigenvalues, symmetric};
 use crate::bernstein::Tracked;
 use palpate::patch::SecondDerivativeBounds;
 
-/// Lower and upper bounds, or the least and greatest of sampled values, over some of the patch.
+/// Lower and upper bounds, or the minimum and maximum of sampled values, over a part of the patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extremes {
     /// Principal curvatures with respect to `f_u × f_v` turned round, 1/m: positive where the surface bends away from
@@ -22,7 +22,7 @@ pub(super) struct Extremes {
     pub curvature: [f64; 2],
     /// Eigenvalues of the first fundamental form, m².
     pub stretch: [f64; 2],
-    /// The greatest bend, 1/m.
+    /// The maximum bend, 1/m.
     pub bend: f64,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Extremes {
 pub(super) struct FormCell {
     /// `e, f, g, b₁₁, b₁₂, b₂₂, w` in one degree.
     field: Bernstein<7>,
-    /// What rounding has made of each.
+    /// Rounding error of each.
     errors: [f64; 7],
     /// Widths of the span: the unit square's parameters times these are the patch's.
     widths: [f64; 2],

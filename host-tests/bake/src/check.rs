@@ -1,4 +1,4 @@
-//! What stands in a file, and the checks that make a patch of it.
+//! Content of a patch's file, and the checks that turn it into a patch.
 
 use super::error::PatchFault;
 use super::patch::NurbsPatch;

@@ -11,12 +11,12 @@ pub(super) const POLE: f64 = 1e-6;
 /// Whether the patch bends outward everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Convexity {
-    /// The least curvature is proved not to be negative.
+    /// The minimum curvature is proved not to be negative.
     Proved,
-    /// It is proved not to be below this, 1/m, which is nothing but rounding beside the greatest: straight somewhere,
-    /// as a cylinder is.
+    /// The minimum curvature is proved not to be below this, 1/m, which is within rounding of the maximum curvature:
+    /// straight somewhere, like a cylinder.
     UpToRounding(f32),
-    /// It is proved not to be below this, 1/m, and no sample is negative.
+    /// The minimum curvature is proved not to be below this, 1/m, and no sample is negative.
     Open(f32),
     /// A sample bends inward.
     Disproved {

@@ -31,7 +31,7 @@ impl Form {
         (self.kept() + self.radius) * (1.0 + ROUNDING)
     }
 
-    /// The least and greatest value it can take.
+    /// Bounds of its minimum and maximum.
     pub(super) fn range(&self) -> [f64; 2] {
         let reach = self.slope[0].abs() + self.slope[1].abs() + self.radius + ROUNDING * self.magnitude();
         [self.centre - reach, self.centre + reach]
@@ -100,9 +100,9 @@ impl Form {
 
 /// Bounds of both eigenvalues, over the cell, of the symmetric matrix `[[a, b], [b, c]]`.
 ///
-/// The greatest eigenvalue is a convex function of the matrix, the least a concave one: over a polytope of matrices
-/// they are extreme at its corners, equal eigenvalues or not. The corners are those of the cell, with the radii added;
-/// both eigenvalues rise with `a` and `c`.
+/// The larger eigenvalue is a convex function of the matrix, the smaller a concave one: over a polytope of matrices
+/// they are extreme at its corners, even for equal eigenvalues. The corners are those of the cell, with the radii
+/// added; both eigenvalues rise with `a` and `c`.
 pub(super) fn eigenvalues([a, b, c]: &[Form; 3]) -> [f64; 2] {
     let mut bounds = [f64::INFINITY, f64::NEG_INFINITY];
     let rounding = ROUNDING * (a.magnitude() + b.magnitude() + c.magnitude());

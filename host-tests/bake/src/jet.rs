@@ -54,8 +54,8 @@ impl Jet {
         }
     }
 
-    /// The principal curvatures, 1/m, least first, positive where the surface is convex seen from the side the normal
-    /// points to; NaN where the tangents span no plane. The roots of `det(II + κ I) = 0`.
+    /// The principal curvatures, 1/m, in ascending order, positive where the surface is convex seen from the side the
+    /// normal points to; NaN where the tangents span no plane. The roots of `det(II + κ I) = 0`.
     pub fn principal_curvatures(&self, flip: bool) -> [f64; 2] {
         let cross = self.tangent_u.cross(self.tangent_v);
         let normal = if flip { -cross } else { cross } / cross.length();

@@ -2,9 +2,9 @@
 //!
 //! # How it works
 //!
-//! The way of a patch: [`Model`] (the file, checked, in metres and `f64`) → [`spline`] (its polynomial spans, rounded
-//! once to `f32`) → [`bounds`] and [`shape`] (what is proved of those very `f32` numbers) → [`BakedPatch`] → [`source`]
-//! (Rust). [`survey`] says what is known of a patch and what is not.
+//! Stages of a patch: [`Model`] (the file, checked, in metres and `f64`) → [`spline`] (its polynomial spans, rounded
+//! once to `f32`) → [`bounds`] and [`shape`] (bounds that are proved for these `f32` numbers) → [`BakedPatch`] →
+//! [`source`] (Rust). [`survey`] reports which properties of a patch are proved and which are not.
 
 mod baked;
 mod bernstein;

@@ -18,7 +18,7 @@ use glam::DVec3;
 use serde::Deserialize;
 use std::path::Path;
 
-/// What the numbers of a model file are in. Inside the library everything is in metres.
+/// Unit of the numbers in a model file. Inside the library everything is in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Metres.
@@ -54,10 +54,10 @@ impl Unit {
 pub struct Model {
     /// Its name.
     pub name: String,
-    /// What the file is in; `closest` answers in it.
+    /// Unit of the file; `closest` answers in it.
     pub unit: Unit,
-    /// Where the origin of the patches' frame, the tables', lies in the file, metres: zero unless the body lies far
-    /// from the file's own origin. A place of the file less this is one of the tables.
+    /// Origin of the patches' frame, which is the tables' frame, in the file's frame, metres: zero unless the body lies
+    /// far from the file's origin. Subtract it from a point of the file to get a point of the tables.
     pub centre: DVec3,
     /// Its patches, in metres, in a frame near the body; at least one.
     pub patches: Vec<NurbsPatch>,
@@ -108,7 +108,7 @@ impl Model {
         Ok(Self { name: raw.name, unit, centre, patches })
     }
 
-    /// What a patch goes by: its name, or its index if it has none.
+    /// Label of a patch: its name, or its index if it has none.
     pub fn patch_label(&self, index: usize) -> String {
         self.patches.get(index).and_then(|patch| patch.name.clone()).unwrap_or_else(|| index.to_string())
     }
@@ -200,7 +200,7 @@ pub(super) fn centred(patches: &mut [NurbsPatch], file: impl Fn() -> String) -> 
     Ok(centre)
 }
 
-/// Checks that a patch can be told from nothing beside a body of some size.
+/// Checks that a patch is not negligibly small beside a body of this size.
 fn check_beside(patch: &NurbsPatch, body: f64) -> Result<(), PatchFault> {
     let size = patch.size();
     if size < LEAST_SHARE * body {

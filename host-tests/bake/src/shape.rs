@@ -57,7 +57,7 @@ pub fn prove(
     Some(search.bounds())
 }
 
-/// What is proved so far, with respect to the outward normal.
+/// Bounds proved so far, with respect to the outward normal.
 struct Search {
     turn: f64,
     second_derivatives: SecondDerivativeBounds,
@@ -173,13 +173,13 @@ fn join(extremes: &mut [f64; 2], [least, greatest]: [f64; 2]) {
     *extremes = [extremes[0].min(least), extremes[1].max(greatest)];
 }
 
-/// The least `f32` that is not below.
+/// The smallest `f32` that is not below `value`.
 fn up(value: f64) -> f32 {
     let nearest = value as f32;
     if f64::from(nearest) < value { nearest.next_up() } else { nearest }
 }
 
-/// The greatest `f32` that is not above.
+/// The largest `f32` that is not above `value`.
 fn down(value: f64) -> f32 {
     -up(-value)
 }

@@ -27,9 +27,9 @@ struct Foot {
     distance: f64,
 }
 
-/// Rounds of following a point over borders: each brings it nearer, and there are not so many faces in a row that do.
+/// Maximum number of borders that a point is followed over: each brings it nearer, and no longer row of faces does.
 const ROUNDS: usize = 8;
-/// Places along a side from which a face is tried: at a pole they are as many directions.
+/// Start points along a side from which a face is tried: at a pole they give as many directions.
 const STARTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// A nearer point is one by more than this, relative to the distance: the rounding of `f64`.
 const NEARER: f64 = 1e-14;

@@ -9,8 +9,8 @@ use crate::patch::{Axis, NurbsPatch};
 use glam::DVec4;
 use palpate::patch::span_centre;
 
-/// The least weight of a span's Bézier points, the largest of the patch being 1. Dividing by `w` magnifies the rounding
-/// of the homogeneous coefficients, 6e-8, by `1/w`: below this more than 6e-5 of the size would be lost.
+/// Minimum weight of a span's Bézier points, the largest of the patch being 1. Dividing by `w` magnifies the rounding
+/// of the homogeneous coefficients, 6e-8, by `1/w`: a smaller weight could lose more than 6e-5 of the size.
 const LEAST_WEIGHT: f64 = 1e-3;
 
 /// Of the largest coordinate: a few hundred units in the last place of `f64`, a millionth of one of `f32`.
@@ -85,9 +85,9 @@ pub fn extract(patch: &NurbsPatch) -> Result<Spans, UnevenSpan> {
     Ok(Spans { breaks, powers })
 }
 
-/// Sets to zero what is only the rounding of `f64`: a power that adds less than [`NOISE`] anywhere on the span,
-/// relative to the largest coordinate and weight. Such digits carry nothing, and would make the table depend on how it
-/// was computed.
+/// Sets coefficients that are only rounding of `f64` to zero: powers that add less than [`NOISE`] anywhere on the span,
+/// relative to the largest coordinate and weight. Such digits carry no information, and would make the table depend on
+/// the way of its computation.
 fn drop_rounding(net: &mut [DVec4], columns: usize, half_widths: [f64; 2], extent: f64) {
     for (index, entry) in net.iter_mut().enumerate() {
         let reach = power_of(half_widths[0], index / columns) * power_of(half_widths[1], index % columns);

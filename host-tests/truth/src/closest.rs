@@ -72,8 +72,8 @@ impl<'a> Solver<'a> {
         (Found { evaluations: u32::from(located.evaluations), status, ..found }, state)
     }
 
-    /// Follows a probe that has moved: `ticks` ticks of the tracker, and after a jump as many more as it takes until
-    /// the closest point is located anew. `probe` in metres.
+    /// Follows a probe that has moved: `ticks` ticks of the tracker, and after a jump further ticks until the closest
+    /// point is located again. `probe` in metres.
     pub fn track(&self, state: &mut BodyWitness, probe: Vec3, ticks: u32) -> Found {
         let mut evaluations = 0;
         let mut spent = 0;

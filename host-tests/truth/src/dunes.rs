@@ -6,15 +6,15 @@ use std::fmt::Write as _;
 /// Of a patch, millimetres.
 const STEP: f64 = 8.0;
 const THICKNESS: f64 = 12.0;
-/// Greatest height of a point of the spline's net.
+/// Maximum height of a point of the spline's net.
 const HEIGHT: f64 = 3.0;
 
 type Point = [f64; 3];
 
-/// The model file, with so many patches along each side: of `n` there are `2 n² + 4 n` patches.
+/// The model file, with `across` patches along each side: for `n` there are `2 n² + 4 n` patches.
 ///
 /// # Panics
-/// If it is none.
+/// If `across` is 0.
 pub fn dunes(across: usize) -> String {
     assert!(across > 0, "a plate of no patches");
     let patches = 2 * across * across + 4 * across;

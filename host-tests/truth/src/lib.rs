@@ -1,5 +1,5 @@
-//! What palpate is proved against, in double precision and by other means than its own: the oracle, surfaces whose
-//! truth is known by construction, what the controller is compared with, and golden points.
+//! Ground truth for palpate, in double precision and by independent means: the oracle, surfaces whose truth is known by
+//! construction, baselines of the controller, and golden points.
 
 pub mod baselines;
 pub mod body_oracle;

@@ -49,29 +49,29 @@ pub fn locate(surfaces: &[StoredSurface], locator: &Locator, probe: DVec3) -> Li
     best
 }
 
-/// What a check found.
+/// Result of a check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
-    /// Probes that count.
+    /// Checked probes.
     pub probes: usize,
-    /// Of them inside.
+    /// Probes inside the body.
     pub inside: usize,
-    /// Those for which the list leads to a distance that is too great by more than the tolerance.
+    /// Probes whose list leads to a distance too large by more than the tolerance.
     pub misses: Vec<Miss>,
-    /// The greatest excess, relative to the size.
+    /// The maximum excess, relative to the size.
     pub worst: f64,
-    /// Evaluations of the dearest list.
+    /// Evaluations of the most expensive list.
     pub evaluations: usize,
 }
 
 /// A probe whose list does not lead to its closest point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Miss {
-    /// Where, metres.
+    /// The probe, metres.
     pub probe: DVec3,
-    /// What the oracle found, metres.
+    /// The oracle's distance, metres.
     pub distance: f64,
-    /// What the list led to.
+    /// The list's minimum.
     pub located: ListMinimum,
     /// Whether the probe is inside.
     pub inside: bool,

@@ -1,8 +1,8 @@
 //! The rows of `docs/reference/measured.md`, held to the tests that measure them.
 //!
-//! A row is `| claim | value | unit | printed by |`. The test that has the number calls [`measured`] with the row's
-//! claim: it prints the number, and fails if the page says another. With `PALPATE_WRITE` set the page is written anew
-//! instead.
+//! A row is `| claim | value | unit | printed by |`. The test that measures the number calls [`measured`] with the
+//! row's claim, which prints the number and fails if the page has another one. With `PALPATE_WRITE` set, it updates the
+//! page instead.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -18,11 +18,11 @@ static WRITING: Mutex<()> = Mutex::new(());
 /// A row of the page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// What is said.
+    /// The claim.
     pub claim: String,
     /// The number.
     pub value: String,
-    /// What it is in.
+    /// Its unit.
     pub unit: String,
     /// The command that prints it.
     pub command: String,
@@ -78,13 +78,13 @@ pub fn measured_if_listed(claim: &str, value: impl Display) {
 /// Errors as a table has them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// Half of all are not above it.
+    /// The median.
     pub median: f64,
-    /// 99 % are not above it.
+    /// The 99th percentile.
     pub most: f64,
-    /// 99.9 % are not above it.
+    /// The 99.9th percentile.
     pub all_but_a_thousandth: f64,
-    /// The greatest.
+    /// The maximum.
     pub worst: f64,
 }
 

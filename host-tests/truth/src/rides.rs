@@ -1,8 +1,8 @@
-//! Rides of a probe beside a body: how late the tracker has the nearest point, against a search from scratch in every
+//! Rides of a probe beside a body: latency of the tracker's nearest point, compared with a search from scratch in every
 //! tick.
 //!
-//! A ride begins above a random point of a random face and goes along it, in a curve, over whatever comes. It ends
-//! where the body is touched, for from there on the witness point is the god-object, and where the probe is far off.
+//! A ride starts above a random point of a random face and follows a curve beside the body, over any neighbouring
+//! faces. It ends at contact, where the witness point becomes the god-object, and far from the body.
 
 use palpate::body::{Body, BodyWitness};
 use palpate::math::Vec3;
@@ -10,27 +10,27 @@ use palpate::track::{Contact, Controller, Probe, Witness};
 use palpate_bake::Random;
 use rayon::prelude::*;
 
-/// How rides go.
+/// Settings of the rides.
 #[derive(Clone, Copy, Debug)]
 pub struct Rides {
-    /// How many.
+    /// Number of rides.
     pub count: u32,
     /// Servo rate, Hz.
     pub rate: f32,
-    /// Of the probe, m/s.
+    /// Speed of the probe, m/s.
     pub speed: f32,
-    /// Of the probe from the surface to begin with, metres.
+    /// Distance of the probe from the surface at the start, metres.
     pub distance: f32,
 }
 
-/// What they found.
+/// Result of the rides.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lateness {
-    /// Ticks looked at.
+    /// Number of ticks.
     pub ticks: u64,
-    /// The most in a row whose witness point was not the nearest.
+    /// Maximum number of consecutive ticks whose witness point was not the nearest.
     pub most: u32,
-    /// How much too far it was at worst, metres.
+    /// Maximum excess of the distance, metres.
     pub excess: f32,
 }
 
@@ -101,9 +101,9 @@ impl Rides {
     }
 }
 
-/// The longest list of candidates of a body's cells, and how many ticks one pass of the audit over it takes at most:
-/// its beginning and its end, and for each evaluation that a candidate may cost the two halves, and one more where it
-/// looked nearer and was not.
+/// The longest list of candidates of a body's cells, and the maximum number of ticks of one pass of the audit over it:
+/// its start and its end, both halves of each evaluation that a candidate may cost, and one more where a candidate
+/// looked nearer but was not.
 pub fn longest_pass(body: &Body) -> (u32, u32) {
     let mut longest = 0;
     let mut length = 0;

@@ -90,8 +90,8 @@ const CONSTANT: f64 = 1e-13;
 // Piecewise polynomials of one parameter: each span in powers of the distance from its `f32` centre, as the target has
 // it.
 
-/// Of the largest value a power can add less than this: a sixth of a unit in the last place of `f32`. What is so small
-/// is left out of the tables.
+/// Smallest relevant contribution of a power, relative to the largest value: a sixth of a unit in the last place of
+/// `f32`. The tables leave smaller ones out.
 const BELOW_SINGLE: f64 = 1e-8;
 
 /// Polynomials of one degree over the spans between `breaks`, which rise from 0 to 1.
@@ -103,7 +103,7 @@ pub struct Piecewise<V> {
     pub spans: Vec<Vec<V>>,
 }
 
-/// What a vector needs to be a coefficient.
+/// Operations that a coefficient needs.
 pub trait Coefficient: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> {
     /// Zero.
     const NONE: Self;
@@ -189,9 +189,9 @@ impl<V: Coefficient> Piecewise<V> {
         self
     }
 
-    /// Divides the factor out that makes it vanish at 0 or at 1, `t` or `1 − t`, up to twice: what is left has the same
-    /// direction everywhere, and has one at that end too. Other spans are left: a positive factor of their own is no
-    /// matter.
+    /// Divides by the factor `t` or `1 − t` that makes it vanish at 0 or at 1, up to twice: the quotient has the same
+    /// direction everywhere, and a direction at that end too. Other spans stay unchanged, because their own positive
+    /// factors do not matter.
     pub fn without_root(mut self, at_upper_end: bool) -> Self {
         let span = if at_upper_end { self.spans.len() - 1 } else { 0 };
         let (end, inward) = if at_upper_end { (1.0, -1.0) } else { (0.0, 1.0) };

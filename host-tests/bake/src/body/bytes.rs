@@ -1,4 +1,4 @@
-//! What a body's tables take in flash, by kind.
+//! Size of a body's tables in flash, by kind.
 
 use super::{BakedBody, BakedSeparator, BakedSide};
 

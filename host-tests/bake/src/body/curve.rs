@@ -83,7 +83,7 @@ pub enum BakedSeparator {
     Plane {
         /// Out of the face, per metre.
         across: [f32; 3],
-        /// What the plane has.
+        /// Offset of the plane.
         offset: f32,
     },
     /// The derivative across the border.

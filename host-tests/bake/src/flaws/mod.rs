@@ -1,8 +1,8 @@
-//! What is wrong with a body as a whole, though every patch and every seam is right: it cuts itself, pieces of it cut
-//! or lie in each other, or it is open where it may not be meant to be.
+//! Flaws of a body as a whole, though every patch and every seam is right: the body intersects itself, its pieces
+//! intersect or contain each other, or it is open, perhaps unintentionally.
 //!
-//! Looked for on facets (`facets`); a cut counts only where the surfaces themselves are found to meet there
-//! (`crossing`). That finds what is larger than the facets, and proves nothing.
+//! The search works on facets (`facets`); a cut counts only if the surfaces themselves meet there (`crossing`). So it
+//! finds flaws larger than the facets, and proves nothing.
 
 use crate::jet::Jet;
 use crate::model::Unit;
@@ -61,7 +61,8 @@ pub enum Flaw {
 }
 
 impl Flaw {
-    /// Whether what is proved of the patches does not hold of the body: a point inside may be taken for one outside.
+    /// Whether the flaw breaks what the patches' proofs assume about the body: a point inside may then be classified as
+    /// outside.
     pub const fn is_wrong(&self) -> bool {
         matches!(self, Self::Crossing { .. } | Self::Nested { .. })
     }
@@ -288,9 +289,10 @@ fn meeting(patches: [&NurbsPatch; 2], is_one: bool, a: &Cell, b: &Cell, size: f6
 
 // Open edges, and which of them may be two sides of one gap.
 
-/// Open borders that are nowhere farther apart than this, in sizes, are named as a seam that gapes.
+/// Maximum distance between two open borders, relative to the body's size, for them to be reported as open edges of one
+/// seam.
 const GAPING: f64 = 0.02;
-/// Points of a border that are compared.
+/// Number of compared points of a border.
 const SAMPLES: usize = 16;
 
 /// The flaw of a body of several patches with open edges.

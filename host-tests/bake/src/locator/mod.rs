@@ -10,9 +10,9 @@
 //!
 //! All bounds are of the stored `f32` coefficients, over boxes of probes and rectangles of parameters, with the
 //! rounding of `f64` added (`field`). Faces meet, and poles are points, up to the rounding of the tables: comparisons
-//! count beyond [`LocatorOptions::seam`] only. What is left is gathered into rectangles, and `unique` proves that each
-//! has one minimum. Where that fails at the greatest depth the leaf is counted as *loose*, with a bound of what may be
-//! lost, or as *sampled*.
+//! count only beyond [`LocatorOptions::seam`]. The remaining parts are gathered into rectangles, and `unique` proves
+//! that each has one minimum. Where that fails at the maximum depth, the leaf counts as *loose*, with a worst-case
+//! error bound, or as *sampled*.
 
 mod faces;
 mod list;
@@ -43,9 +43,9 @@ use piece::Probes;
 const LEAST_DEPTH: usize = 3;
 
 /// Bakes the locator of a body. `creases` holds for each face the parameters, along `u` and `v`, at which it is only
-/// C⁰. `progress` is told how much of the space is done, in the smallest cells, and how much there is. With `wanted`,
-/// only the lists of these probes' cells are good, and they are those of the whole tables. The same input gives the
-/// same tables on any number of threads. Tables that would not fit their indices are made coarser, until they do.
+/// C⁰. `progress` receives the finished and the total volume, in smallest cells. With `wanted`, only the lists of these
+/// probes' cells are valid, and they equal those of the whole tables. The same input gives the same tables on any
+/// number of threads. Tables that would not fit their indices are made coarser, until they do.
 ///
 /// # Errors
 /// Where the octree is too large for its indices, see [`LocatorError`].

@@ -20,7 +20,7 @@ use std::fmt::Write as _;
 /// Version of the form of the tables; raised when older firmware cannot take them.
 pub const FORMAT_VERSION: u32 = 7;
 
-/// What the header says.
+/// Content of the header.
 #[derive(Clone, Copy, Debug)]
 pub struct Origin<'a> {
     /// Name of the model file, without its directory.

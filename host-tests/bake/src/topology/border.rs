@@ -42,7 +42,7 @@ impl BorderPoint {
 const LEAST_SINE: f64 = 1e-7;
 
 impl Border {
-    /// All borders of so many patches.
+    /// All borders of `patches` patches.
     pub fn all(patches: usize) -> impl Iterator<Item = Self> {
         (0..patches).flat_map(|patch| (0..4).map(move |side| Self { patch, side }))
     }

@@ -20,7 +20,7 @@ pub struct TopologyEdge {
     pub kind: EdgeKind,
 }
 
-/// What a border is.
+/// Role of a border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BorderRole {
     /// On an edge.
@@ -45,7 +45,7 @@ pub(super) struct Matched<'a> {
     pub poles: Vec<Candidate<'a>>,
 }
 
-/// Finds which borders are one curve, and refuses what is nearly so.
+/// Finds which borders are the same curve, and refuses near matches.
 pub(super) fn match_borders<'a>(
     patches: &'a [NurbsPatch],
     tolerance: f64,
@@ -81,7 +81,7 @@ pub(super) fn match_borders<'a>(
     Ok(Matched { candidates, pairs, poles })
 }
 
-/// Patches all of whose borders agree, and what is between them too.
+/// Patches that agree in all borders and in their interior.
 fn duplicates(
     candidates: &[Candidate<'_>],
     partners: &[Vec<(usize, Sense)>],
@@ -218,7 +218,7 @@ impl<'a> Candidate<'a> {
         })
     }
 
-    /// The greatest distance at equal parameters, on the finer of both grids.
+    /// The maximum distance at equal parameters, on the finer of both grids.
     pub fn deviation(&self, other: &Self, sense: Sense) -> f64 {
         let (fine, coarse) = if self.points.len() >= other.points.len() { (self, other) } else { (other, self) };
         let intervals = (fine.points.len() - 1) as f64;
@@ -266,7 +266,7 @@ const CRACK: f64 = 1e-3;
 /// Nor are those that share both ends and part by less than this share of their length between them.
 const SLIT: f64 = 0.05;
 
-/// Looks for what is wrong between an unmatched border and another one that is not the same edge.
+/// Looks for a fault between an unmatched border and another one that is not the same edge.
 pub fn check_partial(
     open: &Candidate<'_>,
     other: &Candidate<'_>,

@@ -27,7 +27,7 @@ const NO_VOLUME: f64 = 1e-9;
 /// The features of a body and how they hang together.
 #[derive(Clone, Debug)]
 pub struct Topology {
-    /// What each patch's borders `u = 0`, `u = 1`, `v = 0`, `v = 1` are.
+    /// Role of each patch's borders `u = 0`, `u = 1`, `v = 0`, `v = 1`.
     pub roles: Vec<[BorderRole; 4]>,
     /// The edges, in the order of their owners.
     pub edges: Vec<TopologyEdge>,

@@ -99,9 +99,9 @@ fn departure(border: Border, patch: &NurbsPatch, at_upper_end: bool) -> DVec3 {
 // complement, whose integral is `−N`, and `N · q ≤ 0` (after J. Bærentzen and H. Aanæs, *Signed distance computation
 // using the angle weighted pseudonormal*, 2005, who show it of polyhedra).
 
-/// Steps of the sum along a pole: of a cone through so many rays it is exact.
+/// Number of rays of the cone that the sum along a pole uses; for the cone of these rays the sum is exact.
 const STEPS: usize = 256;
-/// A vector shorter than this, beside what it is part of, is nothing but rounding.
+/// A vector shorter than this, relative to its terms, is rounding.
 const CONE_VANISHING: f64 = 1e-9;
 /// The sine below which two opposite rays span no plane.
 const OPPOSITE: f64 = 1e-6;
@@ -126,7 +126,7 @@ pub(super) fn outward(
     best.map(|sum| if is_known(&sum) { sum.0.normalize() } else { DVec3::ZERO }).collect()
 }
 
-/// What stands for the rays of the tangent cone.
+/// Representation of the rays of the tangent cone.
 #[derive(Clone, Copy, PartialEq)]
 enum Rays {
     Tangents,

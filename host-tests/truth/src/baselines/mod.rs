@@ -1,5 +1,5 @@
-//! What the controller is compared with, in double precision: closest points by Newton's method, which needs second
-//! derivatives and a start near the answer.
+//! Baselines for the controller, in double precision: closest points by Newton's method, which needs second derivatives
+//! and a start near the answer.
 
 use crate::oracle::OraclePoint;
 use glam::DVec3;
@@ -63,11 +63,12 @@ fn direction(surface: &OraclePoint, difference: DVec3, gradient: [f64; 2], held:
 /// Which method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The controller `ẋ = M⁻¹ (−K Ψ − b)`; nothing is done at the borders, and what leaves the patch has failed.
+    /// The controller `ẋ = M⁻¹ (−K Ψ − b)`; it ignores the borders, and fails when it leaves the patch.
     Newton,
-    /// The same with saturation: a parameter that would pass its border stops there, the other moves on as it was told.
+    /// The same with saturation: a parameter that would pass its border stops there, and the other one takes its full
+    /// step.
     SaturatedNewton,
-    /// Not in the paper: Newton's method for the least `½ ‖ΔR‖²` over the square, as textbooks have it.
+    /// Not in the paper: Newton's method for the minimum of `½ ‖ΔR‖²` over the square, as in textbooks.
     ProjectedNewton,
 }
 
@@ -145,7 +146,7 @@ impl<'a> Baseline<'a> {
 /// - `∂_k g_i = f_i · f_k + ΔR · f_ik`,
 /// - `((∂_k I) Ψ)_i = Σ_j (f_ik · f_j + f_i · f_jk) Ψ_j`.
 ///
-/// `Σ_j f_j Ψ_j` is the tangential part of `ΔR`, so what is left of `ΔR · f_ik` is the normal part `Δ N · f_ik`, and
+/// `Σ_j f_j Ψ_j` is the tangential part of `ΔR`, so the rest of `ΔR · f_ik` is the normal part `Δ N · f_ik`, and
 ///
 /// `M = 1 + I⁻¹ B`, `B_ik = Δ N · f_ik − f_i · Σ_j f_jk Ψ_j`.
 ///

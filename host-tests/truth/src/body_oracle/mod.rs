@@ -59,7 +59,7 @@ const OFF_THE_BORDER: f64 = 1e-4;
 /// The sine of an angle that turning by the curvature over that way can make up.
 const IN_ITS_PLANE: f64 = 1e-3;
 
-/// What is true of a probe.
+/// True answers for a probe.
 #[derive(Clone, Debug)]
 pub struct Truth {
     /// The closest point of each patch.
@@ -184,8 +184,7 @@ fn is_behind(height: f64) -> bool {
 pub struct Claims {
     /// Those that do.
     pub features: Vec<Feature>,
-    /// The least absolute value of all tests that were decided, metres: near 0 the probe lies on a border between
-    /// regions.
+    /// The minimum absolute value of all decided tests, metres: near 0 the probe lies on a border between regions.
     pub margin: f32,
 }
 

@@ -5,7 +5,7 @@ use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use palpate_bake::NurbsPatch;
 use palpate_bake::Random;
 
-/// What a patch is cut from.
+/// Surface that a patch is cut from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// An ellipsoid of random axes: stereographic, so biquadratic and rational.
@@ -24,7 +24,7 @@ impl Kind {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Ellipsoid, Self::Paraboloid, Self::Cylinder, Self::Plane, Self::Quartic];
 
-    /// The least degree, along both parameters, of a patch whose parametrisation is skewed.
+    /// The minimum degree, along both parameters, of a patch with a skewed parametrisation.
     const fn degree(self) -> usize {
         match self {
             Self::Plane => 1,
@@ -38,7 +38,7 @@ impl Kind {
 /// A convex patch.
 #[derive(Clone, Debug)]
 pub struct ConvexPatch {
-    /// What it is cut from.
+    /// The surface that it is cut from.
     pub kind: Kind,
     /// The patch, millimetres to decimetres large, near the origin, turned any way; its normals point out of the convex
     /// body.

@@ -126,8 +126,8 @@ impl OraclePoint {
         if flip { -normal } else { normal }
     }
 
-    /// The principal curvatures, 1/m, least first, positive where the surface is convex seen from the side the normal
-    /// points to; NaN where the tangents span no plane. Eigenvalues of `−I⁻¹ II`.
+    /// The principal curvatures, 1/m, in ascending order, positive where the surface is convex seen from the side the
+    /// normal points to; NaN where the tangents span no plane. Eigenvalues of `−I⁻¹ II`.
     pub fn principal_curvatures(&self, flip: bool) -> [f64; 2] {
         let normal = self.normal(flip);
         let (e, f, g) =
@@ -215,7 +215,7 @@ impl<'a> Oracle<'a> {
                 }
             }
         }
-        best.unwrap_or_else(|| unreachable!("the least of the grid is a local minimum of the grid"))
+        best.unwrap_or_else(|| unreachable!("the minimum of the grid is a local minimum of the grid"))
     }
 
     /// Newton on ½‖f − Q‖² over the unit square: parameters that press against their border are held, the others take

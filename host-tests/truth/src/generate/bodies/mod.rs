@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 /// A body as a model file.
 #[derive(Clone, Debug)]
 pub struct DrawnBody {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// The model file.
     pub text: String,

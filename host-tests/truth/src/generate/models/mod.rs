@@ -13,9 +13,9 @@ use text::BezierPatch;
 /// A model file that ships.
 #[derive(Clone, Debug)]
 pub struct GeneratedModel {
-    /// Its name, without a directory.
+    /// Its file name, without a folder.
     pub file: &'static str,
-    /// What stands in it.
+    /// Its content.
     pub text: String,
 }
 
@@ -78,7 +78,7 @@ pub fn all() -> Vec<GeneratedModel> {
 /// A quarter of the unit circle: control points and weights.
 const QUARTER: [[f64; 3]; 3] = [[1.0, 0.0, 1.0], [1.0, 1.0, FRAC_1_SQRT_2], [0.0, 1.0, 1.0]];
 
-/// The quarter turned by so many right angles about the origin.
+/// The quarter rotated by `turns` right angles about the origin.
 fn quarter(turns: usize) -> [[f64; 3]; 3] {
     QUARTER.map(|[x, y, w]| match turns % 4 {
         0 => [x, y, w],
