@@ -8,10 +8,10 @@ use core::ffi::c_void;
 use palpate_core::body::{Body, BodyBuffer, Edge, Face, FileHead};
 use palpate_core::math::Vec3;
 
-/// A body whose file and room the caller keeps.
+/// A body whose file and working memory the caller owns.
 pub struct Loaded {
     pub felt: Felt,
-    /// Of its tables: a handle that was loaded anew with another file is told by it.
+    /// Checksum of its tables: shows that a handle was loaded again with another file.
     crc: Option<u32>,
 }
 
@@ -48,7 +48,7 @@ impl Standing {
     }
 }
 
-/// What a file says of itself before anything is built of it.
+/// Sizes and format of a file, known before anything is built from it.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct FileInfo {

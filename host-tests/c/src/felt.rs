@@ -1,11 +1,11 @@
-//! What a loop feels: a body, by one law.
+//! The surface of a loop: a body, with one tracking law.
 
 use palpate_core::body::{Body, BodyWitness, TableCursor};
 use palpate_core::servo::{BakedTables, Surface, Touched};
 use palpate_core::track::{Controller, Probe};
 
-/// A body whose closest point is followed by the law of second order, whatever the loop says: so the compiler sees that
-/// there is no other, and links none.
+/// A body whose witness point always follows the law of second order, whatever the settings say: so the compiler sees
+/// that no other law is used and links none.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
 pub struct Felt(pub Body<'static>);

@@ -1,21 +1,21 @@
-//! Handles: what is made here and lies in the caller's memory.
+//! Handles: objects that the library builds in the caller's memory.
 //!
-//! Each begins with a word that no other memory is likely to hold: what it is, and where it was made. So memory that
-//! was never made a handle, one of another kind, and one that was copied elsewhere are told from a handle, and what
-//! refers to a handle may keep its address. It is a check against mistakes, not against malice.
+//! Each starts with a word that other memory is unlikely to hold: a mark of its kind, combined with its address. So the
+//! library detects memory that was never made a handle, a handle of another kind, and a copy at another address; and
+//! other objects may keep the address of a handle. It is a check against mistakes, not against malice.
 
 use crate::pointers::{checked, checked_mut};
 use crate::status::Status;
 use core::mem::MaybeUninit;
 use core::ptr::{addr_of, addr_of_mut};
 
-/// What can lie in a handle.
+/// Kinds of objects in a handle.
 pub trait Kind: Sized {
-    /// What the first word says of it.
+    /// Mark of this kind in the first word.
     const MARK: usize;
 }
 
-/// Memory of the caller's that holds a `T` once it has been made.
+/// Memory of the caller that holds a `T` after [`Self::make`].
 #[repr(C)]
 pub struct Handle<T> {
     mark: usize,
@@ -27,10 +27,10 @@ impl<T: Kind> Handle<T> {
         T::MARK ^ place.addr()
     }
 
-    /// Looks at memory that is to become a handle. Whatever was in it is gone.
+    /// Checks memory that is to become a handle, and invalidates its content.
     ///
     /// # Safety
-    /// If it is neither null nor misaligned, there are so many bytes, nobody else's.
+    /// If the pointer is neither null nor misaligned, it points to `bytes` bytes that nobody else uses.
     pub unsafe fn vacate(place: *mut Self, bytes: usize) -> Result<*mut Self, Status> {
         let place = checked_mut(place)?;
         if bytes < size_of::<Self>() {

@@ -1,4 +1,4 @@
-//! What has a loop find out where its joints are.
+//! Calls that home a loop's joints.
 
 use crate::handle::Handle;
 use crate::homing::HomingNumbers;

@@ -1,9 +1,9 @@
-//! palpate for C: bodies from files, closest points, pairs of patches and the whole servo tick, in memory that the
-//! caller gives. The header is `include/palpate.h`, where every function is documented for those who call it.
+//! palpate for C: bodies from files, closest points, pairs of patches and the whole servo tick, in memory of the
+//! caller. The header `include/palpate.h` documents every function for callers.
 //!
-//! The way of a call: `pointers` looks at each pointer (null, alignment, room) and turns it into a value or a
-//! reference; `handle` sees whether it is a handle that was made here and still lies where it was made; the rest is the
-//! library's own safe code. What is wrong comes back as a [`status::Status`]; nothing panics, nothing allocates.
+//! Stages of a call: `pointers` checks each pointer (null, alignment, size) and turns it into a value or a reference;
+//! `handle` checks that it is a handle made here and not moved; the rest is the library's own safe code. Errors are
+//! returned as a [`status::Status`]; nothing panics or allocates.
 
 // With unwinding, as linters check it beside the host's packages, a crate without `std` does not compile.
 #![cfg_attr(panic = "abort", no_std)]

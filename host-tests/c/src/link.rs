@@ -16,7 +16,7 @@ impl Kind for Listening {
     const MARK: usize = 0x5041_4c4c;
 }
 
-/// What a byte has completed.
+/// The message that a byte completed.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct Heard {

@@ -7,10 +7,10 @@ use palpate_core::math::{Vec3, vec2};
 
 /// A mechanism as numbers.
 pub trait MechanismNumbers: Plain {
-    /// What they are of.
+    /// The kind of mechanism.
     type Mechanism;
 
-    /// The mechanism, or what is wrong with a number.
+    /// The mechanism, or the status of a wrong number.
     fn mechanism(&self) -> Result<Self::Mechanism, Status>;
 }
 

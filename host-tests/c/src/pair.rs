@@ -32,7 +32,7 @@ pub struct Pose {
 // SAFETY: floats alone.
 unsafe impl Plain for Pose {}
 
-/// What is known after a step.
+/// Result of a step.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct Apart {

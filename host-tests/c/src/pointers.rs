@@ -1,7 +1,7 @@
-//! A caller's pointers, looked at before they are used: null, alignment, and how much there is.
+//! Checks of a caller's pointers before use: null, alignment and size.
 //!
-//! What cannot be looked at is the caller's promise, said in the header once for all functions: a pointer that is not
-//! null points to that much memory, which nobody else writes meanwhile.
+//! The rest is the caller's promise, stated in the header once for all functions: a pointer that is not null points to
+//! that much memory, and nobody else writes to it meanwhile.
 
 use crate::status::Status;
 use core::ffi::c_void;
@@ -47,10 +47,10 @@ pub unsafe fn get<T: Plain>(pointer: *const T) -> Result<T, Status> {
     Ok(unsafe { there.read() })
 }
 
-/// Writes what was found, where somebody wants to know it.
+/// Writes a result, unless the caller passed null.
 ///
 /// # Safety
-/// If it is neither null nor misaligned, there is room for a `T`.
+/// If the pointer is neither null nor misaligned, it points to memory for a `T`.
 pub unsafe fn put<T: Copy>(pointer: *mut T, value: T) -> Result<(), Status> {
     let there = checked_mut(pointer)?;
     // SAFETY: neither null nor misaligned, and there by the caller's promise.
@@ -61,7 +61,7 @@ pub unsafe fn put<T: Copy>(pointer: *mut T, value: T) -> Result<(), Status> {
 /// A row of numbers.
 ///
 /// # Safety
-/// If it is neither null nor misaligned, there are so many, and they stay as they are for `'a`.
+/// If the pointer is neither null nor misaligned, it points to `count` numbers, which do not change during `'a`.
 pub unsafe fn row<'a, T: Plain>(pointer: *const T, count: usize) -> Result<&'a [T], Status> {
     let there = checked(pointer)?;
     if count > isize::MAX as usize / size_of::<T>() {
@@ -72,7 +72,7 @@ pub unsafe fn row<'a, T: Plain>(pointer: *const T, count: usize) -> Result<&'a [
     Ok(unsafe { slice::from_raw_parts(there, count) })
 }
 
-/// Room for so many `T` at the start of a block of memory, and what is left of it.
+/// Slots for a number of `T` at the start of a block of memory, and the rest of the block.
 ///
 /// # Safety
 /// If it is not null, the block is there for good, and nobody else's.

@@ -1,4 +1,4 @@
-//! What protects motors and hand, as numbers.
+//! Protection of motors and hand, as numbers.
 
 use crate::felt::Felt;
 use crate::pointers::Plain;
@@ -6,7 +6,7 @@ use crate::status::Status;
 use palpate_core::device::{Device, Endurance, PolarityCheck, Protection, SupplyRange};
 use palpate_core::servo::{Config, Guard, Guarded, Servo, Unguarded};
 
-/// What a motor's winding bears.
+/// Thermal limits of a motor's winding.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct EnduranceNumbers {
@@ -14,7 +14,7 @@ pub struct EnduranceNumbers {
     pub time_constant: f32,
 }
 
-/// What protects a device; joints that it does not have are not looked at.
+/// Protection of a device; the numbers of joints that it does not have are ignored.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct ProtectionNumbers {
@@ -31,12 +31,12 @@ pub struct ProtectionNumbers {
 // SAFETY: numbers alone.
 unsafe impl Plain for ProtectionNumbers {}
 
-/// How a loop is guarded.
+/// Kind of protection of a loop.
 pub trait Guarding<const JOINTS: usize> {
-    /// What guards it.
+    /// The guard.
     type Guard: Guard<JOINTS> + Copy + 'static;
 
-    /// The loop, guarded.
+    /// The loop with its guard.
     fn servo<K>(
         &self,
         device: &'static Device<K, JOINTS>,
@@ -47,7 +47,7 @@ pub trait Guarding<const JOINTS: usize> {
         K: palpate_core::device::Kinematics<JOINTS>;
 }
 
-/// Not at all.
+/// No protection.
 pub struct Unprotected;
 
 impl<const JOINTS: usize> Guarding<JOINTS> for Unprotected {

@@ -13,13 +13,13 @@ use palpate_core::wire::Report;
 pub struct Loop<K: 'static, const JOINTS: usize, G: Guard<JOINTS>> {
     /// The loop.
     pub servo: Servo<'static, Felt, K, JOINTS, G>,
-    /// What it remembers.
+    /// Its state.
     pub state: ServoState<JOINTS, BodyWitness, G::State>,
     /// Why the chip was reset.
     pub reset: ResetReason,
 }
 
-/// What the sensors say, or that they say nothing.
+/// The sensors' values, or that there are none in this tick.
 #[derive(Clone, Copy)]
 pub enum Sensed<'a> {
     Counts { counts: &'a [i32], enable: bool },
@@ -35,11 +35,11 @@ pub trait Running {
     fn home(&mut self, homing: &HomingNumbers) -> Result<(), Status>;
     /// How many joints it has.
     fn joints(&self) -> usize;
-    /// What happened between two ticks.
+    /// Records an event between two ticks.
     fn note(&mut self, event: Event);
-    /// What the motors get.
+    /// The motors' commands.
     fn output(&self) -> MotorOutput;
-    /// All that is told.
+    /// The whole state, as numbers.
     fn state(&self) -> StateNumbers;
     /// The same for the wire.
     fn report(&self, instructions: u32) -> Report;

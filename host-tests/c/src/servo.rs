@@ -39,11 +39,11 @@ struct Whole<K: 'static, const JOINTS: usize, G: Guard<JOINTS>> {
     running: Loop<K, JOINTS, G>,
 }
 
-/// What a loop is made of, beside its mechanism.
+/// Parts of a loop, apart from its mechanism.
 pub struct Parts<P> {
     /// The device's numbers.
     pub device: *const DeviceNumbers,
-    /// What is felt.
+    /// The rendered body.
     pub body: *const Handle<Loaded>,
     /// The settings.
     pub settings: *const SettingsNumbers,
@@ -188,7 +188,7 @@ pub unsafe extern "C" fn palpate_servo_tick_without(
     code(unsafe { tick(servo, sensed, output) })
 }
 
-/// What happened outside a tick.
+/// Records an event outside a tick.
 ///
 /// # Safety
 /// As the header says of all functions.

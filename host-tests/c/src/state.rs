@@ -1,10 +1,10 @@
-//! What is told of a loop.
+//! The state of a loop, as numbers.
 
 use crate::pointers::Plain;
 use palpate_core::servo::{Output, Remembered, ServoState, Tracked};
 use palpate_core::wire::Report;
 
-/// What the motors get.
+/// The motors' commands.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct MotorOutput {

@@ -1,11 +1,11 @@
-//! What a call came to, as a code and as a sentence.
+//! Result of a call, as a code and as a sentence.
 
 use core::ffi::{CStr, c_char};
 use palpate_core::body::FileError;
 use palpate_core::device::{DeviceError, HomingError};
 use palpate_core::servo::{ConfigError, Fault, ProtectionError, RenderingError, SafetyError, SettingsError};
 
-/// What a call came to. Whatever it is but `Ok`, nothing has been done.
+/// Result of a call. After any value but `Ok` the call had no effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(i32)]
 pub enum Status {
@@ -286,14 +286,14 @@ impl From<HomingError> for Status {
     }
 }
 
-/// A status in words, for ever there; "unknown" of a code that is none.
+/// A status in words, a static string; "unknown" for an unknown code.
 #[unsafe(no_mangle)]
 pub extern "C" fn palpate_status_text(status: i32) -> *const c_char {
     let known = Status::ALL.into_iter().find(|known| *known as i32 == status);
     known.map_or(c"unknown", Status::text).as_ptr()
 }
 
-/// A fault in words, for ever there; "none" of 0, "unknown" of a code that is none.
+/// A fault in words, a static string; "none" for 0, "unknown" for an unknown code.
 #[unsafe(no_mangle)]
 pub extern "C" fn palpate_fault_text(fault: u32) -> *const c_char {
     let text = match u8::try_from(fault).ok().and_then(Fault::from_code) {

@@ -7,7 +7,7 @@ use core::sync::atomic::{AtomicPtr, Ordering};
 use palpate_core::math::Vec3;
 use palpate_core::render::{Texture, Touch as Touched};
 
-/// What a texture may look at.
+/// Inputs of a texture.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct TouchedNumbers {

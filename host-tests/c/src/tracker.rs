@@ -24,7 +24,7 @@ impl Kind for Tracking {
     const MARK: usize = 0x5041_4c54;
 }
 
-/// What is known after a tick.
+/// Result of a tick.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct Touch {

@@ -1,4 +1,4 @@
-//! What the loop touches: a body, or one patch. Nothing is added to either: the words of the state are theirs.
+//! The surface that the loop renders: a body, or one patch. Neither adds words to the state.
 
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
@@ -21,13 +21,13 @@ pub enum Felt {
 /// Its witness point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeltWitness {
-    /// What the surface keeps.
+    /// State of the surface.
     pub kept: Kept,
-    /// Evaluations of patches that the last tick has spent.
+    /// Evaluations of patches in the last tick.
     pub spent: u8,
 }
 
-/// What a surface keeps from tick to tick.
+/// State of a surface between ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kept {
     /// On a body.
@@ -144,7 +144,7 @@ impl Tracked for FeltWitness {
 }
 
 impl FeltWitness {
-    /// Unit vector out of what is felt at the witness point; zero where there is none.
+    /// Unit vector out of the surface at the witness point; zero without one.
     pub fn normal(&self, felt: &Felt) -> Vec3 {
         match (&self.kept, felt) {
             (Kept::Body(witness), _) => witness.normal,
@@ -164,14 +164,14 @@ impl FeltWitness {
 
 // A body's file, checked and built, for as long as the instance lives.
 
-/// What is felt, and where its tables lie in the model.
+/// A loaded surface, and the place of its tables in the model.
 #[derive(Clone, Copy)]
 pub struct Loaded {
     /// The body, with all features.
     pub body: &'static Body<'static>,
-    /// What the loop touches: the body, or its only patch.
+    /// The rendered surface: the body, or its only patch.
     pub felt: &'static Felt,
-    /// Where the origin of the tables lies in the model, metres.
+    /// Origin of the tables in the model, metres.
     pub centre: Vec3,
 }
 

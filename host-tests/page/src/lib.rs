@@ -1,7 +1,6 @@
-//! What the page runs: the firmware's own servo loop, compiled for the browser, on a device of three slides that a
-//! simulated hand holds. The exports are plain functions on numbers; what is more than a number lies in the memory,
-//! where a function says. An instance of the module is a device: another body takes another instance, as another
-//! image would.
+//! The page's firmware: the same servo loop, compiled for the browser, on a device of three slides that a simulated
+//! hand holds. The exports are plain functions on numbers; longer data lies in memory at an address that a function
+//! returns. Each instance of the module is one device with one body, as a board has one image.
 //!
 //! `unsafe` is only in the names of the exports, which the linker takes as they are.
 

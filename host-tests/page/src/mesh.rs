@@ -65,7 +65,7 @@ fn placed(face: &palpate::body::Face<'static>, [u, v]: [f32; 2]) -> [Vec3; 2] {
 /// Rays along a sheet.
 pub const STEPS: u32 = 24;
 
-/// The sheets of a feature, [`STEPS`] + 1 rays each: where it begins and its direction, six numbers.
+/// The sheets of a feature, [`STEPS`] + 1 rays each: start and direction, six numbers.
 pub fn sheets(body: &Body<'static>, feature: Feature, out: &mut Vec<f32>) {
     match feature {
         Feature::Face(index) => {

@@ -1,4 +1,4 @@
-//! A recorded run, felt anew: the counts of each tick through the firmware's code, and the hash of what came of it.
+//! Replay of a recorded run: passes the counts of each tick through the firmware's code and computes the hash.
 
 use crate::felt::Loaded;
 use crate::view;
@@ -25,7 +25,7 @@ pub struct Run {
     pub settings: Settings,
     /// Seconds without a host after which it stops.
     pub link_timeout: f32,
-    /// The scene that was felt; none, where it was one body or patch.
+    /// The rendered scene; `None` for a single body or patch.
     pub scene: Option<SceneNumbers>,
 }
 
@@ -33,8 +33,8 @@ pub struct Run {
 const SETTINGS: usize = 9;
 
 impl Run {
-    /// From the numbers of a recording: rate, stiffness, damping, greatest force, velocity corner, soft start and the
-    /// body's origin; then so many of the device; then those of the scene, if it was one.
+    /// From the numbers of a recording: rate, stiffness, damping, maximum force, velocity corner, soft start and the
+    /// body's origin; then the `of_device` numbers of the device; then those of the scene, if it was one.
     pub fn of(numbers: &[f32], of_device: usize, link_timeout: f32) -> Option<Self> {
         let (settings, numbers) = numbers.split_at_checked(SETTINGS)?;
         let (device, scene) = numbers.split_at_checked(of_device)?;
@@ -60,11 +60,11 @@ impl Run {
     }
 }
 
-/// A loop that is told what the sensors said.
+/// A loop that takes recorded sensor values.
 pub trait Replay: Send {
     /// One tick.
     fn tick(&mut self, counts: [i32; 3], enable: bool);
-    /// What there is to see.
+    /// Appends the numbers to draw.
     fn view(&self, out: &mut Vec<f32>);
     /// The hash so far, as the tool's summary prints it.
     fn hash(&self) -> u32;
@@ -100,7 +100,7 @@ where
 /// The loop of a run: over a scene of these bodies, or over the first of them.
 ///
 /// # Errors
-/// What the loop refuses, in a sentence.
+/// The loop's reason to refuse the run, in a sentence.
 pub fn replay(run: &Run, first: &Loaded, others: &[Loaded]) -> Result<Box<dyn Replay>, String> {
     let Some(scene) = &run.scene else { return begin(run, first.felt) };
     let bodies: Vec<&'static Body<'static>> = [first].into_iter().chain(others).map(|loaded| loaded.body).collect();
@@ -155,10 +155,10 @@ where
 
 // A device's own telemetry, frame by frame, as `palpate monitor` reads it.
 
-/// What has come so far.
+/// The records received so far.
 pub struct Monitor {
     receiver: Receiver<DeviceMessage>,
-    /// Whether a frame has ended on the line: what comes before may be the rest of one.
+    /// Whether a frame has ended on the line: earlier bytes may be the rest of one.
     in_step: bool,
     /// Whole records.
     pub records: u32,

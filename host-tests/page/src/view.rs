@@ -1,4 +1,4 @@
-//! What the page sees of the loop after a tick, as numbers in an order that `web/firmware.js` has names for.
+//! View of the loop after a tick: numbers in an order that `web/firmware.js` has names for.
 
 use crate::felt::{Felt, FeltWitness};
 use alloc::vec::Vec;
@@ -73,15 +73,15 @@ pub fn write<S: Sighted, G: Remembered>(
 /// A witness point in the frame that its surface was baked in, and where that frame is.
 #[derive(Clone, Copy, Debug)]
 pub struct Sight<'a> {
-    /// What the tracker keeps.
+    /// The tracker's state.
     pub witness: &'a Witness,
-    /// Which face, edge or vertex it lies on.
+    /// The feature of the witness point.
     pub feature: Feature,
-    /// The face's patch; none on an edge or a vertex.
+    /// The face's patch; `None` on an edge or a vertex.
     pub patch: Option<&'static SplinePatch<'static>>,
-    /// Unit vector out of what is felt; zero where there is none.
+    /// Unit vector out of the surface; zero without a witness point.
     pub normal: Vec3,
-    /// Evaluations of patches that the last tick has spent; none where several bodies share a tick.
+    /// Evaluations of patches in the last tick; `None` if several bodies share a tick.
     pub spent: u8,
     /// Of the frame.
     pub place: Placement,
@@ -92,7 +92,7 @@ pub trait Sighted: Surface + 'static {
     /// Where its witness point is.
     fn sight<'a>(&'static self, kept: &'a Self::Witness) -> Sight<'a>;
 
-    /// Which of several bodies is felt, and where each of them is: nothing of a surface that stands.
+    /// The body in contact and the position of each body; nothing for a fixed surface.
     fn places(&'static self, _kept: &Self::Witness, _out: &mut Vec<f32>) {}
 }
 

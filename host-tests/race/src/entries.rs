@@ -1,4 +1,4 @@
-//! Who takes part, in the order of the table. A new contestant is a file with one or two functions, and its lines here.
+//! Contestants, in the order of the table. A new contestant is a file with one or two functions, and its lines here.
 
 use crate::contestant::{Answer, Contestant, Enter};
 use crate::scene::{Probe, Scene};

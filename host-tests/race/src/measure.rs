@@ -31,7 +31,7 @@ pub fn time(scene: &Scene, enter: Enter) -> anyhow::Result<Vec<(Answer, Option<u
     Ok(best)
 }
 
-/// Answers alone; every so many queries, as the scene says, one is counted.
+/// Answers all queries without timing; counts one query in every `stride` of the scene.
 pub fn count(scene: &Scene, enter: Enter) -> anyhow::Result<Vec<(Answer, Option<u64>)>> {
     let mut contestant = enter(scene)?;
     let answer = |(row, probe): (usize, &Probe)| {
@@ -42,7 +42,7 @@ pub fn count(scene: &Scene, enter: Enter) -> anyhow::Result<Vec<(Answer, Option<
     Ok(scene.probes.iter().enumerate().map(answer).collect())
 }
 
-/// Nanoseconds between two looks at the clock, the least of many.
+/// Nanoseconds between two readings of the clock, the minimum of many.
 fn clock() -> u64 {
     let look = |_| {
         let start = Instant::now();

@@ -9,9 +9,9 @@ use crate::ours;
 use crate::scene::{Probe, Scene};
 use palpate::math::Vec3;
 
-/// A cold start looks at the patch at the centres of so many cells along each parameter.
+/// Cells along each parameter; a cold start evaluates the patch at their centres.
 const CELLS: usize = 8;
-/// Done when neither parameter moves by more: what is left is the square of it, and `f32` resolves 6e-8.
+/// Converged when neither parameter moves by more: the remaining error is about its square, and `f32` resolves 6e-8.
 const SETTLED: f32 = 1e-5;
 /// Iterations of a cold search, and of one row of a track.
 const COLD_ITERATIONS: usize = 20;

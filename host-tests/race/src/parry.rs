@@ -23,7 +23,7 @@ pub fn mesh_32(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
     mesh(scene, 32)
 }
 
-/// The convex hull of 33 × 33 samples: what is not convex is filled in, and the open side is closed.
+/// The convex hull of 33 × 33 samples: it fills hollows and closes the open side.
 pub fn hull(scene: &Scene) -> anyhow::Result<Box<dyn Contestant>> {
     let hull = ConvexPolyhedron::from_convex_hull(&samples(scene, 32)).context("the samples have no convex hull")?;
     Ok(Box::new(Shape(hull)))

@@ -34,9 +34,9 @@ pub struct Scene {
     pub coefficients: &'static [[f32; 3]],
     /// The patch as the firmware has it.
     pub patch: SplinePatch<'static>,
-    /// The patch as a body with its locator, for a cold start. Its borders play no part in that and are left out.
+    /// The patch as a body with its locator, for a cold start. Its borders have no part in that and are left out.
     pub body: Body<'static>,
-    /// Of so many queries one is counted.
+    /// Step between counted queries.
     pub stride: usize,
     /// The queries, in order.
     pub probes: Vec<Probe>,
@@ -46,7 +46,7 @@ impl Scene {
     /// Reads a scene.
     ///
     /// # Errors
-    /// What is missing or wrong.
+    /// A missing or faulty line.
     pub fn read(file: &str) -> anyhow::Result<Self> {
         let text = fs::read_to_string(file)?;
         let lines: HashMap<&str, &str> = text.lines().filter_map(|line| line.split_once(' ')).collect();
