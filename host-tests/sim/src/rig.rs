@@ -16,14 +16,14 @@ use std::cell::RefCell;
 use std::convert::Infallible;
 use std::rc::Rc;
 
-/// Of the servo, Hz.
+/// Rate of the servo, Hz.
 pub const RATE: f64 = 4_000.0;
-/// Of the simulated board's counter, Hz.
+/// Rate of the simulated board's counter, Hz.
 pub const CLOCK: u32 = 170_000_000;
-/// What the counter advances each time it is looked at.
+/// Increment of the counter at each reading.
 const LOOK: u32 = 40;
 
-/// Of the servo.
+/// Settings of the servo.
 pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
     rate_hz: RATE as f32,
     stiffness_n_per_m: 600.0,
@@ -36,46 +36,46 @@ pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
 
 pub use crate::wall::WALL;
 
-/// The stops of the simulated arm, from where it hangs once nothing holds it.
+/// The stops of the simulated arm, from its hanging pose.
 pub const STOPS: [StopSearch; 3] = [
     StopSearch { angle_rad: 1.55, speed_rad_per_s: 1.0, torque_n_m: 0.2, clearance_rad: 0.2, travel_rad: 3.3 },
     StopSearch { angle_rad: 2.15, speed_rad_per_s: 0.8, torque_n_m: 0.5, clearance_rad: 0.2, travel_rad: 0.5 },
     StopSearch { angle_rad: 1.75, speed_rad_per_s: 0.8, torque_n_m: 0.5, clearance_rad: 0.2, travel_rad: 0.5 },
 ];
 
-/// What the pins are wired to.
+/// Everything that the pins are wired to.
 pub struct World {
     /// The device in a hand.
     pub plant: Plant,
-    /// The button is pressed.
+    /// Whether the button is pressed.
     pub button: bool,
-    /// The stop button is pressed, or its wire is off: its contact is open.
+    /// Whether the contact of the stop button is open: pressed, or its wire is off.
     pub stop_open: bool,
-    /// The wires of the ready lines are whole.
+    /// Whether the wires of the ready lines are whole.
     pub ready_wires: [bool; 3],
-    /// The amplifiers are well.
+    /// Whether the amplifiers work.
     pub amplifiers_well: bool,
-    /// Volts.
+    /// Supply voltage, V.
     pub supply: f32,
-    /// What the converter makes of them in this tick; `None` if it fails.
+    /// The converter's reading of that voltage in this tick; `None` if it fails.
     pub measured: fn(f32) -> Option<f32>,
-    /// Frames to come that are bad.
+    /// Number of frames to come that are bad.
     pub bad: u32,
     /// The kind of the bad frames.
     pub kind: BadFrame,
-    /// Counts that the counters are ahead of the plant by: joints that a test turns itself.
+    /// Counts by which the counters differ from the plant: joints that a test turns itself.
     pub turned: [i32; 3],
-    /// What the timers caught at marks since they were asked.
+    /// Counts that the timers captured at marks since the last query.
     pub caught: [Option<i32>; 3],
     /// Cycles that reading the sensors takes.
     pub reading: u32,
-    /// Width of the set-points, as a share of their period.
+    /// Width of the set-points, as a fraction of their period.
     pub widths: [f64; 3],
     /// Levels of the enable lines.
     pub enables: [bool; 3],
     /// Level of the LED's line.
     pub light: bool,
-    /// What its counter says.
+    /// Value of its counter.
     pub cycles: u32,
 }
 
@@ -93,7 +93,7 @@ impl World {
         self.supply > 8.0
     }
 
-    /// What the motors get, by the amplifiers' own configuration: 10 % is full current back, 90 % ahead.
+    /// The motors' currents, by the amplifiers' own configuration: 10 % is full current backwards, 90 % forwards.
     pub fn currents(&self) -> [f64; 3] {
         core::array::from_fn(|joint| {
             let is_driven = self.enables[joint] && self.is_powered() && self.amplifiers_well;
@@ -184,7 +184,7 @@ impl Supply for Volts {
     }
 }
 
-/// What measures the supply.
+/// The measurement of the supply.
 pub struct Volts(Shared);
 
 /// Three 16-bit timers.
@@ -202,11 +202,11 @@ impl Readings<3> for Timers {
     }
 }
 
-/// Sensors some of whose frames are bad, and which take their time.
+/// Sensors that deliver some bad frames, and that take time.
 pub struct Spoilt {
     world: Shared,
     counters: Counters<Timers, 3>,
-    /// What the counters were ahead of the joints at the first reading: the loop of most tests is homed from the start.
+    /// Difference of counters and joints at the first reading: in most tests the loop is homed from the start.
     ahead: Option<[i32; 3]>,
 }
 
@@ -269,7 +269,7 @@ pub fn settings() -> Settings {
     Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) }
 }
 
-/// A hand that comes down on its place from 10 mm above it within 20 ms, for what begins inside a wall is not touched.
+/// A hand that comes down from 10 mm within 20 ms: a probe that starts inside a wall makes no contact.
 struct Down(Vector);
 
 impl HandPath for Down {

@@ -35,7 +35,7 @@ pub fn source(own: &OwnDevice, from: &str) -> String {
     text
 }
 
-/// What a board homes by, for joints whose encoders' zeroes are of that.
+/// The board's homing reference, for joints whose encoder zeroes refer to it.
 const fn reference(homing: HomingEntry) -> &'static str {
     match homing {
         HomingEntry::Pose => "Some(palpate::device::Reference::Pose(DEVICE.angles_at_zero()))",
@@ -44,8 +44,8 @@ const fn reference(homing: HomingEntry) -> &'static str {
     }
 }
 
-/// The source that an image of a device that is to be set up is built with: its constants, gains that it bears, and
-/// nobody who has to be there. `rate` in Hz.
+/// The source for an image of a device that is still to be commissioned: its constants, gains within its limits, and no
+/// host timeout. `rate` in Hz.
 pub fn settings_source(own: &OwnDevice, rate: f32) -> String {
     let limits = own.preset.limits();
     let (stiffness, damping, force) = (0.5 * limits.stiffness, 0.5 * limits.damping, limits.force);
@@ -99,7 +99,7 @@ fn constants<K: Debug>(text: &mut String, mechanism: &str, device: &Device<K, 3>
          joint_range_rad: {joint_range_rad:?},\n    min_margin_m_per_rad: {min_margin_m_per_rad:?},\n    max_joint_rate_rad_per_s: {max_joint_rate_rad_per_s:?},\n    \
          max_force_n: {max_force_n:?},\n    max_stiffness_n_per_m: {max_stiffness_n_per_m:?},\n    max_damping_n_s_per_m: {max_damping_n_s_per_m:?},\n}};\n\
          const _: () = assert!(DEVICE.check().is_ok(), \"no device has these numbers\");\n\n\
-         /// What protects it.\n#[allow(dead_code)]\npub const PROTECTION: palpate::device::Protection<3> = {};\n",
+         /// Its protection.\n#[allow(dead_code)]\npub const PROTECTION: palpate::device::Protection<3> = {};\n",
         literal(kinematics),
         literal(encoders),
         literal(motors),

@@ -1,5 +1,5 @@
-//! A lab's own device, as a `device.toml` describes it: read and checked, turned into the library's constant,
-//! simulated, and written. Apart from the tool, for whoever runs a loop against a device.
+//! A lab's own device, described by a `device.toml`: read and checked, turned into the library's constant, simulated,
+//! and written. A crate apart from the tool, so that other programs can run a loop against a device.
 
 mod constant;
 mod plant;

@@ -1,8 +1,8 @@
-//! What stands in for one's own device in simulation.
+//! Simulated plant of the user's own device.
 //!
-//! Its geometry, transmission and friction are the file's. Inertia that the file does not state is assumed: thin rods
-//! of 100 g, a turntable of 2e-3 kg·m², rotors of 10 g·cm²; whatever the links weigh, the joints are loaded as the file
-//! says.
+//! Geometry, transmission and friction come from the file. Inertia that the file does not state is assumed: thin rods
+//! of 100 g, a turntable of 2e-3 kg·m², rotors of 10 g·cm². The load of gravity on the joints is the file's,
+//! independent of the assumed masses.
 
 use super::schema::{DeviceFile, JointEntry, MassEntry, MechanismEntry};
 use crate::plant::{

@@ -1,9 +1,9 @@
-//! What the servo knows of a device, whichever its mechanism.
+//! The servo's description of a device, for any mechanism.
 
 use palpate::device::{Delta, Device, FiveBar, Kinematics, LinkageArm, Paddle, SerialArm};
 
-/// What the servo knows of a device, by its mechanism. Only who matches on it need know that there are several; from
-/// there on the loop is generic, on the host as on the target.
+/// The servo's description of a device, by its mechanism. Only a `match` on it distinguishes mechanisms; the loop
+/// behind it is generic, on the host as on the target.
 #[derive(Clone, Copy, Debug)]
 pub enum Preset {
     /// Three joints, serial.
@@ -18,7 +18,7 @@ pub enum Preset {
     Paddle(&'static Device<Paddle, 1>),
 }
 
-/// What a device is to be asked for at most.
+/// Limits of a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// N.
@@ -51,7 +51,7 @@ impl Preset {
         }
     }
 
-    /// How much room there is to the rim of the workspace at these joint angles, rad: 1 well inside, 0 on it.
+    /// Workspace margin at these joint angles, rad: 1 well inside, 0 on the border.
     pub fn room(self, angles: [f64; 3]) -> f32 {
         fn of<K: Kinematics<JOINTS>, const JOINTS: usize>(device: &Device<K, JOINTS>, angles: [f64; 3]) -> f32 {
             let angles = core::array::from_fn(|joint| angles[joint] as f32);

@@ -40,7 +40,7 @@ pub enum DeviceFileError {
         file: String,
         /// As the file names it.
         entry: String,
-        /// What is wrong.
+        /// The reason.
         reason: String,
     },
 }
@@ -48,13 +48,13 @@ pub enum DeviceFileError {
 /// A device file that has been read, with all that it describes.
 #[derive(Clone, Debug)]
 pub struct OwnDevice {
-    /// What stands in it.
+    /// Content of the file.
     pub file: DeviceFile,
-    /// What the servo knows of it; lives as long as the program.
+    /// The servo's description of it, a leaked `'static`.
     pub preset: Preset,
-    /// What protects it.
+    /// Its protection.
     pub protection: Protection<3>,
-    /// What stands in for it in simulation.
+    /// Its simulated plant.
     pub plant: PlantSettings,
 }
 
@@ -110,7 +110,7 @@ impl OwnDevice {
     }
 }
 
-/// What the library's own check does not see.
+/// Checks beyond the library's own.
 fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> Result<(), DeviceFileError> {
     if file.name.is_empty() || !file.name.chars().all(|letter| letter.is_ascii_alphanumeric() || "-_.".contains(letter))
     {

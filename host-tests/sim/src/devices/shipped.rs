@@ -1,4 +1,4 @@
-//! The device file of a device that ships: where one's own begins.
+//! The device file of a shipped device: a starting point for the user's own.
 
 use super::schema::{
     BridgeEntry, DeviceFile, EncoderEntry, HomingEntry, JointEntry, LimitsEntry, LinkageEntry, MassEntry,
@@ -67,7 +67,7 @@ pub fn file_of(name: &str, preset: Preset, plant: &PlantSettings) -> Option<Devi
     Some(DeviceFile { name: name.to_owned(), homing: HomingEntry::Pose, mechanism, limits, joint })
 }
 
-/// What protects a shipped device of three joints.
+/// Protection of a shipped device of three joints.
 pub fn protection_of(name: &str) -> Protection<3> {
     match name {
         "polhem-v2" => presets::POLHEM_V2_PROTECTION,

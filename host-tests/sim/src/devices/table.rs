@@ -11,29 +11,29 @@ use palpate::servo::recommended::{self, Recommended};
 pub struct ShippedDevice {
     /// The name on the command line.
     pub name: &'static str,
-    /// Its full name, and what kind of device it is.
+    /// Its full name and its kind of mechanism.
     pub about: &'static str,
-    /// What the servo knows of it.
+    /// The servo's description of it.
     pub preset: Preset,
     /// The simulated device.
     pub plant: PlantSettings,
-    /// What of the simulated device's inertia and friction no source states; the plant's settings say it number by
-    /// number.
+    /// Inertia and friction of the simulated device that are assumed because no source states them; the plant's
+    /// settings name them number by number.
     pub assumed: &'static str,
-    /// Where the palpate library has the preset: its mechanism's type and its constant, in a source file for an image.
-    /// None with less than three joints.
+    /// Path of the preset in the palpate library: its mechanism's type and its constant, for the source file of an
+    /// image. `None` with less than three joints.
     pub source: Option<[&'static str; 2]>,
-    /// The source of the constants of one's own device, and what protects it; none of one that ships.
+    /// Source of the constants and protection of the user's own device; `None` for a shipped one.
     pub constants: Option<(&'static str, Protection<3>)>,
 }
 
 impl ShippedDevice {
-    /// Its device file, where one's own begins; `None` with less than three joints.
+    /// Its device file, a starting point for the user's own; `None` with less than three joints.
     pub fn file(&self) -> Option<DeviceFile> {
         file_of(self.name, self.preset, &self.plant)
     }
 
-    /// What it is recommended to be driven with, so that the loop is not felt; `None` for one's own.
+    /// Recommended settings: the hand feels the surface and not the loop; `None` for the user's own device.
     pub fn recommended(&self) -> Option<Recommended> {
         Some(match self.name {
             "woodenhaptics-2016" => recommended::WOODEN_HAPTICS_2016,
@@ -47,7 +47,7 @@ impl ShippedDevice {
         })
     }
 
-    /// What protects it.
+    /// Its protection.
     pub fn protection(&self) -> Protection<3> {
         self.constants.map_or_else(|| protection_of(self.name), |(_, protection)| protection)
     }

@@ -7,19 +7,19 @@ use palpate::body::{Body, Edge, EdgeFace, EdgeKind, Face};
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
 
-/// How far from an edge the hand comes down and goes on to, m; less on a small face.
+/// Distance from an edge at which the hand comes down, and to which it goes on, m; less on a small face.
 const REACH: f64 = 0.012;
-/// How high over the surface the hand begins, m.
+/// Height of the hand over the surface at the start, m.
 const ABOVE: f64 = 0.01;
 /// Points along a way.
 const POINTS: usize = 24;
-/// With how much force the hand presses, N.
+/// Force with which the hand presses, N.
 const PUSH: f64 = 0.7;
-/// How fast it goes round an edge, m/s.
+/// Speed around an edge, m/s.
 const ROUNDING: f64 = 0.03;
-/// What the way round a convex edge is called.
+/// Name of the way round a convex edge.
 pub const ROUND: &str = "round a convex edge";
-/// Normals that differ by less than this at the middle of an edge, rad, make a smooth seam.
+/// Maximum difference of the normals at the middle of a smooth seam, rad.
 const SMOOTH: f64 = 0.02;
 
 /// A way on a face towards the middle of one of its edges: points and normals, the last of them on the edge.

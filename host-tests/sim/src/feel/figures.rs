@@ -1,4 +1,4 @@
-//! What a recording says of the hand's sensations.
+//! Figures of a recording: the hand's sensations.
 
 use super::record::{Recording, Tick};
 use super::sensation::Sensation;
@@ -6,15 +6,15 @@ use super::spectrum::{BANDS, Spectrum};
 use super::threshold::Threshold;
 use crate::plant::Vector;
 
-/// How long after a contact began, and about its end, a step counts as theirs, s.
+/// Time after the start of a contact, and around its end, within which a step counts as theirs, s.
 const AROUND: f64 = 0.01;
 
 /// The largest steps of force from one tick to the next, N.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Steps {
-    /// In the 10 ms from the tick in which contact began.
+    /// In the 10 ms from the tick in which contact started.
     pub contact: f64,
-    /// In the 10 ms before the force was gone, and the tick in which it went.
+    /// In the 10 ms before the force ended, and in the tick in which it ended.
     pub release: f64,
     /// Anywhere.
     pub any: f64,
@@ -25,28 +25,28 @@ pub struct Steps {
 pub struct Figures {
     /// The largest steps.
     pub steps: Steps,
-    /// Ripple of the force where it is looked at, its straight line taken off, from its least to its greatest value, N.
+    /// Ripple of the force in the measured window after subtraction of its linear trend, peak to peak, N.
     pub ripple: f64,
-    /// Of this the peak of a tone as strong, N, by [`BANDS`].
+    /// Peak of a tone with the ripple's power in each of the [`BANDS`], N.
     pub bands: [f64; BANDS.len()],
     /// The spectrum of the probe's displacement, all directions together.
     pub displacement: Spectrum,
-    /// What of it people feel most.
+    /// The most noticeable component of the displacement.
     pub sensation: Sensation,
     /// Mean length of the force, N.
     pub force: f64,
-    /// Mean depth of the probe as the loop sees it, m; 0 where nothing is touched.
+    /// Mean depth of the probe in the loop's view, m; 0 without contact.
     pub depth: f64,
     /// Mean force against the hand's motion, N.
     pub drag: f64,
-    /// Touches that began.
+    /// Number of contacts that started.
     pub touches: usize,
-    /// The longest time for which there was force on a probe in front of the surface, s.
+    /// The longest time with force on a probe in front of the surface, s.
     pub afterglow: f64,
 }
 
 impl Recording {
-    /// The figures, with ripple looked at from one time to another, s.
+    /// The figures; the ripple is measured from one time to another, s.
     pub fn figures(&self, looked_at: [f64; 2], threshold: &Threshold) -> Figures {
         let window = self.between(looked_at);
         let along = |axis: usize, of: fn(&Tick) -> Vector| window.iter().map(|tick| of(tick)[axis]).collect::<Vec<_>>();
@@ -159,7 +159,7 @@ fn mean(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
 }
 
-/// From least to greatest.
+/// Difference of maximum and minimum.
 fn peak_to_peak(values: &[f64]) -> f64 {
     let (low, high) = values
         .iter()

@@ -21,7 +21,7 @@ impl Legs {
         Self { corners: vec![(0.0, place)], sums: vec![[0.0; 3]] }
     }
 
-    /// Goes on to a place in so many seconds.
+    /// Moves to a place within `seconds`.
     pub fn to(mut self, place: Vector, seconds: f64) -> Self {
         let (time, last) = *self.corners.last().unwrap_or(&(0.0, place));
         let sum = *self.sums.last().unwrap_or(&[0.0; 3]);
@@ -30,14 +30,14 @@ impl Legs {
         self
     }
 
-    /// Goes on to a place at so many metres a second.
+    /// Moves to a place at `speed`, m/s.
     pub fn at_speed(self, place: Vector, speed: f64) -> Self {
         let from = self.corners.last().map_or(place, |corner| corner.1);
         let distance = (0..3).map(|axis| (place[axis] - from[axis]).powi(2)).sum::<f64>().sqrt();
         self.to(place, distance / speed)
     }
 
-    /// Stays so many seconds.
+    /// Waits for `seconds`.
     pub fn wait(self, seconds: f64) -> Self {
         let place = self.corners.last().map_or([0.0; 3], |corner| corner.1);
         self.to(place, seconds)

@@ -1,8 +1,9 @@
-//! What a hand feels of the loop, in figures.
+//! Feel of the loop, in figures.
 //!
-//! A scripted hand ([`Script`]) holds a simulated device that touches a wall or a body; [`record`] runs the loop of the
-//! library against it, and [`Figures`] says of the recording what the hand got: the largest step of force between two
-//! ticks, ripple by bands, and how far the ripple lies above what people can feel ([`Threshold`], [`Sensation`]).
+//! A scripted hand ([`Script`]) holds a simulated device that touches a wall or a body; [`record`] runs the library's
+//! loop against it, and [`Figures`] measures the force on the hand in the recording: the largest step between two
+//! ticks, ripple by bands, and how far the ripple lies above the threshold of perception ([`Threshold`],
+//! [`Sensation`]).
 
 mod edges;
 mod figures;

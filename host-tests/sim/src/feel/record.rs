@@ -7,19 +7,19 @@ use palpate::servo::{Fault, Input, Output, Servo, Surface};
 use palpate::track::Contact;
 use thiserror::Error;
 
-/// From when on force is asked for, s: the witness point has converged by then, and the hand not yet begun.
+/// Time of the request for force, s: the witness point has converged by then, and the hand does not move yet.
 const ENABLED_AT: f64 = 0.05;
 
 /// One tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tick {
-    /// Where the probe really is, m in the device's frame.
+    /// True position of the probe, m in the device's frame.
     pub probe: Vector,
     /// The force that the loop renders, N.
     pub force: Vector,
-    /// What the hand brings up, N.
+    /// The hand's force, N.
     pub hand: Vector,
-    /// Signed gap as the loop sees it, m.
+    /// Signed gap in the loop's view, m.
     pub gap: f64,
     /// Whether the surface is touched.
     pub is_touching: bool,
@@ -30,7 +30,7 @@ pub struct Tick {
 pub struct Recording {
     /// Servo rate, Hz.
     pub rate: f64,
-    /// One after the other.
+    /// Its ticks, in order.
     pub ticks: Vec<Tick>,
 }
 
@@ -43,7 +43,7 @@ pub enum RunError {
     /// The loop stopped.
     #[error("the loop stopped {time:.3} s into \"{script}\": {fault:?}")]
     Fault {
-        /// What the hand did.
+        /// The script.
         script: String,
         /// When, s.
         time: f64,

@@ -1,7 +1,8 @@
 //! The same figures of a recording: of `sim --csv`, or of a real device by `monitor --csv`.
 //!
-//! A real device's probe is known by its encoders alone, and their counts would drown what is felt. So its displacement
-//! is worked out from the force, as that of the device's own mass: `x = F/(m ω²)`. A hand that adds mass feels less.
+//! A real device's probe is known only from its encoders, whose counts would hide the vibration. So its displacement is
+//! computed from the force, as that of the device's own mass: `x = F/(m ω²)`. With the added mass of a hand the
+//! displacement is smaller.
 
 use super::figures::Figures;
 use super::record::{Recording, Tick};
@@ -11,13 +12,13 @@ use super::threshold::Threshold;
 use anyhow::{Context, bail};
 use std::path::Path;
 
-/// The number of a contact that touches, [`palpate::track::Contact::Touching`].
+/// Code of the contact [`palpate::track::Contact::Touching`].
 const TOUCHING: f64 = 2.0;
 
 /// Reads a recording, with its own rate.
 ///
 /// # Errors
-/// What the file lacks, naming the column or the row.
+/// A missing column or a faulty row, by name.
 pub fn read(path: &Path) -> anyhow::Result<Recording> {
     let mut reader = csv::Reader::from_path(path).with_context(|| format!("{}: cannot be read", path.display()))?;
     let headers = reader.headers()?.clone();

@@ -1,25 +1,25 @@
-//! What the hands do: on a flat wall for every device, and over the edges of a body for those that feel it.
+//! Scripts of the hand: on a flat wall for every device, and over the edges of a body for devices that can reach them.
 
 use super::hand::Legs;
 use crate::plant::Vector;
 
-/// What a hand does, and when to look at what it gets.
+/// Motion of a hand, and the window in which the force is measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Script {
-    /// What it is called in tables.
+    /// Name in tables.
     pub name: String,
-    /// What for.
+    /// Its kind.
     pub deed: Deed,
-    /// Its way, m in the device's frame.
+    /// Path of the hand, m in the device's frame.
     pub path: Legs,
-    /// From when to when ripple is looked at, s.
+    /// Start and end of the window in which ripple is measured, s.
     pub looked_at: [f64; 2],
 }
 
-/// What a script is about.
+/// Kind of a script.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Deed {
-    /// Comes to the wall at this speed, m/s, stays, and leaves as fast.
+    /// Approaches the wall at this speed, m/s, stays, and leaves at the same speed.
     Approach(f64),
     /// Stays on the wall.
     Rest,
@@ -27,13 +27,13 @@ pub enum Deed {
     Slide,
     /// Pulls along it about as hard as friction holds.
     Verge,
-    /// Half a millimetre in front of it.
+    /// Stays half a millimetre in front of it.
     Hover,
-    /// Moves where nothing is.
+    /// Moves in free air.
     Air,
     /// Off the body over a convex edge or a corner at this speed, m/s.
     Off(f64),
-    /// From a face on to its neighbour; between directions of force that lie so far apart, if it is an edge.
+    /// From a face to its neighbour; if they meet in an edge, with the directions of the force on both.
     Across(Option<[Vector; 2]>),
 }
 
@@ -48,28 +48,29 @@ pub struct Stage {
     pub hand: f64,
     /// The device's dry friction along the wall's normal, N: the hand overcomes it.
     pub dry: f64,
-    /// The greatest force of the device, N.
+    /// The maximum force of the device, N.
     pub max_force: f64,
 }
 
-/// How far in front of a wall the hand begins, m.
+/// Distance of the hand from the wall at the start, m.
 const AWAY: f64 = 0.02;
-/// How long it waits at first, s: the force is faded in.
+/// Waiting time at the start, s: the force is faded in.
 const WAIT: f64 = 0.3;
-/// How long it takes to come to rest before ripple is looked at, s.
+/// Time to come to rest before ripple is measured, s.
 const SETTLE: f64 = 0.5;
-/// No more than this share of the device's greatest force is asked for.
+/// Maximum force of a script, as a fraction of the device's maximum force.
 const SHARE: f64 = 0.8;
-/// Light and firm, N.
+/// Forces from light to firm, N.
 const PUSHES: [f64; 3] = [0.3, 1.0, 3.0];
 
 impl Stage {
-    /// How deep the hand aims to press with a force, N: what its own spring and the wall's give.
+    /// Depth that the hand aims at to press with a force, N: the sum of the deflections of its own spring and the
+    /// wall's.
     pub fn aim(&self, push: f64) -> f64 {
         (push + self.dry) / self.hand + push / self.stiffness
     }
 
-    /// A place at a height over the wall and so far along it.
+    /// The point at `height` over the wall and `along` it.
     fn at(&self, height: f64, along: f64) -> Vector {
         match self.joints {
             1 => [height, 0.0, 0.0],

@@ -4,14 +4,13 @@ use std::f64::consts::TAU;
 
 /// Length of a window, s. Bins are 4 Hz apart: a third of an octave at 20 Hz still holds one.
 const WINDOW: f64 = 0.25;
-/// The least and the greatest frequency that are looked at, Hz: below, it is the hand that moves; above, nobody feels
-/// it.
+/// Minimum and maximum frequency of the measurement, Hz: below, the hand itself moves; above, nobody feels anything.
 pub const RANGE: [f64; 2] = [20.0, 1_000.0];
 
-/// A band of frequencies, Hz, by whose ripple a hand tells it.
+/// A band of frequencies, Hz, in which ripple has a distinct feel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
-    /// What it is called in tables.
+    /// Name in tables.
     pub name: &'static str,
     /// From and to, Hz.
     pub range: [f64; 2],

@@ -32,7 +32,7 @@ impl Threshold {
     /// A table of frequency, Hz, and peak displacement, m.
     ///
     /// # Errors
-    /// What is wrong with the table.
+    /// A fault of the table.
     pub fn try_new(points: Vec<[f64; 2]>) -> Result<Self, ThresholdError> {
         if points.is_empty() {
             return Err(ThresholdError::Empty);
@@ -47,16 +47,15 @@ impl Threshold {
         Ok(Self { points })
     }
 
-    /// The threshold that is used unless a table of one's own is given: **approximated**, not copied from a table of
-    /// measurements, for none could be had.
+    /// The default threshold: **approximated**, not copied from a table of measurements, because none was available.
     ///
-    /// What is published and used here is its shape. With a large contactor it is level up to 40 Hz and falls from
-    /// there by 12 dB an octave (Gescheider and Verrillo 1979, of Verrillo 1963); of vibration through an object in the
-    /// hand it is a U with its least value between 150 and 200 Hz (Brisben, Hsiao and Johnson 1999). From 200 Hz it is
-    /// level here to 250 Hz, where others find the minimum, and rises as steeply as it fell. Its **level**, 0.1 µm at
-    /// the minimum, is a round number assumed for a pen-held stylus: Brisben and others found less than 0.01 µm for the
-    /// best of those who gripped a whole cylinder. The curve of Israr, Choi and Tan 2006, of the hand in pen-hold from
-    /// 10 to 500 Hz, is the one to put in its place.
+    /// Only its shape is published. With a large contactor it is level up to 40 Hz and falls from there by 12 dB an
+    /// octave (Gescheider and Verrillo 1979, of Verrillo 1963); for vibration through an object in the hand it is a U
+    /// with its minimum between 150 and 200 Hz (Brisben, Hsiao and Johnson 1999). Here it is level from 200 Hz to 250
+    /// Hz, where others find the minimum, and rises as steeply as it fell. Its **level**, 0.1 µm at the minimum, is a
+    /// round number assumed for a pen-held stylus: Brisben and others found less than 0.01 µm for the most sensitive
+    /// subjects who gripped a whole cylinder. If you have the curve of Israr, Choi and Tan 2006, of the hand in
+    /// pen-hold from 10 to 500 Hz, use it instead.
     pub fn approximate() -> Self {
         let least: f64 = 1e-7;
         let at = |frequency: f64| {

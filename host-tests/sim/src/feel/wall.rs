@@ -28,8 +28,8 @@ const fn across(axis: usize) -> SplinePatch<'static> {
 
 static WALLS: [SplinePatch<'static>; 3] = [across(0), across(1), across(2)];
 
-/// A square wall of 160 mm through the origin whose normal is the last axis that a device of so many joints moves
-/// along: x, y or z.
+/// A square wall of 160 mm through the origin. Its normal is the last axis that a device with this number of joints
+/// moves along: x, y or z.
 pub fn wall(joints: usize) -> &'static SplinePatch<'static> {
     &WALLS[joints.clamp(1, 3) - 1]
 }

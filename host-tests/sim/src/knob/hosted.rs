@@ -113,7 +113,7 @@ impl HostKnob {
         self.servo.note(&mut self.state, event);
     }
 
-    /// Chooses what is felt.
+    /// Chooses the feel.
     pub fn choose(&mut self, index: u8) {
         self.note(Event::Chosen { index });
     }

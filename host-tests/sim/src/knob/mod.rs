@@ -5,10 +5,10 @@ mod hosted;
 pub use hosted::HostKnob;
 pub use palpate_bench::knob::*;
 
-/// Angle of the simulated dial at which its sensor begins to count, radians.
+/// Angle of the simulated dial at which its sensor starts to count, radians.
 pub const DIAL_ZERO: f64 = 0.7;
 
-/// The cogging of the simulated dial's motor, as it was recorded and lies in the image.
+/// The recorded cogging of the simulated dial's motor, as in the image.
 pub mod recorded {
     include!("../../../../boards/emulated/knob_cogging.rs");
 }

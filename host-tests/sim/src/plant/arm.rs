@@ -37,7 +37,7 @@ pub struct Arm {
     pub second: Link,
     /// The origin of probe positions, m from the foot of the turntable.
     pub workspace_centre: Vector,
-    /// What counterweights and drums add to what each link lifts, kg·m; their inertia is in `joint_inertia`.
+    /// Moment that counterweights and drums add to each link, kg·m; their inertia is in `joint_inertia`.
     pub balance: [f64; 2],
     /// Inertia that turns with each joint alone, kg·m²: the turntable, and each rotor seen through its transmission.
     pub joint_inertia: Vector,
@@ -84,7 +84,7 @@ impl Arm {
         Some([y.atan2(x), c + sine.atan2(cosine), c])
     }
 
-    /// What rides on the second link: (mass, distance from its axis, inertia about the centre).
+    /// Masses on the second link: (mass, distance from its axis, inertia about the centre).
     fn riders(&self) -> [(f64, f64, f64); 2] {
         [(self.second.mass, self.second.centre, self.second.inertia), (self.tip_mass, self.second.length, 0.0)]
     }
@@ -127,7 +127,7 @@ impl Arm {
         ]
     }
 
-    /// What each link lifts: mass times distance from its axis, kg·m.
+    /// Static moment of each link: mass times distance from its axis, kg·m.
     fn lifted(&self) -> [f64; 2] {
         let first = self.first.mass * self.first.centre + self.second.mass * self.first.length;
         let second = self.second.mass * self.second.centre;

@@ -23,26 +23,26 @@ impl Encoder {
     }
 }
 
-/// What can be wrong with an encoder, from the moment it is injected.
+/// Fault of an encoder, from its injection on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EncoderFault {
-    /// The reading stays what it was.
+    /// The reading does not change.
     Stuck,
     /// The wire is off: it reads zero.
     Absent,
-    /// One reading, until the plant next advances, is off by so many counts.
+    /// One reading, until the plant next advances, is off by this number of counts.
     Glitch(i32),
-    /// All readings are off by so many counts.
+    /// All readings are off by this number of counts.
     Jump(i32),
-    /// This share of all further counts is lost, 0 to 1: a slipping disc, missed edges.
+    /// This fraction of all further counts is lost, 0 to 1: a slipping disc, missed edges.
     CountLoss(f64),
 }
 
-/// An encoder with what is wrong with it.
+/// An encoder with its fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FaultyEncoder {
     encoder: Encoder,
-    /// The fault, and the count at which it began.
+    /// The fault, and the count at its start.
     fault: Option<(EncoderFault, i32)>,
 }
 

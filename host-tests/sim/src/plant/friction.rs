@@ -6,12 +6,12 @@ use super::vector::{Matrix, Vector, dot};
 /// arm: 50 sweeps reach rounding.
 const SWEEPS: usize = 50;
 
-/// The friction torques, N·m, that leave the least motion at the end of a step.
+/// The friction torques, N·m, that minimise the motion at the end of a step.
 ///
 /// `rates` are the joint rates at the step's end without dry friction, rad/s, and `mobility` is the step, s, times the
-/// inverse mass matrix: friction torques `f` make them `rates + mobility f`. Each `|f| ≤ limit`; where it is less the
-/// joint comes to rest, where it is equal it opposes the motion. (A linear complementarity problem, solved joint by
-/// joint; after J. J. Moreau's time stepping.)
+/// inverse mass matrix: friction torques `f` change the rates to `rates + mobility f`. Each `|f| ≤ limit`; a joint with
+/// a smaller `|f|` comes to rest, at the limit friction opposes the motion. (A linear complementarity problem, solved
+/// joint by joint; after J. J. Moreau's time stepping.)
 pub fn dry_friction(rates: Vector, mobility: &Matrix, limits: Vector) -> Vector {
     let mut torques = [0.0; 3];
     for _ in 0..SWEEPS {

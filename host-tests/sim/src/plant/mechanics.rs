@@ -1,8 +1,8 @@
 //! The equation of motion `M q̈ + h(q, q̇) = τ_motor + τ_gravity − d q̇ + f + Jᵀ F_hand`, a step at a time.
 //!
-//! Classical Runge–Kutta of fourth order for what is smooth; the dry friction `f` is found once a step (see `friction`)
-//! and held over it, so that a joint that sticks does not creep. Only +, −, ×, ÷, √ and trigonometry: the same platform
-//! gives the same bits.
+//! Classical Runge–Kutta of fourth order for the smooth terms; the dry friction `f` is computed once a step (see
+//! `friction`) and held over it, so that a sticking joint does not creep. Only +, −, ×, ÷, √ and trigonometry: the same
+//! platform gives the same bits.
 
 use super::friction::dry_friction;
 use super::mechanism::Mechanism;

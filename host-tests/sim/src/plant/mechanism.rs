@@ -1,4 +1,4 @@
-//! What the plant asks of a mechanism, whichever it is.
+//! Interface of all mechanisms to the plant.
 
 use super::arm::Arm;
 use super::vector::{Matrix, Vector, dot, times};

@@ -67,10 +67,10 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// A device at rest, without current, its probe where the hand's path begins.
+    /// A device at rest, without current, its probe at the start of the hand's path.
     ///
     /// # Errors
-    /// A number of the settings that makes no sense, by name; a path that begins out of reach.
+    /// A setting that makes no sense, by name; a path that starts out of reach.
     pub fn new(
         settings: &PlantSettings,
         hand: HandSettings,
@@ -106,7 +106,7 @@ impl Plant {
         })
     }
 
-    /// What the encoders read now.
+    /// The encoders' readings.
     pub fn counts(&self) -> [i32; 3] {
         core::array::from_fn(|joint| self.encoders[joint].counts(self.mechanics.angles[joint]))
     }

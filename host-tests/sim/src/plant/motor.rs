@@ -14,7 +14,7 @@ pub struct Winding {
     pub inductance: f64,
 }
 
-/// What stands between the duty and the current.
+/// Amplifier that turns the duty into a current.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amplifier {
     /// A current loop that never runs out of voltage.
@@ -28,11 +28,11 @@ pub enum Amplifier {
 /// An amplifier and its motor, seen at the joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor {
-    /// What feeds the winding.
+    /// The amplifier of the winding.
     pub amplifier: Amplifier,
     /// Current at full duty, A.
     pub current_at_full: f64,
-    /// The most the amplifier gives, A.
+    /// Maximum current of the amplifier, A.
     pub current_limit: f64,
     /// Joint torque per ampere, N·m/A, and back-EMF per joint rate, V·s/rad; negative where the motor turns the joint
     /// the other way.

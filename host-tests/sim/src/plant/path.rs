@@ -4,7 +4,7 @@ use super::hand::HandPath;
 use super::touching::{Motion, TouchingSettings};
 use super::vector::{Vector, add_scaled, difference, norm, scaled};
 
-/// Knots a second. What a hand does lies below 10 Hz, so the cubic between knots adds nothing of its own.
+/// Knots per second. Motions of a hand lie below 10 Hz, so the cubic between knots adds nothing.
 const KNOT_RATE: f64 = 1_000.0;
 
 /// Why there is no such path.
@@ -15,7 +15,7 @@ pub enum PathError {
     Setting {
         /// The number's name.
         field: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
     },
     /// The surface gave a point or normal that is not finite.
@@ -71,7 +71,7 @@ impl TouchingPath {
         }
     }
 
-    /// The greatest speed from knot to knot, m/s.
+    /// The maximum speed from knot to knot, m/s.
     pub fn peak_speed(&self) -> f64 {
         self.knots.windows(2).map(|pair| norm(difference(pair[1], pair[0])) * KNOT_RATE).fold(0.0, f64::max)
     }

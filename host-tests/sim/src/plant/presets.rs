@@ -70,8 +70,8 @@ impl PlantSettings {
     ///
     /// | number | value | where from |
     /// |---|---|---|
-    /// | lengths, ratios, torque constant, peak torque, rotor inertia, friction | | a public implementation of the model of Çavuşoğlu, Feygin and Tendick (2001), measured anew |
-    /// | forearm, drums, counterweights | masses, centres, inertias | the same, brought into this arm's form: what rides on a link's own axis as an inertia and a moment |
+    /// | lengths, ratios, torque constant, peak torque, rotor inertia, friction | | a public implementation of the model of Çavuşoğlu, Feygin and Tendick (2001), with its new measurements |
+    /// | forearm, drums, counterweights | masses, centres, inertias | the same, converted to this arm's form: masses on a link's own axis become an inertia and a moment |
     /// | turntable | 1.7e-3 kg·m² | the same, without the small change with the pose |
     /// | counts | 4,000 | assumed: gives the published 0.03 mm |
     pub const fn phantom_premium() -> Self {
@@ -325,8 +325,8 @@ const fn pantograph(second_pivot: f64, crank: f64, rod: f64, workspace_centre: [
     }
 }
 
-/// How warm each joint's motor gets. Data sheets of motors with these torque constants, from memory and not checked
-/// against the sheets themselves; what is behind a device whose motor nobody states is assumed and said to be.
+/// Heat of each joint's motor. Data sheets of motors with these torque constants, from memory and not checked against
+/// the sheets; for a device with an unknown motor the numbers are assumed, and marked as such.
 impl PlantSettings {
     /// WoodenHaptics: a Maxon RE 30 of 24 V, 25.9 mN·m/A.
     pub const WOODEN_HAPTICS_HEAT: [ThermalSettings; 3] = [RE_30_24_V; 3];

@@ -36,21 +36,21 @@ pub struct JointSettings {
     pub ratio: f64,
     /// Encoder counts per turn of the motor, after quadrature.
     pub counts_per_turn: f64,
-    /// Which way the encoder counts.
+    /// Direction in which the encoder counts.
     pub encoder_direction: Direction,
     /// Joint angle at zero counts, rad.
     pub angle_at_zero: f64,
-    /// What feeds the motor.
+    /// The amplifier of the motor.
     pub amplifier: Amplifier,
-    /// Which way the motor turns the joint.
+    /// Direction in which the motor turns the joint.
     pub motor_direction: Direction,
     /// N·m/A at the motor, and V·s/rad.
     pub torque_constant: f64,
     /// Motor current at full duty, A; on a bridge full duty is the supply's voltage instead.
     pub current_at_full: f64,
-    /// The most the amplifier gives, A.
+    /// Maximum current of the amplifier, A.
     pub current_limit: f64,
-    /// Inertia of the rotor, kg·m²; at the joint it counts ratio² times.
+    /// Inertia of the rotor, kg·m²; at the joint it is ratio² times as large.
     pub rotor_inertia: f64,
     /// Viscous friction at the joint, N·m·s.
     pub viscous_friction: f64,
@@ -92,7 +92,7 @@ pub struct ArmSettings {
     pub workspace_centre: Vector,
     /// Inertia of the turntable with all it carries but the links, kg·m².
     pub turntable_inertia: f64,
-    /// What counterweights and drums add to what each link lifts, kg·m.
+    /// Moment that counterweights and drums add to each link, kg·m.
     pub balance: [f64; 2],
     /// Their inertia about the links' axes, kg·m².
     pub balance_inertia: [f64; 2],

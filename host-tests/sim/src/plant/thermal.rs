@@ -4,40 +4,40 @@
 //! capacities from the sheet's time constants (`C_w = θ_w/R_wh`, `C_h = θ_h/R_ha`) and copper's resistance, which
 //! grows by 0.39 % a kelvin. A stalled motor: nothing but the current warms it, and nothing but still air cools it.
 
-/// What the data sheet says of the motor's heat.
+/// Thermal data of the motor, from its data sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThermalSettings {
-    /// Of the winding at 25 °C, ohms.
+    /// Resistance of the winding at 25 °C, ohms.
     pub resistance: f64,
-    /// From winding to housing, K/W.
+    /// Thermal resistance from winding to housing, K/W.
     pub winding_to_housing: f64,
-    /// From housing to air, K/W.
+    /// Thermal resistance from housing to air, K/W.
     pub housing_to_air: f64,
-    /// Of the winding, s.
+    /// Time constant of the winding, s.
     pub winding_time_constant: f64,
-    /// Of the housing, s.
+    /// Time constant of the housing, s.
     pub housing_time_constant: f64,
-    /// The winding's greatest temperature, °C.
+    /// Maximum temperature of the winding, °C.
     pub greatest: f64,
 }
 
-/// Copper, 1/K.
+/// Temperature coefficient of copper, 1/K.
 const COPPER: f64 = 0.0039;
-/// Still air, °C.
+/// Temperature of still air, °C.
 pub const AIR: f64 = 25.0;
 
 /// A motor's temperatures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thermal {
     settings: ThermalSettings,
-    /// Of the winding, °C.
+    /// Temperature of the winding, °C.
     pub winding: f64,
-    /// Of the housing, °C.
+    /// Temperature of the housing, °C.
     pub housing: f64,
 }
 
 impl ThermalSettings {
-    /// The current, A, that warms the winding to its greatest temperature in the end, in air of 25 °C.
+    /// The current, A, that finally warms the winding to its maximum temperature, in air of 25 °C.
     pub fn continuous_current(&self) -> f64 {
         let power = (self.greatest - AIR) / (self.winding_to_housing + self.housing_to_air);
         (power / self.resistance_at(self.greatest)).sqrt()

@@ -1,23 +1,23 @@
-//! What a touching hand does: where on the surface it is, and how high over it, drawn from a seed.
+//! Motion of a touching hand: its place on the surface and its height over it, drawn from a seed.
 
 use crate::plant::random::Random;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// What the hand does.
+/// Settings of the hand's motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TouchingSettings {
-    /// How long it goes on, s; afterwards the hand stays.
+    /// Duration, s; afterwards the hand stays.
     pub duration: f64,
-    /// How often it touches in that time.
+    /// Number of touches in that time.
     pub touches: u32,
-    /// Height over the surface at the start, m; later it lifts off to between a third of this and all of it.
+    /// Height over the surface at the start, m; later it lifts off by a third to all of this.
     pub start_height: f64,
-    /// Least and greatest depth the hand aims at below the surface, m. The probe goes as deep as the surface lets it.
+    /// Minimum and maximum depth below the surface that the hand aims at, m. The surface limits the probe's depth.
     pub press_depth: [f64; 2],
-    /// How far towards the borders the hand slides while it presses, 0 (the middle) to 1 (border to border). In the air
-    /// it goes to the borders.
+    /// Reach towards the borders while the hand slides and presses, 0 (the middle) to 1 (border to border). In the air
+    /// it moves up to the borders.
     pub pressed_reach: f64,
-    /// Greatest speed of the point aimed at, m/s. Sliding is slowed down until it holds.
+    /// Maximum speed of the point aimed at, m/s. Sliding is slowed down to keep it.
     pub greatest_speed: f64,
 }
 

@@ -14,7 +14,7 @@ pub enum PlantError {
     NotPositive {
         /// The number's name.
         field: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
     },
     /// A number that must be finite and not below zero is not.
@@ -22,7 +22,7 @@ pub enum PlantError {
     Negative {
         /// The number's name.
         field: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
     },
     /// A number is not finite.
@@ -30,7 +30,7 @@ pub enum PlantError {
     NotFinite {
         /// The number's name.
         field: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
     },
     /// The hand's path starts where the device cannot reach.

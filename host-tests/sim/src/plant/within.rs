@@ -13,9 +13,9 @@ const AROUND: f64 = 0.6 * PI;
 const SHARES: std::ops::RangeInclusive<u32> = 6..=20;
 
 impl TouchingPath {
-    /// A path of so many seconds over `surface` (as [`Self::new`] has it) that stays where `has_room` says, m in the
-    /// device frame. Where the surface is larger than that, the hand keeps to the surface's middle; where the surface
-    /// or the seed asks for more speed than a hand has, it touches less often.
+    /// A path of `duration` seconds over `surface` (as in [`Self::new`]) that stays where `has_room` allows it, m in
+    /// the device frame. If the surface is larger than that, the hand keeps to the surface's middle; if surface or seed
+    /// would need a higher speed than a hand has, it touches less often.
     ///
     /// # Errors
     /// A duration that makes no sense, a surface that is not finite, or [`PathError::NoRoom`].

@@ -9,9 +9,9 @@ use palpate::device::{Device, Encoder, Endurance, Motor, PolarityCheck, Protecti
 /// The device of a recorded run.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded {
-    /// What the loop knows of it.
+    /// The loop's description of it.
     pub device: Device<Mechanism, 3>,
-    /// What protects it, where its run was protected.
+    /// Its protection; `None` for a run without.
     pub protection: Option<Protection<3>>,
 }
 

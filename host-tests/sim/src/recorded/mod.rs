@@ -1,9 +1,8 @@
-//! Devices and scenes as plain numbers: what a recording carries beside the counts, so that whoever replays it needs
-//! no list of devices and reads no file.
+//! Devices and scenes as plain numbers: a recording carries them beside the counts, so that its replay needs no list of
+//! devices and reads no file.
 //!
-//! Each thing has one description, a walk over its numbers in an order, which either takes them down or fills them in:
-//! what is written and what is read cannot drift apart. Nothing is computed on the way; the numbers are those of the
-//! loop, in every bit.
+//! Each type has one description, a walk over its numbers in order, which either writes or reads them: so the two
+//! cannot drift apart. The walk computes nothing; the numbers are bit for bit those of the loop.
 
 mod device;
 mod mechanism;

@@ -12,7 +12,7 @@ use palpate::track::Placement;
 /// The scene of a recorded run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneNumbers {
-    /// What its parts share.
+    /// Limits of all its parts.
     pub limits: Limits,
     /// Its parts, in their order.
     pub entries: Vec<Entry>,
@@ -21,7 +21,7 @@ pub struct SceneNumbers {
 /// A part of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
-    /// Which body it is: several parts may be of one.
+    /// Index of its body, which several parts may share.
     pub body: u32,
     /// How it moves.
     pub movement: Movement,
@@ -31,7 +31,7 @@ pub struct Entry {
     pub damping: f32,
     /// Dry friction.
     pub friction: Option<Friction>,
-    /// What holds all of it.
+    /// Bounding sphere.
     pub sphere: Sphere,
     /// The group it belongs to.
     pub group: u8,

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use palpate::math::{Vec2, Vec3};
 
-/// What is done with each number on the way.
+/// Operation on each number of a walk.
 pub trait Walk {
     /// One number.
     fn number(&mut self, number: &mut f32);
@@ -28,7 +28,7 @@ pub trait Walk {
         self.number(&mut vector.y);
     }
 
-    /// A small count, or which of several things it is: every one below 2²⁴ is a number of its own.
+    /// A small count or an index: `f32` represents every one below 2²⁴ exactly.
     fn count(&mut self, count: u32) -> u32 {
         let mut number = count as f32;
         self.number(&mut number);
@@ -36,7 +36,7 @@ pub trait Walk {
         number as u32
     }
 
-    /// What may be missing; where it is there to be filled in, it begins as `vacant`.
+    /// An optional value; to read a present one, the walk starts from `vacant`.
     fn maybe<T>(&mut self, thing: &mut Option<T>, vacant: T, walk: impl FnOnce(&mut Self, &mut T)) {
         let is_there = self.count(u32::from(thing.is_some())) != 0;
         if !is_there {

@@ -10,9 +10,9 @@ pub const MAX_BODIES: usize = 8;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
-    /// What to call it.
+    /// Its name.
     pub name: String,
-    /// How much force is let go of in a second after a switch, N/s.
+    /// Rate at which the force is released after a switch, N/s.
     pub let_go: Option<f32>,
     /// The bodies.
     pub body: Vec<BodyEntry>,
@@ -22,14 +22,14 @@ pub struct SceneFile {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BodyEntry {
-    /// What to call it.
+    /// Its name.
     pub name: String,
-    /// Its model: a file, from the scene file's folder, or a model that ships.
+    /// Its model: a file, relative to the scene file's folder, or a shipped model.
     pub model: String,
-    /// Where the origin of its model is, mm.
+    /// Position of its model's origin, mm.
     #[serde(default)]
     pub at: [f64; 3],
-    /// How it is turned there.
+    /// Its orientation.
     pub turned: Option<Turned>,
     /// The group it belongs to.
     #[serde(default)]
@@ -40,11 +40,11 @@ pub struct BodyEntry {
     pub damping: f32,
     /// Dry friction.
     pub friction: Option<FrictionEntry>,
-    /// It turns for ever.
+    /// Its continuous rotation.
     pub turns: Option<Turn>,
-    /// It sways for ever.
+    /// Its continuous oscillation.
     pub sways: Option<Sway>,
-    /// It is free.
+    /// Its mass and joint, if it is free.
     pub free: Option<Free>,
 }
 
@@ -136,7 +136,7 @@ pub struct Spring {
     pub slack: [f64; 3],
 }
 
-/// What a body is held by.
+/// Joint that holds a body.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum JointEntry {
@@ -188,7 +188,7 @@ pub enum SceneFileError {
         /// The name.
         body: String,
     },
-    /// What the library refuses.
+    /// An error of the library.
     #[error("{}{error}", .body.as_ref().map(|name| format!("{name:?}, ")).unwrap_or_default())]
     Scene {
         /// The body's name, if it is one's.
@@ -202,7 +202,7 @@ impl SceneFile {
     /// Reads and checks a file's text.
     ///
     /// # Errors
-    /// What is wrong, naming the body or the line.
+    /// The first fault, with the body's name or the line.
     pub fn read(text: &str) -> Result<Self, SceneFileError> {
         let file: Self = toml::from_str(text).map_err(|error| SceneFileError::Syntax(error.to_string()))?;
         let (found, most) = (file.body.len(), MAX_BODIES);

@@ -1,8 +1,8 @@
-//! Scene files: which bodies, where they are, how they move and feel.
+//! Scene files: bodies with position, motion and material.
 //!
-//! [`SceneFile`] is what is written; [`SceneFile::parts`] makes of it, with the bodies' tables, what a
-//! [`palpate::scene::Scene`] is made of, and [`source`] writes the same as Rust for an image: every number reads back
-//! as the same `f32`.
+//! [`SceneFile`] is the content of the file; [`SceneFile::parts`] combines it with the bodies' tables into the parts of
+//! a [`palpate::scene::Scene`], and [`source`] writes the same as Rust for an image: every number reads back as the
+//! same `f32`.
 
 mod file;
 mod parts;

@@ -9,10 +9,10 @@ use palpate::render::Friction;
 use palpate::scene::{Joint, Limits, Material, Part, RigidBody, Scene, SceneError, Sphere, Tether};
 use palpate::track::Placement;
 
-/// What is known of a body's shape: its tables' frame in its model, and its bounding box in that frame, metres.
+/// Shape of a body: its tables' frame in its model, and its bounding box in that frame, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
-    /// Where the origin of the tables lies in the model.
+    /// Position of the tables' origin in the model.
     pub centre: DVec3,
     /// The box's lower corner.
     pub low: DVec3,
@@ -40,7 +40,7 @@ impl SceneFile {
     /// A scene of the file's bodies, in its order.
     ///
     /// # Errors
-    /// What the library refuses, naming the body.
+    /// An error of the library, with the body's name.
     ///
     /// # Panics
     /// Where `N` is not the number of bodies.
@@ -84,7 +84,7 @@ impl SceneFile {
         SceneNumbers { limits: self.limits(limits), entries: entries.collect() }
     }
 
-    /// What a scene is made of, at a servo rate, Hz.
+    /// The parts of a scene, at a servo rate, Hz.
     pub fn parts(&self, rate: f32, bodies: &[(&'static Body<'static>, Shape)]) -> Vec<Part<'static, Body<'static>>> {
         let entries = self.body.iter().zip(bodies);
         entries.map(|(entry, (body, shape))| entry.part(rate, body, shape)).collect()

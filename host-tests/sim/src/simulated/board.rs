@@ -36,7 +36,7 @@ pub struct Pins<W, const JOINTS: usize> {
     /// The world.
     pub world: W,
     fields: Option<[ElectricalAngle; JOINTS]>,
-    /// What the stages are driven with; `None` while they are off.
+    /// Duties of the stages; `None` while they are off.
     pub duties: Option<[Duty; JOINTS]>,
 }
 

@@ -80,16 +80,16 @@ pub struct Simulated {
     is_paced: bool,
 }
 
-/// What may be chosen of the simulated device.
+/// Options of the simulated device.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
-    /// Whether it has memory for bodies that come over the line.
+    /// Whether it has memory for uploaded bodies.
     pub takes_bodies: bool,
-    /// Seconds of silence after which it stops.
+    /// Seconds without a host message after which it stops.
     pub link_timeout: f32,
-    /// Why it was reset.
+    /// Its reset reason.
     pub reset: ResetReason,
-    /// Whether it has flash to keep a body in: 64 KB.
+    /// Whether it has flash to store a body: 64 KB.
     pub keeps_bodies: bool,
 }
 
@@ -102,7 +102,7 @@ impl Default for Kind {
     }
 }
 
-/// What lives as long as the program, as a board's statics do.
+/// Leaks a value, which so lives as long as a board's statics.
 fn kept<T>(what: T) -> &'static T {
     Box::leak(Box::new(what))
 }
@@ -181,25 +181,25 @@ impl Simulated {
         Ok(Self { board, hand, flash, ticks: 0, began: Instant::now(), is_paced: false })
     }
 
-    /// No faster than the clock on the wall.
+    /// Limits the simulation to real time.
     #[must_use]
     pub fn paced(self) -> Self {
         Self { is_paced: true, ..self }
     }
 
-    /// Whoever stands at it.
+    /// The simulated user.
     pub fn hand(&self) -> Hand {
         self.hand.clone()
     }
 
-    /// Runs the device although nobody listens.
+    /// Runs the device without a host.
     pub fn run(&mut self, ticks: u32) {
         for _ in 0..ticks {
             self.tick();
         }
     }
 
-    /// What the motors are told.
+    /// The motors' duties.
     pub fn duties(&mut self) -> [i16; 3] {
         self.board.bench.board().duties.unwrap_or_default().map(|duty| duty.0)
     }
@@ -209,7 +209,7 @@ impl Simulated {
         self.ticks += 1;
     }
 
-    /// Since it was switched on.
+    /// Simulated time since power-on.
     fn passed(&self) -> Duration {
         Duration::from_secs(1) * self.ticks / RATE
     }

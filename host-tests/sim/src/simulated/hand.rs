@@ -1,4 +1,4 @@
-//! Whoever stands at the device.
+//! The simulated user at the device.
 
 use crate::plant::{HandPath, Vector};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -13,15 +13,15 @@ pub struct Hand {
 
 #[derive(Debug)]
 struct Wants {
-    /// Where the tip is to be, metres, in the scene.
+    /// Target of the tip, metres, in the scene.
     place: Vector,
-    /// The enable button is pressed.
+    /// Whether the enable button is pressed.
     enable: bool,
 }
 
 impl Hand {
-    /// One that holds the tip at a place, metres, in a scene in which the middle of the workspace is there; it presses
-    /// nothing.
+    /// A hand that holds the tip at a place, metres, in a scene in which the middle of the workspace is at `middle`; it
+    /// presses no button.
     pub fn at(place: Vector, middle: Vector) -> Self {
         Self { wants: Arc::new(Mutex::new(Wants { place, enable: false })), middle }
     }

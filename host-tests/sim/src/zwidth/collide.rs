@@ -9,16 +9,16 @@ use std::collections::VecDeque;
 
 /// Integration steps in a servo period; half a period's delay is ten of them.
 const SUB_STEPS: u64 = 20;
-/// How fast the probe hits the wall, m/s.
+/// Speed of the probe when it hits the wall, m/s.
 const SPEED: f64 = 0.05;
-/// How long the collision is followed at most: so many s, so many periods of the mass on the wall and so many time
-/// constants `B/K` of a damper that only creeps. The swing is taken over windows of some s; where one shows none, all
-/// is said.
+/// Maximum duration of the simulation: seconds, periods of the mass on the wall, and time constants `B/K` of a damper
+/// that only creeps. The swing is measured over windows of `WINDOW` seconds; a window without swing ends the
+/// simulation.
 const DURATION: f64 = 1.2;
 const PERIODS: f64 = 15.0;
 const CREEPS: f64 = 12.0;
 const WINDOW: f64 = 0.3;
-/// A swing of this many counts is rest: nothing is left that could start again.
+/// A swing of this many counts is rest, from which no oscillation can start again.
 const REST: f64 = 1e-3;
 
 /// The virtual wall.
@@ -30,24 +30,24 @@ pub struct Wall {
     pub damping: f64,
 }
 
-/// What stands between sensor and force.
+/// The loop from sensor to force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loop {
     /// Servo rate, Hz.
     pub rate: f64,
-    /// From sampling to the amplifier, in periods.
+    /// Delay from sampling to the amplifier, in periods.
     pub delay_periods: f64,
     /// The velocity estimator.
     pub velocity: VelocityMethod,
     /// Its corner, Hz.
     pub corner: f64,
-    /// How the force comes and changes.
+    /// Easing of the force.
     pub ease: Option<Ease>,
 }
 
 impl Loop {
-    /// The delay, s, that the passive bound has to count: transport, the force source's lag, and that of the position
-    /// between counts.
+    /// The delay, s, in the bound of passivity: transport, the force source's lag, and the lag of the position between
+    /// counts.
     pub fn delay(&self, slice: &Slice) -> f64 {
         let observer = match self.velocity {
             VelocityMethod::BetweenCounts => f64::from(between_counts_delay(self.corner as f32)),
@@ -56,8 +56,8 @@ impl Loop {
         self.delay_periods / self.rate + slice.time_constant + observer
     }
 
-    /// The greatest stiffness that is passive with a damping (N·s/m), N/m. It is of a spring and a damper: what an
-    /// easing adds is simulated alone.
+    /// The maximum stiffness that is passive with a damping (N·s/m), N/m. The bound covers spring and damper; the
+    /// effect of an easing is only simulated.
     pub fn passive_stiffness(&self, slice: &Slice, damping: f64) -> f64 {
         let friction = match self.velocity {
             VelocityMethod::BetweenCounts => slice.friction().between_counts(),
@@ -67,11 +67,11 @@ impl Loop {
     }
 }
 
-/// How a collision is pressed on.
+/// The hand's force during a collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Collision {
-    /// A steady push of the hand into the wall, N. It neither damps nor stores: what settles does so by the device and
-    /// the wall.
+    /// A steady push of the hand into the wall, N. It neither damps nor stores energy: only the device and the wall let
+    /// the probe settle.
     pub push: f64,
 }
 
@@ -81,7 +81,7 @@ impl Default for Collision {
     }
 }
 
-/// What became of a collision.
+/// Result of a collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swing {
     /// From the lowest to the highest position at the end, in encoder counts.
@@ -91,7 +91,7 @@ pub struct Swing {
 }
 
 impl Swing {
-    /// Whether it came to rest, but for a limit cycle of two counts.
+    /// Whether it came to rest, apart from a limit cycle of two counts.
     pub fn has_decayed(&self) -> bool {
         self.counts <= 2.0
     }

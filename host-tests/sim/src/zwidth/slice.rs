@@ -18,7 +18,7 @@ pub struct Slice {
     pub coulomb: f64,
     /// One encoder count, m at the probe.
     pub resolution: f64,
-    /// The greatest force, N.
+    /// The maximum force, N.
     pub max_force: f64,
     /// Time constant of the force source, s.
     pub time_constant: f64,
@@ -64,7 +64,7 @@ impl Slice {
         slice
     }
 
-    /// What the library's bounds want to know.
+    /// The device's friction, as input of the library's bounds.
     pub fn friction(&self) -> DeviceFriction {
         DeviceFriction {
             viscous_n_s_per_m: self.viscous as f32,

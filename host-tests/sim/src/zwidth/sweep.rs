@@ -10,10 +10,10 @@ pub const RATES: [f64; 4] = [1_000.0, 2_000.0, 4_000.0, 8_000.0];
 pub const DELAYS: [f64; 3] = [0.5, 1.0, 2.0];
 /// Dampings of the wall, N·s/m.
 pub const DAMPINGS: [f64; 11] = [0.0, 0.01, 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
-/// The stiffness below which a wall is not worth the name, N/m.
+/// Minimum stiffness that counts as a wall, N/m.
 const LEAST: f64 = 30.0;
-/// Steady pushes into the wall, N; and the least, as a multiple of dry friction: a probe that friction alone holds away
-/// from the wall does not try it.
+/// Steady pushes into the wall, N; and their minimum, as a multiple of dry friction: otherwise friction alone keeps the
+/// probe off the wall.
 const PUSHES: [f64; 2] = [0.3, 1.0];
 const PUSH_OVER_FRICTION: f64 = 1.5;
 /// Steps a decade from one stiffness to the next; then halvings between the last that held and the first that did not:
@@ -21,7 +21,7 @@ const PUSH_OVER_FRICTION: f64 = 1.5;
 const STEPS_PER_DECADE: f64 = 8.0;
 const HALVINGS: usize = 4;
 
-/// The greatest stiffness of a wall of some damping.
+/// The maximum stiffness of a wall with some damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// Servo rate, Hz.
@@ -30,26 +30,26 @@ pub struct Limit {
     pub delay_periods: f64,
     /// Damping of the wall, N·s/m.
     pub damping: f64,
-    /// The greatest stiffness found in simulation, N/m; 0 if the damping alone is too much.
+    /// The maximum stiffness found in simulation, N/m; 0 if the damping alone is too much.
     pub simulated: f64,
-    /// The greatest stiffness that is passive, N/m.
+    /// The maximum passive stiffness, N/m.
     pub passive: f64,
 }
 
-/// The stiffness, N/m, from which on all walls are one: half a count, the least depth there is to read, asks for full
-/// force already. What lies above pushes all or nothing, but for its damping, and the search ends there. Where even
-/// that wall comes to rest there is no greatest stiffness: dry friction takes more out of the probe in a count than
-/// full force puts in.
+/// The stiffness, N/m, from which all walls are the same: half a count, the smallest depth that can be read, already
+/// gives full force. A stiffer wall pushes fully or not at all, apart from its damping, so the search ends there. If
+/// even that wall comes to rest, stiffness has no limit: over one count, dry friction takes more energy out of the
+/// probe than full force puts in.
 pub fn all_or_nothing(slice: &Slice) -> f64 {
     2.0 * slice.max_force / slice.resolution
 }
 
-/// A limit of a device, N/m, in words: `any` where the wall of all or nothing holds, too.
+/// A limit of a device, N/m, as text: `any` if even the wall of full or no force comes to rest.
 pub fn in_words(slice: &Slice, stiffness: f64) -> String {
     if stiffness >= all_or_nothing(slice) { "any".to_owned() } else { format!("{stiffness:.0}") }
 }
 
-/// The greatest stiffness, N/m, below which every wall that was tried comes to rest.
+/// The maximum stiffness, N/m, below which every tested wall comes to rest.
 pub fn max_stiffness(slice: &Slice, damping: f64, servo: &Loop) -> f64 {
     let holds = |stiffness: f64| {
         let pushes = PUSHES.map(|push| Collision { push: push.max(slice.coulomb * PUSH_OVER_FRICTION) });

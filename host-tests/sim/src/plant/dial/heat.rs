@@ -17,9 +17,9 @@ pub struct PhaseHeat {
 }
 
 impl PhaseHeat {
-    /// Of the motor of [`super::DialSettings::gimbal_knob`]. Assumed, all but the resistance: a housing of 63 mm by 24
-    /// mm in still air at 10 W/(m² K), 190 g of it, 13 g of copper a phase at 12 K/W; 80 °C, at which its magnets begin
-    /// to lose their strength.
+    /// Heat of the motor of [`super::DialSettings::gimbal_knob`]. Everything but the resistance is assumed: a housing
+    /// of 63 mm by 24 mm in still air at 10 W/(m² K), 190 g of it, 13 g of copper a phase at 12 K/W; 80 °C, above which
+    /// its magnets lose their strength.
     pub const GIMBAL_MOTOR: ThermalSettings = ThermalSettings {
         resistance: 7.5,
         winding_to_housing: 12.0,

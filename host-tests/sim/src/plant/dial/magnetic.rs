@@ -7,28 +7,28 @@ use std::f64::consts::TAU;
 /// A sensor that measures the angle of a magnet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MagneticSensor {
-    /// Counts of a turn.
+    /// Counts per turn.
     pub counts_per_turn: f64,
-    /// Angle of the shaft at which it begins to count, rad.
+    /// Angle of the shaft at which it starts to count, rad.
     pub angle_at_zero: f64,
-    /// How far it is off once a turn, rad: a magnet that is not centred.
+    /// Amplitude of its error once a turn, rad: a magnet that is not centred.
     pub eccentricity: f64,
-    /// Its noise, rad, 1 σ; even between ±√3 σ.
+    /// Its noise, rad, 1 σ; uniform between ±√3 σ.
     pub noise: f64,
-    /// How old its angle is, s.
+    /// Age of its angle, s.
     pub delay: f64,
-    /// Whether it counts the other way.
+    /// Whether it counts in the opposite direction.
     pub reversed: bool,
 }
 
-/// What can be wrong with it.
+/// Fault of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MagneticFault {
-    /// It says what it said last.
+    /// It repeats its last reading.
     Stuck,
     /// It does not answer.
     Absent,
-    /// It is off by so many counts: the magnet slipped.
+    /// It is off by this number of counts: the magnet slipped.
     Slipped(i32),
 }
 

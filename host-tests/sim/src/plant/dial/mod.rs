@@ -23,16 +23,16 @@ pub struct Cogging {
     pub phase: f64,
 }
 
-/// The dial. All its numbers are its own; nothing is taken from the library.
+/// The dial. It has its own numbers and takes none from the library.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DialSettings {
     /// The motor.
     pub motor: ThreePhaseMotor,
-    /// What feeds it.
+    /// The inverter that drives it.
     pub inverter: Inverter,
     /// The sensor.
     pub sensor: MagneticSensor,
-    /// What its magnets do to its teeth.
+    /// Torque between its magnets and its teeth.
     pub cogging: [Cogging; 3],
     /// Rotor, magnet and dial, kg·m².
     pub inertia: f64,
@@ -40,11 +40,12 @@ pub struct DialSettings {
     pub viscous_friction: f64,
     /// N·m.
     pub coulomb_friction: f64,
-    /// Where the dial is to begin with, rad.
+    /// Angle of the dial at the start, rad.
     pub angle: f64,
     /// Integration steps in a servo period.
     pub sub_steps: u32,
-    /// How long after the tick's start widths come into force, servo periods: computing, and the rest of a period.
+    /// Delay from the tick's start until new pulse widths take effect, servo periods: computation, and the rest of a
+    /// period.
     pub delay_periods: f64,
 }
 
@@ -83,14 +84,14 @@ impl DialSettings {
     }
 }
 
-/// What the hand does to the dial: it pulls it towards an angle.
+/// Grip of the hand, which pulls the dial towards an angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fingers {
     /// N·m/rad.
     pub stiffness: f64,
     /// N·m·s/rad.
     pub damping: f64,
-    /// Where they aim, rad.
+    /// Target angle, rad.
     pub aim: f64,
     /// How fast that turns, rad/s.
     pub rate: f64,
@@ -149,7 +150,7 @@ impl Dial {
         }
     }
 
-    /// What the sensor reads, counted on over its turns; `None` if it does not answer.
+    /// The sensor's reading, continued over turns; `None` if it does not answer.
     pub fn counts(&self) -> Option<i32> {
         self.sensing.counts()
     }
@@ -228,8 +229,8 @@ impl Dial {
         self.rate
     }
 
-    /// The torque on the shaft of motor and cogging together, over the last period, N·m: what is felt, but for the
-    /// bearings' friction.
+    /// The torque of motor and cogging on the shaft, averaged over the last period, N·m: the user feels this torque
+    /// less the bearings' friction.
     pub fn torque(&self) -> f64 {
         self.torque
     }
