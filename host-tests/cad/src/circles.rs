@@ -7,12 +7,12 @@ use crate::mesh::{Mesh, Side};
 use glam::DVec2;
 use std::f64::consts::TAU;
 
-/// What a loop is, as it was traced.
+/// Winding and area of a traced loop.
 #[derive(Clone, Copy, Debug)]
 pub struct Turns {
-    /// How often it goes round each parameter.
+    /// Number of turns around each closed parameter.
     pub winding: [i32; 2],
-    /// What it encloses in the parameters.
+    /// Enclosed area in the parameters.
     pub area: f64,
 }
 
@@ -128,8 +128,8 @@ fn where_at(mesh: &Mesh<'_>, face: usize, axis: usize, side: &Side, value: f64) 
     if side.wire.is_some_and(|(_, against)| against) { 1.0 - t } else { t }
 }
 
-/// Circles that are tied by tubes, each with the share of its length that lies at the first one's beginning, and its
-/// sense.
+/// Circles that tubes connect, each with its offset from the start of the first one, as a fraction of its length, and
+/// its sense.
 fn group(
     mesh: &Mesh<'_>,
     tubes: &[(usize, usize, [usize; 2])],
@@ -164,7 +164,7 @@ fn group(
     group
 }
 
-/// Where the cuts of the first circle of a group begin, a share of its length below `1/count`.
+/// Start of the cuts of the first circle of a group, as a fraction of its length, below `1/count`.
 fn phase(mesh: &Mesh<'_>, group: &[(usize, [f64; 2])], count: usize) -> f64 {
     let mut sum = DVec2::ZERO;
     for (wire, [offset, sense]) in group {
@@ -218,7 +218,7 @@ fn by_length(mesh: &Mesh<'_>, wire: usize, share: f64) -> f64 {
     if !(1e-7..=1.0 - 1e-7).contains(&t) { 0.0 } else { t }
 }
 
-/// Cuts a closed wire at these parameters, and nowhere else: its own beginning goes.
+/// Cuts a closed wire at these parameters only: its previous start is removed.
 fn rotate_and_cut(mesh: &mut Mesh<'_>, wire: usize, at: &[f64]) {
     let mut at = at.to_vec();
     at.sort_by(f64::total_cmp);

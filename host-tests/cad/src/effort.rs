@@ -1,22 +1,22 @@
-//! How much is tried: an import comes to an end whatever the part.
+//! Limit of the search effort: an import ends for every part.
 //!
-//! Counted, not timed, so that a part is imported on a slow machine if it is on a fast one.
+//! Effort is counted, not timed, so that the result does not depend on the machine's speed.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// What may be spent, in looks at a quad that might be laid: some twenty seconds of a processor.
+/// Maximum number of evaluated quads: about twenty seconds of a processor.
 const MOST: u64 = 300_000_000;
 
-/// What is left; all copies have it in common.
+/// The remaining effort, shared by all copies.
 #[derive(Clone, Debug)]
 pub struct Effort(Rc<Spent>);
 
 #[derive(Debug)]
 struct Spent {
     left: Cell<u64>,
-    /// What went into each face, by its label.
+    /// Effort spent on each face, by its label.
     faces: RefCell<BTreeMap<String, u64>>,
 }
 
@@ -27,7 +27,7 @@ impl Default for Effort {
 }
 
 impl Effort {
-    /// Spends some of it.
+    /// Spends some effort.
     pub fn spend(&self, looks: u64) {
         self.0.left.set(self.0.left.get().saturating_sub(looks));
     }
@@ -37,12 +37,12 @@ impl Effort {
         self.0.left.get() == 0
     }
 
-    /// All of it again.
+    /// Restores all effort.
     pub fn renew(&self) {
         self.0.left.set(MOST);
     }
 
-    /// Half of it: for what is better than a result that is there.
+    /// Restores half of the effort: for improving a result that exists already.
     pub fn for_better(&self) {
         self.0.left.set(MOST / 2);
     }

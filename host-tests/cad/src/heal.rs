@@ -1,6 +1,6 @@
-//! What a file's way of writing has put in, taken out.
+//! Removes artefacts of the file format.
 //!
-//! Seams of closed surfaces are no features: an edge that a face uses in both senses is taken out, and the loop falls
+//! Seams of closed surfaces are no features: an edge that a face uses in both senses is removed, which splits the loop
 //! in two.
 
 use crate::part::{Part, Use};

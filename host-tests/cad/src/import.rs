@@ -20,10 +20,10 @@ const SECOND_THOUGHTS: usize = 3;
 const MOST_LOOPS: usize = 12;
 const MOST_EDGES: usize = 64;
 
-/// What is asked for.
+/// Settings of an import.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The largest deviation that is allowed, millimetres.
+    /// Maximum deviation, millimetres.
     pub tolerance: f64,
     /// Only the solids of this name.
     pub solid: Option<String>,
@@ -53,9 +53,9 @@ pub struct Patch {
 pub struct Imported {
     /// The model file.
     pub model: String,
-    /// What stands in it.
+    /// Its patches.
     pub patches: Vec<Patch>,
-    /// What was found, for the person at the terminal.
+    /// The results, for the terminal.
     pub report: Vec<String>,
     /// The picture, if it was asked for.
     pub picture: Option<String>,
@@ -64,8 +64,7 @@ pub struct Imported {
 /// Imports a part.
 ///
 /// # Errors
-/// What is wrong with the file or with the part; or the first face that cannot be made into patches within the
-/// tolerance.
+/// A fault of the file or of the part; or the first face that cannot be divided into patches within the tolerance.
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut part = read::read(path, options.solid.as_deref())?;
     sew::sew(&mut part, options.tolerance)?;

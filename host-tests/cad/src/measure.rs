@@ -7,7 +7,7 @@ use crate::outline::contains;
 use crate::patches::Made;
 use glam::{DVec2, DVec3};
 
-/// What was measured.
+/// Measured deviations.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
     /// The largest distance of a point of a patch, or of an edge's curve, from the part, millimetres; and its face.
@@ -153,7 +153,7 @@ fn back(mesh: &Mesh<'_>, face: usize, made: &[Made], near: f64) -> f64 {
     climb(start, 1.0 / ON_FACE as f64, &outside, &|at| at)
 }
 
-/// Points along a side, all but the last, so many that no straight line between two is farther off than `near`,
+/// Points along a side, all but the last, dense enough that no straight line between two deviates by more than `near`,
 /// millimetres.
 fn outlined(surface: &Surface, side: &Side, near: f64) -> Vec<DVec2> {
     const COARSE: usize = 16;

@@ -1,7 +1,7 @@
-//! The part as it is cut: nodes, wires that two sides share, regions with their outlines, and in the end quads.
+//! The part during division: nodes, wires that two sides share, regions with their outlines, and finally quads.
 //!
-//! A wire is one curve in space, whichever face looks at it: what is made of it once is in both its faces, to the last
-//! bit. A cut through a wire cuts it in all outlines at once, so that nothing ends on the middle of a side.
+//! A wire is one curve in space for both its faces, whose results from it agree bit for bit. A cut through a wire cuts
+//! it in all outlines at once, so that no line ends in the middle of a side.
 
 use crate::part::Part;
 use crate::path::Path;
@@ -22,13 +22,13 @@ pub struct Mesh<'p> {
 /// A curve in space over `[0, 1]`.
 #[derive(Clone, Debug)]
 pub struct Wire {
-    /// The nodes where it begins and ends.
+    /// The nodes at its start and end.
     pub ends: [usize; 2],
-    /// What it lies on.
+    /// Its curve.
     pub source: Source,
 }
 
-/// What a wire lies on.
+/// Curve of a wire.
 #[derive(Clone, Debug)]
 pub enum Source {
     /// A stretch of an edge of the part.
@@ -50,11 +50,11 @@ pub enum Source {
 /// One side of a region or a quad.
 #[derive(Clone, Debug)]
 pub struct Side {
-    /// The wire, and whether the side runs against it; none where the side is one point of the surface.
+    /// The wire, and whether the side runs against it; `None` where the side is one point of the surface.
     pub wire: Option<(usize, bool)>,
-    /// The nodes where it begins and ends.
+    /// The nodes at its start and end.
     pub ends: [usize; 2],
-    /// In the face's parameters, as the side runs.
+    /// In the face's parameters, in the side's direction.
     pub path: Path,
 }
 
@@ -63,7 +63,7 @@ pub struct Side {
 pub struct Region {
     /// The outer outline first, when it is known; then holes.
     pub loops: Vec<Vec<Side>>,
-    /// What it was cut into.
+    /// Its quads.
     pub quads: Vec<Quad>,
 }
 
@@ -180,7 +180,7 @@ impl<'p> Mesh<'p> {
         pieces
     }
 
-    /// Lets a closed wire of an edge begin elsewhere.
+    /// Moves the start of a closed wire of an edge.
     pub fn turn(&mut self, wire: usize, start: f64) {
         if start == 0.0 {
             return;

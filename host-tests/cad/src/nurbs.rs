@@ -31,7 +31,7 @@ pub struct Surface {
     pub closed: [bool; 2],
     /// Whether it meets itself there at all.
     pub touching: [bool; 2],
-    /// Whether the side where a parameter is least or greatest is one point.
+    /// Whether the side at a parameter's minimum or maximum is one point.
     pub poles: [[bool; 2]; 2],
 }
 
@@ -104,7 +104,7 @@ impl Basis {
 }
 
 impl Curve {
-    /// The least and the greatest parameter.
+    /// The minimum and the maximum of the parameter.
     pub fn range(&self) -> [f64; 2] {
         [self.knots[self.degree], self.knots[self.points.len()]]
     }
@@ -126,7 +126,7 @@ impl Curve {
 }
 
 impl Surface {
-    /// The least and the greatest value of a parameter.
+    /// The minimum and the maximum of a parameter.
     pub fn range(&self, axis: usize) -> [f64; 2] {
         [self.knots[axis][self.degree[axis]], self.knots[axis][self.counts[axis]]]
     }

@@ -145,7 +145,7 @@ fn tube(
     Ok([low, vec![seam], high, vec![back]].concat())
 }
 
-/// A loop that begins at its `first` side; what came before it comes after, once round further.
+/// A loop that starts at its `first` side; the sides before it follow at the end, shifted by one turn.
 fn rotated(sides: &[Side], first: usize, whole: DVec2) -> Vec<Side> {
     let after = sides[..first].iter().map(|side| side.shifted(whole));
     sides[first..].iter().cloned().chain(after).collect()

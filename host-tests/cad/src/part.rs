@@ -17,11 +17,11 @@ pub struct Part {
     pub edges: Vec<Edge>,
     /// Vertices.
     pub vertices: Vec<DVec3>,
-    /// What the file counts as one point, millimetres.
+    /// Distance below which the file's points are the same, millimetres.
     pub precision: f64,
     /// Remarks for the person at the terminal.
     pub remarks: Vec<String>,
-    /// What may still be spent on it.
+    /// The remaining effort for it.
     pub effort: Effort,
 }
 
@@ -43,13 +43,13 @@ pub struct Face {
     pub number: Option<u64>,
     /// The solid that it belongs to.
     pub solid: usize,
-    /// What its surface is, in the file's words.
+    /// Type of its surface, in the file's words.
     pub kind: &'static str,
     /// The whole surface.
     pub surface: Surface,
     /// Whether the outward normal is against the surface's.
     pub flip: bool,
-    /// Oriented edges, chained: each ends where the next begins.
+    /// Oriented edges, chained: each ends at the start of the next.
     pub loops: Vec<Vec<Use>>,
 }
 
@@ -67,11 +67,11 @@ pub struct Use {
 pub struct Edge {
     /// The curve that it is a stretch of.
     pub curve: Curve,
-    /// The stretch; of a curve that goes round it may run on beyond the curve's range.
+    /// The stretch; on a closed curve it may run beyond the curve's range.
     pub range: [f64; 2],
-    /// The vertices where it begins and ends.
+    /// The vertices at its start and end.
     pub ends: [usize; 2],
-    /// Whether the curve goes round.
+    /// Whether the curve is closed.
     pub is_round: bool,
     /// Its number in the file, if that is known.
     pub number: Option<u64>,
@@ -122,19 +122,19 @@ impl Edge {
         (0..32).map(|k| at(k).distance(at(k + 1))).sum()
     }
 
-    /// What messages call it; `index` is its place in the part.
+    /// Its label in messages; `index` is its index in the part.
     pub fn label(&self, index: usize) -> String {
         label_of_edge(index, self.number)
     }
 
-    /// Whether it ends where it began.
+    /// Whether it ends at its start.
     pub const fn is_closed(&self) -> bool {
         self.ends[0] == self.ends[1]
     }
 }
 
 impl Part {
-    /// The vertices where a use begins and ends.
+    /// The vertices at a use's start and end.
     pub fn ends(&self, used: Use) -> [usize; 2] {
         let [a, b] = self.edges[used.edge].ends;
         if used.reversed { [b, a] } else { [a, b] }
@@ -142,7 +142,7 @@ impl Part {
 }
 
 impl Face {
-    /// What messages call it.
+    /// Its label in messages.
     pub fn label(&self) -> String {
         label(&self.name, self.number)
     }

@@ -107,7 +107,7 @@ fn check(mesh: &Mesh<'_>, made: Vec<Made>) -> Result<Vec<Made>, Vec<ImportError>
     Err(bad.into_iter().map(error).collect())
 }
 
-/// The curve of a wire: of the least degree of 1, 3 and 5 that is near enough.
+/// The curve of a wire: of the lowest degree of 1, 3 and 5 that is near enough.
 pub fn curve_of(mesh: &Mesh<'_>, wire: usize, least: usize, tolerance: f64) -> FittedCurve {
     let ends = mesh.wires[wire].ends.map(|node| mesh.nodes[node]);
     let fit = |degree: usize| fit_curve(|t| mesh.at(wire, t), ends, degree);
@@ -126,7 +126,7 @@ pub fn curve_of(mesh: &Mesh<'_>, wire: usize, least: usize, tolerance: f64) -> F
     fit(5)
 }
 
-/// The patch of the least degrees that is near enough, or the nearest; and how far it is off.
+/// The patch of the lowest degrees that is near enough, or the nearest; and its deviation.
 fn patch_of(
     mesh: &Mesh<'_>,
     face: usize,

@@ -22,7 +22,7 @@ impl Path {
         Self((0..=INTERVALS).map(|k| at(k as f64 / INTERVALS as f64)).collect())
     }
 
-    /// Where it begins.
+    /// Its start.
     pub fn start(&self) -> DVec2 {
         self.0[0]
     }

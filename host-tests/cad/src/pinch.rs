@@ -1,8 +1,8 @@
-//! Outlines that touch themselves: what is refused at once, with the edges and how far apart they are.
+//! Outlines that touch themselves: refused at once, with the edges and their distance.
 //!
-//! A face that passes one vertex twice has no width there, nor has what lies between two edges that are nearer than the
-//! tolerance: any curves that are that near might cross. No division into quads helps there, and a search for one would
-//! take minutes to say so.
+//! A face that passes one vertex twice has no width there; nor has a strip between two edges nearer than the tolerance,
+//! because any curves that near might cross. No division into quads exists there, and the search would take minutes to
+//! find that out.
 
 use crate::error::ImportError;
 use crate::part::{Edge, Part, Use};

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 /// Newton's steps before giving up; from a guess on the same sheet four are usual.
 const STEPS: usize = 30;
 
-/// What [`Surface::project`] found.
+/// Result of [`Surface::project`].
 #[derive(Clone, Copy, Debug)]
 pub struct Foot {
     /// Its parameters; of a closed surface those near the guess, which may lie outside the range.

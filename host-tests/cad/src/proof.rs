@@ -1,9 +1,9 @@
 //! Proof that a patch has a tangent plane everywhere: `(f_u × f_v) · n > 0` for one direction `n` on each of a few
 //! cells.
 //!
-//! The product is a polynomial; where all its Bernstein coefficients are positive, so is it. Where they are not, the
-//! cell is halved. At a pole the product vanishes with the distance from it: the coefficients of its side are zero and
-//! left out, and what is proved is proved beside the pole.
+//! The product is a polynomial; where all its Bernstein coefficients are positive, so is it. Otherwise the cell is
+//! halved. At a pole the product vanishes with the distance from it: the coefficients of its side are zero and left
+//! out, and the proof holds beside the pole.
 
 use crate::bezier::Bezier;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! What is said of an import, at the terminal and in the model's first lines.
+//! Report of an import, for the terminal and the model's first lines.
 
 use crate::measure::Measured;
 use crate::mesh::{Mesh, Side};

@@ -1,8 +1,8 @@
-//! Vertices and edges that are one, to the file's own precision, made one.
+//! Merges vertices and edges that are the same to the file's own precision.
 //!
-//! Vertices in one place are merged and edges of no length are left out. Where faces meet along edges of their own, a
-//! free edge is cut at the free vertices on it, and two that then run together become one: so it does not matter where
-//! each face's own edges begin and how they run. A solid that is still open is refused by face, edge and millimetres.
+//! Vertices in one place are merged and edges of zero length are left out. Where faces meet along separate edges, a
+//! free edge is cut at the free vertices on it, and two that then coincide become one: so the start and direction of
+//! each face's own edges do not matter. A solid that is still open is refused with face, edge and millimetres.
 
 use crate::error::ImportError;
 use crate::part::{Edge, Part, Use};

@@ -59,7 +59,7 @@ pub fn trace(mesh: &Mesh<'_>, face: usize, uses: &[Use], limit: f64) -> Result<T
     Ok(Traced { sides, winding })
 }
 
-/// What a closed outline encloses.
+/// Area of a closed outline.
 pub fn area(sides: &[Side]) -> f64 {
     let points: Vec<_> = sides.iter().flat_map(|side| side.path.polyline().collect::<Vec<_>>()).collect();
     let pairs = points.iter().zip(points.iter().cycle().skip(1));

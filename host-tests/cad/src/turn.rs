@@ -8,10 +8,11 @@ use crate::mesh::Mesh;
 use crate::part::Part;
 use crate::trace::{self, Traced};
 
-/// Turns what lies the wrong way round; `tolerance` is how far an edge may lie off its face, millimetres.
+/// Reverses faces with the wrong orientation; `tolerance` is the maximum distance of an edge from its face,
+/// millimetres.
 ///
 /// # Errors
-/// What is wrong with a loop.
+/// A fault of a loop.
 pub fn turn(part: &mut Part, tolerance: f64) -> Result<(), ImportError> {
     let mut inside_out = Vec::new();
     let mesh = Mesh::new(part);

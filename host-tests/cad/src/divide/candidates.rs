@@ -22,7 +22,7 @@ pub struct Candidate {
     pub covers: Rc<[usize]>,
 }
 
-/// Whether it matters how far the surface turns along a line.
+/// Whether the turn of the surface along a line matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turning {
     /// It does not.
@@ -31,43 +31,43 @@ pub enum Turning {
     Dear,
 }
 
-/// What may be laid, and what is dear.
+/// Allowed quads, and the cost of lines.
 #[derive(Clone, Copy, Debug)]
 pub struct Manner {
-    /// Whether it matters how far the surface turns along a line.
+    /// Whether the turn of the surface along a line matters.
     pub turning: Turning,
-    /// Whether quads may have a side of no length: a region that nothing else divides falls into such.
+    /// Whether quads may have a side of zero length: needed for a region that has no other division.
     pub triangles: bool,
 }
 
-/// Finds quads, and remembers them.
+/// Search for quads, with a memory of its results.
 pub struct Candidates<'p> {
     /// The region.
     pub plane: &'p Plane,
     seen: Vec<Vec<usize>>,
     starting: Vec<Vec<usize>>,
     found: HashMap<Edge, Rc<[Candidate]>>,
-    /// How far the surface turns along a straight line of the plane, radians.
+    /// Turn of the surface along a straight line of the plane, radians.
     turn: &'p dyn Fn(DVec2, DVec2) -> f64,
     turns: HashMap<[usize; 2], f64>,
-    /// By a quad's sides from its least corner on.
+    /// By a quad's sides, starting at its corner of the lowest index.
     known: RefCell<HashMap<[Edge; 4], Worth>>,
     triangles: bool,
     effort: &'p Effort,
 }
 
-/// What a quad costs, and what it covers.
+/// Cost of a quad, and the outline's vertices that it covers.
 type Worth = Option<(f64, Rc<[usize]>)>;
 
-/// Lines from one vertex that are tried.
+/// Maximum number of lines from one vertex.
 const LINES: usize = 24;
-/// A line along which the surface turns by more than this, radians, is likely to be cut again; then it costs what so
-/// many patches do for each radian more.
+/// A line along which the surface turns by more than this, radians, is likely to be cut again; each radian more then
+/// costs as much as `TURNED` patches.
 const EASY_TURN: f64 = 1.7;
 const TURNED: f64 = 2.0;
-/// What a side of no length costs more: about two patches.
+/// Extra cost of a side of zero length: about two patches.
 const TRIANGLE: f64 = 2.0;
-/// Where that side is, the other two may meet at this angle, radians, and elsewhere at no less than that.
+/// Minimum angle of the other two sides at such a side, radians; and elsewhere.
 const SHARPEST: f64 = 0.01;
 const BLUNT: f64 = 0.12;
 /// The effort of weighing one.
@@ -109,7 +109,7 @@ impl<'p> Candidates<'p> {
         }
     }
 
-    /// Where an edge begins and ends.
+    /// The vertices at an edge's start and end.
     pub fn ends(&self, edge: Edge) -> [usize; 2] {
         match edge {
             Edge::Border(index) => self.plane.borders[index].ends,
@@ -135,7 +135,7 @@ impl<'p> Candidates<'p> {
         found
     }
 
-    /// What a line costs for the turn of the surface along it; a side of the outline has its cuts already.
+    /// Cost of a line for the turn of the surface along it; a side of the outline already has its cuts.
     fn turned(&mut self, edge: Edge) -> f64 {
         let Edge::Line(a, b) = edge else { return 0.0 };
         let (plane, turn) = (self.plane, self.turn);
@@ -206,8 +206,8 @@ impl<'p> Candidates<'p> {
         if turn < 0.0 { turn } else { PI - turn }
     }
 
-    /// What a quad costs, and what it covers; none if it is not worth having, or a vertex of the outline lies in it.
-    /// For all four of its sides that is found once.
+    /// Cost and coverage of a quad; `None` if it is too bad, or if a vertex of the outline lies inside. Computed once
+    /// for all four sides.
     fn worth(&self, corners: [usize; 4], edges: [Edge; 4]) -> Worth {
         let first = (0..4).min_by_key(|k| corners[*k]).unwrap_or(0);
         let key = [0, 1, 2, 3].map(|k| edges[(first + k) % 4]);

@@ -11,10 +11,10 @@ pub const CORNER: f64 = PI * 150.0 / 180.0;
 /// Above this the region has a corner that points inward.
 const INWARD: f64 = PI * 210.0 / 180.0;
 
-/// What a region looks like.
+/// Shape of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// Four corners and no holes: the indices of the sides that begin at them.
+    /// Four corners and no holes: the indices of the sides that start at them.
     Grid([usize; 4]),
     /// Anything else.
     Other,
@@ -46,7 +46,7 @@ pub fn is_triangle(mesh: &Mesh<'_>, face: usize) -> bool {
     has_three && angles(mesh, face).into_iter().all(|angle| angle < CORNER)
 }
 
-/// The inner angle where each side of the outer outline begins, radians: in space, of the tangents there.
+/// The inner angle at the start of each side of the outer outline, radians: in space, between the tangents.
 pub fn angles(mesh: &Mesh<'_>, face: usize) -> Vec<f64> {
     let surface = &mesh.part.faces[face].surface;
     let sides = &mesh.regions[face].loops[0];

@@ -150,8 +150,8 @@ fn exits(mesh: &Mesh<'_>, face: usize, entered: Option<usize>) -> Vec<usize> {
 // Cuts handed on: a region with four corners wants as many cuts on a side as on the one opposite, at about the same
 // places.
 
-/// Cuts sides until opposite ones of every region with four corners agree. Gives up on those that would make more than
-/// so many wires: they are divided as they are.
+/// Cuts sides until opposite ones of every region with four corners agree. Stops at a maximum number of wires and
+/// leaves the other regions as they are.
 pub fn balance(mesh: &mut Mesh<'_>) {
     let most = 4 * mesh.wires.len() + 400;
     while mesh.wires.len() < most {

@@ -21,7 +21,7 @@ pub fn scale(mesh: &Mesh<'_>, face: usize) -> DVec2 {
 /// One side of the outline in the plane.
 #[derive(Clone, Debug)]
 pub struct Border {
-    /// The vertices where it begins and ends.
+    /// The vertices at its start and end.
     pub ends: [usize; 2],
     /// Points along it, both ends included, equally spaced in its parameter; two if it is straight.
     pub points: Vec<DVec2>,
@@ -50,9 +50,9 @@ impl Edge {
 pub struct Vertex {
     /// Where.
     pub point: DVec2,
-    /// The mesh's node; none for a point that may be put inside.
+    /// The mesh's node; `None` for a point that may be added inside.
     pub node: Option<usize>,
-    /// Directions along which its inner angle begins and ends: along the outline, and back along it. Nothing inside.
+    /// First and last direction of its inner angle: along the outline, and back along it. `None` inside.
     pub angle: Option<[DVec2; 2]>,
 }
 
@@ -201,7 +201,7 @@ fn above(map: &dyn Fn(f64, f64) -> DVec2, has_pole: bool, floor: f64) -> f64 {
     least
 }
 
-/// What a quad costs: one patch, more if it is slanted, a little if it is long. None if it is not worth having.
+/// Cost of a quad: one patch, more if it is slanted, slightly more if it is long. `None` if it is too bad.
 pub fn cost(map: &dyn Fn(f64, f64) -> DVec2, has_pole: bool) -> Option<f64> {
     const LEAST: f64 = 0.12;
     let sine = above(map, has_pole, LEAST);

@@ -88,7 +88,7 @@ fn turn(surface: &Surface, from: DVec2, to: DVec2) -> f64 {
     turns.filter(|turn| turn.is_finite()).sum()
 }
 
-/// A ring along the outline, and what is left tiled by itself.
+/// A ring along the outline, and a tiling of the rest.
 fn behind_a_ring(
     outline: &Plane,
     turn: &dyn Fn(DVec2, DVec2) -> f64,
@@ -312,7 +312,7 @@ pub struct Ring {
     pub plane: Plane,
     /// Its quads.
     pub quads: Vec<Candidate>,
-    /// What it leaves.
+    /// The rest of the region.
     pub within: Plane,
 }
 

@@ -15,7 +15,7 @@ struct Normal {
 }
 
 impl Normal {
-    /// For so many unknowns.
+    /// For `count` unknowns.
     pub fn new(count: usize) -> Self {
         Self { count, matrix: vec![0.0; count * count], right: vec![0.0; count] }
     }

@@ -35,7 +35,7 @@ struct Placed<'m> {
 /// Reads a part; all its solids, or those of one name.
 ///
 /// # Errors
-/// What is wrong with the file, or that there is nothing to feel in it.
+/// A fault of the file, or a file without solids.
 pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
     let file = path.display().to_string();
     let cannot = |cause| ImportError::Read { file: file.clone(), cause };

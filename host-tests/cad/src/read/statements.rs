@@ -11,11 +11,11 @@ pub(super) struct Statement<'t> {
     pub id: u64,
     /// Its type; of a complex entity all its parts, joined by `+`.
     pub kind: String,
-    /// What stands behind the type, with both parentheses.
+    /// The arguments behind the type, with both parentheses.
     pub arguments: &'t str,
 }
 
-/// The number and the type of the statement that a text begins, and how much of the text stands from its type on.
+/// Number and type of the statement at the start of a text, and the length of the text from its type on.
 pub(super) fn statement(text: &str) -> Option<(u64, String, usize)> {
     let (id, rest) = text.trim_start().strip_prefix('#')?.split_once('=')?;
     let rest = rest.trim_start();
@@ -78,7 +78,7 @@ impl Numbers {
 
 // Where a file stops being one: the line, and the entity that stands there.
 
-/// What is wrong with a text that the reader does not take, and where.
+/// Message for a text that the reader refuses: fault and place.
 pub(super) fn message(text: &str, error: &Error) -> String {
     let place = match error {
         Error::UnexpectedEof { .. } => return ended(text),
@@ -128,7 +128,7 @@ fn behind_statements(text: &str) -> usize {
     end
 }
 
-/// The entity that a text begins: its number, and its type as far as it is there.
+/// The entity at the start of a text: its number and, if present, its type.
 fn begun(text: &str) -> Option<String> {
     let (id, kind, _) = statement(text)?;
     Some(if kind.is_empty() { format!("#{id}") } else { format!("#{id} ({kind})") })
@@ -161,7 +161,7 @@ const NEEDED: [&str; 22] = [
     "MAPPED_ITEM",
     "LENGTH_UNIT",
 ];
-/// What bears such a name and is only looks, dimensions or a flat picture of the shape.
+/// Types whose names contain such a word only describe looks, dimensions or a flat picture of the shape.
 const LOOKS: [&str; 10] =
     ["STYLE", "COLOUR", "PCURVE", "DIMENSION", "TOLERANCE", "ANNOTATION", "CALLOUT", "DRAUGHTING", "ASPECT", "CAMERA"];
 

@@ -27,7 +27,7 @@ struct Sphere {
     is_outward: bool,
 }
 
-/// What becomes of a sphere with holes that no place has a view of.
+/// Treatment of a sphere with holes that cannot be seen whole from any point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hollow {
     /// It stays as the file has it.
@@ -68,7 +68,7 @@ fn reach_at(cosine: f64) -> f64 {
     ((1.0 - cosine) / (1.0 + cosine)).sqrt()
 }
 
-/// The direction of the middle of a face that has a pole inside it, and the least cosine of the angle from it to its
+/// The direction of the middle of a face that has a pole inside it, and the minimum cosine of the angle from it to its
 /// outline.
 fn middle(part: &Part, face: usize, sphere: &Sphere) -> Option<(DVec3, f64)> {
     let loops = sphere.outlines(part, face);
@@ -199,7 +199,7 @@ impl Sphere {
 
 /// Great circles that are tried.
 const TRIED: usize = 600;
-/// The least sine of the angle between the circle and an outline: nearer, quads between them would be slivers.
+/// The minimum sine of the angle between the circle and an outline: below it, quads between them would be slivers.
 const CLEARANCE: f64 = 0.1;
 /// A pole that is nearer to a point of an outline, as a part of the radius, lies on it: of a whole great circle they
 /// are twice as far apart.
@@ -220,7 +220,7 @@ impl Sphere {
         })
     }
 
-    /// Whether the way from a point to the middle of a piece of the outline begins inside.
+    /// Whether the way from a point to the middle of a piece of the outline starts inside.
     fn begins_inside(&self, point: DVec3, [from, to]: [DVec3; 2], outline: &[[DVec3; 2]]) -> bool {
         // The face lies on the left, seen from where the surface's normal points.
         let sense = if self.is_outward { 1.0 } else { -1.0 };

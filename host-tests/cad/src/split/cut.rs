@@ -11,7 +11,7 @@ use crate::trace::{self, Traced};
 use glam::DVec2;
 use std::collections::HashMap;
 
-/// Cuts the edges, puts the stretches in, and chains the loops anew; gives the number of pieces.
+/// Cuts the edges, inserts the stretches, and chains the loops again; returns the number of pieces.
 pub fn carry_out(part: &mut Part, face: usize, cut: &Cut, tolerance: f64) -> Result<usize, ImportError> {
     let vertices = cut_edges(part, cut);
     // After the loop has come to a vertex on a line it goes on along the line, and from its other end along the loop.

@@ -6,16 +6,16 @@ use crate::part::{Part, Use};
 use crate::trace::{self, Traced};
 use glam::{DVec2, DVec3};
 
-/// What is asked where a line meets the outline.
+/// Conditions where a line meets the outline.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
-    /// The sine of the angle there, at least.
+    /// Minimum sine of the angle there.
     pub sine: f64,
-    /// The share of the edge that is left on either side.
+    /// Minimum fraction of the edge on either side.
     pub share: f64,
 }
 
-/// Where a line meets the outline.
+/// Crossing of a line and the outline.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
     /// The edge, as the loop runs along it.
@@ -36,7 +36,7 @@ pub struct Crossing {
 pub struct Line {
     /// Of the parameter that it holds.
     pub value: f64,
-    /// Where each begins and ends.
+    /// Start and end of each stretch.
     pub stretches: Vec<[Crossing; 2]>,
 }
 
@@ -47,7 +47,7 @@ pub struct Cut {
     pub axis: usize,
     /// One, or two round a closed parameter.
     pub lines: Vec<Line>,
-    /// What they cost together.
+    /// Their total cost.
     pub cost: f64,
 }
 
@@ -240,7 +240,7 @@ fn is_all_about(loops: &[Traced], surface: &Surface, axis: usize) -> bool {
     loops.iter().any(|of| of.winding[axis] != 0) || (surface.closed == [true; 2] && loops.iter().all(is_hole))
 }
 
-/// What a line costs.
+/// Cost of a line.
 fn cost(part: &Part, face: usize, loops: &[Traced], axis: usize, line: &Line) -> f64 {
     let surface = &part.faces[face].surface;
     let place = |along: f64| if axis == 0 { DVec2::new(line.value, along) } else { DVec2::new(along, line.value) };

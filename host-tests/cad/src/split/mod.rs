@@ -1,10 +1,10 @@
-//! A face in pieces, along lines of its parameters: what is too much to be divided into quads at once.
+//! Splits a face along lines of its parameters if it is too complex to be divided into quads at once.
 //!
-//! A line runs from where it comes into the face to where it leaves it ([`line`]); those stretches become edges of both
-//! pieces, and the edges they meet are cut there in all faces ([`cut`]). Round a closed parameter that the face goes
-//! all about there are two lines. Of many, the line is taken that has few and short stretches, meets the outline
-//! squarely and far from its vertices, passes by nothing closely, and leaves as much on one side as on the other
-//! ([`choice`]). What was one face's loops are the pieces' then ([`pieces`]).
+//! A line runs from the point where it enters the face to the point where it leaves it ([`line`]); those stretches
+//! become edges of both pieces, and the edges that they meet are cut there in all faces ([`cut`]). If the face goes all
+//! the way round a closed parameter, there are two lines. The chosen line has few and short stretches, meets the
+//! outline squarely and far from its vertices, passes nothing closely, and halves the face ([`choice`]). The loops of
+//! the face are then distributed to the pieces ([`pieces`]).
 
 mod cut;
 mod line;
@@ -14,13 +14,13 @@ use crate::part::Part;
 use crate::trace;
 use line::Asked;
 
-/// What is asked of a line at first, and then.
+/// Conditions of the first attempt and of the second.
 const ASKED: [Asked; 2] = [Asked { sine: 0.3, share: 0.07 }, Asked { sine: 0.12, share: 0.02 }];
 
-/// Splits a face in two or more, in its place; says whether a way was found.
+/// Splits a face in place into two or more; returns whether a way was found.
 ///
 /// # Errors
-/// What is wrong with its loops.
+/// A fault of its loops.
 pub fn split(part: &mut Part, face: usize, tolerance: f64) -> Result<bool, ImportError> {
     let loops = trace::all(part, face, &part.faces[face].loops, tolerance)?;
     let Some(cut) = ASKED.iter().find_map(|asked| line::best(part, face, &loops, asked)) else { return Ok(false) };
