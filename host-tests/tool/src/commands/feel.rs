@@ -182,7 +182,7 @@ fn write(all: &[(&str, Vec<Row>)], threshold: &Threshold, arguments: &Arguments)
     let figures: Vec<(&str, String)> = worst.into_iter().chain(figures).collect();
     let subtitle = format!("{} Hz", arguments.rate);
     let report = out.join("report.html");
-    write_sections(["What the hand feels", &subtitle], &figures, &sections, &report)?;
+    write_sections(["Feel of each device", &subtitle], &figures, &sections, &report)?;
     println!("figures: {}\nreport: {}", csv.display(), report.display());
     Ok(ExitCode::SUCCESS)
 }

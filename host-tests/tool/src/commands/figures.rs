@@ -1,4 +1,4 @@
-//! `palpate figures`: the paper's Figures 3 and 6 to 9, computed anew.
+//! `palpate figures`: the paper's Figures 3 and 6 to 9, recomputed.
 
 use super::output::write_whole;
 use super::progress;

@@ -24,13 +24,14 @@ pub trait Line {
     /// A line that broke.
     fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()>;
 
-    /// What came; waits for it a hundredth of a second at most. A simulated device runs for a moment meanwhile.
+    /// Returns the received bytes; waits for at most a hundredth of a second. A simulated device runs for a moment
+    /// meanwhile.
     ///
     /// # Errors
     /// As [`Self::send`].
     fn receive(&mut self) -> anyhow::Result<Vec<u8>>;
 
-    /// Resets the device, where this program can: one that is simulated. Whether it did.
+    /// Resets the device if this program can, as it can a simulated one; returns whether it did.
     ///
     /// # Errors
     /// As [`Self::send`].
@@ -70,14 +71,14 @@ pub struct Device {
     line: Box<dyn Line>,
     key: Box<dyn Key>,
     receiver: Receiver<DeviceMessage>,
-    /// What came and was not looked at yet.
+    /// Received bytes that are not processed yet.
     bytes: VecDeque<u8>,
-    /// Of the last jog sent.
+    /// Number of the last jog sent.
     number: u32,
     last: Reading,
-    /// How it says that it is calibrated; nothing of one that cannot keep a calibration.
+    /// Its report on its calibration; `None` if it cannot store one.
     calibrated: Option<Calibrated>,
-    /// Which index marks were passed since its last reset.
+    /// Index marks passed since its last reset.
     marked: Marked,
     /// To the last that was to be kept.
     answer: Option<Answer>,
@@ -124,15 +125,15 @@ impl Device {
         )
     }
 
-    /// How it says that it is calibrated since its last reset; `None` of one that cannot keep a calibration.
+    /// Its report on its calibration since its last reset; `None` if it cannot store one.
     pub const fn calibrated(&self) -> Option<Calibrated> {
         self.calibrated
     }
 
-    /// Has a calibration kept in the device's flash, or the one that is kept forgotten; used from its next reset on.
+    /// Stores a calibration in the device's flash, or deletes the stored one; in effect from its next reset on.
     ///
     /// # Errors
-    /// What the device refuses, an enable button that nobody lets go of, a line that broke.
+    /// A refusal by the device, an enable button that is not released, a broken line.
     pub fn keep(&mut self, joints: Option<[JointCalibration; 3]>) -> anyhow::Result<()> {
         for _ in 0..RELEASES {
             // The key is let go.
@@ -155,7 +156,7 @@ impl Device {
         bail!("the device does not say whether the calibration is kept")
     }
 
-    /// Resets a device that is simulated, and has it set up anew. Whether it could be.
+    /// Resets a simulated device and sets it up again; returns whether that was possible.
     ///
     /// # Errors
     /// As [`Self::connect`]'s.
@@ -170,7 +171,7 @@ impl Device {
         Ok(is_reset)
     }
 
-    /// Which index marks were passed since its last reset, as far as was told.
+    /// Index marks passed since its last reset, as reported.
     pub const fn marked(&self) -> Marked {
         self.marked
     }
@@ -190,7 +191,7 @@ impl Device {
         self.step_telling(jog, |_| ())
     }
 
-    /// As [`Self::step`], and every reading of it is told as it comes.
+    /// As [`Self::step`]; passes every reading to `tell`.
     ///
     /// # Errors
     /// As [`Self::step`]'s.
@@ -263,7 +264,7 @@ impl Device {
     }
 }
 
-/// What a reading says that keeps the motors off, as the rest of a sentence.
+/// The reason why the motors are off according to a reading, as the rest of a sentence.
 pub(crate) fn said(reading: &Reading) -> String {
     let holds = [
         (hold::STOP, "stop is pressed"),

@@ -8,15 +8,15 @@ use std::f64::consts::TAU;
 
 /// How far each joint is turned from the middle of the workspace, either way, rad.
 const TURN: f64 = 0.15;
-/// How far it is moved past where a mark must come, either way, turns of its encoder.
+/// Travel beyond the expected position of a mark, in either direction, turns of its encoder.
 const PAST: f64 = 0.6;
-/// How far from the ends of its range, rad.
+/// Distance from the ends of its range, rad.
 const OFF_STOPS: f64 = 0.05;
-/// Fewer counts than this between the two angles are no encoder.
+/// Minimum counts between the two angles for an input with an encoder.
 const LEAST: i32 = 50;
 
-/// Finds them and writes them into the file. The counters begin wherever the joints stood at the board's reset: of a
-/// device that is homed by a pose, zero is the angle there.
+/// Measures the encoders and writes the results into the file. The counters start at the joints' position at the
+/// board's reset: for a device that is homed by a pose, zero is the angle there.
 pub(super) fn find_encoders(
     lab: &mut Lab,
     file: &mut DeviceFile,
@@ -80,9 +80,9 @@ pub(super) fn find_encoders(
     Ok(())
 }
 
-/// The counts from where the counter began to the joint's mark, or to the one nearest to the middle of the workspace
-/// where there are several: it comes once in each turn of the encoder's shaft. `line` is the angle at which the count
-/// steps from −1 to 0.
+/// The counts from the start of the counter to the joint's mark, which comes once in each turn of the encoder's shaft;
+/// with several marks in the workspace, to the one nearest to its middle. `line` is the angle at which the count steps
+/// from −1 to 0.
 fn mark(
     lab: &mut Lab,
     joint: &JointEntry,

@@ -1,4 +1,4 @@
-//! What stands in a device file, measured.
+//! Measures the entries of a device file.
 
 use super::encoders::find_encoders;
 use super::motors::find_motors;
@@ -11,10 +11,11 @@ use palpate::device::{Device, ZeroOf};
 use palpate_sim::devices::preset::Preset;
 use palpate_sim::devices::{DeviceFile, HomingEntry, OwnDevice};
 
-/// Measures a device and writes what it finds into its file. What is within what a measurement can tell stays as it is.
+/// Measures a device and writes the results into its file. Entries within the uncertainty of the measurement do not
+/// change.
 ///
 /// # Errors
-/// What cannot be: a joint that moves no encoder, or two; a motor that moves nothing.
+/// An impossible result: a joint that moves no encoder, or two; a motor that moves no joint.
 pub fn find(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result<(DeviceFile, Vec<Finding>)> {
     let (mut file, mut findings) = find_mounting(lab, own, by)?;
     find_torques(lab, &mut file, own, middle(own)?, &mut findings)?;
@@ -41,7 +42,7 @@ pub fn find_mounting(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result
     Ok((file, findings))
 }
 
-/// The joint angles in the middle of the workspace, and what gravity does to the joints there, N·m.
+/// The joint angles in the middle of the workspace, and gravity's torques on the joints there, N·m.
 fn middle(own: &OwnDevice) -> anyhow::Result<([f64; 3], [f64; 3])> {
     let mechanism = own.plant.mechanism(0.0);
     let centre = mechanism.angles([0.0; 3]).context("the workspace centre is out of reach")?;
@@ -50,7 +51,7 @@ fn middle(own: &OwnDevice) -> anyhow::Result<([f64; 3], [f64; 3])> {
 
 // What was measured, as the device keeps it.
 
-/// What a device of three joints keeps of a file; `None` of one with fewer.
+/// The calibration of a device of three joints from its file; `None` with fewer joints.
 pub fn calibration(own: &OwnDevice) -> Option<Calibration<3>> {
     match own.preset {
         Preset::SerialArm(device) => Some(of(own, device)),

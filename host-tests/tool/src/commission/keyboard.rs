@@ -57,8 +57,8 @@ impl Key for Keyboard {
     }
 }
 
-/// The next line of the terminal, shown while it is typed whatever a [`Keyboard`] does; `None` at its end. What was
-/// pressed before is forgotten: a bar that was held is no answer.
+/// The next line of the terminal, with echo independent of a [`Keyboard`]; `None` at its end. Earlier key presses are
+/// discarded: a held space bar is no answer.
 pub(super) fn line() -> std::io::Result<Option<String>> {
     let _shown = terminal::shown();
     let mut answer = String::new();
@@ -84,7 +84,7 @@ mod terminal {
         Some(Raw(before))
     }
 
-    /// What a terminal was like before; it is again once this is dropped.
+    /// The terminal's previous mode, restored on drop.
     #[derive(Debug)]
     pub struct Raw(Termios);
 
@@ -152,10 +152,10 @@ pub struct Person {
 }
 
 impl Person {
-    /// Who reads and answers here.
+    /// A person who reads and answers at this terminal.
     ///
     /// # Errors
-    /// Where standard input is no terminal: nobody reads.
+    /// If standard input is not a terminal.
     pub fn new(names: Vec<String>) -> anyhow::Result<Self> {
         if !stdin().is_terminal() {
             bail!("setting up a device takes a person at a terminal; standard input is none");

@@ -1,4 +1,4 @@
-//! A device, and whoever stands at it.
+//! A device and the person at it.
 
 use super::Device;
 use anyhow::bail;
@@ -8,23 +8,23 @@ use std::fmt;
 
 /// The servo rate of a device that is simulated, Hz.
 pub const RATE: f32 = 4_000.0;
-/// So many readings in a row say the same of what is still: a joint that swings back from where it was put turns around
-/// within one of them, not within four.
+/// Number of equal readings that show that a joint is at rest: a joint that swings back reverses within one of them,
+/// not within four.
 const STILL: u32 = 4;
-/// So many readings are enough to hear again of a mark that was passed while nobody listened.
+/// Number of readings within which the device repeats a missed report of a mark.
 const TOLD_AGAIN: u32 = 10;
-/// How many readings it may take to come to rest: ten seconds.
+/// Maximum number of readings until the joints rest: ten seconds.
 const MOST: u32 = 500;
 
-/// A device, and whoever stands at it.
+/// A device and the person at it.
 pub struct Lab {
     /// The device at its line.
     pub device: Device,
-    /// Whoever stands at it.
+    /// The person.
     pub hands: Box<dyn Hands>,
 }
 
-/// By which angles zero and ratio of the encoders are found.
+/// Reference for zero and ratio of the encoders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Zero {
     /// Two angles about the middle of the workspace, by jig or protractor
@@ -53,20 +53,20 @@ impl Lab {
         self.still(|hands| hands.pose(angles))
     }
 
-    /// One joint is moved past its mark to where these angles have it: what the device says of the marks.
+    /// Has one joint moved past its mark to these angles; returns the device's report on the marks.
     ///
     /// # Errors
     /// As [`Self::place`].
     pub fn pass(&mut self, joint: usize, angles: [f64; 3]) -> anyhow::Result<Marked> {
         self.still(|hands| hands.pass(joint, angles))?;
-        // It tells of them again now and then.
+        // The device repeats its report now and then.
         for _ in 0..TOLD_AGAIN {
             self.device.step(None)?;
         }
         Ok(self.device.marked())
     }
 
-    /// The counts once the hands have done something, and the joints are still.
+    /// The counts after an action of the hands, once the joints rest.
     fn still(&mut self, what: impl FnOnce(&mut dyn Hands) -> anyhow::Result<()>) -> anyhow::Result<[i32; 3]> {
         // The key is let go before anybody reaches in.
         self.device.step(None)?;
@@ -84,9 +84,9 @@ impl Lab {
     }
 }
 
-// What was found to be other than the file had it.
+// Differences between the measurement and the file.
 
-/// A sentence: the joint, what, and by how much.
+/// A sentence: the joint, the quantity and the difference.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding(pub String);
 
@@ -96,14 +96,14 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Whether a number is off by more than this share of what the file says.
+/// Whether a number differs from the file's by more than this fraction.
 pub(super) fn differs(found: f64, before: f64, share: f64) -> bool {
     (found - before).abs() > share * before.abs()
 }
 
-// Whoever stands at the device.
+// The person at the device.
 
-/// What a person does at the bench, or a simulation of one.
+/// Actions of a person at the bench, or of a simulated one.
 pub trait Hands {
     /// Puts the joints at these angles, rad, by jig, stop or protractor, and holds them.
     ///
@@ -130,8 +130,8 @@ pub trait Hands {
     /// As [`Self::place`].
     fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()>;
 
-    /// Makes a known weight pull at the probe, over a pulley where it must, along this force, N; none for zero. How
-    /// much it is, N.
+    /// Has a known weight pull at the probe with this force, N, over a pulley if necessary; zero removes it. Returns
+    /// the weight's force, N.
     ///
     /// # Errors
     /// As [`Self::place`].

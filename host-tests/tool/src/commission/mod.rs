@@ -1,12 +1,12 @@
-//! Commissioning: from a device file that is only nearly right to one that was measured.
+//! Commissioning: from a roughly correct device file to a measured one.
 //!
 //! ```text
 //!  find ── Lab ─┬─ Device ── Line: a serial port │ an emulated board │ the loop of the boards on the host
-//!               └─ Hands: whoever stands at it   │ World: the simulated device, and what was planted in it
+//!               └─ Hands: the person at it       │ World: the simulated device and its planted faults
 //! ```
 //!
-//! The device's side is the loop of every board (`boards/src`), wherever it runs. [`find`] asks the [`Lab`] for what
-//! it needs and writes what it finds into the file. A motor moves only while the [`Key`] is held.
+//! The device's side is the loop of every board (`boards/src`). [`find`] gets its data from the [`Lab`] and writes the
+//! results into the file. A motor moves only while the [`Key`] is held.
 
 pub(crate) mod device;
 mod emulated;

@@ -6,10 +6,11 @@ use super::{Finding, Lab};
 use anyhow::{Context, bail};
 use palpate_sim::devices::{DeviceFile, OwnDevice};
 
-/// What is taken for motion, rad: many counts, and little for whoever holds the rest.
+/// Minimum motion of a joint, rad: many counts, and little for the person who holds the others.
 const MOVED: f64 = 0.01;
 
-/// Finds them and writes them into the file. `loads` is what gravity does to each joint, N·m: the way it falls.
+/// Finds the motors and writes them into the file. `loads` are gravity's torques on the joints, N·m: the direction in
+/// which each falls.
 pub(super) fn find_motors(
     lab: &mut Lab,
     file: &mut DeviceFile,
@@ -76,27 +77,28 @@ fn find_motor(
 
 // A duty that grows while the key is held, until something moves.
 
-/// The greatest share of full duty that is tried: a little less than a device allows, which is four tenths, or what the
-/// motor that bears least bears for ever. Which motor is where is not known yet.
+/// Maximum duty of the search, as a fraction of full duty: slightly less than the device's limit of four tenths or, if
+/// lower, the smallest continuous limit of the motors. The assignment of motors to outputs is not known yet.
 pub(super) fn most(own: &OwnDevice) -> f64 {
     own.protection.motors.iter().map(|motor| f64::from(motor.continuous)).fold(0.4, f64::min) - 0.01
 }
-/// How often a key may be let go before whoever holds it has given up.
+/// Number of releases of the key after which the search gives up.
 const TRIES: u32 = 20;
 
-/// How fast a duty grows, a fiftieth of a second at a time.
+/// Growth of a duty in a fiftieth of a second.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth {
-    /// By how much at least, as a share of full duty.
+    /// Minimum increment, as a fraction of full duty.
     pub least: f64,
-    /// By how much of itself.
+    /// Increment as a fraction of the duty.
     pub share: f64,
 }
 
 impl Growth {
     /// To [`most`] within a second.
     pub const BRISK: Self = Self { least: 0.002, share: 0.04 };
-    /// A fiftieth of full duty in a second: so slowly that what just moves has hardly been pushed more than it takes.
+    /// A fiftieth of full duty in a second: slow enough that the duty at the first motion is hardly above the necessary
+    /// one.
     pub const FINE: Self = Self { least: 0.0003, share: 0.0 };
     /// The other way, from where something moves: it must come to rest before it has gone where the load is another.
     pub const BACK: Self = Self { least: 0.0005, share: 0.015 };

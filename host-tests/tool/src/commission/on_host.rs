@@ -114,8 +114,7 @@ impl HostLine {
     }
 }
 
-/// A device that begins, with what its flash has. What it is made of lives as long as the program, as a board's statics
-/// do.
+/// Starts a device with the content of its flash. Its parts are leaked, so that they live as long as a board's statics.
 fn started<K: Kinematics<3> + Copy>(
     (built, protection): (&'static Device<K, 3>, Protection<3>),
     homing: HomingEntry,

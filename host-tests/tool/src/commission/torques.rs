@@ -17,18 +17,18 @@ use anyhow::{Context as _, bail};
 use palpate_sim::devices::{DeviceFile, OwnDevice};
 use std::f64::consts::TAU;
 
-/// What the weight loads a joint with, as a share of what its motor gives by its data sheet: as much as this, and as
-/// little as that where gravity and friction leave no more.
+/// Load of the weight on a joint, as a fraction of its motor's data-sheet torque: maximum, and minimum where gravity
+/// and friction leave no more.
 const LOADS: [f64; 2] = [0.1, 0.02];
-/// How far below the duty that was found briskly the slow search begins, as a share of full duty: a fifth of it, or
-/// this.
+/// Lead of the slow search below the duty that the brisk one found, as a fraction of full duty: a fifth of that duty,
+/// or this.
 const LEAD: f64 = 0.03;
-/// Counts that are motion.
+/// Minimum motion, counts.
 const COUNTS: f64 = 2.0;
-/// And how far at least, rad: more than a hard support gives way under the load that is lifted off it.
+/// Minimum motion, rad: more than a hard support yields under the load.
 const GIVE: f64 = 5e-4;
 
-/// Finds them and writes them into the file. `loads` is what gravity does to each joint, N·m.
+/// Measures the torques and writes them into the file. `loads` are gravity's torques on the joints, N·m.
 pub(super) fn find_torques(
     lab: &mut Lab,
     file: &mut DeviceFile,

@@ -5,24 +5,24 @@ use palpate_sim::plant::{Direction, HandPath, HandSettings, Plant, PlantSettings
 use std::str::FromStr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Of the spring whose far end is what pulls, N/m: so soft that the probe's own motion changes the force by nothing.
+/// Stiffness of the pulling spring, N/m: so soft that the probe's own motion does not change the force.
 const SOFT: f64 = 1e-3;
 
-/// What the pins of a simulated board are wired to.
+/// Everything that the pins of a simulated board are wired to.
 pub struct World {
     plant: Plant,
     planted: Planted,
-    /// The enable button is pressed.
+    /// Whether the enable button is pressed.
     pub enable: bool,
-    /// The inputs' counts where the board began to count.
+    /// The inputs' counts at the start of the board's counters.
     began: [i32; 3],
-    /// Where each joint's mark was passed since somebody asked, in its encoder's counts.
+    /// Counts of each joint's encoder at which its mark was passed since the last query.
     passed: [Option<i32>; 3],
-    /// Where the far end of the soft spring is.
+    /// Position of the soft spring's far end.
     far: Shared<Vector>,
 }
 
-/// What two share.
+/// State shared by two owners.
 type Shared<T> = Arc<Mutex<T>>;
 
 fn lock<T>(shared: &Shared<T>) -> MutexGuard<'_, T> {
@@ -41,10 +41,10 @@ impl HandPath for Far {
 }
 
 impl World {
-    /// A device at rest in the middle of its workspace, which somebody holds there.
+    /// A device at rest in the middle of its workspace, held there.
     ///
     /// # Errors
-    /// What the plant refuses.
+    /// An error of the plant.
     pub fn new(planted: Planted) -> anyhow::Result<Self> {
         let far = Arc::new(Mutex::new([0.0; 3]));
         let hand = HandSettings { stiffness: SOFT, damping: 0.0, mass: 0.0 };
@@ -62,8 +62,8 @@ impl World {
         Ok(Arc::new(Mutex::new(Self::new(planted)?)))
     }
 
-    /// The board is reset: its counters begin at zero where the joints stand. Before that they are zero in the pose in
-    /// which the device is homed, as those of sensors are that know it.
+    /// Resets the board: its counters start at zero in the joints' current position. Before that, they are zero in the
+    /// homing pose, as with absolute sensors.
     pub fn begin_to_count(&mut self) {
         self.began = self.at_inputs();
     }
@@ -79,7 +79,7 @@ impl World {
         self.planted.encoder_on.map(|joint| joints[joint])
     }
 
-    /// The counts at which the inputs' marks were passed since this was asked last.
+    /// The counts at which the inputs' marks were passed since the last query.
     pub fn take_marks(&mut self) -> [Option<i32>; 3] {
         let passed = std::mem::take(&mut self.passed);
         core::array::from_fn(|input| {
@@ -87,12 +87,13 @@ impl World {
         })
     }
 
-    /// Joints that stood at these counts have moved: past which marks.
+    /// Records the marks that the joints passed since they had these counts.
     fn pass_marks(&mut self, before: [i32; 3]) {
         for (joint, (now, before)) in self.plant.counts().into_iter().zip(before).enumerate() {
             let Some(mark) = self.planted.marks[joint] else { continue };
             let turn = self.planted.plant.joints[joint].counts_per_turn;
-            // Which turn of its shaft it is in, before and now; the mark that it passed last begins one of them.
+            // The turn of its shaft, before and now: the last mark is the start of the current turn if the count rose,
+            // of the next turn if it fell.
             let [from, to] = [before, now].map(|count| (f64::from(count - mark) / turn).floor());
             if from != to {
                 let last = if to > from { to } else { to + 1.0 };
@@ -113,7 +114,7 @@ impl World {
         self.pass_marks(before);
     }
 
-    /// The simulated joints' stops close in on these angles.
+    /// Closes the stops of the simulated joints on these angles.
     fn place(&mut self, angles: Vector) {
         for (joint, angle) in angles.into_iter().enumerate() {
             self.plant.move_stops(joint, [angle, angle]);
@@ -121,10 +122,10 @@ impl World {
     }
 }
 
-/// Hands that do as they are told.
+/// Simulated hands that follow every instruction.
 pub struct SimulatedHands {
     world: Arc<Mutex<World>>,
-    /// Where the joints are held, rad.
+    /// Angles at which the joints are held, rad.
     held: Vector,
 }
 
@@ -171,51 +172,52 @@ impl Hands for SimulatedHands {
     }
 }
 
-// What is wrong with a simulated device that is to be commissioned.
+// Faults of a simulated device that is to be commissioned.
 
-/// Where marks happen to be.
+/// Arbitrary positions of the marks.
 const MARKS: [Option<i32>; 3] = [Some(137), Some(-421), Some(300)];
 
 /// How a planted device differs from its file.
 #[derive(Clone, Copy, Debug)]
 pub struct Planted {
-    /// The device as it is.
+    /// The device with its true numbers.
     pub plant: PlantSettings,
     /// The joint whose encoder is on each input.
     pub encoder_on: [usize; 3],
     /// The joint whose motor is on each output.
     pub motor_on: [usize; 3],
-    /// The count of each joint's encoder at which its index mark is, once in each turn of its shaft; `None` without.
+    /// The count of each joint's encoder at its index mark, which comes once in each turn of its shaft; `None` without
+    /// a mark.
     pub marks: [Option<i32>; 3],
     /// The joint whose mark is on each input.
     pub mark_on: [usize; 3],
-    /// So many counts further off a mark is when it is passed downwards: one that is loose.
+    /// Displacement of a loose mark, counts, when it is passed downwards.
     pub mark_play: i32,
 }
 
-/// A fault to plant: what, in which joint, and by how much.
+/// A fault to plant: kind, joint and size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlantedFault {
-    /// The encoder counts the other way.
+    /// The encoder counts in the opposite direction.
     EncoderSign(usize),
-    /// The motor turns the other way.
+    /// The motor turns in the opposite direction.
     MotorSign(usize),
-    /// The encoder has so many times the counts.
+    /// The encoder's counts are multiplied by this factor.
     Ratio(usize, f64),
-    /// The encoder's zero lies elsewhere by so many radians.
+    /// The encoder's zero is displaced by this angle, radians.
     Zero(usize, f64),
-    /// The motor gives so many times the torque.
+    /// The motor's torque is multiplied by this factor.
     Torque(usize, f64),
-    /// The joint has so many times the friction.
+    /// The joint's friction is multiplied by this factor.
     Friction(usize, f64),
-    /// Two encoders are plugged into each other's inputs.
+    /// The encoders of two joints are swapped.
     Encoders(usize, usize),
-    /// Two motors are on each other's outputs.
+    /// The motors of two joints are swapped.
     Motors(usize, usize),
 }
 
 impl Planted {
-    /// A device that is as it should be.
+    /// A device without faults.
     pub const fn sound(plant: PlantSettings) -> Self {
         Self { plant, encoder_on: [0, 1, 2], motor_on: [0, 1, 2], marks: MARKS, mark_on: [0, 1, 2], mark_play: 0 }
     }
