@@ -22,7 +22,7 @@ pub enum Convexity {
     Disproved {
         /// Its curvature, 1/m.
         curvature: f64,
-        /// Where.
+        /// Parameters of the point.
         parameters: [f64; 2],
     },
 }

@@ -92,7 +92,7 @@ pub enum PatchFault {
     /// Not one degree for each parameter.
     #[error("degree has {count} numbers: one along u and one along v")]
     DegreeCount {
-        /// How many.
+        /// Their number.
         count: usize,
     },
     /// A degree is out of range.
@@ -108,7 +108,7 @@ pub enum PatchFault {
     TooFewPoints {
         /// Along which parameter.
         axis: Axis,
-        /// How many there are.
+        /// Their number.
         count: usize,
         /// The degree.
         degree: usize,
@@ -118,7 +118,7 @@ pub enum PatchFault {
     BezierPoints {
         /// Along which parameter.
         axis: Axis,
-        /// How many there are.
+        /// Their number.
         count: usize,
         /// The degree.
         degree: usize,
@@ -128,9 +128,9 @@ pub enum PatchFault {
     RaggedRow {
         /// The row.
         row: usize,
-        /// How many it has.
+        /// Its number of points.
         count: usize,
-        /// How many the first has.
+        /// The first row's number of points.
         expected: usize,
     },
     /// A point is not made of three or four numbers.
@@ -140,7 +140,7 @@ pub enum PatchFault {
         row: usize,
         /// The column.
         column: usize,
-        /// How many numbers.
+        /// The number of numbers.
         count: usize,
     },
     /// A coordinate is NaN or infinite.
@@ -170,7 +170,7 @@ pub enum PatchFault {
     KnotCount {
         /// Along which parameter.
         axis: Axis,
-        /// How many there are.
+        /// Their number.
         count: usize,
         /// Control points along the parameter.
         points: usize,
@@ -182,7 +182,7 @@ pub enum PatchFault {
     KnotNotFinite {
         /// Along which parameter.
         axis: Axis,
-        /// Which.
+        /// Its index.
         index: usize,
         /// The value in the file.
         value: f64,
@@ -192,7 +192,7 @@ pub enum PatchFault {
     KnotTooLarge {
         /// Along which parameter.
         axis: Axis,
-        /// Which.
+        /// Its index.
         index: usize,
         /// The value in the file.
         value: f64,
@@ -204,7 +204,7 @@ pub enum PatchFault {
     KnotDecreases {
         /// Along which parameter.
         axis: Axis,
-        /// Which.
+        /// Its index.
         index: usize,
         /// Its value.
         value: f64,
@@ -218,7 +218,7 @@ pub enum PatchFault {
         axis: Axis,
         /// The knot.
         value: f64,
-        /// How often.
+        /// Its multiplicity.
         times: usize,
         /// The degree.
         degree: usize,
@@ -230,7 +230,7 @@ pub enum PatchFault {
         axis: Axis,
         /// The knot.
         value: f64,
-        /// How often.
+        /// Its multiplicity.
         times: usize,
         /// The degree.
         degree: usize,
@@ -258,7 +258,7 @@ pub enum PatchFault {
     TooManySpans {
         /// Along which parameter.
         axis: Axis,
-        /// How many.
+        /// Their number.
         count: usize,
     },
     /// More spans in all than are proved in seconds, or have a place in a controller's flash.
@@ -268,7 +268,7 @@ pub enum PatchFault {
         u: usize,
         /// Along `v`.
         v: usize,
-        /// How many there can be.
+        /// The maximum number.
         limit: usize,
     },
     /// The patch is a point, a curve, or thinner than single precision can tell.
@@ -313,9 +313,9 @@ pub enum PatchFault {
     },
 }
 
-// What can be wrong between patches, as the person who made the model reads it.
+// Faults between patches, as messages for the author of the model.
 
-/// Why patches do not make a body. `first` and `second` say a border and its patch, `side u = 0 of patch "dome"`.
+/// Why patches do not make a body. `first` and `second` name a border and its patch, `side u = 0 of patch "dome"`.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SeamFault {
     /// More than two faces share an edge.
@@ -360,7 +360,7 @@ pub enum SeamFault {
         second: String,
         /// The start of the common part on the first, in its parameter.
         from: f64,
-        /// Where it ends.
+        /// Its end.
         to: f64,
     },
     /// The same curve at another pace.
@@ -373,7 +373,7 @@ pub enum SeamFault {
         first: String,
         /// The other.
         second: String,
-        /// How far apart they are at equal parameters, metres.
+        /// Their distance at equal parameters, metres.
         deviation: f64,
     },
     /// Two borders nearly meet.
@@ -383,7 +383,7 @@ pub enum SeamFault {
         first: String,
         /// The other.
         second: String,
-        /// How far apart, metres.
+        /// Their distance, metres.
         deviation: f64,
         /// The tolerance for one curve, metres.
         tolerance: f64,
@@ -400,9 +400,9 @@ pub enum SeamFault {
     /// More patches than a body's tables can name.
     #[error("{count} patches after splitting: a body has {limit} at most")]
     TooMany {
-        /// How many.
+        /// Their number.
         count: usize,
-        /// How many can be.
+        /// The maximum number.
         limit: usize,
     },
 }

@@ -15,7 +15,7 @@ pub struct Solver<'a> {
     is_closed: bool,
 }
 
-/// How a closest point was come by.
+/// Kind of search that found a closest point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Cold: every candidate was searched to its end.
@@ -44,7 +44,7 @@ pub struct Found {
     pub is_inside: bool,
     /// Evaluations of patches spent.
     pub evaluations: u32,
-    /// How.
+    /// Kind of search.
     pub status: Status,
 }
 

@@ -18,9 +18,9 @@ pub(super) struct Osculating {
     half: [f32; 2],
     /// About as far as any point of it is from the middle, rather more.
     pub radius: f32,
-    /// How far the part may be off.
+    /// Maximum error of the part.
     off: f32,
-    /// How far it is from its tangent plane, at most about.
+    /// Approximate maximum distance from its tangent plane.
     sag: f32,
 }
 

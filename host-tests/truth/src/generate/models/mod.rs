@@ -228,11 +228,11 @@ fn rounded_box_patches(sides: [f64; 3], radius: f64) -> Vec<BezierPatch> {
 /// The shape, mm.
 #[derive(Clone, Copy, Debug)]
 struct Shape {
-    /// Of the wall.
+    /// Radius of the wall.
     pub radius: f64,
-    /// From cap to cap.
+    /// Height from cap to cap.
     pub height: f64,
-    /// Of the rims' rounding.
+    /// Radius of the rims' rounding.
     pub rounding: f64,
 }
 
