@@ -66,7 +66,7 @@ impl Preset {
         }
     }
 
-    /// How each motor is fed.
+    /// Feed of each motor.
     pub fn feeds(self) -> &'static [palpate::device::drive::Feed] {
         match self {
             Self::SerialArm(device) => &device.feeds,

@@ -20,15 +20,15 @@ pub enum DeviceFileError {
     /// It cannot be read.
     #[error("{file}: cannot be read: {cause}")]
     Read {
-        /// Which.
+        /// The file.
         file: String,
-        /// Why.
+        /// The cause.
         cause: std::io::Error,
     },
     /// It is not a device file: an entry is missing, unknown or of another kind.
     #[error("{file}: {reason}")]
     Schema {
-        /// Which.
+        /// The file.
         file: String,
         /// Line, entry and reason.
         reason: String,
@@ -36,7 +36,7 @@ pub enum DeviceFileError {
     /// An entry has a value that no device has.
     #[error("{file}: {entry}: {reason}")]
     Entry {
-        /// Which.
+        /// The file.
         file: String,
         /// As the file names it.
         entry: String,

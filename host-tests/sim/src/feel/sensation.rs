@@ -1,4 +1,4 @@
-//! How far a vibration lies above what people feel.
+//! Level of a vibration above the threshold of perception.
 
 use super::spectrum::{RANGE, Spectrum};
 use super::threshold::Threshold;

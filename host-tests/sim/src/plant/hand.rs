@@ -2,11 +2,11 @@
 
 use super::vector::{Vector, add_scaled, difference, scaled};
 
-/// Where the hand wants the probe to be.
+/// Path of the hand's target for the probe.
 pub trait HandPath: Send + Sync {
     /// The point aimed at, m from the workspace centre, `time` s after the start.
     fn target(&self, time: f64) -> Vector;
-    /// How fast that point moves, m/s.
+    /// Velocity of that point, m/s.
     fn velocity(&self, time: f64) -> Vector;
 }
 

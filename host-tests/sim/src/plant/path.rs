@@ -21,9 +21,9 @@ pub enum PathError {
     /// The surface gave a point or normal that is not finite.
     #[error("the surface is not finite at ({u}, {v})")]
     Surface {
-        /// Where.
+        /// Parameter of the point.
         u: f64,
-        /// Where.
+        /// Parameter of the point.
         v: f64,
     },
     /// Coming down and lifting off alone are faster than allowed.
@@ -81,7 +81,7 @@ impl TouchingPath {
         self.knots.iter().all(|knot| like_this(*knot))
     }
 
-    /// How long it lasts, s.
+    /// Duration, s.
     pub fn duration(&self) -> f64 {
         (self.knots.len() - 1) as f64 / KNOT_RATE
     }

@@ -92,7 +92,7 @@ pub struct Turn {
 pub struct Sway {
     /// As far to either side, mm.
     pub by: [f64; 3],
-    /// How often a second.
+    /// Frequency, Hz.
     pub often: f64,
 }
 
@@ -118,7 +118,7 @@ pub struct Free {
     pub angular_stiffness: f32,
     /// From the middle of the body to where that is at the start.
     pub spring: Option<Spring>,
-    /// How it may move; every way, if not given.
+    /// Its joint; `None` for a free body.
     pub joint: Option<JointEntry>,
 }
 
@@ -131,7 +131,7 @@ pub struct Spring {
     /// N·s/m.
     #[serde(default)]
     pub damping: f32,
-    /// How far it is slack to either side, mm.
+    /// Slack in both directions, mm.
     #[serde(default)]
     pub slack: [f64; 3],
 }
@@ -165,9 +165,9 @@ pub enum SceneFileError {
     /// Too few or too many bodies.
     #[error("a scene file has 1 to {most} bodies, this one {found}")]
     Bodies {
-        /// How many it has.
+        /// Number of its bodies.
         found: usize,
-        /// How many it may have.
+        /// Maximum number.
         most: usize,
     },
     /// An axis without a direction.

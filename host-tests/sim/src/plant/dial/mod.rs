@@ -15,7 +15,7 @@ use winding::Windings;
 /// A part of the cogging: `torque · sin(times θ + phase)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cogging {
-    /// How often it comes in a turn.
+    /// Number of periods in a turn.
     pub times: f64,
     /// N·m.
     pub torque: f64,
@@ -93,7 +93,7 @@ pub struct Fingers {
     pub damping: f64,
     /// Target angle, rad.
     pub aim: f64,
-    /// How fast that turns, rad/s.
+    /// Rate of the target angle, rad/s.
     pub rate: f64,
 }
 
