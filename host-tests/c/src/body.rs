@@ -59,7 +59,7 @@ pub struct FileInfo {
     pub source: [u8; 32],
 }
 
-/// Where a closest point lies.
+/// Place of a closest point.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct Located {

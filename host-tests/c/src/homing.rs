@@ -1,4 +1,4 @@
-//! How a loop finds out where its joints are, as numbers.
+//! Homing of a loop's joints, as numbers.
 
 use crate::pointers::Plain;
 use crate::status::Status;
@@ -15,7 +15,7 @@ pub struct ReferenceNumbers {
     pub travel: f32,
 }
 
-/// How joint angles are found; joints that a device does not have are not looked at.
+/// Homing of joints; the numbers of joints that a device does not have are ignored.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct HomingNumbers {

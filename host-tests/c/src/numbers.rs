@@ -9,7 +9,7 @@ use palpate_core::math::Vec3;
 use palpate_core::render::{Coupling, Friction, Passivity};
 use palpate_core::servo::{Rendering, SafeOutput, Safety, Settings};
 
-/// How a bridge feeds a motor; `supply` 0 for an amplifier that controls the current.
+/// Bridge of a motor; `supply` 0 for an amplifier that controls the current.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct VoltageNumbers {
@@ -179,7 +179,7 @@ impl SettingsNumbers {
         }
     }
 
-    /// How the surface feels.
+    /// Material of the surface.
     pub fn rendering(&self) -> Result<Rendering, Status> {
         let friction = Friction {
             stiffness_n_per_m: self.friction_stiffness,

@@ -7,7 +7,7 @@ use crate::mesh::{Mesh, Quad};
 use crate::{proof, strips};
 use std::collections::{BTreeSet, HashMap};
 
-/// Of the tolerance, what the curves of edges may use up.
+/// Fraction of the tolerance for the curves of edges.
 pub const SHARE_OF_EDGES: f64 = 0.6;
 /// Rounds of cutting.
 const ROUNDS: usize = 12;
@@ -23,11 +23,11 @@ pub const MOST: usize = 1024;
 pub struct Made {
     /// Its face.
     pub face: usize,
-    /// Where in the face it lies.
+    /// Its place in the face.
     pub quad: Quad,
     /// The patch; its parameters run as the quad's.
     pub bezier: Bezier,
-    /// How far the curves of its borders are off the edges.
+    /// Maximum distance of its borders' curves from the edges.
     pub edges_off: f64,
 }
 

@@ -6,7 +6,7 @@ use serialport::{ClearBuffer, SerialPort};
 use std::io;
 use std::time::Duration;
 
-/// How long a port that takes nothing is waited for.
+/// Maximum wait for a port that accepts no bytes.
 const SENDS: Duration = Duration::from_millis(250);
 
 /// A device at a serial port.

@@ -153,7 +153,7 @@ impl FeltWitness {
         }
     }
 
-    /// Which face, edge or vertex it lies on.
+    /// The face, edge or vertex of the witness point.
     pub fn place(&self) -> Feature {
         match &self.kept {
             Kept::Body(witness) => witness.feature,

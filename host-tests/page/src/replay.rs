@@ -16,10 +16,10 @@ use palpate::wire::frame::{DELIMITER, Received, Receiver};
 use palpate::wire::{DeviceMessage, Record};
 use palpate_sim::recorded::{Mechanism, Recorded, SceneNumbers};
 
-/// How a run was made.
+/// Settings of a run.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// On which device.
+    /// The device.
     pub on: Recorded,
     /// The loop's settings.
     pub settings: Settings,
@@ -29,7 +29,7 @@ pub struct Run {
     pub scene: Option<SceneNumbers>,
 }
 
-/// How many numbers the loop's settings are.
+/// Number of the loop's settings.
 const SETTINGS: usize = 9;
 
 impl Run {

@@ -41,7 +41,7 @@ impl Body {
         (point.as_dvec3() + self.model.centre).to_array()
     }
 
-    /// Where the origin of its tables lies in the model, m.
+    /// Origin of its tables in the model, m.
     pub fn middle(&self) -> DVec3 {
         self.model.centre
     }

@@ -7,9 +7,11 @@ use palpate::wire::acceptance::{Counted, Failure, Line, Ticks, panel};
 /// Maximum deviation of a period, as a fraction of it. The servo's interrupt waits only for the running instruction and
 /// for cache misses: 5 µs of 250 are generous.
 const JITTER: f64 = 0.02;
-/// How far the mean rate may be off, by the device's own clock, from which its timer runs too: a count of a period.
+/// Maximum relative error of the mean rate, by the device's own clock, which also drives its timer: one count of a
+/// period.
 const RATE: f64 = 1e-4;
-/// How far the device's clock may be from the host's: 1 % of a chip's own oscillator, and as much for the host's line.
+/// Maximum relative difference of the device's clock and the host's: 1 % for a chip's own oscillator, and 1 % for the
+/// delay of the host's line.
 const CLOCK: f64 = 0.02;
 /// Maximum length of a tick, as a fraction of its period: the rest is for cases that the script does not contain.
 const TICK: f64 = 0.75;
@@ -25,7 +27,7 @@ pub struct Surroundings<'a> {
     pub emulated: bool,
     /// It has no sensors yet.
     pub bare: bool,
-    /// Of the same script, what an emulated core of the same kind counted.
+    /// Counts of an emulated core of the same kind for the same script.
     pub counted: Option<&'a [Line]>,
 }
 
@@ -98,7 +100,7 @@ fn state_hash(found: &Found, expected: &[ExpectedLine]) -> Check {
     Check::new("state hash", format!("{theirs:08x}"), format!("{ours:08x}, as on the host"), theirs == ours)
 }
 
-/// Where the device and the host part.
+/// The first difference between the device and the host.
 fn script(found: &Found, expected: &[ExpectedLine]) -> Check {
     let must = "every line of the script as on the host";
     let mut ticks = 0;

@@ -77,7 +77,7 @@ pub struct Arguments {
     plant: Vec<PlantedFault>,
 }
 
-/// How often a line is shown.
+/// Interval between shown lines.
 const SHOWN: Duration = Duration::from_millis(100);
 
 /// Runs the command.

@@ -71,9 +71,9 @@ impl Sent {
     }
 }
 
-/// How long to wait for bytes before looking at the clock.
+/// Maximum wait for bytes before the clock is read again.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// How often a terminal's line is updated, and how often a line is printed elsewhere.
+/// Interval between updates of a terminal's line, and between printed lines elsewhere.
 const REFRESH: Duration = Duration::from_millis(100);
 const LINE: Duration = Duration::from_secs(1);
 

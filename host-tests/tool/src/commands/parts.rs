@@ -101,9 +101,9 @@ enum Mode {
     Track,
 }
 
-/// How far answers are off.
+/// Errors of answers.
 struct Errors {
-    /// Of a distance, in the model's unit.
+    /// Maximum error of a distance, in the model's unit.
     greatest: f64,
     /// Rows with the wrong side, of those that are farther from the surface than the maximum error.
     wrong_side: usize,

@@ -177,7 +177,7 @@ impl Hands for SimulatedHands {
 /// Arbitrary positions of the marks.
 const MARKS: [Option<i32>; 3] = [Some(137), Some(-421), Some(300)];
 
-/// How a planted device differs from its file.
+/// Differences between a planted device and its file.
 #[derive(Clone, Copy, Debug)]
 pub struct Planted {
     /// The device with its true numbers.

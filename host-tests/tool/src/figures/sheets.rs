@@ -238,7 +238,7 @@ fn tracking(subject: &Subject) -> anyhow::Result<Sheet> {
     Ok(sheet)
 }
 
-/// How fast the laws arrive, and how far behind they are: local rate and lag.
+/// Rate of convergence and lag of the laws.
 fn rates(subject: &Subject) -> anyhow::Result<Sheet> {
     let mut sheet = Sheet::default();
     let oracle = subject.oracle();

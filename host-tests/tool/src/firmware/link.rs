@@ -26,7 +26,7 @@ pub enum LinkError {
     /// The device is gone.
     #[error("the emulator ended ({status}) {output}")]
     Ended {
-        /// How it ended.
+        /// Its exit status.
         status: String,
         /// Its output.
         output: String,

@@ -35,9 +35,9 @@ pub enum SetUpError {
     /// A file or program could not be reached.
     #[error("{what}: {source}")]
     Io {
-        /// Which.
+        /// The file or program.
         what: String,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// The image is not what the board can load.

@@ -1,4 +1,4 @@
-//! Where the emulator is.
+//! The emulator: search, installation and command line.
 
 use super::process::{apt_install, on_path, output};
 use super::{Board, Progress, SetUpError};

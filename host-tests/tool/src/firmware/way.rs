@@ -10,7 +10,7 @@ pub(super) enum Way {
     Installed,
     /// Debian's Rust with a library for the target, built here.
     Debian {
-        /// Where the library lies.
+        /// Path of the library.
         sysroot: PathBuf,
         /// The linker.
         linker: PathBuf,

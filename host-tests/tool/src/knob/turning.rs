@@ -18,7 +18,7 @@ const FAR: f64 = std::f64::consts::TAU / 4.0;
 const BETWEEN: u32 = 800;
 /// Ticks after the magnet has slipped.
 const AFTER: u32 = 400;
-/// By how many counts it slips.
+/// Counts of the slip.
 const SLIP: i32 = 900;
 
 /// Ticks of a whole run.
@@ -29,7 +29,7 @@ pub const TICKS: u32 = UNTIL_FELT + FEELS.len() as u32 * (BETWEEN + 2 * WAY) + A
 pub struct Turned {
     /// Seconds since the start.
     pub time: f64,
-    /// Which feel is chosen.
+    /// The chosen feel.
     pub feel: u8,
     /// Whether the hand is on a way that is measured, and which: 0 there, 1 back.
     pub way: Option<usize>,

@@ -7,12 +7,11 @@ use std::path::{Path, PathBuf};
 /// A loop: instructions each of which can be reached from each other without leaving them.
 #[derive(Clone, Debug)]
 pub struct Loop {
-    /// Where it is entered: in one place mostly; in several, where the compiler took the first round apart; in none,
-    /// where nothing leads.
+    /// Its entries: mostly one; several if the compiler peeled the first round off; none if it is unreachable.
     pub heads: BTreeSet<u64>,
     /// Its instructions.
     pub body: BTreeSet<u64>,
-    /// How many loops it is in.
+    /// Number of loops around it.
     pub depth: usize,
 }
 
