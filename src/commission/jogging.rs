@@ -33,9 +33,10 @@ pub struct JogLimits<const JOINTS: usize> {
     pub max_duty: [Duty; JOINTS],
     /// Maximum speed of each encoder, counts/s.
     pub max_speed_counts_per_s: f32,
-    /// How far any encoder may go while the key is held, counts.
+    /// How far any encoder may be driven from where it was when the enable input was pressed, counts, however often the
+    /// key is released and held again meanwhile.
     pub max_travel_counts: u32,
-    /// Seconds without a frame after which the key counts as released.
+    /// Seconds without a frame after which a jog ends ([`JogRefusal::Silent`]).
     pub patience_s: f32,
 }
 
@@ -65,8 +66,8 @@ pub enum JogRefusal {
     /// An encoder moved faster than it may.
     #[error("moved too fast")]
     TooFast = 2,
-    /// An encoder moved further than it may.
-    #[error("moved too far")]
+    /// An encoder was driven further than it may be. Another travel starts once the enable input was released.
+    #[error("moved too far; release the enable button before going on")]
     TooFar = 3,
     /// There is no such motor.
     #[error("there is no such motor")]
@@ -80,12 +81,23 @@ pub enum JogRefusal {
     /// The tick took too long.
     #[error("the device was too slow")]
     Late = 7,
+    /// No frame came for too long while the key was held.
+    #[error("the key's frames stopped; release the key first")]
+    Silent = 8,
 }
 
 impl JogRefusal {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Sensor, Self::TooFast, Self::TooFar, Self::NoMotor, Self::OtherMotor, Self::Drive, Self::Late];
+    pub const ALL: [Self; 8] = [
+        Self::Sensor,
+        Self::TooFast,
+        Self::TooFar,
+        Self::NoMotor,
+        Self::OtherMotor,
+        Self::Drive,
+        Self::Late,
+        Self::Silent,
+    ];
 
     /// The code in a reading, from 1.
     pub const fn code(self) -> u8 {
@@ -140,9 +152,10 @@ pub struct JogState<const JOINTS: usize> {
     held: Option<(usize, i16)>,
     /// Ticks since a frame held the key.
     silent: u32,
-    /// The last counts, and those at which the key was pressed.
+    /// The last counts.
     counts: Option<[Counts; JOINTS]>,
-    from: [Counts; JOINTS],
+    /// How far each encoder has been driven since the enable input was pressed, less what went back since, counts.
+    driven: [i32; JOINTS],
     /// How much faster than allowed each encoder has been, counts.
     haste: [f32; JOINTS],
     refusal: Option<JogRefusal>,
@@ -156,7 +169,7 @@ impl<const JOINTS: usize> Default for JogState<JOINTS> {
             held: None,
             silent: 0,
             counts: None,
-            from: [Counts(0); JOINTS],
+            driven: [0; JOINTS],
             haste: [0.0; JOINTS],
             refusal: None,
             duties: [Duty::ZERO; JOINTS],
@@ -244,10 +257,11 @@ impl<const JOINTS: usize> Jogging<JOINTS> {
         match state.held {
             _ if motor >= JOINTS => self.refuse(state, JogRefusal::NoMotor),
             Some((held, _)) if held != motor => self.refuse(state, JogRefusal::OtherMotor),
+            // Not a count further, however often the key is held again.
+            None if state.driven.iter().any(|driven| self.is_far(*driven)) => self.refuse(state, JogRefusal::TooFar),
             // Without counts there is nothing to measure a motion from yet.
             None if state.counts.is_none() => {}
             None => {
-                state.from = state.counts.unwrap_or([Counts(0); JOINTS]);
                 state.haste = [0.0; JOINTS];
                 (state.held, state.silent) = (Some((motor, jog.duty)), 0);
             }
@@ -259,8 +273,10 @@ impl<const JOINTS: usize> Jogging<JOINTS> {
     pub fn tick(&self, state: &mut JogState<JOINTS>, counts: Option<[Counts; JOINTS]>, enable: bool) {
         self.sense(state, counts);
         state.silent = state.silent.saturating_add(1);
-        if !enable || state.silent > self.patience_ticks {
-            state.held = None;
+        if !enable {
+            (state.held, state.driven) = (None, [0; JOINTS]);
+        } else if state.held.is_some() && state.silent > self.patience_ticks {
+            self.refuse(state, JogRefusal::Silent);
         }
         let Some((motor, asked)) = state.held else {
             state.duties = [Duty::ZERO; JOINTS];
@@ -277,6 +293,10 @@ impl<const JOINTS: usize> Jogging<JOINTS> {
         }
     }
 
+    const fn is_far(&self, driven: i32) -> bool {
+        driven.unsigned_abs() > self.limits.max_travel_counts
+    }
+
     /// Looks at where everything is.
     fn sense(&self, state: &mut JogState<JOINTS>, counts: Option<[Counts; JOINTS]>) {
         let Some(counts) = counts else {
@@ -285,16 +305,26 @@ impl<const JOINTS: usize> Jogging<JOINTS> {
             return;
         };
         let before = state.counts.replace(counts).unwrap_or(counts);
-        if state.held.is_none() {
-            return;
-        }
+        let is_held = state.held.is_some();
         let (mut fast, mut far) = (false, false);
         for joint in 0..JOINTS {
+            let step = counts[joint].0.wrapping_sub(before[joint].0);
+            let driven = &mut state.driven[joint];
+            let next = driven.saturating_add(step);
+            // A joint that falls back undoes what the motor did; a hand that moves it on does not add to it.
+            *driven = match (is_held, *driven > 0) {
+                (true, _) => next,
+                (false, true) => next.clamp(0, *driven),
+                (false, false) => next.clamp(*driven, 0),
+            };
+            if !is_held {
+                continue;
+            }
             let moved = counts[joint].0.abs_diff(before[joint].0) as f32 - self.counts_a_tick;
             let haste = state.haste[joint] + moved;
             state.haste[joint] = if haste > 0.0 { haste } else { 0.0 };
             fast |= haste > self.slack;
-            far |= counts[joint].0.abs_diff(state.from[joint].0) > self.limits.max_travel_counts;
+            far |= self.is_far(*driven);
         }
         if fast {
             self.refuse(state, JogRefusal::TooFast);

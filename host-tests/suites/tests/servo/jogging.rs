@@ -129,3 +129,59 @@ fn what_ends_a_jog_stands_until_the_key_is_let_go() {
     hold(&jogging, &mut state, &mut number, 1, 1, |_| 0);
     assert_eq!((state.refusal(), state.duties()), (Some(JogRefusal::OtherMotor), [Duty::ZERO; 3]));
 }
+
+/// A motor that a host jogs again and again, after so many ticks of silence or of frames without the key: the counts that
+/// it is driven by in all, at two counts a tick while it is driven.
+fn driven(limits: JogLimits<3>, tells: bool) -> (i32, Option<JogRefusal>) {
+    let jogging = Jogging::try_new(limits, RATE).unwrap();
+    let (mut state, mut number, mut count) = (JogState::default(), 0, 0);
+    jogging.tick(&mut state, STILL, true);
+    for tick in 0..400_000_u32 {
+        let is_held = tick % 1_200 < 400;
+        if tick.is_multiple_of(80) && (is_held || tells) {
+            number += 1;
+            let key = if is_held { KEY } else { 0 };
+            jogging.command(&mut state, Jog { number, key, motor: 0, duty: i16::MAX });
+        }
+        count += if state.duties()[0].0 > 0 { i32::from(tick.is_multiple_of(2)) } else { 0 };
+        jogging.tick(&mut state, Some([Counts(count); 3]), true);
+    }
+    (count, state.refusal())
+}
+
+#[test]
+fn a_travel_does_not_start_again_after_a_silence_or_another_press_of_the_key() {
+    let limits = JogLimits { max_travel_counts: 1_000, ..LIMITS };
+    // After a silence nothing is driven until a frame without the key has come.
+    let (silent, refusal) = driven(limits, false);
+    assert!(silent <= 1_001, "{silent}");
+    assert_eq!(refusal, Some(JogRefusal::Silent));
+    let (released, _) = driven(limits, true);
+    assert!(released <= 1_001, "{released}");
+    assert!(released > 900, "it gets there: {released}");
+}
+
+#[test]
+fn a_joint_that_falls_back_may_be_lifted_again_and_another_press_of_enable_starts_another_travel() {
+    let limits = JogLimits { max_travel_counts: 1_000, ..LIMITS };
+    let jogging = Jogging::try_new(limits, RATE).unwrap();
+    let (mut state, mut number) = (JogState::default(), 0);
+    jogging.tick(&mut state, STILL, true);
+    for _ in 0..5 {
+        hold(&jogging, &mut state, &mut number, 0, 1_800, |tick| tick as i32 / 2);
+        assert_eq!(state.refusal(), None);
+        number += 1;
+        jogging.command(&mut state, Jog { number, key: 0, motor: 0, duty: 0 });
+        (0..900).for_each(|back| jogging.tick(&mut state, Some([Counts(900 - back); 3]), true));
+    }
+    // Without falling back: a hundred counts more.
+    for (again, refusal) in [(0, None), (1, Some(JogRefusal::TooFar))] {
+        hold(&jogging, &mut state, &mut number, 0, 1_800, |tick| again * 900 + tick as i32 / 2);
+        assert_eq!(state.refusal(), refusal);
+    }
+    number += 1;
+    jogging.command(&mut state, Jog { number, key: 0, motor: 0, duty: 0 });
+    jogging.tick(&mut state, Some([Counts(1_100); 3]), false);
+    hold(&jogging, &mut state, &mut number, 0, 1_800, |tick| 1_100 + tick as i32 / 2);
+    assert_eq!(state.refusal(), None);
+}
