@@ -27,6 +27,33 @@ const TORQUE_WITHIN: f32 = 2.0;
 /// follow its motor visibly: the loop would give neither force nor a fault.
 pub(crate) const FRICTION_WITHIN: f32 = 0.125;
 
+/// A resulting force, stiffness or damping may exceed the device's limit by this factor: torque constants of motors of one
+/// type differ by a tenth (data sheets give ±10 %).
+const SCALE_WITHIN: f32 = 1.1;
+
+/// The maximum gains of a loop. A wrong calibration scales them: an encoder that is taken for coarser than it is makes
+/// every wall as much stiffer, a motor that is taken for weaker makes every force as much stronger.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gains {
+    /// Maximum stiffness of any surface, N/m.
+    pub stiffness_n_per_m: f32,
+    /// Maximum damping, N·s/m.
+    pub damping_n_s_per_m: f32,
+    /// Maximum force, N.
+    pub force_n: f32,
+}
+
+impl Gains {
+    /// The device's own limits: of a loop whose host may ask for them.
+    pub const fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>) -> Self {
+        Self {
+            stiffness_n_per_m: device.max_stiffness_n_per_m,
+            damping_n_s_per_m: device.max_damping_n_s_per_m,
+            force_n: device.max_force_n,
+        }
+    }
+}
+
 /// The measured values of one joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
@@ -157,6 +184,34 @@ impl<const JOINTS: usize> Calibration<JOINTS> {
             Some(joint) => Err(CalibrationError::ZeroOf { joint: joint as u8 }),
             None => Ok(()),
         }
+    }
+
+    /// Checks what comes of a loop's gains if the device is as it was built and this is wrong: stiffness and damping
+    /// times the maximum ratio of the encoders and that of the motors, the force times that of the motors. `built` was
+    /// checked against this before ([`Device::calibrated`]).
+    ///
+    /// # Errors
+    /// The limit of the device that a result exceeds by more than a tenth.
+    pub fn check_gains<K>(&self, built: &Device<K, JOINTS>, gains: &Gains) -> Result<(), CalibrationError> {
+        let (mut coarser, mut weaker, mut weakest) = (0.0_f32, 0.0_f32, 0);
+        for (index, joint) in self.0.iter().enumerate() {
+            coarser = coarser.max((joint.radians_per_count / built.encoders[index].radians_per_count).abs());
+            let ratio = (built.motors[index].torque_at_full_n_m / joint.torque_at_full_n_m).abs();
+            if ratio > weaker {
+                (weaker, weakest) = (ratio, index as u8);
+            }
+        }
+        let exceeds = |gain: f32, scale: f32, limit: f32| gain.min(limit) * scale > SCALE_WITHIN * limit;
+        if exceeds(gains.force_n, weaker, built.max_force_n) {
+            return Err(CalibrationError::Force { joint: weakest });
+        }
+        if exceeds(gains.stiffness_n_per_m, coarser * weaker, built.max_stiffness_n_per_m) {
+            return Err(CalibrationError::Stiffness);
+        }
+        if exceeds(gains.damping_n_s_per_m, coarser * weaker, built.max_damping_n_s_per_m) {
+            return Err(CalibrationError::Damping);
+        }
+        Ok(())
     }
 
     /// Which input and output each joint is on.

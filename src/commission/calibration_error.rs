@@ -67,4 +67,20 @@ pub enum CalibrationError {
         /// Which.
         joint: u8,
     },
+    /// Encoders and motors together would make the device stiffer than it may be.
+    #[error(
+        "with these scales the device could be stiffer than its limit; correct its file and build the firmware again"
+    )]
+    Stiffness,
+    /// The same of its damping.
+    #[error("with these scales the damping could exceed the device's; correct its file and build the firmware again")]
+    Damping,
+    /// A motor would give more force than the device may.
+    #[error(
+        "joint {joint}: with this torque the force could exceed the device's; correct its file and build the firmware again"
+    )]
+    Force {
+        /// Which.
+        joint: u8,
+    },
 }

@@ -23,7 +23,7 @@ mod wiring;
 
 #[cfg(test)]
 pub(crate) use calibration::FRICTION_WITHIN;
-pub use calibration::{Calibration, JointCalibration};
+pub use calibration::{Calibration, Gains, JointCalibration};
 pub use calibration_error::CalibrationError;
 pub use jogging::{Jog, JogLimits, JogLimitsError, JogRefusal, JogState, Jogging, KEY};
 pub use wiring::Wiring;

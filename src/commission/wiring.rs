@@ -19,10 +19,9 @@ impl<const JOINTS: usize> Wiring<JOINTS> {
         Self { inputs: channels, outputs: channels }
     };
 
-    /// A wiring; `None` unless each joint has an input and an output of its own.
-    pub fn try_new(inputs: [u8; JOINTS], outputs: [u8; JOINTS]) -> Option<Self> {
-        let is_each_once = |channels: &[u8; JOINTS]| (0..JOINTS).all(|joint| channels.contains(&(joint as u8)));
-        (is_each_once(&inputs) && is_each_once(&outputs)).then_some(Self { inputs, outputs })
+    /// A wiring: for each joint, its input and its output. `None` unless each joint has one of its own.
+    pub const fn try_new(inputs: [u8; JOINTS], outputs: [u8; JOINTS]) -> Option<Self> {
+        if is_each_once(&inputs) && is_each_once(&outputs) { Some(Self { inputs, outputs }) } else { None }
     }
 
     /// Reorders values from the inputs' order to the joints' order.
@@ -49,6 +48,23 @@ impl<const JOINTS: usize> Wiring<JOINTS> {
     pub fn outputs<T: Copy>(&self, at_joints: [T; JOINTS]) -> [T; JOINTS] {
         spread(self.outputs, at_joints)
     }
+}
+
+const fn is_each_once<const JOINTS: usize>(channels: &[u8; JOINTS]) -> bool {
+    let mut joint = 0;
+    while joint < JOINTS {
+        let mut times = 0;
+        let mut other = 0;
+        while other < JOINTS {
+            times += (channels[other] as usize == joint) as usize;
+            other += 1;
+        }
+        if times != 1 {
+            return false;
+        }
+        joint += 1;
+    }
+    true
 }
 
 #[inline]

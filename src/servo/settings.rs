@@ -1,6 +1,7 @@
 //! The user's choices: settings, rendering and safety, each with the check that refuses a bad value.
 
 use super::ContactLimits;
+use crate::commission::Gains;
 use crate::device::VelocityMethod;
 use crate::math::Vec3;
 use crate::render::{Coupling, Ease, Friction, Passivity, Penalty, Texture};
@@ -33,6 +34,17 @@ pub struct Settings {
     /// The origin of the body's tables in the device's frame, metres. `CENTRE` in baked source is that origin in the
     /// model.
     pub body_origin_m: Vec3,
+}
+
+impl Settings {
+    /// The maximum gains of a loop with these settings, if nothing changes them.
+    pub const fn gains(&self) -> Gains {
+        Gains {
+            stiffness_n_per_m: self.stiffness_n_per_m,
+            damping_n_s_per_m: self.damping_n_s_per_m,
+            force_n: self.max_force_n,
+        }
+    }
 }
 
 /// Which setting is refused. In a `static` it is a compile error.

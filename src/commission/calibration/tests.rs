@@ -170,3 +170,31 @@ fn no_word_makes_a_device_that_none_is() {
     }
     assert!(taken > 1_000, "{taken} of 100,000");
 }
+
+#[test]
+fn a_calibration_that_makes_the_arm_stiffer_or_stronger_than_its_limits_is_refused() {
+    // 600 of 1,000 N/m, 2 of 8 N·s/m, 3 of 5 N.
+    let gains = Gains { stiffness_n_per_m: 600.0, damping_n_s_per_m: 2.0, force_n: 3.0 };
+    let with = |encoder: f32, torque: f32, gains: Gains| {
+        let mut found = kept();
+        found.0[0].radians_per_count *= encoder;
+        found.0[2].torque_at_full_n_m /= torque;
+        found.check_gains(&DEVICE, &gains)
+    };
+    assert_eq!(with(1.0, 1.0, gains), Ok(()));
+    assert_eq!(with(-0.25, -0.5, gains), Ok(()), "softer and weaker");
+    // Five times and twice, each within what one joint may be off: 6,000 N/m, 20 N·s/m, 6 N.
+    assert_eq!(with(5.0, 2.0, gains), Err(CalibrationError::Force { joint: 2 }));
+    assert_eq!(with(-5.0, 1.0, gains), Err(CalibrationError::Stiffness));
+    assert_eq!(with(5.0, 1.0, Gains { stiffness_n_per_m: 100.0, ..gains }), Err(CalibrationError::Damping));
+    // 600 N/m by 1.1 · 1,000 / 600, and 3 N by 1.1 · 5 / 3: the same number.
+    for (scale, stiffness, force) in
+        [(1.82, Ok(()), Ok(())), (1.85, Err(CalibrationError::Stiffness), Err(CalibrationError::Force { joint: 2 }))]
+    {
+        assert_eq!(with(scale, 1.0, gains), stiffness);
+        assert_eq!(with(1.0, scale, gains), force);
+    }
+    // A host may ask for the limits themselves.
+    assert_eq!(with(1.2, 1.0, Gains::of(&DEVICE)), Err(CalibrationError::Stiffness));
+    assert_eq!(with(1.05, 1.0, Gains::of(&DEVICE)), Ok(()));
+}
