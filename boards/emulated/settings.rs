@@ -2,6 +2,8 @@
 
 // The device: its mechanism's type, its constant, and what protects it where the image is built with `protected`.
 pub use palpate::device::presets::WOODEN_HAPTICS_2016_PROTECTION as PROTECTION;
+/// Which of the board's encoder inputs and motor outputs each joint is on.
+pub const WIRING: palpate::commission::Wiring<3> = palpate::commission::Wiring::STRAIGHT;
 pub use palpate::device::{SerialArm as Mechanism, presets::WOODEN_HAPTICS_2016 as DEVICE};
 
 /// 4 kHz, 600 N/m: well inside what the device takes; see `palpate::servo::Settings` for what each entry is.

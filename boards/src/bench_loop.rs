@@ -30,11 +30,9 @@ pub trait Felt<const JOINTS: usize> {
     /// The servo.
     fn servo(&self) -> &Servo<'static, Self::Surface, Self::Mechanism, JOINTS, Self::Guard>;
 
-    /// Which input and output of the board each joint is on.
-    #[inline(always)]
-    fn wiring(&self) -> Wiring<JOINTS> {
-        Wiring::STRAIGHT
-    }
+    /// Which input and output of the board each joint is on. There is no default: a device whose wiring nobody stated
+    /// would be driven by the wrong motors.
+    fn wiring(&self) -> Wiring<JOINTS>;
 
     /// Whether a calibration is kept that the servo could not be made with: then no motor is driven.
     #[inline(always)]
@@ -95,8 +93,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             board,
             state: felt.servo().start_after(reset),
             hold: Hold::new(settings, rate),
-            interlock: Interlock::default(),
-            by_hand: Interlock::default(),
+            interlock: Interlock::new(rate),
+            by_hand: Interlock::new(rate),
             bridge: FrameBridge::new(settings.bad_frames),
             deadline: Deadline::of_period(settings.clock as f32, rate),
             recorder: Recorder::new(records, settings.clock, settings.ticks_per_record),
@@ -111,7 +109,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             // Limits that make no sense jog nothing.
             set_up: settings.jog.and_then(|jog| {
                 let (device, continuous) = (felt.servo().device(), felt.servo().guard().continuous());
-                SetUp::try_new(&jog, device, continuous, rate).ok()
+                SetUp::try_new(&jog, device, &felt.wiring(), continuous, rate).ok()
             }),
             is_set_up: false,
             is_host_heard: !felt.servo().watches_link(),
@@ -134,7 +132,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             self.felt.servo().note(&mut self.state, Event::Overrun);
         }
         let mut verdict = self.hold.next(&panel, matches!(self.state.output(), Output::Drive(_)));
-        verdict.hold |= self.holds_for_host(&panel);
+        verdict.hold |= self.holds_for_host();
         if verdict.is_drive_fault {
             self.felt.servo().note(&mut self.state, Event::DriveFault);
         }
@@ -238,7 +236,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             }
         }
         if commands.has(Plain::SetUp) {
-            self.begin_to_set_up(panel);
+            self.begin_to_set_up();
         }
         if let Some(index) = commands.chosen() {
             self.felt.servo().note(&mut self.state, Event::Chosen { index });
@@ -276,8 +274,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// The host wants to set the device up. Nobody is surprised by it: not while anything is driven, not while somebody
     /// holds the enable button, nor before a reset that is a fault has been acknowledged. The servo is stopped first,
     /// and that is latched, whatever else goes wrong.
-    fn begin_to_set_up(&mut self, panel: &Panel) {
-        let is_quiet = self.is_quiet(panel) && !self.is_reset_pending() && !self.mailbox.writing().is_granted();
+    fn begin_to_set_up(&mut self) {
+        let is_quiet = self.is_quiet() && !self.is_reset_pending() && !self.mailbox.writing().is_granted();
         if self.set_up.is_none() || self.is_set_up || !is_quiet {
             return;
         }
@@ -288,21 +286,21 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         let _ = self.mailbox.take_jog();
     }
 
-    /// Nothing is driven, and nobody asks for it.
-    fn is_quiet(&self, panel: &Panel) -> bool {
-        matches!(self.state.output(), Output::Off) && !panel.enable
+    /// Nothing is driven, and nobody asks for it: one sample of a button that chatters does not say so.
+    fn is_quiet(&self) -> bool {
+        matches!(self.state.output(), Output::Off) && self.interlock.is_released()
     }
 
     /// Holds for the host's sake: a required host was never heard, or flash is being written.
     #[inline]
-    fn holds_for_host(&mut self, panel: &Panel) -> u8 {
+    fn holds_for_host(&mut self) -> u8 {
         let mut holds = 0;
         if !self.is_host_heard {
             // Nothing was lost that was never there.
             self.felt.servo().note(&mut self.state, Event::LinkAlive);
             holds |= hold::NO_HOST;
         }
-        if self.mailbox.writing().answer(self.is_quiet(panel), false) {
+        if self.mailbox.writing().answer(self.is_quiet(), false) {
             holds |= hold::WRITING;
         }
         holds

@@ -1,11 +1,19 @@
 //! Holds: reasons to keep the motors off that are no fault of the loop.
 
+use crate::interlock::ticks;
 use crate::{Panel, Settings};
 use palpate::device::SupplyRange;
 use palpate::wire::hold;
 
-/// Ticks in a row for which the supply must be out of its range: a single reading may be noise of the motors.
+/// Seconds for which the supply must be too low, or not measured, four ticks at least: a single reading may be noise of
+/// the motors. A reading above the range counts at once.
+const SUPPLY_S: f32 = 0.001;
 const SUPPLY_TICKS: u32 = 4;
+/// A reading out of range adds this to the count of them; one within takes 1 away. More than a quarter of bad readings
+/// then holds.
+const BAD: u32 = 3;
+/// Seconds without a break in which nothing may hold before a hold ends: the contact of a stop button chatters too.
+const CLEAR_S: f32 = 0.025;
 
 /// Looks at the panel, tick by tick.
 ///
@@ -19,8 +27,14 @@ const SUPPLY_TICKS: u32 = 4;
 pub struct Hold {
     supply: Option<SupplyRange>,
     grace: u32,
-    /// Readings of the supply in a row that were out of its range.
+    /// Readings of the supply that were out of its range, [`BAD`] each, less those that were within.
     out_of_range: u32,
+    /// The count of them that holds.
+    max_out_of_range: u32,
+    /// The last holds, and the ticks without any that are missing before they end.
+    last: u8,
+    clear_in: u32,
+    clear_ticks: u32,
     /// Ticks left in which somebody may say why an amplifier is no longer ready.
     unexplained: Option<u32>,
 }
@@ -42,6 +56,11 @@ impl Hold {
             // The cast saturates.
             grace: (settings.ready_grace * rate) as u32,
             out_of_range: 0,
+            max_out_of_range: BAD
+                * if SUPPLY_TICKS > ticks(SUPPLY_S, rate) { SUPPLY_TICKS } else { ticks(SUPPLY_S, rate) },
+            last: 0,
+            clear_in: 0,
+            clear_ticks: ticks(CLEAR_S, rate),
             unexplained: None,
         }
     }
@@ -71,13 +90,23 @@ impl Hold {
             Some(left) => *left -= 1,
             None => {}
         }
+        if verdict.hold != 0 {
+            (self.last, self.clear_in) = (verdict.hold, self.clear_ticks);
+        } else if self.clear_in > 0 {
+            self.clear_in -= 1;
+            verdict.hold = self.last;
+        }
         verdict
     }
 
     fn is_out_of_range(&mut self, volts: Option<f32>) -> bool {
         let Some(range) = self.supply else { return false };
-        let within = volts.is_some_and(|volts| range.holds(volts));
-        self.out_of_range = if within { 0 } else { self.out_of_range.saturating_add(1) };
-        self.out_of_range >= SUPPLY_TICKS
+        self.out_of_range = match volts {
+            // Energy comes back from the motors: it is too late in four ticks.
+            Some(volts) if range.is_above(volts) => self.max_out_of_range,
+            Some(volts) if range.holds(volts) => self.out_of_range.saturating_sub(1),
+            _ => self.max_out_of_range.min(self.out_of_range + BAD),
+        };
+        self.out_of_range >= self.max_out_of_range
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::led::Led;
 use crate::{Board, Hold, Interlock, Mailbox, NotObeyed, Panel};
-use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging};
+use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging, Wiring};
 use palpate::device::drive::Feed;
 use palpate::device::{Counts, Device, Duty};
 use palpate::wire::{Marked, Reading, hold};
@@ -64,7 +64,7 @@ impl JogSettings {
 pub(crate) struct SetUp<const JOINTS: usize> {
     jogging: Jogging<JOINTS>,
     state: JogState<JOINTS>,
-    /// The command of each drive for a duty of torque of its motor.
+    /// The command of each output's drive for a duty of torque of the motor that the device believes is there.
     feeds: [Feed; JOINTS],
     /// The field, of motors that have one.
     led: Option<Led>,
@@ -88,6 +88,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
     pub fn try_new<K>(
         settings: &JogSettings,
         device: &Device<K, JOINTS>,
+        wiring: &Wiring<JOINTS>,
         continuous: [f32; JOINTS],
         rate: f32,
     ) -> Result<Self, JogLimitsError> {
@@ -97,7 +98,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
             Some(led) => led,
             None => None,
         };
-        let (state, counts, feeds) = (JogState::default(), [Counts(0); JOINTS], device.feeds);
+        let (state, counts, feeds) = (JogState::default(), [Counts(0); JOINTS], wiring.outputs(device.feeds));
         Ok(Self {
             jogging,
             state,
@@ -121,7 +122,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         panel: &Panel,
         mailbox: &Mailbox,
     ) {
-        let is_quiet = !self.state.is_live() && !panel.enable;
+        let is_quiet = !self.state.is_live() && interlock.is_released();
         let mut verdict = holds.next(panel, self.state.is_live());
         // A key held meanwhile moves nothing: enable is locked.
         if mailbox.writing().answer(is_quiet, true) {

@@ -27,6 +27,6 @@ fn main() {
         .linker_script_name("teensy.x")
         .build()
         .expect("the linker script can be written");
-    palpate_board_build::body(palpate_board_build::own_body());
+    palpate_board_build::body_and_device(palpate_board_build::own_body());
     println!("cargo::rerun-if-changed=build.rs");
 }

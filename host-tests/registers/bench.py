@@ -10,7 +10,8 @@ from image import Image
 from machine import Machine
 
 # More ticks than homing by hand takes (a tenth of a second), and so many that a record has surely come.
-HOMING, A_WHILE = 500, 60
+# Longer too than the 25 ms for which a hold goes on, and a release must last.
+HOMING, A_WHILE = 500, 120
 # More than the 50 ms for which stop is held, and let go of, by somebody who acknowledges.
 HELD = 250
 # Memo::new in boards/src/reset.rs.

@@ -49,6 +49,10 @@ class Nucleo(Stm32g4):
     def count(self, address: int) -> int:
         return self.counts[address]
 
+    def turn_encoder(self, channel: int, counts: int) -> None:
+        """A joint stands at a count of the pose's."""
+        self.counts[(TIM2.CNT, TIM3.CNT, TIM4.CNT)[channel]] = counts & 0xFFFF
+
     def pass_mark(self, caught: int) -> None:
         """A joint passes its index mark: its timer catches the count of that moment."""
         timer = CAUGHT[caught]

@@ -71,6 +71,10 @@ class Teensy41(Imxrt1062):
         assert len(answers) < 2, "one at a time"
         return self.silence if not answers or answers[0] is None else answers[0]
 
+    def turn_encoder(self, channel: int, counts: int) -> None:
+        """A sensor's angle, from that of the pose."""
+        self.sensors[channel].angle = (1_000 + counts) % 16_384
+
     def press(self, enable: bool | None = None, stop: bool | None = None) -> None:
         """The buttons: enable's contact closes to ground, stop's opens; the pins are pulled up."""
         for line, is_closed in ((BUTTON, enable), (STOP, None if stop is None else not stop)):

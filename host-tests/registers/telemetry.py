@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 import zlib
 from dataclasses import dataclass
 
@@ -28,6 +29,8 @@ class Record:
     fault: int
     reset: int
     hold: int
+    gap: float
+    probe: tuple[float, ...]
 
 
 def unstuffed(frame: bytes) -> bytes:
@@ -74,4 +77,9 @@ def record(body: bytes) -> Record:
     fields["reset"] = body[at]
     at += 1
     variable(), variable()
-    return Record(**fields, hold=body[at])
+    fields["hold"] = body[at]
+    at += 1
+    # The feature; mode and contact are a byte each.
+    variable()
+    gap, *probe = struct.unpack_from("<4f", body, at + 2)
+    return Record(**fields, gap=gap, probe=tuple(probe))

@@ -47,6 +47,12 @@ impl SupplyRange {
     /// Of a supply of 24 V that is on, does not break down, and is not pumped up.
     pub const TWENTY_FOUR: Self = Self { min_mv: 20_000, max_mv: 30_000 };
 
+    /// Whether a voltage is above the range, V.
+    #[inline]
+    pub fn is_above(self, volts: f32) -> bool {
+        volts * 1e3 > self.max_mv as f32
+    }
+
     /// Whether a voltage is within, V. One that is not a number is not.
     #[inline]
     pub fn holds(self, volts: f32) -> bool {

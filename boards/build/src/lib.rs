@@ -6,6 +6,9 @@ use std::{env, fs};
 /// Names the baked body: a file that `cargo palpate bake MODEL --out FILE.rs` wrote. `cargo palpate firmware --board B
 /// --body MODEL …` sets it.
 const BODY: &str = "PALPATE_BODY";
+/// Names the device: a file that `cargo palpate device my.toml --out FILE.rs` wrote. `cargo palpate firmware --board B
+/// --device my.toml …` sets it.
+const DEVICE: &str = "PALPATE_DEVICE";
 
 /// Lays a memory map where the linker finds it as `memory.x`.
 ///
@@ -84,14 +87,20 @@ pub fn tables() {
     fs::write(out.join("tables.x"), patterns).expect("OUT_DIR can be written");
 }
 
-/// Passes on the body that `PALPATE_BODY` names, or the board's own, as `PALPATE_BODY_FILE` for `include!`.
+/// Passes on the body that `PALPATE_BODY` names, or the board's own, as `PALPATE_BODY_FILE` for `include!`, and the
+/// device that `PALPATE_DEVICE` names, or `src/device.rs`, as `PALPATE_DEVICE_FILE`.
 ///
 /// # Panics
 /// If there is no such file.
-pub fn body(default: &str) {
-    println!("cargo::rerun-if-env-changed={BODY}");
-    let chosen = env::var_os(BODY).map_or_else(|| Path::new(default).to_path_buf(), PathBuf::from);
-    let absolute = chosen.canonicalize().unwrap_or_else(|error| panic!("{BODY}: {}: {error}", chosen.display()));
+pub fn body_and_device(body: &str) {
+    choose(BODY, body);
+    choose(DEVICE, "src/device.rs");
+}
+
+fn choose(variable: &str, default: &str) {
+    println!("cargo::rerun-if-env-changed={variable}");
+    let chosen = env::var_os(variable).map_or_else(|| Path::new(default).to_path_buf(), PathBuf::from);
+    let absolute = chosen.canonicalize().unwrap_or_else(|error| panic!("{variable}: {}: {error}", chosen.display()));
     println!("cargo::rerun-if-changed={}", absolute.display());
-    println!("cargo::rustc-env=PALPATE_BODY_FILE={}", absolute.display());
+    println!("cargo::rustc-env={variable}_FILE={}", absolute.display());
 }

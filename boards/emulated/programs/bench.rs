@@ -12,10 +12,10 @@ use palpate::device::Device;
 use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Producer, Queue};
-use palpate_bench::store::KeptCalibration;
+use palpate_bench::store::{Built, KeptCalibration};
 use palpate_bench::{Bench, Idle, Mailbox, Settings};
 use palpate_emulated::board::BOARD;
-use palpate_emulated::body::{DEVICE, Mechanism, SETTINGS};
+use palpate_emulated::body::{DEVICE, Mechanism, SETTINGS, WIRING};
 use palpate_emulated::flash::FileFlash;
 use palpate_emulated::link_semihosting::FifoLink;
 use palpate_emulated::link_uart::Uart;
@@ -40,7 +40,8 @@ fn main() -> ! {
     let (producer, records) = QUEUE.split();
     let Some(flash) = FileFlash::open() else { panic!("it is opened here and nowhere else") };
     // Nothing homes it: its counters are the simulation's, which begin in the pose.
-    let (kept, found) = KeptCalibration::find(flash, &BUILT, None);
+    let (kept, found) =
+        KeptCalibration::find(flash, Built { device: &BUILT, wiring: WIRING, homed_by: None, gains: SETTINGS.gains() });
     let felt = Measured::try_new(found);
     free(|section| HANDED_OVER.borrow(section).set(felt.map(|felt| (felt, producer))));
     let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default())

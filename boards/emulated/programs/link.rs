@@ -9,6 +9,7 @@ use core::cell::Cell;
 use cortex_m::interrupt::{Mutex, free};
 use cortex_m_rt::entry;
 use palpate::body::Body;
+use palpate::commission::Wiring;
 use palpate::math::vec3;
 use palpate::scene::{Limits, Material, Motion, Part, Scene, Slot};
 use palpate::servo::{Config, Heartbeat, Safety, Servo, Unguarded};
@@ -18,7 +19,7 @@ use palpate::wire::telemetry::{Producer, Queue};
 use palpate_bench::store::{Bodies, Both, Kept, PretendedFlash};
 use palpate_bench::{Bench, Felt, Idle, Mailbox, Settings};
 use palpate_emulated::board::BOARD;
-use palpate_emulated::body::{DEVICE, Mechanism, SETTINGS};
+use palpate_emulated::body::{DEVICE, Mechanism, SETTINGS, WIRING};
 use palpate_emulated::link_semihosting::FifoLink;
 use palpate_emulated::link_uart::Uart;
 use palpate_emulated::pins::{NoWatchdog, Pins};
@@ -71,6 +72,11 @@ impl Felt<3> for This {
     #[inline(always)]
     fn servo(&self) -> &Servo<'static, Surface, Mechanism, 3, Unguarded> {
         &SERVO
+    }
+
+    #[inline(always)]
+    fn wiring(&self) -> Wiring<3> {
+        WIRING
     }
 }
 

@@ -2,6 +2,7 @@
 
 use cortex_m::interrupt::free;
 use cortex_m::peripheral::SYST;
+use palpate::commission::Wiring;
 use palpate::device::Counts;
 use palpate::servo::Servo;
 use palpate::wire::acceptance::Counted;
@@ -10,7 +11,7 @@ use palpate_bench::sensors::BadFrame;
 use palpate_bench::{Felt, NotObeyed, Panel, Passive, Watchdog};
 
 use crate::board::Board;
-use crate::body::{Chosen, Felt as Surface, Mechanism, SERVO};
+use crate::body::{Chosen, Felt as Surface, Mechanism, SERVO, WIRING};
 use crate::timer::{Clock, InstructionCounter};
 
 /// The servo of the image.
@@ -24,6 +25,11 @@ impl Felt<3> for This {
     #[inline(always)]
     fn servo(&self) -> &Servo<'static, Surface, Mechanism, 3, Chosen> {
         &SERVO
+    }
+
+    #[inline(always)]
+    fn wiring(&self) -> Wiring<3> {
+        WIRING
     }
 }
 

@@ -18,7 +18,7 @@ mod settings {
     include!(env!("PALPATE_SETTINGS_FILE"));
 }
 
-pub use settings::{DEVICE, Mechanism, SETTINGS};
+pub use settings::{DEVICE, Mechanism, SETTINGS, WIRING};
 pub use tables::Surface as Felt;
 
 /// The loop of this image, guarded by `G`.

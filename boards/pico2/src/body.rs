@@ -1,8 +1,5 @@
-//! Device, settings and body of this board: the file to change first. The build chooses the body (`--body`).
+//! Settings of this board: the file to change first. The build chooses device (`--device`) and body (`--body`).
 
-use palpate::device::drive::{Feed, VoltageFeed};
-use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
-use palpate::device::{Device, Encoder, Protection, SerialArm};
 use palpate::math::vec3;
 #[cfg(feature = "host")]
 use palpate::scene::Slot;
@@ -12,31 +9,10 @@ use palpate_bench::Offers;
 #[cfg(feature = "host")]
 use palpate_bench::{OneSlot, one_slot, store::RamStore};
 
-/// A motor's bridge: Maxon RE30 for 24 V, 0.611 Ω by its data sheet and 0.1 Ω for the bridge, which is ours to guess.
-const fn feed(ratio: f32) -> Feed {
-    Feed::Voltage(VoltageFeed {
-        supply_v: 24.0,
-        resistance_ohm: 0.711,
-        torque_constant_n_m_per_a: 0.0259,
-        current_at_full_a: 3.0,
-        ratio,
-        back_emf_fraction: 0.8,
-    })
+/// The device: this board's own, or that of `--device`.
+mod own {
+    include!(env!("PALPATE_DEVICE_FILE"));
 }
-
-/// The device: the preset, with 14-bit angle sensors on the motors' shafts and bridges that give a voltage.
-pub static DEVICE: Device<SerialArm, 3> = Device {
-    encoders: [
-        Encoder::geared(16_384.0, -16.0, 0.0),
-        Encoder::geared(16_384.0, -12.0, 0.0),
-        Encoder::geared(16_384.0, 12.0, 0.0),
-    ],
-    feeds: [feed(16.0), feed(-12.0), feed(12.0)],
-    ..WOODEN_HAPTICS_2016
-};
-
-/// The limits of its motors and joints; the board's loop watches the supply.
-pub const PROTECTION: Protection<3> = WOODEN_HAPTICS_2016_PROTECTION;
 
 /// 4 kHz and 600 N/m are well inside what the device takes.
 pub const SETTINGS: Settings = Settings {
@@ -55,9 +31,9 @@ mod tables {
 }
 
 #[cfg(not(feature = "host"))]
-palpate_bench::arm!(tables::Surface = tables::SURFACE, DEVICE, SETTINGS, PROTECTION);
+palpate_bench::arm!(tables::Surface = tables::SURFACE, own, SETTINGS);
 #[cfg(feature = "host")]
-palpate_bench::arm!(OneSlot<RamStore> = &SCENE, DEVICE, SETTINGS, PROTECTION);
+palpate_bench::arm!(OneSlot<RamStore> = &SCENE, own, SETTINGS);
 
 /// Bodies from a host.
 #[cfg(feature = "host")]
@@ -66,7 +42,7 @@ static STORE: RamStore = RamStore::new();
 #[cfg(feature = "host")]
 static SLOT: Slot<RamStore> = Slot::exchangeable(tables::SURFACE, &STORE);
 #[cfg(feature = "host")]
-static SCENE: OneSlot<RamStore> = one_slot(&SLOT, &DEVICE, &SETTINGS);
+static SCENE: OneSlot<RamStore> = one_slot(&SLOT, &own::DEVICE, &SETTINGS);
 
 /// Memory for a host, once.
 #[cfg(not(feature = "accept"))]

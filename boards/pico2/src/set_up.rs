@@ -5,7 +5,7 @@ use palpate::device::SupplyRange;
 use palpate::device::drive::HBridge;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
-use palpate_bench::sensors::{Angles, max_step};
+use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either, Plain};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings, Switched};
 use rp235x_hal::adc::{Adc, AdcPin};
@@ -18,7 +18,7 @@ use rp235x_hal::spi::Spi;
 use rp235x_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
 use rp235x_hal::{Sio, Watchdog};
 
-use crate::body::{DEVICE, SETTINGS, This};
+use crate::body::This;
 use crate::chip::{CLOCK, CRYSTAL};
 use crate::supply::Volts;
 use crate::ticks::Ticks;
@@ -75,10 +75,7 @@ pub fn set_up(
         pins.gpio6.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
         pins.gpio7.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
     ];
-    let steps = DEVICE
-        .encoders
-        .map(|encoder| max_step(&encoder, DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames));
-    let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, CLOCK), steps);
+    let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, CLOCK), max_steps(&This, BENCH.bad_frames));
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();
 

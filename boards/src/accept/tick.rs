@@ -75,7 +75,7 @@ impl<'a, F: Felt<JOINTS>, B: Passive<JOINTS>, const JOINTS: usize> Acceptance<'a
         let read = self.board.read();
         self.count(read.err());
         let input = match read {
-            Ok(counts) => Input::Sensors { counts, enable: panel.enable },
+            Ok(counts) => Input::Sensors { counts: self.felt.wiring().joints(counts), enable: panel.enable },
             Err(BadFrame::Absent) => Input::Lost,
             Err(BadFrame::Damaged | BadFrame::Jumped) => Input::Damaged,
         };

@@ -1,6 +1,7 @@
 //! Quadrature counters of the chip.
 
 use super::{BadFrame, Sensors};
+use crate::Felt;
 use palpate::device::sensor::TimerCount;
 use palpate::device::{Counts, Encoder};
 
@@ -56,6 +57,13 @@ impl<R: Readings<JOINTS>, const JOINTS: usize> Sensors<JOINTS> for Counters<R, J
         }
         marks
     }
+}
+
+/// [`max_step`] of each input, for the joint that is on it. `bad_frames` in a row are bridged.
+pub fn max_steps<F: Felt<JOINTS>, const JOINTS: usize>(felt: &F, bad_frames: u32) -> [i32; JOINTS] {
+    let (device, rate) = (felt.servo().device(), felt.servo().settings().rate_hz);
+    let step = |encoder| max_step(&encoder, device.max_joint_rate_rad_per_s, rate, bad_frames);
+    felt.wiring().inputs(device.encoders.map(step))
 }
 
 /// The most counts between two good readings that a hand can make: at `max_joint_rate` (rad/s), with up to `bad_frames`

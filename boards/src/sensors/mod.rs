@@ -6,7 +6,7 @@ mod selected;
 mod watched;
 
 pub use angles::{Angles, SELECT};
-pub use counters::{Counters, Readings, max_step};
+pub use counters::{Counters, Readings, max_step, max_steps};
 pub use selected::{SelectError, SelectTiming, Selected};
 pub use watched::Watched;
 

@@ -3,7 +3,7 @@
 use crate::Calibrations;
 use core::cell::RefCell;
 use embedded_storage::nor_flash::NorFlash;
-use palpate::commission::{Calibration, CalibrationError, JointCalibration, Wiring};
+use palpate::commission::{Calibration, CalibrationError, Gains, JointCalibration, Wiring};
 use palpate::device::{Device, Kinematics, ZeroOf};
 use palpate::wire::{Calibrated, KeepError};
 
@@ -14,12 +14,33 @@ const BYTES: usize = 4 * WORDS;
 /// them.
 const HEAD: usize = 8;
 
+/// The device that an image was built with: what a calibration is checked against.
+#[derive(Clone, Copy, Debug)]
+pub struct Built<K: 'static, const JOINTS: usize> {
+    /// The device.
+    pub device: &'static Device<K, JOINTS>,
+    /// Which input and output each joint is on.
+    pub wiring: Wiring<JOINTS>,
+    /// The homing reference of the zeroes ([`palpate::device::Homing::zero_of`]; [`ZeroOf::Count`] without homing); `None`
+    /// where it does not matter.
+    pub homed_by: Option<ZeroOf>,
+    /// The maximum gains of the loop.
+    pub gains: Gains,
+}
+
+impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Built<K, JOINTS> {
+    /// The device as it was measured.
+    fn calibrated(&self, found: &Calibration<JOINTS>) -> Result<Device<K, JOINTS>, CalibrationError> {
+        let device = self.device.calibrated(found)?;
+        found.check_gains(self.device, &self.gains)?;
+        Ok(device)
+    }
+}
+
 /// One calibration in the first page of some flash, for a device as it was built. Main's.
 pub struct KeptCalibration<F, K: 'static, const JOINTS: usize> {
     flash: RefCell<F>,
-    built: &'static Device<K, JOINTS>,
-    /// The homing reference of the zeroes; `None` where it does not matter.
-    homed_by: Option<ZeroOf>,
+    built: Built<K, JOINTS>,
     in_use: Calibrated,
 }
 
@@ -37,14 +58,14 @@ pub struct Found<K, const JOINTS: usize> {
 impl<F: NorFlash, K: Kinematics<JOINTS> + Copy, const JOINTS: usize> KeptCalibration<F, K, JOINTS> {
     /// Looks for a calibration, before the loop is made. Where none is kept, or one that cannot be used, the device is
     /// what it was built with; [`Calibrations::in_use`] says which. One whose zeroes are not of what the device is
-    /// homed by ([`palpate::device::Homing::zero_of`]; [`ZeroOf::Count`] without homing) is not used.
-    pub fn find(flash: F, built: &'static Device<K, JOINTS>, homed_by: Option<ZeroOf>) -> (Self, Found<K, JOINTS>) {
+    /// homed by is not used.
+    pub fn find(flash: F, built: Built<K, JOINTS>) -> (Self, Found<K, JOINTS>) {
         const { assert!(HEAD.is_multiple_of(F::WRITE_SIZE), "a head is written whole") };
         const { assert!(HEAD.is_multiple_of(F::READ_SIZE), "a record is read whole") };
-        let mut kept = Self { flash: RefCell::new(flash), built, homed_by, in_use: Calibrated::BuiltIn };
+        let mut kept = Self { flash: RefCell::new(flash), built, in_use: Calibrated::BuiltIn };
         let found = kept.read().and_then(|words| {
             let calibration = Calibration::from_words(&words)?;
-            calibration.check_zeroes(homed_by)?;
+            calibration.check_zeroes(built.homed_by)?;
             let (device, wiring) = (built.calibrated(&calibration)?, calibration.wiring()?);
             kept.in_use = Calibrated::Kept { crc: calibration.crc() };
             Ok(Found { device, wiring, is_miscalibrated: false })
@@ -68,7 +89,7 @@ impl<F: NorFlash, K: Kinematics<JOINTS> + Copy, const JOINTS: usize> KeptCalibra
     }
 
     fn as_built(&self, is_miscalibrated: bool) -> Found<K, JOINTS> {
-        Found { device: *self.built, wiring: Wiring::STRAIGHT, is_miscalibrated }
+        Found { device: *self.built.device, wiring: self.built.wiring, is_miscalibrated }
     }
 
     fn read(&self) -> Result<[u32; WORDS], CalibrationError> {
@@ -107,7 +128,7 @@ impl<F: NorFlash, K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Calibration
         if let Some(joints) = joints {
             let joints = joints.first_chunk().ok_or(KeepError::Calibration(CalibrationError::Joints { joints: 3 }))?;
             let calibration = Calibration(*joints);
-            calibration.check_zeroes(self.homed_by).map_err(KeepError::Calibration)?;
+            calibration.check_zeroes(self.built.homed_by).map_err(KeepError::Calibration)?;
             self.built.calibrated(&calibration).map_err(KeepError::Calibration)?;
             words = Some(calibration.to_words());
         }

@@ -30,6 +30,6 @@ pub use bodies::{Bodies, Writing};
 pub type RamStore = Bodies<12_288, 120, 300>;
 
 pub use both::Both;
-pub use calibrations::{Found, KeptCalibration};
+pub use calibrations::{Built, Found, KeptCalibration};
 pub use kept::{Keeping, Kept, Region};
 pub use pretended::{Broken, Pretended, PretendedFlash};

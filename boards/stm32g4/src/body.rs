@@ -1,15 +1,12 @@
-//! Device, settings and body of this board: the file to change first. The build chooses the body (`--body`).
+//! Settings of this board: the file to change first. The build chooses device (`--device`) and body (`--body`).
 
-use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
-use palpate::device::{Device, Protection, SerialArm};
 use palpate::math::vec3;
 use palpate::servo::Settings;
 
-/// The device. One of your own is a constant like this one; start from the preset that is nearest.
-pub static DEVICE: Device<SerialArm, 3> = WOODEN_HAPTICS_2016;
-
-/// The limits of its motors and joints; the board's loop watches the supply.
-pub const PROTECTION: Protection<3> = WOODEN_HAPTICS_2016_PROTECTION;
+/// The device: this board's own, or that of `--device`.
+pub mod own {
+    include!(env!("PALPATE_DEVICE_FILE"));
+}
 
 /// 4 kHz and 600 N/m are well inside what the device takes.
 pub const SETTINGS: Settings = Settings {
@@ -28,4 +25,4 @@ pub mod tables {
 }
 
 #[cfg(not(feature = "host"))]
-palpate_bench::arm!(tables::Surface = tables::SURFACE, DEVICE, SETTINGS, PROTECTION);
+palpate_bench::arm!(tables::Surface = tables::SURFACE, own, SETTINGS);

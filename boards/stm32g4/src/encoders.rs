@@ -2,7 +2,7 @@
 //! mark. A tick reads three counts, and asks three times whether one was caught.
 
 use palpate_bench::Felt;
-use palpate_bench::sensors::{Readings, max_step};
+use palpate_bench::sensors::Readings;
 use stm32g4xx_hal::gpio::{AF1, AF2, PA0, PA1, PB6, PB7, PB9, PB10, PC6, PC7, PC8};
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
 use stm32g4xx_hal::stm32::{TIM2, TIM3, TIM4};
@@ -49,14 +49,6 @@ impl Encoders {
         start!(timers.2, cc4e);
         Self { timers, _pins: pins }
     }
-}
-
-/// The maximum step between two readings of each input, counts. `bad_frames` in a row are bridged.
-pub fn steps(felt: &impl Felt<3>, bad_frames: u32) -> [i32; 3] {
-    let servo = felt.servo();
-    let device = servo.device();
-    let step = |encoder| max_step(&encoder, device.max_joint_rate_rad_per_s, servo.settings().rate_hz, bad_frames);
-    felt.wiring().inputs(device.encoders.map(step))
 }
 
 impl Readings<3> for Encoders {

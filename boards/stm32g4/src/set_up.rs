@@ -4,7 +4,7 @@ use cortex_m::peripheral::NVIC;
 use palpate::device::SupplyRange;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
-use palpate_bench::sensors::Counters;
+use palpate_bench::sensors::{Counters, max_steps};
 use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Port, Settings};
 use palpate_stm32g4::{CLOCK, Iwdg, MEMO, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
@@ -14,7 +14,7 @@ use stm32g4xx_hal::stm32::{Interrupt, Peripherals};
 use stm32g4xx_hal::time::ExtU32;
 
 use crate::body::SETTINGS;
-use crate::encoders::{self, Encoders};
+use crate::encoders::Encoders;
 #[cfg(not(feature = "analog"))]
 use crate::pulse_width as set_points;
 #[cfg(feature = "analog")]
@@ -87,7 +87,7 @@ pub fn set_up(
     let board = Parts {
         counter: cycles,
         timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
-        sensors: Counters::new(encoders, encoders::steps(&felt, BENCH.bad_frames)),
+        sensors: Counters::new(encoders, max_steps(&felt, BENCH.bad_frames)),
         drives,
         lines: Lines {
             // The blue button: high while pressed.

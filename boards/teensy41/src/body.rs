@@ -1,7 +1,5 @@
-//! Device, settings and body of this board: the file to change first. The build chooses the body (`--body`).
+//! Settings of this board: the file to change first. The build chooses device (`--device`) and body (`--body`).
 
-use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
-use palpate::device::{Device, Encoder, Protection, SerialArm};
 use palpate::math::vec3;
 #[cfg(feature = "host")]
 use palpate::scene::Slot;
@@ -11,18 +9,10 @@ use palpate_bench::Offers;
 #[cfg(feature = "host")]
 use palpate_bench::{OneSlot, one_slot, store::RamStore};
 
-/// The device: the preset, with 14-bit angle sensors on the motors' shafts.
-pub static DEVICE: Device<SerialArm, 3> = Device {
-    encoders: [
-        Encoder::geared(16_384.0, -16.0, 0.0),
-        Encoder::geared(16_384.0, -12.0, 0.0),
-        Encoder::geared(16_384.0, 12.0, 0.0),
-    ],
-    ..WOODEN_HAPTICS_2016
-};
-
-/// The limits of its motors and joints; the board's loop watches the supply.
-pub const PROTECTION: Protection<3> = WOODEN_HAPTICS_2016_PROTECTION;
+/// The device: this board's own, or that of `--device`.
+mod own {
+    include!(env!("PALPATE_DEVICE_FILE"));
+}
 
 /// 4 kHz and 600 N/m are well inside what the device takes.
 pub const SETTINGS: Settings = Settings {
@@ -41,9 +31,9 @@ mod tables {
 }
 
 #[cfg(not(feature = "host"))]
-palpate_bench::arm!(tables::Surface = tables::SURFACE, DEVICE, SETTINGS, PROTECTION);
+palpate_bench::arm!(tables::Surface = tables::SURFACE, own, SETTINGS);
 #[cfg(feature = "host")]
-palpate_bench::arm!(OneSlot<RamStore> = &SCENE, DEVICE, SETTINGS, PROTECTION);
+palpate_bench::arm!(OneSlot<RamStore> = &SCENE, own, SETTINGS);
 
 /// Bodies from a host.
 #[cfg(feature = "host")]
@@ -52,7 +42,7 @@ static STORE: RamStore = RamStore::new();
 #[cfg(feature = "host")]
 static SLOT: Slot<RamStore> = Slot::exchangeable(tables::SURFACE, &STORE);
 #[cfg(feature = "host")]
-static SCENE: OneSlot<RamStore> = one_slot(&SLOT, &DEVICE, &SETTINGS);
+static SCENE: OneSlot<RamStore> = one_slot(&SLOT, &own::DEVICE, &SETTINGS);
 
 /// Memory for a host, once.
 #[cfg(not(feature = "accept"))]

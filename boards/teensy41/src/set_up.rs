@@ -5,7 +5,7 @@ use palpate::device::SupplyRange;
 use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
-use palpate_bench::sensors::{Angles, max_step};
+use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings};
 use teensy4_bsp::Interrupt;
@@ -15,7 +15,7 @@ use teensy4_bsp::hal::gpio::{Input, Output};
 use teensy4_bsp::hal::iomuxc::{self, Config, Hysteresis, PullKeeper};
 use teensy4_bsp::hal::lpspi::MODE_1;
 
-use crate::body::{DEVICE, SETTINGS, This};
+use crate::body::This;
 use crate::pulse_width::{DWELL, PulseWidth};
 use crate::supply::Volts;
 use crate::ticks::Ticks;
@@ -75,10 +75,8 @@ pub fn set_up(
 
     let mut bus = board::lpspi(lpspi4, LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 }, 8_000_000);
     bus.set_mode(MODE_1);
-    let steps = DEVICE
-        .encoders
-        .map(|encoder| max_step(&encoder, DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames));
-    let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, ARM_FREQUENCY), steps);
+    let mut sensors =
+        Angles::new(bus, selects, CycleDelay::new(cycles, ARM_FREQUENCY), max_steps(&This, BENCH.bad_frames));
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();
     let input = Config::zero().set_hysteresis(Hysteresis::Enabled);

@@ -3,6 +3,7 @@
 use crate::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
 use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
+use palpate::commission::Wiring;
 use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Kinematics, StopSearch, SupplyRange};
 use palpate::math::vec3;
@@ -236,8 +237,8 @@ type Amplifier = SetPointDrive<Width, Out>;
 /// All that a board has for the loop.
 pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
 
-/// A servo that a test made, and whether it could not be made with the calibration that is kept.
-pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch<'static>, K, 3, G>, pub bool);
+/// A servo that a test made, whether it could not be made with the calibration that is kept, and its wiring.
+pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch<'static>, K, 3, G>, pub bool, pub Wiring<3>);
 
 impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
     type Surface = SplinePatch<'static>;
@@ -246,6 +247,10 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
 
     fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, 3, G> {
         &self.0
+    }
+
+    fn wiring(&self) -> Wiring<3> {
+        self.2
     }
 
     fn is_miscalibrated(&self) -> bool {
@@ -366,7 +371,7 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         settings: &Settings,
         reset: ResetReason,
     ) -> Self {
-        Self::made(Made(servo, false), plant, settings, reset)
+        Self::made(Made(servo, false, Wiring::STRAIGHT), plant, settings, reset)
     }
 
     /// As [`Rig::new`], of a servo that was made with a calibration or without.
@@ -447,7 +452,8 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
     #[track_caller]
     pub fn press_until_it_runs(&mut self) {
         self.set(|world| world.button = false);
-        self.ticks(10);
+        // More than the 25 ms for which a hold goes on, and the 25 ms for which a release must last.
+        self.ticks(250);
         self.set(|world| world.button = true);
         self.ticks(800);
         assert_eq!((self.state().phase(), self.fault()), (Phase::Running, None));

@@ -1,5 +1,6 @@
 //! Devices as commands name them: one that ships, one's own by its file, or the knob.
 
+use anyhow::Context;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use palpate_sim::devices::OwnDevice;
 pub use palpate_sim::devices::{DEVICES, Preset, ShippedDevice, named, own_device};
@@ -54,6 +55,21 @@ impl TypedValueParser for NameOrFile {
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         Some(Box::new(names()))
     }
+}
+
+/// The file of a device with three joints: one's own by its path, or that of a shipped device by its name.
+///
+/// # Errors
+/// The refused entry, or a shipped device of fewer joints.
+pub fn own(device: &Path) -> anyhow::Result<OwnDevice> {
+    let name = device.to_string_lossy();
+    Ok(match named(&name) {
+        Some(shipped) => {
+            let file = shipped.file().with_context(|| format!("{name} has less than three joints"))?;
+            OwnDevice::new(file, &name)?
+        }
+        None => OwnDevice::read(device)?,
+    })
 }
 
 /// The names on the command line, and what they stand for.

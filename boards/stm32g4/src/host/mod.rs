@@ -7,18 +7,19 @@ compile_error!("an image that is accepted takes no host's orders: one feature or
 mod flash;
 
 use core::sync::atomic::{AtomicBool, Ordering};
-use palpate::commission::Wiring;
-use palpate::device::{Device, SerialArm};
+use palpate::commission::{Gains, Wiring};
+use palpate::device::Device;
 use palpate::scene::Slot;
 use palpate::wire::Upload;
 use palpate_bench::cortex::{HandOver, bearing_nmi};
-use palpate_bench::store::{Found, Keeping, Kept, KeptCalibration, Region};
+use palpate_bench::store::{Built, Found, Keeping, Kept, KeptCalibration, Region};
 use palpate_bench::{ArmServo, Felt, Idle, Offers, OneSlot, Uploads as _, arm_servo, one_slot};
 use static_cell::StaticCell;
 use stm32g4xx_hal::stm32::FLASH;
 
 use self::flash::{BODY_BYTES, Bank2, START};
-use crate::body::{DEVICE, PROTECTION, SETTINGS, tables};
+use crate::body::own::{DEVICE, Mechanism, PROTECTION, REFERENCE, WIRING};
+use crate::body::{SETTINGS, tables};
 
 /// Faces and edges of some 60 patches: more RAM for them would be less for the code of the tick.
 const FACES: usize = 64;
@@ -36,22 +37,22 @@ static SLOT: Slot<Store> = Slot::exchangeable(tables::SURFACE, &STORE);
 static SCENE: OneSlot<Store> = one_slot(&SLOT, &DEVICE, &SETTINGS);
 
 /// A configuration that is refused does not compile.
-const SERVO: ArmServo<OneSlot<Store>> = arm_servo(&DEVICE, &SCENE, SETTINGS, PROTECTION);
+const SERVO: ArmServo<OneSlot<Store>, Mechanism> = arm_servo(&DEVICE, &SCENE, SETTINGS, PROTECTION, REFERENCE);
 
 /// The servo on the device as commissioning found it: in RAM, made at each start.
 pub struct This {
-    servo: ArmServo<OneSlot<Store>>,
+    servo: ArmServo<OneSlot<Store>, Mechanism>,
     wiring: Wiring<3>,
     is_miscalibrated: bool,
 }
 
 impl Felt<3> for This {
     type Surface = OneSlot<Store>;
-    type Mechanism = SerialArm;
+    type Mechanism = Mechanism;
     type Guard = palpate::servo::Guarded<3>;
 
     #[inline(always)]
-    fn servo(&self) -> &ArmServo<OneSlot<Store>> {
+    fn servo(&self) -> &ArmServo<OneSlot<Store>, Mechanism> {
         &self.servo
     }
 
@@ -68,7 +69,7 @@ impl Felt<3> for This {
 
 type End = Keeping<Bank2, FACES, EDGES>;
 
-type Calibration = KeptCalibration<Bank2, SerialArm, 3>;
+type Calibration = KeptCalibration<Bank2, Mechanism, 3>;
 
 /// Main's ends on their way to where they are used.
 static FOUND: HandOver<End> = HandOver::new();
@@ -82,16 +83,17 @@ static CALIBRATION: HandOver<Calibration> = HandOver::new();
 /// # Panics
 /// The second time.
 pub fn find(flash: FLASH) -> This {
-    static FOUND_DEVICE: StaticCell<Device<SerialArm, 3>> = StaticCell::new();
+    static FOUND_DEVICE: StaticCell<Device<Mechanism, 3>> = StaticCell::new();
 
-    let built = Found { device: DEVICE, wiring: Wiring::STRAIGHT, is_miscalibrated: false };
+    let built = Found { device: DEVICE, wiring: WIRING, is_miscalibrated: false };
     let Found { device, wiring, is_miscalibrated } = kept(flash).unwrap_or(built);
     This { servo: SERVO.calibrated(FOUND_DEVICE.init(device)), wiring, is_miscalibrated }
 }
 
-fn kept(flash: FLASH) -> Option<Found<SerialArm, 3>> {
+fn kept(flash: FLASH) -> Option<Found<Mechanism, 3>> {
     let [bodies, calibration] = Bank2::try_new(flash)?;
-    let ((kept, found), is_damaged) = watched(|| Calibration::find(calibration, &DEVICE, SERVO.zero_of()));
+    let built = Built { device: &DEVICE, wiring: WIRING, homed_by: SERVO.zero_of(), gains: Gains::of(&DEVICE) };
+    let ((kept, found), is_damaged) = watched(|| Calibration::find(calibration, built));
     let (kept, found) = if is_damaged { kept.damaged() } else { (kept, found) };
     CALIBRATION.give(kept);
     let (end, is_damaged) = watched(|| STORE.main(bodies, &mut || ()));

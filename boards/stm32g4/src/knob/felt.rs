@@ -1,5 +1,6 @@
 //! The servo of the knob.
 
+use palpate::commission::Wiring;
 use palpate::device::{Device, Dial};
 use palpate::servo::{Guarded, Knob};
 use palpate_bench::Felt;
@@ -25,5 +26,10 @@ impl Felt<1> for This {
     #[inline(always)]
     fn servo(&self) -> &KnobServo {
         &SERVO
+    }
+
+    #[inline(always)]
+    fn wiring(&self) -> Wiring<1> {
+        Wiring::STRAIGHT
     }
 }

@@ -7,8 +7,8 @@ use palpate::device::drive::Feed;
 use palpate::device::{Device, Protection};
 use std::fmt::{Debug, Write as _};
 
-/// The file's text as Rust source: `Mechanism`, `DEVICE`, `PROTECTION`, `REFERENCE` and the inputs and outputs of each
-/// joint. Every number reads back as the same `f32`.
+/// The file's text as Rust source: `Mechanism`, `DEVICE`, `PROTECTION`, `REFERENCE` and `WIRING`. Every number reads back
+/// as the same `f32`.
 pub fn source(own: &OwnDevice, from: &str) -> String {
     let mut text = format!("// Written by `palpate device` from {from}. Change that, not this.\n\n");
     match own.preset {
@@ -19,18 +19,17 @@ pub fn source(own: &OwnDevice, from: &str) -> String {
     }
     let _ = write!(
         text,
-        "\n/// What a board homes the joints by; nothing, for counts that are known after each reset.\n#[allow(dead_code)]\n\
+        "\n/// The homing reference; `None` for counts that are known after each reset.\n#[allow(dead_code)]\n\
          pub const REFERENCE: Option<palpate::device::Reference<3>> = {};\n",
         reference(own.file.homing),
     );
-    let inputs: Vec<usize> = own.file.joint.iter().map(|joint| joint.encoder.channel).collect();
-    let outputs: Vec<usize> = own.file.joint.iter().map(|joint| joint.motor.channel).collect();
+    let [inputs, outputs] = own.channels();
+    // Without a permission to be unused: a board that ignores its wiring gets a warning.
     let _ = write!(
         text,
-        "\n/// Which of the board's encoder inputs each joint is on.\n#[allow(dead_code)]\n\
-         pub const ENCODER_CHANNELS: [usize; 3] = {inputs:?};\n\
-         /// Which of the board's motor outputs each joint is on.\n#[allow(dead_code)]\n\
-         pub const MOTOR_CHANNELS: [usize; 3] = {outputs:?};\n"
+        "\n/// Which of the board's encoder inputs and motor outputs each joint is on.\n\
+         pub const WIRING: palpate::commission::Wiring<3> =\n    \
+         palpate::commission::Wiring::try_new({inputs:?}, {outputs:?}).expect(\"each joint needs channels of its own\");\n"
     );
     text
 }
@@ -48,7 +47,7 @@ const fn reference(homing: HomingEntry) -> &'static str {
 /// host timeout. `rate` in Hz.
 pub fn settings_source(own: &OwnDevice, rate: f32) -> String {
     let limits = own.preset.limits();
-    let (stiffness, damping, force) = (0.5 * limits.stiffness, 0.5 * limits.damping, limits.force);
+    let (stiffness, damping, force) = (0.5 * limits.stiffness, 0.5 * limits.damping, 0.5 * limits.force);
     format!(
         "{}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
          rate_hz: {rate:?},\n    stiffness_n_per_m: {stiffness:?},\n    damping_n_s_per_m: {damping:?},\n    max_force_n: {force:?},\n    \

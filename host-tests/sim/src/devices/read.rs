@@ -4,6 +4,7 @@ use super::plant;
 use super::schema::{DeviceFile, JointEntry, LinkageEntry, MechanismEntry};
 use crate::devices::preset::Preset;
 use crate::plant::PlantSettings;
+use palpate::commission::Wiring;
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::{
     Delta, Device, DeviceError, Encoder, Endurance, FiveBar, LinkMass, LinkageArm, Motor, PolarityCheck, Protection,
@@ -107,6 +108,24 @@ impl OwnDevice {
         let protection = protection(&file);
         let plant = plant::settings(&file).map_err(|(entry, reason)| refuse(entry, reason))?;
         Ok(Self { preset, protection, plant, file })
+    }
+
+    /// The channels of the joints' encoders and of their motors.
+    pub(crate) fn channels(&self) -> [[u8; 3]; 2] {
+        // Three joints and channels below three, as the file was checked.
+        let of = |channel: fn(&JointEntry) -> usize| {
+            std::array::from_fn(|joint| self.file.joint.get(joint).map_or(0, |joint| channel(joint) as u8))
+        };
+        [of(|joint| joint.encoder.channel), of(|joint| joint.motor.channel)]
+    }
+
+    /// Which of the board's inputs and outputs each joint is on.
+    ///
+    /// # Panics
+    /// If the file was changed after it was checked.
+    pub fn wiring(&self) -> Wiring<3> {
+        let [inputs, outputs] = self.channels();
+        Wiring::try_new(inputs, outputs).expect("a file is refused unless each joint has channels of its own")
     }
 }
 

@@ -5,6 +5,7 @@ use crate::simulated::board::{AtPins, CLOCK_HZ, SimulatedBench, SimulatedBoard};
 use crate::simulated::hand::Hand;
 use anyhow::Context as _;
 use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, FileHead};
+use palpate::commission::Wiring;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Duty, ElectricalAngle, SerialArm};
 use palpate::math::{Vec3, vec3};
@@ -47,6 +48,10 @@ impl Felt<3> for Made {
 
     fn servo(&self) -> &Servo<'static, Surface, SerialArm, 3> {
         &self.0
+    }
+
+    fn wiring(&self) -> Wiring<3> {
+        Wiring::STRAIGHT
     }
 }
 

@@ -96,9 +96,10 @@ impl Device {
         }
     }
 
+    /// Greeted, with its button released for long enough.
     fn hello(&mut self) {
         self.send(&HostMessage::Hello { protocol: PROTOCOL });
-        self.tick();
+        (0..150).for_each(|_| self.tick());
     }
 
     /// Its answer, once a tick has gone by.
@@ -143,7 +144,6 @@ fn flash_is_not_touched_while_motors_are_driven_or_enable_is_held() {
     let mut device = Device::new(Safety { output: SafeOutput::Damping(1.0), ..Safety::DEFAULT });
     device.hello();
     device.rig.press_until_it_runs();
-    device.hello();
     assert_eq!(device.part(KEEP), refused(UploadError::Driven));
     assert_eq!(device.rig.state().phase(), Phase::Running);
     // Held, but not driven: somebody is about to be.
@@ -232,7 +232,7 @@ fn what_ends_badly_or_is_left_lets_go() {
             device.rig.set(|world| world.button = true);
             device.ticks_off(20_000);
             device.rig.set(|world| world.button = false);
-            device.ticks_off(10);
+            device.ticks_off(150);
             assert_eq!(device.part(PART), refused(UploadError::NotBegun));
         }
         device.rig.press_until_it_runs();
@@ -293,7 +293,7 @@ fn a_loop_that_watches_its_link_waits_for_its_host_and_then_misses_it() {
     }
     device.send(&HostMessage::Alive);
     device.rig.set(|world| world.button = false);
-    device.ticks_off(10);
+    device.ticks_off(150);
     device.rig.set(|world| world.button = true);
     for _ in 0..8 {
         device.send(&HostMessage::Alive);

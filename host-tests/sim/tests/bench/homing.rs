@@ -28,9 +28,9 @@ fn homing_by_stops_drives_the_motors_while_the_loop_calibrates() {
     let mut rig = rig(Reference::Stops(STOPS), 60_000, plant);
     // Not by itself, and not with a button that is held from before.
     rig.set(|world| world.button = true);
-    rig.ticks_off(1_000);
+    rig.ticks_off(860);
     rig.set(|world| world.button = false);
-    rig.ticks_off(10);
+    rig.ticks_off(150);
     rig.set(|world| world.button = true);
     let mut drove = 0;
     while !rig.state().homed() {
@@ -110,7 +110,7 @@ fn a_hand_that_does_not_hold_still_is_refused_by_name() {
     let grip = HandSettings { stiffness: 2_000.0, damping: 20.0, mass: 0.0 };
     let plant = Plant::new(&put_down_anywhere(), grip, Box::new(Shaking), RATE).unwrap();
     let mut rig = rig(Reference::Pose([0.0; 3]), 8_000, plant);
-    rig.ticks_off(10);
+    rig.ticks_off(150);
     rig.set(|world| world.button = true);
     rig.ticks_off(8_100);
     assert_eq!(rig.fault(), Some(Fault::Homing));
@@ -120,7 +120,7 @@ fn a_hand_that_does_not_hold_still_is_refused_by_name() {
 fn a_stop_in_the_midst_of_homing_stops_the_motors_and_homing_goes_on_only_when_asked_again() {
     let plant = Plant::new(&put_down_anywhere(), HandSettings::NONE, Box::new(StillHand([0.0; 3])), RATE).unwrap();
     let mut rig = rig(Reference::Stops(STOPS), 60_000, plant);
-    rig.ticks(10);
+    rig.ticks(150);
     rig.set(|world| world.button = true);
     rig.ticks(1_000);
     assert!(!rig.is_off());
@@ -129,7 +129,7 @@ fn a_stop_in_the_midst_of_homing_stops_the_motors_and_homing_goes_on_only_when_a
     rig.set(|world| world.stop_open = false);
     rig.ticks_off(500);
     rig.set(|world| world.button = false);
-    rig.ticks_off(10);
+    rig.ticks_off(150);
     rig.set(|world| world.button = true);
     rig.ticks(100);
     assert!(!rig.is_off(), "{:?} {:?}", rig.fault(), rig.state().homing().refusal());
@@ -148,7 +148,7 @@ fn without_a_supply_a_device_is_homed_by_hand_all_the_same_and_nothing_is_driven
     rig.ticks_off(2_000);
     assert!(!rig.state().homed(), "a button that is held from before says nothing");
     rig.set(|world| world.button = false);
-    rig.ticks_off(10);
+    rig.ticks_off(150);
     rig.set(|world| world.button = true);
     rig.ticks_off(2_000);
     assert!(rig.state().homed());
@@ -162,7 +162,7 @@ fn without_a_supply_a_device_is_homed_by_hand_all_the_same_and_nothing_is_driven
     let plant = Plant::new(&put_down_anywhere(), HandSettings::NONE, Box::new(StillHand([0.0; 3])), RATE).unwrap();
     let mut rig = self::rig(Reference::Stops(STOPS), 60_000, plant);
     rig.set(|world| world.supply = 0.0);
-    rig.ticks_off(10);
+    rig.ticks_off(150);
     rig.set(|world| world.button = true);
     rig.ticks_off(2_000);
     assert_eq!((rig.state().homing().torques(), rig.fault()), ([0.0; 3], None));

@@ -2,6 +2,7 @@
 
 use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
 use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
+use palpate::commission::Wiring;
 use palpate::device::drive::ThreePhase;
 use palpate::device::{Counts, Device, Dial};
 use palpate::servo::{Fault, Guarded, Knob, Phase, ResetReason};
@@ -30,6 +31,10 @@ impl Felt<1> for This {
 
     fn servo(&self) -> &KnobServo {
         &SERVO
+    }
+
+    fn wiring(&self) -> Wiring<1> {
+        Wiring::STRAIGHT
     }
 }
 
@@ -213,7 +218,7 @@ impl Rig {
     /// Presses the button that was released.
     pub fn press(&mut self) {
         self.set(|world| world.button = false);
-        self.ticks(10);
+        self.ticks(250);
         self.set(|world| world.button = true);
     }
 

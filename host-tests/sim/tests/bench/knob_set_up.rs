@@ -21,9 +21,9 @@ impl Host {
     /// At a knob that is being set up, with its button up.
     fn new() -> Self {
         let mut device = Device::new(Rig::new(ResetReason::PowerOn));
-        (0..20).for_each(|_| device.tick());
+        (0..150).for_each(|_| device.tick());
         device.send(&HostMessage::SetUp);
-        (0..10).for_each(|_| device.tick());
+        (0..150).for_each(|_| device.tick());
         assert!(device.told.iter().any(|told| matches!(told, DeviceMessage::Reading(_))), "it is being set up");
         Self { device, number: 0 }
     }

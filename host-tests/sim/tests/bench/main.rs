@@ -18,3 +18,4 @@ mod reset;
 mod set_up;
 mod usb;
 mod usb_bus;
+mod wiring;

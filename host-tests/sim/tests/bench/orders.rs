@@ -91,6 +91,7 @@ fn an_order_is_answered_once_the_tick_has_had_it_and_again_where_it_comes_again(
     device.answers.clear();
     device.send(&HostMessage::Upload { number: 5, part: Upload::Begin { bytes: 4 } });
     assert_eq!(device.answers, [Answer { number: 5, refused: Some(Refused::Upload(UploadError::NoRoom)) }]);
+    (0..150).for_each(|_| device.tick());
     device.send(&HostMessage::SetUp);
     device.tick();
     device.order(6);

@@ -38,7 +38,7 @@ fn holds_and_returns_softly(
     rig.ticks_off(2_000);
     assert_eq!((rig.state().phase(), rig.fault(), told(rig)), (Phase::Armed, None, hold::RELEASE_FIRST));
     rig.set(|world| world.button = false);
-    rig.ticks_off(1);
+    rig.ticks_off(150);
     rig.set(|world| world.button = true);
     for tick in 0..400 {
         rig.tick();
@@ -110,10 +110,113 @@ fn a_supply_that_dips_takes_force_away_and_a_single_reading_does_not() {
     rig.press_until_it_runs();
     for _ in 0..100 {
         rig.set(|world| world.supply = 15.0);
-        rig.ticks(3);
-        rig.set(|world| world.supply = 24.0);
         rig.ticks(1);
+        rig.set(|world| world.supply = 24.0);
+        rig.ticks(3);
         assert!(!rig.is_off());
+    }
+}
+
+#[test]
+fn a_supply_out_of_its_range_in_half_of_the_readings_holds_and_one_above_it_at_once() {
+    for (volts, bad, good, within) in [(15.0, 3, 1, 8), (15.0, 2, 2, 12), (40.0, 1, 3, 1), (40.0, 3, 1, 1)] {
+        let mut rig = rig();
+        rig.press_until_it_runs();
+        let mut ticks = 0;
+        while !rig.is_off() {
+            let is_bad = ticks % (bad + good) < bad;
+            rig.set(|world| world.supply = if is_bad { volts } else { 24.0 });
+            rig.tick();
+            ticks += 1;
+            assert!(ticks <= within, "{volts} V in {bad} of {} readings", bad + good);
+        }
+        // It stays off while the supply does so, and after it until the button was released.
+        for tick in 0..2_000 {
+            rig.set(|world| world.supply = if tick % (bad + good) < bad { volts } else { 24.0 });
+            rig.ticks_off(1);
+        }
+        rig.set(|world| world.supply = 24.0);
+        rig.ticks_off(1_000);
+        assert_eq!(rig.fault(), None);
+        rig.press_until_it_runs();
+    }
+}
+
+/// A contact that chatters: closed but for a sample now and then, and for less than the time of a release.
+fn chatter(rig: &mut Rig<SerialArm>, opens: fn(&mut World, bool)) {
+    for open in [1, 2, 10, 80] {
+        for _ in 0..20 {
+            rig.set(|world| opens(world, true));
+            rig.ticks_off(open);
+            rig.set(|world| opens(world, false));
+            rig.ticks_off(7);
+        }
+    }
+}
+
+#[test]
+fn a_button_that_is_held_and_chatters_is_not_released() {
+    let opens: fn(&mut World, bool) = |world, open| world.button = !open;
+    // Since the reset.
+    let mut rig = rig();
+    rig.set(|world| world.button = true);
+    chatter(&mut rig, opens);
+    rig.ticks_off(2_000);
+    // Through a stop, and after it.
+    let mut rig = self::rig();
+    rig.press_until_it_runs();
+    rig.set(|world| world.stop_open = true);
+    rig.ticks_off(200);
+    chatter(&mut rig, opens);
+    rig.set(|world| world.stop_open = false);
+    chatter(&mut rig, opens);
+    rig.ticks_off(2_000);
+    assert_eq!(told(&mut rig), hold::RELEASE_FIRST);
+    // Force comes back once it was released, and pressed.
+    rig.press_until_it_runs();
+}
+
+#[test]
+fn a_stop_that_chatters_ends_nothing_and_a_spike_on_enable_asks_for_nothing() {
+    // Damping goes on by itself once a hold is over: not in between.
+    let safety = Safety { output: SafeOutput::Damping(5.0), ..Safety::DEFAULT };
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, safety, ..Config::DEFAULT });
+    let mut rig = Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
+    rig.press_until_it_runs();
+    rig.set(|world| world.bad = 3);
+    rig.ticks(5);
+    assert!(!rig.is_off(), "it damps");
+    rig.set(|world| world.stop_open = true);
+    rig.ticks_off(10);
+    chatter(&mut rig, |world, open| world.stop_open = !open);
+    // One sample of an open interlock.
+    let mut rig = self::rig();
+    rig.ticks(150);
+    for _ in 0..100 {
+        rig.set(|world| world.button = true);
+        rig.ticks_off(1);
+        rig.set(|world| world.button = false);
+        rig.ticks_off(3);
+    }
+}
+
+#[test]
+fn how_long_a_release_must_last_is_a_time_at_every_rate() {
+    for rate in [500.0_f32, 1_000.0, 4_000.0, 20_000.0] {
+        let opens_after = |released: u32| {
+            let mut interlock = palpate_bench::Interlock::new(rate);
+            (0..released).for_each(|_| assert!(!interlock.next(false, false)));
+            (0..released).any(|_| interlock.next(true, false))
+        };
+        // 20 to 50 ms open it, and less does not.
+        assert!(opens_after((0.050 * rate) as u32), "{rate} Hz");
+        assert!(!opens_after((0.020 * rate) as u32), "{rate} Hz");
+        // Letting go counts at once, and a press of two samples at least.
+        let mut interlock = palpate_bench::Interlock::new(rate);
+        (0..(0.050 * rate) as u32).for_each(|_| assert!(!interlock.next(false, false)));
+        assert!(!interlock.next(true, false), "one sample");
+        assert!((0..(0.002 * rate) as u32 + 2).any(|_| interlock.next(true, false)));
+        assert!(!interlock.next(false, false));
     }
 }
 
@@ -229,7 +332,7 @@ fn light(rig: &mut Rig<SerialArm>) -> (u32, u32) {
 #[test]
 fn the_light_tells_driving_from_holding_and_both_from_a_fault() {
     let mut rig = rig();
-    rig.ticks(10);
+    rig.ticks(150);
     assert_eq!(light(&mut rig), (0, 0), "armed, and nobody asks for force");
     rig.press_until_it_runs();
     assert_eq!(light(&mut rig), (4_000, 0));

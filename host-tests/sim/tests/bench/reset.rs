@@ -26,7 +26,7 @@ fn an_enable_that_is_held_at_reset_gives_no_force_until_it_was_seen_released() {
         rig.ticks_off(4_000);
         assert_eq!((rig.state().phase(), rig.fault()), (Phase::Armed, None), "{reset:?}");
         rig.set(|world| world.button = false);
-        rig.ticks_off(1);
+        rig.ticks_off(150);
         // And then by the soft start: a tenth of a second is 400 ticks.
         rig.set(|world| world.button = true);
         let mut last = 0.0;
@@ -272,6 +272,6 @@ fn after_a_reset_nothing_damps_by_itself() {
     rig.ticks_off(500);
     assert_eq!(rig.fault(), Some(Fault::FrameDamaged));
     rig.set(|world| world.button = false);
-    rig.ticks(10);
+    rig.ticks(150);
     assert!(!rig.is_off(), "now it damps");
 }

@@ -91,9 +91,9 @@ impl<G: Guard<3> + 'static> Device<G> {
 
     /// The same being set up, with its enable button held.
     fn set_up(mut self) -> Self {
-        self.ticks(50);
+        self.ticks(150);
         self.send(HostMessage::SetUp);
-        self.ticks(10);
+        self.ticks(150);
         assert!(self.last.is_some(), "it is being set up");
         self.rig.set(|world| world.button = true);
         self.ticks(10);
@@ -280,7 +280,7 @@ fn whatever_goes_wrong_lets_go_in_the_same_tick() {
     device.send(HostMessage::Stop);
     device.assert_off(1);
     device.rig.set(|world| world.button = false);
-    device.ticks(10);
+    device.ticks(150);
     device.rig.set(|world| world.button = true);
     for _ in 0..20 {
         device.jog(KEY, 0, 5_000);
@@ -302,7 +302,7 @@ fn after_a_hold_the_button_must_be_released_first() {
     }
     assert_eq!(device.reading().hold, hold::RELEASE_FIRST);
     device.rig.set(|world| world.button = false);
-    device.assert_off(10);
+    device.assert_off(150);
     device.rig.set(|world| world.button = true);
     device.hold_key(200, 0, 5_000);
     assert!(!device.rig.is_off());
@@ -319,13 +319,13 @@ fn nobody_is_surprised_by_it() {
     device.rig.set(|world| world.bad = 3);
     device.ticks(10);
     device.rig.set(|world| world.button = false);
-    device.ticks(10);
+    device.ticks(150);
     assert!(device.rig.fault().is_some() && !device.rig.is_off(), "it damps");
     device.send(HostMessage::SetUp);
     device.ticks(10);
     assert_eq!(device.last, None);
     let mut device = Device::new(&settings(), Safety::DEFAULT);
-    device.ticks(50);
+    device.ticks(150);
     device.rig.set(|world| (world.button, world.stop_open) = (true, true));
     device.ticks(10);
     device.send(HostMessage::SetUp);
@@ -333,7 +333,7 @@ fn nobody_is_surprised_by_it() {
     assert_eq!(device.last, None);
     // A board that does not offer it is never set up.
     let mut device = Device::new(&Settings { jog: None, ..settings() }, Safety::DEFAULT);
-    device.ticks(50);
+    device.ticks(150);
     device.send(HostMessage::SetUp);
     device.ticks(10);
     assert_eq!((device.last, device.rig.fault()), (None, None));
@@ -357,7 +357,7 @@ fn the_servo_is_stopped_for_good() {
 #[test]
 fn a_jog_to_a_device_that_is_not_set_up_does_nothing_and_is_forgotten() {
     let mut device = Device::new(&settings(), Safety::DEFAULT);
-    device.ticks(50);
+    device.ticks(150);
     device.hold_key(200, 0, 5_000);
     assert!(device.rig.is_off());
     device.send(HostMessage::SetUp);
@@ -448,7 +448,7 @@ fn no_fuzzed_command_moves_a_motor_without_the_key() {
     // It was alive all the while: the key moves it still.
     device.rig.set(|world| world.button = false);
     device.wire.to_device.push_back(0);
-    device.ticks(10);
+    device.ticks(150);
     device.rig.set(|world| world.button = true);
     device.ticks(10);
     device.number = device.number.wrapping_add(10);
@@ -460,7 +460,7 @@ fn no_fuzzed_command_moves_a_motor_without_the_key() {
 #[test]
 fn after_a_reset_by_the_watchdog_nothing_is_set_up_before_it_is_acknowledged() {
     let mut device = Device::after(ResetReason::Watchdog, &settings(), Safety::DEFAULT);
-    device.ticks(50);
+    device.ticks(150);
     device.send(HostMessage::SetUp);
     device.ticks(10);
     device.rig.set(|world| world.button = true);
@@ -471,7 +471,7 @@ fn after_a_reset_by_the_watchdog_nothing_is_set_up_before_it_is_acknowledged() {
     }
     device.rig.set(|world| world.button = false);
     device.send(HostMessage::Acknowledge);
-    device.ticks(10);
+    device.ticks(150);
     device.send(HostMessage::SetUp);
     device.ticks(10);
     assert!(device.last.is_some(), "it is being set up");

@@ -92,12 +92,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if name == "knob" {
         return record_cogging(arguments);
     }
-    let own = match devices::named(&name) {
-        Some(shipped) => {
-            OwnDevice::new(shipped.file().with_context(|| format!("{name} has less than three joints"))?, &name)?
-        }
-        None => OwnDevice::read(&arguments.device)?,
-    };
+    let own = crate::devices::own(&arguments.device)?;
     let by_marks = arguments.zero == Zero::Index || own.file.homing == HomingEntry::Index;
     if arguments.emulator.is_some() && by_marks {
         bail!("emulated boards have no index marks; use --port or --host");
@@ -202,7 +197,8 @@ fn lab(arguments: &Arguments, own: &OwnDevice) -> anyhow::Result<Lab> {
         let device = Device::connect(Box::new(PortLine::open(path, arguments.baud)?), key)?;
         return Ok(Lab { device, hands });
     }
-    let planted = arguments.plant.iter().fold(Planted::sound(own.plant), |planted, fault| planted.with(*fault));
+    let sound = Planted::sound(own.plant).wired(&own.file);
+    let planted = arguments.plant.iter().fold(sound, |planted, fault| planted.with(*fault));
     let world = World::shared(planted)?;
     let line: Box<dyn Line> = match arguments.emulator {
         Some(board) => {
@@ -235,7 +231,7 @@ fn jog(lab: &mut Lab, file: &DeviceFile, (output, share): (u8, f64), seconds: f6
         bail!("--duty {share}: must be between −0.4 and 0.4");
     }
     lab.hands.enable(false)?;
-    lab.device.step(None)?;
+    lab.device.wait_for_release()?;
     lab.hands.enable(true)?;
     let mut shown = Shown::until(seconds)?;
     while shown.goes_on() {

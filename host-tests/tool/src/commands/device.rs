@@ -27,13 +27,7 @@ pub struct Arguments {
 /// The refused entry of the file; no output is written then.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let name = arguments.device.to_string_lossy();
-    let own = match devices::named(&name) {
-        Some(shipped) => {
-            let file = shipped.file().with_context(|| format!("{name} has less than three joints"))?;
-            OwnDevice::new(file, &name)?
-        }
-        None => OwnDevice::read(&arguments.device)?,
-    };
+    let own = devices::own(&arguments.device)?;
     let text = match arguments.out.extension().and_then(|extension| extension.to_str()) {
         Some("rs") => source(&own, &name),
         Some("toml") => toml_of(&own, &format!("Written by `palpate device` from {name}."))?,

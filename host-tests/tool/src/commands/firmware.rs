@@ -2,10 +2,12 @@
 
 use super::bake;
 use super::output::write_whole;
+use crate::commission::RATE;
 use crate::firmware::{self, AnyBoard, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
-use crate::repository;
+use crate::{devices, repository};
 use anyhow::Context;
 use clap::Args;
+use palpate_sim::devices::{settings_source, source};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -24,6 +26,9 @@ pub struct Arguments {
     /// Body: a model file, or the name of a shipped one; it is baked, and its tables go to the fastest memory they fit
     #[arg(long, value_name = "MODEL")]
     body: Option<PathBuf>,
+    /// Device: your own file (my.toml), or the name of a shipped one
+    #[arg(long, value_name = "DEVICE")]
+    device: Option<PathBuf>,
     /// Cargo command, such as `build --release` or `clippy`; or `accept`, for the image of `palpate accept`
     #[arg(required = true, allow_hyphen_values = true)]
     cargo: Vec<String>,
@@ -47,6 +52,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut command = command(&toolchain, arguments, &progress)?;
     if let Some(Chosen { file, place: Some(place), .. }) = &chosen {
         choose_body(&mut command, Some((file, *place)))?;
+    }
+    if let Some(device) = &arguments.device {
+        let (variable, file) = constants(arguments.board, device)?;
+        command.env(variable, file);
     }
     let status = command.current_dir(arguments.board.folder()?).status().with_context(|| format!("{command:?}"))?;
     if !status.success() {
@@ -109,19 +118,35 @@ fn chosen(board: AnyBoard, kind: Kind, model: &Path) -> anyhow::Result<Chosen> {
     let name = model.file_stem().map_or_else(|| "body".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let out_file = format!("{name}.rs");
     let baked = bake::baked(model, &out_file)?;
-    let folder = repository::root()?.join("target/firmware/bodies");
-    fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
-    let file = folder.join(out_file);
-    // As it was, cargo has nothing to do.
-    if fs::read_to_string(&file).ok().as_ref() != Some(&baked.source) {
-        write_whole(&file, baked.source.as_bytes())?;
-    }
+    let file = written("bodies", &out_file, &baked.source)?;
     let (place, lies) = match board {
         // Emulated boards have 4 MB of flash, and no memory that is faster.
         AnyBoard::Emulated(_) => (Some(Place::Fast), "in flash".to_owned()),
         AnyBoard::Bench(board) => (board.place(kind, baked.bytes), board.says(kind, baked.bytes)),
     };
     Ok(Chosen { file, place, says: format!("{name} on {}: {} bytes of tables {lies}", board.name(), baked.bytes) })
+}
+
+/// The constants of a device for a board's build, and the variable that names their file.
+fn constants(board: AnyBoard, device: &Path) -> anyhow::Result<(&'static str, PathBuf)> {
+    let own = devices::own(device)?;
+    let (variable, source) = match board {
+        AnyBoard::Emulated(_) => ("PALPATE_SETTINGS", settings_source(&own, RATE)),
+        AnyBoard::Bench(_) => ("PALPATE_DEVICE", source(&own, &device.to_string_lossy())),
+    };
+    let file = written("devices", &format!("{}.rs", own.file.name), &source)?;
+    Ok((variable, file))
+}
+
+/// A file for a board's build. As it was, cargo has nothing to do.
+fn written(folder: &str, name: &str, source: &str) -> anyhow::Result<PathBuf> {
+    let folder = repository::root()?.join("target/firmware").join(folder);
+    fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let file = folder.join(name);
+    if fs::read_to_string(&file).ok().as_deref() != Some(source) {
+        write_whole(&file, source.as_bytes())?;
+    }
+    Ok(file)
 }
 
 fn command(toolchain: &Toolchain, arguments: &Arguments, progress: &Progress) -> Result<Command, SetUpError> {

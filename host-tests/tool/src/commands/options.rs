@@ -321,7 +321,8 @@ impl Scene {
         // A scene has three joints.
         let [mechanism, device] = self.device.source.unwrap_or_default();
         let shipped = format!(
-            "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE, presets::{device}_PROTECTION as PROTECTION}};"
+            "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE, presets::{device}_PROTECTION as PROTECTION}};\n\
+             pub const WIRING: palpate::commission::Wiring<3> = palpate::commission::Wiring::STRAIGHT;"
         );
         let constants = self.device.constants.map_or(shipped.as_str(), |(source, _)| source);
         format!(

@@ -141,6 +141,9 @@ impl Device {
                 break;
             }
         }
+        // A release lasts.
+        self.step(None)?;
+        self.step(None)?;
         // Another number than any before, for the device remembers the last.
         let number = self.last.tick as u16;
         self.answer = None;
@@ -213,6 +216,20 @@ impl Device {
                 return Ok(reading);
             }
         }
+    }
+
+    /// Waits until the device has seen the enable button released.
+    ///
+    /// # Errors
+    /// A line that broke, or a button that nobody releases.
+    pub fn wait_for_release(&mut self) -> anyhow::Result<()> {
+        for _ in 0..RELEASES {
+            let reading = self.step(None)?;
+            if reading.hold & hold::RELEASE_FIRST == 0 && !reading.enable {
+                return Ok(());
+            }
+        }
+        bail!("the enable button was not released for half a minute{}", said(&self.last))
     }
 
     /// Waits until nothing but the key is missing.

@@ -8,7 +8,7 @@ use palpate::math::vec3;
 use palpate::patch::SplinePatch;
 use palpate::servo::{Config, Guarded, ResetReason, Servo, Settings};
 use palpate_bench::sensors::BadFrame;
-use palpate_bench::store::{Found, KeptCalibration, PretendedFlash};
+use palpate_bench::store::{Built, Found, KeptCalibration, PretendedFlash};
 use palpate_bench::{Felt, Panel};
 use palpate_sim::devices::preset::Preset;
 use palpate_sim::devices::{HomingEntry, OwnDevice};
@@ -93,22 +93,22 @@ impl HostLine {
     /// A device of fewer joints, or settings that it does not take.
     pub fn new(own: &OwnDevice, world: &Arc<Mutex<World>>) -> anyhow::Result<Self> {
         match own.preset {
-            Preset::SerialArm(device) => Self::of(device, own.protection, own.file.homing, world),
-            Preset::LinkageArm(device) => Self::of(device, own.protection, own.file.homing, world),
-            Preset::Delta(device) => Self::of(device, own.protection, own.file.homing, world),
+            Preset::SerialArm(device) => Self::of(device, own, world),
+            Preset::LinkageArm(device) => Self::of(device, own, world),
+            Preset::Delta(device) => Self::of(device, own, world),
             Preset::FiveBar(_) | Preset::Paddle(_) => bail!("{} has too few joints", own.file.name),
         }
     }
 
     fn of<K: Kinematics<3> + Copy>(
         device: &'static Device<K, 3>,
-        protection: Protection<3>,
-        homing: HomingEntry,
+        own: &OwnDevice,
         world: &Arc<Mutex<World>>,
     ) -> anyhow::Result<Self> {
         let flash: &'static Flash = Box::leak(Box::new(Flash::new()));
         let world = Arc::clone(world);
-        let start = Box::new(move |flash| started((device, protection), homing, &world, flash));
+        let (protection, wiring, homing) = (own.protection, own.wiring(), own.file.homing);
+        let start = Box::new(move |flash| started((device, protection, wiring), homing, &world, flash));
         let board = start(flash)?;
         Ok(Self { board, flash, start })
     }
@@ -116,7 +116,7 @@ impl HostLine {
 
 /// Starts a device with the content of its flash. Its parts are leaked, so that they live as long as a board's statics.
 fn started<K: Kinematics<3> + Copy>(
-    (built, protection): (&'static Device<K, 3>, Protection<3>),
+    (built, protection, wiring): (&'static Device<K, 3>, Protection<3>, Wiring<3>),
     homing: HomingEntry,
     world: &Arc<Mutex<World>>,
     flash: &'static Flash,
@@ -125,7 +125,7 @@ fn started<K: Kinematics<3> + Copy>(
         rate_hz: RATE,
         stiffness_n_per_m: 0.5 * built.max_stiffness_n_per_m,
         damping_n_s_per_m: 0.5 * built.max_damping_n_s_per_m,
-        max_force_n: built.max_force_n,
+        max_force_n: 0.5 * built.max_force_n,
         velocity_corner_hz: 200.0,
         soft_start_s: 0.2,
         body_origin_m: vec3(0.0, 0.0, -1.0),
@@ -140,7 +140,10 @@ fn started<K: Kinematics<3> + Copy>(
         HomingEntry::Index => servo.with_homing(by(Reference::Index(built.angles_at_zero()))?),
         HomingEntry::None => servo,
     };
-    let (kept, found) = KeptCalibration::find(writer, built, servo.zero_of());
+    let (kept, found) = KeptCalibration::find(
+        writer,
+        Built { device: built, wiring, homed_by: servo.zero_of(), gains: settings.gains() },
+    );
     let Found { device, wiring, is_miscalibrated } = found;
     let made = Made { servo: servo.calibrated(Box::leak(Box::new(device))), wiring, is_miscalibrated };
     if homing != HomingEntry::None {

@@ -1,6 +1,7 @@
 //! The simulated device on a simulated bench, and the hands at it.
 
 use super::{Hands, RATE};
+use palpate_sim::devices::DeviceFile;
 use palpate_sim::plant::{Direction, HandPath, HandSettings, Plant, PlantSettings, Vector};
 use std::str::FromStr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -220,6 +221,16 @@ impl Planted {
     /// A device without faults.
     pub const fn sound(plant: PlantSettings) -> Self {
         Self { plant, encoder_on: [0, 1, 2], motor_on: [0, 1, 2], marks: MARKS, mark_on: [0, 1, 2], mark_play: 0 }
+    }
+
+    /// The same, wired as its file says.
+    #[must_use]
+    pub fn wired(mut self, file: &DeviceFile) -> Self {
+        for (joint, entry) in file.joint.iter().enumerate() {
+            let (input, output) = (entry.encoder.channel, entry.motor.channel);
+            (self.encoder_on[input], self.mark_on[input], self.motor_on[output]) = (joint, joint, joint);
+        }
+        self
     }
 
     /// The same with a fault in it.

@@ -195,7 +195,7 @@ const fn sample(reading: &Reading) -> Sample {
 /// Key or button let go of, what the device refuses, and a rotor that did not follow: nothing is recorded then.
 pub fn record(device: &mut Device, hands: &mut dyn Hands) -> anyhow::Result<Recording> {
     hands.enable(false)?;
-    device.step(None)?;
+    device.wait_for_release()?;
     hands.enable(true)?;
     device.wait_for_enable()?;
     let duty = (JOG.share * 32_767.0) as i16;

@@ -3,6 +3,7 @@
 use super::{JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, device, servo};
 use crate::commission::{Hands, Line};
 use anyhow::bail;
+use palpate::commission::Wiring;
 use palpate::device::drive::Field;
 use palpate::device::{Counts, Dial, Duty, ElectricalAngle};
 use palpate::servo::{Guarded, Knob, ResetReason};
@@ -79,6 +80,10 @@ impl Felt<1> for This {
 
     fn servo(&self) -> &KnobServo {
         &self.0
+    }
+
+    fn wiring(&self) -> Wiring<1> {
+        Wiring::STRAIGHT
     }
 }
 

@@ -1,5 +1,6 @@
 //! A board that is being accepted: it drives nothing, and says what it is asked.
 
+use palpate::commission::Wiring;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Homing, Reference, SerialArm};
 use palpate::patch::SplinePatch;
@@ -101,7 +102,7 @@ fn start(servo: fn() -> Arm, reset: ResetReason) -> (Shared, Tick, Examiner<'sta
     let queue: &'static mut Queue<Ticks, 16> = Box::leak(Box::new(Queue::new()));
     let (producer, ticks) = queue.split();
     let (world, board) = wired(&servo(), held_at([0.0, 0.0, -0.004]), &settings());
-    let felt = Made(servo(), false);
+    let felt = Made(servo(), false, Wiring::STRAIGHT);
     let chip = Chip { core: 0x410f_c241, reset };
     let examiner = Examiner::new(&felt, &settings(), chip, mailbox, ticks, Even);
     (world, Acceptance::new(felt, board, &settings(), reset, producer, mailbox), examiner)

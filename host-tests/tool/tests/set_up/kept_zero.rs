@@ -1,5 +1,6 @@
 //! A zero that was found and kept, and a board that is reset elsewhere: homed, it has the angles that the joints have.
 
+use palpate::commission::Wiring;
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Device as Built, Homing, Reference, SerialArm};
 use palpate::servo::{Config, Phase, ResetReason, Servo};
@@ -63,7 +64,7 @@ fn reset_elsewhere(
     let place = settings.mechanism(0.0).position(held);
     let mut plant = Plant::new(&settings, HandSettings::NONE, Box::new(StillHand(place)), RATE).expect("a plant");
     held.into_iter().enumerate().for_each(|(joint, angle)| plant.move_stops(joint, [angle; 2]));
-    Rig::made(Made(servo.calibrated(device), false), plant, &rig_settings(), ResetReason::PowerOn)
+    Rig::made(Made(servo.calibrated(device), false, Wiring::STRAIGHT), plant, &rig_settings(), ResetReason::PowerOn)
 }
 
 /// It is homed, nothing was driven, and it has the joints' angles to a count: half of one of each jig, pose and joint.
