@@ -8,13 +8,15 @@ use crate::device::Counts;
 pub struct Quadrature {
     phase: Option<i32>,
     counts: i32,
+    missed: bool,
 }
 
 impl Quadrature {
     /// The count after the channels were read. It rises while A leads B: 00, 10, 11, 01.
     ///
     /// # Errors
-    /// [`EdgeMissed`] if both channels changed: counts were lost, and the place is not known any more.
+    /// [`EdgeMissed`] if both channels changed, and from then on: counts were lost, so the position is unknown until
+    /// the joint is homed with a new decoder.
     pub fn count(&mut self, a: bool, b: bool) -> Result<Counts, EdgeMissed> {
         // The Gray code's place in the cycle.
         let phase = match (a, b) {
@@ -28,10 +30,13 @@ impl Quadrature {
             Some(1) => 1,
             Some(3) => -1,
             Some(_) => {
-                self.phase = Some(phase);
-                return Err(EdgeMissed);
+                self.missed = true;
+                0
             }
         };
+        if self.missed {
+            return Err(EdgeMissed);
+        }
         self.phase = Some(phase);
         self.counts = self.counts.wrapping_add(step);
         Ok(Counts(self.counts))
@@ -54,10 +59,11 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_missed_is_told() {
+    fn after_a_missed_edge_no_count_is_believed() {
         let mut decoder = Quadrature::default();
         assert_eq!(decoder.count(false, true), Ok(Counts(0)));
         assert_eq!(decoder.count(true, false), Err(EdgeMissed));
-        assert_eq!(decoder.count(true, true), Ok(Counts(1)));
+        assert_eq!(decoder.count(true, true), Err(EdgeMissed));
+        assert_eq!(decoder.count(false, true), Err(EdgeMissed));
     }
 }
