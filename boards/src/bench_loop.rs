@@ -3,7 +3,6 @@
 use crate::acknowledging::Acknowledging;
 use crate::light::is_lit;
 use crate::mailbox::Plain;
-use crate::sensors::BadFrame;
 use crate::set_up::SetUp;
 use crate::{Board, Hold, Interlock, Mailbox, Panel, Settings, Verdict};
 use palpate::commission::Wiring;
@@ -147,8 +146,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
                 self.note_marks(enable);
                 Input::Sensors { counts: self.felt.wiring().joints(counts), enable }
             }
-            Err(BadFrame::Absent) => Input::Lost,
-            Err(BadFrame::Damaged | BadFrame::Jumped) => Input::Damaged,
+            Err(bad) => bad.input(),
         };
         let input = self.bridge.input(self.felt.servo(), &self.state, input, enable);
         let was_homed = self.state.homed();
@@ -364,6 +362,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             self.mailbox.tell_view(&View::new(&self.state, velocity, holds));
         }
         self.recorder.set_board(self.bridge.total(), holds);
+        let gains = self.felt.wiring().joints(self.board.gains());
+        self.recorder.set_sensors(self.bridge.rate().per_10_000(), &gains);
         self.recorder.note(&self.state, began, self.board.now());
         self.ticks = self.ticks.wrapping_add(1);
         self.mailbox.tell_ticks(self.ticks);

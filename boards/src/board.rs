@@ -46,6 +46,12 @@ pub trait Passive<const JOINTS: usize> {
         [None; JOINTS]
     }
 
+    /// The automatic gain of each magnetic sensor, 255 in a weak field; 0 of a sensor without one.
+    #[inline]
+    fn gains(&self) -> [u8; JOINTS] {
+        [0; JOINTS]
+    }
+
     /// Disables the drives. Tries every pin, whatever fails.
     ///
     /// # Errors

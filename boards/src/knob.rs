@@ -4,7 +4,6 @@
 use crate::JogSettings;
 use palpate::device::drive::{Feed, Field, Modulation};
 use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION, GIMBAL_KNOB_PROTECTION};
-use palpate::device::sensor::Frozen;
 use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Protection, Reference, SupplyRange};
 use palpate::math::Vec3;
 use palpate::render::{Detents, Ends, Feel, Spring, Wave};
@@ -61,9 +60,6 @@ pub const fn led_torque(share: f32) -> f32 {
 // No heat is counted meanwhile: the limit is the motor's continuous torque.
 const _: () =
     assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full_n_m);
-
-/// A sensor that says the very same for a quarter of a second has frozen.
-pub const FROZEN: Frozen = Frozen::after(1_000);
 
 /// Torque that is let go of in a second when another feel is chosen, N·m: all of it in a twentieth.
 pub const LET_GO: f32 = 1.2;

@@ -67,6 +67,11 @@ where
     }
 
     #[inline]
+    fn gains(&self) -> [u8; JOINTS] {
+        self.sensors.gains()
+    }
+
+    #[inline]
     fn release(&mut self) -> Result<(), NotObeyed> {
         self.drives.release()
     }

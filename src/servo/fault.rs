@@ -135,11 +135,17 @@ pub enum Fault {
     /// The calibration that is kept in flash cannot be used ([`crate::commission::CalibrationError`]).
     #[error("the calibration stored in flash is refused")]
     Calibration = 20,
+    /// A magnetic sensor reports a field that is too strong or too weak.
+    #[error("sensor magnet too strong or too weak")]
+    Magnet = 21,
+    /// A sensor whose last bits are never quiet repeats the same reading.
+    #[error("sensor reading frozen")]
+    Frozen = 22,
 }
 
 impl Fault {
     /// Every fault, in the order of its code.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 22] = [
         Self::FrameLost,
         Self::FrameDamaged,
         Self::JointOutOfRange,
@@ -160,6 +166,8 @@ impl Fault {
         Self::Supply,
         Self::WrongPolarity,
         Self::Calibration,
+        Self::Magnet,
+        Self::Frozen,
     ];
 
     /// Whether [`super::SafeOutput::Damping`] may follow it. Not where that would drive a motor that has failed or is

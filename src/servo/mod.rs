@@ -9,6 +9,7 @@
 //! | cause | detected by | [`Fault`] |
 //! |---|---|---|
 //! | sensor frame lost, late or damaged | [`Input::Lost`], [`Input::Damaged`] | `FrameLost`, `FrameDamaged` |
+//! | magnet loose or gone, sensor frozen | [`Input::Magnet`], [`Input::Frozen`] | `Magnet`, `Frozen` |
 //! | encoder absent, glitching | range and maximum joint rate of the [`crate::device::Device`] | `JointOutOfRange`, `JointJumped` |
 //! | encoder stuck | [`Safety::stuck`] | `JointStuck` |
 //! | repeated implausible contact | [`ContactLimits`] | `ContactLost` |

@@ -37,6 +37,10 @@ pub enum Input<const JOINTS: usize> {
     Lost,
     /// A frame came damaged.
     Damaged,
+    /// A sensor's magnet is too near, too far or gone.
+    Magnet,
+    /// A sensor repeats the same reading ([`crate::device::sensor::Frozen`]).
+    Frozen,
 }
 
 /// Joint torques, N·m.
@@ -171,6 +175,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             Input::Sensors { counts, enable } => (counts, enable),
             Input::Lost => return Err(count_lost(state, Fault::FrameLost)),
             Input::Damaged => return Err(count_lost(state, Fault::FrameDamaged)),
+            Input::Magnet => return Err(count_lost(state, Fault::Magnet)),
+            Input::Frozen => return Err(count_lost(state, Fault::Frozen)),
         };
 
         // Counts → joint angles → probe.

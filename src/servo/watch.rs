@@ -1,10 +1,12 @@
 //! Checks around the tick: bridged sensor frames, the tick's deadline, and stuck sensors.
 
 use super::{Guard, Input, Phase, Servo, ServoState, StuckLimits, Surface};
+use crate::device::sensor::ErrorRate;
 use crate::device::{Counts, Kinematics};
 
 /// Puts a prediction in the place of a few bad frames in a row: the last good counts, carried on at the rates estimated
-/// then. The next bad one reaches the loop as it came, and is a fault in that tick.
+/// then. The next bad one reaches the loop as it came, and is a fault in that tick. So does a bad frame while more than
+/// 1 % of the frames are bad ([`Self::rate`]): single good frames between bad ones do not hide a failing cable.
 ///
 /// **This is the one exception to "a fault in the same tick".** A motor's switching corrupts a frame of a digital
 /// sensor now and then, and a loop that then drops its force hits the hand. For two ticks, half a millisecond at 4 kHz,
@@ -39,6 +41,7 @@ pub struct FrameBridge<const JOINTS: usize> {
     max_in_a_row: u32,
     in_a_row: u32,
     total: u32,
+    rate: ErrorRate<10>,
     /// The last good counts, and counts a tick.
     from: ([Counts; JOINTS], [f32; JOINTS]),
 }
@@ -46,15 +49,23 @@ pub struct FrameBridge<const JOINTS: usize> {
 impl<const JOINTS: usize> FrameBridge<JOINTS> {
     /// How many bad frames in a row are bridged unless you choose.
     pub const DEFAULT_IN_A_ROW: u32 = 2;
+    /// The maximum rate of bad frames, in 10,000.
+    pub const MAX_RATE: u32 = 100;
 
     /// A bridge over at most `max_in_a_row` consecutive bad frames; 0 bridges none.
     pub const fn new(max_in_a_row: u32) -> Self {
-        Self { max_in_a_row, in_a_row: 0, total: 0, from: ([Counts(0); JOINTS], [0.0; JOINTS]) }
+        let from = ([Counts(0); JOINTS], [0.0; JOINTS]);
+        Self { max_in_a_row, in_a_row: 0, total: 0, rate: ErrorRate::START, from }
     }
 
     /// Bad frames bridged so far.
     pub const fn total(&self) -> u32 {
         self.total
+    }
+
+    /// The rate of bad frames, over the last thousand or so.
+    pub const fn rate(&self) -> ErrorRate<10> {
+        self.rate
     }
 
     /// The input of the tick: `input` itself, or a prediction in its place, with `enable` as it is now.
@@ -66,12 +77,15 @@ impl<const JOINTS: usize> FrameBridge<JOINTS> {
         input: Input<JOINTS>,
         enable: bool,
     ) -> Input<JOINTS> {
-        if matches!(input, Input::Sensors { .. }) {
+        let is_good = matches!(input, Input::Sensors { .. });
+        self.rate = self.rate.next(!is_good);
+        if is_good {
             self.in_a_row = 0;
             return input;
         }
         let Some(counts) = state.counts() else { return input };
-        if self.in_a_row >= self.max_in_a_row || state.phase() == Phase::Fault {
+        let is_too_often = self.in_a_row >= self.max_in_a_row || self.rate.is_above(Self::MAX_RATE);
+        if is_too_often || state.phase() == Phase::Fault {
             return input;
         }
         if self.in_a_row == 0 {

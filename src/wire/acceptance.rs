@@ -118,14 +118,16 @@ pub struct Ticks {
     pub took: u32,
     /// Ticks since the reset that took longer than their period.
     pub overruns: u32,
-    /// Bad sensor frames since the reset: missing, damaged, implausible.
-    pub bad: [u32; 3],
+    /// Bad sensor frames since the reset: missing, damaged, implausible, with a bad magnet, frozen.
+    pub bad: [u32; 5],
     /// The most bad frames in a row since the reset.
     pub in_a_row: u32,
     /// The inputs of the operator's panel ([`panel`]).
     pub panel: u8,
     /// The motors' supply, mV; 0 where it is not measured.
     pub supply: u32,
+    /// The highest automatic gain of each magnetic sensor since the reset, 255 in a weak field; 0 of one without.
+    pub gains: [u8; 3],
 }
 
 /// The bits of [`Ticks::panel`].

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// The version of these messages: another one may mean something else by them.
-pub const PROTOCOL: u16 = 2;
+pub const PROTOCOL: u16 = 3;
 
 /// From a device that runs by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -242,6 +242,8 @@ mod tests {
             reset: u8::MAX,
             overruns: u32::MAX,
             bridged: u32::MAX,
+            bad_frames: u16::MAX,
+            gains: [u8::MAX; 3],
             hold: u8::MAX,
             feature: u16::MAX,
             mode: u8::MAX,
@@ -268,10 +270,11 @@ mod tests {
             longest: u32::MAX,
             took: u32::MAX,
             overruns: u32::MAX,
-            bad: [u32::MAX; 3],
+            bad: [u32::MAX; 5],
             in_a_row: u32::MAX,
             panel: u8::MAX,
             supply: u32::MAX,
+            gains: [u8::MAX; 3],
         });
         let mut buffer = [0; MAX_FRAME];
         let frame = pack(&longest, &mut buffer).unwrap();

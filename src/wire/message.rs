@@ -93,6 +93,10 @@ pub struct Record {
     pub overruns: u32,
     /// Bad sensor frames bridged so far ([`crate::servo::FrameBridge`]).
     pub bridged: u32,
+    /// Rate of bad sensor frames, in 10,000; above [`crate::servo::FrameBridge::MAX_RATE`] the next one is a fault.
+    pub bad_frames: u16,
+    /// Automatic gain of each magnetic sensor, 255 in a weak field; 0 of one without.
+    pub gains: [u8; 3],
     /// External reasons that keep the motors off, as bits ([`hold`]).
     pub hold: u8,
     /// [`crate::body::Feature`] as its code; 0 for a surface of one patch.

@@ -55,6 +55,8 @@ pub struct Recorder<'a> {
     took: u32,
     dropped: u32,
     bridged: u32,
+    bad_frames: u16,
+    gains: [u8; 3],
     hold: u8,
 }
 
@@ -75,6 +77,8 @@ impl<'a> Recorder<'a> {
             took: 0,
             dropped: 0,
             bridged: 0,
+            bad_frames: 0,
+            gains: [0; 3],
             hold: 0,
         }
     }
@@ -84,6 +88,15 @@ impl<'a> Recorder<'a> {
     #[inline]
     pub const fn set_board(&mut self, bridged: u32, hold: u8) {
         (self.bridged, self.hold) = (bridged, hold);
+    }
+
+    /// The health of the sensors: bad frames in 10,000, and the gain of each magnetic sensor.
+    #[inline]
+    pub fn set_sensors(&mut self, bad_frames: u16, gains: &[u8]) {
+        self.bad_frames = bad_frames;
+        for (kept, gain) in self.gains.iter_mut().zip(gains) {
+            *kept = *gain;
+        }
     }
 
     /// Takes note of a tick that is done: the counter of 32 bits, which wraps, at its interrupt and at its end.
@@ -145,6 +158,8 @@ impl<'a> Recorder<'a> {
             reset: state.reset() as u8,
             overruns: state.overruns(),
             bridged: self.bridged,
+            bad_frames: self.bad_frames,
+            gains: self.gains,
             hold: self.hold,
             feature: state.witness().feature(),
             mode: state.witness().witness().mode as u8,

@@ -16,9 +16,7 @@ use crate::board::Board;
 use crate::link::Link;
 use crate::timer::{INSTRUCTIONS_PER_SECOND, InstructionCounter};
 pub use palpate_bench::knob::SETTINGS;
-use palpate_bench::knob::{
-    FROZEN, KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, device, report, servo, widths,
-};
+use palpate_bench::knob::{KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, device, report, servo, widths};
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends.
 const SILENT_TICKS: u32 = 5;
@@ -51,7 +49,7 @@ impl<L: Link> KnobLoop<L> {
         Self {
             link,
             state: SERVO.start_after(board.reset.reason()),
-            frozen: FROZEN,
+            frozen: Frozen::AS5047P,
             counter: InstructionCounter::new(board, systick),
             silent_ticks: 0,
         }
@@ -87,7 +85,7 @@ impl<L: Link> KnobLoop<L> {
                 SERVO.note(&mut self.state, Event::Chosen { index: feel as u8 });
                 SERVO.note(&mut self.state, Event::Supply { millivolts: supply as u32 });
                 if self.frozen.is_frozen(counts as u32) {
-                    return Input::Damaged;
+                    return Input::Frozen;
                 }
                 Input::Sensors { counts: [Counts(counts)], enable }
             }

@@ -75,9 +75,13 @@ impl<'a, F: Felt<JOINTS>, B: Passive<JOINTS>, const JOINTS: usize> Acceptance<'a
         let read = self.board.read();
         self.count(read.err());
         let input = match read {
-            Ok(counts) => Input::Sensors { counts: self.felt.wiring().joints(counts), enable: panel.enable },
-            Err(BadFrame::Absent) => Input::Lost,
-            Err(BadFrame::Damaged | BadFrame::Jumped) => Input::Damaged,
+            Ok(counts) => {
+                for (highest, gain) in self.next.gains.iter_mut().zip(self.felt.wiring().joints(self.board.gains())) {
+                    *highest = gain.max(*highest);
+                }
+                Input::Sensors { counts: self.felt.wiring().joints(counts), enable: panel.enable }
+            }
+            Err(bad) => bad.input(),
         };
         let input = self.bridge.input(self.felt.servo(), &self.state, input, panel.enable);
         // This image has no way to drive a motor.
@@ -111,11 +115,13 @@ impl<'a, F: Felt<JOINTS>, B: Passive<JOINTS>, const JOINTS: usize> Acceptance<'a
             self.in_a_row = 0;
             return;
         };
-        let [absent, damaged, jumped] = &mut self.next.bad;
+        let [absent, damaged, jumped, magnet, frozen] = &mut self.next.bad;
         let kind = match bad {
             BadFrame::Absent => absent,
             BadFrame::Damaged => damaged,
             BadFrame::Jumped => jumped,
+            BadFrame::Magnet => magnet,
+            BadFrame::Frozen => frozen,
         };
         *kind = kind.saturating_add(1);
         self.in_a_row = self.in_a_row.saturating_add(1);

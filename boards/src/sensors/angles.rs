@@ -5,7 +5,7 @@ use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::spi::SpiBus;
 use palpate::device::Counts;
-use palpate::device::sensor::{AmsAngle, AmsChip, SensorError, TurnCount};
+use palpate::device::sensor::{AmsAngle, AmsChip, Frozen, SensorError, TurnCount};
 
 /// The select line's times (AS5047P data sheet, "SPI timing": `tCSn` and `tL` 350 ns; `tH` half a clock, which is 500
 /// ns at the slowest clock one would choose, 1 MHz).
@@ -23,6 +23,8 @@ pub struct Angles<B, P, D, const JOINTS: usize> {
     selects: [P; JOINTS],
     delay: D,
     turns: [TurnCount; JOINTS],
+    frozen: [Frozen; JOINTS],
+    gains: [u8; JOINTS],
     /// Whose error flags have to be cleared first.
     unwell: [bool; JOINTS],
 }
@@ -31,7 +33,15 @@ impl<B: SpiBus, P: OutputPin, D: DelayNs, const JOINTS: usize> Angles<B, P, D, J
     /// The sensors, each with the maximum step between two readings, counts ([`super::max_step`]). Their select
     /// lines are high. Nothing is sent yet.
     pub fn new(bus: B, selects: [P; JOINTS], delay: D, greatest_steps: [i32; JOINTS]) -> Self {
-        Self { bus, selects, delay, turns: greatest_steps.map(TurnCount::new), unwell: [true; JOINTS] }
+        Self {
+            bus,
+            selects,
+            delay,
+            turns: greatest_steps.map(TurnCount::new),
+            frozen: [Frozen::AS5047P; JOINTS],
+            gains: [0; JOINTS],
+            unwell: [true; JOINTS],
+        }
     }
 
     /// Waits until they have powered up, and starts each, repeatedly for a tenth of a second.
@@ -69,15 +79,21 @@ impl<B: SpiBus, P: OutputPin, D: DelayNs, const JOINTS: usize> Angles<B, P, D, J
 }
 
 impl<B: SpiBus, P: OutputPin, D: DelayNs, const JOINTS: usize> Sensors<JOINTS> for Angles<B, P, D, JOINTS> {
-    /// Two frames a sensor, some 3 µs each at 8 MHz; two more for one that stands at angle zero, three more for one
-    /// that reported an error in the tick before.
+    /// Two frames a sensor, some 3 µs each at 8 MHz; three more for one that reported an error in the tick before.
     #[inline]
     fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame> {
         self.start_all()?;
         let mut counts = [Counts(0); JOINTS];
         for (joint, count) in counts.iter_mut().enumerate() {
-            match self.sensor(joint).read_fresh() {
-                Ok(angle) => *count = self.turns[joint].count(u32::from(angle)).map_err(|_| BadFrame::Jumped)?,
+            match self.sensor(joint).read() {
+                Ok(reading) => {
+                    self.gains[joint] = reading.gain;
+                    let angle = u32::from(reading.angle);
+                    if self.frozen[joint].is_frozen(angle) {
+                        return Err(BadFrame::Frozen);
+                    }
+                    *count = self.turns[joint].count(angle).map_err(|_| BadFrame::Jumped)?;
+                }
                 Err(error) => {
                     // Its flag would stand in every later frame.
                     self.unwell[joint] = true;
@@ -87,11 +103,17 @@ impl<B: SpiBus, P: OutputPin, D: DelayNs, const JOINTS: usize> Sensors<JOINTS> f
         }
         Ok(counts)
     }
+
+    #[inline]
+    fn gains(&self) -> [u8; JOINTS] {
+        self.gains
+    }
 }
 
 fn bad<E>(error: &SensorError<E>) -> BadFrame {
     match error {
         SensorError::Absent | SensorError::Bus(_) => BadFrame::Absent,
-        SensorError::Damaged | SensorError::Refused | SensorError::Magnet | SensorError::TrackLost => BadFrame::Damaged,
+        SensorError::Damaged | SensorError::Refused | SensorError::TrackLost => BadFrame::Damaged,
+        SensorError::Magnet => BadFrame::Magnet,
     }
 }

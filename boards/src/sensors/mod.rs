@@ -3,14 +3,13 @@
 mod angles;
 mod counters;
 mod selected;
-mod watched;
 
 pub use angles::{Angles, SELECT};
 pub use counters::{Counters, Readings, max_step, max_steps};
 pub use selected::{SelectError, SelectTiming, Selected};
-pub use watched::Watched;
 
 use palpate::device::Counts;
+use palpate::servo::Input;
 use thiserror::Error;
 
 /// A frame of the sensors that cannot be used.
@@ -25,6 +24,27 @@ pub enum BadFrame {
     /// It says what no hand does.
     #[error("a sensor jumped")]
     Jumped,
+    /// The magnet's field is too strong or too weak: the magnet is loose or gone.
+    #[error("a sensor's magnet is too strong or too weak")]
+    Magnet,
+    /// The same reading for too long from a sensor whose last bits are never quiet.
+    #[error("a sensor is frozen")]
+    Frozen,
+}
+
+impl BadFrame {
+    /// Number of kinds.
+    pub const KINDS: usize = 5;
+
+    /// The tick's input without counts.
+    pub const fn input<const JOINTS: usize>(self) -> Input<JOINTS> {
+        match self {
+            Self::Absent => Input::Lost,
+            Self::Damaged | Self::Jumped => Input::Damaged,
+            Self::Magnet => Input::Magnet,
+            Self::Frozen => Input::Frozen,
+        }
+    }
 }
 
 /// The sensors of all joints.
@@ -40,5 +60,11 @@ pub trait Sensors<const JOINTS: usize> {
     #[inline]
     fn marks(&mut self) -> [Option<Counts>; JOINTS] {
         [None; JOINTS]
+    }
+
+    /// The automatic gain of each magnetic sensor, 255 in a weak field; 0 of a sensor without one.
+    #[inline]
+    fn gains(&self) -> [u8; JOINTS] {
+        [0; JOINTS]
     }
 }

@@ -23,11 +23,11 @@ use super::bernstein::Bernstein;
 use crate::spline::BakedCoefficients;
 use palpate::patch::{SecondDerivativeBounds, ThirdDerivativeBounds, span_centre};
 
-/// Maximum excess of a bound over the supremum.
+/// How far a bound may lie above the supremum.
 pub const SLACK: f64 = 0.05;
-/// Maximum number of halvings of a cell: 10 along each parameter, to a cell a thousandth of a span wide.
+/// How often a cell is halved at most: 10 times along each parameter, a cell a thousandth of a span wide.
 pub const HALVINGS: usize = 20;
-/// Number of halvings of the border between two spans for the bound of a jump.
+/// How often the border between two spans is halved for the bound of a jump.
 const JUMP_HALVINGS: usize = 5;
 /// Error bound of `‖N‖` from rounding in `f64`, relative to `max‖A‖ · max w²` on the unit square. Each difference of
 /// neighbours is at most 2 · 5 times the coefficients (two of them: 100), at most 10 terms of `N` have that size, and
@@ -173,7 +173,7 @@ fn supremum(
     coefficients: &BakedCoefficients,
     axes: &[usize],
 ) -> Option<f64> {
-    // Exactly, for a polynomial that is derived more often than its degree.
+    // Of a polynomial that is derived more often than its degree, exactly.
     let is_zero = |axis: usize| axes.iter().filter(|along| **along == axis).count() > degree[axis];
     if (is_zero(0) || is_zero(1)) && matches!(coefficients, BakedCoefficients::Polynomial(_)) {
         return Some(0.0);

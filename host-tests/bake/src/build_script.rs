@@ -55,7 +55,7 @@ pub enum BakeError {
     Source {
         /// The model file.
         file: String,
-        /// The error.
+        /// What it is.
         cause: SourceError,
     },
     /// The tables cannot be written.
@@ -80,8 +80,8 @@ impl Bake {
         Self { model: model.into(), margin: 0.0 }
     }
 
-    /// Minimum reach of a body's locator beyond its bounding box, in sizes of the body, 0 to 30; by default it is
-    /// chosen for the body.
+    /// How far beyond the bounding box of a body its locator reaches at least, in sizes of the body, 0 to 30; without
+    /// this, as it suits the body.
     #[must_use]
     pub const fn reaching(mut self, sizes: f64) -> Self {
         self.margin = sizes.clamp(0.0, 30.0);
@@ -92,9 +92,9 @@ impl Bake {
     /// where. Tells cargo to watch the model.
     ///
     /// # Errors
-    /// A fault of the model, by file, patch and entry, as in `palpate check`; or of the folder.
+    /// What is wrong with the model, by file, patch and entry, as `palpate check` says it; or with the folder.
     pub fn write_to(&self, folder: impl AsRef<Path>) -> Result<PathBuf, BakeError> {
-        // A refused model is watched too: once corrected, it is baked again.
+        // Also where it is refused: mended, it is to be tried again.
         println!("cargo::rerun-if-changed={}", self.model.display());
         let file = self.model.display().to_string();
         let read = |cause| ModelError::Read { file: file.clone(), cause };

@@ -10,7 +10,7 @@
 //!   proves one minimum for each, borders and corners included: a boundary that traps would be a second one, so the
 //!   *outline* is proved with it.
 //!
-//! If a proof fails, random probes are sampled; they can disprove the property, or remain the only evidence.
+//! Where a proof fails, random probes are sampled; they can disprove the property, or remain the only evidence.
 
 use super::BakedPatch;
 use super::convexity::Convexity;
@@ -68,11 +68,11 @@ pub struct Certificate {
     pub outline: Finding,
     /// No probe over the patch, up to the range, has a second resting place.
     pub equilibrium: Finding,
-    /// Distance from the patch up to which that is proved, metres: the range, or less.
+    /// How far from the patch that is proved, metres: the range, or less.
     pub proved_range: f64,
 }
 
-/// Suggested split of a patch that failed.
+/// How a patch that failed is to be split.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cut {
     /// 0 for a cut at one `u`, 1 for one at one `v`.

@@ -22,7 +22,7 @@ pub enum Convexity {
     Disproved {
         /// Its curvature, 1/m.
         curvature: f64,
-        /// Parameters of the point.
+        /// Where.
         parameters: [f64; 2],
     },
 }

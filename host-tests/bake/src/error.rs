@@ -92,7 +92,7 @@ pub enum PatchFault {
     /// Not one degree for each parameter.
     #[error("degree has {count} numbers: one along u and one along v")]
     DegreeCount {
-        /// Their number.
+        /// How many.
         count: usize,
     },
     /// A degree is out of range.
@@ -108,7 +108,7 @@ pub enum PatchFault {
     TooFewPoints {
         /// Along which parameter.
         axis: Axis,
-        /// Their number.
+        /// How many there are.
         count: usize,
         /// The degree.
         degree: usize,
@@ -118,7 +118,7 @@ pub enum PatchFault {
     BezierPoints {
         /// Along which parameter.
         axis: Axis,
-        /// Their number.
+        /// How many there are.
         count: usize,
         /// The degree.
         degree: usize,
@@ -128,9 +128,9 @@ pub enum PatchFault {
     RaggedRow {
         /// The row.
         row: usize,
-        /// Its number of points.
+        /// How many it has.
         count: usize,
-        /// The first row's number of points.
+        /// How many the first has.
         expected: usize,
     },
     /// A point is not made of three or four numbers.
@@ -140,7 +140,7 @@ pub enum PatchFault {
         row: usize,
         /// The column.
         column: usize,
-        /// The number of numbers.
+        /// How many numbers.
         count: usize,
     },
     /// A coordinate is NaN or infinite.
@@ -170,7 +170,7 @@ pub enum PatchFault {
     KnotCount {
         /// Along which parameter.
         axis: Axis,
-        /// Their number.
+        /// How many there are.
         count: usize,
         /// Control points along the parameter.
         points: usize,
@@ -182,7 +182,7 @@ pub enum PatchFault {
     KnotNotFinite {
         /// Along which parameter.
         axis: Axis,
-        /// Its index.
+        /// Which.
         index: usize,
         /// The value in the file.
         value: f64,
@@ -192,7 +192,7 @@ pub enum PatchFault {
     KnotTooLarge {
         /// Along which parameter.
         axis: Axis,
-        /// Its index.
+        /// Which.
         index: usize,
         /// The value in the file.
         value: f64,
@@ -204,7 +204,7 @@ pub enum PatchFault {
     KnotDecreases {
         /// Along which parameter.
         axis: Axis,
-        /// Its index.
+        /// Which.
         index: usize,
         /// Its value.
         value: f64,
@@ -218,7 +218,7 @@ pub enum PatchFault {
         axis: Axis,
         /// The knot.
         value: f64,
-        /// Its multiplicity.
+        /// How often.
         times: usize,
         /// The degree.
         degree: usize,
@@ -230,7 +230,7 @@ pub enum PatchFault {
         axis: Axis,
         /// The knot.
         value: f64,
-        /// Its multiplicity.
+        /// How often.
         times: usize,
         /// The degree.
         degree: usize,
@@ -258,7 +258,7 @@ pub enum PatchFault {
     TooManySpans {
         /// Along which parameter.
         axis: Axis,
-        /// Their number.
+        /// How many.
         count: usize,
     },
     /// More spans in all than are proved in seconds, or have a place in a controller's flash.
@@ -268,7 +268,7 @@ pub enum PatchFault {
         u: usize,
         /// Along `v`.
         v: usize,
-        /// The maximum number.
+        /// How many there can be.
         limit: usize,
     },
     /// The patch is a point, a curve, or thinner than single precision can tell.
@@ -313,9 +313,9 @@ pub enum PatchFault {
     },
 }
 
-// Faults between patches, as messages for the author of the model.
+// What can be wrong between patches, as the person who made the model reads it.
 
-/// Why patches do not make a body. `first` and `second` name a border and its patch, `side u = 0 of patch "dome"`.
+/// Why patches do not make a body. `first` and `second` say a border and its patch, `side u = 0 of patch "dome"`.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SeamFault {
     /// More than two faces share an edge.
@@ -360,7 +360,7 @@ pub enum SeamFault {
         second: String,
         /// The start of the common part on the first, in its parameter.
         from: f64,
-        /// Its end.
+        /// Where it ends.
         to: f64,
     },
     /// The same curve at another pace.
@@ -373,7 +373,7 @@ pub enum SeamFault {
         first: String,
         /// The other.
         second: String,
-        /// Their distance at equal parameters, metres.
+        /// How far apart they are at equal parameters, metres.
         deviation: f64,
     },
     /// Two borders nearly meet.
@@ -383,7 +383,7 @@ pub enum SeamFault {
         first: String,
         /// The other.
         second: String,
-        /// Their distance, metres.
+        /// How far apart, metres.
         deviation: f64,
         /// The tolerance for one curve, metres.
         tolerance: f64,
@@ -400,9 +400,9 @@ pub enum SeamFault {
     /// More patches than a body's tables can name.
     #[error("{count} patches after splitting: a body has {limit} at most")]
     TooMany {
-        /// Their number.
+        /// How many.
         count: usize,
-        /// The maximum number.
+        /// How many can be.
         limit: usize,
     },
 }

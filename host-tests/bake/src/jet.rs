@@ -23,7 +23,7 @@ pub struct Jet {
 }
 
 impl Jet {
-    /// The jet of a patch at `(u, v) ∈ [0, 1]²`; an inner knot belongs to the span above it, 1 to the last span.
+    /// Of a patch at `(u, v) ∈ [0, 1]²`; on an inner knot the span above it is taken, at 1 the last.
     pub fn of(patch: &NurbsPatch, u: f64, v: f64) -> Self {
         let [along_u, along_v] =
             [(0, u), (1, v)].map(|(axis, at)| Triangle::at(&patch.knots[axis], patch.degree[axis], at));

@@ -30,7 +30,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// Number of this unit in a metre. A whole number, so that dividing by it rounds once.
+    /// How many of this unit make a metre. A whole number, so that dividing by it rounds once.
     pub const fn per_metre(self) -> f64 {
         match self {
             Self::Metre => 1.0,
@@ -125,8 +125,8 @@ struct RawModel {
     patch: Vec<RawPatch>,
 }
 
-// Message of the TOML parser, with the line if there is one, but shortened so that a long line of the file does not
-// fill the screen.
+// What a parser of TOML says, with the line wherever there is one to name, and no line of a file in full that fills
+// the screen.
 
 /// Letters of a line that are shown.
 const SHOWN: usize = 120;

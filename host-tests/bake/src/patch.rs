@@ -36,7 +36,7 @@ impl NurbsPatch {
         borders(&self.knots[axis as usize], self.degree[axis as usize])
     }
 
-    /// Number of continuous derivatives at the knots along one parameter; `None` without inner knots.
+    /// How many derivatives the knots along one parameter leave continuous; `None` without inner knots.
     pub fn continuity(&self, axis: Axis) -> Option<usize> {
         continuity(&self.knots[axis as usize], self.degree[axis as usize])
     }
@@ -83,7 +83,7 @@ pub(super) fn borders(knots: &[f64], degree: usize) -> Vec<f64> {
     borders
 }
 
-/// Number of continuous derivatives at all inner knots; `None` without inner knots.
+/// How many derivatives are continuous at all inner knots; `None` if there are no inner knots.
 pub(super) fn continuity(knots: &[f64], degree: usize) -> Option<usize> {
     let inner = knots.chunk_by(|a, b| a == b).filter(|group| 0.0 < group[0] && group[0] < 1.0);
     inner.map(|group| degree - group.len()).min()

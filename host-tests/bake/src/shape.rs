@@ -19,10 +19,10 @@ use crate::spline::BakedCoefficients;
 use palpate::patch::{Curvature, Orientation, SecondDerivativeBounds, ShapeBounds};
 use std::collections::VecDeque;
 
-/// Maximum excess of a bound over the values taken, relative to the largest of them in absolute value.
+/// How far a bound may lie beyond the values taken, relative to the largest of them in absolute value.
 pub const SLACK: f64 = 0.02;
-/// Maximum number of halvings of a cell: 9 along each parameter. A pole's cells, which stay without a bound, are then a
-/// 500th of a span wide.
+/// How often a cell is halved at most: 9 times along each parameter. A pole's cells, which stay without a bound, are
+/// then a 500th of a span wide.
 pub const HALVINGS: usize = 18;
 /// Cells of a patch, shared by its spans (each has 1024 at least): a few seconds of work for a rational patch of degree
 /// 5, hundredths for degree 2.
@@ -143,7 +143,7 @@ impl Search {
         }
         let [least, greatest] = self.reached.curvature;
         let scale = least.abs().max(greatest.abs());
-        // If no value is negative, the bound should show that as well as possible.
+        // Where no value is negative the bound is to say so as well as it can.
         let below =
             if least >= -FLAT * scale { (-FLAT * scale).max(least - SLACK * scale) } else { least - SLACK * scale };
         let good_curvature = bounds.curvature[1] <= self.proved.curvature[1].max(greatest + SLACK * scale)

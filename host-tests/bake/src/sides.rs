@@ -108,7 +108,7 @@ impl<'a> Sides<'a> {
             .collect()
     }
 
-    /// The edge's point on its faces.
+    /// Where the faces of an edge have its point.
     fn on_edge(&self, edge: u16, t: f64) -> Vec<(usize, [f64; 2])> {
         let faces = self.body.edges()[usize::from(edge)].faces.into_iter().filter(|of| *of != EdgeFace::NONE);
         let place = |of: EdgeFace| {
@@ -120,7 +120,7 @@ impl<'a> Sides<'a> {
         faces.map(place).collect()
     }
 
-    /// The vertex on the faces that touch it.
+    /// Where faces touch a vertex.
     fn around(&self, vertex: u16) -> Vec<(usize, [f64; 2])> {
         let mut places = Vec::new();
         for (face, of) in self.body.faces().iter().enumerate() {

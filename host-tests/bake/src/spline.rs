@@ -13,7 +13,7 @@ use palpate::patch::span_centre;
 /// of the homogeneous coefficients, 6e-8, by `1/w`: a smaller weight could lose more than 6e-5 of the size.
 const LEAST_WEIGHT: f64 = 1e-3;
 
-/// Relative to the largest coordinate: a few hundred units in the last place of `f64`, a millionth of one of `f32`.
+/// Of the largest coordinate: a few hundred units in the last place of `f64`, a millionth of one of `f32`.
 const NOISE: f64 = 1e-13;
 
 /// All spans of a patch, homogeneous: `(w x, w y, w z, w)`.

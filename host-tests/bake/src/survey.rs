@@ -26,7 +26,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// Angle between the tangents, on a grid of 12 intervals a span.
+/// How the tangents stand to each other, on a grid of 12 intervals a span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Regularity {
     /// The minimum sine of the angle between the tangents, away from poles.
@@ -36,7 +36,7 @@ pub enum Regularity {
     },
     /// The tangents are parallel or vanish at an inner point.
     Singular {
-        /// Parameters of the worst point.
+        /// Where it is worst.
         parameters: [f64; 2],
     },
 }

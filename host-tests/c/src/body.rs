@@ -59,7 +59,7 @@ pub struct FileInfo {
     pub source: [u8; 32],
 }
 
-/// Place of a closest point.
+/// Where a closest point lies.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct Located {

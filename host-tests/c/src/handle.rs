@@ -15,7 +15,7 @@ pub trait Kind: Sized {
     const MARK: usize;
 }
 
-/// Memory of the caller that holds a `T` after [`Self::fill`].
+/// Memory of the caller that holds a `T` after [`Self::make`].
 #[repr(C)]
 pub struct Handle<T> {
     mark: usize,
@@ -53,7 +53,7 @@ impl<T: Kind> Handle<T> {
         }
     }
 
-    /// Address of the value, if this is a handle.
+    /// Where the value lies, if it is a handle.
     ///
     /// # Safety
     /// If it is neither null nor misaligned, there is memory for a handle.
@@ -68,7 +68,7 @@ impl<T: Kind> Handle<T> {
         Ok(unsafe { addr_of!((*place).value) }.cast())
     }
 
-    /// The value, to read.
+    /// The value, to look at.
     ///
     /// # Safety
     /// As [`Self::live`], and nobody writes to it for `'a`.

@@ -1,4 +1,4 @@
-//! Homing of a loop's joints, as numbers.
+//! How a loop finds out where its joints are, as numbers.
 
 use crate::pointers::Plain;
 use crate::status::Status;
@@ -15,7 +15,7 @@ pub struct ReferenceNumbers {
     pub travel: f32,
 }
 
-/// Homing of joints; the numbers of joints that a device does not have are ignored.
+/// How joint angles are found; joints that a device does not have are not looked at.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct HomingNumbers {

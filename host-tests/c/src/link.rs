@@ -91,7 +91,7 @@ pub unsafe extern "C" fn palpate_servo_report(
         if packed.len() > frame_bytes {
             return Err(Status::TooSmall);
         }
-        // SAFETY: not null, and no more bytes than the caller promised, as checked above.
+        // SAFETY: not null, and so many bytes by the caller's promise.
         let place = unsafe { slice::from_raw_parts_mut(first, packed.len()) };
         for (to, from) in place.iter_mut().zip(packed) {
             *to = *from;

@@ -1,4 +1,4 @@
-//! Size of each handle in words of the caller's memory; the header states the same, and a test compares them.
+//! How many words of the caller's memory each handle takes; the header says the same, and a test compares them.
 
 use crate::body::Loaded;
 use crate::handle::Handle;

@@ -9,7 +9,7 @@ use palpate_core::math::Vec3;
 use palpate_core::render::{Coupling, Friction, Passivity};
 use palpate_core::servo::{Rendering, SafeOutput, Safety, Settings};
 
-/// Bridge of a motor; `supply` 0 for an amplifier that controls the current.
+/// How a bridge feeds a motor; `supply` 0 for an amplifier that controls the current.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct VoltageNumbers {
@@ -179,7 +179,7 @@ impl SettingsNumbers {
         }
     }
 
-    /// Material of the surface.
+    /// How the surface feels.
     pub fn rendering(&self) -> Result<Rendering, Status> {
         let friction = Friction {
             stiffness_n_per_m: self.friction_stiffness,

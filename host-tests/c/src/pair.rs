@@ -19,7 +19,7 @@ impl Kind for Paired {
     const MARK: usize = 0x5041_4c50;
 }
 
-/// Position of the second body in the frame of the first.
+/// Where the second body stands in the frame of the first.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct Pose {

@@ -33,7 +33,7 @@ pub trait Running {
     fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status>;
     /// Has it find out where its joints are; refused, with nothing done, after its first tick.
     fn home(&mut self, homing: &HomingNumbers) -> Result<(), Status>;
-    /// Number of joints.
+    /// How many joints it has.
     fn joints(&self) -> usize;
     /// Records an event between two ticks.
     fn note(&mut self, event: Event);

@@ -47,9 +47,9 @@ pub struct Parts<P> {
     pub body: *const Handle<Loaded>,
     /// The settings.
     pub settings: *const SettingsNumbers,
-    /// Its protection.
+    /// How it is guarded.
     pub guarding: P,
-    /// The chip's reset reason.
+    /// Why the chip was reset.
     pub reset: u32,
 }
 
@@ -77,7 +77,7 @@ where
     let (standing, body) = unsafe { Standing::on(body) }?;
     let device: Device<M::Mechanism, JOINTS> = device.device(mechanism.mechanism()?)?;
     let reset = ResetReason::ALL.into_iter().find(|known| *known as u32 == reset).ok_or(Status::OutOfRange)?;
-    // The handle is filled first, with a dangling pointer, which is set once everything in its memory is complete.
+    // Made first, so that what lies in the memory is looked at by nobody until all of it is there.
     let dangling = NonNull::<Loop<M::Mechanism, JOINTS, P::Guard>>::dangling();
     let started = Started { standing, running: dangling, memory: MaybeUninit::uninit() };
     // SAFETY: the place that was vacated. No reference to the whole value is made from here on: only to its parts.

@@ -18,7 +18,7 @@ impl MotorOutput {
     /// Nothing: where there is no loop, or none that could be asked.
     pub const OFF: Self = Self { drives: 0, duties: [0; 3], phase: 0, fault: 0 };
 
-    /// The output of a state.
+    /// Of a state.
     pub fn of<const JOINTS: usize, W: Tracked, G: Remembered>(state: &ServoState<JOINTS, W, G>) -> Self {
         let fault = state.fault().map_or(0, |(fault, _)| u32::from(fault.code()));
         let mut output = Self { phase: state.phase() as u32, fault, ..Self::OFF };
@@ -62,7 +62,7 @@ pub struct StateNumbers {
 unsafe impl Plain for StateNumbers {}
 
 impl StateNumbers {
-    /// The numbers of a state.
+    /// Of a state.
     pub fn of<const JOINTS: usize, W: Tracked, G: Remembered>(state: &ServoState<JOINTS, W, G>) -> Self {
         let (fault, fault_tick) = state.fault().map_or((0, 0), |(fault, tick)| (fault.code(), tick));
         Self {

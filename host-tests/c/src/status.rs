@@ -319,6 +319,8 @@ pub extern "C" fn palpate_fault_text(fault: u32) -> *const c_char {
         Some(Fault::Supply) => c"motor supply out of range or not measured",
         Some(Fault::WrongPolarity) => c"encoder and motor polarity disagree",
         Some(Fault::Calibration) => c"the calibration stored in flash is refused",
+        Some(Fault::Magnet) => c"sensor magnet too strong or too weak",
+        Some(Fault::Frozen) => c"sensor reading frozen",
     };
     text.as_ptr()
 }

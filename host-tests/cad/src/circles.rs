@@ -53,7 +53,7 @@ pub fn cut(mesh: &mut Mesh<'_>, turns: &[Vec<Turns>], pieces: &dyn Fn(&Mesh<'_>,
     }
 }
 
-/// Whether each wire is a closed edge that meets no other.
+/// Which wires are closed edges that meet no other.
 fn free(mesh: &Mesh<'_>) -> Vec<bool> {
     let mut uses = vec![0; mesh.nodes.len()];
     let mut used = vec![false; mesh.wires.len()];

@@ -10,15 +10,15 @@ pub enum ImportError {
     /// The file cannot be opened.
     #[error("cannot read {file}: {cause}")]
     Read {
-        /// The file.
+        /// Which.
         file: String,
-        /// The cause.
+        /// Why.
         cause: std::io::Error,
     },
     /// Not a STEP file, or one that is cut off.
     #[error("{file} is not a whole STEP file: {message}")]
     Syntax {
-        /// The file.
+        /// Which.
         file: String,
         /// The reader's message, with line and column.
         message: String,
@@ -26,7 +26,7 @@ pub enum ImportError {
     /// An entity that the shape needs cannot be read.
     #[error("entity #{id} ({kind}) of {file} cannot be used: {reason}")]
     Entity {
-        /// The file.
+        /// Which file.
         file: String,
         /// Its number.
         id: u64,
@@ -38,7 +38,7 @@ pub enum ImportError {
     /// Not a part's file.
     #[error("{file} has the schema \"{schema}\"; parts of AP203, AP214 and AP242 are imported")]
     Schema {
-        /// The file.
+        /// Which file.
         file: String,
         /// The schema in the file.
         schema: String,
@@ -48,7 +48,7 @@ pub enum ImportError {
         "{file} has no solid and no shell (its schema is \"{schema}\"); curves, sketches and triangle meshes are not imported"
     )]
     NoShape {
-        /// The file.
+        /// Which file.
         file: String,
         /// Its schema.
         schema: String,
@@ -56,7 +56,7 @@ pub enum ImportError {
     /// No solid of the name asked for.
     #[error("{file} has no solid \"{name}\"; it has {known}")]
     NoSolid {
-        /// The file.
+        /// Which file.
         file: String,
         /// The requested name.
         name: String,
@@ -66,23 +66,23 @@ pub enum ImportError {
     /// More than is worth trying.
     #[error("{file} has {count} {what}; {limit} at most are imported")]
     TooMany {
-        /// The file.
+        /// Which file.
         file: String,
-        /// Their number.
+        /// How many.
         count: usize,
-        /// The kind of items.
+        /// Of what.
         what: &'static str,
-        /// The maximum number.
+        /// How many can be.
         limit: usize,
     },
     /// The product structure does not end.
     #[error("the assembly of {file} contains itself, or is nested more than {limit} deep, at \"{product}\"")]
     Cycle {
-        /// The file.
+        /// Which file.
         file: String,
-        /// The product.
+        /// Where.
         product: String,
-        /// The maximum depth.
+        /// How deep it may be.
         limit: usize,
     },
     /// Something about a face.
@@ -108,7 +108,7 @@ impl ImportError {
         Self::Face { face: part.faces[index].label(), reason: reason.into(), index: Some(index) }
     }
 
-    /// The error after the search gave up; `face` is the face with the most effort.
+    /// Where as much was tried as is worth it; `face` is what the most went into.
     pub(crate) fn given_up(self, face: Option<String>) -> Self {
         match (self, face) {
             (Self::Face { face: last, .. }, Some(hardest)) if hardest != last => {

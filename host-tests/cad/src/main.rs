@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::{env, fs};
 
 fn main() -> ExitCode {
-    // A panic of the reader is reported as the fault of the file, without a backtrace.
+    // What a file makes the reader do wrong is reported, and nothing else about it.
     std::panic::set_hook(Box::new(|_| {}));
     match std::panic::catch_unwind(run) {
         Ok(Ok(())) => ExitCode::SUCCESS,

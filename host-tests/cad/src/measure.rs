@@ -1,4 +1,4 @@
-//! Deviations of the result from the part, in both directions; volume and area beside the part's.
+//! How far the result is from the part, both ways; volume and area beside the part's.
 
 use crate::bezier::Bezier;
 use crate::mesh::{Mesh, Side};

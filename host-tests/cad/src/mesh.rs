@@ -11,9 +11,9 @@ use glam::{DVec2, DVec3};
 pub struct Mesh<'p> {
     /// The part.
     pub part: &'p Part,
-    /// Ends of wires.
+    /// Where wires end.
     pub nodes: Vec<DVec3>,
-    /// Curves; those that were cut stay in the list but in no outline.
+    /// Curves; those that were cut stay in the list and in no outline.
     pub wires: Vec<Wire>,
     /// A region a face.
     pub regions: Vec<Region>,
@@ -234,7 +234,7 @@ impl<'p> Mesh<'p> {
         order.into_iter().map(piece).collect()
     }
 
-    /// Length of a wire, and the angle through which its direction turns, by 64 chords.
+    /// How long a wire is, and through what angle its direction turns, by 64 chords.
     pub fn extent(&self, wire: usize) -> (f64, f64) {
         let slopes: Vec<_> = (0..=64).map(|k| self.at(wire, f64::from(k) / 64.0)).collect();
         let length = slopes.windows(2).map(|pair| pair[0][0].distance(pair[1][0])).sum();

@@ -228,7 +228,7 @@ impl Surface {
             let width = self.period(axis);
             (0..=STEPS).all(|k| {
                 let [a, b] = [0, 1].map(|end| at(axis, end, k).first[axis]);
-                // If the lines along the other parameter meet, there is no direction to compare.
+                // Where the lines along the other parameter meet there is no direction to compare.
                 a.dot(b) >= 0.999_99 * a.length() * b.length() || a.length() * width < 1e3 * near
             })
         };

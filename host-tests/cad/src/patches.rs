@@ -7,7 +7,7 @@ use crate::mesh::{Mesh, Quad};
 use crate::{proof, strips};
 use std::collections::{BTreeSet, HashMap};
 
-/// Fraction of the tolerance for the curves of edges.
+/// Of the tolerance, what the curves of edges may use up.
 pub const SHARE_OF_EDGES: f64 = 0.6;
 /// Rounds of cutting.
 const ROUNDS: usize = 12;
@@ -23,11 +23,11 @@ pub const MOST: usize = 1024;
 pub struct Made {
     /// Its face.
     pub face: usize,
-    /// Its place in the face.
+    /// Where in the face it lies.
     pub quad: Quad,
     /// The patch; its parameters run as the quad's.
     pub bezier: Bezier,
-    /// Maximum distance of its borders' curves from the edges.
+    /// How far the curves of its borders are off the edges.
     pub edges_off: f64,
 }
 

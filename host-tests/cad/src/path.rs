@@ -27,7 +27,7 @@ impl Path {
         self.0[0]
     }
 
-    /// Its end.
+    /// Where it ends.
     pub fn end(&self) -> DVec2 {
         self.0[self.0.len() - 1]
     }

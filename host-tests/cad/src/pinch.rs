@@ -108,7 +108,7 @@ fn around(points: &[DVec3]) -> [DVec3; 2] {
     [low - reach, high + reach]
 }
 
-/// Minimum distance of two edges, and its place: from the nearest pairs of samples, by alternating projection.
+/// How near two edges come, and where: from the nearest pairs of samples, to and fro.
 fn nearest(part: &Part, first: usize, second: usize, a: &[DVec3], b: &[DVec3]) -> (f64, DVec3) {
     let reach = |points: &[DVec3]| points.windows(2).map(|pair| pair[0].distance(pair[1])).fold(0.0, f64::max);
     let far = |point: &DVec3| b.iter().map(|other| other.distance(*point)).fold(f64::INFINITY, f64::min);

@@ -13,7 +13,7 @@ pub struct Foot {
     pub uv: DVec2,
     /// Its position.
     pub point: DVec3,
-    /// Distance of the point from it.
+    /// How far the point was from it.
     pub distance: f64,
 }
 

@@ -17,7 +17,7 @@ pub fn is_regular(patch: &Bezier) -> bool {
     proved(patch, poles(patch, 1e-9 * scale), DEPTH)
 }
 
-/// Whether each side is one point: `u = 0`, `u = 1`, `v = 0`, `v = 1`.
+/// Which sides are one point: `u = 0`, `u = 1`, `v = 0`, `v = 1`.
 fn poles(patch: &Bezier, near: f64) -> [bool; 4] {
     let [p, q] = patch.degree;
     let is_point = |points: Vec<DVec3>| points.iter().all(|point| point.distance(points[0]) <= near);
@@ -32,7 +32,7 @@ fn proved(patch: &Bezier, poles: [bool; 4], depth: usize) -> bool {
     let mut normal = DVec3::ZERO;
     for i in 0..p {
         for j in 0..q {
-            // From the cell's diagonals, so that a cell with two corners in one counts too.
+            // Of the cell's diagonals, so that a cell with two corners in one counts too.
             let rising = step(patch.index(i, j), patch.index(i + 1, j + 1));
             normal += rising.cross(step(patch.index(i + 1, j), patch.index(i, j + 1)));
         }

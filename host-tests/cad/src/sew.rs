@@ -103,7 +103,7 @@ fn check_loops(part: &Part, near: f64) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Place of a use of an edge: face, loop, index.
+/// Where an edge is used: face, loop, place.
 type Place = [usize; 3];
 
 /// The edges that have one face, and where.
@@ -221,7 +221,7 @@ fn join(part: &mut Part, near: f64) {
     }
 }
 
-/// Maximum distance of an edge from another, millimetres.
+/// How far an edge strays from another, millimetres.
 fn apart(edge: &Edge, from: &Edge) -> f64 {
     let points = (1..COMPARED).map(|k| from.at(f64::from(k) / f64::from(COMPARED))[0]);
     points.map(|point| edge.nearest(point).1).fold(0.0, f64::max)

@@ -12,7 +12,7 @@ use glam::DVec2;
 pub struct Traced {
     /// Its sides.
     pub sides: Vec<Side>,
-    /// Number of turns around each closed parameter.
+    /// How often it goes round each parameter.
     pub winding: [i32; 2],
 }
 
@@ -66,8 +66,8 @@ pub fn area(sides: &[Side]) -> f64 {
     pairs.map(|(a, b)| 0.5 * a.perp_dot(*b)).sum()
 }
 
-/// At a crease along which a surface meets itself, an edge lies at both ends of the parameter: returns the shift to the
-/// end at which the loop is.
+/// Where a surface meets itself in a crease, an edge there lies at either end of the parameter: the way to the end at
+/// which the loop is.
 fn across_seam(face: &Face, to: DVec2, path: &Path, period: DVec2) -> DVec2 {
     let surface = &face.surface;
     for (axis, unit) in [(0, DVec2::X), (1, DVec2::Y)] {
@@ -173,7 +173,7 @@ fn trace_edge(mesh: &Mesh<'_>, face: &Face, used: Use, limit: f64) -> Result<Pat
         let label = edge.label(used.edge);
         return Err(ImportError::face(face.label(), format!("its {label} lies {farthest:.6} mm off it")));
     }
-    // A straight path needs only two samples.
+    // Of a straight one two samples say all.
     let straight = |k: usize| feet[0].lerp(feet[STEPS], k as f64 / STEPS as f64);
     let scale = surface.period(0).max(surface.period(1));
     if (0..=STEPS).all(|k| feet[k].distance(straight(k)) <= 1e-11 * scale) {

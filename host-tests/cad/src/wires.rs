@@ -10,7 +10,7 @@ use crate::{outline, trace};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 
-/// Extra halvings of edges whose face was too complex: 1 and 2 halve the pieces once and twice.
+/// How finely edges are cut, because a face of theirs was too much: 1 and 2 halve the pieces once and twice.
 pub type Fine = BTreeMap<usize, i32>;
 /// The finest of these levels.
 pub const FINEST: i32 = 2;

@@ -11,7 +11,7 @@ pub const ALIVE: Duration = Duration::from_millis(20);
 /// For how long a device is greeted, and how often meanwhile.
 const GREETS: Duration = Duration::from_millis(1_500);
 const GREETS_EVERY: Duration = Duration::from_millis(150);
-/// Maximum wait of one read of the line.
+/// How long one look at the line waits at most.
 const LOOK: Duration = Duration::from_millis(5);
 /// Maximum bytes read per call: a line that delivers faster than it is read must not block the caller.
 const MOST: usize = 1 << 16;
@@ -27,14 +27,14 @@ pub struct Device<L = Port> {
     pub(crate) line: L,
     receiver: Receiver<DeviceMessage>,
     hello: Hello,
-    /// Number of the last command or part of an upload.
+    /// Of the last order or part of an upload.
     pub(crate) number: u16,
     /// The answer to it.
     pub(crate) answer: Option<Answer>,
     pub(crate) view: Option<(View, Instant)>,
     pub(crate) views: u64,
     pub(crate) record: Option<Record>,
-    /// Last reading of a device in commissioning mode.
+    /// Of a device that is being set up.
     pub(crate) reading: Option<Reading>,
     calibrated: Option<Calibrated>,
     /// The times of the last message sent and of the last greeting.
@@ -97,7 +97,7 @@ impl<L: Line> Device<L> {
     pub fn greet(&mut self) -> Result<Hello, Error> {
         (self.heard, self.view, self.answer, self.record) = (None, None, None, None);
         let (began, bytes, frames) = (self.line.now(), self.bytes, self.frames);
-        // Ends a frame that was cut off before.
+        // What was cut off before ends here.
         self.send_bytes(&[DELIMITER])?;
         while self.since(began) < GREETS {
             self.greeted = self.line.now();
@@ -128,8 +128,8 @@ impl<L: Line> Device<L> {
         self.hello
     }
 
-    /// The calibration in use since the last reset, which the device reports right after its hello; `None` if it cannot
-    /// store one.
+    /// Which calibration it uses since its last reset, as it says right after its hello; `None` of a device that cannot
+    /// keep one.
     pub const fn calibrated(&self) -> Option<Calibrated> {
         self.calibrated
     }
@@ -223,11 +223,11 @@ impl<L: Line> Device<L> {
         self.frames += 1;
         match told {
             DeviceMessage::Hello(hello) => {
-                // A device answers a greeting at once; a later hello means that it was just reset.
+                // An answer to a greeting comes at once; whoever says hello later has just begun.
                 self.is_anew |= self.since(self.greeted) > GREETS_EVERY * 2;
                 self.heard = Some(hello);
             }
-            // Ignore late answers to commands that timed out.
+            // Late answers to what was given up are nobody's.
             DeviceMessage::Answer(answer) if answer.number == self.number => self.answer = Some(answer),
             DeviceMessage::Answer(_) => {}
             DeviceMessage::View(view) => {
@@ -236,13 +236,13 @@ impl<L: Line> Device<L> {
                 self.reading = None;
             }
             DeviceMessage::Record(record) => {
-                // A device that was reset in the middle of a frame loses its hello in it; its ticks restart too.
+                // The hello of one that was reset in the middle of a frame is lost in it; its ticks begin anew too.
                 self.is_anew |= self.record.is_some_and(|last| (record.tick.wrapping_sub(last.tick) as i32) < 0);
                 (self.record, self.reading) = (Some(record), None);
             }
             DeviceMessage::Reading(reading) => self.reading = Some(reading),
             DeviceMessage::Calibrated(calibrated) => self.calibrated = Some(calibrated),
-            // Only in commissioning mode: `palpate commission` reads them.
+            // Of a device that is being set up: `palpate commission` reads them.
             DeviceMessage::Marked(_) => {}
         }
     }

@@ -22,7 +22,7 @@ pub enum Error {
     /// The line broke: unplugged, closed at the other end.
     #[error("{line}: the line broke")]
     Line {
-        /// The line.
+        /// Which.
         line: String,
         /// The operating system's error.
         #[source]
@@ -31,15 +31,15 @@ pub enum Error {
     /// The device says nothing, or nothing any more.
     #[error("{line}: the device has been silent for {:.2} s: is it on, and on this line?", waited.as_secs_f64())]
     Silent {
-        /// The line.
+        /// Which line.
         line: String,
-        /// The waiting time.
+        /// For how long.
         waited: Duration,
     },
     /// Something speaks there, but no frame of it can be read.
     #[error("{line}: {bytes} bytes came and no frame among them: another baud rate, or no such device")]
     Garbled {
-        /// The line.
+        /// Which line.
         line: String,
         /// Bytes received.
         bytes: u64,
@@ -47,7 +47,7 @@ pub enum Error {
     /// The device speaks another version.
     #[error("{line}: the device speaks version {device} of the protocol, this program version {host}")]
     Protocol {
-        /// The line.
+        /// Which line.
         line: String,
         /// The device's version.
         device: u16,
@@ -57,13 +57,13 @@ pub enum Error {
     /// The device has been reset: it feels what it was built with, where that was. [`crate::Device::greet`] goes on.
     #[error("{line}: the device was reset; call `greet()` to start a new session")]
     BeganAnew {
-        /// The line.
+        /// Which line.
         line: String,
     },
     /// The device is in commissioning mode (`palpate commission`): it renders nothing until it is reset.
     #[error("{line}: the device is in commissioning mode, and feels nothing until it is reset")]
     SetUp {
-        /// The line.
+        /// Which line.
         line: String,
     },
     /// The device has refused it; nothing has changed.
@@ -81,7 +81,7 @@ pub enum Error {
         asked: &'static str,
         /// The order's number.
         number: u16,
-        /// Number of transmissions.
+        /// How often it was sent.
         tries: u32,
     },
     /// The bytes to upload are not a valid body file; nothing was sent.
@@ -93,13 +93,13 @@ pub enum Error {
          {most_faces} faces and {most_edges} edges"
     )]
     TooLarge {
-        /// Bytes of the body.
+        /// Of the body.
         bytes: usize,
-        /// Faces of the body.
+        /// Of the body.
         faces: usize,
-        /// Edges of the body.
+        /// Of the body.
         edges: usize,
-        /// Available bytes, according to the device.
+        /// Bytes, as the device says.
         room: u32,
         /// Faces, as the device says.
         most_faces: u16,
@@ -109,12 +109,12 @@ pub enum Error {
     /// The device does not say that it has stopped. Take its supply away.
     #[error("{line}: stop was sent {tries} times, and the device does not say that it has stopped: press its own stop")]
     NotStopped {
-        /// The line.
+        /// Which line.
         line: String,
-        /// Number of tries.
+        /// How often.
         tries: u32,
     },
-    /// The device is stopped by a fault that the host cannot clear.
+    /// The device is stopped by a fault that no word of a host's takes back.
     #[error("the device stays stopped: {0}")]
     Fault(Fault),
 }

@@ -9,9 +9,9 @@ use std::time::Duration;
 /// Time without an answer after which a request is repeated, under the same number. An adapter may hold bytes back for
 /// 16 ms each way, and at 115,200 baud the frame on its way takes 8 ms more.
 pub const ANSWER: Duration = Duration::from_millis(100);
-/// Maximum number of transmissions of a command.
+/// How often something is asked for in all.
 pub const TRIES: u32 = 5;
-/// Maximum number of waits for a busy device, and the length of each.
+/// How often, and how long each time, a device is waited for that is busy with something else.
 pub(crate) const BUSY: (u32, Duration) = (50, Duration::from_millis(10));
 
 impl<L: Line> Device<L> {

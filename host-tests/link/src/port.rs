@@ -6,7 +6,7 @@ use serialport::{ClearBuffer, SerialPort};
 use std::io;
 use std::time::Duration;
 
-/// Maximum wait for a port that accepts no bytes.
+/// How long a port that takes nothing is waited for.
 const SENDS: Duration = Duration::from_millis(250);
 
 /// A device at a serial port.

@@ -41,7 +41,7 @@ impl<L: Line> Device<L> {
         self.view(wait)
     }
 
-    /// Position of the tool's tip, metres, in the scene's frame.
+    /// Where the tool's tip is, metres, in the scene's frame.
     ///
     /// # Errors
     /// As [`Self::view`].

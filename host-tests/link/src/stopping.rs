@@ -5,7 +5,7 @@ use palpate::servo::Fault;
 use palpate::wire::HostMessage;
 use std::time::Duration;
 
-/// Maximum time for which the stop is repeated without a confirmation.
+/// How long the stop is repeated without a confirmation.
 const STOPS: Duration = Duration::from_millis(500);
 
 impl<L: Line> Device<L> {
@@ -15,7 +15,7 @@ impl<L: Line> Device<L> {
     /// # Errors
     /// A line that broke, or no confirmation: then disconnect the device's supply.
     pub fn stop(&mut self) -> Result<(), Error> {
-        // Earlier messages do not confirm this stop.
+        // What was heard before is from before.
         (self.view, self.record, self.reading) = (None, None, None);
         let (began, mut tries) = (self.line.now(), 0);
         while self.since(began) < STOPS {

@@ -7,11 +7,11 @@ use palpate::scene::Command;
 use palpate::wire::{CHUNK, HostMessage, Refused, Upload, UploadError};
 use std::time::Duration;
 
-/// Maximum time for the check of a whole body, which the device runs below its ticks.
+/// How long the device may take to check a whole body, which it does below its ticks.
 const CHECKS: Duration = Duration::from_secs(2);
-/// Maximum number of requests for a part that was sent already.
+/// How often the device may ask for a part that it has been sent.
 const RESUMES: u32 = 100;
-/// Maximum number of transmissions of a part: parts are longer than commands, there are many, and each may come twice.
+/// How often a part is sent in all: it is longer than an order, there are many, and it may come twice.
 const PART_TRIES: u32 = 20;
 
 impl<L: Line> Device<L> {
@@ -86,7 +86,7 @@ impl<L: Line> Device<L> {
             match self.part(part, patience) {
                 Ok(()) if part == Upload::End => return Ok(()),
                 Ok(()) => at = (at + CHUNK).min(file.len()),
-                // Continue at the position that the device reports.
+                // Where the device says that it is.
                 Err(Error::Refused { reason: Refused::Upload(UploadError::Order { at: wanted }), .. })
                     if resumes > 0 =>
                 {

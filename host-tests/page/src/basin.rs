@@ -1,4 +1,4 @@
-//! Starts from which each method finds the closest point of a patch.
+//! From where each method finds the closest point of a patch.
 
 use alloc::vec::Vec;
 use palpate::math::Vec3;
@@ -77,13 +77,13 @@ fn is_outside(parameters: [f32; 2]) -> bool {
     !parameters.iter().all(|parameter| (0.0..=1.0).contains(parameter))
 }
 
-// The page's comparison with the controller: Newton's method as in the paper, in the `f32` of the firmware's own
-// tables.
+// What the page shows beside the controller: Newton's method, as the paper compares with it, in the `f32` of the
+// firmware's own tables.
 
-/// Errors that it drives to zero, and its rule at a border.
+/// Which errors it drives to zero, and what it does at a border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Newton {
-    /// The paper's: the measure numbers `Ψ` of Eq. (4); a run that leaves the patch fails.
+    /// The paper's: the measure numbers `Ψ` of Eq. (4); what leaves the patch has failed.
     Paper,
     /// The same with saturation: a parameter that would pass its border stops there.
     Saturated,

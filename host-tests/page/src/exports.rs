@@ -76,25 +76,25 @@ pub extern "C" fn input(bytes: usize) -> *const u32 {
     state.input.as_ptr()
 }
 
-/// Address of the numbers.
+/// Where the numbers are.
 #[unsafe(no_mangle)]
 pub extern "C" fn output() -> *const f32 {
     STATE.lock().output.as_ptr()
 }
 
-/// Number of the numbers.
+/// How many there are.
 #[unsafe(no_mangle)]
 pub extern "C" fn output_length() -> usize {
     STATE.lock().output.len()
 }
 
-/// Address of the text, in UTF-8.
+/// Where the words are, in UTF-8.
 #[unsafe(no_mangle)]
 pub extern "C" fn text() -> *const u8 {
     STATE.lock().text.as_ptr()
 }
 
-/// Length of the text, bytes.
+/// How many bytes there are.
 #[unsafe(no_mangle)]
 pub extern "C" fn text_length() -> usize {
     STATE.lock().text.len()
@@ -230,7 +230,7 @@ pub extern "C" fn way(face: u32, x: f32, y: f32, z: f32, u: f32, v: f32, method:
         let Some(patch) = patch_of(stage, face) else { return };
         for [u, v] in basin::path(patch, vec3(x, y, z), [u, v], Method::of(method)) {
             out.extend([u, v]);
-            // A point outside the patch is drawn at its border.
+            // What has left the patch is shown at its border.
             out.extend(patch.evaluate(u.clamp(0.0, 1.0), v.clamp(0.0, 1.0)).point.to_array());
         }
     })

@@ -153,7 +153,7 @@ impl FeltWitness {
         }
     }
 
-    /// The face, edge or vertex of the witness point.
+    /// Which face, edge or vertex it lies on.
     pub fn place(&self) -> Feature {
         match &self.kept {
             Kept::Body(witness) => witness.feature,

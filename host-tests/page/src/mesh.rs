@@ -57,7 +57,7 @@ fn placed(face: &palpate::body::Face<'static>, [u, v]: [f32; 2]) -> [Vec3; 2] {
     [witness.surface.point, normal]
 }
 
-// The border of a feature's Voronoi region, as sheets of rays that start on the body.
+// The border of a feature's Voronoi region, as sheets of rays that begin on the body.
 //
 // A face's region ends where its normals along its border stand; an edge's is the wedge between the normals of its
 // two faces, closed at its ends; a vertex's is the cone between such ends.

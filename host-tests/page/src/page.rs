@@ -211,7 +211,7 @@ pub fn force_of(device: &Device<Slides, 3>, duties: [f32; 3]) -> Vec3 {
 
 // The hand that holds the device: it wants to be where the pointer is, and the device pushes back.
 
-/// Impedance of a hand at a handle.
+/// How a hand holds a handle.
 #[derive(Clone, Copy, Debug)]
 pub struct Grip {
     /// Mass of hand and handle, kg.
@@ -227,7 +227,7 @@ impl Grip {
     pub const LIGHT: Self = Self { mass: 0.05, stiffness: 400.0, damping: 8.944_272 };
 }
 
-/// Position and velocity of the handle.
+/// Where the handle is, and how fast.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hand {
     /// Metres.

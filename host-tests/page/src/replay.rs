@@ -16,10 +16,10 @@ use palpate::wire::frame::{DELIMITER, Received, Receiver};
 use palpate::wire::{DeviceMessage, Record};
 use palpate_sim::recorded::{Mechanism, Recorded, SceneNumbers};
 
-/// Settings of a run.
+/// How a run was made.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// The device.
+    /// On which device.
     pub on: Recorded,
     /// The loop's settings.
     pub settings: Settings,
@@ -29,7 +29,7 @@ pub struct Run {
     pub scene: Option<SceneNumbers>,
 }
 
-/// Number of the loop's settings.
+/// How many numbers the loop's settings are.
 const SETTINGS: usize = 9;
 
 impl Run {

@@ -68,9 +68,9 @@ pub fn write<S: Sighted, G: Remembered>(
     surface.places(kept, out);
 }
 
-// The witness point of a surface: on a patch, on a body, or on one of several bodies that move.
+// Where a surface's witness point is seen: on a patch, on a body, or on one of several bodies that move.
 
-/// A witness point in the frame that its surface was baked in, and the position of that frame.
+/// A witness point in the frame that its surface was baked in, and where that frame is.
 #[derive(Clone, Copy, Debug)]
 pub struct Sight<'a> {
     /// The tracker's state.
@@ -83,13 +83,13 @@ pub struct Sight<'a> {
     pub normal: Vec3,
     /// Evaluations of patches in the last tick; `None` if several bodies share a tick.
     pub spent: u8,
-    /// Position of the frame.
+    /// Of the frame.
     pub place: Placement,
 }
 
 /// A surface that can be looked at.
 pub trait Sighted: Surface + 'static {
-    /// Its witness point.
+    /// Where its witness point is.
     fn sight<'a>(&'static self, kept: &'a Self::Witness) -> Sight<'a>;
 
     /// The body in contact and the position of each body; nothing for a fixed surface.

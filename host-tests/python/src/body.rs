@@ -41,7 +41,7 @@ impl Body {
         (point.as_dvec3() + self.model.centre).to_array()
     }
 
-    /// Origin of its tables in the model, m.
+    /// Where the origin of its tables lies in the model, m.
     pub fn middle(&self) -> DVec3 {
         self.model.centre
     }

@@ -11,7 +11,7 @@ use std::io::{self, ErrorKind, Read as _};
 use std::sync::{Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
-/// Maximum wait for bytes before the clock and Python's signals are checked.
+/// How long to wait for bytes before looking at the clock, and at Python's signals.
 const LOOK: Duration = Duration::from_millis(20);
 
 /// A serial port, and what came in parts.

@@ -74,7 +74,7 @@ fn of_part(path: &Path, tolerance: f64) -> Result<String, Refusal> {
         return Err(Refusal::Model(format!("a tolerance of {tolerance} m is not between 1e-9 and 1 m")));
     }
     let options = Options { tolerance: tolerance * 1e3, ..Options::default() };
-    // A panic of the reader is the fault of the file, not of Python.
+    // What a file makes the reader do wrong is its fault, not Python's.
     match catch_unwind(|| palpate_cad::import(path, &options)) {
         Ok(Ok(imported)) => Ok(imported.model),
         Ok(Err(error)) => Err(Refusal::Model(error.to_string())),

@@ -9,7 +9,7 @@ use palpate::math::Vec3;
 use palpate::track::{PairTracker, PairWitness, Placement};
 use pyo3::prelude::*;
 
-/// Maximum error of axes that should be orthogonal units: the rounding of products.
+/// How far axes may be from units at right angles: what products of rounded numbers leave, and no more.
 const SKEW: f64 = 1e-6;
 
 /// Two witness points.
@@ -45,7 +45,7 @@ fn axes(row: usize, numbers: &[f64; 9]) -> Result<[DVec3; 3], Refusal> {
     Err(Refusal::Array(format!("axes[{row}] are not three right-handed units at right angles, a row each")))
 }
 
-/// Position of the second model's tables in the first's.
+/// Where the tables of the second model lie in those of the first.
 fn placement([first, second]: [&Body; 2], origin: [f64; 3], axes: [DVec3; 3]) -> Placement {
     let [x, y, z] = axes;
     let centre = second.middle();

@@ -9,7 +9,7 @@ const RESTS: u32 = 8;
 /// The period of a step, s. It matters to no law here: both take the gain that is certified.
 const PERIOD: f32 = 1e-3;
 
-/// End of each start, and its number of steps; at most `most` of them.
+/// Where each start ends, and after how many steps; `most` of them at most.
 pub fn settle(
     patch: &SplinePatch<'_>,
     controller: &Controller,

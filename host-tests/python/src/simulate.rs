@@ -27,9 +27,9 @@ const GRID: u16 = 16;
 pub struct Wishes {
     /// Servo rate, Hz.
     pub rate: f32,
-    /// Duration, s.
+    /// How long, s.
     pub seconds: f64,
-    /// Seed of the hand's path.
+    /// Of the hand's path.
     pub seed: u64,
     /// N/m.
     pub stiffness: Option<f32>,
@@ -43,7 +43,7 @@ pub struct Wishes {
     pub soft_start: f32,
     /// With all protection of the device.
     pub protected: bool,
-    /// Origin of the tables in the device's workspace, m; centres the body if not given.
+    /// Where the origin of the tables lies in the device's workspace, m; centres the body if not given.
     pub origin: Option<DVec3>,
 }
 
@@ -55,7 +55,7 @@ pub struct Sample {
     pub counts: [i32; 3],
     /// The loop's answer.
     pub report: Report,
-    /// True position of the simulated probe, m, in the device's frame.
+    /// Where the simulated probe really was, m, in the device's frame.
     pub hand: [f64; 3],
 }
 
@@ -168,7 +168,7 @@ fn plant<K: Kinematics<3>>(
         .map_err(|error| advice(&error))
 }
 
-/// Place for a hand's touch, seen from the body's middle: the closest point to a place outside in this direction, and
+/// Where a hand may touch, seen from the body's middle: the closest point to a place outside in this direction, and
 /// the direction back. Continuous around a convex body, edges and corners included.
 fn place(body: &Body<'_>, middle: Vec3, direction: [f64; 3]) -> (DVec3, DVec3) {
     let outside = middle + DVec3::from_array(direction).as_vec3() * body.size();

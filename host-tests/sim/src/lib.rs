@@ -6,6 +6,7 @@
 //! - [`recorded`]: devices and scenes as plain numbers, also without a standard library;
 //! - [`feel`]: scripted hands, and the force that they get as figures;
 //! - [`zwidth`]: the maximum stiffness of a wall on a device;
+//! - [`magnetic`]: magnetic angle sensors at a board's bus (feature `boards`);
 //! - [`rig`]: the boards' loop at simulated pins, and [`knob`], its loop of one joint (feature `boards`);
 //! - [`simulated`]: the boards' loop and a simulated arm as a line to talk with (feature `link`).
 
@@ -19,6 +20,8 @@ pub mod devices;
 pub mod feel;
 #[cfg(feature = "boards")]
 pub mod knob;
+#[cfg(feature = "boards")]
+pub mod magnetic;
 #[cfg(feature = "std")]
 pub mod plant;
 pub mod recorded;

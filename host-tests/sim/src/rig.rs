@@ -1,5 +1,6 @@
 //! A simulated bench: the device in a hand, amplifiers that read their pins, a panel with wires that may break.
 
+use crate::magnetic::{Joints, SharedTable, table};
 use crate::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
 use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
@@ -64,6 +65,10 @@ pub struct World {
     pub bad: u32,
     /// The kind of the bad frames.
     pub kind: BadFrame,
+    /// Of every `[_, n]` frames this number is bad, one after the other; `[0, 1]` is none.
+    pub bad_of: [u32; 2],
+    /// Frames so far.
+    pub frames: u32,
     /// Counts by which the counters differ from the plant: joints that a test turns itself.
     pub turned: [i32; 3],
     /// Counts that the timers captured at marks since the last query.
@@ -203,10 +208,16 @@ impl Readings<3> for Timers {
     }
 }
 
+/// The sensors: counters, or magnetic sensors of 2¹⁴ counts a turn on the boards' driver.
+enum Reader {
+    Counters(Counters<Timers, 3>),
+    Magnetic(SharedTable, Joints),
+}
+
 /// Sensors that deliver some bad frames, and that take time.
 pub struct Spoilt {
     world: Shared,
-    counters: Counters<Timers, 3>,
+    reader: Reader,
     /// Difference of counters and joints at the first reading: in most tests the loop is homed from the start.
     ahead: Option<[i32; 3]>,
 }
@@ -216,20 +227,42 @@ impl Sensors<3> for Spoilt {
         {
             let mut world = self.world.borrow_mut();
             world.cycles = world.cycles.wrapping_add(world.reading);
-            if world.bad > 0 {
-                world.bad -= 1;
+            world.frames += 1;
+            let [bad, of] = world.bad_of;
+            let is_bad = world.bad > 0 || world.frames % of < bad;
+            world.bad = world.bad.saturating_sub(1);
+            if is_bad {
                 return Err(world.kind);
             }
         }
-        let counts = self.counters.read()?;
+        let counts = match &mut self.reader {
+            Reader::Counters(counters) => counters.read()?,
+            Reader::Magnetic(table, angles) => {
+                let (world, mut table) = (self.world.borrow(), table.borrow_mut());
+                for ((chip, counts), turned) in table.chips.iter_mut().zip(world.plant.counts()).zip(world.turned) {
+                    // The last bit of such a sensor is never quiet.
+                    chip.angle = ((counts + turned) as u32 & 0x3fff) as u16 ^ (world.frames & 1) as u16;
+                }
+                drop((world, table));
+                angles.read()?
+            }
+        };
         let joints = self.world.borrow().plant.counts();
         let ahead = *self.ahead.get_or_insert_with(|| core::array::from_fn(|joint| counts[joint].0 - joints[joint]));
         Ok(core::array::from_fn(|joint| Counts(counts[joint].0 - ahead[joint])))
     }
 
     fn marks(&mut self) -> [Option<Counts>; 3] {
-        let (marks, ahead) = (self.counters.marks(), self.ahead.unwrap_or_default());
+        let Reader::Counters(counters) = &mut self.reader else { return [None; 3] };
+        let (marks, ahead) = (counters.marks(), self.ahead.unwrap_or_default());
         core::array::from_fn(|joint| marks[joint].map(|mark| Counts(mark.0 - ahead[joint])))
+    }
+
+    fn gains(&self) -> [u8; 3] {
+        match &self.reader {
+            Reader::Counters(_) => [0; 3],
+            Reader::Magnetic(_, angles) => angles.gains(),
+        }
     }
 }
 
@@ -313,6 +346,8 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
         measured: Some,
         bad: 0,
         kind: BadFrame::Damaged,
+        bad_of: [0, 1],
+        frames: 0,
         turned: [0; 3],
         caught: [None; 3],
         reading: 200,
@@ -346,7 +381,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
     let board = Parts {
         counter: SimulatedClock(of()),
         timer: Interrupts,
-        sensors: Spoilt { world: of(), counters: Counters::new(Timers(of()), steps), ahead: None },
+        sensors: Spoilt { world: of(), reader: Reader::Counters(Counters::new(Timers(of()), steps)), ahead: None },
         drives: [amplifier(0), amplifier(1), amplifier(2)],
         lines: Lines {
             enable: In(of(), |world| world.button),
@@ -383,6 +418,18 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         let (producer, records) = queue.split();
         let bench = Bench::new(made, board, settings, reset, producer, mailbox);
         Self { world, bench, mailbox, records: Some(records) }
+    }
+
+    /// Magnetic sensors in the place of the counters, started; their failures are planted in the table.
+    ///
+    /// # Panics
+    /// If they do not start.
+    pub fn with_magnetic_sensors(&mut self) -> SharedTable {
+        let (shared, mut joints) = table(CLOCK, LOOK.into());
+        joints.start().unwrap();
+        let sensors = &mut self.bench.board().sensors;
+        (sensors.reader, sensors.ahead) = (Reader::Magnetic(Rc::clone(&shared), joints), None);
+        shared
     }
 
     /// The receiving end of the telemetry queue.

@@ -15,7 +15,7 @@ pub struct Solver<'a> {
     is_closed: bool,
 }
 
-/// Kind of search that found a closest point.
+/// How a closest point was come by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Cold: every candidate was searched to its end.
@@ -44,7 +44,7 @@ pub struct Found {
     pub is_inside: bool,
     /// Evaluations of patches spent.
     pub evaluations: u32,
-    /// Kind of search.
+    /// How.
     pub status: Status,
 }
 

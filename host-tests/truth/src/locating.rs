@@ -95,7 +95,7 @@ pub fn check(
         let mut checked = Checked::default();
         for _ in 0..CHUNK.min(count - index * CHUNK) {
             let along = DVec3::from_array(std::array::from_fn(|_| random.between(0.0, f64::from(baked.side))));
-            // The target gets an `f32`.
+            // What the target gets is an f32.
             let probe = (baked.corner.as_dvec3() + along).as_vec3().as_dvec3();
             one(model, &oracles, surfaces, &locator, [size, inside, tolerance], probe, &mut checked);
         }

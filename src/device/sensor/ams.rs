@@ -27,12 +27,14 @@ const READY: u16 = 1 << 8;
 const OVERFLOW: u16 = 1 << 9;
 /// Diagnostics: the field is too strong or too weak; which bit is which differs.
 const FIELD: u16 = 0b11 << 10;
+/// Diagnostics: the automatic gain.
+const GAIN: u16 = 0xff;
 
 /// One sensor. The bus runs in mode 1 (clock idle low, sampled on the falling edge), at most 10 MHz, 16 bits a frame.
 ///
-/// **The data in a frame answer the frame before.** Read once a tick, the angle is that of the last tick's end: a whole
-/// period old, which the stability bound must count as delay. [`Self::read_fresh`] spends two frames instead and is as
-/// old as one frame takes, about 2 µs.
+/// **The data in a frame answer the frame before.** So a reading is two frames: the second requests the diagnostics,
+/// which the first of the next reading brings. Settled bit, field flags and gain are checked in every reading and cost
+/// no frame of their own.
 ///
 /// A frame: bit 15 makes the parity of the whole even; bit 14 asks for a read, or answers that the last command was
 /// damaged; the rest is address or data (data sheets of both chips).
@@ -40,7 +42,15 @@ const FIELD: u16 = 0b11 << 10;
 pub struct AmsAngle<S> {
     bus: S,
     chip: AmsChip,
-    asked: bool,
+}
+
+/// One reading of the sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AmsReading {
+    /// The angle during the last frame, about 2 µs old, 0 to 16,383 a turn.
+    pub angle: u16,
+    /// The chip's automatic gain at the end of the reading before: low in a strong field, 255 in a weak one.
+    pub gain: u8,
 }
 
 /// The frame with bit 15 set so that the number of ones is even.
@@ -51,7 +61,7 @@ const fn with_parity(frame: u16) -> u16 {
 impl<S: SpiDevice<u8>> AmsAngle<S> {
     /// A sensor on its bus. Nothing is sent yet.
     pub const fn new(bus: S, chip: AmsChip) -> Self {
-        Self { bus, chip, asked: false }
+        Self { bus, chip }
     }
 
     /// Gives the bus back.
@@ -59,15 +69,12 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
         self.bus
     }
 
-    /// Clears the sensor's error flags, checks that it is there, settled and sees its magnet, and asks for the angle.
-    /// Three frames. Call it before the first [`Self::read`] and after any error.
-    ///
-    /// A bus that is stuck low reads as parity-clean zeros; the settled bit, which is then missing, tells that apart.
+    /// Clears the sensor's error flags, checks that it is there, settled and sees its magnet, and requests the
+    /// diagnostics of the first reading. Three frames. Call it before the first [`Self::read`] and after any error.
     ///
     /// # Errors
     /// [`SensorError::Absent`], [`SensorError::Magnet`], and the errors of a frame.
     pub fn start(&mut self) -> Result<(), SensorError<S::Error>> {
-        self.asked = false;
         // The answer to this first frame belongs to an unknown request: an error flag in it is about to be cleared.
         self.exchange(ERRORS)?;
         match self.exchange(self.diagnostics()).and_then(Self::checked) {
@@ -75,54 +82,31 @@ impl<S: SpiDevice<u8>> AmsAngle<S> {
             Ok(_) | Err(SensorError::Refused) => {}
             Err(error) => return Err(error),
         }
-        let health = self.exchange(ANGLE).and_then(Self::checked)?;
-        if health & READY == 0 {
+        let diagnostics = self.exchange(self.diagnostics()).and_then(Self::checked)?;
+        Self::gain(diagnostics).map(|_| ())
+    }
+
+    /// The angle now. Two frames.
+    ///
+    /// # Errors
+    /// Bus, parity, the error flag, a bus that gives only ones or only zeros, a sensor that is not settled, and a field
+    /// that is too strong or too weak. The angle of such a reading is not to be used.
+    pub fn read(&mut self) -> Result<AmsReading, SensorError<S::Error>> {
+        let diagnostics = self.exchange(ANGLE).and_then(Self::checked)?;
+        let gain = Self::gain(diagnostics)?;
+        let angle = self.exchange(self.diagnostics()).and_then(Self::checked)?;
+        Ok(AmsReading { angle, gain })
+    }
+
+    /// The gain in good diagnostics. A bus that is stuck low reads as parity-clean zeros: the settled bit tells.
+    fn gain(diagnostics: u16) -> Result<u8, SensorError<S::Error>> {
+        if diagnostics & READY == 0 {
             return Err(SensorError::Absent);
         }
-        if health & (OVERFLOW | FIELD) != 0 {
+        if diagnostics & (OVERFLOW | FIELD) != 0 {
             return Err(SensorError::Magnet);
         }
-        self.asked = true;
-        Ok(())
-    }
-
-    /// The angle as it was at the end of the last frame, 0 to 16,383 a turn; requests the next. One frame. `None` if
-    /// the last frame did not request it: after an error, before [`Self::start`]. At angle zero, three frames, because
-    /// a dead line reads zero too.
-    ///
-    /// # Errors
-    /// Bus, parity, the error flag, or a bus that gives only ones or only zeros.
-    pub fn read(&mut self) -> Result<Option<u16>, SensorError<S::Error>> {
-        let asked = core::mem::replace(&mut self.asked, false);
-        let angle = self.exchange(ANGLE).and_then(Self::checked)?;
-        if asked && angle == 0 {
-            self.answers()?;
-        }
-        self.asked = true;
-        Ok(asked.then_some(angle))
-    }
-
-    /// The angle as it is now, to a frame. Two frames; at angle zero four, as above.
-    ///
-    /// # Errors
-    /// As [`Self::read`].
-    pub fn read_fresh(&mut self) -> Result<u16, SensorError<S::Error>> {
-        self.asked = false;
-        self.exchange(ANGLE).and_then(Self::checked)?;
-        let angle = self.exchange(ANGLE).and_then(Self::checked)?;
-        if angle == 0 {
-            self.answers()?;
-        }
-        self.asked = true;
-        Ok(angle)
-    }
-
-    /// Whether the sensor is there at all, once it has said zero: a line that is stuck low reads as that, without a
-    /// flaw. The diagnostics of a sensor that is there are never zero. Asks for the angle again.
-    fn answers(&mut self) -> Result<(), SensorError<S::Error>> {
-        self.exchange(self.diagnostics())?;
-        let health = self.exchange(ANGLE).and_then(Self::checked)?;
-        if health & READY == 0 { Err(SensorError::Absent) } else { Ok(()) }
+        Ok((diagnostics & GAIN) as u8)
     }
 
     const fn diagnostics(&self) -> u16 {

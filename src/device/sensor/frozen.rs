@@ -14,6 +14,9 @@ pub struct Frozen {
 }
 
 impl Frozen {
+    /// For an AS5047P: 1,000 equal readings, a quarter of a second at 4 kHz.
+    pub const AS5047P: Self = Self::after(1_000);
+
     /// A detector that accepts up to `most` equal readings in a row.
     pub const fn after(most: u32) -> Self {
         Self { most, last: None, same: 0 }

@@ -1,12 +1,14 @@
 //! Position sensors, by embedded-hal: from frames to validated [`Counts`](super::Counts).
 
 mod ams;
+mod error_rate;
 mod frozen;
 mod mt6701;
 mod quadrature;
 mod unwrap;
 
-pub use ams::{AmsAngle, AmsChip};
+pub use ams::{AmsAngle, AmsChip, AmsReading};
+pub use error_rate::ErrorRate;
 pub use frozen::Frozen;
 pub use mt6701::{Mt6701, Mt6701Reading};
 pub use quadrature::Quadrature;

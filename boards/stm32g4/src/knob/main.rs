@@ -19,8 +19,8 @@ use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Cycles, Shared};
-use palpate_bench::knob::{FROZEN, JOG, SETTINGS, SUPPLY};
-use palpate_bench::sensors::{Angles, Watched, max_step};
+use palpate_bench::knob::{JOG, SETTINGS, SUPPLY};
+use palpate_bench::sensors::{Angles, max_step};
 use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Memo, Parts, Settings};
 use palpate_stm32g4::{CLOCK, Iwdg, MEMO, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
@@ -38,7 +38,7 @@ const BENCH: Settings = Settings { supply: Some(SUPPLY), jog: Some(JOG), ..Setti
 
 type Pin = AnyPin<Input>;
 type Bus = Spi<SPI1, (PA5<AF5>, PA6<AF5>, PA7<AF5>)>;
-type Sensor = Watched<Angles<Bus, PB6<Output>, CycleDelay<Cycles>, 1>, 1>;
+type Sensor = Angles<Bus, PB6<Output>, CycleDelay<Cycles>, 1>;
 type Board = Parts<Cycles, Ticks, Sensor, [Stage; 1], Pin, Pin, Pin, Volts, NoPin, 2>;
 type Loop = Bench<'static, This, Board, 1>;
 
@@ -84,7 +84,7 @@ fn main() -> ! {
     let board = Parts {
         counter: cycles,
         timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
-        sensors: Watched::new(sensor, FROZEN),
+        sensors: sensor,
         drives: [stage],
         lines: Lines {
             // The blue button: high while pressed.

@@ -74,7 +74,7 @@ impl BakedCurve {
     }
 }
 
-// Limit of a face's Voronoi region along one of its sides.
+// Where a face's Voronoi region ends along one of its sides.
 
 /// [`palpate::body::Separator`] with the numbers owned.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,8 +154,8 @@ fn plane(patch: &NurbsPatch, border: Border) -> Option<BakedSeparator> {
     }
     let conormal = middle.conormal();
     let rounded = (conormal / middle.across.dot(conormal)).as_vec3();
-    // From the stored vector, so that the plane contains the middle of the border; it is the plane of the whole border
-    // within the tolerances.
+    // Of the stored vector, so that the plane holds the middle of the border; it is that of the whole within the
+    // tolerances.
     let offset = rounded.as_dvec3().dot(middle.point);
     Some(BakedSeparator::Plane { across: rounded.to_array(), offset: offset as f32 })
 }

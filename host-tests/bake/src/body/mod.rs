@@ -54,7 +54,7 @@ pub struct BakedFace {
     pub sides: [BakedSide; 4],
     /// The surface in double precision.
     pub surface: NurbsPatch,
-    /// Its part of the model.
+    /// Which part of the model it is.
     pub source: Provenance,
 }
 
@@ -67,7 +67,7 @@ pub enum BakedSide {
         edge: u16,
         /// Whether it runs against the face's parameter.
         reversed: bool,
-        /// Limit of the face's region.
+        /// Where the face's region ends.
         separator: BakedSeparator,
     },
     /// One point.
@@ -88,7 +88,7 @@ pub struct BakedEdge {
     pub faces: [EdgeFace; 2],
     /// The vertices at its ends.
     pub ends: [u16; 2],
-    /// Kind of the edge between the faces.
+    /// How the faces meet.
     pub kind: EdgeKind,
 }
 
@@ -98,7 +98,7 @@ pub enum TableFault {
     /// In a patch.
     #[error("face {face}: {error}")]
     Patch {
-        /// The face.
+        /// Which.
         face: usize,
         /// The refusal.
         error: TableError,
@@ -134,7 +134,7 @@ impl BakedBody {
         }
     }
 
-    /// Maximum distance of some points, metres, from the bounding box along any axis, in sizes; 0 if all are inside.
+    /// How far any of some points, metres, is beyond the bounding box along any axis, in sizes; 0 if none is.
     pub fn sizes_beyond(&self, points: &[DVec3]) -> f64 {
         let surfaces: Vec<_> = self.faces.iter().map(|face| StoredSurface::new(&face.patch)).collect();
         let [low, high] = extent(&surfaces);
@@ -344,7 +344,7 @@ fn is_convex(topology: &Topology, patches: &[NurbsPatch], baked: &[BakedPatch]) 
     edges && topology.is_closed() && topology.components() == 1 && patches.iter().zip(baked).all(face)
 }
 
-/// Flatness relative to the size: the nine digits of a model file give no more.
+/// Of the size: nine digits of a model file leave no more.
 const FLAT: f64 = 1e-8;
 
 /// Whether all control points lie in one plane, and with them, as means of them, all points.

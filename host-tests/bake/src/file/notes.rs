@@ -23,9 +23,9 @@ pub struct Notes {
 /// A host's notes on a face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceNotes {
-    /// Its part of the model.
+    /// Which part of the model it is.
     pub source: Provenance,
-    /// Number of continuous derivatives at each inner span border along `u` and along `v`.
+    /// How many derivatives are continuous at each inner span border along `u` and along `v`.
     pub continuity: [Vec<u8>; 2],
 }
 
@@ -177,7 +177,7 @@ pub enum FileFault {
     /// The notes are not what they should be.
     #[error("the notes for the host (section NOTE) are malformed at byte {at}")]
     Notes {
-        /// Offset from the section's first byte.
+        /// Where, from the section's first byte.
         at: usize,
     },
     /// A weight of a face is not positive: it is no NURBS patch.
@@ -189,7 +189,7 @@ pub enum FileFault {
     /// Beyond what a file can hold.
     #[error("the tables are too large for a file: {bytes} bytes")]
     TooLarge {
-        /// Number of bytes of the file.
+        /// How many bytes there would be.
         bytes: usize,
     },
 }

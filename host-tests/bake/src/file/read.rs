@@ -123,7 +123,7 @@ fn edge(edge: &Edge<'_>) -> BakedEdge {
     }
 }
 
-/// Topology of the features, from the tables.
+/// How the features hang together, as the tables say.
 fn topology(body: &Body<'_>) -> Topology {
     let sense = |reversed: bool| if reversed { Sense::Reversed } else { Sense::Same };
     let role = |side: &Side<'_>| match side {
@@ -197,7 +197,7 @@ pub(super) fn surface(baked: &BakedPatch, continuity: &[Vec<u8>; 2]) -> Option<N
         }
     }
     let largest = weights.iter().copied().fold(0.0, f64::max);
-    // For a polynomial patch they are 1 up to the rounding of the sums.
+    // Of a polynomial patch they are one but for the rounding of the sums.
     let is_polynomial = matches!(baked.coefficients, crate::BakedCoefficients::Polynomial(_));
     weights.iter_mut().for_each(|weight| *weight = if is_polynomial { 1.0 } else { *weight / largest });
     let flip = baked.orientation == Orientation::Inward;
@@ -215,10 +215,10 @@ fn knots(breaks: &[f32], degree: usize, continuity: &[u8]) -> Vec<f64> {
     knots
 }
 
-/// Derivation of a control point from a span.
+/// How a control point follows from a span.
 struct Reached {
     span: usize,
-    /// Factor of each power of the span.
+    /// By what each power of the span is multiplied.
     shares: Vec<f64>,
 }
 

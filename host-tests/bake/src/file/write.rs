@@ -12,7 +12,7 @@ use palpate::patch::{Orientation, crc32};
 /// The file of a body; `source` is the SHA-256 of its model's file.
 ///
 /// # Errors
-/// If the library refuses the tables, which is a bug, or if they are too large.
+/// Where the library refuses the tables, a bug, or they are too large.
 pub fn write(source: [u8; 32], model: &Model, body: &BakedBody) -> Result<Vec<u8>, FileFault> {
     let crc = body.to_body()?.table_crc();
     let numbers = Numbers(body.distinct_breaks());

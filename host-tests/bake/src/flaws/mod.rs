@@ -20,7 +20,7 @@ pub fn find(patches: &[NurbsPatch], topology: &Topology) -> Vec<Flaw> {
     if let Some(first) = crossings.first() {
         flaws.push(Flaw::Crossing { patches: first.patches, pairs: crossings.len(), at: first.at });
     }
-    // If pieces intersect, a single point does not show where the rest of its piece lies.
+    // Where pieces cut each other a point of one says nothing of the rest of it.
     flaws.extend(find_nested(patches, &facets, topology, &crossings));
     flaws.extend(find_gap(patches, topology));
     flaws
@@ -35,23 +35,23 @@ pub enum Flaw {
     Crossing {
         /// The patches.
         patches: [usize; 2],
-        /// Number of intersecting pairs of patches.
+        /// How many pairs of patches do.
         pairs: usize,
-        /// A point of intersection, metres.
+        /// Where, metres.
         at: DVec3,
     },
     /// A piece lies in another, both of them solid; or one that is hollow lies in none.
     Nested {
         /// A patch of the piece.
         patch: usize,
-        /// Number of solid pieces around it, less the hollows.
+        /// How many solid pieces it lies in, less the hollows.
         inside: i32,
-        /// Whether its normals point inward, like those of a hollow.
+        /// Whether its normals point inward, as those of a hollow do.
         hollow: bool,
     },
     /// Edges with one face.
     Open {
-        /// Number of open edges.
+        /// How many.
         edges: usize,
         /// One of them: patch and side.
         first: [usize; 2],
@@ -181,7 +181,7 @@ fn cells(patch: &NurbsPatch, steps: usize) -> Vec<Cell> {
     cells
 }
 
-// Intersections of patches.
+// Where patches cut each other.
 //
 // Facets that cut each other are a hint: between two curved surfaces that lie near each other facets cut where the
 // surfaces do not. From each hint Newton's method looks for a point of both surfaces, inside both patches, at which
@@ -354,7 +354,7 @@ fn find_nested(patches: &[NurbsPatch], facets: &Facets, topology: &Topology, cro
     let volume = |piece: usize| patches_of(piece).map(|patch| turn(patch) * flux(facets, patch)).sum::<f64>();
     let flaw = |&piece: &usize| {
         let hollow = volume(piece) < 0.0;
-        // If pieces touch, the touching point shows nothing; a point at a distance from the others does.
+        // Where pieces touch, a point says nothing; one that is clear of the others does.
         let places = patches_of(piece).take(NESTING_SAMPLES).filter_map(|patch| facets.patches[patch].first());
         let counts = places.map(|cell| {
             let at = cell.corners.iter().sum::<DVec3>() * 0.25;

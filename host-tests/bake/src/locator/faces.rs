@@ -170,7 +170,7 @@ fn collapse(homogeneous: &mut [Tracked; 4], side: usize) {
     }
 }
 
-/// Position and parts of a region, for the distance.
+/// Where a region lies and what it is made of, for the distance.
 impl<'a> Region<'a> {
     pub(super) fn face(&self, faces: &Faces) -> u16 {
         match self {
@@ -239,8 +239,8 @@ impl<'a> Region<'a> {
 pub(super) struct Query<'a> {
     pub probes: Probes,
     pub references: &'a [Reference],
-    /// Minimum difference of two distances for a comparison to count, metres: the gap that rounding of the tables
-    /// leaves at seams.
+    /// How much nearer a point must be for a comparison to count, metres: what the rounding of the tables has parted at
+    /// seams.
     pub seam: f64,
     /// No probe is farther from any point, metres.
     pub farthest: f64,
@@ -402,7 +402,7 @@ impl Rectangle {
     }
 }
 
-// The regions of a cell as starts of descents, in groups that lie together.
+// The regions of a cell as places where descents may begin, in groups that lie together.
 
 /// Starts of a group: those that came from one part of a face follow each other.
 const TOGETHER: usize = 12;

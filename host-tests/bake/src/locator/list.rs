@@ -174,7 +174,7 @@ fn components<'a>(regions: Vec<Region<'a>>, faces: &Faces) -> Vec<Vec<Region<'a>
 
 // The octree that a search leaves behind.
 
-/// Kind of a cell, by its distance from the surface.
+/// Where a cell lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The surface may pass through it, or it is inside within the depth that counts.

@@ -48,7 +48,7 @@ const LEAST_DEPTH: usize = 3;
 /// number of threads. Tables that would not fit their indices are made coarser, until they do.
 ///
 /// # Errors
-/// If the octree is too large for its indices, see [`LocatorError`].
+/// Where the octree is too large for its indices, see [`LocatorError`].
 pub fn bake(
     patches: &[BakedPatch],
     seams: Seams,
@@ -73,7 +73,7 @@ pub fn bake(
     loop {
         let (farthest, wanted) = (f64::from(side) * 3.0_f64.sqrt(), wanted.as_deref());
         let search = Search { faces: &faces, options: &options, size, farthest, wanted };
-        // A search that stops early reports a part of the entries; the whole tree would have still more.
+        // What is not even listed to the end has more nodes and entries than this.
         let grown = search.run(root, progress).map_err(|entries| LocatorError::TooLarge { nodes: 0, entries });
         match grown.and_then(|tree| tables::pack(&tree, corner, side, &options)) {
             Err(LocatorError::TooLarge { .. }) if options.depth > LEAST_DEPTH => options.depth -= 1,

@@ -30,7 +30,7 @@ enum Outcome<'a> {
 struct Inherited<'a> {
     /// The regions that can own the closest point.
     regions: Vec<Region<'a>>,
-    /// Parts of faces over which half the squared distance is convex.
+    /// Where half the squared distance is convex.
     convex: Vec<(u16, Rectangle)>,
 }
 
@@ -67,7 +67,7 @@ const LOOSE: f64 = 0.01;
 /// Factor of the denser sampling.
 const CLOSER: usize = 4;
 
-/// Maximum number of repairs, each dividing a rectangle, of a list that fails for samples.
+/// How often a list that samples show to fail is mended by dividing a rectangle.
 const REPAIRS: usize = 24;
 
 /// The inputs of a search.
@@ -233,7 +233,7 @@ impl<'a> Search<'a> {
         let Listed { probes, depth, kind, mut entries, unproved } = listed;
         let proved = unproved.is_none();
         if let Some(Unproved { inherited, is_loose }) = unproved {
-            // A list with a large possible error is sampled more densely.
+            // Where much could be lost it is looked for harder.
             let count = self.options.samples * if is_loose && kind != Kind::Deep { CLOSER } else { 1 };
             let evaluations = if self.options.convex { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
             let (tolerance, size) = ((0.2 * self.options.tolerance * self.size) as f32, self.size as f32);
@@ -278,8 +278,8 @@ impl<'a> Search<'a> {
         left
     }
 
-    /// The kind of the cell. Sound for a closed body: the closest point of the centre shows on which side it lies, and
-    /// no probe is farther from the centre than the surface.
+    /// Where the cell lies. Sound for a closed body: its centre's closest point says on which side it is, and no probe
+    /// is farther from the centre than the surface is.
     fn kind(&self, left: &[Region<'_>], query: &Query<'_>) -> Kind {
         let Some(reference) = query.references.first() else { return Kind::Near };
         let away = left.iter().map(|region| nearest(region, query, self.faces)).fold(f64::INFINITY, f64::min);
@@ -309,7 +309,7 @@ fn unwanted<'a>(probes: &Probes, depth: usize) -> Outcome<'a> {
     Outcome::Leaf(Box::new(Listed { probes: *probes, depth, kind: Kind::Deep, entries, unproved: None }))
 }
 
-/// Number of cells of a depth.
+/// How many cells of a depth there are.
 fn cells_at(depth: usize) -> usize {
     1 << (3 * depth)
 }

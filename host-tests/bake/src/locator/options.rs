@@ -1,19 +1,19 @@
-//! Options and errors of a locator's bake.
+//! How a locator is baked, and why it may not be.
 
 use palpate::body::MAX_DEPTH;
 use thiserror::Error;
 
-/// Options of a locator's bake. Lengths are relative to the body's size, the largest side of its bounding box.
+/// How a locator is baked. Lengths are relative to the body's size, the largest side of its bounding box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocatorOptions {
-    /// Distance by which the root cube exceeds the bounding box on every side.
+    /// How far the root cube reaches beyond the bounding box on every side.
     pub margin: f64,
     /// Entries of a list at most, unless the depth is used up.
     pub entries: usize,
     /// Depth of the octree.
     pub depth: usize,
-    /// Additional depth for a list that is not proved and fails for a sampled probe, if dividing its rectangles does
-    /// not repair it.
+    /// How much deeper it may go where a list that is not proved fails for a sampled probe and dividing its rectangles
+    /// does not mend it.
     pub deeper: usize,
     /// Probes sampled in each cell whose list is not proved; four times as many where much could be lost.
     pub samples: usize,
@@ -29,7 +29,7 @@ pub struct LocatorOptions {
     /// Whether the body is proved convex: a probe outside then has no nearest point but the closest, so that cells that
     /// are wholly outside need no proof of one minimum.
     pub convex: bool,
-    /// Maximum distance between faces that meet, and between the points of a pole.
+    /// How far apart faces that meet, and the points of a pole, may be.
     pub seam: f64,
     /// Parts of faces are divided until they are this small beside the radius of the cell.
     pub fineness: f64,

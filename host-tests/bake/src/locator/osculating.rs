@@ -18,9 +18,9 @@ pub(super) struct Osculating {
     half: [f32; 2],
     /// About as far as any point of it is from the middle, rather more.
     pub radius: f32,
-    /// Maximum error of the part.
+    /// How far the part may be off.
     off: f32,
-    /// Approximate maximum distance from its tangent plane.
+    /// How far it is from its tangent plane, at most about.
     sag: f32,
 }
 

@@ -14,7 +14,7 @@ use glam::DVec3;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// Maximum number of quarterings of a span.
+/// How often a span is quartered at most.
 pub(crate) const LEVELS: u8 = 6;
 
 /// A part of a span of a face.
@@ -252,7 +252,7 @@ impl<const D: usize> Field<D> {
         let polynomial = Bernstein { degree, coefficients: (0..count).map(entry).collect() };
         let errors: f64 = (0..D).map(|c| components[c].error * factors[c].abs() * reach[c]).sum();
         let mut field = Self { polynomial, reach, slack: 0.0 };
-        // The operations on a coefficient, sums of at most 14 products, round fewer than 32 times.
+        // What is done with a coefficient, sums of at most 14 products, rounds fewer than 32 times.
         field.slack = errors * (1.0 + 1e-9) + 32.0 * f64::EPSILON * field.magnitude();
         field
     }

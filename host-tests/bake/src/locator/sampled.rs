@@ -17,9 +17,9 @@ use palpate::math::Vec3;
 const STARTS: usize = 16;
 /// Probes about one for which a list failed.
 const ABOUT: usize = 256;
-/// Maximum distance from it, relative to half a side of the cell.
+/// How far they are from it, beside half a side of the cell.
 const FARTHEST_ABOUT: f64 = 0.5;
-/// Minimum distance from it.
+/// The smallest of them.
 const NEAREST_ABOUT: f64 = 1e-3;
 
 /// A fault of a list.
@@ -30,7 +30,7 @@ pub(super) enum Fault {
     Spent,
 }
 
-/// Settings of the sampling of a list.
+/// How a list is sampled.
 pub(super) struct Sampling {
     /// Probes at first.
     pub count: usize,
@@ -38,7 +38,7 @@ pub(super) struct Sampling {
     pub evaluations: u16,
     /// A list fails if it leads to a point so much farther than another that is found, metres.
     pub tolerance: f32,
-    /// Size of the body, metres.
+    /// Of the body, metres.
     pub size: f32,
 }
 
@@ -84,7 +84,7 @@ impl<'a> Sampler<'a> {
 
     /// The fault of a list for the next probe for which it fails; `None` once all have passed with this list.
     ///
-    /// If one probe failed, others near it may fail too: they are added.
+    /// Where one probe failed others near it will: they are added.
     pub(super) fn fault(&mut self, entries: &[Entry]) -> Option<Fault> {
         let list: Vec<_> = tables::list(entries).into_iter().map(Candidate::unpack).collect();
         for _ in 0..self.drawn.len() {
@@ -179,7 +179,7 @@ fn on_a_normal(faces: &Faces, probes: &Probes, entries: &[Entry], random: &mut R
         return None;
     }
     let normal = normal / length;
-    // The part of the line inside the box, slab by slab.
+    // Where the line is inside the box, slab by slab.
     let (towards, half) = (probes.centre - at.point, DVec3::splat(1.0) * probes.half);
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {

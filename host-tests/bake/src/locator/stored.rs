@@ -107,7 +107,7 @@ impl StoredSurface {
     }
 }
 
-/// End of a descent.
+/// Where a descent ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Minimum {
     /// `(u, v)`.
@@ -146,7 +146,7 @@ fn descent(here: &StoredPoint, difference: DVec3, gradient: [f64; 2], held: [boo
     }
 }
 
-// Coinciding borders of faces: the features of a body, as far as the locator needs them.
+// Which borders of faces coincide: what the locator needs to know of a body's features.
 
 /// A side of a face: `u = 0`, `u = 1`, `v = 0`, `v = 1` are 0 to 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -141,8 +141,8 @@ pub(super) fn pack(
     Ok(BakedLocator { corner, side, nodes, entries, report })
 }
 
-/// Number of stored entries of the lists: a list that equals another one, or its end, takes none. Independent of their
-/// order, it is the number that [`pack`] stores.
+/// How many entries lists take, one that is equal to another or its end none of its own: whatever their order, as many
+/// as [`pack`] stores.
 #[derive(Default)]
 pub(super) struct StoredLists {
     /// Ends of all lists, whole ones included, by their hashes: of two that are taken for one, one is not counted.

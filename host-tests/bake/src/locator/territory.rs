@@ -12,7 +12,7 @@ use glam::DVec3;
 use palpate::body::GRID;
 use std::f64::consts::PI;
 
-/// Maximum number of quarterings of a span for the bounds of spreading normals.
+/// How finely normals are bounded where they spread: quarterings of a span.
 const CONE_LEVEL: u8 = 4;
 /// A product of tangents that is shorter than this, relative to the longest on its cell, is a pole's and has no
 /// direction.
@@ -88,7 +88,7 @@ impl Territory {
             if count <= boxes && self.is_unique(probes) {
                 continue;
             }
-            // A failed proof for one probe rules out a proof for any box around it.
+            // What is not proved of one probe is not proved of any box with it.
             let middle = Probes { half: DVec3::ZERO, ..probes };
             if count > boxes || !self.is_unique(middle) {
                 return false;

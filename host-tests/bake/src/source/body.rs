@@ -25,7 +25,7 @@ pub enum SourceError {
 /// `labels` name the faces.
 ///
 /// # Errors
-/// If the library refuses the tables, or they do not parse: bugs.
+/// Where the library refuses the tables, or they do not parse: bugs.
 pub fn body_source(origin: &Origin<'_>, body: &BakedBody, labels: &[String]) -> Result<String, SourceError> {
     let crc = body.to_body()?.table_crc();
     let mut source = origin.header();

@@ -29,7 +29,7 @@ pub struct Origin<'a> {
     pub out_file: &'a str,
     /// The model file's bytes; their SHA-256 goes into the header.
     pub model: &'a [u8],
-    /// Origin of the tables' frame in the model, metres; see [`Model::centre`].
+    /// Where the tables' frame lies in the model, metres; see [`Model::centre`].
     pub centre: DVec3,
 }
 
@@ -64,7 +64,7 @@ impl Origin<'_> {
 /// The source: `pub static PATCHES: [SplinePatch; N]`, each table checked when it is compiled.
 ///
 /// # Errors
-/// If the tokens do not parse as Rust: a bug of this file.
+/// Where the tokens do not parse as Rust: a bug of this file.
 pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String, syn::Error> {
     let mut source = origin.header();
     for (index, patch) in patches.iter().enumerate() {
@@ -176,7 +176,7 @@ fn table(index: usize, patch: &BakedPatch, check: Check) -> TokenStream {
     joined(names(index), patch, check)
 }
 
-/// The compiler's check of a patch.
+/// How the compiler checks a patch.
 #[derive(Clone, Copy)]
 enum Check {
     /// With the CRC that the constant `TABLE_CRC` gives.

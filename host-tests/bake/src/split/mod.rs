@@ -23,7 +23,7 @@ const ROUNDS: usize = 8;
 pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
     let mut pieces = Piece::whole(model);
     for piece in &pieces {
-        // Faults of a patch are reported before faults between patches.
+        // What is wrong with a patch is said before what is wrong between patches.
         let uneven = |spline::UnevenSpan([u, v])| ModelError::Patch {
             file: file.to_owned(),
             patch: label(piece.source, model),
@@ -31,7 +31,7 @@ pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
         };
         spline::extract(&piece.patch).map_err(uneven)?;
     }
-    // Checked before the work starts, and again after each cut.
+    // Looked at before the work begins, and again after each cut.
     let too_many = |count: usize| ModelError::Seam {
         file: file.to_owned(),
         fault: SeamFault::TooMany { count, limit: MAX_FACES },
@@ -53,7 +53,7 @@ pub fn prepared(model: &Model, file: &str) -> Result<Vec<Piece>, ModelError> {
     Ok(pieces)
 }
 
-/// Topology of pieces.
+/// How pieces hang together.
 ///
 /// # Errors
 /// A fault between them.
@@ -75,7 +75,7 @@ pub fn label(source: Provenance, model: &Model) -> String {
 
 // Pieces, and where they are from.
 
-/// Part of a model that a piece is: `(u, v)` of the piece is `lower + (u, v) · (upper − lower)` of the patch.
+/// Which part of a model a piece is: `(u, v)` of the piece is `lower + (u, v) · (upper − lower)` of the patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Provenance {
     /// Index of the patch.
@@ -136,7 +136,7 @@ pub struct Cut {
     pub piece: usize,
     /// The parameter that is cut: 0 for `u`, 1 for `v`.
     pub axis: usize,
-    /// The parameter, between 0 and 1.
+    /// Where, between 0 and 1.
     pub at: f64,
 }
 
@@ -188,7 +188,7 @@ fn along(piece: Piece, axis: usize, cuts: &[f64]) -> Vec<Piece> {
     parts
 }
 
-// Patches that the tables cannot hold whole.
+// What the tables cannot hold whole.
 //
 // - *Closed patches*: a face that meets itself along a seam is its own neighbour, and a probe that has left it has
 //   not.

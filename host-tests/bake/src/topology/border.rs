@@ -47,7 +47,7 @@ impl Border {
         (0..patches).flat_map(|patch| (0..4).map(move |side| Self { patch, side }))
     }
 
-    /// Parameter that runs along it: 0 for `u`, 1 for `v`.
+    /// Which of the two parameters runs along it: 0 for `u`, 1 for `v`.
     pub const fn axis(self) -> usize {
         if self.side < 2 { 1 } else { 0 }
     }

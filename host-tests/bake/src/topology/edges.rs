@@ -16,7 +16,7 @@ pub struct TopologyEdge {
     pub partner: Option<(Border, Sense)>,
     /// The vertices at 0 and 1.
     pub ends: [usize; 2],
-    /// Kind of the edge between the faces.
+    /// How the faces meet.
     pub kind: EdgeKind,
 }
 
@@ -27,7 +27,7 @@ pub enum BorderRole {
     Edge {
         /// Its index.
         edge: usize,
-        /// Direction of the border along it.
+        /// How the border runs on it.
         sense: Sense,
     },
     /// One point.
@@ -108,7 +108,7 @@ fn duplicates(
 
 /// Whether two patches with the same borders are the same, turned or mirrored in their parameters or not.
 fn is_same_surface(first: &NurbsPatch, second: &NurbsPatch, tolerance: f64) -> bool {
-    // A grid that has only the symmetries of the square.
+    // Of a grid that has no symmetry but those of the square.
     const INSIDE: [f64; 4] = [0.2, 0.37, 0.5, 0.81];
     let point = |patch: &NurbsPatch, u: f64, v: f64| Jet::of(patch, u, v).point;
     (0..8).any(|symmetry| {
@@ -134,7 +134,7 @@ pub(super) fn check_orientation(matched: &Matched<'_>, label: &dyn Fn(usize) -> 
     let Some((i, j, _)) = joined().find(|(i, j, sense)| !agrees(*i, *j, *sense)) else { return Ok(()) };
     let patch = |index: usize| matched.candidates[index].border.patch;
     let name = |index: usize| format!("side {} of patch {}", matched.candidates[index].border, label(patch(index)));
-    // The one that more of its neighbours disagree with.
+    // Of the two, the one that more of its neighbours disagree with.
     let disagreements = |of: usize| {
         joined().filter(|(i, j, sense)| (patch(*i) == of || patch(*j) == of) && !agrees(*i, *j, *sense)).count()
     };
@@ -142,12 +142,12 @@ pub(super) fn check_orientation(matched: &Matched<'_>, label: &dyn Fn(usize) -> 
     Err(SeamFault::Orientation { first: name(i), second: name(j), suspect: label(suspect) })
 }
 
-/// Kind of the edge between the faces of a pair.
+/// How the faces of a pair meet.
 pub(super) fn kind_of(patches: &[NurbsPatch], owner: Border, partner: Option<(Border, Sense)>) -> EdgeKind {
     partner.map_or(EdgeKind::Open, |(other, sense)| edge_kind(patches, [owner, other], sense))
 }
 
-// Borders that are the same curve.
+// Which borders are one curve.
 //
 // Two borders are one edge if they are the same *parametrised* curve, or the same run the other way: then the
 // parameter of one is the parameter of the other, and the edge needs one curve. The same curve with another
@@ -157,10 +157,10 @@ pub(super) fn kind_of(patches: &[NurbsPatch], owner: Border, partner: Option<(Bo
 /// 11 parameters agree everywhere, 16 leave some for conditioning.
 const SAMPLES: usize = 16;
 
-/// Relative direction of two borders.
+/// How two borders run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sense {
-    /// The same direction.
+    /// The same way.
     Same,
     /// Against each other.
     Reversed,
@@ -179,7 +179,7 @@ impl Sense {
 /// A border with what comparing needs at once.
 #[derive(Clone, Debug)]
 pub struct Candidate<'a> {
-    /// The border.
+    /// Which.
     pub border: Border,
     /// Its patch.
     pub patch: &'a NurbsPatch,
@@ -362,7 +362,7 @@ fn boxes_meet(a: &Candidate<'_>, b: &Candidate<'_>, margin: f64) -> bool {
     low_a.cmple(high_b + margin).all() && low_b.cmple(high_a + margin).all()
 }
 
-// Kind of an edge by the angle between its faces.
+// How the faces of an edge stand to each other.
 //
 // Seen from outside, an edge is a ridge where a face's plane has the other face below it: `N_A · m_B > 0`, with `N_A`
 // the outward normal of one face and `m_B` the conormal of the other that points out of *it*. The sine of the angle by
@@ -373,7 +373,7 @@ fn boxes_meet(a: &Candidate<'_>, b: &Candidate<'_>, margin: f64) -> bool {
 /// digits turn normals by some 1e-8.
 pub const SMOOTH_ANGLE: f64 = 1e-4;
 
-/// Samples of an edge: the middles of this many intervals, never its ends, which may be poles.
+/// Where an edge is looked at: the middles of this many intervals, never its ends, which may be poles.
 const KINDS_SAMPLES: usize = 64;
 
 /// The edge_kind of an edge with two faces.

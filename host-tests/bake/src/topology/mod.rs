@@ -118,7 +118,7 @@ impl Topology {
         self.vertices.len() as isize - self.edges.len() as isize + self.roles.len() as isize
     }
 
-    /// Number of edges of a kind.
+    /// How many edges are of a kind.
     pub fn count(&self, kind: EdgeKind) -> usize {
         self.edges.iter().filter(|edge| edge.kind == kind).count()
     }

@@ -85,7 +85,7 @@ fn departure(border: Border, patch: &NurbsPatch, at_upper_end: bool) -> DVec3 {
     }
 }
 
-// Outward direction at a vertex.
+// Which way is out at a vertex.
 //
 // The tangent cone of the surface at a vertex is made of rays; the part of a face is swept by a unit direction `d`,
 // and its normal there times the angle swept is `d × dd`, up to the sense. `N = ∮ d × dd` over all faces is the
@@ -105,7 +105,7 @@ const STEPS: usize = 256;
 const CONE_VANISHING: f64 = 1e-9;
 /// The sine below which two opposite rays span no plane.
 const OPPOSITE: f64 = 1e-6;
-/// If the cone spans no angle, as at the tip of a cusp, its rays are chords of this length in the parameters.
+/// Where the cone fills no angle, as at the tip of a cusp, its rays are chords of this much of the parameters.
 const CHORD: f64 = 1e-3;
 
 /// For every vertex the unit vector along `N`; zero where it vanishes.
@@ -155,7 +155,7 @@ fn sums(
         }
         for corner in 0..4 {
             let [u, v] = [corner & 1, corner >> 1];
-            // The corners at a pole are part of the pole's sum.
+            // Of the corners at a pole the pole has taken care.
             if let BorderRole::Edge { edge, sense } = roles[u]
                 && !is_pole(2 + v)
             {

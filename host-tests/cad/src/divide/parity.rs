@@ -86,7 +86,7 @@ fn way(mesh: &Mesh<'_>, from: usize, into_triangles: bool) -> Option<Vec<usize>>
         for wire in exits(mesh, face, entered) {
             let beyond = faces[&wire].iter().copied().find(|other| *other != face);
             match beyond {
-                // The same face on both sides: its parity stays.
+                // Of the same face on both sides: its parity stays.
                 None if faces[&wire].len() > 1 => {}
                 None => {
                     let mut way = back((face, entered), &before);
@@ -184,7 +184,7 @@ fn wanted(mesh: &Mesh<'_>, face: usize) -> Option<(usize, usize, f64)> {
             continue;
         }
         let (many, few, start) = if a.len() > b.len() { (a, b, starts[k + 2]) } else { (b, a, starts[k]) };
-        // Cuts of the longer list, seen from the other end.
+        // Where the longer list is cut, seen from the other end.
         let wished: Vec<f64> = shares(mesh, many).iter().map(|share| 1.0 - share).collect();
         let borders = shares(mesh, few);
         let lonely = |share: &f64| borders.iter().map(|border| (border - share).abs()).fold(f64::INFINITY, f64::min);

@@ -25,7 +25,7 @@ pub struct Border {
     pub ends: [usize; 2],
     /// Points along it, both ends included, equally spaced in its parameter; two if it is straight.
     pub points: Vec<DVec2>,
-    /// Its loop, and its side there.
+    /// Which loop, and which side of it.
     pub place: [usize; 2],
 }
 
@@ -48,7 +48,7 @@ impl Edge {
 /// A vertex in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Vertex {
-    /// Its position.
+    /// Where.
     pub point: DVec2,
     /// The mesh's node; `None` for a point that may be added inside.
     pub node: Option<usize>,
@@ -111,7 +111,7 @@ impl Plane {
         let touches = |border: &Border| {
             let last = border.points.len() - 2;
             border.points.windows(2).enumerate().any(|(k, pair)| {
-                // A side that starts here already leaves at an angle.
+                // A side that begins here is left at an angle already.
                 let own = k == 0 && (border.ends[0] == a || border.ends[0] == b)
                     || k == last && (border.ends[1] == a || border.ends[1] == b);
                 !own && crate::outline::meet([p, q], [pair[0], pair[1]])
@@ -172,7 +172,7 @@ impl Plane {
     }
 }
 
-// Quality of a quad: the minimum sine between the lines of its map, 1 for a rectangle, below 0 where it folds.
+// How good a quad is: the least sine between the lines of its map, 1 for a rectangle, below 0 where it folds.
 
 /// Over a grid of 7 × 7 points, the border's included. Where a side is one point the grid keeps off it.
 pub fn of_map(map: &dyn Fn(f64, f64) -> DVec2, has_pole: bool) -> f64 {
@@ -181,7 +181,7 @@ pub fn of_map(map: &dyn Fn(f64, f64) -> DVec2, has_pole: bool) -> f64 {
 
 /// The same; once it is found to lie below `floor`, what was found so far.
 fn above(map: &dyn Fn(f64, f64) -> DVec2, has_pole: bool, floor: f64) -> f64 {
-    // The corners first, because most folds are there.
+    // The corners first: there most are told to fold.
     const LINES: [i32; 7] = [0, 6, 3, 1, 5, 2, 4];
     let step = 1e-4;
     let mut least: f64 = 1.0;
@@ -264,7 +264,7 @@ pub fn vertices(points: Vec<DVec2>) -> impl Iterator<Item = Vertex> {
     points.into_iter().map(|point| Vertex { point, node: None, angle: None })
 }
 
-/// Distance along a ray to the outline.
+/// How far a ray goes before it meets the outline.
 pub fn hit(plane: &Plane, from: DVec2, way: DVec2) -> Option<f64> {
     let mut least = f64::INFINITY;
     for pair in plane.borders.iter().flat_map(|border| border.points.windows(2)) {

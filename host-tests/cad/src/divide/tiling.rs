@@ -80,7 +80,7 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize, manner: Manner) -> Result<Vec<Qua
     Ok(build(mesh, face, scale, &plane, &found))
 }
 
-/// Angle by which a surface's normal turns along a straight line of its parameters, radians.
+/// How far a surface's normal turns along a straight line of its parameters, radians.
 fn turn(surface: &Surface, from: DVec2, to: DVec2) -> f64 {
     const STEPS: usize = 8;
     let normal = |k: usize| surface.normal(from.lerp(to, k as f64 / STEPS as f64));
@@ -387,7 +387,7 @@ fn inward_from(plane: &Plane, index: usize, depth: f64) -> Option<DVec2> {
     Some(point + way * (depth * far).min(0.5 * length).min(depth * clear))
 }
 
-/// Distance of a point from a line through points.
+/// Of a point from a line through points.
 fn distance(point: DVec2, line: &[DVec2]) -> f64 {
     let of = |pair: &[DVec2]| {
         let way = pair[1] - pair[0];

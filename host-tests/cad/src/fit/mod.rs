@@ -75,7 +75,7 @@ impl Normal {
     }
 }
 
-// One curve in space as a Bézier curve with the same ends and end directions.
+// One curve in space as a Bézier curve that begins and ends where and as it does.
 //
 // Its ends and the directions there are kept; how fast it runs is free. So an arc of a quarter needs degree 3 for
 // 2·10⁻⁴ of its radius, and meets the next one without a kink.
@@ -114,7 +114,7 @@ pub fn fit_curve(exact: impl Fn(f64) -> [DVec3; 2], ends: [DVec3; 2], degree: us
         let deviation = project(&points, &samples, &mut at);
         return FittedCurve { points, deviation };
     }
-    // If the derivative vanishes, the chord to the next sample gives the direction.
+    // Where the derivative vanishes, the chord to the next sample has its direction.
     let direction = |k: usize, next: usize| {
         let way = samples[k.max(next)][0] - samples[k.min(next)][0];
         if samples[k][1].length() > 1e-6 * length { samples[k][1].normalize() } else { way.normalize_or_zero() }

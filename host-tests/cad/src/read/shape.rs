@@ -138,7 +138,7 @@ impl<'p> Gather<'p> {
         let index = self.part.edges.len();
         let mut edge_of = Edge { is_round, ..Edge::whole(curve, ends, number) };
         if is_round && start.distance(points[0]) > near {
-            // It starts at its vertex, and goes round once.
+            // It begins where its vertex is, and goes round once.
             let (share, gap) = edge_of.nearest(points[0]);
             if gap > near {
                 return Err(format!("its {label} passes {gap:.6} mm from its vertex"));

@@ -76,7 +76,7 @@ impl Numbers {
     }
 }
 
-// The place where a file ends or becomes invalid: the line, and the entity there.
+// Where a file stops being one: the line, and the entity that stands there.
 
 /// Message for a text that the reader refuses: fault and place.
 pub(super) fn message(text: &str, error: &Error) -> String {

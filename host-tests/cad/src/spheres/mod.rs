@@ -63,7 +63,7 @@ pub fn without_poles(part: &mut Part, hollow: Hollow) -> Hollow {
     done
 }
 
-/// Distance from the middle, on the plane of parameters, of points at an angle of this cosine.
+/// How far from the middle, on the plane of parameters, points are at an angle of this cosine.
 fn reach_at(cosine: f64) -> f64 {
     ((1.0 - cosine) / (1.0 + cosine)).sqrt()
 }

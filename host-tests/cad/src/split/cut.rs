@@ -80,7 +80,7 @@ fn cut_edges(part: &mut Part, cut: &Cut) -> Vec<Vec<[usize; 2]>> {
     for (edge, mut at) in order {
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
         let of = part.edges[edge].clone();
-        // The start of a circle that meets no other edge is arbitrary.
+        // Of a circle that meets no other edge, the place where it began means nothing.
         let is_free = of.is_closed() && of.is_round && uses.get(&of.ends[0]) == Some(&2);
         let mut places = at.clone();
         if is_free {
@@ -139,7 +139,7 @@ fn chained(part: &Part, face: usize, next: &HashMap<usize, Use>) -> Vec<Vec<Use>
     loops
 }
 
-// Loops of each piece of a split face.
+// Which loops bound one piece of a face that was split.
 
 /// Loops by the piece that they bound: by the strip between lines, and there by the outline around them.
 pub fn grouped(

@@ -34,7 +34,7 @@ pub struct Crossing {
 /// One line: the value it holds, and its stretches inside the face; none if all of a closed line is inside.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// Value of the parameter that it holds.
+    /// Of the parameter that it holds.
     pub value: f64,
     /// Start and end of each stretch.
     pub stretches: Vec<[Crossing; 2]>,
@@ -115,7 +115,7 @@ fn whole_line(surface: &Surface, loops: &[Traced], axis: usize, value: f64) -> b
         && [false, true].into_iter().all(|side| has_hole(side) || is_pole(side))
 }
 
-/// Crossings of a side and a line, in any turn of the surface.
+/// Where a side meets a line, wherever round the surface.
 fn crossings(part: &Part, surface: &Surface, side: &Side, axis: usize, value: f64) -> Vec<Crossing> {
     const STEPS: usize = 64;
     let period = surface.period(axis);
@@ -148,8 +148,8 @@ fn crossings(part: &Part, surface: &Surface, side: &Side, axis: usize, value: f6
     met
 }
 
-/// Crossing of a side's edge with a line, near that of its path, which follows the edge only roughly; and the
-/// parameters there. A pole has no edge.
+/// Where a side's edge itself meets a line, near where its path does, which follows it only about; and the parameters
+/// there. A pole has no edge.
 fn on_edge(part: &Part, surface: &Surface, side: &Side, axis: usize, value: f64, near: f64) -> (f64, DVec2) {
     let (mut t, mut uv) = (near, side.path.at(near));
     let Some((edge, reversed)) = side.wire else { return (t, uv) };
@@ -167,7 +167,7 @@ fn on_edge(part: &Part, surface: &Surface, side: &Side, axis: usize, value: f64,
     (t, uv)
 }
 
-// Choice of the line along which a face is split.
+// Which line of many a face is split along.
 
 /// Lines that are tried along each parameter.
 const LINES: usize = 60;
@@ -249,7 +249,8 @@ fn cost(part: &Part, face: usize, loops: &[Traced], axis: usize, line: &Line) ->
     let all: Vec<Vec<_>> = sides.iter().map(points).collect();
     let far = |first: DVec3| all.iter().flatten().map(move |point| point.distance(first));
     let size = all.first().and_then(|of| of.first()).map_or(1.0, |first| far(*first).fold(f64::MIN_POSITIVE, f64::max));
-    // Length of a stretch, and the cost of passing other edges closely: that would leave a strip too narrow for a quad.
+    // How long a stretch is, and what it costs that it passes by other edges closely: that leaves a strip that no quad
+    // fits into.
     let passed = |from: f64, to: f64, met: &[usize]| {
         let on = |k: f64| surface.at(place(from + (to - from) * k / 16.0)).point;
         let stretch: Vec<_> = (0..=16).map(|k| on(f64::from(k))).collect();

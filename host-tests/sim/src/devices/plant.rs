@@ -10,7 +10,7 @@ use crate::plant::{
     LinkageArmSettings, MechanismSettings, PlantSettings, Winding,
 };
 
-/// Distance of the stops from the ends of a joint's range, rad.
+/// How far inside a joint's range its stops are, rad.
 const STOPS_WITHIN: f64 = 0.03;
 /// Assumed, kg.
 const ROD: f64 = 0.1;
@@ -82,7 +82,7 @@ fn mechanism(entry: &MechanismEntry) -> MechanismSettings {
                 second_link: second,
                 workspace_centre: *workspace_centre,
                 turntable_inertia: TURNTABLE,
-                // The moments in the file, less those of these rods.
+                // What the file says that they lift, less what these rods weigh.
                 balance: [
                     end_masses[0] * first_link - ROD * first.centre - ROD * first_link,
                     end_masses[1] * second_link - ROD * second.centre,

@@ -66,7 +66,7 @@ impl Preset {
         }
     }
 
-    /// Feed of each motor.
+    /// How each motor is fed.
     pub fn feeds(self) -> &'static [palpate::device::drive::Feed] {
         match self {
             Self::SerialArm(device) => &device.feeds,

@@ -21,15 +21,15 @@ pub enum DeviceFileError {
     /// It cannot be read.
     #[error("{file}: cannot be read: {cause}")]
     Read {
-        /// The file.
+        /// Which.
         file: String,
-        /// The cause.
+        /// Why.
         cause: std::io::Error,
     },
     /// It is not a device file: an entry is missing, unknown or of another kind.
     #[error("{file}: {reason}")]
     Schema {
-        /// The file.
+        /// Which.
         file: String,
         /// Line, entry and reason.
         reason: String,
@@ -37,7 +37,7 @@ pub enum DeviceFileError {
     /// An entry has a value that no device has.
     #[error("{file}: {entry}: {reason}")]
     Entry {
-        /// The file.
+        /// Which.
         file: String,
         /// As the file names it.
         entry: String,

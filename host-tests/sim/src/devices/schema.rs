@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct DeviceFile {
     /// Its name.
     pub name: String,
-    /// Homing of its joints.
+    /// By what its board finds where the joints are.
     #[serde(default)]
     pub homing: HomingEntry,
     /// The mechanism.
@@ -19,7 +19,7 @@ pub struct DeviceFile {
     pub joint: Vec<JointEntry>,
 }
 
-/// Homing of a device's joints: the reference of the encoders' zeroes.
+/// By what a board finds where the joints are: what the encoders' zeroes are the angles of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HomingEntry {
@@ -38,13 +38,13 @@ pub enum HomingEntry {
 pub enum MechanismEntry {
     /// [`palpate::device::SerialArm`].
     SerialArm {
-        /// Height of the first link's axis.
+        /// Of the first link's axis.
         base_height: f64,
-        /// Length of the first link.
+        /// Length.
         first_link: f64,
-        /// Length of the second link.
+        /// Length.
         second_link: f64,
-        /// Centre of the workspace, from the foot of the turntable.
+        /// From the foot of the turntable.
         workspace_centre: [f64; 3],
         /// Mass that each link lifts, referred to its end, kg.
         #[serde(default)]
@@ -54,24 +54,24 @@ pub enum MechanismEntry {
     LinkageArm(LinkageEntry),
     /// [`palpate::device::Delta`].
     Delta {
-        /// Length of a thigh.
+        /// Length.
         thigh: f64,
-        /// Length of a shin.
+        /// Length.
         shin: f64,
         /// Both together.
         stub: f64,
-        /// Distance of a hip, less that of a shin's end on the plate.
+        /// Of a hip less that of a shin's end on the plate.
         reach: f64,
         /// The same to the left.
         side: f64,
         /// Directions of the legs about z, rad.
         legs: [f64; 3],
-        /// Distance of the workspace's centre from the base.
+        /// Of the workspace's centre before the base.
         workspace_depth: f64,
-        /// Mass at the probe, half the shins included, kg.
+        /// Hangs on the probe, half the shins included, kg.
         #[serde(default)]
         carried_mass: f64,
-        /// Static moment of a thigh, kg·m.
+        /// Of a thigh, kg·m.
         #[serde(default)]
         thigh_moment: f64,
     },
@@ -159,7 +159,7 @@ pub struct JointEntry {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct EncoderEntry {
-    /// The board's encoder input, from 0.
+    /// Which of the board's encoder inputs it is on, from 0.
     pub channel: usize,
     /// Counts a turn of its shaft, after quadrature.
     pub counts: f64,
@@ -174,7 +174,7 @@ pub struct EncoderEntry {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MotorEntry {
-    /// The board's motor output, from 0.
+    /// Which of the board's motor outputs it is on, from 0.
     pub channel: usize,
     /// N·m/A.
     pub torque_constant: f64,
@@ -184,7 +184,7 @@ pub struct MotorEntry {
     pub ratio: f64,
     /// Continuous current, A.
     pub continuous_current: f64,
-    /// Time constant of its winding, s.
+    /// Of its winding, s.
     pub time_constant: f64,
     /// Maximum speed of its joint under force, rad/s.
     pub max_rate: f64,
@@ -201,6 +201,6 @@ pub struct BridgeEntry {
     pub supply: f64,
     /// Of winding, brushes and bridge, ohms.
     pub resistance: f64,
-    /// Fraction of the back-EMF that is compensated, 0 to 1.
+    /// How much of the back-EMF is made up for, 0 to 1.
     pub back_emf_share: f64,
 }

@@ -91,7 +91,7 @@ fn towards_corner(face: &Face<'_>) -> Way {
     way(face, |inside| [inside, inside])
 }
 
-/// From a point of a face well inside its border, at most halfway across, to the border.
+/// From where a face is so far from its border, at most half of it, to the border.
 fn way(face: &Face<'_>, across: impl Fn(f32) -> [f32; 2]) -> Way {
     let at = |inside: f32| {
         let [u, v] = across(inside);

@@ -122,8 +122,8 @@ impl Recording {
         longest as f64 / self.rate
     }
 
-    /// Travel of the probe while the direction of the force turned from a tenth to nine tenths of its way between two
-    /// directions, m; `None` if it did not.
+    /// How far the probe went while the direction of the force turned from a tenth to nine tenths of its way between
+    /// two directions, m; `None` where it did not.
     pub fn turn(&self, [from, to]: [Vector; 2], looked_at: [f64; 2]) -> Option<f64> {
         let full = angle(from, to);
         let mut travelled = 0.0;

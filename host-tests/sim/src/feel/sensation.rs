@@ -1,4 +1,4 @@
-//! Level of a vibration above the threshold of perception.
+//! How far a vibration lies above what people feel.
 
 use super::spectrum::{RANGE, Spectrum};
 use super::threshold::Threshold;

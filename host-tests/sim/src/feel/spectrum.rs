@@ -32,8 +32,8 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Spectrum of a signal sampled at `rate`, Hz: the mean over Hann windows that overlap by half, each after
-    /// subtraction of its linear trend. A signal shorter than a window has no spectrum.
+    /// Of a signal sampled at `rate`, Hz, the mean of Hann windows that overlap by half, each after its straight line
+    /// of least squares is taken off. A signal shorter than a window has no spectrum.
     ///
     /// P. D. Welch, *The use of fast Fourier transform for the estimation of power spectra*, IEEE Trans. Audio and
     /// Electroacoustics 15(2), 1967; the transform itself is done bin by bin, for there are few.

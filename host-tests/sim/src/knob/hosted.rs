@@ -4,9 +4,7 @@ use crate::plant::{Dial, DialSettings, Fingers};
 use palpate::device::sensor::Frozen;
 use palpate::device::{CoggingMap, Counts};
 use palpate::servo::{Event, Input, Phase, ResetReason};
-use palpate_bench::knob::{
-    FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo, widths,
-};
+use palpate_bench::knob::{KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, TOLD_OF_SUPPLY, device, servo, widths};
 
 /// The loop and the dial that it turns.
 #[derive(Clone, Debug)]
@@ -28,7 +26,7 @@ impl HostKnob {
     /// A loop before its first tick.
     pub fn new(servo: KnobServo, dial: Dial) -> Self {
         let state = servo.start();
-        Self { servo, state, frozen: FROZEN, dial, enable: true, damaged: false, silent: false }
+        Self { servo, state, frozen: Frozen::AS5047P, dial, enable: true, damaged: false, silent: false }
     }
 
     /// The loop of the boards at a dial, before its first tick. The device lives as long as the program.
@@ -85,7 +83,8 @@ impl HostKnob {
         }
         let input = match self.dial.counts() {
             Some(_) if self.damaged => Input::Damaged,
-            Some(counts) if self.frozen.is_frozen(counts as u32) => Input::Damaged,
+            Some(_) if self.dial.has_lost_magnet() => Input::Magnet,
+            Some(counts) if self.frozen.is_frozen(counts as u32) => Input::Frozen,
             Some(counts) => Input::Sensors { counts: [Counts(counts)], enable: self.enable },
             None => Input::Lost,
         };

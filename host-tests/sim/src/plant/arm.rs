@@ -111,7 +111,7 @@ impl Arm {
     pub fn velocity_torques(&self, [_, b, c]: Vector, [rate_a, rate_b, rate_c]: Vector) -> Vector {
         let first = self.first.length;
         let about_axis = self.first.mass * self.first.centre * self.first.centre + self.first.inertia;
-        // Derivatives of M_aa by b and c, and of M_bc by b (by c it is the opposite).
+        // How M_aa grows with b and c, and M_bc with b (with c it is the opposite).
         let mut aa_b = 2.0 * about_axis * b.sin() * b.cos();
         let (mut aa_c, mut bc_b) = (0.0, 0.0);
         for (mass, distance, inertia) in self.riders() {

@@ -57,7 +57,7 @@ impl DeltaSettings {
         [dot(u, place) - self.r + self.c, dot(v, place) - self.s + self.f, place[2]]
     }
 
-    /// Closure error of a leg, m²; its gradient over the probe's position, and its slope over the angle.
+    /// How far a leg is from closing, m²; its gradient over the probe's place, and its slope over the angle.
     fn closure(&self, leg: usize, place: Vector, angle: f64) -> (f64, Vector, f64) {
         let [u, v, w] = self.in_leg(leg, place);
         let (sine, cosine) = angle.sin_cos();
@@ -88,7 +88,7 @@ impl DeltaSettings {
         place
     }
 
-    /// Jacobian of the probe, m/rad by rows.
+    /// How the probe moves, m/rad by rows.
     fn motion(&self, place: Vector, angles: Vector) -> Matrix {
         let closures: [_; 3] = core::array::from_fn(|leg| self.closure(leg, place, angles[leg]));
         let back = inverse(&closures.map(|(_, gradient, _)| gradient));

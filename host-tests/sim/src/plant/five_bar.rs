@@ -40,7 +40,7 @@ pub struct FiveBarSettings {
     pub tool: f64,
     /// 1 if the hinge lies left of the line from the first elbow to the second, −1 if right.
     pub side: f64,
-    /// Bend of each crank off the line from its pivot to its load: 1 counter-clockwise, −1 clockwise.
+    /// Which way each crank is bent off the line from its pivot to what it holds: 1 counter-clockwise, −1 clockwise.
     pub bends: Pair,
     /// Origin of probe positions, m from the first pivot.
     pub workspace_centre: Pair,

@@ -2,11 +2,11 @@
 
 use super::vector::{Vector, add_scaled, difference, scaled};
 
-/// Path of the hand's target for the probe.
+/// Where the hand wants the probe to be.
 pub trait HandPath: Send + Sync {
     /// The point aimed at, m from the workspace centre, `time` s after the start.
     fn target(&self, time: f64) -> Vector;
-    /// Velocity of that point, m/s.
+    /// How fast that point moves, m/s.
     fn velocity(&self, time: f64) -> Vector;
 }
 

@@ -15,7 +15,7 @@ pub struct Point {
     pub inertia: f64,
     /// Mass that gravity pulls at, kg.
     pub weight: f64,
-    /// Its position, m.
+    /// Where it is, m.
     pub place: Vector,
     /// `∂place/∂angles` by rows, m/rad.
     pub jacobian: Matrix,
@@ -24,9 +24,9 @@ pub struct Point {
 /// As many points as any mechanism here has; the rest weigh nothing.
 pub type Points = [Point; 8];
 
-/// Motion of a mechanism's points.
+/// How a mechanism moves its points.
 pub trait Geometry: Debug + Send + Sync {
-    /// Number of joints.
+    /// How many joints it has.
     fn joints(&self) -> usize;
     /// The points at these joint angles. The first is the probe, m from the workspace centre; not finite where the
     /// mechanism cannot be closed.
@@ -38,7 +38,7 @@ pub trait Geometry: Debug + Send + Sync {
 /// A geometry with the inertia and weight it moves.
 #[derive(Clone, Debug)]
 pub struct Lumped<G> {
-    /// Positions of the points.
+    /// Where the points are.
     pub geometry: G,
     /// Inertia that turns with each joint alone, kg·m².
     pub joint_inertia: Vector,

@@ -10,7 +10,7 @@ use std::fmt::Debug;
 /// diagonal, so that they stay where they are. Written in f64 apart from the library's kinematics, so that the two
 /// check each other.
 pub trait Mechanism: Debug + Send + Sync {
-    /// Number of joints.
+    /// How many joints it has.
     fn joints(&self) -> usize;
     /// The probe's position, m from the workspace centre. Not finite where the mechanism cannot be closed.
     fn position(&self, angles: Vector) -> Vector;

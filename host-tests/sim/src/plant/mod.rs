@@ -147,7 +147,7 @@ impl Plant {
         }
     }
 
-    /// The hand's target and its velocity.
+    /// Where the hand aims, and how fast that moves.
     fn aim(&self, sub_steps: f64) -> (Vector, Vector) {
         let time = sub_steps * self.sub_step;
         (self.path.target(time), self.path.velocity(time))

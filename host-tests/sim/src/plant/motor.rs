@@ -78,7 +78,7 @@ pub struct Drives {
     /// Commands under way, and the sub-step at which each arrives.
     under_way: VecDeque<(u64, [i16; 3])>,
     delay: u64,
-    /// Fraction of the distance to the aim that remains after a sub-step.
+    /// How much of the distance to the aim is left after a sub-step.
     left_over: f64,
     sub_step: f64,
     duties: [i16; 3],

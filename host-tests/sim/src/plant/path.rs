@@ -21,9 +21,9 @@ pub enum PathError {
     /// The surface gave a point or normal that is not finite.
     #[error("the surface is not finite at ({u}, {v})")]
     Surface {
-        /// Parameter of the point.
+        /// Where.
         u: f64,
-        /// Parameter of the point.
+        /// Where.
         v: f64,
     },
     /// Coming down and lifting off alone are faster than allowed.
@@ -81,7 +81,7 @@ impl TouchingPath {
         self.knots.iter().all(|knot| like_this(*knot))
     }
 
-    /// Duration, s.
+    /// How long it lasts, s.
     pub fn duration(&self) -> f64 {
         (self.knots.len() - 1) as f64 / KNOT_RATE
     }

@@ -10,7 +10,7 @@ use super::motor::{Amplifier, Motor};
 use super::paddle::PaddleSettings;
 use super::vector::{Vector, scaled};
 
-/// Direction of a mounted encoder or motor.
+/// Which way an encoder or a motor is mounted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Positive with the joint.
@@ -98,7 +98,7 @@ pub struct ArmSettings {
     pub balance_inertia: [f64; 2],
 }
 
-/// The mechanism.
+/// Which mechanism it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MechanismSettings {
     /// Three joints: a turntable with two links.

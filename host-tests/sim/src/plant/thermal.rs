@@ -1,4 +1,4 @@
-//! Heat of a motor: two bodies, winding and housing, after a motor's data sheet.
+//! How warm a motor gets: two bodies, winding and housing, after a motor's data sheet.
 //!
 //! `C_w Ṫ_w = R(T_w) i² − (T_w − T_h)/R_wh` and `C_h Ṫ_h = (T_w − T_h)/R_wh − (T_h − T_a)/R_ha`, with the heat
 //! capacities from the sheet's time constants (`C_w = θ_w/R_wh`, `C_h = θ_h/R_ha`) and copper's resistance, which

@@ -35,7 +35,7 @@ impl Default for TouchingSettings {
     }
 }
 
-/// Place on the surface and height over it: smooth functions of time drawn from a seed.
+/// Where on the surface, and how high over it: smooth functions of time drawn from a seed.
 pub(super) struct Motion {
     settings: TouchingSettings,
     /// For u and v: frequency, Hz; phase; the ratio and phase of the slower wobble that bends the figure.

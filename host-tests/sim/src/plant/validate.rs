@@ -36,7 +36,7 @@ pub enum PlantError {
     /// The hand's path starts where the device cannot reach.
     #[error("the hand's path starts at {position:?} m, out of the device's reach")]
     OutOfReach {
-        /// Start of the path, m from the workspace centre.
+        /// Where it starts, m from the workspace centre.
         position: Vector,
     },
 }

@@ -5,11 +5,11 @@ use crate::plant::touching::TouchingSettings;
 use crate::plant::vector::Vector;
 use std::f64::consts::PI;
 
-/// Rate of touches: a stroke of 0.8 s.
+/// How often the hand touches: a stroke of 0.8 s.
 const TOUCHES_PER_SECOND: f64 = 1.2;
-/// Reach around a body, seen from its middle: from above to this angle, radians, along either axis.
+/// How far it reaches around a body, seen from its middle: from above to this angle, radians, along either axis.
 const AROUND: f64 = 0.6 * PI;
-/// Allowed fractions of the surface, in twentieths: all of it, down to its middle third.
+/// Shares of the surface, in twentieths, that it is content with: all of it, down to its middle third.
 const SHARES: std::ops::RangeInclusive<u32> = 6..=20;
 
 impl TouchingPath {

@@ -23,7 +23,7 @@ pub struct SceneNumbers {
 pub struct Entry {
     /// Index of its body, which several parts may share.
     pub body: u32,
-    /// Its motion.
+    /// How it moves.
     pub movement: Movement,
     /// N/m.
     pub stiffness: f32,
@@ -37,18 +37,18 @@ pub struct Entry {
     pub group: u8,
 }
 
-/// Motion of a part: as in [`Motion`], without the numbers that a [`Path`] computes when it is made.
+/// How a part moves: as [`Motion`] has it, but for what a [`Path`] works out when it is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Movement {
     /// It rests.
     Resting(Placement),
     /// It turns and sways.
     Prescribed {
-        /// Its start.
+        /// Where it starts.
         start: Placement,
-        /// Its rotation.
+        /// About what it turns.
         turn: Option<Turn>,
-        /// Amplitude of its oscillation, metres, and rate, rad/s.
+        /// By how far it sways, metres, and its rate, rad/s.
         sway: Option<(Vec3, f32)>,
     },
     /// It is free.

@@ -92,7 +92,7 @@ pub struct Turn {
 pub struct Sway {
     /// As far to either side, mm.
     pub by: [f64; 3],
-    /// Frequency, Hz.
+    /// How often a second.
     pub often: f64,
 }
 
@@ -118,7 +118,7 @@ pub struct Free {
     pub angular_stiffness: f32,
     /// From the middle of the body to where that is at the start.
     pub spring: Option<Spring>,
-    /// Its joint; `None` for a free body.
+    /// How it may move; every way, if not given.
     pub joint: Option<JointEntry>,
 }
 
@@ -131,7 +131,7 @@ pub struct Spring {
     /// N·s/m.
     #[serde(default)]
     pub damping: f32,
-    /// Slack in both directions, mm.
+    /// How far it is slack to either side, mm.
     #[serde(default)]
     pub slack: [f64; 3],
 }
@@ -165,9 +165,9 @@ pub enum SceneFileError {
     /// Too few or too many bodies.
     #[error("a scene file has 1 to {most} bodies, this one {found}")]
     Bodies {
-        /// Number of its bodies.
+        /// How many it has.
         found: usize,
-        /// Maximum number.
+        /// How many it may have.
         most: usize,
     },
     /// An axis without a direction.

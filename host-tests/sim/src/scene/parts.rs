@@ -43,7 +43,7 @@ impl SceneFile {
     /// An error of the library, with the body's name.
     ///
     /// # Panics
-    /// If `N` is not the number of bodies.
+    /// Where `N` is not the number of bodies.
     pub fn scene<const N: usize>(
         &self,
         limits: Limits,
@@ -113,7 +113,7 @@ impl BodyEntry {
         }
     }
 
-    /// Position of the tables' frame at the start.
+    /// Where the frame of the tables is at the start.
     pub fn placement(&self, shape: &Shape) -> Placement {
         let turn = self.turned.map_or(DMat3::IDENTITY, |turned| {
             DMat3::from_axis_angle(DVec3::from_array(turned.axis).normalize(), turned.by.to_radians())
@@ -123,7 +123,7 @@ impl BodyEntry {
         Placement { axes, origin: single(origin), ..Placement::IDENTITY }
     }
 
-    /// Its motion.
+    /// How it moves.
     pub fn movement(&self, shape: &Shape) -> Movement {
         let start = self.placement(shape);
         if let Some(free) = &self.free {

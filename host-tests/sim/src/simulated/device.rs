@@ -25,9 +25,9 @@ const RATE: u32 = 4_000;
 const BYTES: u32 = 12;
 /// The second box is so far to the side of the first, metres: 20 mm are between them.
 const BESIDE: f32 = 0.06;
-/// Middle of the workspace in the scene, metres: just over the dome of the first box.
+/// Where the middle of the workspace is in the scene, metres: just over the dome of the first box.
 const MIDDLE: [f32; 3] = [0.03, 0.02, 0.04];
-/// Position of the hand at the start, metres, in the scene.
+/// Where the hand is at first, metres, in the scene.
 const ABOVE: [f64; 3] = [0.03, 0.02, 0.05];
 
 /// The capped box, as the tool bakes it.
@@ -232,7 +232,7 @@ impl Line for Simulated {
 
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
         let began = self.passed();
-        // A byte that arrives in this tick is returned by the next call.
+        // What comes in the tick after it was asked for in vain is there the next time.
         if wait.is_zero() && self.board.wire.from_device.is_empty() {
             self.tick();
             return Ok(0);

@@ -1,198 +1,15 @@
-//! AS5047P sensors at their pins: a simulated one that minds its data sheet's times.
+//! AS5047P sensors at their pins: the driver keeps the data sheet's times, and says what it cannot believe.
 
-use embedded_hal::digital::{ErrorType as PinErrorType, OutputPin};
-use embedded_hal::spi::{ErrorKind, ErrorType as BusErrorType, SpiBus};
 use palpate::device::Counts;
-use palpate_bench::sensors::{Angles, BadFrame, Sensors};
-use palpate_bench::{Counter, CycleDelay, cycles};
-use std::cell::RefCell;
-use std::convert::Infallible;
-use std::rc::Rc;
+use palpate_bench::cycles;
+use palpate_bench::sensors::{BadFrame, Sensors};
+use palpate_sim::magnetic::table;
 
-/// What the data sheet asks for, nanoseconds: written here once more, from its table.
+/// The data sheet's minimum times, nanoseconds: written here once more, from its table.
 const HIGH: f64 = 350.0;
 const SET_UP: f64 = 350.0;
 /// Half a clock of 8 MHz.
 const HOLD: f64 = 62.5;
-const POWER_UP: f64 = 10e6;
-const CLOCKS: f64 = 16.0 * 125.0;
-
-/// One sensor.
-#[derive(Clone, Debug)]
-struct Chip {
-    angle: u16,
-    /// What the next frame answers.
-    answer: u16,
-    error: bool,
-    /// Frames to come whose command arrives damaged.
-    deaf: u32,
-    /// When it answers, cycles.
-    ready_at: u64,
-    is_there: bool,
-    /// What its data line reads where nobody drives it: it is pulled, or broken on the side of a level.
-    silence: u16,
-    selected: bool,
-    risen: Option<u64>,
-    fallen: u64,
-}
-
-/// The sensors, their bus and the core's counter.
-struct Table {
-    cycles: u64,
-    frequency: f64,
-    /// Cycles of a look at the counter.
-    look: u64,
-    chips: Vec<Chip>,
-    last_clock: u64,
-    frames: u32,
-    least: [f64; 3],
-}
-
-impl Table {
-    fn nanoseconds(&self, cycles: u64) -> f64 {
-        cycles as f64 * 1e9 / self.frequency
-    }
-
-    fn fall(&mut self, joint: usize) {
-        let now = self.cycles;
-        if let Some(risen) = self.chips[joint].risen {
-            self.least[0] = self.least[0].min(self.nanoseconds(now - risen));
-        }
-        (self.chips[joint].selected, self.chips[joint].fallen) = (true, now);
-    }
-
-    fn rise(&mut self, joint: usize) {
-        let now = self.cycles;
-        if self.chips[joint].selected {
-            self.least[2] = self.least[2].min(self.nanoseconds(now - self.last_clock));
-        }
-        (self.chips[joint].selected, self.chips[joint].risen) = (false, Some(now));
-    }
-
-    fn exchange(&mut self, command: u16) -> u16 {
-        self.frames += 1;
-        let selected: Vec<usize> = (0..self.chips.len()).filter(|joint| self.chips[*joint].selected).collect();
-        let [joint] = selected[..] else { panic!("{selected:?} are selected at once") };
-        let set_up = self.nanoseconds(self.cycles - self.chips[joint].fallen);
-        self.least[1] = self.least[1].min(set_up);
-        self.cycles += (CLOCKS * self.frequency / 1e9).ceil() as u64;
-        self.last_clock = self.cycles;
-        let now = self.cycles;
-        let chip = &mut self.chips[joint];
-        if !chip.is_there || now < chip.ready_at {
-            return chip.silence;
-        }
-        let answer = chip.answer | if chip.error { 1 << 14 } else { 0 };
-        let is_whole = chip.deaf == 0 && command.count_ones().is_multiple_of(2);
-        chip.deaf = chip.deaf.saturating_sub(1);
-        chip.error |= !is_whole;
-        chip.answer = match command & 0x3fff {
-            0x3fff => chip.angle,
-            // Settled, and the field is good.
-            0x3ffc => 0x0180,
-            0x0001 => {
-                if is_whole {
-                    chip.error = false;
-                }
-                0
-            }
-            other => panic!("{other:#x} is no address"),
-        };
-        answer | ((answer.count_ones() % 2) as u16) << 15
-    }
-}
-
-type Shared = Rc<RefCell<Table>>;
-
-struct Bus(Shared);
-
-impl BusErrorType for Bus {
-    type Error = ErrorKind;
-}
-
-impl SpiBus for Bus {
-    fn read(&mut self, _: &mut [u8]) -> Result<(), ErrorKind> {
-        unreachable!()
-    }
-
-    fn write(&mut self, _: &[u8]) -> Result<(), ErrorKind> {
-        unreachable!()
-    }
-
-    fn transfer(&mut self, _: &mut [u8], _: &[u8]) -> Result<(), ErrorKind> {
-        unreachable!()
-    }
-
-    fn transfer_in_place(&mut self, words: &mut [u8]) -> Result<(), ErrorKind> {
-        let [high, low] = words else { panic!("{words:?} is no frame") };
-        [*high, *low] = self.0.borrow_mut().exchange(u16::from_be_bytes([*high, *low])).to_be_bytes();
-        Ok(())
-    }
-
-    fn flush(&mut self) -> Result<(), ErrorKind> {
-        Ok(())
-    }
-}
-
-struct Select(Shared, usize);
-
-impl PinErrorType for Select {
-    type Error = Infallible;
-}
-
-impl OutputPin for Select {
-    fn set_low(&mut self) -> Result<(), Infallible> {
-        self.0.borrow_mut().fall(self.1);
-        Ok(())
-    }
-
-    fn set_high(&mut self) -> Result<(), Infallible> {
-        self.0.borrow_mut().rise(self.1);
-        Ok(())
-    }
-}
-
-#[derive(Clone)]
-struct Cycles(Shared);
-
-impl Counter for Cycles {
-    fn now(&self) -> u32 {
-        let mut table = self.0.borrow_mut();
-        table.cycles += table.look;
-        // The lower 32 bits: it wraps.
-        table.cycles as u32
-    }
-}
-
-type Joints = Angles<Bus, Select, CycleDelay<Cycles>, 3>;
-
-fn table(frequency: u32, look: u64) -> (Shared, Joints) {
-    let chip = Chip {
-        angle: 0,
-        answer: 0,
-        error: true,
-        deaf: 0,
-        ready_at: (POWER_UP * f64::from(frequency) / 1e9) as u64,
-        is_there: true,
-        silence: u16::MAX,
-        selected: false,
-        risen: None,
-        fallen: 0,
-    };
-    let shared = Rc::new(RefCell::new(Table {
-        cycles: 0,
-        frequency: f64::from(frequency),
-        look,
-        chips: vec![chip; 3],
-        last_clock: 0,
-        frames: 0,
-        least: [f64::INFINITY; 3],
-    }));
-    let selects = [0, 1, 2].map(|joint| Select(Rc::clone(&shared), joint));
-    let delay = CycleDelay::new(Cycles(Rc::clone(&shared)), frequency);
-    let joints = Angles::new(Bus(Rc::clone(&shared)), selects, delay, [4_096; 3]);
-    (shared, joints)
-}
 
 /// The clocks of the boards that read angles: 150 MHz of the Pico 2, 600 MHz of the Teensy, and a core so slow that a
 /// look at the counter alone is long.
@@ -310,4 +127,49 @@ fn a_jump_that_no_hand_makes_is_refused_and_measured_against_the_last_good_one()
     assert_eq!(joints.read(), Err(BadFrame::Jumped));
     shared.borrow_mut().chips[0].angle = 300;
     assert_eq!(joints.read(), Ok([Counts(300), Counts(0), Counts(0)]));
+}
+
+#[test]
+fn a_magnet_that_falls_off_or_a_frozen_sensor_is_not_believed_for_4_000_readings() {
+    // Each of the frames is whole. The diagnostics are those of the reading before: the second bad one at the latest.
+    for joint in 0..3 {
+        for field in [0.0, 0.4, 200.0] {
+            let (shared, mut joints) = table(150_000_000, 6);
+            joints.start().unwrap();
+            for turn in 0..4_000_u16 {
+                shared.borrow_mut().chips.iter_mut().for_each(|chip| chip.angle = 100 + turn % 5);
+                assert!(joints.read().is_ok());
+            }
+            assert_eq!(joints.gains(), [128; 3]);
+            shared.borrow_mut().chips[joint].field = field;
+            let mut bad = 0;
+            for turn in 0..4_000_u16 {
+                shared.borrow_mut().chips.iter_mut().for_each(|chip| chip.angle = 100 + turn % 7);
+                let read = joints.read();
+                assert!(turn == 0 || read == Err(BadFrame::Magnet), "joint {joint}, field {field}, reading {turn}");
+                bad += u32::from(read.is_err());
+            }
+            assert!(bad >= 3_999);
+            shared.borrow_mut().chips[joint].field = 1.0;
+            assert!(joints.read().is_ok(), "a magnet that is back is seen again");
+        }
+        let (shared, mut joints) = table(150_000_000, 6);
+        joints.start().unwrap();
+        shared.borrow_mut().chips[joint].is_frozen = true;
+        let found = (0..4_000_u16).find(|turn| {
+            shared.borrow_mut().chips.iter_mut().for_each(|chip| chip.angle = 100 + turn % 3);
+            joints.read() == Err(BadFrame::Frozen)
+        });
+        // A quarter of a second at 4 kHz.
+        assert_eq!(found, Some(1_000), "joint {joint}");
+    }
+}
+
+#[test]
+fn a_reading_is_two_frames_and_its_diagnostics_cost_none() {
+    let (shared, mut joints) = table(150_000_000, 6);
+    joints.start().unwrap();
+    let before = shared.borrow().frames;
+    (0..100).for_each(|_| assert!(joints.read().is_ok()));
+    assert_eq!(shared.borrow().frames - before, 100 * 3 * 2);
 }

@@ -4,13 +4,14 @@ use embedded_hal::digital::{ErrorType as PinErrorType, InputPin, OutputPin};
 use embedded_hal::pwm::{ErrorType as WidthErrorType, SetDutyCycle};
 use palpate::commission::Wiring;
 use palpate::device::drive::ThreePhase;
+use palpate::device::sensor::Frozen;
 use palpate::device::{Counts, Device, Dial};
 use palpate::servo::{Fault, Guarded, Knob, Phase, ResetReason};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
-use palpate_bench::sensors::{BadFrame, Sensors, Watched};
+use palpate_bench::sensors::{BadFrame, Sensors};
 use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
-use palpate_sim::knob::{FROZEN, JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
+use palpate_sim::knob::{JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
 use palpate_sim::plant::{DialSettings, MagneticFault};
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -124,17 +125,23 @@ impl Supply for Clock {
     }
 }
 
-impl Sensors<1> for Clock {
+/// The sensor behind the dial, watched as the boards' driver watches it.
+pub struct Behind(Shared, Frozen);
+
+impl Sensors<1> for Behind {
     fn read(&mut self) -> Result<[Counts; 1], BadFrame> {
         let mut world = self.0.borrow_mut();
         world.cycles = world.cycles.wrapping_add(world.reading);
-        world.dial.counts().map(|counts| [Counts(counts)]).ok_or(BadFrame::Absent)
+        let counts = world.dial.counts().ok_or(BadFrame::Absent)?;
+        if world.dial.has_lost_magnet() {
+            return Err(BadFrame::Magnet);
+        }
+        if self.1.is_frozen(counts as u32) { Err(BadFrame::Frozen) } else { Ok([Counts(counts)]) }
     }
 }
 
 pub type Stage = ThreePhase<Width, Width, Width, Enable>;
-pub type Board =
-    Parts<Clock, Clock, Watched<Clock, 1>, [Stage; 1], In, In, In, Clock, palpate::device::drive::NoPin, 2>;
+pub type Board = Parts<Clock, Clock, Behind, [Stage; 1], In, In, In, Clock, palpate::device::drive::NoPin, 2>;
 
 pub struct Rig {
     pub world: Shared,
@@ -167,7 +174,7 @@ impl Rig {
         let board = Parts {
             counter: Clock(of()),
             timer: Clock(of()),
-            sensors: Watched::new(Clock(of()), FROZEN),
+            sensors: Behind(of(), Frozen::AS5047P),
             drives: [ThreePhase::new(widths, Enable(of()), MODULATION)],
             lines: Lines {
                 enable: In(of(), |world| world.button),
@@ -277,13 +284,15 @@ fn a_button_that_is_held_at_reset_moves_nothing_and_one_press_aligns_and_the_nex
 pub type Harm = (&'static str, fn(&mut World), u32);
 
 /// A supply is believed to be gone by its fourth reading, a frame by the third that is missing.
-pub const HARMS: [Harm; 7] = [
+pub const HARMS: [Harm; 9] = [
     ("button let go of", |world| world.button = false, 1),
     ("stop, or its wire", |world| world.stop_open = true, 1),
     ("fault line, or its wire", |world| world.ready[0] = false, 1),
     ("reset line, or its wire", |world| world.ready[1] = false, 1),
     ("supply dips", |world| world.volts = 8.0, 4),
     ("sensor absent", |world| world.dial.spoil(Some(MagneticFault::Absent)), 3),
+    ("magnet gone", |world| world.dial.spoil(Some(MagneticFault::Magnet)), 3),
+    ("sensor frozen", |world| world.dial.spoil(Some(MagneticFault::Stuck)), 1_003),
     ("late tick", |world| world.reading = CLOCK / 3_000, 5),
 ];
 

@@ -52,6 +52,14 @@ impl Bench<'_> {
                 let _ = self.servo.tick(state, Input::Damaged);
                 Seen::Now { believable: false }
             }
+            Fault::Magnet => {
+                let _ = self.servo.tick(state, Input::Magnet);
+                Seen::Now { believable: false }
+            }
+            Fault::Frozen => {
+                let _ = self.servo.tick(state, Input::Frozen);
+                Seen::Now { believable: false }
+            }
             Fault::JointOutOfRange => {
                 // All bits alike, the sign turned, far off.
                 let choices = [i32::MIN, i32::MAX, -1_000_000 - self.below(1 << 30) as i32, 1_000_000];

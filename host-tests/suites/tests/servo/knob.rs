@@ -97,7 +97,7 @@ fn a_sensor_that_has_frozen_is_a_fault_within_a_quarter_of_a_second_and_pulls_no
             assert!(knob.dial.torque().abs() < 0.04 && until <= 1_001, "{when}: {} N·m", knob.dial.torque());
         }
         let (fault, _) = knob.state().fault().unwrap();
-        assert!(matches!(fault, Fault::FrameDamaged | Fault::Homing), "{when}: {fault}");
+        assert!(matches!(fault, Fault::Frozen | Fault::Homing), "{when}: {fault}");
         assert_eq!(knob.widths(), None);
     }
 }

@@ -9,12 +9,12 @@ use std::net::TcpStream;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Maximum time for a device's greeting, a reset included, and the interval between requests.
+/// How long a device may take to say who it is, a reset included, and how often it is asked meanwhile.
 pub const GREETING: Duration = Duration::from_secs(20);
 const AGAIN: Duration = Duration::from_millis(500);
 /// Time between attempts to reopen a broken line.
 const TRIED: Duration = Duration::from_millis(50);
-/// Maximum silence during the script or the ticks: an emulated device on a busy machine is slow.
+/// How long it may be silent in the midst of its script or of its ticks: an emulated one on a busy machine is slow.
 const SILENCE: Duration = Duration::from_secs(120);
 
 /// The line to a device.
@@ -38,9 +38,9 @@ pub struct Plan {
     pub most: u32,
     /// Seconds of the device's own ticks.
     pub seconds: f64,
-    /// Failures to cause, in order.
+    /// How it is to fail, one after the other.
     pub failures: Vec<Failure>,
-    /// Maximum time for the device's greeting; [`GREETING`].
+    /// How long the device may take to say who it is; [`GREETING`].
     pub greeting: Duration,
 }
 
@@ -71,7 +71,7 @@ pub struct Found {
 pub fn examine<L: DeviceLine>(line: &mut L, plan: &Plan) -> anyhow::Result<Found> {
     let mut talk = Talk { line, receiver: Receiver::new(), came: VecDeque::new(), damaged: 0 };
     let mut found = Found { identity: talk.greet(plan.greeting)?, ..Found::default() };
-    // Bytes before the greeting may be the rest of a frame that started before this program.
+    // What came before the greeting may have begun before this program did.
     talk.damaged = 0;
     if let Err(error) = ask_all(&mut talk, plan, &mut found) {
         found.broken_off = Some(format!("{error:#}"));
@@ -86,7 +86,7 @@ fn ask_all<L: DeviceLine>(talk: &mut Talk<'_, L>, plan: &Plan, found: &mut Found
         match talk.next(SILENCE)?.context("the device fell silent during its script")? {
             Finding::Line(line) => found.lines.push(line),
             Finding::Done => break,
-            // Part of a repeated greeting.
+            // Of a greeting that was repeated.
             Finding::Identity(_) | Finding::Ticks(_) => {}
         }
     }

@@ -7,11 +7,9 @@ use palpate::wire::acceptance::{Counted, Failure, Line, Ticks, panel};
 /// Maximum deviation of a period, as a fraction of it. The servo's interrupt waits only for the running instruction and
 /// for cache misses: 5 µs of 250 are generous.
 const JITTER: f64 = 0.02;
-/// Maximum relative error of the mean rate, by the device's own clock, which also drives its timer: one count of a
-/// period.
+/// How far the mean rate may be off, by the device's own clock, from which its timer runs too: a count of a period.
 const RATE: f64 = 1e-4;
-/// Maximum relative difference of the device's clock and the host's: 1 % for a chip's own oscillator, and 1 % for the
-/// delay of the host's line.
+/// How far the device's clock may be from the host's: 1 % of a chip's own oscillator, and as much for the host's line.
 const CLOCK: f64 = 0.02;
 /// Maximum length of a tick, as a fraction of its period: the rest is for cases that the script does not contain.
 const TICK: f64 = 0.75;
@@ -27,7 +25,7 @@ pub struct Surroundings<'a> {
     pub emulated: bool,
     /// It has no sensors yet.
     pub bare: bool,
-    /// Counts of an emulated core of the same kind for the same script.
+    /// Of the same script, what an emulated core of the same kind counted.
     pub counted: Option<&'a [Line]>,
 }
 
@@ -100,7 +98,7 @@ fn state_hash(found: &Found, expected: &[ExpectedLine]) -> Check {
     Check::new("state hash", format!("{theirs:08x}"), format!("{ours:08x}, as on the host"), theirs == ours)
 }
 
-/// The first difference between the device and the host.
+/// Where the device and the host part.
 fn script(found: &Found, expected: &[ExpectedLine]) -> Check {
     let must = "every line of the script as on the host";
     let mut ticks = 0;
@@ -235,12 +233,15 @@ fn sensors(found: &Found, around: &Surroundings<'_>) -> Check {
         return Check::not_here(name, "the emulated board has none", must);
     }
     let ticks = last.ticks.wrapping_sub(first.ticks);
-    let [absent, damaged, jumped] = [0, 1, 2].map(|kind| last.bad[kind].wrapping_sub(first.bad[kind]));
-    let bad = absent + damaged + jumped;
+    let [absent, damaged, jumped, magnet, frozen] =
+        [0, 1, 2, 3, 4].map(|kind| last.bad[kind].wrapping_sub(first.bad[kind]));
+    let bad = absent + damaged + jumped + magnet + frozen;
     let supply = if last.supply > 0 { format!("{:.1} V", f64::from(last.supply) / 1e3) } else { "none".to_owned() };
+    let gain = last.gains.iter().max().filter(|gain| **gain > 0);
+    let gain = gain.map(|gain| format!("magnet gain {gain} of 255 at most, ")).unwrap_or_default();
     let is = |bit: u8, word: &str, other: &str| if last.panel & bit != 0 { word.to_owned() } else { other.to_owned() };
     let text = format!(
-        "of {ticks} frames {absent} did not come, {damaged} came damaged, {jumped} jumped, {} in a row; {}, {}, {}, supply {supply}",
+        "of {ticks} frames {absent} did not come, {damaged} came damaged, {jumped} jumped, {magnet} with a bad magnet, {frozen} frozen, {} in a row; {gain}{}, {}, {}, supply {supply}",
         last.in_a_row,
         is(panel::ENABLE, "enable pressed", "enable released"),
         is(panel::STOP, "stop pressed", "stop released"),

@@ -18,7 +18,7 @@ use palpate_bench::exercise::tally::Tally;
 use std::fmt::{self, Display, Formatter};
 use std::time::Duration;
 
-/// Maximum wait for a line before the clock is read again.
+/// How long a line is waited on before the clock is looked at.
 pub const PATIENCE: Duration = Duration::from_millis(50);
 
 /// The image of an emulated board's acceptance.
@@ -41,7 +41,7 @@ pub fn on_emulator(program: &Program, plan: &Plan) -> anyhow::Result<Found> {
 
 // One thing that must hold.
 
-/// Result of a check.
+/// How it came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It holds.
@@ -53,7 +53,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The verdict on a condition.
+    /// Of a condition.
     pub const fn of(holds: bool) -> Self {
         if holds { Self::Passed } else { Self::Failed }
     }
@@ -77,7 +77,7 @@ pub struct Check {
     pub found: String,
     /// The expected figure.
     pub must: String,
-    /// Its result.
+    /// How it came out.
     pub verdict: Verdict,
 }
 
@@ -93,7 +93,7 @@ impl Check {
     }
 }
 
-// The host's results of the script.
+// What the host makes of the script.
 
 /// A line of the script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,7 +126,7 @@ pub fn expected(most: u32) -> Vec<ExpectedLine> {
     lines.0
 }
 
-// Printed and published reports.
+// What is printed, and what is posted.
 
 /// A report, as text that is Markdown too.
 #[derive(Clone, Debug)]

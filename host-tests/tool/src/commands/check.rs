@@ -195,7 +195,7 @@ fn tables(report: &mut String, wide: usize, unit: Unit, labels: &[String], surve
     Ok(())
 }
 
-/// Joints between the patches.
+/// How the patches hang together.
 fn features(report: &mut String, body: &BakedBody) -> std::fmt::Result {
     let topology = &body.topology;
     let kinds = [EdgeKind::Convex, EdgeKind::Smooth, EdgeKind::Reflex, EdgeKind::Mixed, EdgeKind::Open];
@@ -252,7 +252,7 @@ fn limits(report: &mut String, arguments: &Arguments, labels: &[String], surveys
     Ok(())
 }
 
-/// Latency of the tracker's nearest point.
+/// How late the tracker has the nearest point.
 fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::Result<()> {
     let &Arguments { rate, distance, speed, rides, .. } = arguments;
     let (options, bar) = (loaded.body.locator_options(), progress::work());

@@ -77,7 +77,7 @@ pub struct Arguments {
     plant: Vec<PlantedFault>,
 }
 
-/// Interval between shown lines.
+/// How often a line is shown.
 const SHOWN: Duration = Duration::from_millis(100);
 
 /// Runs the command.

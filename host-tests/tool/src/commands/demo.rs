@@ -66,7 +66,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     };
     let mut figures = Summary::new(&run.trace).rows();
     figures.extend(run.sizes);
-    // Runs on a device or body that the page does not support appear only in the report.
+    // What the page has no device or body for is in the report alone.
     let recorded = scene.recording(&run.trace, &run.on);
     let recording = arguments.report.with_extension("json");
     let mut replay = None;

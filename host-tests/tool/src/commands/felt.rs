@@ -123,9 +123,9 @@ impl Felt {
         0.5 * (low + high)
     }
 
-    /// Places for a hand's touches: a point and the outward normal for each `(u, v)` in `[0, 1]²`. On a patch these are
-    /// its own parameters; on a body they give the direction from its middle, `(½, ½)` upwards, to a place outside, and
-    /// the point is the body's closest to that place: continuous around a convex body, edges and corners included.
+    /// Where a hand may touch: a point and the outward normal for each `(u, v)` in `[0, 1]²`. On a patch its own
+    /// parameters; on a body the direction from its middle, `(½, ½)` upwards, to a place outside, and the body's
+    /// closest point to that place: continuous around a convex body, edges and corners included.
     pub fn places(&self) -> Box<dyn Fn(f64, f64) -> (DVec3, DVec3)> {
         let felt = match self {
             Self::Patch { surface, .. } => Places::On(surface.clone()),

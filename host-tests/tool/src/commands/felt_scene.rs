@@ -21,7 +21,7 @@ use std::path::Path;
 const GRID: usize = 24;
 /// Seconds at which a body on a path is drawn, beside the start.
 const DRAWN_AT: [f32; 2] = [1.0, 2.0];
-/// Depth of the hand's level below the highest top, metres: deep enough for the tops of all bodies.
+/// How far into the highest top the hand's level is, metres: it reaches for the tops of all.
 const REACH: f64 = 0.004;
 
 /// A scene as a surface. It lives as long as the program, as other surfaces do.
@@ -81,7 +81,7 @@ impl FeltScene {
         &self.file.name
     }
 
-    /// Number of its bodies.
+    /// How many bodies it has.
     pub fn count(&self) -> usize {
         self.bodies.len()
     }
@@ -159,7 +159,7 @@ impl FeltScene {
         (0.5 * (low + high)).as_vec3()
     }
 
-    /// Places for a hand's touches: a level just under the highest top, over all bodies.
+    /// Where a hand may touch: a level just under the highest top, over all bodies.
     pub fn places(&self) -> impl Fn(f64, f64) -> (DVec3, DVec3) + use<> {
         let (low, high) = self.bounds();
         let size = high - low;

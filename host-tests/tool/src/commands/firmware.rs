@@ -82,7 +82,7 @@ impl Arguments {
         self.cargo == ["accept"]
     }
 
-    /// The kind of the board's image that is built.
+    /// Which image of a board for the bench is built.
     fn kind(&self) -> Kind {
         let after = self.cargo.iter().zip(self.cargo.iter().skip(1)).filter(|(flag, _)| *flag == "--features");
         let joined = self.cargo.iter().filter_map(|argument| argument.strip_prefix("--features="));
@@ -92,8 +92,8 @@ impl Arguments {
     }
 }
 
-/// Path of the image for `palpate accept` after the build. The image of a bench board is renamed, because its other
-/// image has the same name and must not be mistaken for it.
+/// Where the image for `palpate accept` lies, once it is built. That of a board for the bench is taken out of the place
+/// of its other image: nobody is to flash the one for the other.
 fn accepted(toolchain: &Toolchain, board: AnyBoard) -> anyhow::Result<PathBuf> {
     let folder = toolchain.target_folder()?.join(board.target()).join("release");
     let AnyBoard::Bench(board) = board else { return Ok(folder.join("accept")) };
@@ -107,9 +107,9 @@ fn accepted(toolchain: &Toolchain, board: AnyBoard) -> anyhow::Result<PathBuf> {
 struct Chosen {
     /// Its baked source.
     file: PathBuf,
-    /// The memory of its tables; `None` if they do not fit.
+    /// Where its tables lie; `None` if they do not fit.
     place: Option<Place>,
-    /// The same in words.
+    /// That in words.
     says: String,
 }
 

@@ -71,9 +71,9 @@ impl Sent {
     }
 }
 
-/// Maximum wait for bytes before the clock is read again.
+/// How long to wait for bytes before looking at the clock.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// Interval between updates of a terminal's line, and between printed lines elsewhere.
+/// How often a terminal's line is updated, and how often a line is printed elsewhere.
 const REFRESH: Duration = Duration::from_millis(100);
 const LINE: Duration = Duration::from_secs(1);
 

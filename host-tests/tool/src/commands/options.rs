@@ -80,7 +80,7 @@ pub struct SceneOptions {
 pub struct Scene {
     /// The model file.
     file: ModelFile,
-    /// Origin of its tables' frame in the model, metres.
+    /// Where the frame of its tables lies in the model, metres.
     pub centre: DVec3,
     /// The surface.
     pub felt: Felt,
@@ -141,7 +141,7 @@ impl SceneOptions {
         Ok(Scene { file, centre, felt, device, settings, protection, ticks, enable_at })
     }
 
-    /// Number of ticks at a rate, Hz, and the tick from which force is requested.
+    /// How many ticks to run at a rate, Hz, and at which of them force is asked for.
     fn ticks(&self, rate: f32) -> anyhow::Result<[u32; 2]> {
         let ticks = self.seconds * f64::from(rate);
         if !(ticks >= 1.0 && ticks <= f64::from(u32::MAX)) {
@@ -172,7 +172,7 @@ impl SceneOptions {
             let (point, normal) = places(u, v);
             ((point + origin).to_array(), normal.to_array())
         };
-        // If the surface is larger than the workspace, the hand keeps to the middle of the surface.
+        // Where the surface is larger than the workspace, it keeps to the middle of the surface.
         let (mechanism, preset) = (scene.device.plant.mechanism(0.0), scene.device.preset);
         let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0);
         let path = TouchingPath::within(point_and_normal, self.seconds, self.seed, has_room).map_err(|error| {
@@ -289,7 +289,7 @@ impl Scene {
     /// # Errors
     /// The library's refusal, or a bug of the baker.
     pub fn source(&self) -> anyhow::Result<String> {
-        // Reports errors here that the compiler would report later.
+        // What would not compile is said here.
         self.host_loop()?;
         self.felt.source(&self.origin(), self.limits())
     }
@@ -299,7 +299,7 @@ impl Scene {
         &self.file.name
     }
 
-    /// Origin of the scene's tables.
+    /// Where the scene's tables come from.
     pub fn origin(&self) -> Origin<'_> {
         Origin { model_file: &self.file.name, out_file: "body.rs", model: self.file.bytes(), centre: self.centre }
     }

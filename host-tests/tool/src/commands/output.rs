@@ -1,11 +1,11 @@
-//! Output of answers: to complete files, or to standard output.
+//! Where answers go: files that are whole or not there, and standard output.
 
 use anyhow::Context as _;
 use std::fs;
 use std::io::{self, ErrorKind, Write as _};
 use std::path::Path;
 
-/// Writes a temporary file beside the target and renames it, so that no reader sees half a file.
+/// Writes a file beside its place and then moves it there, so that nobody ever reads half of it.
 pub(super) fn write_whole(path: &Path, contents: &[u8]) -> anyhow::Result<()> {
     let name = path.file_name().with_context(|| format!("{}: not the name of a file", path.display()))?;
     let partial = path.with_file_name(format!(".{}.{}.partial", name.to_string_lossy(), std::process::id()));

@@ -71,7 +71,7 @@ pub fn view(arguments: &ViewArguments) -> anyhow::Result<ExitCode> {
     bodies.extend(shipped()?.into_iter().filter(|body| body.name != first));
     let text = written(Given { first, bodies, script: script(), recording })?;
     page::serve(&text, arguments.port, |address| {
-        // The reader may have closed standard output.
+        // Whoever reads it may have gone.
         let _ = print(format!("{address}\n").as_bytes());
     })?;
     Ok(ExitCode::SUCCESS)

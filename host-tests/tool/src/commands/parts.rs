@@ -101,9 +101,9 @@ enum Mode {
     Track,
 }
 
-/// Errors of answers.
+/// How far answers are off.
 struct Errors {
-    /// Maximum error of a distance, in the model's unit.
+    /// Of a distance, in the model's unit.
     greatest: f64,
     /// Rows with the wrong side, of those that are farther from the surface than the maximum error.
     wrong_side: usize,

@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Place of a loop that runs outside an image.
+/// Where a loop runs that is not in an image.
 pub(super) const ON_HOST: &str = "the loop compiled for the host";
 
 /// Writes a recording, whole or not at all.

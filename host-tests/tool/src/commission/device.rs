@@ -8,12 +8,12 @@ use std::collections::VecDeque;
 
 /// Ticks of a step: a fiftieth of a second at 4 kHz.
 const STEP: u32 = 80;
-/// Maximum number of empty reads before the device counts as disconnected.
+/// How often a line may have nothing to say before the device counts as gone.
 const SILENCES: u32 = 200;
-/// Maximum number of requests for set-up, and of reads after each.
+/// How often a device is asked to be set up, and how often the line is looked at after each.
 const ASKED: u32 = 40;
 const LOOKS: u32 = 10;
-/// Maximum wait for the release of the enable button, in fiftieths of a second.
+/// How long the enable button may take to be let go of, in fiftieths of a second.
 const RELEASES: u32 = 1_500;
 
 /// The bytes between this program and a device.
@@ -107,7 +107,7 @@ impl Device {
         Ok(device)
     }
 
-    /// Greets the device, reads its calibration report, and has it enter set-up.
+    /// Greets it, hears how it is calibrated, and has it set up.
     fn set_up(&mut self) -> anyhow::Result<()> {
         for _ in 0..ASKED {
             self.send(HostMessage::Hello { protocol: PROTOCOL })?;
@@ -235,7 +235,7 @@ impl Device {
     /// Waits until nothing but the key is missing.
     ///
     /// # Errors
-    /// A broken line, or an enable button that is not pressed, with the reason why the motors are off.
+    /// A line that broke, or an enable button that nobody presses, with what keeps the motors off.
     pub fn wait_for_enable(&mut self) -> anyhow::Result<()> {
         for _ in 0..1_500 {
             if self.step(None)?.enable {

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 /// Ticks that the device runs while the line is looked at: two milliseconds.
 const TICKS: u32 = 8;
-/// Maximum time for a byte: emulated time stands still meanwhile.
+/// How long a byte may take on its way: emulated time stands still meanwhile.
 const WAIT: Duration = Duration::from_micros(200);
 
 /// A line to an emulated board.

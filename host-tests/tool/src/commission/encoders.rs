@@ -6,7 +6,7 @@ use anyhow::bail;
 use palpate_sim::devices::{DeviceFile, HomingEntry, JointEntry};
 use std::f64::consts::TAU;
 
-/// Rotation of each joint from the middle of the workspace, in either direction, rad.
+/// How far each joint is turned from the middle of the workspace, either way, rad.
 const TURN: f64 = 0.15;
 /// Travel beyond the expected position of a mark, in either direction, turns of its encoder.
 const PAST: f64 = 0.6;

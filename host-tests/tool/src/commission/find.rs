@@ -49,7 +49,7 @@ fn middle(own: &OwnDevice) -> anyhow::Result<([f64; 3], [f64; 3])> {
     Ok((centre, mechanism.gravity_torques(centre)))
 }
 
-// The measured values, as the device stores them.
+// What was measured, as the device keeps it.
 
 /// The calibration of a device of three joints from its file; `None` with fewer joints.
 pub fn calibration(own: &OwnDevice) -> Option<Calibration<3>> {

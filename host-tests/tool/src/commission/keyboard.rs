@@ -5,7 +5,7 @@ use anyhow::{Context, bail};
 use std::io::{IsTerminal as _, Write as _, stdin, stdout};
 use std::time::{Duration, Instant};
 
-/// Time after a repeat during which the bar counts as held: keyboards repeat 10 to 40 times a second.
+/// How long after a repeat the bar counts as held: keyboards repeat 10 to 40 times a second.
 const REPEATS: Duration = Duration::from_millis(150);
 
 /// The space bar.
@@ -24,7 +24,7 @@ impl Keyboard {
     /// Of this program's terminal, which is as it was once this is dropped.
     ///
     /// # Errors
-    /// If standard input is not a terminal: a script or a pipe holds no key.
+    /// Where there is none: a script or a pipe holds no key.
     pub fn new() -> anyhow::Result<Self> {
         if !stdin().is_terminal() {
             bail!("motors move only while a key is held, and standard input is no terminal");

@@ -37,7 +37,7 @@ pub(super) fn find_motors(
     Ok(())
 }
 
-/// Direction in which a load falls off its support.
+/// Which way a load falls off its support.
 pub(super) fn away(load: f64) -> f64 {
     if load > 0.0 { -1.0 } else { 1.0 }
 }
@@ -117,7 +117,7 @@ pub(super) fn duty(share: f64) -> i16 {
 /// counts. The share at which it did, and the counts; `None` if it never did. The motor is still driven.
 ///
 /// # Errors
-/// A broken line, a key that is not held, a refusal by the device.
+/// A line that broke, a key that nobody holds, a device that refuses.
 pub(super) fn grow(
     lab: &mut Lab,
     output: u8,

@@ -6,7 +6,7 @@ use serialport::SerialPort;
 use std::io::ErrorKind;
 use std::time::Duration;
 
-/// Maximum wait for bytes.
+/// How long to wait for bytes.
 const WAIT: Duration = Duration::from_millis(10);
 
 /// A device at a serial port.

@@ -45,7 +45,7 @@ pub(super) fn find_torques(
         let by_file = (motor.torque_constant * motor.current_at_full * motor.ratio).abs();
         let towards = away(load);
         let [up, down] = edges(lab, file, (centre, index), (towards, most))?;
-        // The remaining torque for a weight, less two fifths as a reserve for a motor weaker than in the file.
+        // What is left for a weight, and two fifths of it for a motor that is weaker than the file says.
         let share = LOADS[0].min(0.6 * (most - up));
         if share < LOADS[1] {
             bail!(

@@ -178,7 +178,7 @@ impl Hands for SimulatedHands {
 /// Arbitrary positions of the marks.
 const MARKS: [Option<i32>; 3] = [Some(137), Some(-421), Some(300)];
 
-/// Differences between a planted device and its file.
+/// How a planted device differs from its file.
 #[derive(Clone, Copy, Debug)]
 pub struct Planted {
     /// The device with its true numbers.

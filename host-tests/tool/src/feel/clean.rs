@@ -35,9 +35,9 @@ const FASTEST: f32 = 0.5 / (2.0 * core::f32::consts::TAU);
 pub struct Clean {
     /// Servo rate, Hz.
     pub rate: f32,
-    /// Resolution of its encoders, as a multiple of the device's own.
+    /// How many times as fine as the device's own its encoders are.
     pub finer: f64,
-    /// The stiffness, N/m, below which every tested wall is clean; 0 if the softest one is not.
+    /// The stiffest wall below which each that was tried is clean, N/m; 0 if the softest is not.
     pub clean: f64,
     /// With this estimator,
     pub method: VelocityMethod,
@@ -79,7 +79,7 @@ pub fn clean_stiffness(
                 Err(error) => Err(error),
             }
         };
-        // A combination that is not clean at the best stiffness so far need not be searched.
+        // What is not clean where another is need not be looked at.
         if best.0 > 0.0 && !is_clean(best.0)? {
             continue;
         }

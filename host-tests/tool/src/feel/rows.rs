@@ -59,9 +59,9 @@ pub struct Row {
     pub script: Script,
     /// The figures at the hand.
     pub figures: Figures,
-    /// Relative error of the mean force, compared with stiffness times the loop's own depth.
+    /// By how much the mean force differs from stiffness times depth, as a share of it; of the loop's own depth.
     pub force_error: Option<f64>,
-    /// Travel over which the direction turned, m.
+    /// Over how much travel the direction turned, m.
     pub turn: Option<f64>,
     /// For a perceptible slide: the factor by which the encoders must be finer to hide it; infinite if none of the
     /// tried ones is enough.

@@ -118,12 +118,12 @@ impl Run {
         !self.left && self.error(subject, target) <= TOLERANCE
     }
 
-    /// Distance of its end from the closest point, relative to the patch's size; it must not have left the patch.
+    /// How far from the closest point it ended, relative to the patch's size; it must not have left.
     pub fn error(&self, subject: &Subject, target: &Target) -> f64 {
         subject.at(self.end()).0.point.distance(target.closest.point) / subject.size
     }
 
-    /// Number of arrivals at the border from the inside.
+    /// How often it came to the border from the inside.
     pub fn border_visits(&self) -> usize {
         let at_border = |at: &[f64; 2]| at.iter().any(|parameter| *parameter <= 0.0 || *parameter >= 1.0);
         self.path.windows(2).filter(|pair| !at_border(&pair[0]) && at_border(&pair[1])).count()
@@ -137,7 +137,7 @@ fn newton(baseline: &Baseline<'_>, probe: DVec3, start: [f64; 2]) -> Run {
         match baseline.step(at, probe) {
             Advance::To(next) => {
                 path.push(next);
-                // The last bits of a double may alternate permanently.
+                // The last bits of a double may go back and forth for ever.
                 let is_still = (0..2).all(|i| (next[i] - at[i]).abs() < 1e-14);
                 at = next;
                 if is_still {
@@ -173,7 +173,7 @@ fn firmware(controller: &Controller, subject: &Subject, probe: Vec3, start: [f64
     Run { path, left: false }
 }
 
-/// Starts of the grid from which the closest point is found.
+/// Which starts of the grid find the closest point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basin {
     /// Start `(i, j)`, at `(i, j) / (STARTS − 1)`, is entry `i · STARTS + j`: found, and the steps it took.
@@ -250,7 +250,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares; there must be a probe. `progress` receives the number of finished probes.
+    /// Compares; there must be a probe. `progress` hears of every probe done.
     pub fn new(subject: &Subject, targets: Vec<Target>, mut progress: impl FnMut(usize, usize)) -> Self {
         let count = targets.len();
         let row = |(index, target): (usize, &Target)| {

@@ -48,7 +48,7 @@ fn path(area: &Drawing<'_>, title: &str, subject: &Subject, view: &View, target:
             seen([0, 1].map(|i| (pair[0][i] + between(step) * (pair[1][i] - pair[0][i])).clamp(0.0, 1.0)))
         }));
     }
-    // Points within about a drawn pixel of the last one are invisible.
+    // What lies within a drawn pixel or so of the last point shows nothing.
     let mut thinned: Vec<(f64, f64)> = Vec::new();
     for point in line {
         if thinned.last().is_none_or(|last| (last.0 - point.0).hypot(last.1 - point.1) > 1e-3 * subject.size * 1e3) {
@@ -68,7 +68,7 @@ fn path(area: &Drawing<'_>, title: &str, subject: &Subject, view: &View, target:
     Ok(())
 }
 
-/// Fraction of a step inside the square.
+/// How much of a step lies in the square.
 fn fraction_inside(from: [f64; 2], to: [f64; 2]) -> f64 {
     (0..2).fold(1.0, |fraction: f64, i| {
         let change = to[i] - from[i];

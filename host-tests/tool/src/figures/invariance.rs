@@ -99,7 +99,7 @@ impl Passage {
             let errors = ProjectionErrors::new(&witness.surface, probe).measure_numbers()?;
             let (at, point) = (witness.parameters, witness.surface.point.as_dvec3());
             let moved = CONTROLLER.step(patch, &mut witness, Probe::at(probe), PERIOD as f32);
-            // With a smaller certified gain, time would differ from the flow's.
+            // Where the certified gain is less, time would not be the flow's.
             if moved.outcome != Outcome::AtRest && moved.gain < GAIN * PERIOD as f32 {
                 return None;
             }
@@ -159,7 +159,7 @@ impl Passage {
         })
     }
 
-    /// Maximum rise of `‖ΔR‖` from one tick to the next, metres; 0 if it never rises.
+    /// By how much `‖ΔR‖` rises at most from one tick to the next, metres; 0 if it never does.
     pub fn largest_rise(&self) -> f64 {
         self.samples.windows(2).map(|pair| pair[1].distance - pair[0].distance).fold(0.0, f64::max)
     }
@@ -265,7 +265,7 @@ fn mark(chart: &mut Chart<'_, '_>, passage: &Passage) -> DrawingResult {
     times.into_iter().try_for_each(|(time, name)| mark_time(chart, time, name))
 }
 
-/// Place of the witness point in a mode.
+/// Where a mode holds the witness point.
 const fn place(mode: BoundaryMode) -> &'static str {
     match mode {
         BoundaryMode::LowerU => "on u = 0",

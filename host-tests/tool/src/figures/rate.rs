@@ -1,5 +1,5 @@
-//! Rate of convergence of the paper's law and of that of second order for a probe at rest, and their lag for a moving
-//! one: both with the firmware's own code, in single precision.
+//! How fast the paper's law and that of second order arrive at a probe that rests, and how far behind one that moves
+//! they are: both with the firmware's own code, in single precision.
 
 use super::page::{Axes, THIN, key, legend, page};
 use super::subject::Subject;
@@ -31,7 +31,7 @@ const SETTLED: usize = 20;
 /// A run to a closest point.
 #[derive(Clone, Debug)]
 pub struct Rate {
-    /// Place of the closest point.
+    /// Where the closest point lies.
     pub place: &'static str,
     /// `‖x − x*‖`, from the start on, for each of [`LAWS`].
     pub errors: [Vec<f64>; 2],
@@ -81,7 +81,7 @@ fn off(witness: &Witness, closest: [f64; 2]) -> f64 {
 /// The maximum error while a probe moves evenly.
 #[derive(Clone, Copy, Debug)]
 pub struct Lag {
-    /// Speed of the probe's foot in the middle of its way, m/s.
+    /// Of the probe's foot in the middle of its way, m/s.
     pub speed: f64,
     /// `‖x − x*‖` at most once the start is corrected, for each of [`LAWS`].
     pub errors: [f64; 2],

@@ -238,7 +238,7 @@ fn tracking(subject: &Subject) -> anyhow::Result<Sheet> {
     Ok(sheet)
 }
 
-/// Rate of convergence and lag of the laws.
+/// How fast the laws arrive, and how far behind they are: local rate and lag.
 fn rates(subject: &Subject) -> anyhow::Result<Sheet> {
     let mut sheet = Sheet::default();
     let oracle = subject.oracle();

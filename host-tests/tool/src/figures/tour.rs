@@ -47,9 +47,9 @@ pub struct Sample {
     pub feature: Feature,
     /// `(u, v)` on a face, `(t, 0)` on an edge.
     pub parameters: [f32; 2],
-    /// Excess of the distance over the oracle's, metres.
+    /// By how much the distance is longer than the oracle's, metres.
     pub excess: f64,
-    /// Increase of the distance to its probe by the tick, metres: not above 0 apart from rounding.
+    /// By how much the tick has lengthened the distance to its probe, metres: not above 0 but for rounding.
     pub rise: f64,
 }
 

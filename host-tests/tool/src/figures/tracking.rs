@@ -25,7 +25,7 @@ pub const MOTION: f64 = 0.5;
 const SETS_OUT: [f64; 2] = [-0.3, -0.35];
 const START: [f64; 2] = [0.3, -0.4];
 
-/// Final position of the probe: there the discretisation limit of Euler's method is the paper's.
+/// Where the probe comes to rest: there the discretisation limit of Euler's method is the paper's.
 #[derive(Clone, Copy, Debug)]
 pub struct Configuration {
     /// The foot of the probe, `(u, v)`.
@@ -91,7 +91,7 @@ impl Configuration {
         Ok(0.5 * (stable + unstable))
     }
 
-    /// Growth of the error over a run of the firmware's controller at a fixed gain.
+    /// By how much the error grows over a run of the firmware's controller at a fixed gain.
     fn growth(&self, subject: &Subject, integrator: Integrator, gain: f64) -> f64 {
         // A thousand times the rounding of f32, and so small that the linear theory holds: beyond the limit the chatter
         // settles at an amplitude that grows from zero, and must be above this.

@@ -85,7 +85,7 @@ impl Compiler {
         (minor >= LEAST_MINOR && source.exists()).then_some(Self { version, release })
     }
 
-    /// Path of the library for a target in the cache.
+    /// Where the library for a target lies in the cache.
     fn sysroot(&self, cache: &Path, target: &str) -> PathBuf {
         cache.join(format!("debian-rust-{}-{target}", self.release))
     }

@@ -14,13 +14,13 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// Maximum wait for a report. The emulator answers within a millisecond; over the UART it waits about a second for a
-/// silent host, which takes several on a loaded machine.
+/// How long a report may take. The emulator answers within a millisecond; over the UART it waits a second or so for a
+/// host that stays silent, and a loaded machine makes that several.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Interval between checks that the emulator still runs.
+/// How often to look whether the emulator is still there.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// File of an image's flash, in the folder in which the emulator was started.
+/// Where an image that has flash keeps it, in the folder where the emulator was started.
 const FLASH: &str = "flash";
 
 /// A running emulator. It ends when this is dropped, or by itself if this program is gone.

@@ -26,7 +26,7 @@ pub enum LinkError {
     /// The device is gone.
     #[error("the emulator ended ({status}) {output}")]
     Ended {
-        /// Its exit status.
+        /// How it ended.
         status: String,
         /// Its output.
         output: String,

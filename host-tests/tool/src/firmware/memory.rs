@@ -144,7 +144,7 @@ pub fn report(board: BenchBoard, kind: Kind, image: &Path) -> Result<String, Set
         let sections = file.sections().filter(|section| is_in(section.address()));
         sections.filter(|section| is_loaded(&section.flags())).map(|section| section.size()).sum()
     };
-    // Data that is copied before `main` also lies in flash.
+    // What is copied before main lies in flash once more.
     let images: u64 = file
         .sections()
         .filter(|section| is_loaded(&section.flags()) && section.kind() != SectionKind::UninitializedData)

@@ -35,9 +35,9 @@ pub enum SetUpError {
     /// A file or program could not be reached.
     #[error("{what}: {source}")]
     Io {
-        /// The file or program.
+        /// Which.
         what: String,
-        /// The cause.
+        /// Why.
         source: io::Error,
     },
     /// The image is not what the board can load.

@@ -1,4 +1,4 @@
-//! The emulator: search, installation and command line.
+//! Where the emulator is.
 
 use super::process::{apt_install, on_path, output};
 use super::{Board, Progress, SetUpError};

@@ -8,7 +8,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Target, compiler and library of a board's code.
+/// How a board's code is compiled.
 #[derive(Clone, Debug)]
 pub struct Toolchain {
     target: &'static str,
@@ -41,7 +41,7 @@ impl Toolchain {
         self.target
     }
 
-    /// Target folder: toolchains cannot share build results.
+    /// Where it builds: what one toolchain has built is no use to another.
     ///
     /// # Errors
     /// Outside of the repository.

@@ -10,7 +10,7 @@ pub(super) enum Way {
     Installed,
     /// Debian's Rust with a library for the target, built here.
     Debian {
-        /// Path of the library.
+        /// Where the library lies.
         sysroot: PathBuf,
         /// The linker.
         linker: PathBuf,

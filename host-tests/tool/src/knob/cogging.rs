@@ -34,7 +34,7 @@ const COMMUTATION: Commutation = SEARCH.commutation;
 /// Field and rotor at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sample {
-    /// Angle of the field from its start, 65,536ths of an electrical turn.
+    /// How far the field has been led, 65,536ths of an electrical turn.
     pub field: i32,
     /// The sensor's counts.
     pub counts: i32,
@@ -78,7 +78,7 @@ pub fn analyse(ways: [&[Sample]; 2], torque: f64) -> Result<Recording, Unbelieva
         let ElectricalAngle(rotor) = COMMUTATION.rotor(Aligned { at_zero, ..unaligned }, Counts(sample.counts));
         f64::from(ElectricalAngle((sample.field as u16).wrapping_sub(rotor)).radians())
     };
-    // The mean lead of the field over whole turns there and back: friction and cogging cancel in it.
+    // How far the field is ahead on average over whole turns there and back; friction and cogging leave that.
     let ElectricalAngle(rotor) = COMMUTATION.rotor(unaligned, Counts(first.counts));
     let near = (first.field as u16).wrapping_sub(rotor);
     let mut mean = 0.0;
@@ -105,7 +105,7 @@ pub fn analyse(ways: [&[Sample]; 2], torque: f64) -> Result<Recording, Unbelieva
         }
     }
     let went = f64::from((last.counts - first.counts).abs()) / f64::from(COMMUTATION.counts_per_turn);
-    // Tolerance for a whole turn: the effect of cogging at both ends, as in the alignment.
+    // What cogging at both ends leaves of a whole turn: as the alignment has it.
     if (went - 1.0).abs() > 0.07 {
         return Err(Unbelievable::NotFollowed);
     }
@@ -128,7 +128,7 @@ fn filled(places: &[Place]) -> Vec<f64> {
 /// Without what comes too seldom or too often a turn to be cogging.
 fn smooth(torques: &[f64]) -> Vec<f64> {
     let count = torques.len();
-    // Sine and cosine at each place; the wave of an order reads them at the place times the order, modulo a turn.
+    // Of a place times an order, modulo a turn.
     let waves: Vec<(f64, f64)> = (0..count).map(|index| (index as f64 / count as f64 * TAU).sin_cos()).collect();
     let mut smoothed = vec![0.0; count];
     for order in SLOW + 1..=FAST {
@@ -149,7 +149,7 @@ impl Recording {
         &self.0
     }
 
-    /// Size of the cogging: its root mean square, N·m.
+    /// How much cogging it found: the root of its mean square, N·m.
     pub fn size(&self) -> f64 {
         (self.0.iter().map(|torque| torque * torque).sum::<f64>() / self.0.len() as f64).sqrt()
     }
@@ -210,7 +210,7 @@ pub fn record(device: &mut Device, hands: &mut dyn Hands) -> anyhow::Result<Reco
             })?;
             if !reading.live {
                 let why = said(&reading);
-                // The refusal stays until the key is released.
+                // What was refused stands until the key is let go.
                 device.step(None)?;
                 bail!("the recording ended early{why}; no file is written; start again");
             }

@@ -1,6 +1,6 @@
 //! A hand that turns the knob through every feel, and the measurements during that.
 
-use super::{DIAL_ZERO, FEELS, FROZEN, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, report, widths};
+use super::{DIAL_ZERO, FEELS, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, report, widths};
 use crate::firmware::LinkError;
 use palpate::device::Counts;
 use palpate::device::sensor::Frozen;
@@ -18,7 +18,7 @@ const FAR: f64 = std::f64::consts::TAU / 4.0;
 const BETWEEN: u32 = 800;
 /// Ticks after the magnet has slipped.
 const AFTER: u32 = 400;
-/// Counts of the slip.
+/// By how many counts it slips.
 const SLIP: i32 = 900;
 
 /// Ticks of a whole run.
@@ -29,7 +29,7 @@ pub const TICKS: u32 = UNTIL_FELT + FEELS.len() as u32 * (BETWEEN + 2 * WAY) + A
 pub struct Turned {
     /// Seconds since the start.
     pub time: f64,
-    /// The chosen feel.
+    /// Which feel is chosen.
     pub feel: u8,
     /// Whether the hand is on a way that is measured, and which: 0 there, 1 back.
     pub way: Option<usize>,
@@ -117,7 +117,7 @@ impl HostEnd {
     /// A loop before its first tick.
     pub fn new(servo: KnobServo) -> Self {
         let state = servo.start();
-        Self { servo, state, frozen: FROZEN }
+        Self { servo, state, frozen: Frozen::AS5047P }
     }
 
     /// One tick: sensors in, report out, as the board's loop does it.
@@ -126,7 +126,7 @@ impl HostEnd {
         self.servo.note(&mut self.state, Event::Chosen { index: feel as u8 });
         self.servo.note(&mut self.state, Event::Supply { millivolts: supply as u32 });
         let input = if self.frozen.is_frozen(counts as u32) {
-            Input::Damaged
+            Input::Frozen
         } else {
             Input::Sensors { counts: [Counts(counts)], enable: sensors.enable }
         };

@@ -10,7 +10,7 @@ pub struct Table(csv::Writer<File>);
 
 impl Table {
     /// Names of the columns.
-    const COLUMNS: [&str; 29] = [
+    const COLUMNS: [&str; 33] = [
         "tick",
         "number",
         "rate",
@@ -40,6 +40,10 @@ impl Table {
         "clock",
         "bridged",
         "hold",
+        "bad_frames",
+        "gain_a",
+        "gain_b",
+        "gain_c",
     ];
 
     /// A new file, in place of any that was there.
@@ -72,6 +76,8 @@ impl Table {
         row.extend(record.duties.map(|duty| duty.to_string()));
         row.push(record.clock.to_string());
         row.extend([record.bridged, u32::from(record.hold)].map(|number| number.to_string()));
+        row.push(record.bad_frames.to_string());
+        row.extend(record.gains.map(|gain| gain.to_string()));
         self.0.write_record(row)
     }
 

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 /// A loop: instructions each of which can be reached from each other without leaving them.
 #[derive(Clone, Debug)]
 pub struct Loop {
-    /// Its entries: mostly one; several if the compiler peeled the first round off; none if it is unreachable.
+    /// Where it is entered: in one place mostly; in several, where the compiler took the first round apart; in none,
+    /// where nothing leads.
     pub heads: BTreeSet<u64>,
     /// Its instructions.
     pub body: BTreeSet<u64>,
-    /// Number of loops around it.
+    /// How many loops it is in.
     pub depth: usize,
 }
 

@@ -22,9 +22,9 @@ pub enum CodeError {
     /// Something that is no instruction.
     #[error("{function}: no instruction at {address:#x}")]
     Undecodable {
-        /// The function.
+        /// Where.
         function: String,
-        /// The address.
+        /// Where exactly.
         address: u64,
     },
     /// No such function, or several.
@@ -32,7 +32,7 @@ pub enum CodeError {
     NotOne {
         /// The name.
         name: String,
-        /// Their number.
+        /// How many there are.
         count: usize,
     },
 }
@@ -46,14 +46,14 @@ pub struct Function {
     pub address: u64,
     /// Its instructions, by address.
     pub instructions: BTreeMap<u64, Instruction>,
-    /// Targets of each jump through a table, by the address of the jump.
+    /// Where each jump through a table may lead, by the address of the jump.
     pub tables: BTreeMap<u64, Vec<u64>>,
     /// Bytes, with its literals and tables.
     pub size: u64,
 }
 
 impl Function {
-    /// Targets of an instruction within this function, and its call or jump to another one.
+    /// Where an instruction may lead within this function, and what it calls or jumps to outside.
     pub fn successors(&self, instruction: &Instruction) -> (Vec<u64>, Option<u64>) {
         let next = instruction.address + instruction.length;
         let inside = |target: u64| self.instructions.contains_key(&target);
@@ -86,7 +86,7 @@ impl Code {
         let refused = |error| CodeError::File(path.to_path_buf(), error);
         let file = object::File::parse(content.as_slice()).map_err(refused)?;
         let decoder = Decoder::new().map_err(CodeError::Decoder)?;
-        // `$t` marks the start of code, `$d` that of data within it (Arm ELF, "Mapping symbols").
+        // `$t` begins code, `$d` data among it (Arm ELF, "Mapping symbols").
         let mut kinds = BTreeMap::new();
         let mut starts: BTreeMap<u64, (String, u64)> = BTreeMap::new();
         for symbol in file.symbols() {

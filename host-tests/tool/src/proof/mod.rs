@@ -20,7 +20,7 @@ use std::path::Path;
 pub use tree::{Finding, Tree, is_double_routine};
 pub use tree::{StackError, deepest};
 
-// Use of flash.
+// What takes how much flash.
 
 /// Bytes of code by part of the project; each instruction belongs to the innermost function outside the core library,
 /// even when inlined. `flash` is the size of the whole image; the bytes that are not code count as `tables and
@@ -69,11 +69,11 @@ fn part(place: &Place) -> String {
 pub struct LoopEntry {
     /// The function.
     pub function: String,
-    /// Maximum number of its loops in an image.
+    /// How many loops it has in an image at most.
     pub loops: usize,
-    /// Maximum number of rounds of each, for any input.
+    /// How often each goes round at most, whatever the input.
     pub rounds: u32,
-    /// The reason.
+    /// Why.
     pub because: String,
 }
 

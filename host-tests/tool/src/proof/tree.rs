@@ -167,7 +167,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-// Maximum depth of the stack.
+// How deep the stack can get.
 
 /// Why there is no bound.
 #[derive(Debug, Error, PartialEq, Eq)]
@@ -175,33 +175,33 @@ pub enum StackError {
     /// The stack pointer is set to something that is not known from the code.
     #[error("{function} moves the stack pointer by an unknown amount at {address:#x}: {text}")]
     Unknown {
-        /// The function.
+        /// Where.
         function: String,
-        /// The address.
+        /// Where exactly.
         address: u64,
-        /// The instruction.
+        /// How.
         text: String,
     },
     /// Two ways to one instruction leave different depths.
     #[error("{function} comes to {address:#x} with different depths of stack")]
     Uneven {
-        /// The function.
+        /// Where.
         function: String,
-        /// The address.
+        /// Where exactly.
         address: u64,
     },
     /// A function calls itself, if by way of others.
     #[error("{function} is recursive")]
     Recursive {
-        /// The function.
+        /// Which.
         function: String,
     },
     /// A call through a pointer or to an address without a function.
     #[error("{function} has an unknown call target at {address:#x}")]
     UnknownCall {
-        /// The function.
+        /// Where.
         function: String,
-        /// The address.
+        /// Where exactly.
         address: u64,
     },
 }

@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 /// Interval at which a force is repeated and the loop shown.
 const PUSHES: Duration = Duration::from_millis(30);
 const SHOWS: Duration = Duration::from_millis(100);
-/// Maximum wait for the device.
+/// How long one look at the device takes at most.
 const LOOK: Duration = Duration::from_millis(10);
 
 /// Whether the conversation goes on.
@@ -37,7 +37,7 @@ pub type Bake = dyn Fn(&Path) -> anyhow::Result<Vec<u8>> + Sync;
 pub struct Console<'a, L> {
     device: Device<L>,
     bake: &'a Bake,
-    /// Positions of the bodies as sent from here; a body that moves has none.
+    /// Where bodies were put from here; one that moves is nowhere known.
     poses: BTreeMap<u8, BodyPose>,
     /// A force, when it ends, and when it was asked for last.
     pushes: Option<([f32; 3], Instant, Option<Instant>)>,
@@ -192,7 +192,7 @@ impl<'a, L: Line> Console<'a, L> {
 
     fn upload(&mut self, body: u8, path: &Path, into: Memory, output: &mut dyn Write) -> anyhow::Result<()> {
         let bake = self.bake;
-        // A model may take long to bake; meanwhile this keeps the link to the device alive.
+        // A model may take long to bake, and the device hears from here meanwhile.
         let file = std::thread::scope(|scope| {
             let baking = scope.spawn(|| bake(path));
             while !baking.is_finished() {
@@ -205,7 +205,7 @@ impl<'a, L: Line> Console<'a, L> {
             let tenth = came * 10 / all.max(1);
             if tenth > shown {
                 shown = tenth;
-                // A failed display is no reason to abort an upload.
+                // What cannot be shown is no reason to leave a body half sent.
                 let _ = writeln!(output, "{came} of {all} bytes");
             }
         };
@@ -219,7 +219,7 @@ impl<'a, L: Line> Console<'a, L> {
     }
 }
 
-/// Memory for a body.
+/// Where a body is put.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Memory {
     Ram,
@@ -265,13 +265,13 @@ fn said(view: &View) -> String {
 // An emulated board with the boards' loop over a scene in it: the simulated arm is at its pins, this program at its
 // port.
 
-/// Servo rate of the image, Hz.
+/// Of the image, Hz.
 const RATE: u32 = 4_000;
 /// Ticks that the device runs before the line is read again: a millisecond.
 const TICKS: u32 = 4;
-/// Maximum time for a byte: emulated time stands still meanwhile.
+/// How long a byte may take on its way: emulated time stands still meanwhile.
 const WAIT: Duration = Duration::from_micros(200);
-/// Position of the workspace's middle in the image's scene, metres, and of the hand.
+/// Where the middle of the workspace is in the image's scene, metres, and where the hand is.
 const MIDDLE: [f64; 3] = [0.03, 0.02, 0.015];
 const ABOVE: [f64; 3] = [0.03, 0.02, 0.045];
 
@@ -345,7 +345,7 @@ impl Line for Emulated {
             for _ in 0..TICKS {
                 self.tick()?;
             }
-            // The answer comes at the next call. Limits the device to real time.
+            // What comes of it is there the next time. No faster than the clock on the wall.
             std::thread::sleep((self.began + self.passed()).saturating_duration_since(Instant::now()));
             if wait.is_zero() {
                 return Ok(0);

@@ -314,7 +314,17 @@ fn bad_frames_of_the_sensors_are_counted_by_their_kind() {
     };
     let found_thrice = found(&mut Device::new(thrice, known), &[]);
     assert_eq!(failed(&found_thrice, 1_000), ["sensors"]);
-    assert_eq!(found_thrice.ticks.last().unwrap().bad, [3, 0, 0]);
+    assert_eq!(found_thrice.ticks.last().unwrap().bad, [3, 0, 0, 0, 0]);
+    // A magnet that falls off while the joints are turned.
+    let loose = |world: &mut World, tick: u32| {
+        if tick > 10_000 {
+            (world.bad, world.kind) = (1, BadFrame::Magnet);
+        }
+    };
+    let found_loose = found(&mut Device::new(loose, known), &[]);
+    assert_eq!(failed(&found_loose, 1_000), ["sensors"]);
+    let [others @ .., magnet, 0] = found_loose.ticks.last().unwrap().bad else { panic!("none is frozen") };
+    assert!(others == [0; 3] && magnet > 1_000, "{magnet}");
     // The same on a board without sensors is told.
     let counted = counted(&found_thrice, 1_000);
     let around = Surroundings { counted: Some(&counted), bare: true, ..Surroundings::default() };

@@ -60,7 +60,7 @@ fn direction(surface: &OraclePoint, difference: DVec3, gradient: [f64; 2], held:
 
 // Newton's method as the paper compares with it, one step at a time.
 
-/// The method.
+/// Which method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// The controller `ẋ = M⁻¹ (−K Ψ − b)`; it ignores the borders, and fails when it leaves the patch.
@@ -72,7 +72,7 @@ pub enum Method {
     ProjectedNewton,
 }
 
-/// Errors that Newton's method drives to zero. The paper's text leaves it open: its Eq. (4) defines measure numbers,
+/// Which errors Newton's method drives to zero. The paper's text leaves it open: its Eq. (4) defines measure numbers,
 /// and the iteration it calls equivalent drives the covariant errors. The answers are the same, the basins are not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Errors {
@@ -96,7 +96,7 @@ pub struct Baseline<'a> {
     pub gain: f64,
 }
 
-/// Result of a step.
+/// Where a step leads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Advance {
     /// To these parameters.
@@ -136,7 +136,7 @@ impl<'a> Baseline<'a> {
     }
 }
 
-// Kinematics of the projection errors: `Ψ̇ = M(x) ẋ + b(x)` of the paper's Figure 2.
+// How the projection errors change with the parameters: `Ψ̇ = M(x) ẋ + b(x)` of the paper's Figure 2.
 
 /// The projection errors at a point of the surface, and their derivative.
 ///
@@ -165,7 +165,7 @@ pub struct ErrorKinematics {
 const MIN_SINE_SQUARED: f64 = 1e-8;
 
 impl ErrorKinematics {
-    /// For the measure numbers; `None` where the tangents span no plane.
+    /// Of the measure numbers; `None` where the tangents span no plane.
     pub fn measure_numbers(surface: &OraclePoint, probe: DVec3) -> Option<Self> {
         let tangents = [surface.tangent_u, surface.tangent_v];
         let seconds = [[surface.second_uu, surface.second_uv], [surface.second_uv, surface.second_vv]];
@@ -190,7 +190,7 @@ impl ErrorKinematics {
         Some(Self { errors, matrix: [[1.0 + along_u[0], along_v[0]], [along_u[1], 1.0 + along_v[1]]] })
     }
 
-    /// For the covariant errors `g_i = ΔR · f_i`, whose derivative is the Hessian of `½ ‖ΔR‖²`, `I_ik + ΔR · f_ik`: the
+    /// Of the covariant errors `g_i = ΔR · f_i`, whose derivative is the Hessian of `½ ‖ΔR‖²`, `I_ik + ΔR · f_ik`: the
     /// textbook form of the iteration, and another flow with the same rest.
     pub fn covariant(surface: &OraclePoint, probe: DVec3) -> Self {
         let difference = surface.point - probe;

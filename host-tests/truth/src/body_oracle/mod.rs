@@ -27,7 +27,7 @@ pub fn segment_distance(probe: DVec3, from: DVec3, to: DVec3) -> f64 {
     probe.distance(from + along * t)
 }
 
-/// Winding number of closed triangles, anticlockwise seen from outside, around a probe: 1 inside, 0 outside, up to
+/// How often closed triangles, anticlockwise seen from outside, wind around a probe: 1 inside, 0 outside, up to
 /// rounding.
 ///
 /// The solid angle `Ω` of a triangle has `tan Ω/2 = a·(b×c) / (|a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|)` (A. van
@@ -54,7 +54,7 @@ pub struct BodyOracle<'a> {
 
 /// Points of several patches that differ by less than this part of the size are one.
 const SAME: f64 = 1e-9;
-/// Distance from the border, as a fraction of the way to the middle of the patch.
+/// Of the way to the middle of the patch.
 const OFF_THE_BORDER: f64 = 1e-4;
 /// The sine of an angle that turning by the curvature over that way can make up.
 const IN_ITS_PLANE: f64 = 1e-3;
@@ -177,8 +177,7 @@ fn is_behind(height: f64) -> bool {
     height.is_nan() || height < 0.0
 }
 
-// Features that claim a probe for their Voronoi region, from the probe alone: the criterion of the tables, solved to
-// convergence.
+// Which features claim a probe for their Voronoi region, by the probe alone: the tables' word, solved to the end.
 
 /// The features that claim a probe.
 #[derive(Clone, Debug)]
@@ -251,7 +250,7 @@ fn side_of<'a>(body: &'a Body<'_>, of: EdgeFace) -> Option<&'a Separator<'a>> {
     }
 }
 
-/// Distance of the probe beyond a separator, metres.
+/// How far the probe is beyond a separator, metres.
 fn beyond(separator: &Separator, foot: &Foot, probe: Vec3) -> f32 {
     match separator {
         Separator::Plane { across, offset } => (across.dot(probe) - offset) / across.length(),

@@ -74,7 +74,7 @@ impl ConvexPatch {
             place(shape(s, t)) * below_u.powi(degree[0] as i32) * below_v.powi(degree[1] as i32)
         };
         let mut surface = fit(degree, false, homogeneous);
-        // Every outward normal of a convex body points away from every inner point.
+        // Of a convex body, every outward normal points away from every inner point.
         let middle = OraclePoint::evaluate(&surface, 0.5, 0.5);
         let inner = place(kind.inner_point()).truncate();
         surface.flip = middle.tangent_u.cross(middle.tangent_v).dot(middle.point - inner) < 0.0;

@@ -78,7 +78,7 @@ impl ClosestRow {
 /// Reads a golden file.
 ///
 /// # Errors
-/// If the file cannot be read or a row is not as expected.
+/// Where the file cannot be read or a row is not as expected.
 pub fn read<Row: DeserializeOwned>(path: &Path) -> anyhow::Result<Vec<Row>> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path)?;
     reader.deserialize().collect::<Result<_, _>>().with_context(|| path.display().to_string())

@@ -195,7 +195,7 @@ impl<'a> Oracle<'a> {
         let distance = |row: usize, column: usize| self.points[row * columns + column].distance_squared(query);
         let around = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
         let is_end = |at: usize, count: usize| at == 0 || at + 1 == count;
-        // Minima of the grid, or of one of its sides: near a corner there are minima on both within one interval.
+        // Of the grid, or of one of its sides: near a corner there are minima on both within one interval.
         let is_local_minimum = |row: usize, column: usize| {
             let here = distance(row, column);
             let along_u = around(row, rows).all(|r| here <= distance(r, column));

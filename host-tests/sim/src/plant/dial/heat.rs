@@ -1,4 +1,4 @@
-//! Heat of three phases: three windings on one housing.
+//! How warm each of three phases gets: three windings on one housing.
 //!
 //! Each as in [`crate::plant::Thermal`], with its own share of the teeth between it and the housing. Nothing passes from one
 //! phase to the next but by the housing, which is the harder case for a phase that has more current than the others.
@@ -12,7 +12,7 @@ pub struct PhaseHeat {
     settings: ThermalSettings,
     /// Of each winding, °C.
     pub windings: [f64; 3],
-    /// Temperature of the housing, °C.
+    /// Of the housing, °C.
     pub housing: f64,
 }
 

@@ -28,6 +28,8 @@ pub enum MagneticFault {
     Stuck,
     /// It does not answer.
     Absent,
+    /// The magnet is gone: it reports that, and an angle of nothing but noise.
+    Magnet,
     /// It is off by this number of counts: the magnet slipped.
     Slipped(i32),
 }
@@ -81,9 +83,16 @@ impl Sensing {
         (way * shown / TAU * counts_per_turn).floor() as i32
     }
 
+    /// Whether it reports a field that is too weak.
+    pub fn has_lost_magnet(&self) -> bool {
+        matches!(self.fault, Some((MagneticFault::Magnet, _)))
+    }
+
     pub fn counts(&self) -> Option<i32> {
         match self.fault {
             None => Some(self.sound()),
+            // Its noise keeps it from looking frozen.
+            Some((MagneticFault::Magnet, since)) => Some(since + (self.noise * 1e4) as i32),
             Some((MagneticFault::Stuck, since)) => Some(since),
             Some((MagneticFault::Absent, _)) => None,
             Some((MagneticFault::Slipped(by), _)) => Some(self.sound().wrapping_add(by)),

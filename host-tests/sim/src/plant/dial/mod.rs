@@ -15,7 +15,7 @@ use winding::Windings;
 /// A part of the cogging: `torque · sin(times θ + phase)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cogging {
-    /// Number of periods in a turn.
+    /// How often it comes in a turn.
     pub times: f64,
     /// N·m.
     pub torque: f64,
@@ -93,7 +93,7 @@ pub struct Fingers {
     pub damping: f64,
     /// Target angle, rad.
     pub aim: f64,
-    /// Rate of the target angle, rad/s.
+    /// How fast that turns, rad/s.
     pub rate: f64,
 }
 
@@ -153,6 +153,11 @@ impl Dial {
     /// The sensor's reading, continued over turns; `None` if it does not answer.
     pub fn counts(&self) -> Option<i32> {
         self.sensing.counts()
+    }
+
+    /// Whether the sensor reports that its magnet is gone.
+    pub fn has_lost_magnet(&self) -> bool {
+        self.sensing.has_lost_magnet()
     }
 
     /// One servo period under these pulse widths, 0 to 1; `None` disables the stage.

@@ -7,11 +7,11 @@ use std::f64::consts::TAU;
 pub struct ThreePhaseMotor {
     /// North poles.
     pub pole_pairs: f64,
-    /// Resistance of a phase, Ω.
+    /// Of a phase, Ω.
     pub resistance: f64,
-    /// Inductance of a phase, with the coupling of the others, H.
+    /// Of a phase, with what the others couple into it, H.
     pub inductance: f64,
-    /// Speed per volt of amplitude between two wires.
+    /// The speed at which it gives a volt, amplitude, between two wires.
     pub rpm_per_volt: f64,
 }
 
@@ -69,7 +69,7 @@ impl Windings {
         let constant = motor.phase_constant();
         let shapes = motor.shapes(angle);
         let connected = [0, 1, 2].map(|phase| inverter.lost != Some(phase));
-        // Voltage that drives each phase's current: its leg's, less its back-EMF.
+        // What drives each phase's current, seen from its own end: the leg, less its back-EMF.
         let driving: [f64; 3] = core::array::from_fn(|phase| {
             let sign = (self.currents[phase] / inverter.ripple).clamp(-1.0, 1.0);
             let width = widths[phase] - inverter.dead_share * sign;

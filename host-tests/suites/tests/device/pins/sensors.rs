@@ -2,7 +2,7 @@
 
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use embedded_hal_mock::eh1::spi::{Mock, Transaction};
-use palpate::device::sensor::{AmsAngle, AmsChip, Mt6701, Mt6701Reading, SensorError};
+use palpate::device::sensor::{AmsAngle, AmsChip, AmsReading, Mt6701, Mt6701Reading, SensorError};
 
 const ASK_ANGLE: [u8; 2] = [0xff, 0xff];
 const ASK_ERRORS: [u8; 2] = [0x40, 0x01];
@@ -20,91 +20,59 @@ fn sensor(chip: AmsChip, frames: &[([u8; 2], [u8; 2])]) -> AmsAngle<Mock<u8>> {
     AmsAngle::new(Mock::new(&transactions), chip)
 }
 
-#[test]
-fn an_angle_belongs_to_the_frame_before() {
-    // 0x1234 has five ones: parity bit set. 0x0123 has four.
-    let mut sensor =
-        sensor(AmsChip::As5047p, &[(ASK_ANGLE, [0x12, 0x35]), (ASK_ANGLE, [0x92, 0x34]), (ASK_ANGLE, [0x01, 0x23])]);
-    assert_eq!(sensor.read(), Ok(None), "the first frame answers nobody");
-    assert_eq!(sensor.read(), Ok(Some(0x1234)));
-    assert_eq!(sensor.read(), Ok(Some(0x0123)));
-    sensor.free().done();
-}
+/// Diagnostics: bit 8 settled, 9 overflow, 10 and 11 field, low byte the gain.
+const DIAGNOSTICS: [([u8; 2], Result<u8, SensorError<ErrorKind>>); 8] = [
+    ([0x81, 0x80], Err(SensorError::Damaged)),
+    ([0x01, 0x80], Ok(128)),
+    ([0x00, 0x80 | 0x01], Err(SensorError::Absent)),
+    ([0x83, 0x80], Err(SensorError::Magnet)),
+    ([0x05, 0x83], Err(SensorError::Damaged)),
+    ([0x85, 0x80], Err(SensorError::Magnet)),
+    ([0x89, 0x80], Err(SensorError::Magnet)),
+    ([0x00, 0x00], Err(SensorError::Absent)),
+];
+const CHIPS: [(AmsChip, [u8; 2]); 2] = [(AmsChip::As5047p, ASK_DIAGNOSTICS_47), (AmsChip::As5048a, ASK_DIAGNOSTICS_48)];
 
 #[test]
-fn a_fresh_angle_takes_two_frames() {
-    let mut sensor = sensor(AmsChip::As5048a, &[(ASK_ANGLE, [0x01, 0x23]), (ASK_ANGLE, [0x92, 0x34])]);
-    assert_eq!(sensor.read_fresh(), Ok(0x1234));
-    sensor.free().done();
+fn every_reading_is_an_angle_and_the_diagnostics_that_the_one_before_requested() {
+    // 0x1234 has five ones: parity bit set. 0x0123 has four.
+    for (diagnostics, verdict) in DIAGNOSTICS {
+        for (chip, ask) in CHIPS {
+            for (answer, angle) in [([0x92, 0x34], 0x1234), ([0x01, 0x23], 0x0123), ([0x00, 0x00], 0)] {
+                let frames = [(ASK_ANGLE, diagnostics), (ask, answer)];
+                // Where the diagnostics cannot be believed, no angle is requested.
+                let mut sensor = sensor(chip, if verdict.is_ok() { &frames } else { &frames[..1] });
+                assert_eq!(sensor.read(), verdict.map(|gain| AmsReading { angle, gain }), "{diagnostics:x?}");
+                sensor.free().done();
+            }
+        }
+    }
 }
 
 #[test]
 fn a_sensor_starts_when_it_is_settled_and_sees_its_magnet() {
-    // Diagnostics: bit 8 settled, 9 overflow, 10 and 11 field, low byte the gain.
-    for (diagnostics, verdict) in [
-        ([0x81, 0x80], Err(SensorError::Damaged)),
-        ([0x01, 0x80], Ok(())),
-        ([0x00, 0x80 | 0x01], Err(SensorError::Absent)),
-        ([0x83, 0x80], Err(SensorError::Magnet)),
-        ([0x05, 0x83], Err(SensorError::Damaged)),
-        ([0x85, 0x80], Err(SensorError::Magnet)),
-        ([0x89, 0x80], Err(SensorError::Magnet)),
-        ([0x00, 0x00], Err(SensorError::Absent)),
-    ] {
-        for (chip, ask) in [(AmsChip::As5047p, ASK_DIAGNOSTICS_47), (AmsChip::As5048a, ASK_DIAGNOSTICS_48)] {
-            // The second frame's error flag is what the first one clears.
-            let frames = [(ASK_ERRORS, [0x12, 0x34]), (ask, [0xc0, 0x00]), (ASK_ANGLE, diagnostics)];
+    for (diagnostics, verdict) in DIAGNOSTICS {
+        for (chip, ask) in CHIPS {
+            // The second frame's error flag is what the first one clears; the third requests the first reading's.
+            let frames = [(ASK_ERRORS, [0x12, 0x34]), (ask, [0xc0, 0x00]), (ask, diagnostics)];
             let mut sensor = sensor(chip, &frames);
-            assert_eq!(sensor.start(), verdict, "{diagnostics:x?}");
+            assert_eq!(sensor.start(), verdict.map(|_| ()), "{diagnostics:x?}");
             sensor.free().done();
         }
     }
 }
 
 #[test]
-fn after_a_start_the_first_reading_is_an_angle() {
-    let mut sensor = sensor(
-        AmsChip::As5047p,
-        &[(ASK_ERRORS, [0, 0]), (ASK_DIAGNOSTICS_47, [0, 0]), (ASK_ANGLE, [0x01, 0x80]), (ASK_ANGLE, [0x00, 0x03])],
-    );
-    assert_eq!(sensor.start(), Ok(()));
-    assert_eq!(sensor.read(), Ok(Some(3)));
-    sensor.free().done();
-}
-
-#[test]
-fn a_zero_is_believed_of_a_sensor_that_has_diagnostics() {
-    for (chip, ask) in [(AmsChip::As5047p, ASK_DIAGNOSTICS_47), (AmsChip::As5048a, ASK_DIAGNOSTICS_48)] {
-        for (health, verdict) in [([0x81, 0x00], Ok(0)), ([0x00, 0x00], Err(SensorError::Absent))] {
-            // The third answers the angle asked for with the second.
-            let rest = [(ASK_ANGLE, [0x00, 0x00]), (ask, [0x00, 0x03]), (ASK_ANGLE, health)];
-            let mut fresh = sensor(chip, &[&[(ASK_ANGLE, [0x01, 0x23])], &rest[..]].concat());
-            assert_eq!(fresh.read_fresh(), verdict);
-            fresh.free().done();
-            let mut delayed = sensor(chip, &[&[(ASK_ANGLE, [0x01, 0x23])], &rest[..]].concat());
-            assert_eq!(delayed.read(), Ok(None));
-            assert_eq!(delayed.read(), verdict.map(Some));
-            delayed.free().done();
-        }
-    }
-}
-
-#[test]
-fn what_cannot_be_believed_is_told_and_the_next_answer_with_it() {
+fn an_angle_that_came_damaged_is_refused() {
     for (answer, error) in [
         ([0x92, 0x35], SensorError::Damaged),
         // The error flag, with parity.
         ([0xd2, 0x35], SensorError::Refused),
         ([0xff, 0xff], SensorError::Absent),
     ] {
-        let mut sensor = sensor(
-            AmsChip::As5047p,
-            &[(ASK_ANGLE, [0, 0]), (ASK_ANGLE, answer), (ASK_ANGLE, [0, 3]), (ASK_ANGLE, [0, 5])],
-        );
-        assert_eq!(sensor.read(), Ok(None));
+        let frames = [(ASK_ANGLE, [0x01, 0x80]), (ASK_DIAGNOSTICS_47, answer)];
+        let mut sensor = sensor(AmsChip::As5047p, &frames);
         assert_eq!(sensor.read(), Err(error));
-        assert_eq!(sensor.read(), Ok(None));
-        assert_eq!(sensor.read(), Ok(Some(5)));
         sensor.free().done();
     }
 }
@@ -126,7 +94,7 @@ impl SpiDevice for Broken {
 fn a_bus_that_fails_says_so() {
     let fault = SensorError::Bus(ErrorKind::ChipSelectFault);
     let mut sensor = AmsAngle::new(Broken, AmsChip::As5047p);
-    assert_eq!((sensor.start(), sensor.read(), sensor.read_fresh()), (Err(fault), Err(fault), Err(fault)));
+    assert_eq!((sensor.start(), sensor.read()), (Err(fault), Err(fault)));
     assert_eq!(Mt6701::new(Broken).read(), Err(fault));
 }
 

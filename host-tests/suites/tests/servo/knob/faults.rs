@@ -30,8 +30,10 @@ fn how(fault: Fault) -> How {
             knob.dial.hold(Fingers { stiffness: 0.0, damping: 5e-3, aim: 0.0, rate: 30.0 });
         }),
         Fault::JointJumped => How::Anytime(|knob| knob.dial.spoil(Some(MagneticFault::Slipped(900)))),
+        Fault::Magnet => How::Anytime(|knob| knob.dial.spoil(Some(MagneticFault::Magnet))),
+        Fault::Frozen => How::Felt(1_001, |knob| knob.dial.spoil(Some(MagneticFault::Stuck))),
         Fault::NotFinite => How::Never("feels, maps and counts are finite, and so is what is made of them"),
-        Fault::JointStuck => How::Never("one joint has no others: a frozen sensor is a damaged frame"),
+        Fault::JointStuck => How::Never("one joint has no others: its sensor is watched for freezing"),
         Fault::Overrun => How::Anytime(|knob| (0..64).for_each(|_| knob.note(Event::Overrun))),
         Fault::LinkLost => How::Within(LINK_TICKS + 1, |knob| knob.silent = true),
         Fault::TableCorrupt => How::Never("the feels are part of the program"),

@@ -4,7 +4,7 @@ use palpate_sim::zwidth::{Limit, Slice};
 use plotters::prelude::*;
 use std::path::Path;
 
-/// Position of zero damping on the logarithmic axis, N·s/m.
+/// Where a damping of zero is drawn on the logarithmic axis, N·s/m.
 const ZERO: f64 = 0.003;
 
 /// Writes the plot of a sweep as SVG.

@@ -118,7 +118,7 @@ pub(super) fn patches(half_axes: [f64; 3]) -> Vec<BezierPatch> {
         .collect()
 }
 
-/// Factor of the product of the Bernstein coefficients `i` and `k` of two parabolas in coefficient `i + k` of the
+/// How much the product of the Bernstein coefficients `i` and `k` of two parabolas adds to coefficient `i + k` of the
 /// quartic: `C(2, i) C(2, k) / C(4, i + k)`.
 fn quartic_share(i: usize, k: usize) -> f64 {
     const OF_TWO: [f64; 3] = [1.0, 2.0, 1.0];

@@ -228,11 +228,11 @@ fn rounded_box_patches(sides: [f64; 3], radius: f64) -> Vec<BezierPatch> {
 /// The shape, mm.
 #[derive(Clone, Copy, Debug)]
 struct Shape {
-    /// Radius of the wall.
+    /// Of the wall.
     pub radius: f64,
-    /// Height from cap to cap.
+    /// From cap to cap.
     pub height: f64,
-    /// Radius of the rims' rounding.
+    /// Of the rims' rounding.
     pub rounding: f64,
 }
 
