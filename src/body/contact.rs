@@ -62,7 +62,10 @@ impl Body<'_> {
             }
             Feature::Vertex(index) => {
                 let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
-                let is_outward = || self.is_outside_at(vertex, probe - vertex.point).unwrap_or(state.gap >= 0.0);
+                let towards = probe - vertex.point;
+                // Before the first face there is no side to stay on.
+                let known = || if state.normal == Vec3::ZERO { towards.dot(vertex.outward) } else { state.gap };
+                let is_outward = || self.is_outside_at(vertex, towards).unwrap_or_else(|| known() >= 0.0);
                 let is_outward = (!vertex.is_open).then(is_outward);
                 self.update_contact_at_border(state, is_outward);
             }

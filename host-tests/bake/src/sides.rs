@@ -9,6 +9,7 @@ use crate::body::BakedBody;
 use crate::locator::StoredSurface;
 use glam::DVec3;
 use palpate::body::{Body, EdgeFace, Side};
+use palpate::math::Vec3;
 use palpate::patch::Orientation;
 
 /// Tells inside from outside.
@@ -35,6 +36,11 @@ const STARTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 const NEARER: f64 = 1e-14;
 /// Normals whose sum is shorter than this are opposite: the faces are looked at this far from their edge instead.
 const OPPOSITE: f64 = 1e-6;
+/// Parameters from a pole below which the tangent around it may be rounding: coordinates are rounded by 6e-8 of the
+/// size, a thousandth of this.
+const POLE: f64 = 1e-4;
+/// Rounding of a distance by that of the tables, relative to the size.
+const POLE_ROUNDING: f64 = 2.0 * f32::EPSILON as f64;
 
 impl<'a> Sides<'a> {
     /// For a body and the tables it was made of.
@@ -49,14 +55,14 @@ impl<'a> Sides<'a> {
     pub fn is_inside(&self, face: usize, parameters: [f32; 2], probe: DVec3) -> bool {
         let foot = self.followed(face, parameters.map(f64::from), probe);
         let towards = probe - self.surfaces[foot.face].evaluate(foot.parameters).point;
-        self.outward(foot).dot(towards) < 0.0
+        self.outward(foot, probe).dot(towards) < 0.0
     }
 
     /// The local minimum of the distance to the whole body that a point leads to.
     fn followed(&self, face: usize, parameters: [f64; 2], probe: DVec3) -> Foot {
         let mut best = self.descended(face, parameters, probe);
         for _ in 0..ROUNDS {
-            let others = self.beside(best).into_iter().map(|(face, at)| self.descended(face, at, probe));
+            let others = self.beside(best, probe).into_iter().map(|(face, at)| self.descended(face, at, probe));
             let Some(other) = others.min_by(|a, b| a.distance.total_cmp(&b.distance)) else { break };
             if other.distance >= best.distance * (1.0 - NEARER) {
                 break;
@@ -79,25 +85,31 @@ impl<'a> Sides<'a> {
         (0..4).filter(move |side| at[*side]).map(move |side| (sides[side], if side < 2 { v } else { u }))
     }
 
-    /// The vertex a point lies on.
-    fn vertex(&self, foot: Foot) -> Option<u16> {
-        let sides: Vec<_> = self.sides_at(foot).collect();
-        let pole = sides.iter().find_map(|(side, _)| match side {
-            Side::Pole { vertex } => Some(*vertex),
-            Side::Edge { .. } => None,
+    /// The vertex a point lies on. A side that is one point in the model is a curve of some roundings in the tables:
+    /// there, if the vertex is as near.
+    fn vertex(&self, foot: Foot, probe: DVec3) -> Option<u16> {
+        let near = self.body.faces()[foot.face].sides.iter().zip(aways(foot.parameters)).find_map(|(side, away)| {
+            let Side::Pole { vertex } = *side else { return None };
+            let at = self.body.vertices()[usize::from(vertex)].point.as_dvec3();
+            let is_as_near = || at.distance(probe) <= foot.distance + POLE_ROUNDING * f64::from(self.body.size());
+            (away <= POLE && is_as_near()).then_some(vertex)
         });
-        pole.or_else(|| match sides[..] {
-            [(Side::Edge { edge, reversed, .. }, along), _] => {
+        if near.is_some() {
+            return near;
+        }
+        let sides: Vec<_> = self.sides_at(foot).collect();
+        match sides[..] {
+            [(Side::Edge { edge, reversed, .. }, along), (Side::Edge { .. }, _)] => {
                 let ends = self.body.edges()[usize::from(edge)].ends;
                 Some(ends[usize::from((along > 0.5) != reversed)])
             }
             _ => None,
-        })
+        }
     }
 
     /// The places on other faces, and elsewhere on its own, where a point lies too.
-    fn beside(&self, foot: Foot) -> Vec<(usize, [f64; 2])> {
-        if let Some(vertex) = self.vertex(foot) {
+    fn beside(&self, foot: Foot, probe: DVec3) -> Vec<(usize, [f64; 2])> {
+        if let Some(vertex) = self.vertex(foot, probe) {
             return self.around(vertex);
         }
         self.sides_at(foot)
@@ -145,9 +157,10 @@ impl<'a> Sides<'a> {
     }
 
     /// A vector out of the body at a local minimum; only which way it points matters.
-    fn outward(&self, foot: Foot) -> DVec3 {
-        if let Some(vertex) = self.vertex(foot) {
-            return self.body.vertices()[usize::from(vertex)].outward.as_dvec3();
+    fn outward(&self, foot: Foot, probe: DVec3) -> DVec3 {
+        let at_vertex = self.vertex(foot, probe).map(|vertex| self.body.vertices()[usize::from(vertex)].outward);
+        if let Some(outward) = at_vertex.filter(|outward| *outward != Vec3::ZERO) {
+            return outward.as_dvec3();
         }
         let edge = self.sides_at(foot).find_map(|(side, along)| match side {
             Side::Edge { edge, reversed, .. } => Some((edge, if reversed { 1.0 - along } else { along })),
@@ -163,10 +176,21 @@ impl<'a> Sides<'a> {
         if normals.length() > OPPOSITE { normals } else { sum(OPPOSITE) }
     }
 
-    fn normal(&self, face: usize, parameters: [f64; 2]) -> DVec3 {
-        let [along_u, along_v] = self.surfaces[face].evaluate(parameters).first;
+    /// The normal; near a pole that of a point a little farther from it, because the tangent around a pole is rounding.
+    fn normal(&self, face: usize, [mut u, mut v]: [f64; 2]) -> DVec3 {
+        let is_pole = self.body.faces()[face].sides.map(|side| matches!(side, Side::Pole { .. }));
+        let clear = |at: f64, [lower, upper]: [bool; 2]| {
+            at.clamp(if lower { POLE } else { 0.0 }, if upper { 1.0 - POLE } else { 1.0 })
+        };
+        (u, v) = (clear(u, [is_pole[0], is_pole[1]]), clear(v, [is_pole[2], is_pole[3]]));
+        let [along_u, along_v] = self.surfaces[face].evaluate([u, v]).first;
         along_u.cross(along_v).normalize_or_zero() * self.turns[face]
     }
+}
+
+/// How far parameters are from each side.
+const fn aways([u, v]: [f64; 2]) -> [f64; 4] {
+    [u, 1.0 - u, v, 1.0 - v]
 }
 
 /// A face's parameters at a place along one of its sides.

@@ -4,6 +4,7 @@
 //!
 //! `PALPATE_PROBES` and `PALPATE_BODIES` set the numbers for long runs.
 
+mod axes;
 mod shapes;
 
 use glam::{DVec2, DVec3};

@@ -100,13 +100,13 @@ impl Shape {
     }
 }
 
-fn row(point: DVec3, weight: f64) -> String {
+pub fn row(point: DVec3, weight: f64) -> String {
     // No −0.
     let [x, y, z] = point.to_array().map(|x| x + 0.0);
     format!("[{x:?}, {y:?}, {z:?}, {weight:?}]")
 }
 
-fn patch(text: &mut String, degree: [usize; 2], points: &[Vec<String>], flip: bool) {
+pub fn patch(text: &mut String, degree: [usize; 2], points: &[Vec<String>], flip: bool) {
     let rows: Vec<_> = points.iter().map(|row| format!("[{}]", row.join(", "))).collect();
     let _ = writeln!(
         text,
