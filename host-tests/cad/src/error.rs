@@ -36,12 +36,16 @@ pub enum ImportError {
         reason: String,
     },
     /// Not a part's file.
-    #[error("{file} has the schema \"{schema}\"; parts of AP203, AP214 and AP242 are imported")]
+    #[error(
+        "{file} has the schema \"{schema}\"; parts of AP203, AP214 and AP242 are imported, with one of these in the name: {known}"
+    )]
     Schema {
         /// Which file.
         file: String,
         /// The schema in the file.
         schema: String,
+        /// Parts of the names of those that are read.
+        known: String,
     },
     /// Nothing to feel.
     #[error(

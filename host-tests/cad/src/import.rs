@@ -66,7 +66,7 @@ pub struct Imported {
 /// # Errors
 /// A fault of the file or of the part; or the first face that cannot be divided into patches within the tolerance.
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
-    let mut part = read::read(path, options.solid.as_deref())?;
+    let mut part = read::read(path, options.solid.as_deref(), options.tolerance)?;
     sew::sew(&mut part, options.tolerance)?;
     heal::take_out_seams(&mut part);
     pinch::refuse(&part, options.tolerance)?;

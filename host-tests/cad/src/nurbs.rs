@@ -125,7 +125,135 @@ impl Curve {
     }
 }
 
+/// The stretch of a line of control points between two parameters: both are inserted as knots until the points there
+/// are the curve's own.
+fn cut(degree: usize, mut knots: Vec<f64>, mut points: Vec<DVec4>, [from, to]: [f64; 2]) -> (Vec<f64>, Vec<DVec4>) {
+    for t in [from, to] {
+        while knots.iter().filter(|knot| **knot == t).count() < degree {
+            let span = knots.partition_point(|knot| *knot <= t) - 1;
+            let blend = |i: usize| {
+                if i + degree <= span {
+                    points[i]
+                } else if i > span {
+                    points[i - 1]
+                } else {
+                    points[i - 1].lerp(points[i], (t - knots[i]) / (knots[i + degree] - knots[i]))
+                }
+            };
+            points = (0..=points.len()).map(blend).collect();
+            knots.insert(span + 1, t);
+        }
+    }
+    let (first, last) = (knots.partition_point(|knot| *knot <= from) - 1, knots.partition_point(|knot| *knot < to));
+    let points = points[first - degree..last].to_vec();
+    let ends = |t: f64| std::iter::repeat_n(t, degree + 1);
+    (ends(from).chain(knots[first + 1..last].iter().copied()).chain(ends(to)).collect(), points)
+}
+
 impl Surface {
+    /// The parts between places inside the range of a parameter where the line along the other, closed one is one
+    /// point: as where a circle crosses the axis about which it is turned. None without such places. `near` is what
+    /// counts as one point, millimetres.
+    pub fn parts_between_points(&self, near: f64) -> Vec<Self> {
+        for axis in 0..2 {
+            if self.closed[1 - axis] {
+                let places = self.points_inside(axis, near);
+                if !places.is_empty() {
+                    return self.parts(axis, &places, near);
+                }
+            }
+        }
+        Vec::new()
+    }
+
+    /// Makes the control points of poles of a parameter one point, to the last bit: the tangent around a pole is zero,
+    /// and not some rounding in which a search would believe.
+    fn gather_poles(&mut self, axis: usize) {
+        for end in (0..2).filter(|end| self.poles[axis][*end]) {
+            let along = if end == 0 { 0 } else { self.counts[axis] - 1 };
+            let other = self.counts[1 - axis];
+            let index = |k: usize| if axis == 0 { along * self.counts[1] + k } else { k * self.counts[1] + along };
+            let indices: Vec<usize> = (0..other).map(index).collect();
+            let first = self.points[indices[0]];
+            let pole = first.truncate() / first.w;
+            for index in indices {
+                let weight = self.points[index].w;
+                self.points[index] = (pole * weight).extend(weight);
+            }
+        }
+    }
+
+    fn points_inside(&self, axis: usize, near: f64) -> Vec<f64> {
+        const SAMPLES: usize = 256;
+        let ([low, high], [start, end]) = (self.range(axis), self.range(1 - axis));
+        // Across the closed parameter.
+        let width = |t: f64| {
+            let at = |along: f64| self.at(if axis == 0 { DVec2::new(t, along) } else { DVec2::new(along, t) }).point;
+            at(start).distance(at(0.5 * (start + end))).max(at(0.75 * start + 0.25 * end).distance(at(start)))
+        };
+        let at = |k: usize| low + (high - low) * k as f64 / SAMPLES as f64;
+        let widths: Vec<f64> = (0..=SAMPLES).map(|k| width(at(k))).collect();
+        let mut places = Vec::new();
+        for k in 1..SAMPLES {
+            if widths[k] > widths[k - 1] || widths[k] >= widths[k + 1] {
+                continue;
+            }
+            let (mut a, mut b) = (at(k - 1), at(k + 1));
+            for _ in 0..120 {
+                let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
+                if width(c) < width(d) { b = d } else { a = c }
+            }
+            let place = 0.5 * (a + b);
+            let is_inside = (place - low).min(high - place) > 1e-9 * (high - low);
+            if is_inside && width(place) <= near {
+                // A knot there is the place.
+                let knot = self.knots[axis].iter().find(|knot| (*knot - place).abs() < 1e-9 * (high - low));
+                places.push(knot.copied().unwrap_or(place));
+            }
+        }
+        places
+    }
+
+    fn parts(&self, axis: usize, places: &[f64], near: f64) -> Vec<Self> {
+        let [low, high] = self.range(axis);
+        let goes_round = self.touching[axis];
+        let mut borders = places.to_vec();
+        if goes_round {
+            borders.push(places[0] + (high - low));
+        } else {
+            borders = [low].into_iter().chain(borders).chain([high]).collect();
+        }
+        let (degree, other) = (self.degree[axis], self.counts[1 - axis]);
+        let part = |pair: &[f64]| {
+            let mut part = self.clone();
+            let line = |k: usize| {
+                let index = |i: usize| if axis == 0 { i * self.counts[1] + k } else { k * self.counts[1] + i };
+                let mut points: Vec<DVec4> = (0..self.counts[axis]).map(|i| self.points[index(i)]).collect();
+                let mut knots = self.knots[axis].clone();
+                if pair[1] > high {
+                    // Once round more.
+                    let again: Vec<f64> = knots[degree + 1..].iter().map(|knot| knot + (high - low)).collect();
+                    knots.pop();
+                    knots.extend(again);
+                    points.extend_from_within(1..);
+                }
+                cut(degree, knots, points, [pair[0], pair[1]])
+            };
+            let lines: Vec<_> = (0..other).map(line).collect();
+            part.counts[axis] = lines[0].1.len();
+            part.knots[axis].clone_from(&lines[0].0);
+            part.points = if axis == 0 {
+                (0..part.counts[0]).flat_map(|i| lines.iter().map(move |line| line.1[i])).collect()
+            } else {
+                lines.into_iter().flat_map(|line| line.1).collect()
+            };
+            part.find_ends(near);
+            part.gather_poles(axis);
+            part
+        };
+        borders.windows(2).map(part).collect()
+    }
+
     /// The minimum and the maximum of a parameter.
     pub fn range(&self, axis: usize) -> [f64; 2] {
         [self.knots[axis][self.degree[axis]], self.knots[axis][self.counts[axis]]]

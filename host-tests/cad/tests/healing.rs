@@ -99,6 +99,48 @@ fn a_circle_may_begin_elsewhere_in_each_face() {
     );
 }
 
+/// Every placement along x, of planes and of the circle's end: the default direction lies along it.
+#[test]
+fn a_direction_of_reference_may_be_left_out() {
+    let mut text = whole();
+    let along_x: Vec<String> = text
+        .lines()
+        .filter(|line| line.contains("= DIRECTION('',(1.,0.,") || line.contains("= DIRECTION('',(-1.,0.,"))
+        .map(|line| line.split(' ').next().unwrap().to_owned())
+        .collect();
+    let mut count = 0;
+    let lines = text.lines().map(|line| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let is_placed = line.contains("= AXIS2_PLACEMENT_3D(") && fields.len() == 4;
+        if !is_placed || !along_x.iter().any(|axis| axis == fields[2]) {
+            return line.to_owned();
+        }
+        count += 1;
+        format!("{},$);", fields[..3].join(","))
+    });
+    text = lines.collect::<Vec<_>>().join("\n");
+    assert!(count >= 2, "{count}");
+    same_as_the_sound_part("no-reference", &text);
+}
+
+#[test]
+fn editions_of_a_schema_are_read_and_others_named() {
+    let known = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }";
+    let edition = "CONFIGURATION_CONTROL_3D_DESIGN_ED2_MIM_LF { 1 0 10303 403 1 1 4}";
+    same_as_the_sound_part("edition", &edited(known, edition));
+    let message = imported("schema", &edited(known, "IFC4")).unwrap_err();
+    assert!(message.contains("IFC4") && message.contains("CONFIGURATION_CONTROL_3D_DESIGN"), "{message}");
+}
+
+/// A circle passes 0.25 µm from its vertex.
+#[test]
+fn a_vertex_beside_its_edge_is_taken_up_to_the_tolerance() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/parts/vertex_off.step");
+    import(&path, &Options::default()).unwrap();
+    let message = import(&path, &Options { tolerance: 0.0002, ..Options::default() }).unwrap_err().to_string();
+    assert!(message.contains("0.000250 mm from its vertex"), "{message}");
+}
+
 #[test]
 fn a_sliver_of_an_edge_is_left_out() {
     let sliver = "#9000 = ORIENTED_EDGE('',*,*,#9002,.T.);\n#9001 = ORIENTED_EDGE('',*,*,#9002,.F.);\n\

@@ -21,8 +21,9 @@ const MOST_FACES: usize = 20_000;
 /// Bytes: a file of some ten million entities.
 const LARGEST_FILE: u64 = 1 << 30;
 
-/// Parts of the names of the application protocols whose shapes are read: AP203, AP214, AP242.
-const SCHEMAS: [&str; 5] = ["CONFIG_CONTROL_DESIGN", "AP203", "AUTOMOTIVE_DESIGN", "AP214", "AP242"];
+/// Parts of the names of the application protocols whose shapes are read, of all editions: AP203, AP214, AP242.
+const SCHEMAS: [&str; 6] =
+    ["CONFIG_CONTROL_DESIGN", "CONFIGURATION_CONTROL_3D_DESIGN", "AP203", "AUTOMOTIVE_DESIGN", "AP214", "AP242"];
 
 /// Solids and shells with their placements.
 struct Placed<'m> {
@@ -36,7 +37,7 @@ struct Placed<'m> {
 ///
 /// # Errors
 /// A fault of the file, or a file without solids.
-pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
+pub fn read(path: &Path, only: Option<&str>, tolerance: f64) -> Result<Part, ImportError> {
     let file = path.display().to_string();
     let cannot = |cause| ImportError::Read { file: file.clone(), cause };
     let length = fs::metadata(path).map_err(cannot)?.len();
@@ -46,8 +47,9 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
     }
     let bytes = fs::read(path).map_err(cannot)?;
     let text = String::from_utf8_lossy(&bytes);
+    let text = statements::with_directions(&text);
     // The reader says it does not panic; a part is not worth the tool's life if it does.
-    let read = std::panic::catch_unwind(|| step_io::read(bytes.as_slice()));
+    let read = std::panic::catch_unwind(|| step_io::read(text.as_bytes()));
     let (model, report) = match read {
         Ok(Ok(read)) => read,
         Ok(Err(error)) => return Err(ImportError::Syntax { file, message: statements::message(&text, &error) }),
@@ -55,7 +57,8 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
     };
     let schema = model.header().schema.raw.join(", ");
     if !SCHEMAS.iter().any(|known| schema.to_ascii_uppercase().contains(known)) {
-        return Err(ImportError::Schema { file, schema });
+        let known = SCHEMAS.join(", ");
+        return Err(ImportError::Schema { file, schema, known });
     }
     let statements = statements::statements(&text);
     statements::check(&statements, &report, &file)?;
@@ -63,7 +66,7 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
         return Err(ImportError::Entity { file, id, kind, reason });
     }
     let numbers = Numbers::new(&statements);
-    let gathered = std::panic::catch_unwind(|| gather(&model, &file, only, &numbers));
+    let gathered = std::panic::catch_unwind(|| gather(&model, &file, only, &numbers, tolerance));
     let mut part = gathered.unwrap_or_else(|_| {
         Err(ImportError::Syntax { file: file.clone(), message: "its entities do not fit together".to_owned() })
     })?;
@@ -72,7 +75,13 @@ pub fn read(path: &Path, only: Option<&str>) -> Result<Part, ImportError> {
     Ok(part)
 }
 
-fn gather(model: &StepModel, file: &str, only: Option<&str>, numbers: &Numbers) -> Result<Part, ImportError> {
+fn gather(
+    model: &StepModel,
+    file: &str,
+    only: Option<&str>,
+    numbers: &Numbers,
+    tolerance: f64,
+) -> Result<Part, ImportError> {
     let scene = model.scene();
     let mut placed = Vec::new();
     for root in scene.root_definitions() {
@@ -124,7 +133,7 @@ fn gather(model: &StepModel, file: &str, only: Option<&str>, numbers: &Numbers) 
         }
     };
     part.precision = units.precision.unwrap_or(0.0) * scale;
-    let mut gather = Gather::new(&mut part, scale, numbers);
+    let mut gather = Gather::new(&mut part, scale, numbers, tolerance);
     for shape in &placed {
         gather.begin(&shape.name, shape.solid.is_some(), shape.placement);
         for (shell, turned) in &shape.shells {

@@ -18,12 +18,14 @@ pub(super) struct Gather<'p> {
     vertices: HashMap<EntityKey, usize>,
     names: HashMap<String, usize>,
     numbers: &'p Numbers,
+    /// How far an edge may lie off its face or its vertex, millimetres.
+    tolerance: f64,
 }
 
 impl<'p> Gather<'p> {
-    pub(super) fn new(part: &'p mut Part, scale: f64, numbers: &'p Numbers) -> Self {
+    pub(super) fn new(part: &'p mut Part, scale: f64, numbers: &'p Numbers, tolerance: f64) -> Self {
         let (edges, vertices, names) = (HashMap::new(), HashMap::new(), HashMap::new());
-        Self { part, scale, placement: DAffine3::IDENTITY, edges, vertices, names, numbers }
+        Self { part, scale, placement: DAffine3::IDENTITY, edges, vertices, names, numbers, tolerance }
     }
 
     /// Another solid: nothing of it is shared with those before.
@@ -49,7 +51,7 @@ impl<'p> Gather<'p> {
         let cannot = |reason: String| ImportError::face(&label, reason);
         let surface =
             face.to_nurbs().ok_or_else(|| cannot(format!("its surface ({kind}) is of a kind that is not read")))?;
-        let surface = self.surface(&surface).map_err(cannot)?;
+        let mut surface = self.surface(&surface).map_err(cannot)?;
         let against = face.orientation() == Orientation::Reversed;
         let mut loops = Vec::new();
         for bound in face.bounds() {
@@ -71,6 +73,14 @@ impl<'p> Gather<'p> {
             }
             loops.push(uses);
         }
+        let parts = surface.parts_between_points(self.near());
+        if !parts.is_empty() {
+            surface = self.part_of_edges(parts, &loops).ok_or_else(|| {
+                let reason =
+                    "its surface goes through one point, and the face lies on both sides of it: split it there";
+                cannot(reason.to_owned())
+            })?;
+        }
         self.part.faces.push(Face {
             name,
             number,
@@ -81,6 +91,31 @@ impl<'p> Gather<'p> {
             loops,
         });
         Ok(())
+    }
+
+    /// Distance below which two points are one, millimetres.
+    fn near(&self) -> f64 {
+        self.part.precision.max(1e-6)
+    }
+
+    /// The part of a surface that holds all edges of a face. A sphere that is swept twice, on either side of its axis,
+    /// has two such parts: there an edge at the start of the sweep decides, which lies at the start of the parameter.
+    fn part_of_edges(&self, parts: Vec<Surface>, loops: &[Vec<Use>]) -> Option<Surface> {
+        let edges: Vec<&Edge> = loops.iter().flatten().map(|used| &self.part.edges[used.edge]).collect();
+        let holds = |part: &Surface| {
+            let points = edges.iter().flat_map(|edge| [0.0, 0.3, 0.5, 0.7, 1.0].map(|share| edge.at(share)[0]));
+            points.into_iter().all(|point| part.locate(point).distance <= self.tolerance)
+        };
+        let starts_sweep = |part: &Surface| {
+            let axis = usize::from(!part.closed[0]);
+            let [low, high] = part.range(axis);
+            let share = |edge: &Edge, at: f64| (part.locate(edge.at(at)[0]).uv[axis] - low) / (high - low);
+            let is_at_start = |share: f64| (share - share.round()).abs() < 1e-6;
+            edges.iter().any(|edge| [0.3, 0.7].iter().all(|at| is_at_start(share(edge, *at))))
+        };
+        let mut fitting: Vec<Surface> = parts.into_iter().filter(holds).collect();
+        let first = fitting.iter().position(starts_sweep).unwrap_or(0);
+        (first < fitting.len()).then(|| fitting.swap_remove(first))
     }
 
     fn unique(&mut self, own: &str) -> String {
@@ -122,7 +157,7 @@ impl<'p> Gather<'p> {
         let [low, high] = curve.range();
         let [start, end] = [low, high].map(|t| curve.at(t)[0]);
         let points = ends.map(|index| self.part.vertices[index]);
-        let near = self.part.precision.max(1e-4);
+        let near = self.part.precision.max(self.tolerance);
         // Two vertices in one place: a closed edge.
         let is_round = ends[0] == ends[1] || points[0].distance(points[1]) <= 1e-7 && start.distance(end) <= near;
         if is_round {
@@ -175,7 +210,7 @@ impl<'p> Gather<'p> {
         }
         let mut surface =
             Surface { degree, knots, counts, points, closed: [false; 2], touching: [false; 2], poles: [[false; 2]; 2] };
-        surface.find_ends(self.part.precision.max(1e-6));
+        surface.find_ends(self.near());
         Ok(surface)
     }
 }

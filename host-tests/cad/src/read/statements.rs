@@ -2,6 +2,7 @@
 //! mind.
 
 use crate::error::ImportError;
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use step_io::{DropKind, EntityKey, Error, Report};
 
@@ -38,6 +39,52 @@ pub(super) fn statements(text: &str) -> Vec<Statement<'_>> {
         Some(Statement { id, kind, arguments })
     });
     all.collect()
+}
+
+/// The text with the reference directions that the reader needs and a file may leave out: of placements along x, where
+/// the default is y.
+pub(super) fn with_directions(text: &str) -> Cow<'_, str> {
+    let all = statements(text);
+    let mut written = Vec::new();
+    for of in all.iter().filter(|of| of.kind == "AXIS2_PLACEMENT_3D") {
+        let Some(rest) = of.arguments.strip_suffix(')').map(str::trim_end).and_then(|rest| rest.strip_suffix('$'))
+        else {
+            continue;
+        };
+        let axis =
+            rest.trim_end().trim_end_matches(',').rsplit(',').next().and_then(|axis| axis.trim().strip_prefix('#'));
+        if let Some(axis) = axis.and_then(|axis| axis.parse::<u64>().ok()) {
+            written.push((rest.as_ptr() as usize - text.as_ptr() as usize + rest.len(), axis));
+        }
+    }
+    if written.is_empty() {
+        return Cow::Borrowed(text);
+    }
+    let directions: HashMap<u64, &str> =
+        all.iter().filter(|of| of.kind == "DIRECTION").map(|of| (of.id, of.arguments)).collect();
+    let is_along_x = |axis: &u64| {
+        let numbers = directions.get(axis).and_then(|of| of.rsplit('(').next()).unwrap_or("");
+        let [x, y, z] = [0, 1, 2].map(|k| {
+            let number = numbers.trim_end_matches(')').split(',').nth(k).map_or("", str::trim);
+            number.parse::<f64>().unwrap_or(0.0)
+        });
+        y.hypot(z) <= 1e-9 * x.abs()
+    };
+    let own = all.iter().map(|of| of.id).max().unwrap_or(0) + 1;
+    let mut whole = String::with_capacity(text.len() + 64);
+    let mut done = 0;
+    for (place, _) in written.into_iter().filter(|(_, axis)| is_along_x(axis)) {
+        whole += &text[done..place];
+        whole += &format!("#{own}");
+        done = place + 1;
+    }
+    if done == 0 {
+        return Cow::Borrowed(text);
+    }
+    let end = text.rfind("ENDSEC").filter(|end| *end >= done).unwrap_or(text.len());
+    whole += &text[done..end];
+    whole += &format!("#{own} = DIRECTION('',(0.,1.,0.));\n{}", &text[end..]);
+    Cow::Owned(whole)
 }
 
 /// Numbers of the entities that messages name.
