@@ -2,11 +2,16 @@
 //!
 //! A face whose loops enclose the outside of it has them turned. Then every edge that two faces share must be run
 //! along once each way, seen from outside; of each piece of the body the faces are turned that are fewer.
+//!
+//! A loop on a surface that closes on itself bounds two faces, one on either side. Such a face may be turned by its
+//! sense, or by its loops: then it is the other part of the surface. The part is right that does not fold back along its
+//! edges onto its neighbours.
 
 use crate::error::ImportError;
 use crate::mesh::Mesh;
 use crate::part::Part;
 use crate::trace::{self, Traced};
+use glam::DVec3;
 
 /// Reverses faces with the wrong orientation; `tolerance` is the maximum distance of an edge from its face,
 /// millimetres.
@@ -15,22 +20,67 @@ use crate::trace::{self, Traced};
 /// A fault of a loop.
 pub fn turn(part: &mut Part, tolerance: f64) -> Result<(), ImportError> {
     let mut inside_out = Vec::new();
+    let mut borders = Vec::new();
     let mesh = Mesh::new(part);
     for (face, of) in part.faces.iter().enumerate() {
         let loops = of.loops.iter().map(|uses| trace::trace(&mesh, face, uses, tolerance));
         let loops = loops.collect::<Result<Vec<_>, _>>()?;
+        borders.push(borders_of(part, face, &loops));
         if is_inside_out(part, face, &loops) {
             inside_out.push(face);
         }
     }
     for face in inside_out {
-        for uses in &mut part.faces[face].loops {
-            uses.reverse();
-            uses.iter_mut().for_each(|used| used.reversed = !used.reversed);
-        }
+        reverse_loops(part, face, &mut borders);
     }
-    turn_the_fewer(part);
-    Ok(())
+    turn_the_fewer(part, &mut borders)
+}
+
+/// The unit vectors from an edge into a face, at [`SHARES`] of the edge.
+struct Border {
+    edge: usize,
+    inward: [DVec3; SHARES.len()],
+}
+
+const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Cosine of the angle between two faces below which they lie on each other: less than a degree.
+const FOLDED: f64 = 0.9999;
+
+fn borders_of(part: &Part, face: usize, loops: &[Traced]) -> Vec<Border> {
+    let surface = &part.faces[face].surface;
+    let sides = loops.iter().flat_map(|of| &of.sides);
+    let border = |(edge, reversed, path): (usize, bool, &crate::path::Path)| {
+        let inward = SHARES.map(|share| {
+            let (t, way) = if reversed { (1.0 - share, -1.0) } else { (share, 1.0) };
+            surface.normal(path.at(t)).cross(part.edges[edge].at(share)[1] * way).normalize_or_zero()
+        });
+        Border { edge, inward }
+    };
+    sides.filter_map(|side| side.wire.map(|(edge, reversed)| (edge, reversed, &side.path))).map(border).collect()
+}
+
+fn reverse_loops(part: &mut Part, face: usize, borders: &mut [Vec<Border>]) {
+    for uses in &mut part.faces[face].loops {
+        uses.reverse();
+        uses.iter_mut().for_each(|used| used.reversed = !used.reversed);
+    }
+    borders[face].iter_mut().for_each(|border| border.inward = border.inward.map(|inward| -inward));
+}
+
+/// Whether a face lies on a neighbour along an edge of theirs; with its loops as they are (1) or reversed (−1).
+fn folds(face: usize, borders: &[Vec<Border>], sense: f64) -> bool {
+    borders[face].iter().any(|own| {
+        let others = borders.iter().enumerate().filter(|(other, _)| *other != face).flat_map(|(_, of)| of);
+        others
+            .filter(|other| other.edge == own.edge)
+            .any(|other| own.inward.iter().zip(other.inward).all(|(own, other)| sense * own.dot(other) > FOLDED))
+    })
+}
+
+/// Whether the surface of a face closes on itself, so that its loops bound another face on their other side.
+fn has_other_side(part: &Part, face: usize) -> bool {
+    let surface = &part.faces[face].surface;
+    (0..2).any(|axis| surface.closed[axis] && (surface.closed[1 - axis] || surface.poles[1 - axis] == [true; 2]))
 }
 
 /// Whether the loops of a face go the wrong way about it.
@@ -44,9 +94,7 @@ fn is_inside_out(part: &Part, face: usize, loops: &[Traced]) -> bool {
             return !surface.closed[1 - axis] && (rising > falling) == (axis == 0);
         }
     }
-    let is_closed =
-        (0..2).any(|axis| surface.closed[axis] && (surface.closed[1 - axis] || surface.poles[1 - axis] == [true; 2]));
-    if is_closed || loops.is_empty() || loops.iter().any(|of| of.winding != [0, 0]) {
+    if has_other_side(part, face) || loops.is_empty() || loops.iter().any(|of| of.winding != [0, 0]) {
         return false;
     }
     let areas = loops.iter().map(|of| trace::area(&of.sides));
@@ -54,7 +102,7 @@ fn is_inside_out(part: &Part, face: usize, loops: &[Traced]) -> bool {
 }
 
 /// Turns, in each piece of the body, the faces that disagree with the most others.
-fn turn_the_fewer(part: &mut Part) {
+fn turn_the_fewer(part: &mut Part, borders: &mut [Vec<Border>]) -> Result<(), ImportError> {
     let mut uses: Vec<Vec<(usize, bool)>> = vec![Vec::new(); part.edges.len()];
     for (face, of) in part.faces.iter().enumerate() {
         for used in of.loops.iter().flatten() {
@@ -89,9 +137,28 @@ fn turn_the_fewer(part: &mut Part) {
         }
         let (these, those): (Vec<_>, Vec<_>) = piece.into_iter().partition(|face| turned[*face] == Some(true));
         for face in if these.len() <= those.len() { these } else { those } {
+            let is_other_side = has_other_side(part, face);
+            if is_other_side {
+                match [1.0, -1.0].map(|sense| folds(face, borders, sense)) {
+                    [true, false] => {
+                        reverse_loops(part, face, borders);
+                        let label = part.faces[face].label();
+                        part.remarks
+                            .push(format!("healed: the outline of {label} runs the wrong way round in the file"));
+                        continue;
+                    }
+                    [false, true] => {}
+                    _ => {
+                        let reason = "its outline runs the same way as its neighbours', and bounds two parts of its \
+                                      surface: the file does not say which; export the part again, with the face split";
+                        return Err(ImportError::face(part.faces[face].label(), reason));
+                    }
+                }
+            }
             let of = &mut part.faces[face];
             of.flip = !of.flip;
             part.remarks.push(format!("healed: {} lies the wrong way round in the file", of.label()));
         }
     }
+    Ok(())
 }
