@@ -9,7 +9,7 @@ use crate::part::Part;
 use crate::patches::{self, Made};
 use crate::spheres::Hollow;
 use crate::wires::{FINEST, Fine, outlined};
-use crate::{emit, heal, picture, pinch, read, report, sew, spheres, split, turn};
+use crate::{check, emit, heal, picture, pinch, read, report, sew, spheres, split, turn};
 use std::path::Path;
 
 /// How often faces that are too much at once are made easier.
@@ -190,6 +190,20 @@ struct Divided {
 /// All that comes after the part is as it should be.
 fn divided(part: &Part, fine: &Fine, triangles: bool, options: &Options) -> Result<Divided, Vec<ImportError>> {
     let (quads, mesh, made) = fewest(part, fine, triangles, options.tolerance)?;
+    let turned = check::check(part, &made).map_err(single)?;
+    if !turned.is_empty() {
+        let mut part = part.clone();
+        for face in turned {
+            let label = part.faces[face].label();
+            let remark = format!("healed: {label} and its whole shell lie inside out in the file");
+            if part.remarks.contains(&remark) {
+                return Err(single(ImportError::face(label, "rays do not tell its outward side")));
+            }
+            part.faces[face].flip = !part.faces[face].flip;
+            part.remarks.push(remark);
+        }
+        return divided(&part, fine, triangles, options);
+    }
     let mut counts = vec![0; part.faces.len()];
     made.iter().for_each(|made| counts[made.face] += 1);
     let busiest = (0..counts.len()).max_by_key(|face| counts[*face]).filter(|_| made.len() >= 2 * quads);
@@ -224,7 +238,7 @@ fn fewest<'p>(
 }
 
 /// Patches, and how many quads there were before any was halved.
-fn patched<'p>(
+pub(crate) fn patched<'p>(
     part: &'p Part,
     fine: &Fine,
     tolerance: f64,

@@ -7,9 +7,10 @@
 //! outline close there, and [`wires`] cuts it into pieces; [`divide`] cuts regions into quads without a side that ends
 //! on another's middle, or [`split`] makes less of a face first; [`patches`] gives each wire one curve, shared by both
 //! its faces, and each quad one polynomial patch ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with
-//! the part, both ways; [`emit`] writes the model.
+//! the part, both ways; [`check`] refuses a result that is no solid; [`emit`] writes the model.
 
 mod bezier;
+mod check;
 mod circles;
 mod divide;
 mod effort;
