@@ -29,6 +29,15 @@ struct Built<const FACES: usize, const EDGES: usize> {
     body: Option<Body<'static>>,
 }
 
+impl<const FACES: usize, const EDGES: usize> Built<FACES, EDGES> {
+    /// Lets go of every reference.
+    fn clear(&mut self) {
+        self.body = None;
+        self.faces.fill(Face::VACANT);
+        self.edges.fill(Edge::VACANT);
+    }
+}
+
 // SAFETY: the content is written only while main holds the bank, and there is one main, as the callers of `check`
 // say; it is read only while nobody or the tick holds it. The holder changes with release and is looked at with
 // acquire.
@@ -56,9 +65,18 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
         self.is_held_by(Holder::Main)
     }
 
-    /// Takes back a body that nobody has taken, and says whether the bank is main's.
-    pub fn reclaim(&self) -> bool {
-        self.pass(Holder::Waiting, Holder::Main) || self.is_mains()
+    /// Takes back a body that nobody has taken, and says whether the bank is main's. Then it has no reference to the
+    /// file left, which main may write.
+    ///
+    /// # Safety
+    /// Only from main, of which there is one, and not while [`Self::check`] runs.
+    pub unsafe fn reclaim(&self) -> bool {
+        let is_mains = self.pass(Holder::Waiting, Holder::Main) || self.is_mains();
+        if is_mains {
+            // SAFETY: main holds the bank and is here once, as the caller says: nobody else looks at the content.
+            unsafe { (*self.built.get()).clear() };
+        }
+        is_mains
     }
 
     /// Checks a file; its body waits to be taken from then on. `pause` is called meanwhile.
@@ -74,9 +92,16 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
         // references live as long as the bank, which is a `static`, and nobody writes behind them until the bank is
         // main's again; by then the tick has let go of all of them.
         let built: &'static mut Built<FACES, EDGES> = unsafe { &mut *self.built.get() };
+        built.clear();
         let Built { faces, edges, body } = built;
-        *body = None;
-        *body = Some(Body::from_bytes_with(file, BodyBuffer { faces, edges }, pause)?);
+        match Body::from_bytes_with(file, BodyBuffer { faces, edges }, pause) {
+            Ok(found) => *body = Some(found),
+            Err(error) => {
+                // SAFETY: as above, and nothing of `built` is used any more.
+                unsafe { (*self.built.get()).clear() };
+                return Err(error);
+            }
+        }
         self.pass(Holder::Main, Holder::Waiting);
         Ok(())
     }

@@ -154,7 +154,8 @@ impl<F: NorFlash, const FACES: usize, const EDGES: usize> Keeping<F, FACES, EDGE
     fn begin(&self, bytes: u32) -> Result<(), UploadError> {
         self.begun.set(None);
         let incoming = Incoming::begin(bytes, self.room().0)?;
-        if !self.kept.bank.reclaim() {
+        // SAFETY: this is main's end, which is there once; the feeding of a watchdog does not come here.
+        if !unsafe { self.kept.bank.reclaim() } {
             return Err(UploadError::Felt);
         }
         // The stored body is invalid from here on, whenever the power goes.
