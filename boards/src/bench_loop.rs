@@ -9,7 +9,9 @@ use palpate::commission::Wiring;
 use palpate::device::Kinematics;
 use palpate::math::Vec3;
 use palpate::scene::Commanded;
-use palpate::servo::{Deadline, Event, FrameBridge, Guard, Input, Output, ResetReason, Servo, ServoState, Surface};
+use palpate::servo::{
+    Deadline, Event, FrameBridge, Guard, Input, Output, PeriodWindow, ResetReason, Servo, ServoState, Surface,
+};
 use palpate::wire::telemetry::{Producer, Recorder};
 use palpate::wire::{Answer, Record, Refused, View, hold};
 
@@ -60,8 +62,8 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     deadline: Deadline,
     /// The start of the last tick; `None` before the first, and where this one need not come in time.
     began: Option<u32>,
-    /// The maximum time from it to the start of the next.
-    latest: Deadline,
+    /// The time from it to the start of the next.
+    window: PeriodWindow,
     recorder: Recorder<'a>,
     mailbox: &'a Mailbox,
     /// Of the loop, Hz.
@@ -103,8 +105,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             ticks: 0,
             acknowledging: Acknowledging::new(rate),
             began: None,
-            // One and a half: what a board's own interrupts delay a tick by is far less than the half.
-            latest: Deadline::of_period(1.5 * settings.clock as f32, rate),
+            window: PeriodWindow::of_period(settings.clock as f32, rate),
             // Limits that make no sense jog nothing.
             set_up: settings.jog.and_then(|jog| {
                 let (device, continuous) = (felt.servo().device(), felt.servo().guard().continuous());
@@ -121,7 +122,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     pub fn tick(&mut self) {
         let began = self.board.now();
         self.board.acknowledge();
-        let is_late = self.begins_late(began);
+        let is_late = self.begins_out_of_time(began);
         let panel = self.board.panel();
         self.listen(&panel);
         if self.is_set_up {
@@ -167,14 +168,15 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         self.tell(began, verdict);
     }
 
-    /// Whether a tick that starts now comes too late after the one before. While flash is written, and in the tick
-    /// after it, whatever reads flash may wait for it: the motors are off meanwhile.
+    /// Whether a tick that starts now comes too late or too early after the one before: early, too, if the counter
+    /// stands still. While flash is written, and in the tick after it, whatever reads flash may wait for it: the motors
+    /// are off meanwhile.
     #[inline]
-    fn begins_late(&mut self, began: u32) -> bool {
+    fn begins_out_of_time(&mut self, began: u32) -> bool {
         let is_written = self.mailbox.writing().is_granted();
         let last = if is_written { None } else { self.began };
         self.began = if is_written { None } else { Some(began) };
-        last.is_some_and(|last| self.latest.overrun(last, began))
+        last.is_some_and(|last| !self.window.contains(last, began))
     }
 
     /// Whether a tick took too long. The next one, which had to wait for it, is then not late besides.

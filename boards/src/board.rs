@@ -24,7 +24,7 @@ pub struct NotObeyed;
 
 /// A board whose motors cannot be driven: through this alone nothing reaches a motor but the word to let go.
 pub trait Passive<const JOINTS: usize> {
-    /// The free-running counter: it rises, and wraps at 32 bits.
+    /// The free-running counter: it rises, and wraps at 32 bits. No debugger stops it.
     fn now(&self) -> u32;
 
     /// Takes the timer's interrupt back, so that the next period can raise it again.

@@ -2,7 +2,8 @@
 
 use embedded_hal::delay::DelayNs;
 
-/// A counter that runs freely, rises and wraps at 32 bits: the core's cycles.
+/// A counter that runs freely, rises and wraps at 32 bits. On a board it is a timer that no debugger stops; the core's
+/// own cycle counter is none: a debugger that detaches switches it off.
 pub trait Counter {
     /// The count.
     fn now(&self) -> u32;
@@ -17,7 +18,9 @@ pub const fn cycles(nanoseconds: u32, frequency: u32) -> u32 {
     if counts > u32::MAX as u64 { u32::MAX } else { counts as u32 }
 }
 
-/// Waits by the counter. At least as long as asked, and longer by the few cycles of looking.
+/// Waits by the counter. At least as long as asked, and longer by the few cycles of looking. If the counter stands
+/// still, it waits for as many looks as it should see counts, and the loop finds the fault: a look reads a register on a
+/// bus that is no faster than the counter, so it takes a count or more.
 #[derive(Clone, Copy, Debug)]
 pub struct CycleDelay<C> {
     counter: C,
@@ -35,6 +38,6 @@ impl<C: Counter> DelayNs for CycleDelay<C> {
     #[inline]
     fn delay_ns(&mut self, nanoseconds: u32) {
         let (began, counts) = (self.counter.now(), cycles(nanoseconds, self.frequency));
-        while self.counter.now().wrapping_sub(began) < counts {}
+        let _ = (0..counts).any(|_| self.counter.now().wrapping_sub(began) >= counts);
     }
 }

@@ -25,6 +25,11 @@ class Chip:
     RESET: dict[int, int]
     # Where the vector table is after a reset.
     VECTORS: int
+    # The counter that times ticks and waits, the core's cycles of one of its counts, and whether it stands still: since
+    # that cycle.
+    COUNTER: int
+    COUNTER_CYCLES = 1
+    stands_since: int | None = None
     machine = None
 
     def name(self, address: int) -> str:
@@ -38,6 +43,15 @@ class Chip:
         """Lets a register hold this."""
         self.machine.words[address] = value & 0xFFFF_FFFF
         return value & 0xFFFF_FFFF
+
+    def count_of_cycles(self) -> int:
+        """What the counter shows, if it was started."""
+        now = self.machine.cycles if self.stands_since is None else self.stands_since
+        return now // self.COUNTER_CYCLES if self.is_counting() else 0
+
+    def counter_clock(self) -> float:
+        """Of the counter, Hz."""
+        return self.core_clock() / self.COUNTER_CYCLES
 
     def entry(self) -> tuple[int, int]:
         """Stack and program counter after a reset: the first words of the vector table."""

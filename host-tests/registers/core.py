@@ -12,7 +12,8 @@ from log import Access, Log
 
 # The core's own registers (ARM DDI 0403, "System Control Space").
 CORE, CORE_SIZE = 0xE000_0000, 0x10_0000
-CYCCNT = 0xE000_1004
+# Its cycle counter, and what switches it on: a debugger that detaches clears it (ARM DDI 0403, "DEMCR", TRCENA).
+CYCCNT, DEMCR, TRCENA = 0xE000_1004, 0xE000_EDFC, 1 << 24
 ISER, ICER, IPR = 0xE000_E100, 0xE000_E180, 0xE000_E400
 ICSR, VTOR = 0xE000_ED04, 0xE000_ED08
 # Unicorn's number for a branch to EXC_RETURN.
@@ -128,11 +129,14 @@ class Core:
         word, shift = address & ~3, (address & 3) * 8
         self.width = size
         lost = word < CORE and self.chip.is_lost(word)
-        if word >= CORE:
-            value = self._core(word)
+        is_clock = word in (CYCCNT, self.chip.COUNTER)
+        if is_clock:
+            value = 0 if lost else self._clock(word)
+        elif word >= CORE:
+            value = self.during if word == ICSR else self.words.get(word, 0)
         else:
             value = 0 if lost else self.chip.read(word) & 0xFFFF_FFFF
-        if word != CYCCNT:
+        if not is_clock:
             self._note(False, word, value, 0, lost)
         return value >> shift & (1 << 8 * size) - 1
 
@@ -153,12 +157,12 @@ class Core:
         self._note(True, word, value, written, lost)
         self.note_enables()
 
-    def _core(self, word: int) -> int:
-        if word == ICSR:
-            return self.during
-        if word != CYCCNT:
-            return self.words.get(word, 0)
-        now = self.cycles & 0xFFFF_FFFF
+    def _clock(self, word: int) -> int:
+        """A look at the core's own counter or at the chip's."""
+        if word == CYCCNT:
+            now = self.cycles if self.words.get(DEMCR, 0) & TRCENA else 0
+        else:
+            now = self.chip.count_of_cycles()
         self.looks += 1
         self.last_look = self.cycles
         if self.looks == 1:
@@ -167,7 +171,7 @@ class Core:
             self.ahead += HURRY
         if self.during and self.late:
             self.ahead, self.late = self.ahead + self.late, 0
-        return now
+        return now & 0xFFFF_FFFF
 
     def _note(self, is_write: bool, word: int, value: int, written: int, lost: bool) -> None:
         waited = self.last_look - self.first_look if self.looks else 0

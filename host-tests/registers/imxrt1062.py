@@ -28,7 +28,7 @@ GPIO = {
 }
 IOMUXC = 0x401F_8000
 OCOTP = Block("OCOTP", 0x401F_4000, ANA1=0x4E0)
-GPT = [Block(f"GPT{number}", base, CR=0) for number, base in ((1, 0x401E_C000), (2, 0x401F_0000))]
+GPT = [Block(f"GPT{number}", base, CR=0, PR=4, CNT=0x24) for number, base in ((1, 0x401E_C000), (2, 0x401F_0000))]
 USB1 = Block("USB1", 0x402E_0000, USBCMD=0x140, ENDPTPRIME=0x1B0, ENDPTFLUSH=0x1B4)
 LPSPI4 = Block(
     "LPSPI4", 0x403A_0000, PARAM=4, CR=0x10, SR=0x14, CCR=0x40, FSR=0x5C, TCR=0x60, TDR=0x64, RSR=0x70, RDR=0x74
@@ -69,6 +69,8 @@ class Imxrt1062(Chip):
     MEMORY = ((0, 0x8_0000), (0x2000_0000, 0x8_0000), (0x2020_0000, 0x8_0000), (0x6000_0000, 0x20_0000))
     REGISTERS = ((0x4000_0000, 0x40_0000),)
     VECTORS = 0x6000_0000
+    # 32 bits of the bus's clock, a quarter of the core's.
+    COUNTER, COUNTER_CYCLES = GPT[0].CNT, 4
     RESET = {
         **{register: 0xFFFF_FFFF for register in CCGR},
         # As the boot ROM leaves them: it runs at 396 MHz, and its watchdog may be updated, which is what NXP's own
@@ -86,7 +88,7 @@ class Imxrt1062(Chip):
     }
 
     def reset(self, machine, **reasons: bool) -> None:
-        self.machine = machine
+        self.machine, self.stands_since = machine, None
         self.keep(SRC.SRSR, sum(1 << REASONS[reason] for reason, is_so in reasons.items() if is_so))
         # The always-on domain keeps what it holds over every reset ("SNVS_LP general purpose registers").
         self.always_on = getattr(self, "always_on", {})
@@ -194,6 +196,18 @@ class Imxrt1062(Chip):
             assert self.word(LPSPI4.TCR) & 0xFFF == 15, "a sensor takes 16 bits"
             self.answers.append(self.exchange(value & 0xFFFF))
         return self.keep(address, value)
+
+    def is_counting(self) -> bool:
+        """It runs freely, of the undivided bus's clock ("GPT_CR": EN, CLKSRC 1, FRR)."""
+        control = self.word(GPT[0].CR)
+        return bool(control & 1) and control >> 6 & 7 == 1 and bool(control >> 9 & 1) and not self.word(GPT[0].PR)
+
+    def counts_at_a_halt(self) -> bool:
+        """Whether it goes on while a debugger halts the core ("GPT_CR": DBGEN)."""
+        return bool(self.word(GPT[0].CR) >> 2 & 1)
+
+    def counter_clock(self) -> float:
+        return self.bus_clock()
 
     def submodule(self, address: int) -> int:
         return (address - PWM2.base) // SUBMODULE

@@ -8,6 +8,8 @@ from machine import Machine
 
 # A supply is too low once it was so for four ticks: one reading may be noise. One that is too high holds at once.
 SUPPLY_TICKS = 4
+# Ticks within which timing that cannot be supervised any more takes the force away: 2 ms.
+SUPERVISED = 8
 
 
 class InForce(Bench):
@@ -119,6 +121,21 @@ class InForce(Bench):
         machine.late = 2 * machine.chip.PERIOD
         self.assert_stops_within(machine, 1)
         self.assertEqual(machine.late, 0, "the tick looked at the clock again")
+
+    def test_debugger_that_detaches_leaves_ticks_supervised(self) -> None:
+        machine = self.while_driving()
+        machine.detach_debugger()
+        machine.ticks(SUPERVISED)
+        self.assertTrue(self.drives(machine), "nothing is wrong")
+        machine.late = 2 * machine.chip.PERIOD
+        self.assert_stops_within(machine, 1)
+
+    def test_counter_that_stands_still_stops_within_two_milliseconds(self) -> None:
+        machine = self.while_driving()
+        machine.chip.stands_since = machine.cycles
+        self.assert_stops_within(machine, SUPERVISED)
+        machine.ticks(A_WHILE)
+        self.assertEqual(self.last(machine).phase, telemetry.FAULT)
 
     # What is broken before is not driven at all.
 

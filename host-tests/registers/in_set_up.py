@@ -57,7 +57,7 @@ class InSetUp(Bench):
         # A timer may count one more: the rate is then a cycle in some ten thousand off, and crystals are no better.
         self.assertAlmostEqual(machine.chip.tick_rate(), RATE, delta=1e-4 * RATE)
         machine.ticks(A_WHILE)
-        self.assertEqual(self.last(machine).clock, machine.chip.core_clock(), "what the records call its cycles")
+        self.assertEqual(self.last(machine).clock, machine.chip.counter_clock(), "what the records count in")
 
     def test_serial_port_has_its_rate(self) -> None:
         # A frame of ten bits is understood while its last bit is met: both ends together may be off by 5 %.
@@ -73,6 +73,9 @@ class InSetUp(Bench):
         self.assertEqual(machine.chip.widths(), [0, 0, 0])
         machine.ticks(1)
         self.assert_set_points_rest(machine)
+
+    def test_no_debugger_stops_the_counter_that_supervises_ticks(self) -> None:
+        self.assertTrue(self.after_set_up().chip.counts_at_a_halt())
 
     def test_watchdog_bites_at_a_breakpoint_too(self) -> None:
         # The motors would go on as they were driven last.

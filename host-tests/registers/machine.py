@@ -11,7 +11,7 @@ import copy
 import struct
 from typing import Callable
 
-from core import CORE, IPR, ISER, VTOR, Core, Stuck
+from core import CORE, DEMCR, IPR, ISER, VTOR, Core, Stuck
 from log import Access
 
 NMI, HARD_FAULT, USAGE_FAULT, SYSTEM_TICK = 2, 3, 6, 15
@@ -92,6 +92,10 @@ class Machine(Core):
         if returns:
             self.unicorn.context_restore(context)
             self.during = was
+
+    def detach_debugger(self) -> None:
+        """A debugger detaches: it clears what switches the core's cycle counter on."""
+        self.words[DEMCR] = 0
 
     def panic(self) -> None:
         """Makes the program panic, wherever it is."""

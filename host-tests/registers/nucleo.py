@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 
 from stm32g4 import (
-    CATCHES, CAUGHT, FEEDS, GPIO, IWDG, LSI, RCC, STARTS, TIM1, TIM2, TIM3, TIM4, TIM7, USART2, Stm32g4, peripheral,
+    CATCHES, CAUGHT, DBGMCU, FEEDS, GPIO, IWDG, LSI, RCC, STARTS, TIM1, TIM2, TIM3, TIM4, TIM7, USART2, Stm32g4, peripheral,
 )  # fmt: skip
 
 
@@ -91,7 +91,7 @@ class Nucleo(Stm32g4):
 
     def waits_for_debugger(self) -> bool:
         """Whether a core that a debugger halts stops the watchdog ("DBGMCU APB1 freeze register 1")."""
-        return bool(self.word(0xE004_2008) >> 12 & 1)
+        return bool(self.word(DBGMCU.APB1FZR1) >> 12 & 1)
 
     def light(self) -> bool:
         return self.mode(*self.LIGHT) == 1 and bool(self.level(*self.LIGHT))

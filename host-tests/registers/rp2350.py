@@ -38,6 +38,7 @@ PWM = Block(
 )  # fmt: skip
 WATCHDOG = Block("WATCHDOG", 0x400D_8000, CTRL=0, LOAD=4, REASON=8, SCRATCH0=0xC, SCRATCH1=0x10)
 POWMAN = Block("POWMAN", 0x4010_0000, CHIP_RESET=0x2C, WDSEL=0x30)
+TIMER0 = Block("TIMER0", 0x400B_0000, TIMERAWL=0x28, DBGPAUSE=0x2C, PAUSE=0x30, SOURCE=0x38)
 TICKS = Block("TICKS", 0x4010_8000, WATCHDOG_CTRL=0x30, WATCHDOG_CYCLES=0x34)
 USB_MEMORY, USB = 0x5010_0000, 0x5011_0000
 SIO = Block(
@@ -59,7 +60,7 @@ ENABLE, PAUSES = 30, 0b111 << 24
 # Which bit of RESETS holds which peripheral ("Subsystem resets").
 HELD = {
     ADC.base: 0, IO.base: 6, PADS.base: 9, PLL_SYS.base: 14, PLL_USB.base: 15, PWM.base: 16, SPI0.base: 18,
-    UART0.base: 26, USB: 28,
+    TIMER0.base: 23, UART0.base: 26, USB: 28,
 }  # fmt: skip
 # Stages of the power-on state machine ("PSM: WDSEL"): the oscillators, and that of the peripherals' resets.
 ROSC, XOSC_STAGE, RESETS_STAGE, STAGES = 2, 3, 4, 25
@@ -81,6 +82,8 @@ class Rp2350(Chip):
     MEMORY = ((0x1000_0000, 0x40_0000), (0x2000_0000, 0x8_2000), (USB_MEMORY, 0x1000))
     REGISTERS = ((0x4000_0000, 0x12_0000), (USB, 0x4000), (0xD000_0000, 0x1000))
     VECTORS = 0x1000_0000
+    # Of 64 bits the lower 32, of clk_sys ("TIMER: SOURCE").
+    COUNTER = TIMER0.TIMERAWL
     # Pins that anybody reads.
     INPUTS: tuple[int, ...]
     RESET = {
@@ -97,6 +100,7 @@ class Rp2350(Chip):
         PLL_USB.PRIM: 0x7_7000,
         # Pauses under a debugger, unless it is told not to.
         WATCHDOG.CTRL: PAUSES,
+        TIMER0.DBGPAUSE: 7,
         **{getattr(PWM, f"CH{slice}_{name}"): value
            for slice in range(12) for name, value in (("DIV", 0x10), ("TOP", 0xFFFF))},
     }  # fmt: skip
@@ -105,7 +109,7 @@ class Rp2350(Chip):
         """The watchdog as it is set up here resets the system, not the chip: its own scratch registers keep what they
         hold, so does the reason of the last reset of the chip, and pads stay out of isolation ("Chip-level resets",
         "Pad isolation latches"). `tool` is the boot ROM's reboot, some time after a reset that left no memo."""
-        self.machine = machine
+        self.machine, self.stands_since = machine, None
         is_of_chip = any(CHIP_LEVEL.get(reason) for reason, is_so in reasons.items() if is_so)
         if is_of_chip or "tool" in reasons or not hasattr(self, "scratch"):
             # What reaches each pad: what was written last while it was not isolated.
@@ -212,6 +216,14 @@ class Rp2350(Chip):
         for pin, pad in enumerate(self.pads):
             if not pad >> ISO & 1:
                 self.pads[pin] = self.keep(PADS.base + 4 * pin + 4, self.RESET[PADS.GPIO0] & ~(1 << ISO))
+
+    def is_counting(self) -> bool:
+        """It counts clk_sys, and is not paused."""
+        return self.word(TIMER0.SOURCE) & 1 and not self.word(TIMER0.PAUSE) & 1
+
+    def counts_at_a_halt(self) -> bool:
+        """Whether it goes on while a debugger halts a processor ("TIMER: DBGPAUSE")."""
+        return not self.word(TIMER0.DBGPAUSE) >> 1 & 3
 
     def pad(self, pin: int, bit: int) -> int:
         """A bit of what reaches a pad."""

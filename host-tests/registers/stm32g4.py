@@ -17,8 +17,8 @@ RCC = Block(
 FLASH = Block("FLASH", 0x4002_2000, ACR=0, ECCR=0x18, OPTR=0x20)
 # Bits of ECCR: a word beyond mending, of the second bank.
 ECCD, BK_ECC = 1 << 31, 1 << 21
-# A bit of the option bytes: two banks.
-DBANK = 1 << 22
+# Bits of the option bytes: two banks; parity of SRAM is not checked.
+DBANK, SRAM_PE = 1 << 22, 1 << 24
 PWR = Block("PWR", 0x4000_7000, CR1=0, CR3=8, SR2=0x14, CR5=0x80)
 GPIO = {
     port: Block(
@@ -27,25 +27,29 @@ GPIO = {
     )
     for number, port in enumerate("ABCDEFG")
 }  # fmt: skip
-TIM1, TIM2, TIM3, TIM4, TIM7 = (
+TIM1, TIM2, TIM3, TIM4, TIM5, TIM7 = (
     Block(
         f"TIM{number}", base, CR1=0, SMCR=8, DIER=0xC, SR=0x10, CCMR1=0x18, CCMR2=0x1C, CCER=0x20, CNT=0x24, PSC=0x28, ARR=0x2C,
         CCR1=0x34, CCR2=0x38, CCR3=0x3C, CCR4=0x40, BDTR=0x44,
     )
-    for number, base in ((1, 0x4001_2C00), (2, 0x4000_0000), (3, 0x4000_0400), (4, 0x4000_0800), (7, 0x4000_1400))
+    for number, base in ((1, 0x4001_2C00), (2, 0x4000_0000), (3, 0x4000_0400), (4, 0x4000_0800), (5, 0x4000_0C00),
+                         (7, 0x4000_1400))
 )  # fmt: skip
-TIMERS = (TIM1, TIM2, TIM3, TIM4, TIM7)
+TIMERS = (TIM1, TIM2, TIM3, TIM4, TIM5, TIM7)
 # The registers that catch a count, each with its timer, and their flags in SR.
 CAUGHT = {TIM2.CCR3: TIM2, TIM3.CCR3: TIM3, TIM4.CCR4: TIM4}
 CATCHES = {TIM2.CCR3: 1 << 3, TIM3.CCR3: 1 << 3, TIM4.CCR4: 1 << 4}
 USART2 = Block("USART2", 0x4000_4400, CR1=0, BRR=0xC, ISR=0x1C, RDR=0x24, TDR=0x28)
 SPI1 = Block("SPI1", 0x4001_3000, CR1=0, CR2=4, SR=8, DR=0xC)
+DBGMCU = Block("DBGMCU", 0xE004_2000, APB1FZR1=8, APB2FZR=0x10)
 IWDG = Block("IWDG", 0x4000_3000, KR=0, PR=4, RLR=8, SR=0xC, WINR=0x10)
-ADC1 = Block("ADC1", 0x5000_0000, ISR=0, CR=8, DR=0x40, CCR=0x308)
+ADC1 = Block(
+    "ADC1", 0x5000_0000, ISR=0, CR=8, CFGR=0xC, SMPR2=0x18, SQR1=0x30, DR=0x40, JSQR=0x4C, JDR1=0x80, CCR=0x308
+)
 # Hz; what starts the watchdog, opens its registers and feeds it ("IWDG key register").
 HSI, LSI, STARTS, OPENS, FEEDS = 16e6, 32_000, 0xCCCC, 0x5555, 0xAAAA
 # Bits of a converter's orders ("ADC control register").
-ADEN, ADDIS, ADSTART, ADCAL, ADVREGEN = 0, 1, 2, 31, 28
+ADEN, ADDIS, ADSTART, ADCAL, ADVREGEN, JAUTO = 0, 1, 2, 31, 28, 25
 
 # The bit of RCC_CSR for each reason; the pin's own is always up.
 REASONS = {"power": 27, "software": 28, "watchdog": 29, "window": 30}
@@ -58,6 +62,7 @@ CLOCKS = {
     TIM2.base: (RCC.APB1ENR1, 0),
     TIM3.base: (RCC.APB1ENR1, 1),
     TIM4.base: (RCC.APB1ENR1, 2),
+    TIM5.base: (RCC.APB1ENR1, 3),
     TIM7.base: (RCC.APB1ENR1, 5),
     USART2.base: (RCC.APB1ENR1, 17),
     ADC1.base: (RCC.AHB2ENR, 13),
@@ -77,6 +82,8 @@ class Stm32g4(Chip):
     MEMORY = ((0x0800_0000, 0x8_0000), (0x1000_0000, 0x8000), (0x2000_0000, 0x2_0000))
     REGISTERS = ((0x4000_0000, 0x3_0000), (0x4200_0000, 0x60_0000), (0x4800_0000, 0x2000), (0x5000_0000, 0x10_0000))
     VECTORS = 0x0800_0000
+    # 32 bits of a timer's clock, which is the core's.
+    COUNTER = TIM5.CNT
     RESET = {
         RCC.CR: 0x500,
         RCC.CFGR: 0x5,
@@ -84,6 +91,8 @@ class Stm32g4(Chip):
         RCC.AHB1ENR: 0x100,
         RCC.APB1ENR1: 0x400,
         FLASH.ACR: 0x4_0600,
+        # As the chip is delivered, but of one bank: parity is not checked.
+        FLASH.OPTR: 0xFFEF_F8AA & ~DBANK,
         PWR.CR1: 0x200,
         PWR.CR3: 0x8000,
         PWR.CR5: 0x100,
@@ -98,13 +107,16 @@ class Stm32g4(Chip):
         GPIO["B"].PUPDR: 0x100,
         **{timer.ARR: 0xFFFF for timer in TIMERS},
         TIM2.ARR: 0xFFFF_FFFF,
+        TIM5.ARR: 0xFFFF_FFFF,
     }
 
     def reset(self, machine, **reasons: bool) -> None:
         """Every reset pulls the pin too ("System reset"); power-on raises the flag of a brown-out ("RCC_CSR")."""
-        self.machine = machine
+        self.machine, self.stands_since = machine, None
         self.keep(RCC.CSR, 1 << 26 | sum(1 << REASONS[reason] for reason, is_so in reasons.items() if is_so))
         self.received, self.sent, self.answers = bytearray(), bytearray(), bytearray()
+        # What the converter measures of its own reference, 1.212 V of 3.3 V; whether conversions end.
+        self.reference, self.converts = round(1.212 / 3.3 * 4_095), True
 
     def is_lost(self, address: int) -> bool:
         """A peripheral without its clock takes nothing and gives nothing ("Peripheral clock enable registers")."""
@@ -132,6 +144,8 @@ class Stm32g4(Chip):
             # Reading it takes EOC down.
             self.keep(ADC1.ISR, self.word(ADC1.ISR) & ~4)
             value = self.reading()
+        elif address == ADC1.JDR1:
+            value = self.reference
         elif address == USART2.ISR:
             # TXE and TC; RXNE while something waits; TEACK and REACK.
             value = 0xC0 | bool(self.received) << 5 | 0b11 << 21
@@ -167,14 +181,15 @@ class Stm32g4(Chip):
         if address in (timer.SR for timer in TIMERS):
             # Flags are cleared by writing 0.
             value &= self.word(address)
-        elif address in (timer.ARR for timer in TIMERS if timer is not TIM2):
+        elif address in (timer.ARR for timer in TIMERS if timer not in (TIM2, TIM5)):
             # 16 bits, and four of a fraction that is not used.
             value &= 0xF_FFFF
         elif address == ADC1.CR:
             # Writing 0 takes back no order, and each is carried out at once: ADDIS ends ADEN, ADSTART brings EOC and
-            # EOS, ADSTP and ADCAL are over. ADRDY follows ADEN.
+            # EOS, with JAUTO JEOC and JEOS too, ADSTP and ADCAL are over. ADRDY follows ADEN.
             is_on = not value >> ADDIS & 1 and (value | self.word(address)) & 1
-            self.keep(ADC1.ISR, self.word(ADC1.ISR) & ~1 | is_on | (0b1100 if value >> ADSTART & 1 else 0))
+            comes = (0b110_1100 if self.word(ADC1.CFGR) >> JAUTO & 1 else 0b1100) if self.converts else 0
+            self.keep(ADC1.ISR, self.word(ADC1.ISR) & ~1 | is_on | (comes if value >> ADSTART & 1 else 0))
             value = value & 0x7FFF_FFC0 | is_on
         elif address == ADC1.ISR:
             # Flags are cleared by writing 1.
@@ -196,6 +211,14 @@ class Stm32g4(Chip):
             for at in range(self.machine.width):
                 self.answers.append(self.exchange(value >> 8 * at & 0xFF))
         return self.keep(address, value)
+
+    def is_counting(self) -> bool:
+        """It runs, and is not divided."""
+        return bool(self.word(TIM5.CR1) & 1) and not self.word(TIM5.PSC)
+
+    def counts_at_a_halt(self) -> bool:
+        """Whether it goes on while a debugger halts the core ("DBGMCU APB1 freeze register 1")."""
+        return not self.word(DBGMCU.APB1FZR1) >> 3 & 1
 
     def take_answer(self) -> int:
         """What came over SPI, in its order."""

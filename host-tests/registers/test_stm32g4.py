@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import unittest
 
 import telemetry
+import unicorn
 from at_resets import AtResets
 from at_stops import AtStops
-from in_force import InForce
+from in_force import SUPPLY_TICKS, InForce
 from in_set_up import InSetUp
 from nucleo import Nucleo
 from on_stack import OnStack
-from stm32g4 import ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, FLASH, GPIO, PWR, RCC, TIM1, TIM2, TIM3, TIM4
+from stm32g4 import (
+    ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, FLASH, GPIO, PWR, RCC, SRAM_PE, TIM1, TIM2, TIM3, TIM4,
+)  # fmt: skip
 
 
 class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
@@ -97,6 +101,40 @@ class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
         # 20 µs for the regulator ("ADC voltage regulator"); calibrated before it is on ("Calibration").
         self.assertGreater(calibrates - regulator, 20e-6 * machine.chip.core_clock())
         self.assertLess(calibrates, on)
+
+    def test_supply_is_sampled_long_enough_for_its_divider(self) -> None:
+        chip = self.after_set_up().chip
+        self.assertEqual(chip.word(ADC1.SQR1) >> 6 & 0x1F, 12, "PB1")
+        # Half a step of 12 bits is ln 8192 time constants of the divider, the switch (1 kΩ) and some 10 pF.
+        settles = math.log(8_192) * (1 / (1 / 100e3 + 1 / 10e3) + 1e3) * 10e-12
+        cycles = (2.5, 6.5, 12.5, 24.5, 47.5, 92.5, 247.5, 640.5)[chip.word(ADC1.SMPR2) >> 6 & 7]
+        self.assertGreater(cycles / (chip.core_clock() / 4), 2 * settles)
+
+    def test_converter_that_measures_its_own_reference_wrong_stops_within_four_ticks(self) -> None:
+        machine = self.while_driving()
+        machine.chip.reference = machine.chip.reference * 4 // 5
+        self.assert_stops_within(machine, SUPPLY_TICKS)
+
+    def test_conversion_that_never_ends_stops_within_five_ticks(self) -> None:
+        machine = self.while_driving()
+        machine.chip.converts = False
+        self.assert_stops_within(machine, SUPPLY_TICKS + 1)
+
+    def test_memory_whose_parity_is_checked_is_not_read_before_it_is_written(self) -> None:
+        machine = self.new_machine()
+        machine.reset(power=True)
+        machine.chip.keep(FLASH.OPTR, machine.chip.RESET[FLASH.OPTR] & ~SRAM_PE)
+        memo = self.image.symbol("stm32g44MEMO")
+        accesses = []
+        machine.unicorn.hook_add(
+            unicorn.UC_HOOK_MEM_READ | unicorn.UC_HOOK_MEM_WRITE,
+            lambda _uc, kind, address, *_: accesses.append((kind, address)),
+            begin=memo, end=memo + 7,
+        )  # fmt: skip
+        machine.set_up()
+        for word in (memo, memo + 4):
+            kind = next(kind for kind, address in accesses if address == word)
+            self.assertEqual(kind, unicorn.UC_MEM_WRITE)
 
     def test_reset_that_was_asked_for_is_told(self) -> None:
         self.assert_is_told(telemetry.SOFTWARE, software=True)

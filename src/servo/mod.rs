@@ -15,7 +15,7 @@
 //! | repeated implausible contact | [`ContactLimits`] | `ContactLost` |
 //! | encoders contradict the mechanism | [`crate::device::Kinematics::pose`] | `Unreachable` |
 //! | a force or torque that is NaN or infinite | the gate before the motors | `NotFinite` |
-//! | tick overrun | [`Deadline`], [`Event::Overrun`] | `Overrun` |
+//! | tick overrun; a tick that starts late or early, a counter that stands still | [`Deadline`], [`PeriodWindow`], [`Event::Overrun`] | `Overrun` |
 //! | host link lost | [`Safety::link_timeout_s`], [`Event::LinkAlive`] | `LinkLost` |
 //! | table corrupted or stale | [`Safety::checks_tables`], at boot and in every tick that withholds no force | `TableCorrupt` |
 //! | reset by watchdog or brown-out | [`ResetReason`], [`Servo::start_after`] | `WatchdogReset`, `BrownOut` |
@@ -59,4 +59,4 @@ pub use state::ServoState;
 pub use surface::{BakedTables, OnePatch, PatchWitness, Surface, TableCheck, Touched, Tracked};
 pub use tick::Input;
 pub use tunable::{Tunable, TunableState, Tuning};
-pub use watch::{Deadline, FrameBridge, Heartbeat, Stillness};
+pub use watch::{Deadline, FrameBridge, Heartbeat, PeriodWindow, Stillness};

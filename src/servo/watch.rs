@@ -137,6 +137,43 @@ impl Deadline {
     }
 }
 
+/// The time from the start of one tick to the start of the next, in counts of the board's free-running counter: from
+/// half a period to one and a half.
+///
+/// A tick that starts early is as much of a fault as one that starts late: the counter may stand still, and then
+/// nothing that it times would ever be late again.
+///
+/// ```
+/// use palpate::servo::PeriodWindow;
+///
+/// const WINDOW: PeriodWindow = PeriodWindow::of_period(170e6, 4_000.0);
+/// assert!(WINDOW.contains(u32::MAX - 99, 42_400), "a period, over the counter's wrap");
+/// assert!(!WINDOW.contains(7, 63_758), "more than one and a half");
+/// assert!(!WINDOW.contains(7, 7), "the counter stands still");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PeriodWindow {
+    /// The minimum.
+    pub min_counts: u32,
+    /// The maximum.
+    pub max_counts: u32,
+}
+
+impl PeriodWindow {
+    /// The window of a loop at `rate` Hz timed by a counter of `frequency` Hz. The interrupts that a board masks delay
+    /// a tick by far less than half a period.
+    pub const fn of_period(frequency: f32, rate: f32) -> Self {
+        Self { min_counts: (0.5 * frequency / rate) as u32, max_counts: (1.5 * frequency / rate) as u32 }
+    }
+
+    /// Whether a tick that starts at `began` comes in time after one that started at `last`.
+    pub const fn contains(self, last: u32, began: u32) -> bool {
+        let counts = began.wrapping_sub(last);
+        self.min_counts <= counts && counts <= self.max_counts
+    }
+}
+
 /// Decides whether the hardware watchdog may be fed: only where ticks have gone on since it was fed last.
 ///
 /// Feed it from the idle loop with this, never from the tick's own interrupt: then either of the two that hangs is
@@ -208,6 +245,17 @@ mod deadline_tests {
         assert_eq!(deadline.counts, 42_000);
         assert!(!deadline.overrun(10, 42_010) && deadline.overrun(10, 42_011));
         assert!(!deadline.overrun(u32::MAX - 9, 41_990) && deadline.overrun(u32::MAX - 9, 41_991));
+    }
+
+    #[test]
+    fn a_period_is_in_time_from_half_of_its_length_to_one_and_a_half() {
+        // 42,500 cycles.
+        let window = PeriodWindow::of_period(170e6, 4_000.0);
+        for (counts, is_in_time) in [(0, false), (21_249, false), (21_250, true), (63_750, true), (63_751, false)] {
+            for last in [0, u32::MAX - 30_000] {
+                assert_eq!(window.contains(last, last.wrapping_add(counts)), is_in_time, "{counts} from {last}");
+            }
+        }
     }
 
     #[test]

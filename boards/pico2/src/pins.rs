@@ -2,7 +2,6 @@
 
 use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::HBridge;
-use palpate_bench::cortex::Cycles;
 use palpate_bench::sensors::Angles;
 use palpate_bench::{CycleDelay, Parts, Switched};
 use rp235x_hal::gpio::{
@@ -14,7 +13,7 @@ use rp235x_hal::spi::{Enabled, Spi};
 
 use crate::chip::CLOCK;
 use crate::supply::Volts;
-use crate::ticks::Ticks;
+use crate::ticks::{Clock, Ticks};
 
 /// 20 kHz for the motors: a fifth of a tick, so that a reversal's one tick at no width is long enough.
 const MOTOR_PERIOD: u16 = (CLOCK / 20_000 - 1) as u16;
@@ -29,9 +28,9 @@ type Ready = Pin<DynPinId, FunctionSio<SioInput>, PullNone>;
 /// Output A of a slice and a direction pin.
 type Bridge<S> = HBridge<Channel<Slice<S, FreeRunning>, A>, Output>;
 type Drives = Switched<(Bridge<Pwm5>, Bridge<Pwm6>, Bridge<Pwm7>), Output>;
-type Sensors = Angles<Bus, Output, CycleDelay<Cycles>, 3>;
+type Sensors = Angles<Bus, Output, CycleDelay<Clock>, 3>;
 /// All of them.
-pub type Board = Parts<Cycles, Ticks, Sensors, Drives, Switch, Switch, Ready, Volts, Output, 3>;
+pub type Board = Parts<Clock, Ticks, Sensors, Drives, Switch, Switch, Ready, Volts, Output, 3>;
 
 /// A slice that runs.
 type Running<S> = Slice<S, FreeRunning>;

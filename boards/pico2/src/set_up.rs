@@ -9,7 +9,7 @@ use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either, Plain};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings, Switched};
 use rp235x_hal::adc::{Adc, AdcPin};
-use rp235x_hal::clocks::{Clock, init_clocks_and_plls};
+use rp235x_hal::clocks::{Clock as _, init_clocks_and_plls};
 use rp235x_hal::fugit::RateExtU32;
 use rp235x_hal::gpio::Pins;
 use rp235x_hal::pac::{Interrupt, Peripherals};
@@ -21,7 +21,7 @@ use rp235x_hal::{Sio, Watchdog};
 use crate::body::This;
 use crate::chip::{CLOCK, CRYSTAL};
 use crate::supply::Volts;
-use crate::ticks::Ticks;
+use crate::ticks::{Clock, Ticks};
 use crate::{Loop, Message, SHARED, chip, pins, port, supply, usb};
 
 /// The settings of this board's loop.
@@ -56,6 +56,7 @@ pub fn set_up(
     let Ok(clocks) = clocks else { panic!("the crystal does not start") };
     let speed = clocks.peripheral_clock.freq();
     let cycles = Cycles::start(&mut core.DCB, core.DWT);
+    let clock = Clock::start(chip.TIMER0, &mut chip.RESETS, &clocks);
 
     let mut slices = Slices::new(chip.PWM, &mut chip.RESETS);
     pins::start(&mut slices.pwm5, &mut slices.pwm6, &mut slices.pwm7);
@@ -75,7 +76,7 @@ pub fn set_up(
         pins.gpio6.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
         pins.gpio7.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
     ];
-    let mut sensors = Angles::new(bus, selects, CycleDelay::new(cycles, CLOCK), max_steps(&This, BENCH.bad_frames));
+    let mut sensors = Angles::new(bus, selects, CycleDelay::new(clock, CLOCK), max_steps(&This, BENCH.bad_frames));
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();
 
@@ -85,7 +86,7 @@ pub fn set_up(
     let Ok(uart) = uart.enable(settings, speed) else { panic!("150 MHz make 500,000 baud") };
     let Ok(supply_pin) = AdcPin::new(supply::pin(pins.gpio26)) else { panic!("GP26 is a pin of the converter") };
     let board = Parts {
-        counter: cycles,
+        counter: clock,
         timer: Ticks::start(slices.pwm0),
         sensors,
         drives: Switched::new(bridges, enable),

@@ -1,6 +1,8 @@
-//! The PWM slice that, used as a timer, raises ticks.
+//! The PWM slice that, used as a timer, raises ticks, and the counter that times them.
 
-use palpate_bench::Timer;
+use palpate_bench::{Counter, Timer};
+use rp235x_hal::clocks::ClocksManager;
+use rp235x_hal::pac::{RESETS, TIMER0};
 use rp235x_hal::pwm::{FreeRunning, Pwm0, Slice};
 
 use crate::body::SETTINGS;
@@ -12,6 +14,35 @@ const PERIOD: u16 = {
     assert!(counts <= 65_536.0, "the rate is too low for a slice without divider");
     (counts - 1.0) as u16
 };
+
+/// The counter that times ticks and waits (TIMER0), running: the lower 32 bits of the core's clock. Copies of it are the
+/// same counter.
+#[derive(Clone, Copy, Debug)]
+pub struct Clock(());
+
+impl Clock {
+    /// Starts it. A debugger that halts a core would pause it, unless it is told not to.
+    pub fn start(timer: TIMER0, resets: &mut RESETS, clocks: &ClocksManager) -> Self {
+        // Out of reset.
+        let _ = rp235x_hal::Timer::new_timer0(timer, resets, clocks);
+        let registers = Self::registers();
+        registers.source().write(|w| w.clk_sys().clk_sys());
+        registers.dbgpause().write(|w| w.dbg0().clear_bit().dbg1().clear_bit());
+        Self(())
+    }
+
+    fn registers() -> &'static rp235x_hal::pac::timer0::RegisterBlock {
+        // SAFETY: `start` took the timer; from then on it is only read.
+        unsafe { &*TIMER0::ptr() }
+    }
+}
+
+impl Counter for Clock {
+    #[inline]
+    fn now(&self) -> u32 {
+        Self::registers().timerawl().read().bits()
+    }
+}
 
 /// It, running.
 pub struct Ticks {

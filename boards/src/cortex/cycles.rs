@@ -1,4 +1,5 @@
-//! The core's cycle counter.
+//! The core's cycle counter, for the acceptance: a debugger that detaches switches it off, so nothing that supervises
+//! uses it.
 
 use crate::Counter;
 use cortex_m::peripheral::{DCB, DWT};

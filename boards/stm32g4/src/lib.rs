@@ -2,20 +2,22 @@
 
 #![no_std]
 
-use embedded_hal::delay::DelayNs;
+mod supply;
+mod ticks;
+
+pub use supply::Volts;
+pub use ticks::{Clock, Ticks};
+
+use palpate::servo::ResetReason;
 use palpate_bench::cortex::MemoCell;
-use palpate_bench::{Divider, Port, ResetFlags, Supply, Watchdog};
-use stm32g4xx_hal::adc::config::{AdcConfig, ClockMode, SampleTime};
-use stm32g4xx_hal::adc::{Adc, AdcClaim, AdcCommonExt, Configured};
-use stm32g4xx_hal::gpio::{AF7, Analog, PA2, PA3, PB1};
+use palpate_bench::{Memo, Port, ResetFlags, Watchdog};
+use stm32g4xx_hal::gpio::{AF7, PA2, PA3};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::pwr::VoltageScale;
 use stm32g4xx_hal::rcc::{Config, PllConfig, PllMDiv, PllNMul, PllRDiv, PllSrc, Rcc};
 use stm32g4xx_hal::serial::{FullConfig, Serial};
-use stm32g4xx_hal::stm32::{ADC1, ADC12_COMMON, FLASH, PWR, RCC, TIM7, USART2};
-use stm32g4xx_hal::time::ExtU32;
-use stm32g4xx_hal::timer::{CountDownTimer, Event, Timer};
+use stm32g4xx_hal::stm32::{FLASH, PWR, RCC, USART2};
 
 // Clocks, power and reset, as the reference manual (RM0440) requires.
 
@@ -28,7 +30,7 @@ pub const CLOCK: u32 = 170_000_000;
 pub static MEMO: MemoCell = MemoCell::new();
 
 /// Sets the clocks, and gives why the chip was reset.
-pub fn start(rcc: RCC, power: PWR, flash: &FLASH) -> (Rcc, ResetFlags) {
+pub fn start(rcc: RCC, power: PWR, flash: &FLASH) -> (Rcc, ResetReason) {
     // The power interface answers only once it has its clock, which the HAL does not give it: without it, the boost
     // that 170 MHz need would not be set.
     rcc.apb1enr1().modify(|_, w| w.pwren().set_bit());
@@ -59,7 +61,13 @@ pub fn start(rcc: RCC, power: PWR, flash: &FLASH) -> (Rcc, ResetFlags) {
         pin: flags.reset_pin,
         ..ResetFlags::default()
     };
-    (rcc, flags)
+    // The option that checks the parity of SRAM, 0 if it does (RM0440, FLASH_OPTR, SRAM_PE): then reading a word that
+    // nobody has written since power-on is an NMI. A brown-out is no longer told from power-on.
+    let is_checked = flash.optr().read().sram2_pe().bit_is_clear();
+    if flags.power && is_checked {
+        MEMO.write(Memo::EMPTY);
+    }
+    (rcc, flags.reason(MEMO.read()))
 }
 
 /// The port of the board's own USB, 500,000 baud: 170 MHz / 340.
@@ -108,61 +116,5 @@ impl Watchdog for Iwdg {
     #[inline]
     fn feed(&mut self) {
         self.0.feed();
-    }
-}
-
-/// 12 bits of 3.3 V, behind 100 kΩ and 10 kΩ.
-const DIVIDER: Divider = Divider::new(4_095, 3.3, 100e3, 10e3);
-
-/// The converter and its pin.
-pub struct Volts {
-    converter: Adc<ADC1, Configured>,
-    pin: PB1<Analog>,
-}
-
-impl Volts {
-    /// The converter, calibrated and configured.
-    pub fn new(
-        converter: ADC1,
-        common: ADC12_COMMON,
-        pin: PB1<Analog>,
-        delay: &mut impl DelayNs,
-        rcc: &mut Rcc,
-    ) -> Self {
-        // 42.5 MHz. The HAL's default is the core's clock, undivided, which is more than the 60 MHz that the converter
-        // takes, and a panic.
-        let common = common.claim(ClockMode::AdcHclkDiv4, rcc);
-        Self { converter: common.claim_and_configure(converter, AdcConfig::default(), delay), pin }
-    }
-}
-
-impl Supply for Volts {
-    /// About 1 µs: one conversion of 12 bits, of 37 cycles.
-    #[inline]
-    fn volts(&mut self) -> Option<f32> {
-        let reading = self.converter.convert(&self.pin, SampleTime::Cycles_24_5);
-        Some(DIVIDER.volts(reading))
-    }
-}
-
-/// The timer that raises ticks (TIM7), running.
-pub struct Ticks {
-    timer: CountDownTimer<TIM7>,
-}
-
-impl Ticks {
-    /// Starts the timer at `rate_hz`; its interrupt is still masked.
-    pub fn start(timer: TIM7, rate_hz: f32, rcc: &Rcc) -> Self {
-        let period_us = (1e6 / rate_hz) as u32;
-        let mut timer = Timer::new(timer, &rcc.clocks).start_count_down(period_us.micros());
-        timer.listen(Event::TimeOut);
-        Self { timer }
-    }
-}
-
-impl palpate_bench::Timer for Ticks {
-    #[inline]
-    fn acknowledge(&mut self) {
-        self.timer.clear_interrupt(Event::TimeOut);
     }
 }

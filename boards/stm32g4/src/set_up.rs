@@ -6,7 +6,7 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Counters, max_steps};
 use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Port, Settings};
-use palpate_stm32g4::{CLOCK, Iwdg, MEMO, Ticks, Volts, open_port, start};
+use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
@@ -30,7 +30,7 @@ const TIMEOUT_MS: u32 = if cfg!(feature = "host") { 40 } else { 20 };
 
 type Pin = AnyPin<Input>;
 /// The parts that the loop runs on.
-pub type Board = Parts<Cycles, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
+pub type Board = Parts<Clock, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -42,15 +42,15 @@ pub fn set_up(
         panic!("the peripherals are taken here and nowhere else")
     };
     amplifiers::motors_off();
-    let (mut rcc, flags) = start(chip.RCC, chip.PWR, &chip.FLASH);
-    let reset = flags.reason(MEMO.read());
+    let (mut rcc, reset) = start(chip.RCC, chip.PWR, &chip.FLASH);
     let cycles = Cycles::start(&mut core.DCB, core.DWT);
+    let clock = Clock::start(chip.TIM5, &chip.DBGMCU, &mut rcc);
     let (a, b, c) = (chip.GPIOA.split(&mut rcc), chip.GPIOB.split(&mut rcc), chip.GPIOC.split(&mut rcc));
 
     // Motors first: not enabled.
     let enables = (c.pc0.into_push_pull_output(), c.pc1.into_push_pull_output(), c.pc2.into_push_pull_output());
     let ways = (b.pb13.into_push_pull_output(), b.pb14.into_push_pull_output(), b.pb15.into_push_pull_output());
-    let mut delay = CycleDelay::new(cycles, CLOCK);
+    let mut delay = CycleDelay::new(clock, CLOCK);
     #[cfg(not(feature = "analog"))]
     let (outputs, light) = (
         set_points::outputs(
@@ -85,7 +85,7 @@ pub fn set_up(
     let port = open_port(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
 
     let board = Parts {
-        counter: cycles,
+        counter: clock,
         timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
         sensors: Counters::new(encoders, max_steps(&felt, BENCH.bad_frames)),
         drives,

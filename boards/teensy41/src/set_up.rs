@@ -9,7 +9,7 @@ use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either};
 use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings};
 use teensy4_bsp::Interrupt;
-use teensy4_bsp::board::{self, ARM_FREQUENCY, Lpspi, LpspiPins, lpuart};
+use teensy4_bsp::board::{self, IPG_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
 use teensy4_bsp::hal::gpio::{Input, Output};
 use teensy4_bsp::hal::iomuxc::{self, Config, Hysteresis, PullKeeper};
@@ -18,17 +18,17 @@ use teensy4_bsp::hal::lpspi::MODE_1;
 use crate::body::This;
 use crate::pulse_width::{DWELL, PulseWidth};
 use crate::supply::Volts;
-use crate::ticks::Ticks;
+use crate::ticks::{Clock, Ticks};
 use crate::watchdog::Rtwdog;
 use crate::{Loop, Message, SHARED, chip, port, usb};
 
 /// The settings of this board's loop.
-pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(ARM_FREQUENCY) };
+pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(IPG_FREQUENCY) };
 
-type Sensors = Angles<Lpspi, Output, CycleDelay<Cycles>, 3>;
+type Sensors = Angles<Lpspi, Output, CycleDelay<Clock>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
 /// The parts that the loop runs on.
-pub type Board = Parts<Cycles, Ticks, Sensors, [Amplifier; 3], Input, Input, Input, Volts, Output, 3>;
+pub type Board = Parts<Clock, Ticks, Sensors, [Amplifier; 3], Input, Input, Input, Volts, Output, 3>;
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -42,7 +42,7 @@ pub fn set_up(
     chip::motors_off();
     let (flags, memo) = chip::reset();
     let reset = flags.reason(memo);
-    let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, usb, .. } =
+    let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, usb, gpt1, .. } =
         board::t41(board::instances());
     // Motors first: not enabled.
     let enables = [gpio1.output(pins.p16).ok(), gpio1.output(pins.p17).ok(), gpio1.output(pins.p18).ok()];
@@ -59,6 +59,7 @@ pub fn set_up(
     core.SCB.enable_icache();
     core.SCB.enable_dcache(&mut core.CPUID);
     let cycles = Cycles::start(&mut core.DCB, core.DWT);
+    let clock = Clock::start(gpt1);
 
     iomuxc::flexpwm::prepare(&mut pins.p4);
     iomuxc::flexpwm::prepare(&mut pins.p5);
@@ -76,7 +77,7 @@ pub fn set_up(
     let mut bus = board::lpspi(lpspi4, LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 }, 8_000_000);
     bus.set_mode(MODE_1);
     let mut sensors =
-        Angles::new(bus, selects, CycleDelay::new(cycles, ARM_FREQUENCY), max_steps(&This, BENCH.bad_frames));
+        Angles::new(bus, selects, CycleDelay::new(clock, IPG_FREQUENCY), max_steps(&This, BENCH.bad_frames));
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();
     let input = Config::zero().set_hysteresis(Hysteresis::Enabled);
@@ -104,7 +105,7 @@ pub fn set_up(
         ready: [ready_a, ready_b, ready_c],
         supply: Volts::new(adc1, supply),
     };
-    let board = Parts { counter: cycles, timer: Ticks::start(pit), sensors, drives, lines, light };
+    let board = Parts { counter: clock, timer: Ticks::start(pit), sensors, drives, lines, light };
     let (producer, messages) = queue.split();
     let made = Loop::new(This, board, &BENCH, reset, producer, &SHARED.mailbox);
     SHARED.hand_over(servo_loop.insert(made));

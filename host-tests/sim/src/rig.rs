@@ -90,8 +90,7 @@ impl World {
     pub fn advance(&mut self) {
         let duties = self.currents().map(|current| (current * 32_767.0).round() as i16);
         self.plant.advance(duties);
-        let period = CLOCK / RATE as u32;
-        self.cycles = self.cycles.wrapping_add(period / 2);
+        self.cycles = self.cycles.wrapping_add(CLOCK / RATE as u32);
     }
 
     /// Whether an amplifier has supply enough to be ready.

@@ -1,18 +1,17 @@
 //! A button that chooses the next feel.
 
 use embedded_hal::digital::InputPin;
-use palpate_bench::cortex::Cycles;
 use palpate_bench::knob::FEELS;
 use palpate_bench::{Counter, Mailbox};
-use palpate_stm32g4::CLOCK;
+use palpate_stm32g4::{CLOCK, Clock};
 
-/// How long a press must last to count, in cycles: 20 ms.
+/// How long a press must last to count, in counts of the clock: 20 ms.
 const STEADY: u32 = CLOCK / 50;
 
 /// The button, a contact to ground, and where it has come to.
 pub struct Choice<P> {
     pin: P,
-    cycles: Cycles,
+    clock: Clock,
     /// Since when the pin has been as it is, and how.
     since: u32,
     low: bool,
@@ -23,15 +22,15 @@ pub struct Choice<P> {
 
 impl<P: InputPin> Choice<P> {
     /// Of this pin, which is pulled up.
-    pub fn new(pin: P, cycles: Cycles) -> Self {
+    pub fn new(pin: P, clock: Clock) -> Self {
         // A button that is held from the start chooses nothing.
-        Self { pin, since: cycles.now(), cycles, low: true, counted: true, index: 0 }
+        Self { pin, since: clock.now(), clock, low: true, counted: true, index: 0 }
     }
 
     /// Looks at it, and puts what was chosen into the mailbox.
     pub fn look(&mut self, mailbox: &Mailbox) {
         let low = self.pin.is_low().unwrap_or(false);
-        let now = self.cycles.now();
+        let now = self.clock.now();
         if low != self.low {
             (self.low, self.since) = (low, now);
             return;

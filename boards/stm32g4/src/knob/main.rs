@@ -18,11 +18,11 @@ use palpate::device::drive::NoPin;
 use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
-use palpate_bench::cortex::{Cycles, Shared};
+use palpate_bench::cortex::Shared;
 use palpate_bench::knob::{JOG, SETTINGS, SUPPLY};
 use palpate_bench::sensors::{Angles, max_step};
 use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Memo, Parts, Settings};
-use palpate_stm32g4::{CLOCK, Iwdg, MEMO, Ticks, Volts, open_port, start};
+use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
@@ -38,8 +38,8 @@ const BENCH: Settings = Settings { supply: Some(SUPPLY), jog: Some(JOG), ..Setti
 
 type Pin = AnyPin<Input>;
 type Bus = Spi<SPI1, (PA5<AF5>, PA6<AF5>, PA7<AF5>)>;
-type Sensor = Angles<Bus, PB6<Output>, CycleDelay<Cycles>, 1>;
-type Board = Parts<Cycles, Ticks, Sensor, [Stage; 1], Pin, Pin, Pin, Volts, NoPin, 2>;
+type Sensor = Angles<Bus, PB6<Output>, CycleDelay<Clock>, 1>;
+type Board = Parts<Clock, Ticks, Sensor, [Stage; 1], Pin, Pin, Pin, Volts, NoPin, 2>;
 type Loop = Bench<'static, This, Board, 1>;
 
 static SHARED: Shared<Loop> = Shared::new();
@@ -60,9 +60,8 @@ fn main() -> ! {
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
-    let (mut rcc, flags) = start(chip.RCC, chip.PWR, &chip.FLASH);
-    let reset = flags.reason(MEMO.read());
-    let cycles = Cycles::start(&mut core.DCB, core.DWT);
+    let (mut rcc, reset) = start(chip.RCC, chip.PWR, &chip.FLASH);
+    let clock = Clock::start(chip.TIM5, &chip.DBGMCU, &mut rcc);
     let (a, b, c) = (chip.GPIOA.split(&mut rcc), chip.GPIOB.split(&mut rcc), chip.GPIOC.split(&mut rcc));
 
     // The stage first: not enabled.
@@ -75,14 +74,14 @@ fn main() -> ! {
     // The next divider that there is makes 5.3 MHz; of 8 MHz the HAL would make 10.6, and the sensor takes 10.
     let bus = chip.SPI1.spi(bus, MODE_1, 5.MHz(), &mut rcc);
     let step = max_step(&DEVICE.encoders[0], DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames);
-    let mut sensor = Angles::new(bus, [select], CycleDelay::new(cycles, CLOCK), [step]);
+    let mut sensor = Angles::new(bus, [select], CycleDelay::new(clock, CLOCK), [step]);
     // If it does not start the loop says so, tick by tick.
     let _ = sensor.start();
     let mut port = open_port(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
-    let mut delay = CycleDelay::new(cycles, CLOCK);
+    let mut delay = CycleDelay::new(clock, CLOCK);
 
     let board = Parts {
-        counter: cycles,
+        counter: clock,
         timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
         sensors: sensor,
         drives: [stage],
@@ -98,7 +97,7 @@ fn main() -> ! {
         // The board's light hangs on the bus's clock.
         light: NoPin,
     };
-    let mut choice = Choice::new(a.pa10.into_pull_up_input(), cycles);
+    let mut choice = Choice::new(a.pa10.into_pull_up_input(), clock);
     let (producer, records) = QUEUE.split();
     SHARED.hand_over(LOOP.insert(Bench::new(This, board, &BENCH, reset, producer, &SHARED.mailbox)));
     MEMO.write(Memo::new(Cause::Running));

@@ -38,11 +38,13 @@ pub struct Pins<W, const JOINTS: usize> {
     fields: Option<[ElectricalAngle; JOINTS]>,
     /// Duties of the stages; `None` while they are off.
     pub duties: Option<[Duty; JOINTS]>,
+    /// Its counter, which a tick takes no time of.
+    counter: u32,
 }
 
 impl<W, const JOINTS: usize> Pins<W, JOINTS> {
     const fn new(world: W) -> Self {
-        Self { world, fields: None, duties: None }
+        Self { world, fields: None, duties: None, counter: 0 }
     }
 }
 
@@ -59,7 +61,7 @@ impl<W: AtPins<JOINTS>, const JOINTS: usize> Board<JOINTS> for Pins<W, JOINTS> {
 
 impl<W: AtPins<JOINTS>, const JOINTS: usize> Passive<JOINTS> for Pins<W, JOINTS> {
     fn now(&self) -> u32 {
-        0
+        self.counter
     }
 
     fn acknowledge(&mut self) {}
@@ -121,8 +123,10 @@ pub trait Ticks {
 impl<F: Felt<JOINTS>, W: AtPins<JOINTS>, const JOINTS: usize> Ticks for Bench<'static, F, Pins<W, JOINTS>, JOINTS> {
     fn tick(&mut self) {
         Bench::tick(self);
-        let Pins { world, fields, duties } = self.board();
+        let period = CLOCK_HZ as f32 / self.felt().servo().settings().rate_hz;
+        let Pins { world, fields, duties, counter } = self.board();
         world.advance(*fields, *duties);
+        *counter = counter.wrapping_add(period as u32);
     }
 }
 

@@ -1,9 +1,12 @@
 //! AS5047P sensors at their pins: the driver keeps the data sheet's times, and says what it cannot believe.
 
+use embedded_hal::delay::DelayNs;
 use palpate::device::Counts;
-use palpate_bench::cycles;
 use palpate_bench::sensors::{BadFrame, Sensors};
+use palpate_bench::{Counter, CycleDelay, cycles};
 use palpate_sim::magnetic::table;
+use std::cell::Cell;
+use std::rc::Rc;
 
 /// The data sheet's minimum times, nanoseconds: written here once more, from its table.
 const HIGH: f64 = 350.0;
@@ -45,6 +48,23 @@ fn a_delay_is_never_short_by_a_cycle() {
             assert!((counts - 2) * 1_000_000_000 < exact, "{nanoseconds} ns at {frequency} Hz: {counts}");
         }
     }
+}
+
+#[test]
+fn a_delay_ends_though_its_counter_stands_still() {
+    struct Still(Rc<Cell<u32>>);
+
+    impl Counter for Still {
+        fn now(&self) -> u32 {
+            self.0.set(self.0.get() + 1);
+            7
+        }
+    }
+
+    let looks = Rc::new(Cell::new(0));
+    CycleDelay::new(Still(Rc::clone(&looks)), 150_000_000).delay_ns(350);
+    // One to begin with, and one for each count.
+    assert_eq!(looks.get(), 1 + cycles(350, 150_000_000));
 }
 
 #[test]

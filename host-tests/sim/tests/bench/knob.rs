@@ -198,7 +198,7 @@ impl Rig {
         let mut world = self.world.borrow_mut();
         let widths = world.enabled.then(|| world.widths.map(|width| f64::from(width) / f64::from(STEPS)));
         world.dial.advance(widths);
-        world.cycles = world.cycles.wrapping_add(CLOCK / SETTINGS.rate_hz as u32 / 2);
+        world.cycles = world.cycles.wrapping_add(CLOCK / SETTINGS.rate_hz as u32);
     }
 
     pub fn ticks(&mut self, ticks: u32) {

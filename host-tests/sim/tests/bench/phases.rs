@@ -108,10 +108,12 @@ fn a_tick_that_begins_late_is_a_fault_and_gives_no_duties_of_its_own() {
     // However long nothing had begun before the first.
     rig.set(|world| world.cycles = world.cycles.wrapping_add(1_000_000));
     rig.press_until_it_runs();
-    // The rig's own period is half of one, and a little. Half a period of lateness is borne.
-    rig.set(|world| world.cycles = world.cycles.wrapping_add(40_000));
-    rig.tick();
-    assert_eq!((rig.fault(), rig.is_off()), (None, false));
+    // The rig's own period is a whole one, and a little. Half a period of lateness is borne, as is half a period too early.
+    for cycles in [20_000, -20_000] {
+        rig.set(|world| world.cycles = world.cycles.wrapping_add_signed(cycles));
+        rig.tick();
+        assert_eq!((rig.fault(), rig.is_off()), (None, false));
+    }
     rig.set(|world| world.cycles = world.cycles.wrapping_add(43_000));
     rig.ticks_off(1);
     assert_eq!((rig.fault(), rig.state().overruns()), (Some(Fault::Overrun), 1));
@@ -125,6 +127,20 @@ fn a_tick_that_begins_late_is_a_fault_and_gives_no_duties_of_its_own() {
     rig.set(|world| world.reading = 200);
     rig.ticks(10);
     assert_eq!((rig.fault(), rig.state().overruns()), (None, 1));
+}
+
+#[test]
+fn a_counter_that_stands_still_is_a_fault_within_two_milliseconds() {
+    let mut rig = Rig::new(servo(SafeOutput::Zero), held_at([0.0, 0.0, -0.004]), &settings(), ResetReason::PowerOn);
+    rig.press_until_it_runs();
+    let mut still = 0;
+    rig.set(|world| still = world.cycles);
+    // 2 ms at 4 kHz.
+    for _ in 0..8 {
+        rig.set(|world| world.cycles = still);
+        rig.tick();
+    }
+    assert_eq!((rig.fault(), rig.is_off()), (Some(Fault::Overrun), true));
 }
 
 #[test]
