@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 
 from stm32g4 import (
-    CATCHES, CAUGHT, DBGMCU, FEEDS, GPIO, IWDG, LSI, RCC, STARTS, TIM1, TIM2, TIM3, TIM4, TIM7, USART2, Stm32g4, peripheral,
+    CATCHES, CAUGHT, DBGMCU, FEEDS, GPIO, IWDG, LSI, MOE, RCC, STARTS, TIM1, TIM2, TIM3, TIM4, TIM7, USART2, Stm32g4, peripheral,
 )  # fmt: skip
 
 
@@ -81,8 +81,11 @@ class Nucleo(Stm32g4):
         return [self.level(*pin) if self.mode(*pin) == 1 else None for pin in self.ENABLES]
 
     def widths(self) -> list[float]:
-        """The pulse widths, as shares."""
-        return [self.word(width) / self.word(timer.ARR) for timer, width in self.WIDTHS]
+        """The pulse widths, as shares; none of a timer whose main output is off, which drives low with OSSI."""
+        return [
+            0.0 if timer is TIM1 and not self.word(TIM1.BDTR) >> MOE & 1 else self.word(width) / self.word(timer.ARR)
+            for timer, width in self.WIDTHS
+        ]
 
     def spoil_widths(self) -> None:
         """Leaves others there."""

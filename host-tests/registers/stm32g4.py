@@ -19,7 +19,7 @@ FLASH = Block("FLASH", 0x4002_2000, ACR=0, ECCR=0x18, OPTR=0x20)
 ECCD, BK_ECC = 1 << 31, 1 << 21
 # Bits of the option bytes: two banks; parity of SRAM is not checked.
 DBANK, SRAM_PE = 1 << 22, 1 << 24
-PWR = Block("PWR", 0x4000_7000, CR1=0, CR3=8, SR2=0x14, CR5=0x80)
+PWR = Block("PWR", 0x4000_7000, CR1=0, CR2=4, CR3=8, SR2=0x14, CR5=0x80)
 GPIO = {
     port: Block(
         f"GPIO{port}", 0x4800_0000 + 0x400 * number,
@@ -39,6 +39,10 @@ TIMERS = (TIM1, TIM2, TIM3, TIM4, TIM5, TIM7)
 # The registers that catch a count, each with its timer, and their flags in SR.
 CAUGHT = {TIM2.CCR3: TIM2, TIM3.CCR3: TIM3, TIM4.CCR4: TIM4}
 CATCHES = {TIM2.CCR3: 1 << 3, TIM3.CCR3: 1 << 3, TIM4.CCR4: 1 << 4}
+SYSCFG = Block("SYSCFG", 0x4001_0000, CFGR2=0x1C)
+# What SYSCFG connects to the break of TIM1 ("SYSCFG_CFGR2": CLL, SPL, PVDL, ECCL); bits of its BDTR.
+LOCKUP, PARITY, SUPPLY, DAMAGE = 0, 1, 2, 3
+OSSI, BKE, BKP, MOE = 10, 12, 13, 15
 USART2 = Block("USART2", 0x4000_4400, CR1=0, BRR=0xC, ISR=0x1C, RDR=0x24, TDR=0x28)
 SPI1 = Block("SPI1", 0x4001_3000, CR1=0, CR2=4, SR=8, DR=0xC)
 DBGMCU = Block("DBGMCU", 0xE004_2000, APB1FZR1=8, APB2FZR=0x10)
@@ -58,6 +62,7 @@ CLOCKS = {
     FLASH.base: (RCC.AHB1ENR, 8),
     PWR.base: (RCC.APB1ENR1, 28),
     TIM1.base: (RCC.APB2ENR, 11),
+    SYSCFG.base: (RCC.APB2ENR, 0),
     SPI1.base: (RCC.APB2ENR, 12),
     TIM2.base: (RCC.APB1ENR1, 0),
     TIM3.base: (RCC.APB1ENR1, 1),
@@ -117,6 +122,8 @@ class Stm32g4(Chip):
         self.received, self.sent, self.answers = bytearray(), bytearray(), bytearray()
         # What the converter measures of its own reference, 1.212 V of 3.3 V; whether conversions end.
         self.reference, self.converts = round(1.212 / 3.3 * 4_095), True
+        # What has failed of what SYSCFG connects to the break.
+        self.failures = 0
 
     def is_lost(self, address: int) -> bool:
         """A peripheral without its clock takes nothing and gives nothing ("Peripheral clock enable registers")."""
@@ -181,6 +188,9 @@ class Stm32g4(Chip):
         if address in (timer.SR for timer in TIMERS):
             # Flags are cleared by writing 0.
             value &= self.word(address)
+        elif address == TIM1.BDTR and self.breaks(value):
+            # "MOE: cleared by hardware as soon as one of the break inputs is active".
+            value &= ~(1 << MOE)
         elif address in (timer.ARR for timer in TIMERS if timer not in (TIM2, TIM5)):
             # 16 bits, and four of a fraction that is not used.
             value &= 0xF_FFFF
@@ -219,6 +229,18 @@ class Stm32g4(Chip):
     def counts_at_a_halt(self) -> bool:
         """Whether it goes on while a debugger halts the core ("DBGMCU APB1 freeze register 1")."""
         return not self.word(DBGMCU.APB1FZR1) >> 3 & 1
+
+    def breaks(self, control: int) -> bool:
+        """Whether the break of TIM1 is active: PB12 (AF6) at the level of BKP, or what SYSCFG connects."""
+        is_wired = self.mode("B", 12) == 2 and self.word(GPIO["B"].AFRH) >> 16 & 0xF == 6
+        at_pin = is_wired and self.level("B", 12) == control >> BKP & 1
+        return bool(control >> BKE & 1 and (at_pin or self.word(SYSCFG.CFGR2) & self.failures))
+
+    def fail(self, *failures: int) -> None:
+        """These fail, or the break input changed: the hardware alone answers."""
+        self.failures = sum(1 << failure for failure in failures)
+        if self.breaks(self.word(TIM1.BDTR)):
+            self.keep(TIM1.BDTR, self.word(TIM1.BDTR) & ~(1 << MOE))
 
     def take_answer(self) -> int:
         """What came over SPI, in its order."""

@@ -9,12 +9,14 @@ import telemetry
 import unicorn
 from at_resets import AtResets
 from at_stops import AtStops
+from bench import A_WHILE
 from in_force import SUPPLY_TICKS, InForce
 from in_set_up import InSetUp
 from nucleo import Nucleo
 from on_stack import OnStack
 from stm32g4 import (
-    ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, FLASH, GPIO, PWR, RCC, SRAM_PE, TIM1, TIM2, TIM3, TIM4,
+    ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, DAMAGE, DBGMCU, FLASH, GPIO, LOCKUP, OSSI, PARITY, PWR, RCC, SRAM_PE,
+    SUPPLY, TIM1, TIM2, TIM3, TIM4,
 )  # fmt: skip
 
 
@@ -101,6 +103,41 @@ class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
         # 20 µs for the regulator ("ADC voltage regulator"); calibrated before it is on ("Calibration").
         self.assertGreater(calibrates - regulator, 20e-6 * machine.chip.core_clock())
         self.assertLess(calibrates, on)
+
+    # What ends the set-points without the program.
+
+    def test_core_that_locks_up_damaged_memory_and_a_falling_supply_end_the_set_points(self) -> None:
+        for failure in (LOCKUP, PARITY, SUPPLY, DAMAGE):
+            machine = self.while_driving()
+            self.assertTrue(all(machine.chip.widths()))
+            machine.chip.fail(failure)
+            self.assertEqual(machine.chip.widths(), [0, 0, 0])
+        # The detector of the supply is on, at 2.9 V ("PWR_CR2").
+        self.assertEqual(machine.chip.word(PWR.CR2) & 0xF, 6 << 1 | 1)
+
+    def test_debugger_that_halts_the_core_ends_the_set_points(self) -> None:
+        chip = self.after_set_up().chip
+        # "Debug mode": with DBG_TIM1_STOP outputs are off as if by MOE, and low with OSSI.
+        self.assertTrue(chip.word(DBGMCU.APB2FZR) >> 11 & 1)
+        self.assertTrue(chip.word(TIM1.BDTR) >> OSSI & 1)
+
+    def test_stop_loop_at_the_break_input_ends_the_set_points_between_two_ticks(self) -> None:
+        machine = self.while_driving()
+        machine.chip.levels["B", 12] = 1
+        machine.chip.fail()
+        self.assertEqual(machine.chip.widths(), [0, 0, 0])
+        machine.ticks(1)
+        self.assertFalse(self.drives(machine))
+        del machine.chip.levels["B", 12]
+        machine.ticks(A_WHILE)
+        self.assertTrue(self.drives(machine), "a pulse that is over")
+        machine.chip.levels["B", 12] = 1
+        machine.chip.fail()
+        machine.ticks(A_WHILE)
+        del machine.chip.levels["B", 12]
+        machine.ticks(A_WHILE)
+        self.assertFalse(self.drives(machine))
+        self.assertEqual(self.last(machine).phase, telemetry.FAULT)
 
     def test_supply_is_sampled_long_enough_for_its_divider(self) -> None:
         chip = self.after_set_up().chip

@@ -45,6 +45,12 @@ class Teensy(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.Tes
             counts = (chip.word(period) >> 16) + 1
             self.assertEqual(chip.bus_clock() / (1 << (chip.word(control) >> 20 & 7)) / counts, 2_000)
 
+    def test_debugger_that_halts_the_core_ends_the_set_points(self) -> None:
+        # DBGEN is clear: "the PWM outputs will be disabled until debug mode is exited" ("SMCTRL2").
+        chip = self.after_set_up().chip
+        for control in (PWM2.SM0_CTRL, PWM2.SM1_CTRL, PWM2.SM2_CTRL):
+            self.assertFalse(chip.word(control) >> 15 & 1)
+
     def test_no_set_point_is_written_while_the_chip_ignores_it(self) -> None:
         # Each holds from the next of its periods on, which are two ticks long; until then it takes no other unless it
         # is told so. Whatever the phase of the ticks in a period: a tick just before its end waits for that.

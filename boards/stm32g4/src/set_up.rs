@@ -56,6 +56,8 @@ pub fn set_up(
         set_points::outputs(
             chip.TIM1,
             (a.pa8.into_alternate(), a.pa9.into_alternate(), a.pa10.into_alternate()),
+            b.pb12.into_pull_down_input().into_alternate(),
+            (&chip.DBGMCU, &chip.SYSCFG),
             &mut rcc,
         ),
         a.pa5.into_push_pull_output(),
@@ -71,6 +73,7 @@ pub fn set_up(
         palpate::device::drive::NoPin,
     );
     let drives = amplifiers::amplifiers(outputs, enables, ways, set_points::RANGE, set_points::DWELL);
+    let drives = set_points::guarded(drives);
 
     let pins = (
         (a.pa0.into_alternate(), a.pa1.into_alternate(), b.pb10.into_pull_down_input().into_alternate()),

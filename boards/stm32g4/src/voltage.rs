@@ -44,6 +44,11 @@ pub const RANGE: SetPointRange = SetPointRange::WHOLE;
 /// A voltage is there within microseconds: one tick at no current is enough.
 pub const DWELL: u8 = 1;
 
+/// They have no break: a core that locks up or is halted leaves the voltages, until the watchdog resets the chip.
+pub fn guarded(amplifiers: Drives) -> Drives {
+    amplifiers
+}
+
 /// The outputs, at no voltage.
 pub fn outputs(
     (first, second): (DAC1, DAC2),
