@@ -23,6 +23,7 @@
 //! | [`Interlock`] | force only once enable has been seen released: after a reset, after a hold, after homing |
 //! | [`Bench`] | the tick |
 //! | [`Idle`] | what runs below it |
+//! | [`ClockCheck`] | the loop's clock against another of the chip's |
 //! | [`accept`] | another image: a board shows what it can, and drives no motor |
 //! | [`Calibrations`] | flash for what commissioning found |
 //! | [`Uploads`] | memory for bodies that come over the line: RAM, and flash |
@@ -62,6 +63,7 @@ mod arm;
 mod bench_loop;
 mod board;
 mod calibrations;
+mod clock_check;
 #[cfg(feature = "cortex")]
 #[allow(unsafe_code)]
 pub mod cortex;
@@ -96,6 +98,7 @@ pub(crate) use bench_loop::State;
 pub use bench_loop::{Bench, Felt};
 pub use board::{Board, NotObeyed, Panel, Passive};
 pub use calibrations::Calibrations;
+pub use clock_check::{ClockCheck, ClocksDisagree};
 pub use delay::{Counter, CycleDelay, cycles};
 pub use drives::{Drives, Switched};
 pub use hold::{Hold, Verdict};

@@ -16,7 +16,7 @@ DCDC = Block("DCDC", 0x4008_0000, REG0=0)
 PIT = Block("PIT", 0x4008_4000, MCR=0, LDVAL0=0x100, TCTRL0=0x108, TFLG0=0x10C)
 WDOG3 = Block("WDOG3", 0x400B_C000, CS=0, CNT=4, TOVAL=8)
 ADC1 = Block("ADC1", 0x400C_4000, HC0=0, HS=0x20, R0=0x24, CFG=0x44, GC=0x48, GS=0x4C, CAL=0x58)
-SNVS = Block("SNVS", 0x400D_4000, LPGPR0=0x100, LPGPR1=0x104)
+SNVS = Block("SNVS", 0x400D_4000, HPCR=8, HPRTCLR=0x28, LPGPR0=0x100, LPGPR1=0x104)
 ANALOG = Block("CCM_ANALOG", 0x400D_8000, PLL_ARM=0, PLL_SYS=0x30)
 SRC = Block("SRC", 0x400F_8000, SRSR=8)
 CCM = Block("CCM", 0x400F_C000, CACRR=0x10, CBCDR=0x14, CBCMR=0x18, CSCMR1=0x1C, CSCDR1=0x24, CDHIPR=0x48)
@@ -95,6 +95,8 @@ class Imxrt1062(Chip):
         machine.words.update(self.always_on)
         self.open_until = self.calibrated_at = None
         self.is_calibrated = False
+        # The slow oscillator, as a share of what it should make.
+        self.slow = 1.0
         self.received, self.sent, self.answers = bytearray(), bytearray(), []
         # When each submodule of PWM2 began to run, since when LDOK waits for its reload, and writes that it ignored.
         self.runs, self.waits, self.ignored = {}, {}, 0
@@ -114,6 +116,10 @@ class Imxrt1062(Chip):
         if address == DCDC.REG0 or ANALOG.base <= address < ANALOG.base + 0x100:
             # STS_DC_OK; LOCK of every PLL.
             value |= 1 << 31
+        elif address == SNVS.HPRTCLR:
+            # It counts the slow oscillator once RTC_EN is up, while the core's time goes by.
+            runs = self.word(SNVS.HPCR) & 1
+            value = int(self.machine.cycles * LOW_POWER * self.slow / self.core_clock()) if runs else 0
         elif address == CCM.CDHIPR:
             value = 0
         elif address == ADC1.GC:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from bench import A_WHILE, Bench
+from bench import A_WHILE, OF_PANIC, Bench
+from machine import STOPS
 
 # What the boards' settings and READMEs say.
 RATE, BAUD = 4_000, 500_000
@@ -73,6 +74,18 @@ class InSetUp(Bench):
         self.assertEqual(machine.chip.widths(), [0, 0, 0])
         machine.ticks(1)
         self.assert_set_points_rest(machine)
+
+    def test_clock_that_disagrees_with_another_of_the_chip_stops(self) -> None:
+        # More than a fifth either way, within a tenth of a second.
+        for share in (0.7, 1.4):
+            machine = self.after_set_up()
+            machine.chip.slow = share
+            for _ in range(RATE // 10):
+                if not machine.is_masked():
+                    machine.ticks(1)
+            machine.run(STOPS)
+            self.assertTrue(machine.is_masked(), share)
+            self.assert_memo(machine, OF_PANIC)
 
     def test_no_debugger_stops_the_counter_that_supervises_ticks(self) -> None:
         self.assertTrue(self.after_set_up().chip.counts_at_a_halt())

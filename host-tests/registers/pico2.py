@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from angle_sensor import AngleSensor
 from rp2350 import (
-    ADC, CLOCKS, CRYSTAL, ENABLE, IO, ISO, PADS, PAUSES, PDE, PUE, PWM, SIO, SPI0, TICKS, WATCHDOG, Rp2350,
+    ADC, CLOCKS, ENABLE, IO, ISO, PADS, PAUSES, PDE, PUE, PWM, SIO, SPI0, TICKS, WATCHDOG, Rp2350,
 )  # fmt: skip
 
 ENABLES, DIRECTIONS, SET_POINTS, SELECTS = (16,), (11, 13, 15), (10, 12, 14), (5, 6, 7)
@@ -153,5 +153,5 @@ class Pico2(Rp2350):
     def watchdog_seconds(self) -> float:
         """It counts ticks, which are so many cycles of clk_ref, down from LOAD ("Watchdog", "Tick generators")."""
         assert self.word(WATCHDOG.CTRL) >> ENABLE & 1 and self.word(TICKS.WATCHDOG_CTRL) & 1, "both run"
-        assert self.word(CLOCKS.CLK_REF_CTRL) & 3 == 2, "clk_ref is the crystal's"
-        return self.word(WATCHDOG.LOAD) * (self.word(TICKS.WATCHDOG_CYCLES) & 0x1FF) / CRYSTAL
+        assert self.word(CLOCKS.CLK_REF_CTRL) & 3 == 0, "clk_ref is no crystal's"
+        return self.word(WATCHDOG.LOAD) * (self.word(TICKS.WATCHDOG_CYCLES) & 0x1FF) / self.reference_clock()

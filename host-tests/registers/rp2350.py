@@ -13,7 +13,7 @@ from chip import Block, Chip
 CLOCKS = Block(
     "CLOCKS", 0x4001_0000, CLK_REF_CTRL=0x30, CLK_REF_SELECTED=0x38, CLK_SYS_CTRL=0x3C, CLK_SYS_DIV=0x40,
     CLK_SYS_SELECTED=0x44, CLK_PERI_CTRL=0x48, CLK_PERI_DIV=0x4C, CLK_PERI_SELECTED=0x50, CLK_HSTX_SELECTED=0x5C,
-    CLK_USB_SELECTED=0x68, CLK_ADC_SELECTED=0x74,
+    CLK_USB_SELECTED=0x68, CLK_ADC_SELECTED=0x74, FC0_REF_KHZ=0x8C, FC0_SRC=0xA0, FC0_STATUS=0xA4, FC0_RESULT=0xA8,
 )  # fmt: skip
 PSM = Block("PSM", 0x4001_8000, WDSEL=8)
 RESETS = Block("RESETS", 0x4002_0000, RESET=0, WDSEL=4, RESET_DONE=8)
@@ -50,7 +50,7 @@ SELECTED_ONE = {CLOCKS.CLK_PERI_SELECTED, CLOCKS.CLK_HSTX_SELECTED, CLOCKS.CLK_U
 # 32 locks: a read takes one.
 SPINLOCKS = SIO.base + 0x100
 # Hz.
-CRYSTAL, RING = 12e6, 12e6
+CRYSTAL, RING = 12e6, 11e6
 # Functions of a pin ("GPIO functions (Bank 0)").
 SPI_FUNCTION, UART_FUNCTION, PWM_FUNCTION, SIO_FUNCTION, NULL = 1, 2, 4, 5, 0x1F
 # Bits of a pad: pulls, input enable, output disable, isolation.
@@ -122,6 +122,8 @@ class Rp2350(Chip):
         self.keep(POWMAN.CHIP_RESET, self.chip_reset)
         self.keep(WATCHDOG.REASON, sum(BY_WATCHDOG.get(reason, 0) for reason, is_so in reasons.items() if is_so))
         self.received, self.sent, self.answers = bytearray(), bytearray(), []
+        # The ring oscillator, as a share of what it usually makes.
+        self.slow = 1.0
 
     def is_lost(self, address: int) -> bool:
         """A peripheral that is held in reset takes nothing and gives nothing."""
@@ -151,6 +153,11 @@ class Rp2350(Chip):
             value = 1 << (self.word(CLOCKS.CLK_REF_CTRL) & 3)
         elif address == CLOCKS.CLK_SYS_SELECTED:
             value = 1 << (self.word(CLOCKS.CLK_SYS_CTRL) & 1)
+        elif address == CLOCKS.FC0_STATUS:
+            # DONE: measured at once.
+            value = 1 << 4
+        elif address == CLOCKS.FC0_RESULT:
+            value = self.measured() << 5
         elif address in SELECTED_ONE:
             value = 1
         elif address == ADC.CS:
@@ -253,6 +260,15 @@ class Rp2350(Chip):
         primary = self.word(PLL_SYS.PRIM)
         oscillator = CRYSTAL / (self.word(PLL_SYS.CS) & 0x3F) * (self.word(PLL_SYS.FBDIV_INT) & 0xFFF)
         return oscillator / (primary >> 16 & 7) / (primary >> 12 & 7)
+
+    def reference_clock(self) -> float:
+        """clk_ref, Hz: of the ring oscillator, or of the crystal."""
+        return {0: RING * self.slow, 2: CRYSTAL}[self.word(CLOCKS.CLK_REF_CTRL) & 3]
+
+    def measured(self) -> int:
+        """What the frequency counter measures by clk_ref, as it is told to be, kHz ("Frequency counter")."""
+        clock = {4: RING * self.slow, 9: self.core_clock()}[self.word(CLOCKS.FC0_SRC)]
+        return int(clock / self.reference_clock() * self.word(CLOCKS.FC0_REF_KHZ))
 
     def peripheral_clock(self) -> float:
         """clk_peri, Hz, of UART and SPI."""

@@ -39,6 +39,7 @@ TIMERS = (TIM1, TIM2, TIM3, TIM4, TIM5, TIM7)
 # The registers that catch a count, each with its timer, and their flags in SR.
 CAUGHT = {TIM2.CCR3: TIM2, TIM3.CCR3: TIM3, TIM4.CCR4: TIM4}
 CATCHES = {TIM2.CCR3: 1 << 3, TIM3.CCR3: 1 << 3, TIM4.CCR4: 1 << 4}
+LPTIM1 = Block("LPTIM1", 0x4000_7C00, CR=0x10, ARR=0x18, CNT=0x1C)
 SYSCFG = Block("SYSCFG", 0x4001_0000, CFGR2=0x1C)
 # What SYSCFG connects to the break of TIM1 ("SYSCFG_CFGR2": CLL, SPL, PVDL, ECCL); bits of its BDTR.
 LOCKUP, PARITY, SUPPLY, DAMAGE = 0, 1, 2, 3
@@ -70,6 +71,7 @@ CLOCKS = {
     TIM5.base: (RCC.APB1ENR1, 3),
     TIM7.base: (RCC.APB1ENR1, 5),
     USART2.base: (RCC.APB1ENR1, 17),
+    LPTIM1.base: (RCC.APB1ENR1, 31),
     ADC1.base: (RCC.AHB2ENR, 13),
     **{port.base: (RCC.AHB2ENR, number) for number, port in enumerate(GPIO.values())},
 }
@@ -122,6 +124,8 @@ class Stm32g4(Chip):
         self.received, self.sent, self.answers = bytearray(), bytearray(), bytearray()
         # What the converter measures of its own reference, 1.212 V of 3.3 V; whether conversions end.
         self.reference, self.converts = round(1.212 / 3.3 * 4_095), True
+        # The slow oscillator, as a share of what it should make.
+        self.slow = 1.0
         # What has failed of what SYSCFG connects to the break.
         self.failures = 0
 
@@ -151,6 +155,11 @@ class Stm32g4(Chip):
             # Reading it takes EOC down.
             self.keep(ADC1.ISR, self.word(ADC1.ISR) & ~4)
             value = self.reading()
+        elif address == RCC.CSR:
+            # LSIRDY follows LSION.
+            value = value & ~2 | (value & 1) << 1
+        elif address == LPTIM1.CNT:
+            value = self.slow_count()
         elif address == ADC1.JDR1:
             value = self.reference
         elif address == USART2.ISR:
@@ -229,6 +238,11 @@ class Stm32g4(Chip):
     def counts_at_a_halt(self) -> bool:
         """Whether it goes on while a debugger halts the core ("DBGMCU APB1 freeze register 1")."""
         return not self.word(DBGMCU.APB1FZR1) >> 3 & 1
+
+    def slow_count(self) -> int:
+        """LPTIM1 counts LSI, if it is chosen, on and started ("RCC_CCIPR", "LPTIM_CR"), while the core's time goes by."""
+        runs = self.word(RCC.CCIPR) >> 18 & 3 == 1 and self.word(RCC.CSR) & 1 and self.word(LPTIM1.CR) & 5 == 5
+        return int(self.machine.cycles * LSI * self.slow / self.core_clock()) & 0xFFFF if runs else 0
 
     def breaks(self, control: int) -> bool:
         """Whether the break of TIM1 is active: PB12 (AF6) at the level of BKP, or what SYSCFG connects."""

@@ -12,6 +12,7 @@ mod body;
 mod chip;
 mod pins;
 mod port;
+mod ring;
 mod set_up;
 mod supply;
 mod ticks;

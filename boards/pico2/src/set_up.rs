@@ -7,7 +7,7 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either, Plain};
-use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings, Switched};
+use palpate_bench::{Cause, ClocksDisagree, CycleDelay, Lines, Parts, Port, Settings, Switched};
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock as _, init_clocks_and_plls};
 use rp235x_hal::fugit::RateExtU32;
@@ -20,6 +20,7 @@ use rp235x_hal::{Sio, Watchdog};
 
 use crate::body::This;
 use crate::chip::{CLOCK, CRYSTAL};
+use crate::ring::Ring;
 use crate::supply::Volts;
 use crate::ticks::{Clock, Ticks};
 use crate::{Loop, Message, SHARED, chip, pins, port, supply, usb};
@@ -32,7 +33,7 @@ pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), .
 pub fn set_up(
     queue: &'static mut Queue<Message, 16>,
     servo_loop: &'static mut Option<Loop>,
-) -> Below<Message, impl Port, impl FnOnce() -> port::ChipWatchdog> {
+) -> Below<Message, impl Port, impl FnMut() -> Result<(), ClocksDisagree>, impl FnOnce() -> port::ChipWatchdog> {
     let (Some(mut core), Some(mut chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
@@ -110,6 +111,7 @@ pub fn set_up(
     let made = Loop::new(This, board, &BENCH, reset, producer, &SHARED.mailbox);
     SHARED.hand_over(servo_loop.insert(made));
     chip::remember(Cause::Running);
+    let mut ring = Ring::start();
     let start = move || {
         let watchdog = port::ChipWatchdog::start(watchdog);
         // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
@@ -119,5 +121,5 @@ pub fn set_up(
         }
         watchdog
     };
-    Below { messages, cycles, reset, port, start }
+    Below { messages, cycles, reset, port, clocks: move || ring.step(), start }
 }

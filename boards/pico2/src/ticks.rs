@@ -21,7 +21,7 @@ const PERIOD: u16 = {
 pub struct Clock(());
 
 impl Clock {
-    /// Starts it. A debugger that halts a core would pause it, unless it is told not to.
+    /// Starts it, with the pause at a debugger's halt switched off.
     pub fn start(timer: TIMER0, resets: &mut RESETS, clocks: &ClocksManager) -> Self {
         // Out of reset.
         let _ = rp235x_hal::Timer::new_timer0(timer, resets, clocks);

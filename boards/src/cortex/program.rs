@@ -2,7 +2,7 @@
 
 use super::{Cycles, HandOver, core_id, fail};
 use crate::accept::{Acceptance, Chip, Examiner};
-use crate::{Bench, Board, Felt, Idle, Mailbox, Offers, Passive, Port, Settings, Watchdog};
+use crate::{Bench, Board, ClocksDisagree, Felt, Idle, Mailbox, Offers, Passive, Port, Settings, Watchdog};
 use palpate::servo::{Heartbeat, ResetReason};
 use palpate::wire::Record;
 use palpate::wire::acceptance::Ticks;
@@ -77,7 +77,7 @@ impl<L> Default for Shared<L> {
 }
 
 /// Main's loop below the ticks, once all is set up. Main returns from setting up first: that takes most stack of all.
-pub struct Below<M: 'static, P, S> {
+pub struct Below<M: 'static, P, K, S> {
     /// The telemetry of the loop.
     pub messages: Consumer<'static, M>,
     /// The core's clock, for the acceptance.
@@ -86,11 +86,19 @@ pub struct Below<M: 'static, P, S> {
     pub reset: ResetReason,
     /// The way to a host.
     pub port: P,
+    /// Compares the chip's clocks, a step each turn. If they disagree, the program panics: the motors are off at once.
+    pub clocks: K,
     /// Starts the watchdog and the ticks: once everything that takes its time is done.
     pub start: S,
 }
 
-impl<P: Port, W: Watchdog, S: FnOnce() -> W> Below<Record, P, S> {
+fn agree(clocks: Result<(), ClocksDisagree>) {
+    if let Err(wrong) = clocks {
+        panic!("{wrong}");
+    }
+}
+
+impl<P: Port, W: Watchdog, K: FnMut() -> Result<(), ClocksDisagree>, S: FnOnce() -> W> Below<Record, P, K, S> {
     /// Serves the host, and feeds the watchdog while ticks go on.
     pub fn run(mut self, mailbox: &Mailbox, settings: &palpate::servo::Settings, offers: &impl Offers) -> ! {
         let idle =
@@ -99,11 +107,12 @@ impl<P: Port, W: Watchdog, S: FnOnce() -> W> Below<Record, P, S> {
         let mut watchdog = (self.start)();
         loop {
             idle.step(&mut self.port, &mut watchdog);
+            agree((self.clocks)());
         }
     }
 }
 
-impl<P: Port, W: Watchdog, S: FnOnce() -> W> Below<Ticks, P, S> {
+impl<P: Port, W: Watchdog, K: FnMut() -> Result<(), ClocksDisagree>, S: FnOnce() -> W> Below<Ticks, P, K, S> {
     /// Examines the board for a host.
     pub fn examine<const JOINTS: usize>(
         mut self,
@@ -118,6 +127,7 @@ impl<P: Port, W: Watchdog, S: FnOnce() -> W> Below<Ticks, P, S> {
             if let Some(failure) = examiner.step(&mut self.port, &mut watchdog) {
                 fail(failure);
             }
+            agree((self.clocks)());
         }
     }
 }

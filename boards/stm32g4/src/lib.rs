@@ -6,7 +6,7 @@ mod supply;
 mod ticks;
 
 pub use supply::Volts;
-pub use ticks::{Clock, Ticks};
+pub use ticks::{Clock, Slow, Ticks};
 
 use palpate::servo::ResetReason;
 use palpate_bench::cortex::MemoCell;

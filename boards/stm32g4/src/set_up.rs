@@ -5,8 +5,8 @@ use palpate::device::SupplyRange;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Counters, max_steps};
-use palpate_bench::{Cause, CycleDelay, Lines, Memo, Parts, Port, Settings};
-use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Ticks, Volts, open_port, start};
+use palpate_bench::{Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, Parts, Port, Settings};
+use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
@@ -37,7 +37,7 @@ pub type Board = Parts<Clock, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pi
 pub fn set_up(
     queue: &'static mut Queue<Message, 16>,
     servo_loop: &'static mut Option<Loop>,
-) -> Below<Message, impl Port, impl FnOnce() -> Iwdg> {
+) -> Below<Message, impl Port, impl FnMut() -> Result<(), ClocksDisagree>, impl FnOnce() -> Iwdg> {
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
@@ -110,6 +110,7 @@ pub fn set_up(
     let made = Loop::new(felt, board, &BENCH, reset, producer, &SHARED.mailbox);
     SHARED.hand_over(servo_loop.insert(made));
     MEMO.write(Memo::new(Cause::Running));
+    let mut clocks = ClockCheck::new((clock, CLOCK), (Slow::start(chip.LPTIMER1), Slow::FREQUENCY));
     let start_ticks = move || {
         let mut watchdog = IndependentWatchdog::new(chip.IWDG);
         watchdog.start(TIMEOUT_MS.millis());
@@ -120,5 +121,5 @@ pub fn set_up(
         }
         Iwdg(watchdog)
     };
-    Below { messages, cycles, reset, port, start: start_ticks }
+    Below { messages, cycles, reset, port, clocks: move || clocks.step(), start: start_ticks }
 }

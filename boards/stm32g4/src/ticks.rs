@@ -3,7 +3,7 @@
 use palpate_bench::Counter;
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
-use stm32g4xx_hal::stm32::{DBGMCU, TIM5, TIM7, tim2};
+use stm32g4xx_hal::stm32::{DBGMCU, LPTIMER1, RCC, TIM5, TIM7, lptimer1, tim2};
 use stm32g4xx_hal::time::ExtU32;
 use stm32g4xx_hal::timer::{CountDownTimer, Event, Timer};
 
@@ -35,6 +35,54 @@ impl Counter for Clock {
     #[inline]
     fn now(&self) -> u32 {
         Self::registers().cnt().read().bits()
+    }
+}
+
+/// The counter of the chip's own slow oscillator (LPTIM1 of LSI, 32 kHz), 16 bits: the loop's clock comes of another one
+/// (HSI16).
+#[derive(Debug)]
+pub struct Slow(());
+
+/// Looks until the oscillator must run, some 0.2 ms.
+const LOOKS: u32 = 100_000;
+/// Readings of a counter with another clock than the bus until two agree (RM0440, "LPTIM_CNT").
+const READINGS: u32 = 4;
+
+impl Slow {
+    /// Hz.
+    pub const FREQUENCY: u32 = 32_000;
+
+    /// Starts it.
+    pub fn start(_: LPTIMER1) -> Self {
+        // SAFETY: set-up alone runs; bits of the manual that nobody else uses.
+        let clocks = unsafe { &*RCC::ptr() };
+        clocks.csr().modify(|_, w| w.lsion().set_bit());
+        let _ = (0..LOOKS).any(|_| clocks.csr().read().lsirdy().bit_is_set());
+        // SAFETY: 1 is LSI.
+        clocks.ccipr().modify(|_, w| unsafe { w.lptim1sel().bits(1) });
+        clocks.apb1enr1().modify(|_, w| w.lptim1en().set_bit());
+        // Read back, for the clock takes two cycles.
+        let _ = clocks.apb1enr1().read();
+        let timer = Self::registers();
+        timer.cr().write(|w| w.enable().set_bit());
+        // SAFETY: the whole range.
+        timer.arr().write(|w| unsafe { w.bits(0xffff) });
+        timer.cr().write(|w| w.enable().set_bit().cntstrt().set_bit());
+        Self(())
+    }
+
+    fn registers() -> &'static lptimer1::RegisterBlock {
+        // SAFETY: `start` took the timer.
+        unsafe { &*LPTIMER1::ptr() }
+    }
+}
+
+impl Counter for Slow {
+    fn now(&self) -> u32 {
+        let read = || Self::registers().cnt().read().bits();
+        let mut last = read();
+        let _ = (0..READINGS).any(|_| core::mem::replace(&mut last, read()) == last);
+        last
     }
 }
 

@@ -7,7 +7,7 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either};
-use palpate_bench::{Cause, CycleDelay, Lines, Parts, Port, Settings};
+use palpate_bench::{Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Parts, Port, Settings};
 use teensy4_bsp::Interrupt;
 use teensy4_bsp::board::{self, IPG_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
@@ -18,7 +18,7 @@ use teensy4_bsp::hal::lpspi::MODE_1;
 use crate::body::This;
 use crate::pulse_width::{DWELL, PulseWidth};
 use crate::supply::Volts;
-use crate::ticks::{Clock, Ticks};
+use crate::ticks::{Clock, Slow, Ticks};
 use crate::watchdog::Rtwdog;
 use crate::{Loop, Message, SHARED, chip, port, usb};
 
@@ -35,7 +35,7 @@ pub type Board = Parts<Clock, Ticks, Sensors, [Amplifier; 3], Input, Input, Inpu
 pub fn set_up(
     queue: &'static mut Queue<Message, 16>,
     servo_loop: &'static mut Option<Loop>,
-) -> Below<Message, impl Port, impl FnOnce() -> Rtwdog> {
+) -> Below<Message, impl Port, impl FnMut() -> Result<(), ClocksDisagree>, impl FnOnce() -> Rtwdog> {
     let Some(mut core) = cortex_m::Peripherals::take() else {
         panic!("the peripherals are taken here and nowhere else")
     };
@@ -110,6 +110,7 @@ pub fn set_up(
     let made = Loop::new(This, board, &BENCH, reset, producer, &SHARED.mailbox);
     SHARED.hand_over(servo_loop.insert(made));
     chip::remember(Cause::Running);
+    let mut clocks = ClockCheck::new((clock, IPG_FREQUENCY), (Slow::start(), Slow::FREQUENCY));
     let start = move || {
         // SAFETY: nothing else uses it.
         let watchdog = Rtwdog::start(unsafe { imxrt_ral::rtwdog::RTWDOG::instance() });
@@ -120,5 +121,5 @@ pub fn set_up(
         }
         watchdog
     };
-    Below { messages, cycles, reset, port, start }
+    Below { messages, cycles, reset, port, clocks: move || clocks.step(), start }
 }

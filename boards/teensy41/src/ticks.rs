@@ -1,6 +1,7 @@
 //! The periodic timer (PIT) that raises ticks, and the counter that times them.
 
 use imxrt_ral::gpt::GPT1;
+use imxrt_ral::snvs::SNVS;
 use imxrt_ral::{modify_reg, read_reg};
 use palpate_bench::{Counter, Timer};
 use teensy4_bsp::board::PERCLK_FREQUENCY;
@@ -18,7 +19,7 @@ const PERIOD: u32 = (PERCLK_FREQUENCY as f32 / SETTINGS.rate_hz) as u32;
 pub struct Clock(());
 
 impl Clock {
-    /// Starts it. A debugger that halts the core would stop it, unless it is told not to.
+    /// Starts it, with counting at a debugger's halt switched on.
     pub fn start(mut timer: Gpt) -> Self {
         timer.set_clock_source(ClockSource::PeripheralClock);
         timer.set_divider(1);
@@ -38,6 +39,38 @@ impl Counter for Clock {
     #[inline]
     fn now(&self) -> u32 {
         read_reg!(imxrt_ral::gpt, Self::registers(), CNT)
+    }
+}
+
+/// The counter of the slow oscillator (the real-time counter of SNVS, 32.768 kHz): the loop's clock comes of another one.
+#[derive(Debug)]
+pub struct Slow(());
+
+/// Readings of a counter with another clock than the bus until two agree.
+const READINGS: u32 = 4;
+
+impl Slow {
+    /// Hz.
+    pub const FREQUENCY: u32 = 32_768;
+
+    /// Starts it.
+    pub fn start() -> Self {
+        modify_reg!(imxrt_ral::snvs, Self::registers(), HPCR, RTC_EN: 1);
+        Self(())
+    }
+
+    fn registers() -> SNVS {
+        // SAFETY: nobody else uses its counter.
+        unsafe { SNVS::instance() }
+    }
+}
+
+impl Counter for Slow {
+    fn now(&self) -> u32 {
+        let read = || read_reg!(imxrt_ral::snvs, Self::registers(), HPRTCLR);
+        let mut last = read();
+        let _ = (0..READINGS).any(|_| core::mem::replace(&mut last, read()) == last);
+        last
     }
 }
 

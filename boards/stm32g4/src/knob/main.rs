@@ -21,8 +21,8 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::Shared;
 use palpate_bench::knob::{JOG, SETTINGS, SUPPLY};
 use palpate_bench::sensors::{Angles, max_step};
-use palpate_bench::{Bench, Cause, CycleDelay, Idle, Lines, Memo, Parts, Settings};
-use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Ticks, Volts, open_port, start};
+use palpate_bench::{Bench, Cause, ClockCheck, CycleDelay, Idle, Lines, Memo, Parts, Settings};
+use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
@@ -101,6 +101,7 @@ fn main() -> ! {
     let (producer, records) = QUEUE.split();
     SHARED.hand_over(LOOP.insert(Bench::new(This, board, &BENCH, reset, producer, &SHARED.mailbox)));
     MEMO.write(Memo::new(Cause::Running));
+    let mut clocks = ClockCheck::new((clock, CLOCK), (Slow::start(chip.LPTIMER1), Slow::FREQUENCY));
     let mut watchdog = Iwdg(IndependentWatchdog::new(chip.IWDG));
     watchdog.0.start(20.millis());
     // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
@@ -113,5 +114,8 @@ fn main() -> ! {
     loop {
         idle.step(&mut port, &mut watchdog);
         choice.look(&SHARED.mailbox);
+        if let Err(wrong) = clocks.step() {
+            panic!("{wrong}");
+        }
     }
 }

@@ -7,8 +7,9 @@ use palpate::device::drive::{Drive, HBridge, SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Duty, ElectricalAngle};
 use palpate_bench::sensors::{BadFrame, Counters, Readings};
 use palpate_bench::{
-    Board, Counter, Divider, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Passive, Switched, Timer,
+    Board, ClockCheck, Counter, Divider, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Passive, Switched, Timer,
 };
+use std::cell::Cell;
 use std::io::ErrorKind;
 
 struct Still;
@@ -21,6 +22,34 @@ impl Counter for Still {
 
 impl Timer for Still {
     fn acknowledge(&mut self) {}
+}
+
+/// A counter that the test sets.
+struct Set<'a>(&'a Cell<u32>);
+
+impl Counter for Set<'_> {
+    fn now(&self) -> u32 {
+        self.0.get()
+    }
+}
+
+#[test]
+fn two_clocks_that_are_a_fifth_apart_or_of_which_one_stands_still_disagree() {
+    // 170 MHz beside 32 kHz of 16 bits, for a second in turns of a tick; the second's share of what it should make.
+    let agree = |share: f64| {
+        let (clock, reference) = (Cell::new(u32::MAX - 9), Cell::new(0));
+        let mut check = ClockCheck::new((Set(&clock), 170_000_000), (Set(&reference), 32_000));
+        (0..4_000_u32).all(|tick| {
+            clock.set((u32::MAX - 9).wrapping_add(tick * 42_500));
+            reference.set((f64::from(tick) * 8.0 * share) as u32 & 0xffff);
+            check.step().is_ok()
+        })
+    };
+    for (share, holds) in
+        [(1.0, true), (0.9, true), (1.1, true), (0.8, false), (1.3, false), (0.0, false), (2.0, false)]
+    {
+        assert_eq!(agree(share), holds, "{share}");
+    }
 }
 
 struct Three([u32; 3]);
