@@ -10,6 +10,7 @@ pub mod patch;
 pub mod render;
 pub mod scene;
 pub mod servo;
+pub mod tally;
 #[doc = include_str!("theory.md")]
 pub mod theory {}
 pub mod track;

@@ -2,6 +2,7 @@
 
 use crate::math::{Vec3, vec3};
 use crate::patch::{Coefficients, MAX_SPANS, bisect, horner_step};
+use crate::tally;
 
 /// The highest degree of a curve: the cross derivative of a rational patch of degree 5 has twice its degree.
 pub const MAX_CURVE_DEGREE: usize = 10;
@@ -56,6 +57,7 @@ impl SplineCurve<'_> {
     /// never asks for them.
     #[inline(never)]
     pub fn evaluate(&self, t: f32) -> CurvePoint {
+        tally::curve();
         let (span, s) = locate(self.breaks, t);
         match self.coefficients {
             Coefficients::Polynomial(entries) => {
@@ -86,6 +88,7 @@ impl SplineCurve<'_> {
     /// The point alone.
     #[inline(never)]
     pub fn point(&self, t: f32) -> Vec3 {
+        tally::curve();
         let (span, s) = locate(self.breaks, t);
         match self.coefficients {
             Coefficients::Polynomial(entries) => Vec3::from_array(value(self.powers(entries, span), s)),

@@ -4,6 +4,7 @@ use super::curve::CurvePoint;
 use super::edge_step::EdgeStep;
 use super::face_entry::{EdgePoint, Entry};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side, Spoke, Vertex};
+use super::inside_test::counted;
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
@@ -145,7 +146,7 @@ impl Body<'_> {
     /// far along its tangent the probe is, metres; `None` if no edge leads nearer.
     pub(super) fn steepest(&self, vertex: &Vertex, towards: Vec3) -> Option<(f32, &Spoke)> {
         let mut steepest: Option<(f32, &Spoke)> = None;
-        for spoke in self.spokes_of(vertex) {
+        for spoke in counted(self.spokes_of(vertex)) {
             let fall = towards.dot(spoke.direction);
             if fall > 0.0 && steepest.is_none_or(|(most, _)| fall > most) {
                 steepest = Some((fall, spoke));

@@ -6,6 +6,7 @@ use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::math::Vec3;
 use crate::patch::Patch as _;
+use crate::tally;
 
 /// Minimum height over the tangent plane, relative to the distance, at which a probe is outside where smooth edges and
 /// hollow faces meet: a body comes that far in front of it at a fifth of its minimum hollow radius.
@@ -41,14 +42,12 @@ impl Body<'_> {
     pub(super) fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
         let height = towards.dot(vertex.outward);
         let spokes = self.spokes_of(vertex);
-        if height != 0.0 && spokes.iter().all(|spoke| towards.dot(spoke.direction) <= 0.0) {
+        if height != 0.0 && counted(spokes).all(|spoke| towards.dot(spoke.direction) <= 0.0) {
             return Some(height > 0.0);
         }
-        if height > 0.0
-            && spokes.iter().all(|spoke| self.is_of_kind(spoke, EdgeKind::Smooth))
-            && is_steep(height, towards.length_squared(), self.hollowest_at(vertex))
-        {
-            return Some(true);
+        // Smooth edges alone have no planes between them.
+        if height > 0.0 && counted(spokes).all(|spoke| self.is_of_kind(spoke, EdgeKind::Smooth)) {
+            return is_steep(height, towards.length_squared(), self.hollowest_at(vertex)).then_some(true);
         }
         self.is_in_front_at(vertex, towards).filter(|is_in_front| *is_in_front)
     }
@@ -59,7 +58,7 @@ impl Body<'_> {
     pub(super) fn is_in_front_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
         let spokes = self.spokes_of(vertex);
         let (mut sharp, mut count) = ([spokes.first()?; 3], 0);
-        for spoke in spokes {
+        for spoke in counted(spokes) {
             match self.edges.get(usize::from(spoke.edge))?.kind {
                 EdgeKind::Convex => {
                     *sharp.get_mut(count)? = spoke;
@@ -105,7 +104,7 @@ impl Body<'_> {
     /// Minimum curvature of the faces around a vertex, 1/m, if one is hollow; otherwise 0. Poles do not count.
     #[inline(never)]
     fn hollowest_at(&self, vertex: &Vertex) -> f32 {
-        let spokes = self.spokes_of(vertex).iter();
+        let spokes = counted(self.spokes_of(vertex));
         let faces = spokes.filter_map(|spoke| self.edges.get(usize::from(spoke.edge))).flat_map(|edge| edge.faces);
         faces.filter_map(|of| self.faces.get(usize::from(of.face))).fold(0.0, hollower)
     }
@@ -118,6 +117,12 @@ impl Body<'_> {
         let first = usize::from(vertex.first_spoke);
         self.spokes.get(first..first + usize::from(vertex.spokes)).unwrap_or(&[])
     }
+}
+
+/// The spokes, each counted where it is looked at.
+#[inline(always)]
+pub(super) fn counted(spokes: &[Spoke]) -> impl Iterator<Item = &Spoke> {
+    spokes.iter().inspect(|_| tally::spoke())
 }
 
 /// Whether a height over a tangent plane is more than a body may have there, for a squared distance and the minimum

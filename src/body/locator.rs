@@ -11,6 +11,8 @@ pub const MAX_DEPTH: usize = 10;
 pub const GRID: u32 = 31;
 /// Maximum number of faces of a body: the range of an entry's ten bits.
 pub const MAX_FACES: usize = 1 << 10;
+/// Maximum number of candidates in a list: all faces.
+pub const MAX_LIST: usize = MAX_FACES;
 /// The flag of a leaf among the children of a node.
 pub const LEAF: u16 = 0x8000;
 
@@ -129,6 +131,18 @@ impl Locator<'_> {
     pub fn holds(&self, probe: Vec3) -> bool {
         let within = |x: f32, low: f32| x >= low && x - low <= self.side;
         within(probe.x, self.corner.x) && within(probe.y, self.corner.y) && within(probe.z, self.corner.z)
+    }
+
+    /// The number of candidates in the longest list.
+    pub const fn longest_list(&self) -> usize {
+        let (mut longest, mut list, mut index) = (0, 0, 0);
+        while index < self.entries.len() {
+            list += 1;
+            longest = if list > longest { list } else { longest };
+            list = if Candidate::unpack(self.entries[index]).more { list } else { 0 };
+            index += 1;
+        }
+        longest
     }
 
     /// The candidate at an index of the entries; `None` past their end.

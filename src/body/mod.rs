@@ -23,6 +23,7 @@ mod quadratic_model;
 mod search;
 mod table;
 mod table_words;
+mod tick_bound;
 mod tracker;
 
 pub use candidate_search::{
@@ -31,8 +32,11 @@ pub use candidate_search::{
 pub use curve::{CurvePoint, MAX_CURVE_DEGREE, SplineCurve};
 pub use feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Separator, Side, Spoke, Vertex};
 pub use file::{Aligned, BodyBuffer, FILE_VERSION, FileError, FileHead, Section};
-pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES};
+pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES, MAX_LIST};
 pub use search::{Located, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
 pub use table::{Body, BodyError, BodyTables};
 pub use table_words::TableCursor;
+pub use tick_bound::{MAX_SPOKES, TickLimit, WorstTick};
 pub use tracker::{BodyStep, BodyWitness};
+
+pub use crate::tally::TickWork;

@@ -1,7 +1,8 @@
 //! A body as tables in flash, checked when it is built.
 
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
-use super::locator::{Candidate, LEAF, Locator, MAX_FACES};
+use super::locator::{Candidate, LEAF, Locator, MAX_FACES, MAX_LIST};
+use super::tick_bound::MAX_SPOKES;
 use crate::math::Vec3;
 use crate::track::Contact;
 use core::fmt;
@@ -85,12 +86,21 @@ pub enum BodyError {
         /// Index of the edge.
         edge: u16,
     },
-    /// A vertex is not finite, or its spokes do not exist.
+    /// A vertex is not finite, or its spokes do not follow those of the vertex before it.
     Vertex {
         /// Index of the vertex.
         vertex: u16,
     },
-    /// A spoke names no edge, or its direction is not finite.
+    /// A vertex has more than [`MAX_SPOKES`].
+    Spokes {
+        /// Index of the vertex.
+        vertex: u16,
+        /// Number of its spokes.
+        spokes: u16,
+    },
+    /// The number of spokes is not twice that of the edges.
+    SpokeCount,
+    /// A spoke's edge does not end at its vertex, or its direction is not finite.
     Spoke {
         /// Index of the spoke.
         spoke: u16,
@@ -107,6 +117,11 @@ pub enum BodyError {
         /// Index of the entry.
         entry: u16,
     },
+    /// A list has more than [`MAX_LIST`] entries.
+    LocatorList {
+        /// Index of the entry that is too many.
+        entry: u16,
+    },
     /// The size is not positive and finite.
     Size,
     /// The CRC-32 of the words is not the given one: a number has changed since the tables were baked.
@@ -120,11 +135,14 @@ impl BodyError {
             Self::Faces => "faces: a body has 1 to 1024",
             Self::Side { .. } => "sides: a side names no edge or vertex of the body, or its separator is malformed",
             Self::Edge { .. } => "edges: an edge has a malformed curve or does not fit its faces and vertices",
-            Self::Vertex { .. } => "vertices: a vertex is not finite or names spokes that do not exist",
-            Self::Spoke { .. } => "spokes: a spoke names no edge of the body or is not finite",
+            Self::Vertex { .. } => "vertices: a vertex is not finite, or its spokes do not follow those before",
+            Self::Spokes { .. } => "vertices: more than 64 edges end at a vertex; merge faces that meet there",
+            Self::SpokeCount => "spokes: their number is not twice that of the edges",
+            Self::Spoke { .. } => "spokes: a spoke's edge does not end at its vertex, or it is not finite",
             Self::LocatorCube => "locator: the cube must be finite and have a root",
             Self::LocatorNode { .. } => "locator: a node names a child that does not exist",
             Self::LocatorEntry { .. } => "locator: an entry names no face, has no rectangle or no end",
+            Self::LocatorList { .. } => "locator: a list has more than 1024 entries; the audit would not reach its end",
             Self::Size => "size_m: must be positive and finite",
             Self::Crc => "crc: the tables' numbers are not those that were baked",
         }
@@ -140,8 +158,10 @@ impl fmt::Display for BodyError {
             | Self::Vertex { vertex: index }
             | Self::Spoke { spoke: index }
             | Self::LocatorNode { node: index }
-            | Self::LocatorEntry { entry: index } => write!(formatter, " (number {index})"),
-            Self::Faces | Self::LocatorCube | Self::Size | Self::Crc => Ok(()),
+            | Self::LocatorEntry { entry: index }
+            | Self::LocatorList { entry: index } => write!(formatter, " (number {index})"),
+            Self::Spokes { vertex, spokes } => write!(formatter, " (vertex {vertex} has {spokes})"),
+            Self::Faces | Self::SpokeCount | Self::LocatorCube | Self::Size | Self::Crc => Ok(()),
         }
     }
 }
@@ -304,22 +324,29 @@ impl<'a> Body<'a> {
             }
             index += 1;
         }
-        let mut index = 0;
+        let (mut index, mut number) = (0, 0);
         while index < self.vertices.len() {
             let Vertex { point, outward, first_spoke, spokes, .. } = self.vertices[index];
-            if !(is_finite(point) && is_finite(outward) && first_spoke as usize + spokes as usize <= self.spokes.len())
-            {
+            if spokes as usize > MAX_SPOKES {
+                return Err(BodyError::Spokes { vertex: index as u16, spokes });
+            }
+            let end = number + spokes as usize;
+            if !(is_finite(point) && is_finite(outward) && first_spoke as usize == number && end <= self.spokes.len()) {
                 return Err(BodyError::Vertex { vertex: index as u16 });
+            }
+            while number < end {
+                let Spoke { direction, edge, at_upper_end } = self.spokes[number];
+                let is_its = (edge as usize) < self.edges.len()
+                    && self.edges[edge as usize].ends[at_upper_end as usize] as usize == index;
+                if !(is_finite(direction) && is_its) {
+                    return Err(BodyError::Spoke { spoke: number as u16 });
+                }
+                number += 1;
             }
             index += 1;
         }
-        let mut index = 0;
-        while index < self.spokes.len() {
-            let spoke = &self.spokes[index];
-            if !(is_finite(spoke.direction) && (spoke.edge as usize) < self.edges.len()) {
-                return Err(BodyError::Spoke { spoke: index as u16 });
-            }
-            index += 1;
+        if number != self.spokes.len() || number != 2 * self.edges.len() {
+            return Err(BodyError::SpokeCount);
         }
         Ok(())
     }
@@ -360,12 +387,16 @@ impl<'a> Body<'a> {
             }
             node += 1;
         }
-        let mut index = 0;
+        let (mut index, mut list) = (0, 0);
         while index < entries.len() {
             let Candidate { face, lower, upper, more, .. } = Candidate::unpack(entries[index]);
             let rectangle = lower[0] <= upper[0] && lower[1] <= upper[1];
             if !(rectangle && (face as usize) < self.faces.len() && (!more || index + 1 < entries.len())) {
                 return Err(BodyError::LocatorEntry { entry: index as u16 });
+            }
+            list = if more { list + 1 } else { 0 };
+            if list >= MAX_LIST {
+                return Err(BodyError::LocatorList { entry: index as u16 });
             }
             index += 1;
         }

@@ -8,11 +8,13 @@ use super::spans::{Spans, rows_at};
 use super::spline::SplinePatch;
 use super::taylor::{self, Taylor};
 use crate::math::{Vec3, vec3};
+use crate::tally;
 
 impl SplinePatch<'_> {
     /// The point and its derivatives up to the second at `(u, v)`, by Horner's rule on the span that holds it.
     #[inline(always)]
     pub fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
+        tally::patch();
         match self.spans {
             Spans::Bilinear(spans) => whole::<3, 2, 4>(spans, &self.grid, u, v),
             Spans::Biquadratic(spans) => whole::<3, 3, 9>(spans, &self.grid, u, v),

@@ -8,6 +8,7 @@ use super::coefficients::coefficient_word;
 use super::span_grid::SpanGrid;
 use super::spans::Spans;
 use super::{Coefficients, CurvedPoint, Patch, SecondDerivativeBounds, ShapeBounds, SplineTable, SurfacePoint};
+use crate::tally;
 use core::num::NonZeroU32;
 
 /// A NURBS patch of degree 1 to 5, polynomial or rational, as a checked table in flash: made of a [`SplineTable`].
@@ -130,6 +131,7 @@ impl Patch for SplinePatch<'_> {
 
     #[inline(always)]
     fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
+        tally::patch();
         self.spans.evaluate(&self.grid, u, v)
     }
 

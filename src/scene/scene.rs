@@ -6,7 +6,7 @@ use super::limits::Limits;
 use super::part::{Motion, Part, PartState};
 use super::rigid::Wrench;
 use super::state::SceneState;
-use crate::body::TableCursor;
+use crate::body::{Body, TableCursor, TickWork};
 use crate::math::{Vec3, saturate};
 use crate::render::{Friction, Penalty, Press, limit};
 use crate::servo::{BakedTables, Surface, Touched, Tracked};
@@ -334,6 +334,27 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
             b.contact > a.contact || !self.is_on(state, usize::from(first))
         };
         if is_second { second } else { first }
+    }
+}
+
+impl<const N: usize> Scene<'_, Body<'_>, N> {
+    /// Bound of the evaluations of every tick, see [`Body::worst_tick`]: the two bodies that are tracked and the one
+    /// that is checked, each at its worst.
+    pub const fn worst_tick(&self, weights: TickWork) -> u32 {
+        let mut most = [0; 3];
+        let mut index = 0;
+        while index < N {
+            let mut cost = self.parts[index].surface.worst_tick(weights).cost;
+            let mut place = 0;
+            while place < most.len() {
+                if cost > most[place] {
+                    (most[place], cost) = (cost, most[place]);
+                }
+                place += 1;
+            }
+            index += 1;
+        }
+        most[0] + most[1] + most[2]
     }
 }
 

@@ -2,7 +2,7 @@
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU32, Ordering};
-use palpate::body::{Body, BodyBuffer, Edge, Face, FileError};
+use palpate::body::{Body, BodyBuffer, Edge, Face, FileError, TickLimit};
 
 /// The holder of a bank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,7 +94,7 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
         let built: &'static mut Built<FACES, EDGES> = unsafe { &mut *self.built.get() };
         built.clear();
         let Built { faces, edges, body } = built;
-        match Body::from_bytes_with(file, BodyBuffer { faces, edges }, pause) {
+        match Body::from_bytes_with(file, BodyBuffer { faces, edges }, TickLimit::BENCH, pause) {
             Ok(found) => *body = Some(found),
             Err(error) => {
                 // SAFETY: as above, and nothing of `built` is used any more.

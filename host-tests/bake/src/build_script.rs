@@ -1,12 +1,13 @@
 //! Tables from a build script: the model lies beside `Cargo.toml`, and the firmware always has the tables of its
 //! present state.
 
-use crate::body::BakedBody;
+use crate::body::{BakedBody, TableFault};
 use crate::error::ModelError;
 use crate::flaws;
 use crate::locator::LocatorError;
 use crate::model::Model;
 use crate::source::{self, Origin, SourceError};
+use palpate::body::{TickLimit, TickWork};
 use std::path::{Path, PathBuf};
 use std::{fmt, fs, io};
 use thiserror::Error;
@@ -34,6 +35,7 @@ use thiserror::Error;
 pub struct Bake {
     model: PathBuf,
     margin: f64,
+    tick_limit: TickLimit,
 }
 
 /// Why there are no tables. Says the same in debug form, which is how a `main` that returns it prints it.
@@ -42,6 +44,26 @@ pub enum BakeError {
     /// The model is refused.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// A tick on the body may take more evaluations than the limit.
+    #[error(
+        "{file}: a tick may take {evaluations} evaluations, the limit is {limit}: merge faces that meet at a vertex"
+    )]
+    Tick {
+        /// The model file.
+        file: String,
+        /// Evaluations of the worst tick.
+        evaluations: u32,
+        /// The limit.
+        limit: u32,
+    },
+    /// The library refuses the tables.
+    #[error("{file}: {cause}")]
+    Tables {
+        /// The model file.
+        file: String,
+        /// Why.
+        cause: TableFault,
+    },
     /// The locator does not come out.
     #[error("{file}: {cause}")]
     Locator {
@@ -77,7 +99,7 @@ impl fmt::Debug for BakeError {
 impl Bake {
     /// Bakes this model file, whose path starts from the package's folder.
     pub fn new(model: impl Into<PathBuf>) -> Self {
-        Self { model: model.into(), margin: 0.0 }
+        Self { model: model.into(), margin: 0.0, tick_limit: TickLimit::BENCH }
     }
 
     /// How far beyond the bounding box of a body its locator reaches at least, in sizes of the body, 0 to 30; without
@@ -85,6 +107,13 @@ impl Bake {
     #[must_use]
     pub const fn reaching(mut self, sizes: f64) -> Self {
         self.margin = sizes.clamp(0.0, 30.0);
+        self
+    }
+
+    /// The limit of a tick on the body; without this, that of the bench boards.
+    #[must_use]
+    pub const fn tick_limit(mut self, limit: TickLimit) -> Self {
+        self.tick_limit = limit;
         self
     }
 
@@ -111,6 +140,11 @@ impl Bake {
             let options = body.locator_options().reaching(self.margin);
             let located = body.located(&options, &|_, _| ());
             (body, _) = located.map_err(|cause| BakeError::Locator { file: file.clone(), cause })?;
+        }
+        let tables = body.to_body().map_err(|cause| BakeError::Tables { file: file.clone(), cause })?;
+        let (evaluations, limit) = (tables.worst_tick(TickWork::EACH).cost, self.tick_limit.evaluations);
+        if evaluations > limit {
+            return Err(BakeError::Tick { file, evaluations, limit });
         }
         let name = self.model.file_name().unwrap_or(self.model.as_os_str());
         let out = folder.as_ref().join(name).with_extension("rs");

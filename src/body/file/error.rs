@@ -172,6 +172,16 @@ pub enum FileError {
     /// The tables of the body are wrong.
     #[error(transparent)]
     Body(#[from] BodyError),
+    /// A tick may take more evaluations than the application grants.
+    #[error("a tick may take {evaluations} evaluations{at}, the limit is {limit}: {remedy}", at = At(.vertex), remedy = REMEDY)]
+    Tick {
+        /// [`super::super::Body::worst_tick`].
+        evaluations: u32,
+        /// [`super::super::TickLimit`].
+        limit: u32,
+        /// The vertex at which it takes them, and the number of its spokes.
+        vertex: Option<(u16, u16)>,
+    },
     /// The numbers are not those that were baked.
     #[error("the CRC-32 of the tables is {found:08x}, not {stated:08x} as baked")]
     Tables {
@@ -180,4 +190,19 @@ pub enum FileError {
         /// Value found.
         found: u32,
     },
+}
+
+/// The way to a body with shorter ticks.
+const REMEDY: &str = "merge faces that meet there, or raise the limit if the board is fast enough";
+
+/// The vertex of [`FileError::Tick`].
+struct At<'a>(&'a Option<(u16, u16)>);
+
+impl fmt::Display for At<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some((vertex, spokes)) => write!(formatter, " at vertex {vertex}, where {spokes} edges end"),
+            None => Ok(()),
+        }
+    }
 }

@@ -14,6 +14,7 @@ pub use sections::FILE_VERSION;
 use super::feature::{Edge, Face};
 use super::locator::Locator;
 use super::table::{Body, BodyTables};
+use super::tick_bound::{TickLimit, WorstTick};
 use crate::math::{Vec3, vec3};
 use records::Numbers;
 use sections::{BODY_WORDS, Sections};
@@ -100,16 +101,17 @@ impl<'a> Body<'a> {
     /// The body of a file, with every number, index and list checked; `buffer` holds its faces and edges.
     ///
     /// The time is bounded by the length of the file: a record takes a bounded number of steps and borders, and no two
-    /// records share coefficients.
+    /// records share coefficients. A tick on the body is bounded too, by [`TickLimit::BENCH`].
     pub fn from_bytes(bytes: &'a [u8], buffer: BodyBuffer<'a>) -> Result<Self, FileError> {
-        Self::from_bytes_with(bytes, buffer, &mut || ())
+        Self::from_bytes_with(bytes, buffer, TickLimit::BENCH, &mut || ())
     }
 
-    /// [`Self::from_bytes`] that calls `pause` repeatedly, for a watchdog: after each 1,024 words of a CRC, and
-    /// between the other checks, which together take a seventh of the time.
+    /// [`Self::from_bytes`] with the application's own limit of a tick. Calls `pause` repeatedly, for a watchdog: after
+    /// each 1,024 words of a CRC, and between the other checks, which together take a seventh of the time.
     pub fn from_bytes_with(
         bytes: &'a [u8],
         buffer: BodyBuffer<'a>,
+        limit: TickLimit,
         pause: &mut dyn FnMut(),
     ) -> Result<Self, FileError> {
         let sections = Sections::of_with(bytes, pause)?;
@@ -145,6 +147,11 @@ impl<'a> Body<'a> {
             crc: None,
         };
         let body = tables.try_checked_without_crc()?;
+        let WorstTick { cost: evaluations, vertex } = body.worst_tick_with(pause);
+        if evaluations > limit.evaluations {
+            let spokes = |index: u16| Some((index, body.vertices.get(usize::from(index))?.spokes));
+            return Err(FileError::Tick { evaluations, limit: limit.evaluations, vertex: vertex.and_then(spokes) });
+        }
         pause();
         // The words equal those of the same body as a static: the result is the baked CRC.
         match body.table_crc_with(pause) {

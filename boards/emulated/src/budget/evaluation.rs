@@ -5,7 +5,7 @@ use core::hint::black_box;
 use palpate::patch::{CurvedPoint, Patch, SplinePatch, SurfacePoint};
 use semihosting::println;
 
-use super::patches::{POLYNOMIAL, RATIONAL};
+use super::patches::{POLYNOMIAL, POLYNOMIAL_CURVE, RATIONAL, RATIONAL_CURVE};
 use super::tables::table1c::PATCHES;
 use super::tally::Tally;
 use crate::timer::InstructionCounter;
@@ -35,6 +35,12 @@ pub fn run(counter: &mut InstructionCounter) {
             black_box(point);
             println!("\"second order, {kind}, degree ({degree_u}, {degree_v})\" = {instructions}");
         }
+    }
+    for (kind, curve) in [("polynomial", &POLYNOMIAL_CURVE), ("rational", &RATIONAL_CURVE)] {
+        let (curve, t) = black_box((curve, 0.3));
+        let (point, instructions) = counter.count(|| curve.evaluate(t));
+        black_box(point);
+        println!("\"curve, {kind}, degree {}\" = {instructions}", curve.degree);
     }
     let mut spans = Tally::new();
     let body = black_box(&PATCHES[0]);

@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, FileError};
+use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, FileError, TickLimit};
 use semihosting::println;
 
 use super::closest;
@@ -13,7 +13,7 @@ static SPHERE: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../bodies/sphere
 
 #[inline(never)]
 fn load<'a>(bytes: &'a [u8], room: BodyBuffer<'a>, pause: &mut dyn FnMut()) -> Result<Body<'a>, FileError> {
-    Body::from_bytes_with(bytes, room, pause)
+    Body::from_bytes_with(bytes, room, TickLimit::BENCH, pause)
 }
 
 /// Loads the files, and walks around the capped box.

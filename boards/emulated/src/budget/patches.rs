@@ -1,6 +1,7 @@
 //! Patches of every degree, of one span. Their shape does not matter: the evaluation has no branch that depends
 //! on a coefficient.
 
+use palpate::body::{MAX_CURVE_DEGREE, SplineCurve};
 use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
 
 /// Nothing is proved of them; the controller is measured on the image's own body.
@@ -52,3 +53,13 @@ pub static RATIONAL: [SplinePatch; 5] = [
     patch(4, Coefficients::Rational(&const { coefficients::<4, 25>() })),
     patch(5, Coefficients::Rational(&const { coefficients::<4, 36>() })),
 ];
+
+const fn curve(coefficients: Coefficients<'static>) -> SplineCurve<'static> {
+    SplineCurve { degree: MAX_CURVE_DEGREE as u8, breaks: &[0.0, 1.0], coefficients, second_derivative: 1.0 }
+}
+
+/// A curve of the highest degree.
+pub static POLYNOMIAL_CURVE: SplineCurve = curve(Coefficients::Polynomial(&const { coefficients::<3, 11>() }));
+
+/// The same, rational.
+pub static RATIONAL_CURVE: SplineCurve = curve(Coefficients::Rational(&const { coefficients::<4, 11>() }));

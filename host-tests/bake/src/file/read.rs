@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::topology::{Border, BorderRole, Sense, Topology, TopologyEdge, TopologySpoke, TopologyVertex};
 use crate::{BakedCoefficients, BakedPatch, NurbsPatch};
 use glam::DVec3;
-use palpate::body::{Body, BodyBuffer, Edge, EdgeFace, Face, FileHead, Separator, Side, SplineCurve};
+use palpate::body::{Body, BodyBuffer, Edge, EdgeFace, Face, FileHead, Separator, Side, SplineCurve, TickLimit};
 use palpate::patch::{Coefficients, Orientation, Patch as _, span_centre};
 
 /// A file that has been read.
@@ -31,7 +31,8 @@ impl BakedFile {
         let aligned: &[u8] = if bytes.len().is_multiple_of(4) { bytemuck::cast_slice(&words) } else { bytes };
         let head = FileHead::of(aligned)?;
         let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-        let body = Body::from_bytes(aligned, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
+        let buffer = BodyBuffer { faces: &mut faces, edges: &mut edges };
+        let body = Body::from_bytes_with(aligned, buffer, TickLimit::NONE, &mut || ())?;
         let borders: Vec<_> =
             body.faces().iter().map(|face| face.patch.breaks().map(|breaks| breaks.len() - 2)).collect();
         let notes = Notes::read(FileHead::notes(aligned)?, &borders)?;

@@ -11,4 +11,5 @@ mod spoiled_files;
 mod spoiled_models;
 mod spoiled_seams;
 mod spoiled_tables;
+mod tick_bound;
 mod topology;

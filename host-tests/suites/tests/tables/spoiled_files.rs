@@ -10,7 +10,7 @@ use palpate_truth::measured::{grouped, measured};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-fn baked(name: &str) -> Vec<u32> {
+pub(super) fn baked(name: &str) -> Vec<u32> {
     let bytes = file::write([7; 32], &palpate_suites::model(name), &palpate_suites::body(name)).expect(name);
     bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
 }
@@ -20,21 +20,21 @@ fn bytes(words: &[u32]) -> Vec<u8> {
 }
 
 /// CRC-32, bit by bit: not the library's.
-fn crc(words: &[u32]) -> u32 {
+pub(super) fn crc(words: &[u32]) -> u32 {
     !bytes(words).iter().fold(u32::MAX, |crc, byte| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| (crc >> 1) ^ if crc & 1 == 1 { 0xEDB8_8320 } else { 0 })
     })
 }
 
 /// Makes length and CRC those of the words before them.
-fn mend(words: &mut [u32]) {
+pub(super) fn mend(words: &mut [u32]) {
     let count = words.len();
     words[2] = 4 * count as u32;
     words[count - 1] = crc(&words[..count - 1]);
 }
 
 /// Where a section's data begin, and how many words there are.
-fn section(words: &[u32], wanted: Section) -> (usize, usize) {
+pub(super) fn section(words: &[u32], wanted: Section) -> (usize, usize) {
     let mut at = 3;
     for of in Section::ALL {
         let count = words[at + 1] as usize / 4;
@@ -47,7 +47,7 @@ fn section(words: &[u32], wanted: Section) -> (usize, usize) {
 }
 
 /// Loads the bytes as firmware does, and hands the body to `work`.
-fn with_body<R>(words: &[u32], work: impl FnOnce(&Body<'_>) -> R) -> Result<R, FileError> {
+pub(super) fn with_body<R>(words: &[u32], work: impl FnOnce(&Body<'_>) -> R) -> Result<R, FileError> {
     loaded(bytemuck::cast_slice(words), work)
 }
 
@@ -167,7 +167,7 @@ fn what_is_wrong_with_a_file_is_told() {
     let spoke = spoilt(&|words| words[of(Section::Spokes) + 3] = 12);
     assert_eq!(
         spoke.map(|error| error.to_string()).as_deref(),
-        Some("spokes: a spoke names no edge of the body or is not finite (number 0)")
+        Some("spokes: a spoke's edge does not end at its vertex, or it is not finite (number 0)")
     );
     // A number that means something is not the one that was baked.
     let other = spoilt(&|words| words[of(Section::Coefficients)] ^= 1);

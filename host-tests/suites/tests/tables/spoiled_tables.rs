@@ -368,7 +368,8 @@ fn every_number_of_the_tables_is_in_the_words() -> Result<(), Box<dyn Error>> {
             }
         }
         println!("{} numbers spoilt, {refused} refused, the others found by their CRC", count.seen);
-        assert!(count.seen > 1000 && refused < count.seen / 5);
+        // Ends of edges and spokes are refused: each says what the other does.
+        assert!(count.seen > 1000 && refused < count.seen / 4);
     }
     Ok(())
 }

@@ -7,6 +7,7 @@ use super::table_report;
 use crate::models::is_baked;
 use anyhow::{Context as _, ensure};
 use clap::Args;
+use palpate::body::{Body, TickLimit, TickWork};
 use palpate_bake::body::BodyBytes;
 use palpate_bake::file::FileFault;
 use palpate_bake::graph;
@@ -39,10 +40,13 @@ pub struct Arguments {
     /// nearest cell's list, without proof.
     #[arg(long, value_name = "SIZES", default_value_t = 0.0, value_parser = sizes)]
     margin: f64,
-    /// Table of flash bytes by kind, the size of a body file and its RAM, the proved fraction of the locator, and the
-    /// cost of a cold start.
+    /// Table of flash bytes by kind, the size of a body file and its RAM, the proved fraction of the locator, the cost
+    /// of a cold start, and the proved worst case of a tick.
     #[arg(long)]
     table_report: bool,
+    /// Maximum evaluations in one tick; a model above it is refused. The default is the limit of the bench boards.
+    #[arg(long, value_name = "EVALUATIONS", default_value_t = TickLimit::BENCH.evaluations)]
+    tick_limit: u32,
 }
 
 /// Runs the command.
@@ -72,6 +76,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             loaded.body = loaded.file.located(loaded.body, &options, None, &progress)?;
         }
     }
+    let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
+    check_tick(&loaded.file.label, &tables, arguments.tick_limit)?;
     if let Some(out) = arguments.out.as_ref().filter(|out| is_baked(out)) {
         write_whole(out, &file(&loaded)?)?;
     } else if let Some(out) = &arguments.out {
@@ -94,7 +100,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             None if is_body => String::new(),
             None => table_report::of_patches(&surveys)?,
         };
-        let mut text = text + &table_report::on_boards(bytes(&loaded))?;
+        let mut text = text + &table_report::of_tick(&tables)? + &table_report::on_boards(bytes(&loaded))?;
         if is_body {
             text += &table_report::as_file(file(&loaded)?.len(), &loaded.body)?;
         }
@@ -107,6 +113,23 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let verdict = check::worst(&surveys, &flaws);
     eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
     Ok(check::exit_code(verdict))
+}
+
+/// Refuses a body whose worst tick takes more evaluations than the limit.
+fn check_tick(label: &str, body: &Body<'_>, limit: u32) -> anyhow::Result<()> {
+    let worst = body.worst_tick(TickWork::EACH);
+    let place = worst.vertex.and_then(|index| body.vertices().get(usize::from(index)));
+    let place = place.map_or_else(String::new, |vertex| {
+        let [x, y, z] = vertex.point.to_array().map(|metres| 1e3 * metres);
+        format!(" near the vertex at ({x:.3}, {y:.3}, {z:.3}) mm from the middle, where {} edges end", vertex.spokes)
+    });
+    ensure!(
+        worst.cost <= limit,
+        "{label}: a tick may take {} evaluations{place}, the limit is {limit}; merge faces that meet there, or raise \
+         --tick-limit if the board is fast enough",
+        worst.cost
+    );
+    Ok(())
 }
 
 /// Whether the product contains the locator: the source of a single patch has none.

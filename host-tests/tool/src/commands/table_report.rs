@@ -1,8 +1,10 @@
 //! The size of baked tables in flash, and the properties of their locator.
 
 use crate::firmware::{BenchBoard, Kind};
+use crate::tick_cost;
 use palpate::body::{
-    MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
+    Body, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
+    TickLimit, TickWork,
 };
 use palpate_bake::body::{BakedBody, BodyBytes, room};
 use palpate_bake::locator::{LeafCounts, LocatorReport};
@@ -42,6 +44,23 @@ pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
     row(&mut report, "borders", sum(|survey| survey.bytes.breaks), "")?;
     row(&mut report, "records", sum(|survey| survey.bytes.record), "")?;
     row(&mut report, "all", sum(|survey| survey.bytes.total()), "bytes of flash on a 32-bit target")?;
+    Ok(report)
+}
+
+/// The proved worst case of a tick, and of a pass of the audit.
+pub(super) fn of_tick(body: &Body<'_>) -> Result<String, Error> {
+    let mut report = String::new();
+    let worst = body.worst_tick(TickWork::EACH);
+    let cycles = tick_cost::cycles(body);
+    let limit = TickLimit::BENCH.evaluations;
+    let meaning = format!("evaluations at most, {cycles} modelled cycles on a Cortex-M4F; the boards allow {limit}");
+    row(&mut report, "worst tick", worst.cost as usize, &meaning)?;
+    if !body.is_convex() {
+        let is_whole =
+            body.locator().longest_list() * usize::from(MAX_EVALUATIONS_PER_CANDIDATE) <= usize::from(MAX_EVALUATIONS);
+        let end = if is_whole { "two find every nearer point" } else { "it may stop before the end of a list" };
+        row(&mut report, "audit", body.audit_ticks() as usize, &format!("ticks at most in a pass; {end}"))?;
+    }
     Ok(report)
 }
 

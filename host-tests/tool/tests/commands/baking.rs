@@ -72,6 +72,25 @@ fn bake_writes_source_graph_and_bytes() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+#[test]
+fn bake_refuses_a_tick_above_the_limit() -> Result<(), Box<dyn Error>> {
+    let directory = tempfile::tempdir()?;
+    let out = directory.path().join("plate.rs");
+    let bake = |limit: &str| {
+        let mut bake = Command::new(env!("CARGO_BIN_EXE_palpate"));
+        bake.args(["bake", "thin_plate", "--table-report", "--tick-limit", limit, "--out"]).arg(&out).output()
+    };
+    let run = bake("9")?;
+    let text = String::from_utf8_lossy(&run.stderr);
+    assert_eq!((run.status.code(), out.exists()), (Some(2), false), "{text}");
+    // Three edges end at the corner of a plate. There a tick looks at each of them up to three times, and at one more.
+    assert!(text.contains("10 evaluations") && text.contains("3 edges end") && text.contains("limit is 9"), "{text}");
+    let run = bake("10")?;
+    let text = String::from_utf8_lossy(&run.stdout);
+    assert!(run.status.code() == Some(0) && text.contains("worst tick             10 evaluations"), "{text}");
+    Ok(())
+}
+
 /// What `bake` writes, with so many threads.
 fn baked_source(name: &str, threads: &str) -> Result<(String, String), Box<dyn Error>> {
     let directory = tempfile::tempdir()?;

@@ -1,0 +1,323 @@
+//! The worst-case work of one tick on a body, from its tables (theory §10): a bound of every tick, whatever the probe.
+
+use super::candidate_search::MAX_EVALUATIONS_PER_CANDIDATE;
+use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
+use super::search::MAX_EVALUATIONS;
+use super::table::Body;
+use crate::tally::TickWork;
+
+/// Maximum number of spokes of a vertex: the only list of a body that a tick walks from its start to its end.
+pub const MAX_SPOKES: usize = 64;
+
+/// Limit of the work of a tick that an application grants a body, see [`Body::worst_tick`].
+///
+/// ```
+/// use palpate::body::TickLimit;
+///
+/// // A slower core, or a higher rate.
+/// const LIMIT: TickLimit = TickLimit { evaluations: 64 };
+/// assert!(LIMIT.evaluations < TickLimit::BENCH.evaluations);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TickLimit {
+    /// Evaluations of patches, curves and spokes in one tick.
+    pub evaluations: u32,
+}
+
+impl TickLimit {
+    /// The limit of the bench boards: evaluations of the highest degree then fit a period of 250 µs on a Cortex-M4F at
+    /// 170 MHz, together with the rest of the tick.
+    pub const BENCH: Self = Self { evaluations: 256 };
+    /// No limit but that of any tables, for a host.
+    pub const NONE: Self = Self { evaluations: u32::MAX };
+}
+
+/// The worst tick on a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct WorstTick {
+    /// The sum of its evaluations, each with its weight.
+    pub cost: u32,
+    /// The vertex whose spokes it looks at; `None` on a body where edges or faces take longer.
+    pub vertex: Option<u16>,
+}
+
+impl WorstTick {
+    const fn or(self, other: Self) -> Self {
+        if other.cost > self.cost { other } else { self }
+    }
+}
+
+const NO_WORK: TickWork = TickWork { patches: 0, curves: 0, spokes: 0 };
+const PATCH: TickWork = TickWork { patches: 1, ..NO_WORK };
+
+const fn curves(curves: u32) -> TickWork {
+    TickWork { curves, ..NO_WORK }
+}
+
+const fn spokes(spokes: usize) -> TickWork {
+    TickWork { spokes: spokes as u32, ..NO_WORK }
+}
+
+/// The more expensive of two.
+const fn or(one: TickWork, other: TickWork, weights: TickWork) -> TickWork {
+    if other.weighed(weights) > one.weighed(weights) { other } else { one }
+}
+
+impl Body<'_> {
+    /// Bound of the work of every tick ([`Body::step`] with the default controller), proved for these tables: the sum of
+    /// the evaluations, each with its weight ([`TickWork::EACH`] counts evaluations). A first-order law adds
+    /// [`Integrator::evaluations`](crate::track::Integrator::evaluations) less one.
+    ///
+    /// ```
+    /// # use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face};
+    /// use palpate::body::{TickLimit, TickWork};
+    ///
+    /// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
+    /// # let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
+    /// # let body = Body::from_bytes(&FILE.0, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
+    /// assert!(body.worst_tick(TickWork::EACH).cost <= TickLimit::BENCH.evaluations);
+    /// # Ok::<(), palpate::body::FileError>(())
+    /// ```
+    pub const fn worst_tick(&self, weights: TickWork) -> WorstTick {
+        let mut worst = self.worst_at_edges(weights);
+        let mut index = 0;
+        while index < self.vertices.len() {
+            worst = worst.or(self.worst_at_vertex(index as u16, weights));
+            index += 1;
+        }
+        index = 0;
+        while index < self.faces.len() {
+            worst = worst.or(self.worst_on_face(&self.faces[index], weights));
+            index += 1;
+        }
+        worst
+    }
+
+    /// Bound of the ticks of one pass of the audit on a body that is not convex: each evaluation takes two, each
+    /// candidate that is skipped or not nearer one. A pass stops after [`MAX_EVALUATIONS`].
+    pub const fn audit_ticks(&self) -> u32 {
+        let list = self.locator.longest_list() as u32;
+        let (all, most) = (list * MAX_EVALUATIONS_PER_CANDIDATE as u32, MAX_EVALUATIONS as u32);
+        2 + 2 * if all < most { all } else { most } + 2 * list
+    }
+
+    /// [`Self::worst_tick`] in evaluations; calls `pause` between the features.
+    pub(super) fn worst_tick_with(&self, pause: &mut dyn FnMut()) -> WorstTick {
+        let mut worst = self.worst_at_edges(TickWork::EACH);
+        for index in 0..self.vertices.len() {
+            pause();
+            worst = worst.or(self.worst_at_vertex(index as u16, TickWork::EACH));
+        }
+        for face in self.faces {
+            pause();
+            worst = worst.or(self.worst_on_face(face, TickWork::EACH));
+        }
+        worst
+    }
+
+    /// The audit beside the tracker: an evaluation of its own. On a convex body the two take turns.
+    const fn audit(&self) -> TickWork {
+        if self.is_convex() { NO_WORK } else { PATCH }
+    }
+
+    /// Ticks that start on an edge: both faces are asked, then one is entered, or a step along the edge is tried.
+    const fn worst_at_edges(&self, weights: TickWork) -> WorstTick {
+        let mut worst = TickWork { patches: 1, ..NO_WORK };
+        let mut index = 0;
+        while index < self.edges.len() {
+            let edge = &self.edges[index];
+            let asked = self.audit().and(curves(self.ruled(edge))).and(self.contact_on_edge(edge));
+            worst = or(worst, or(asked.and(PATCH), asked.and(curves(1)), weights), weights);
+            index += 1;
+        }
+        WorstTick { cost: worst.weighed(weights), vertex: None }
+    }
+
+    /// Ticks that end on a vertex, over an edge or by staying there, or that leave it along an edge.
+    const fn worst_at_vertex(&self, index: u16, weights: TickWork) -> WorstTick {
+        let vertex = &self.vertices[index as usize];
+        let all = self.spokes_at(vertex);
+        let (mut asked, mut contact) = (0, NO_WORK);
+        let mut number = 0;
+        while number < all.len() {
+            let edge = &self.edges[all[number].edge as usize];
+            let ruled = self.ruled(edge);
+            asked = if ruled > asked { ruled } else { asked };
+            contact = or(contact, self.contact_on_edge(edge), weights);
+            number += 1;
+        }
+        let stays = if vertex.is_open { NO_WORK } else { self.outside_at(vertex) };
+        let comes = or(curves(asked), spokes(all.len()), weights).and(stays);
+        // At the end of the spoke, and a step from there.
+        let leaves = spokes(all.len()).and(curves(2)).and(contact);
+        let worst = self.audit().and(or(comes, leaves, weights));
+        WorstTick { cost: worst.weighed(weights), vertex: Some(index) }
+    }
+
+    /// Ticks that step on a face, or from there over a smooth edge: one evaluation, then the borders that are near.
+    const fn worst_on_face(&self, face: &Face<'_>, weights: TickWork) -> WorstTick {
+        let (mut at_pole, mut over) = (NO_WORK, NO_WORK);
+        let (mut worst, mut vertex) = self.contact_on_face(face, weights);
+        let mut side = 0;
+        while side < 4 {
+            match &face.sides[side] {
+                Side::Pole { vertex } => {
+                    let count = self.spokes_at(&self.vertices[*vertex as usize]).len();
+                    at_pole = or(at_pole, spokes(count), weights);
+                }
+                Side::Edge { edge, .. } => {
+                    let edge = &self.edges[*edge as usize];
+                    if matches!(edge.kind, EdgeKind::Smooth) {
+                        over = or(over, curves(self.ruled(edge)), weights);
+                        let mut number = 0;
+                        while number < 2 {
+                            if let Some(other) = self.face_of(edge.faces[number]) {
+                                let (its, its_vertex) = self.contact_on_face(other, weights);
+                                if its.weighed(weights) > worst.weighed(weights) {
+                                    (worst, vertex) = (its, its_vertex);
+                                }
+                            }
+                            number += 1;
+                        }
+                    }
+                }
+            }
+            side += 1;
+        }
+        let worst = self.audit().and(PATCH).and(at_pole).and(over).and(worst);
+        WorstTick { cost: worst.weighed(weights), vertex }
+    }
+
+    /// [`Body::spokes_of`] in a `const fn`.
+    const fn spokes_at(&self, vertex: &Vertex) -> &[Spoke] {
+        let (_, from) = self.spokes.split_at(vertex.first_spoke as usize);
+        from.split_at(vertex.spokes as usize).0
+    }
+
+    const fn face_of(&self, of: EdgeFace) -> Option<&Face<'_>> {
+        if (of.face as usize) < self.faces.len() { Some(&self.faces[of.face as usize]) } else { None }
+    }
+
+    /// Whether the separator of a face's side is a curve.
+    const fn is_ruled(&self, of: EdgeFace) -> bool {
+        match self.face_of(of) {
+            Some(face) => matches!(face.sides[of.side as usize & 3], Side::Edge { separator: Separator::Ruled(_), .. }),
+            None => false,
+        }
+    }
+
+    /// The number of curves that separate the faces of an edge.
+    const fn ruled(&self, edge: &Edge<'_>) -> u32 {
+        self.is_ruled(edge.faces[0]) as u32 + self.is_ruled(edge.faces[1]) as u32
+    }
+
+    /// [`Body::update_contact`] on an edge: `is_above_smooth`.
+    const fn contact_on_edge(&self, edge: &Edge<'_>) -> TickWork {
+        if matches!(edge.kind, EdgeKind::Smooth) { curves(self.is_ruled(edge.faces[0]) as u32) } else { NO_WORK }
+    }
+
+    /// [`Body::update_contact`] on a face: `releases_at_border`, at one side or a corner, with the vertex that is asked.
+    const fn contact_on_face(&self, face: &Face<'_>, weights: TickWork) -> (TickWork, Option<u16>) {
+        let (mut worst, mut at) = (NO_WORK, None);
+        let mut corner = 0;
+        while corner < 4 {
+            let (u, v) = (corner & 1, corner >> 1);
+            let vertex = match &face.sides[u] {
+                Side::Pole { vertex } => *vertex,
+                Side::Edge { edge, reversed, .. } => self.edges[*edge as usize].ends[v ^ (*reversed as usize)],
+            };
+            let (mut asked, decides) = self.in_front_at(&self.vertices[vertex as usize]);
+            let sides = [self.side(face, u, weights), self.side(face, 2 + v, weights)];
+            if !decides {
+                asked = asked.and(sides[0]).and(sides[1]);
+            }
+            asked = or(asked, or(sides[0], sides[1], weights), weights);
+            if asked.weighed(weights) > worst.weighed(weights) {
+                (worst, at) = (asked, Some(vertex));
+            }
+            corner += 1;
+        }
+        (worst, at)
+    }
+
+    /// `is_in_front_of_neighbour`.
+    const fn side(&self, face: &Face<'_>, number: usize, weights: TickWork) -> TickWork {
+        match &face.sides[number] {
+            Side::Pole { vertex } => self.outside_at(&self.vertices[*vertex as usize]),
+            Side::Edge { edge, .. } => {
+                let edge = &self.edges[*edge as usize];
+                match edge.kind {
+                    EdgeKind::Convex => curves((self.ruled(edge) > 0) as u32),
+                    EdgeKind::Smooth => {
+                        let [start, end] = edge.ends;
+                        let (start, _) = self.in_front_at(&self.vertices[start as usize]);
+                        let (end, _) = self.in_front_at(&self.vertices[end as usize]);
+                        or(start, end, weights)
+                    }
+                    EdgeKind::Reflex | EdgeKind::Mixed | EdgeKind::Open => NO_WORK,
+                }
+            }
+        }
+    }
+
+    const fn kind(&self, spoke: &Spoke) -> EdgeKind {
+        self.edges[spoke.edge as usize].kind
+    }
+
+    /// `is_outside_at`: whether an edge leads nearer, whether all are smooth, how hollow the faces are, and the planes.
+    const fn outside_at(&self, vertex: &Vertex) -> TickWork {
+        let all = self.spokes_at(vertex);
+        let mut smooth = 0;
+        while smooth < all.len() && matches!(self.kind(&all[smooth]), EdgeKind::Smooth) {
+            smooth += 1;
+        }
+        let (planes, _) = self.in_front_at(vertex);
+        if smooth == all.len() { spokes(3 * smooth) } else { spokes(all.len() + smooth + 1).and(planes) }
+    }
+
+    /// `is_in_front_at`, and whether the vertex decides there.
+    const fn in_front_at(&self, vertex: &Vertex) -> (TickWork, bool) {
+        let all = self.spokes_at(vertex);
+        let (mut sharp, mut count) = ([0; 3], 0);
+        let mut index = 0;
+        while index < all.len() {
+            match self.kind(&all[index]) {
+                EdgeKind::Convex if count == 3 => return (spokes(index + 1), false),
+                EdgeKind::Convex => {
+                    sharp[count] = index;
+                    count += 1;
+                }
+                EdgeKind::Smooth => {}
+                EdgeKind::Reflex | EdgeKind::Mixed | EdgeKind::Open => return (spokes(index + 1), false),
+            }
+            index += 1;
+        }
+        let mut work = spokes(all.len());
+        if count < 3 {
+            return (work, false);
+        }
+        let mut pair = 0;
+        while pair < 3 && !self.is_convex() {
+            // The bulge of the face between two of the edges, or of all faces.
+            let [from, to] = [&all[sharp[pair]], &all[sharp[(pair + 1) % 3]]];
+            let between = if self.have_common_face(from, to) { curves(2) } else { spokes(all.len()) };
+            work = work.and(between);
+            pair += 1;
+        }
+        (work, true)
+    }
+
+    const fn have_common_face(&self, from: &Spoke, to: &Spoke) -> bool {
+        let (from, to) = (&self.edges[from.edge as usize].faces, &self.edges[to.edge as usize].faces);
+        let mut is_common = false;
+        let mut pair = 0;
+        while pair < 4 {
+            let [one, other] = [from[pair & 1].face, to[pair >> 1].face];
+            is_common |= one == other && (one as usize) < self.faces.len();
+            pair += 1;
+        }
+        is_common
+    }
+}
