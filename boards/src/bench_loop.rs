@@ -131,6 +131,12 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         if is_late {
             self.felt.servo().note(&mut self.state, Event::Overrun);
         }
+        if self.felt.servo().device().needs_supply()
+            && let Some(volts) = panel.supply
+        {
+            // The cast saturates, and takes NaN for 0.
+            self.felt.servo().note(&mut self.state, Event::Supply { millivolts: (volts * 1e3) as u32 });
+        }
         let mut verdict = self.hold.next(&panel, matches!(self.state.output(), Output::Drive(_)));
         verdict.hold |= self.holds_for_host();
         if verdict.is_drive_fault {

@@ -53,7 +53,7 @@ pub const JOG: JogSettings =
 /// The torque of a field that is led with this duty of voltage on a rotor a quarter turn behind it, N·m.
 pub const fn led_torque(share: f32) -> f32 {
     match GIMBAL_KNOB.feeds[0] {
-        Feed::Voltage(feed) => feed.torque_constant_n_m_per_a * share * feed.supply_v / feed.resistance_ohm,
+        Feed::Voltage(feed) => feed.torque_constant_n_m_per_a * share * feed.full_v() / feed.resistance_ohm,
         Feed::Current => 0.0,
     }
 }

@@ -3,7 +3,7 @@
 use crate::led::Led;
 use crate::{Board, Hold, Interlock, Mailbox, NotObeyed, Panel};
 use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging, Wiring};
-use palpate::device::drive::Feed;
+use palpate::device::drive::{Feed, Supply};
 use palpate::device::{Counts, Device, Duty};
 use palpate::wire::{Marked, Reading, hold};
 
@@ -46,7 +46,7 @@ impl JogSettings {
         let mut most = Duty::from_fraction(self.share);
         for (continuous, feed) in continuous.into_iter().zip(&device.feeds) {
             let borne = Duty::from_fraction(continuous);
-            let borne = if self.turn_ticks.is_some() { feed.command(borne, 0.0) } else { borne };
+            let borne = if self.turn_ticks.is_some() { feed.command(borne, 0.0, Supply::UNMEASURED) } else { borne };
             most = Duty(most.0.min(borne.0));
         }
         JogLimits {
@@ -66,6 +66,7 @@ pub(crate) struct SetUp<const JOINTS: usize> {
     state: JogState<JOINTS>,
     /// The command of each output's drive for a duty of torque of the motor that the device believes is there.
     feeds: [Feed; JOINTS],
+    supply: Supply,
     /// The field, of motors that have one.
     led: Option<Led>,
     counts: [Counts; JOINTS],
@@ -103,6 +104,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
             jogging,
             state,
             feeds,
+            supply: Supply::UNMEASURED,
             led,
             counts,
             marked: Marked::default(),
@@ -122,6 +124,10 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         panel: &Panel,
         mailbox: &Mailbox,
     ) {
+        self.supply.tick();
+        if let Some(volts) = panel.supply {
+            self.supply.measured(volts);
+        }
         let is_quiet = !self.state.is_live() && interlock.is_released();
         let mut verdict = holds.next(panel, self.state.is_live());
         // A key held meanwhile moves nothing: enable is locked.
@@ -222,7 +228,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         } else {
             // As of a joint at rest: nothing is known yet of which encoder is whose, and back-EMF then brakes.
             for (duty, feed) in duties.iter_mut().zip(&self.feeds) {
-                *duty = feed.command(*duty, 0.0);
+                *duty = feed.command(*duty, 0.0, self.supply);
             }
         }
         board.drive(duties)

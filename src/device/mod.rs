@@ -165,18 +165,30 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
         saturate(if of_range < of_margin { of_range } else { of_margin }, 0.0, 1.0)
     }
 
-    /// Each drive's command for a duty of torque at a joint rate, rad/s.
+    /// Whether a motor is fed by a voltage, so that the supply matters.
+    #[inline]
+    pub fn needs_supply(&self) -> bool {
+        self.feeds.iter().any(|feed| matches!(feed, drive::Feed::Voltage(_)))
+    }
+
+    /// Each drive's command for a duty of torque at a joint rate, rad/s, on this supply.
     ///
     /// Unless `live` it is zero: a bridge compensates back-EMF even where no torque is requested, and after a fault the
     /// rates are untrusted. At zero volts a motor brakes by itself.
     #[inline]
-    pub fn feed(&self, live: bool, duties: [Duty; JOINTS], joint_rates: [f32; JOINTS]) -> [Duty; JOINTS] {
+    pub fn feed(
+        &self,
+        live: bool,
+        duties: [Duty; JOINTS],
+        joint_rates: [f32; JOINTS],
+        supply: drive::Supply,
+    ) -> [Duty; JOINTS] {
         if !live {
             return [Duty::ZERO; JOINTS];
         }
         let mut fed = duties;
         for ((fed, feed), rate) in fed.iter_mut().zip(&self.feeds).zip(joint_rates) {
-            *fed = feed.command(*fed, rate);
+            *fed = feed.command(*fed, rate, supply);
         }
         fed
     }

@@ -6,6 +6,7 @@ use super::{
     Event, Fault, Guard, Guarded, Input, Output, Phase, ProtectionError, Rendering, RenderingError, ResetReason,
     Safety, SafetyError, ServoState, Settings, SettingsError, Stillness, Surface, TableCheck, Unguarded,
 };
+use crate::device::drive::Supply;
 use crate::device::{Device, Duty, Homing, HomingState, Kinematics, Protection, VelocityEstimator, ZeroOf};
 use crate::math::Vec3;
 use crate::render::{Anchor, Eased, Energy, Penalty, Tool};
@@ -510,6 +511,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
                 energy: Energy::default(),
                 drives: false,
                 duties: [Duty::ZERO; JOINTS],
+                supply: Supply::UNMEASURED,
             },
             guard: self.guard.start(),
         }

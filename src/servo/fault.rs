@@ -274,7 +274,7 @@ pub enum Event {
         /// Which, counted from 0.
         index: u8,
     },
-    /// The motors' supply was measured. A loop that is not protected takes no notice.
+    /// The motors' supply was measured: voltage bridges are commanded by it, and a protected loop watches it.
     Supply {
         /// The measured voltage.
         millivolts: u32,

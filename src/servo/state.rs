@@ -2,6 +2,7 @@
 
 use super::contact::LostContact;
 use super::{Fault, PatchWitness, Phase, Remembered, ResetReason, Servo, Settings, Stillness, TableCheck, Tracked};
+use crate::device::drive::Supply;
 use crate::device::{Counts, Device, Duty, ElectricalAngle, HomingState, VelocityState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Tool};
@@ -115,6 +116,8 @@ pub(super) struct DriveState<const JOINTS: usize> {
     pub drives: bool,
     /// Duties applied since the last tick.
     pub duties: [Duty; JOINTS],
+    /// The motors' supply.
+    pub supply: Supply,
 }
 
 impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
@@ -166,6 +169,7 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         for duty in self.drive.duties {
             hash.words([duty.0 as u32]);
         }
+        hash.words(self.drive.supply.words());
         self.guard.for_each_word(|word| hash.words([word]));
         hash.0
     }

@@ -86,6 +86,9 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             }
             Event::Chosen { index } => self.core.surface.choose(&mut state.contact.witness, index),
             Event::Supply { millivolts } => {
+                if self.core.device.needs_supply() {
+                    state.drive.supply.measured(millivolts as f32 / 1e3);
+                }
                 if let Err(fault) = self.guard.measured(&mut state.guard, millivolts) {
                     stop(state, fault);
                 }
@@ -108,6 +111,9 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     #[inline]
     pub fn tick(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, input: Input<JOINTS>) -> Output<JOINTS> {
         self.watch(state);
+        if self.core.device.needs_supply() {
+            state.drive.supply.tick();
+        }
         let torques = self.feel(state, input);
         let gated = torques.and_then(|Torques { felt, weight, live }| {
             let gated = self.guard.gate(&state.guard, live, &self.core.device.motors, felt, weight);
@@ -115,7 +121,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         });
         match gated {
             Ok((duties, scale, live)) => {
-                state.drive.duties = self.core.device.feed(live, duties, self.rates_to_feed(state));
+                let rates = self.rates_to_feed(state);
+                state.drive.duties = self.core.device.feed(live, duties, rates, state.drive.supply);
                 state.drive.force *= scale;
                 self.guard.record_output(&mut state.guard, &duties);
             }

@@ -6,6 +6,7 @@ pub use palpate::device::SerialArm as Mechanism;
 const fn feed(ratio: f32) -> palpate::device::drive::Feed {
     palpate::device::drive::Feed::Voltage(palpate::device::drive::VoltageFeed {
         supply_v: 24.0,
+        full_fraction: 1.0,
         resistance_ohm: 0.711,
         torque_constant_n_m_per_a: 0.0259,
         current_at_full_a: 3.0,

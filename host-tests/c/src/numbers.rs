@@ -96,6 +96,7 @@ impl VoltageNumbers {
         }
         let feed = VoltageFeed {
             supply_v: supply,
+            full_fraction: 1.0,
             resistance_ohm: resistance,
             torque_constant_n_m_per_a: torque_constant,
             current_at_full_a: current_at_full,

@@ -1,5 +1,6 @@
 use super::*;
 use crate::device::Duty;
+use crate::device::drive::Supply;
 use crate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 
 /// The preset's own numbers on inputs and outputs that are swapped.
@@ -103,13 +104,14 @@ fn a_device_is_what_was_found_within_what_it_can_be() {
 /// The back-EMF, V, that a feed compensates at a rate of 2 rad/s.
 fn made_up_for(feed: Feed) -> f32 {
     let Feed::Voltage(VoltageFeed { supply_v: supply, .. }) = feed else { panic!("a bridge") };
-    feed.command(Duty::ZERO, 2.0).fraction() * supply
+    feed.command(Duty::ZERO, 2.0, Supply::UNMEASURED).fraction() * supply
 }
 
 #[test]
 fn back_emf_is_made_up_for_the_way_a_motor_was_found_to_turn_and_never_by_more_than_was_built() {
     const FEED: VoltageFeed = VoltageFeed {
         supply_v: 12.0,
+        full_fraction: 1.0,
         resistance_ohm: 5.0,
         torque_constant_n_m_per_a: 0.05,
         current_at_full_a: 2.0,

@@ -16,7 +16,7 @@ mod set_point_range;
 mod three_phase;
 
 use direction::Direction;
-pub use feed::{Feed, VoltageFeed};
+pub use feed::{Feed, Supply, VoltageFeed};
 pub use field::Field;
 pub use h_bridge::HBridge;
 pub use modulation::Modulation;

@@ -63,7 +63,7 @@ mod tests {
         assert!(motor.fraction(torque) <= 1.0, "{}", motor.fraction(torque));
         // 60/(2π · 80) V·s/rad between two wires, over √2.
         assert!((FEED.torque_constant_n_m_per_a - 0.084_4).abs() < 1e-4, "{}", FEED.torque_constant_n_m_per_a);
-        const { assert!(FEED.resistance_ohm * CURRENT_AT_FULL < FEED.supply_v) };
+        const { assert!(FEED.resistance_ohm * CURRENT_AT_FULL < FEED.full_v()) };
         assert!(GIMBAL_KNOB_COMMUTATION.is_valid());
     }
 

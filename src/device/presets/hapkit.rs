@@ -18,6 +18,7 @@ pub const HAPKIT: Device<Paddle, 1> = Device {
     motors: [Motor::current_driven(0.025, 1.2, RATIO)],
     feeds: [Feed::Voltage(VoltageFeed {
         supply_v: 12.0,
+        full_fraction: 1.0,
         resistance_ohm: 10.0,
         torque_constant_n_m_per_a: 0.025,
         current_at_full_a: 1.2,
@@ -37,6 +38,7 @@ pub const HAPKIT: Device<Paddle, 1> = Device {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::device::drive::Supply;
     use crate::device::{Duty, Kinematics};
     use crate::math::vec3;
 
@@ -47,9 +49,9 @@ mod tests {
         // 0.03 N·m · 0.073152/0.004191 / 0.065659 m, to its three digits.
         assert!((motor.fraction(torque) - 1.0).abs() < 1e-3, "{}", motor.fraction(torque));
         // At standstill the supply gives all of it.
-        assert_eq!(HAPKIT.feed(true, [Duty::FULL], [0.0]), [Duty::FULL]);
+        assert_eq!(HAPKIT.feed(true, [Duty::FULL], [0.0], Supply::UNMEASURED), [Duty::FULL]);
         // After a fault nothing, whatever the rates say.
-        assert_eq!(HAPKIT.feed(false, [Duty::ZERO], [30.0]), [Duty::ZERO]);
-        assert_ne!(HAPKIT.feed(true, [Duty::ZERO], [30.0]), [Duty::ZERO]);
+        assert_eq!(HAPKIT.feed(false, [Duty::ZERO], [30.0], Supply::UNMEASURED), [Duty::ZERO]);
+        assert_ne!(HAPKIT.feed(true, [Duty::ZERO], [30.0], Supply::UNMEASURED), [Duty::ZERO]);
     }
 }

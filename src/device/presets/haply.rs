@@ -27,6 +27,7 @@ pub const HAPLY_2DIY_V3: Device<FiveBar, 2> = Device {
     motors: [Motor { torque_at_full_n_m: 0.123 }; 2],
     feeds: [Feed::Voltage(VoltageFeed {
         supply_v: 12.0,
+        full_fraction: 1.0,
         resistance_ohm: 4.0,
         torque_constant_n_m_per_a: 0.123 / 3.0 / (4_880.0 / 2_048.0),
         current_at_full_a: 3.0,
@@ -60,6 +61,7 @@ pub const HAPLY_KIT_V1: Device<FiveBar, 2> = Device {
     motors: [Motor { torque_at_full_n_m: 0.123 }; 2],
     feeds: [Feed::Voltage(VoltageFeed {
         supply_v: 12.0,
+        full_fraction: 1.0,
         resistance_ohm: 12.0,
         torque_constant_n_m_per_a: 0.123 / 13.5,
         current_at_full_a: 1.0,

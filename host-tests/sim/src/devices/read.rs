@@ -287,6 +287,7 @@ fn device<K>(file: &DeviceFile, kinematics: K) -> Device<K, 3> {
             motor.bridge.map_or(Feed::Current, |bridge| {
                 Feed::Voltage(VoltageFeed {
                     supply_v: bridge.supply as f32,
+                    full_fraction: 1.0,
                     resistance_ohm: bridge.resistance as f32,
                     torque_constant_n_m_per_a: motor.torque_constant as f32,
                     current_at_full_a: motor.current_at_full as f32,

@@ -124,6 +124,7 @@ const UNPROTECTED: Protection<3> = Protection {
 
 const UNFED: VoltageFeed = VoltageFeed {
     supply_v: 0.0,
+    full_fraction: 0.0,
     resistance_ohm: 0.0,
     torque_constant_n_m_per_a: 0.0,
     current_at_full_a: 0.0,
@@ -139,13 +140,14 @@ fn of_feed(walk: &mut impl Walk, feed: &mut Feed) {
     walk.maybe(&mut voltage, UNFED, |walk, voltage| {
         let VoltageFeed {
             supply_v: supply,
+            full_fraction,
             resistance_ohm: resistance,
             torque_constant_n_m_per_a: torque_constant,
             current_at_full_a: current_at_full,
             ratio,
             back_emf_fraction: back_emf_share,
         } = voltage;
-        for number in [supply, resistance, torque_constant, current_at_full, ratio, back_emf_share] {
+        for number in [supply, full_fraction, resistance, torque_constant, current_at_full, ratio, back_emf_share] {
             walk.number(number);
         }
     });

@@ -150,6 +150,7 @@ fn a_bridge_that_gives_a_voltage_is_told_the_voltage_of_the_duty() {
     let voltage = |ohms| {
         Feed::Voltage(VoltageFeed {
             supply_v: 24.0,
+            full_fraction: 1.0,
             resistance_ohm: ohms,
             torque_constant_n_m_per_a: 0.0259,
             current_at_full_a: amps,

@@ -1,5 +1,6 @@
 //! A preset and its plant side by side, whatever the number of joints.
 
+use palpate::device::drive::Supply;
 use palpate::device::presets::{
     HAPKIT, HAPLY_2DIY_V3, HAPLY_KIT_V1, NOVINT_FALCON, PHANTOM_PREMIUM, POLHEM_V2, WOODEN_HAPTICS_2016,
 };
@@ -86,7 +87,7 @@ fn case<K: Kinematics<JOINTS> + Copy + 'static, const JOINTS: usize>(
             let torques = map.pose(few(angles)).unwrap().torques(force);
             let duties =
                 core::array::from_fn(|joint| Duty::from_fraction(device.motors[joint].fraction(torques[joint])));
-            fill(device.feed(true, duties, few(rates)).map(|duty| duty.0), 0)
+            fill(device.feed(true, duties, few(rates), Supply::UNMEASURED).map(|duty| duty.0), 0)
         }),
         counts_per_radian: fill(device.encoders.map(|encoder| 1.0 / f64::from(encoder.radians_per_count)), 1.0),
     }

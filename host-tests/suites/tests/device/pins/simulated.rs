@@ -1,6 +1,7 @@
 //! Sensors and feeds on the simulated device.
 
 use embedded_hal_mock::eh1::spi::{Mock, Transaction};
+use palpate::device::drive::Supply;
 use palpate::device::presets::HAPKIT;
 use palpate::device::sensor::{AmsAngle, AmsChip, Mt6701, TimerCount, TurnCount};
 use palpate::device::{Counts, Duty};
@@ -127,7 +128,7 @@ fn a_fed_bridge_gives_the_torque_asked_for_at_speed_and_a_bare_one_does_not() {
         let torque = Duty::from_fraction(0.25);
         for _ in 0..600 {
             let rate = plant.rates()[0] as f32;
-            let [duty] = if fed { HAPKIT.feed(true, [torque], [rate]) } else { [torque] };
+            let [duty] = if fed { HAPKIT.feed(true, [torque], [rate], Supply::UNMEASURED) } else { [torque] };
             plant.advance([duty.0, 0, 0]);
         }
         plant.currents()[0]
