@@ -298,7 +298,8 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize> Device<K, JOINTS> {
     /// The torques that the maximum force can load each joint with in the middle of the joints' ranges, N·m; `None`
     /// where the mechanism is not in its workspace there.
     fn max_loads(&self) -> [Option<f32>; JOINTS] {
-        let pose = self.kinematics.pose(self.joint_range_rad.map(|[low, high]| 0.5 * (low + high)));
+        let middle = |[low, high]: [f32; 2]| if high < f32::INFINITY { 0.5 * (low + high) } else { 0.0 };
+        let pose = self.kinematics.pose(self.joint_range_rad.map(middle));
         match pose.filter(|pose| pose.singularity_margin() >= self.min_margin_m_per_rad) {
             Some(pose) => pose.jacobian.map(|column| Some(self.max_force_n * column.length())),
             None => [None; JOINTS],

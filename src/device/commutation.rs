@@ -23,7 +23,8 @@ impl ElectricalAngle {
 /// How the counts of a sensor on a motor's shaft go with its poles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Commutation {
-    /// Counts of the sensor in a turn of the motor.
+    /// Counts of the sensor in a turn of the motor. If it is no power of two, the motor must not turn beyond 2³¹ counts:
+    /// the count wraps there, between two turns' angles.
     pub counts_per_turn: u32,
     /// North poles of the rotor: half of its magnets.
     pub pole_pairs: u16,

@@ -17,8 +17,11 @@ pub enum DeviceError {
     #[error("joint {0}: the dry friction must be finite and not negative")]
     Friction(usize),
     /// The range's minimum angle is not below its maximum.
-    #[error("joint {0}: the range's minimum must be below its maximum, and both finite")]
+    #[error("joint {0}: the range's minimum must be below its maximum, and both finite or both infinite")]
     Range(usize),
+    /// A joint that turns without end has no whole number of counts a turn.
+    #[error("joint {0} turns without end: its encoder needs a whole number of counts a turn, 4 to 16,777,216")]
+    Endless(usize),
     /// A limit of the whole device is not positive and finite.
     #[error("minimum margin, maximum rate, force, stiffness and damping must be positive and finite")]
     Limit,
@@ -52,7 +55,13 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
                 return Err(DeviceError::Friction(joint));
             }
             let [least, greatest] = self.joint_range_rad[joint];
-            if !(least < greatest && least.is_finite() && greatest.is_finite()) {
+            if let Some(counts) = self.endless(joint) {
+                // A whole number, but for three roundings.
+                let off = counts as f32 * encoder.radians_per_count.abs() / core::f32::consts::TAU - 1.0;
+                if !(counts >= 4 && counts <= 1 << 24 && off.abs() < 4e-7) {
+                    return Err(DeviceError::Endless(joint));
+                }
+            } else if !(least < greatest && least.is_finite() && greatest.is_finite()) {
                 return Err(DeviceError::Range(joint));
             }
             joint += 1;
@@ -85,6 +94,15 @@ mod tests {
         }
         let mut device = DEVICE;
         device.joint_range_rad[0] = [1.0, 1.0];
+        assert_eq!(device.check(), Err(DeviceError::Range(0)));
+        device = DEVICE;
+        device.joint_range_rad[0] = [f32::NEG_INFINITY, f32::INFINITY];
+        device.encoders[0] = Encoder::geared(2_000.0, 16.0, 0.0);
+        assert_eq!((device.check(), device.endless(0), device.endless(1)), (Ok(()), Some(32_000), None));
+        device.encoders[0] = Encoder::geared(2_000.0, 16.000_1, 0.0);
+        assert_eq!(device.check(), Err(DeviceError::Endless(0)));
+        device = DEVICE;
+        device.joint_range_rad[0] = [f32::NEG_INFINITY, 1.0];
         assert_eq!(device.check(), Err(DeviceError::Range(0)));
         device = DEVICE;
         device.dry_friction_n_m[0] = -0.1;

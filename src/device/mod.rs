@@ -93,7 +93,8 @@ pub struct Device<K, const JOINTS: usize> {
     pub feeds: [drive::Feed; JOINTS],
     /// Dry friction of each joint, N·m, generously; 0 where it is not known. A joint may stick under a load below it.
     pub dry_friction_n_m: [f32; JOINTS],
-    /// Minimum and maximum angle of each joint, radians: an angle outside is a sensor fault.
+    /// Minimum and maximum angle of each joint, radians: an angle outside is a sensor fault. From −∞ to ∞ the joint
+    /// turns without end; its encoder then has a whole number of counts a turn.
     pub joint_range_rad: [[f32; 2]; JOINTS],
     /// Below this [`ProbePose::singularity_margin`], m/rad, the device counts as outside its workspace.
     pub min_margin_m_per_rad: f32,
@@ -108,6 +109,24 @@ pub struct Device<K, const JOINTS: usize> {
 }
 
 impl<K, const JOINTS: usize> Device<K, JOINTS> {
+    /// Counts of a turn of a joint that turns without end; `None` of a joint with a range.
+    #[inline]
+    pub const fn endless(&self, joint: usize) -> Option<i32> {
+        let [least, most] = self.joint_range_rad[joint];
+        if least == f32::NEG_INFINITY && most == f32::INFINITY {
+            // Rounded to nearest; the cast saturates.
+            Some((core::f32::consts::TAU / self.encoders[joint].radians_per_count.abs() + 0.5) as i32)
+        } else {
+            None
+        }
+    }
+
+    /// Whether a motor is fed by a voltage, so that the supply matters.
+    #[inline]
+    pub fn needs_supply(&self) -> bool {
+        self.feeds.iter().any(|feed| matches!(feed, drive::Feed::Voltage(_)))
+    }
+
     /// The joint angles, radians, at which the encoders count zero: the pose in which homing by [`Reference::Pose`]
     /// sets the counts to zero.
     pub const fn angles_at_zero(&self) -> [f32; JOINTS] {
@@ -163,12 +182,6 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
         }
         let (of_range, of_margin) = (to_stop / RIM, over / width);
         saturate(if of_range < of_margin { of_range } else { of_margin }, 0.0, 1.0)
-    }
-
-    /// Whether a motor is fed by a voltage, so that the supply matters.
-    #[inline]
-    pub fn needs_supply(&self) -> bool {
-        self.feeds.iter().any(|feed| matches!(feed, drive::Feed::Voltage(_)))
     }
 
     /// Each drive's command for a duty of torque at a joint rate, rad/s, on this supply.

@@ -108,10 +108,34 @@ impl Wave {
     /// The torque at an angle, radians, N·m.
     #[inline]
     pub fn at(&self, angle: f32) -> f32 {
-        let pitches = (angle - self.centre_rad) / self.pitch_rad;
+        self.at_after(0, angle)
+    }
+
+    /// The torque at an angle, radians, after whole turns, N·m.
+    #[inline]
+    fn at_after(&self, turns: i32, angle: f32) -> f32 {
+        let mut pitches = (angle - self.centre_rad) / self.pitch_rad;
+        if turns != 0 {
+            pitches += self.phase_after(turns);
+        }
         // The fraction of a pitch: the cast saturates.
         let (sine, _) = sin_cos((pitches - pitches as i32 as f32) * TAU);
         -self.torque_n_m * sine
+    }
+
+    /// The part of a pitch by which whole turns shift the wave: an integer product, which has no rounding to grow with
+    /// the turns.
+    #[inline(never)]
+    fn phase_after(&self, turns: i32) -> f32 {
+        let per_turn = TAU / self.pitch_rad;
+        // The casts saturate.
+        let part = per_turn - (per_turn + 0.5) as i32 as f32;
+        // A whole number of pitches a turn, but for the rounding of the pitch, is meant to be one.
+        if !(part.abs() > 4e-7 * per_turn) {
+            return 0.0;
+        }
+        let part = (part * 4_294_967_296.0) as i32;
+        part.wrapping_mul(turns) as f32 * (1.0 / 4_294_967_296.0)
     }
 
     /// The steepest rise of the torque, N·m/rad.
@@ -217,28 +241,42 @@ impl Feel {
     /// limited as a whole.
     #[inline]
     pub fn torque(&self, click: &mut i32, angle: f32, rate: f32) -> f32 {
+        self.torque_after(0, click, angle, rate)
+    }
+
+    /// The same after whole turns of the dial, which are no part of the angle: waves stay as precise as in the first
+    /// turn.
+    #[inline]
+    pub fn torque_after(&self, turns: i32, click: &mut i32, angle: f32, rate: f32) -> f32 {
         let mut torque = -self.damping_n_m_s_per_rad * rate;
         if let Some(wave) = &self.detents {
-            torque += wave.at(angle);
+            torque += wave.at_after(turns, angle);
         }
+        let whole = wound(turns, angle);
         if let Some(clicks) = &self.clicks {
-            torque += clicks.force(click, angle, rate);
+            torque += clicks.force(click, whole, rate);
         }
         if let Some(wave) = &self.texture {
-            torque += wave.at(angle);
+            torque += wave.at_after(turns, angle);
         }
         if let Some(spring) = &self.spring {
             torque += saturate(
-                spring.stiffness_n_m_per_rad * (spring.rest_rad - angle),
+                spring.stiffness_n_m_per_rad * (spring.rest_rad - whole),
                 -spring.max_torque_n_m,
                 spring.max_torque_n_m,
             );
         }
         if let Some(ends) = &self.ends {
-            torque += ends.torque(angle, rate);
+            torque += ends.torque(whole, rate);
         }
         torque
     }
+}
+
+/// The whole angle, radians: for springs and stops, whose torque has a limit far from them.
+#[inline]
+pub(crate) fn wound(turns: i32, angle: f32) -> f32 {
+    if turns == 0 { angle } else { turns as f32 * TAU + angle }
 }
 
 impl Ends {

@@ -477,6 +477,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
                 rates: [0.0; JOINTS],
                 velocities: core.estimators.map(|estimator| estimator.start()),
                 angles_at_zero: core.device.encoders.map(|encoder| encoder.angle_at_zero_rad),
+                turns: [0; JOINTS],
                 stillness: Stillness::START,
                 frames_lost: 0,
             },

@@ -4,7 +4,7 @@ use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
 use crate::device::{Device, Dial};
 use crate::math::{Vec3, saturate};
 use crate::patch::{SecondDerivatives, SurfacePoint};
-use crate::render::{Feel, FeelError};
+use crate::render::{Feel, FeelError, wound};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 
 /// The feel of a dial: a table of feels in flash, switched while it runs ([`super::Event::Chosen`]).
@@ -37,6 +37,8 @@ pub struct Knob {
     most: f32,
     /// N·m/s.
     let_go: f32,
+    /// Whether the encoder's count falls as the angle rises.
+    reversed: bool,
 }
 
 /// Which number of a knob is refused. In a `static` it is a compile error.
@@ -84,6 +86,8 @@ pub struct KnobWitness {
     switched: bool,
     /// The detent that was clicked into last.
     click: i32,
+    /// Whole turns of the dial that are no part of its angle.
+    turns: i32,
     /// The torque now, N·m.
     torque: f32,
     /// The torque left over from another feel, N·m.
@@ -140,7 +144,8 @@ impl Knob {
             index += 1;
         }
         if let_go > 0.0 && let_go < f32::INFINITY {
-            Ok(Self { feels, radius, most, let_go })
+            let reversed = device.encoders[0].radians_per_count < 0.0;
+            Ok(Self { feels, radius, most, let_go, reversed })
         } else {
             Err(KnobError::LetGo)
         }
@@ -180,6 +185,7 @@ impl Surface for Knob {
             feel: 0,
             switched: false,
             click: 0,
+            turns: 0,
             torque: 0.0,
             left_over: 0.0,
             force: 0.0,
@@ -192,7 +198,7 @@ impl Surface for Knob {
         let inverse = 1.0 / self.radius;
         let (angle, rate) = (probe.position.x * inverse, probe.velocity.x * inverse);
         if let Some(feel) = self.feels.get(usize::from(state.feel)) {
-            let wanted = saturate(feel.torque(&mut state.click, angle, rate), -self.most, self.most);
+            let wanted = saturate(feel.torque_after(state.turns, &mut state.click, angle, rate), -self.most, self.most);
             if state.switched {
                 state.left_over = state.torque - wanted;
                 state.switched = false;
@@ -202,6 +208,7 @@ impl Surface for Knob {
             state.torque = saturate(wanted + state.left_over, -self.most, self.most);
             state.gap = match &feel.ends {
                 Some(ends) => {
+                    let angle = wound(state.turns, angle);
                     let [below, above] = [angle - ends.between_rad[0], ends.between_rad[1] - angle];
                     self.radius * if below < above { below } else { above }
                 }
@@ -219,6 +226,11 @@ impl Surface for Knob {
         if usize::from(index) < self.feels.len() && index != state.feel {
             (state.feel, state.switched) = (index, true);
         }
+    }
+
+    fn turn(&self, state: &mut KnobWitness, turns: i32) {
+        // The encoder may count the other way.
+        state.turns = if self.reversed { turns.wrapping_neg() } else { turns };
     }
 }
 
@@ -252,6 +264,7 @@ impl Tracked for KnobWitness {
         witness_words(&self.witness, &mut take);
         take(u32::from(self.feel) | u32::from(self.switched) << 8);
         take(self.click as u32);
+        take(self.turns as u32);
         for number in [self.torque, self.left_over, self.force, self.gap] {
             take(number.to_bits());
         }

@@ -45,6 +45,8 @@ pub(super) struct Sensors<const JOINTS: usize> {
     pub velocities: [VelocityState; JOINTS],
     /// Joint angle in the middle of count zero, radians: the encoders' own, or the one that homing found.
     pub angles_at_zero: [f32; JOINTS],
+    /// Whole turns, of the encoder's count, that were taken out of the angle of a joint that turns without end.
+    pub turns: [i32; JOINTS],
     /// Since when each joint has not moved under load.
     pub stillness: Stillness<JOINTS>,
     /// Frames lost, late or damaged so far.
@@ -137,6 +139,10 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         hash.words([self.faults.link_silence, self.readiness.settled, u32::from(self.readiness.homed)]);
         self.readiness.homing.words(|word| hash.words([word]));
         hash.floats(self.sensors.angles_at_zero);
+        // Of devices that have them.
+        if self.sensors.turns != [0; JOINTS] {
+            hash.words(self.sensors.turns.map(|turns| turns as u32));
+        }
         let TableCheck { place, crc, passes, read } = self.faults.table_check;
         hash.words([place.record, place.word, crc, passes, u32::from(read.is_some()), read.unwrap_or(0)]);
         hash.words([self.sensors.frames_lost, self.contact.rejected_steps, u32::from(self.sensors.counts.is_some())]);
@@ -169,7 +175,9 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         for duty in self.drive.duties {
             hash.words([duty.0 as u32]);
         }
-        hash.words(self.drive.supply.words());
+        if self.drive.supply != Supply::UNMEASURED {
+            hash.words(self.drive.supply.words());
+        }
         self.guard.for_each_word(|word| hash.words([word]));
         hash.0
     }
@@ -339,6 +347,13 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
     #[inline]
     pub const fn counts(&self) -> Option<[Counts; JOINTS]> {
         self.sensors.counts
+    }
+
+    /// Whole turns that were taken out of the angle of each joint that turns without end, by its encoder's counts; 0 of
+    /// a joint with a range. [`Self::angles`] is within eight turns, so that it stays precise.
+    #[inline]
+    pub const fn turns(&self) -> [i32; JOINTS] {
+        self.sensors.turns
     }
 
     /// Joint angles, radians.

@@ -94,6 +94,10 @@ pub trait Surface: BakedTables {
 
     /// Selects an entry, where the surface offers several ([`super::Event::Chosen`]).
     fn choose(&self, _: &mut Self::Witness, _: u8) {}
+
+    /// Whole turns, of the encoder's count, that are no part of the first joint's angle any more
+    /// ([`super::ServoState::turns`]).
+    fn turn(&self, _: &mut Self::Witness, _: i32) {}
 }
 
 /// The tables of a surface in flash, for the check that they are still those that were baked. A surface without tables

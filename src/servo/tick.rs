@@ -1,6 +1,6 @@
 //! One tick, from top to bottom.
 
-use super::sense::sense;
+use super::sense::{Sensed, sense};
 use super::{Event, Fault, Guard, Motion, Output, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
 use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose, VelocityMethod};
 use crate::math::Vec3;
@@ -190,8 +190,11 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         let first = state.sensors.counts.is_none();
         let homing = self.core.homing.as_ref().filter(|_| !state.readiness.homed);
         let sensors = &mut state.sensors;
-        let to_stop =
+        let Sensed { to_stop, turned } =
             sense(self.core.device, &self.core.estimators, self.core.max_move, homing.is_none(), sensors, counts)?;
+        if turned && let Some(turns) = state.sensors.turns.first() {
+            self.core.surface.turn(&mut state.contact.witness, *turns);
+        }
         if let Some(homing) = homing {
             return self.home(homing, state, counts, enable);
         }
@@ -204,8 +207,14 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         }
         .ok_or(Fault::Unreachable)?;
         let probe = pose.position - self.core.settings.body_origin_m;
-        let moved = if first { Vec3::ZERO } else { probe - state.contact.probe };
         let velocity = pose.velocity(state.sensors.rates);
+        let moved = if first {
+            Vec3::ZERO
+        } else if turned {
+            velocity * self.core.period
+        } else {
+            probe - state.contact.probe
+        };
         // The sum of all six is finite only where each is.
         if !(probe + velocity).element_sum().is_finite() {
             return Err(Fault::NotFinite);
@@ -226,7 +235,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         // Probe, or the virtual tool it pulls → witness point.
         let held = Tool { position: probe, velocity };
         let pulls = self.core.rendering.coupling.is_some() && state.phase == Phase::Running;
-        let tool = if pulls { state.contact.tool } else { held };
+        let tool = if pulls && !turned { state.contact.tool } else { held };
         state.contact.tool.position = tool.position;
         let target = Probe { position: tool.position, velocity: tool.velocity };
         let touched =

@@ -202,7 +202,7 @@ impl From<DeviceError> for Status {
             DeviceError::Encoder(_) => Self::DeviceEncoder,
             DeviceError::Motor(_) => Self::DeviceMotor,
             DeviceError::Friction(_) => Self::DeviceFriction,
-            DeviceError::Range(_) => Self::DeviceRange,
+            DeviceError::Range(_) | DeviceError::Endless(_) => Self::DeviceRange,
             DeviceError::Limit => Self::DeviceLimit,
         }
     }

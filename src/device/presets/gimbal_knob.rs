@@ -21,7 +21,7 @@ pub const GIMBAL_KNOB: Device<Dial, 1> = Device {
     motors: [Motor::current_driven(FEED.torque_constant_n_m_per_a, CURRENT_AT_FULL, 1.0)],
     feeds: [Feed::Voltage(FEED)],
     dry_friction_n_m: [2e-3],
-    joint_range_rad: [[-200.0, 200.0]],
+    joint_range_rad: [[f32::NEG_INFINITY, f32::INFINITY]],
     min_margin_m_per_rad: 0.01,
     max_joint_rate_rad_per_s: 120.0,
     max_force_n: 2.8,

@@ -100,7 +100,7 @@ impl OwnDevice {
                 DeviceError::Encoder(joint) => format!("joint {joint}: encoder"),
                 DeviceError::Motor(joint) => format!("joint {joint}: motor"),
                 DeviceError::Friction(joint) => format!("joint {joint}: friction"),
-                DeviceError::Range(joint) => format!("joint {joint}: range"),
+                DeviceError::Range(joint) | DeviceError::Endless(joint) => format!("joint {joint}: range"),
                 DeviceError::Limit => "limits".to_owned(),
             };
             return Err(refuse(&entry, &error.to_string()));

@@ -5,10 +5,12 @@ mod heat;
 mod lost_phase;
 
 use palpate::device::drive::Supply;
-use palpate::device::{Duty, Refusal};
-use palpate::servo::{Fault, Output, Phase};
+use palpate::device::{Counts, Duty, Refusal};
+use palpate::render::{Feel, Wave};
+use palpate::servo::{Config, Fault, Input, Knob, Output, Phase, Servo, Settings};
 use palpate_sim::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, device};
 use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
+use std::f64::consts::TAU;
 
 const RATE: f64 = SETTINGS.rate_hz as f64;
 
@@ -117,6 +119,60 @@ fn a_feel_has_its_torque_on_every_supply_within_its_range() {
     for torque in measured {
         // 5 %: dead time is compensated for 12 V.
         assert!((torque / measured[1] - 1.0).abs() < 0.05, "{measured:?}");
+    }
+}
+
+#[test]
+fn a_dial_is_as_precise_after_a_million_turns_as_after_one_and_its_detents_stay_where_they_were() {
+    // At 20 Hz, within the speed that is believed: 15,000 of 16,384 counts a tick, over several wraps of 32 bits.
+    static FEELS: [Feel; 1] = [Feel {
+        detents: Some(Wave { pitch_rad: core::f32::consts::TAU / 24.0, torque_n_m: 0.03, centre_rad: 0.0 }),
+        ..Feel::FREE
+    }];
+    let device = device(None);
+    let knob = Knob::new(&device, &FEELS, LET_GO);
+    let settings = Settings { rate_hz: 20.0, velocity_corner_hz: 2.0, soft_start_s: 0.0, ..SETTINGS };
+    let servo = Servo::new(&device, &knob, Config { settings, ..Config::DEFAULT });
+    for way in [1, -1] {
+        let mut state = servo.start();
+        let (mut place, mut worst_angle, mut worst_torque) = (0_i64, 0.0_f64, 0.0_f64);
+        while place.abs() < 1_000_000 * 16_384 {
+            place += way * 15_000;
+            let _ = servo.tick(&mut state, Input::Sensors { counts: [Counts(place as i32)], enable: true });
+            // The middle of the count, in real numbers.
+            let exact = (place as f64 + 0.5) / 16_384.0 * TAU;
+            let whole = f64::from(state.turns()[0]) * TAU;
+            worst_angle = worst_angle.max((whole + f64::from(state.angles()[0]) - exact).abs());
+            let in_turn = ((place.rem_euclid(16_384)) as f64 + 0.5) / 16_384.0 * TAU;
+            let torque = -0.03 * (24.0 * in_turn).sin();
+            worst_torque = worst_torque.max((f64::from(state.witness().torque()) - torque).abs());
+        }
+        assert_eq!((state.fault(), state.phase()), (None, Phase::Running));
+        println!("angle off by {worst_angle:.1e} rad, torque by {worst_torque:.1e} N·m");
+        // Two roundings of 50 rad, 4e-6 each; those of the pitch, 200 detents of 2⁻²⁴, by 0.72 N·m/rad.
+        assert!(worst_angle < 1e-5 && worst_torque < 3e-5, "{worst_angle} {worst_torque}");
+        assert_eq!(state.turns()[0] / 8 * 8, state.turns()[0]);
+    }
+}
+
+#[test]
+fn a_dial_that_is_turned_on_and_on_has_no_fault_and_no_jerk_released_or_in_force() {
+    for enable in [true, false] {
+        let mut knob = HostKnob::running(DialSettings::gimbal_knob(), None);
+        knob.enable = enable;
+        knob.choose(0);
+        knob.dial.hold(Fingers { stiffness: 0.0, damping: 5e-3, aim: 0.0, rate: 30.0 });
+        knob.ticks(4_000);
+        // 300 rad further, at 30 rad/s.
+        let (from, mut fastest, mut slowest) = (knob.dial.angle(), 0.0_f32, f32::INFINITY);
+        while knob.dial.angle() < from + 300.0 {
+            knob.tick();
+            assert_eq!(knob.state().fault(), None, "{enable}: after {} rad", knob.dial.angle() - from);
+            let [rate] = knob.state().rates();
+            (fastest, slowest) = (fastest.max(rate), slowest.min(rate));
+        }
+        assert!(slowest > 0.0 && fastest < 60.0, "{enable}: {slowest} to {fastest} rad/s");
+        assert!(knob.state().turns()[0] >= 40);
     }
 }
 
