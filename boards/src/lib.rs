@@ -63,10 +63,12 @@ mod arm;
 mod bench_loop;
 mod board;
 mod calibrations;
+mod chopper;
 mod clock_check;
 #[cfg(feature = "cortex")]
 #[allow(unsafe_code)]
 pub mod cortex;
+mod currents;
 mod delay;
 mod drives;
 pub mod exercise;
@@ -98,7 +100,9 @@ pub(crate) use bench_loop::State;
 pub use bench_loop::{Bench, Felt};
 pub use board::{Board, NotObeyed, Panel, Passive};
 pub use calibrations::Calibrations;
+pub use chopper::{Chopped, Chopper, ChopperSettings};
 pub use clock_check::{ClockCheck, ClocksDisagree};
+pub use currents::{CurrentFault, CurrentLimits, CurrentWatch, CurrentWatched, PhaseCurrents};
 pub use delay::{Counter, CycleDelay, cycles};
 pub use drives::{Drives, Switched};
 pub use hold::{Hold, Verdict};

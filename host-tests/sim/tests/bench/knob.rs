@@ -10,9 +10,12 @@ use palpate::servo::{Fault, Guarded, Knob, Phase, ResetReason};
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Sensors};
-use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
+use palpate_bench::{
+    Bench, Counter, CurrentFault, CurrentLimits, CurrentWatched, Felt, Lines, Mailbox, Parts, PhaseCurrents, Settings,
+    Supply, Timer,
+};
 use palpate_sim::knob::{JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
-use palpate_sim::plant::{DialSettings, MagneticFault};
+use palpate_sim::plant::{DialSettings, Fingers, MagneticFault};
 use std::cell::RefCell;
 use std::convert::Infallible;
 use std::rc::Rc;
@@ -46,6 +49,7 @@ pub struct World {
     stop_open: bool,
     ready: [bool; 2],
     volts: f32,
+    are_currents_measured: bool,
     widths: [u16; 3],
     pub enabled: bool,
     cycles: u32,
@@ -140,8 +144,22 @@ impl Sensors<1> for Behind {
     }
 }
 
+/// The measurement of the phases' currents.
+pub struct Amps(Shared);
+
+impl PhaseCurrents for Amps {
+    fn amps(&mut self) -> Option<[f32; 3]> {
+        let world = self.0.borrow();
+        world.are_currents_measured.then(|| world.dial.currents().map(|current| current as f32))
+    }
+}
+
+/// Twice the amplitude at full duty; a tenth of a volt over 7.5 Ω is noise of dead time.
+const LIMITS: CurrentLimits = CurrentLimits { max_a: 1.2, open_a: 0.06 };
+
 pub type Stage = ThreePhase<Width, Width, Width, Enable>;
-pub type Board = Parts<Clock, Clock, Behind, [Stage; 1], In, In, In, Clock, palpate::device::drive::NoPin, 2>;
+pub type Board =
+    Parts<Clock, Clock, Behind, CurrentWatched<[Stage; 1], Amps>, In, In, In, Clock, palpate::device::drive::NoPin, 2>;
 
 pub struct Rig {
     pub world: Shared,
@@ -163,6 +181,7 @@ impl Rig {
             stop_open: false,
             ready: [true; 2],
             volts: 12.0,
+            are_currents_measured: true,
             widths: [0; 3],
             enabled: false,
             cycles: 0,
@@ -175,7 +194,7 @@ impl Rig {
             counter: Clock(of()),
             timer: Clock(of()),
             sensors: Behind(of(), Frozen::AS5047P),
-            drives: [ThreePhase::new(widths, Enable(of()), MODULATION)],
+            drives: CurrentWatched::new([ThreePhase::new(widths, Enable(of()), MODULATION)], Amps(of()), LIMITS),
             lines: Lines {
                 enable: In(of(), |world| world.button),
                 enable_level: true,
@@ -309,6 +328,44 @@ fn whatever_breaks_while_it_is_aligned_and_while_it_is_felt_disables_the_stage()
                 rig.tick();
                 assert!(!rig.enabled() && rig.world.borrow().dial.currents() == [0.0; 3], "{what}, {when}");
             }
+        }
+    }
+}
+
+#[test]
+fn a_short_an_open_phase_and_a_lost_measurement_of_the_currents_stop_the_motor() {
+    for (when, make) in [("aligning", Rig::aligning as fn() -> Rig), ("running", Rig::running)] {
+        // A hand that turns the dial against the spring, so that each phase is needed.
+        let turned = || {
+            let mut rig = make();
+            if when == "running" {
+                rig.mailbox.choose(3);
+                rig.set(|world| world.dial.hold(Fingers { damping: 0.05, rate: 2.0, ..Fingers::NONE }));
+                rig.ticks(1_000);
+            }
+            rig
+        };
+        let mut sound = turned();
+        sound.ticks(2_000);
+        assert_eq!(sound.bench.board().drives.fault(), None, "{when}");
+        let harms: [(&str, fn(&mut World), CurrentFault, u32); 5] = [
+            // Ohm's law on 2 V or less: more than 1.2 A within L/R, and two readings of it.
+            ("short", |world| world.dial.short(0.3), CurrentFault::Over, 2_000),
+            ("phase 1 open", |world| world.dial.lose(Some(0)), CurrentFault::Open, 2_000),
+            ("phase 2 open", |world| world.dial.lose(Some(1)), CurrentFault::Open, 2_000),
+            ("phase 3 open", |world| world.dial.lose(Some(2)), CurrentFault::Open, 2_000),
+            ("not measured", |world| world.are_currents_measured = false, CurrentFault::Unmeasured, 2),
+        ];
+        for (what, harm, fault, within) in harms {
+            let mut rig = turned();
+            rig.set(harm);
+            let found = (1..=within).find(|_| {
+                rig.tick();
+                rig.bench.board().drives.fault().is_some()
+            });
+            println!("{what}, {when}: {found:?}");
+            assert_eq!(rig.bench.board().drives.fault(), Some(fault), "{what}, {when}");
+            assert_eq!((rig.fault(), rig.enabled()), (Some(Fault::Drive), false), "{what}, {when}");
         }
     }
 }

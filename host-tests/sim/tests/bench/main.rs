@@ -2,6 +2,7 @@
 
 mod angles;
 mod calibration;
+mod chopper;
 mod flash;
 mod frames;
 mod guarded;

@@ -214,6 +214,11 @@ impl Dial {
         self.settings.inverter.lost = phase;
     }
 
+    /// From now on each winding has this resistance, Ω: a short between turns lowers it.
+    pub fn short(&mut self, resistance: f64) {
+        self.settings.motor.resistance = resistance;
+    }
+
     /// From now on the supply has this voltage, V.
     pub fn supply(&mut self, volts: f64) {
         self.settings.inverter.supply = volts;
