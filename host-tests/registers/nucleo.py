@@ -49,6 +49,12 @@ class Nucleo(Stm32g4):
     def count(self, address: int) -> int:
         return self.counts[address]
 
+    def duties(self) -> list[float]:
+        """What each amplifier makes of its pins: a width of 10 to 90 %, and a direction, high for ahead."""
+        signs = (1 if self.level("B", 13 + channel) else -1 for channel in range(3))
+        driven = all(self.enable_lines())
+        return [driven * sign * (width - 0.1) / 0.8 for sign, width in zip(signs, self.widths())]
+
     def turn_encoder(self, channel: int, counts: int) -> None:
         """A joint stands at a count of the pose's."""
         self.counts[(TIM2.CNT, TIM3.CNT, TIM4.CNT)[channel]] = counts & 0xFFFF

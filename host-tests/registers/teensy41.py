@@ -71,6 +71,12 @@ class Teensy41(Imxrt1062):
         assert len(answers) < 2, "one at a time"
         return self.silence if not answers or answers[0] is None else answers[0]
 
+    def duties(self) -> list[float]:
+        """What each amplifier makes of its pins: a width of 10 to 90 %, and a direction, high for ahead."""
+        signs = (1 if self.level(*way[:2]) else -1 for way in DIRECTIONS)
+        driven = all(self.enable_lines())
+        return [driven * sign * (width - 0.1) / 0.8 for sign, width in zip(signs, self.widths())]
+
     def turn_encoder(self, channel: int, counts: int) -> None:
         """A sensor's angle, from that of the pose."""
         self.sensors[channel].angle = (1_000 + counts) % 16_384

@@ -1,7 +1,6 @@
 //! Three timers in encoder mode: the hardware counts every edge, and catches its count at the rising edge of an index
 //! mark. A tick reads three counts, and asks three times whether one was caught.
 
-use palpate_bench::Felt;
 use palpate_bench::sensors::Readings;
 use stm32g4xx_hal::gpio::{AF1, AF2, PA0, PA1, PB6, PB7, PB9, PB10, PC6, PC7, PC8};
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
