@@ -11,7 +11,7 @@ use palpate_tool::firmware::{Board, Link};
 mod tables {
     include!("../../../../boards/bodies/capped_box.rs");
 }
-#[allow(unused_imports)]
+#[allow(dead_code, unused_imports)]
 mod settings {
     include!("../../../../boards/emulated/settings.rs");
 }
