@@ -76,7 +76,9 @@ def record(body: bytes) -> Record:
     variable()
     fields["reset"] = body[at]
     at += 1
-    variable(), variable()
+    variable(), variable(), variable()
+    # The gains of three sensors.
+    at += 3
     fields["hold"] = body[at]
     at += 1
     # The feature; mode and contact are a byte each.
