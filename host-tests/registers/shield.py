@@ -25,16 +25,12 @@ class Shield(Nucleo):
         self.sensors = [AngleSensor()]
         # What a line reads that nobody drives.
         self.silence = 0xFF
-        self.bytes = 0
 
     def exchange(self, byte: int) -> int:
-        """A byte each way with the sensor, if it is selected. Its last bit is never quiet."""
+        """A byte each way with the sensor, if it is selected."""
         [sensor] = self.sensors
         if self.level(*SELECT):
             return 0xFF
-        # Every fourth frame: more seldom than ticks, in which it would be seen at the same level each time.
-        self.bytes += 1
-        sensor.angle ^= self.bytes % 8 == 0
         answer = sensor.exchange_byte(byte)
         return self.silence if answer is None else answer
 
