@@ -27,7 +27,8 @@ impl Body<'_> {
         }
         let before = core::mem::replace(&mut state.probe, probe);
         // Behind a convex body's surface there is no force: tracker and audit take turns.
-        let steps_too = state.is_located && (state.contact != Contact::Behind || !self.is_convex());
+        let is_located = state.is_located;
+        let steps_too = is_located && (state.contact != Contact::Behind || !self.is_convex());
         let Some(search) = &mut state.search else {
             state.search = Some(Search::new(self, probe));
             return steps_too;
@@ -43,6 +44,11 @@ impl Body<'_> {
             let rival = asks.then(|| Rival { half_squared: nearer, places: places() });
             search.advance_against(self, probe, rival.as_ref());
             step.evaluations += u8::from(search.has_evaluated());
+            // No tracker steps until it is located: there is time for both halves.
+            if !is_located {
+                search.advance(self, probe);
+                step.evaluations += u8::from(search.has_evaluated());
+            }
             return steps_too;
         };
         let is_audit = state.is_audited && !self.is_convex();

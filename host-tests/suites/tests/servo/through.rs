@@ -5,7 +5,7 @@ use palpate::device::Counts;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::math::{Vec3, vec3};
 use palpate::servo::{Config, ContactLimits, Input, Servo, Settings};
-use palpate::track::Contact;
+use palpate::track::{Contact, Controller, Probe, Witness};
 use palpate_sim::plant::{HandPath, HandSettings, Plant, PlantSettings, Vector};
 
 const RATE: f64 = 4_000.0;
@@ -75,4 +75,35 @@ fn a_hand_that_goes_through_a_thin_plate_is_named_within_ten_milliseconds() {
     assert!(greatest > 4.9, "all the force there is: {greatest} N");
     assert!(named.abs_diff(beyond) <= SOON, "beyond in tick {beyond}, named in tick {named}");
     assert_eq!(state.contacts_lost(), 1, "once");
+}
+
+#[test]
+fn a_probe_inside_is_located_within_ten_milliseconds() {
+    let mut seed = 1_u32;
+    let mut draw = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 / (1 << 24) as f32
+    };
+    for name in ["capped_box", "thin_plate", "rounded_cylinder", "ellipsoid_body"] {
+        let baked = palpate_suites::body(name);
+        let options = baked.locator_options();
+        let (baked, _) = baked.located(&options, &|_, _| ()).unwrap();
+        let body = baked.to_body().unwrap();
+        let mut longest = 0;
+        for _ in 0..500 {
+            // From somewhere on the surface, up to a third of the size behind it.
+            let face = &body.faces()[(draw() * body.faces().len() as f32) as usize];
+            let on = Witness::at(&face.patch, draw(), draw());
+            let Some(normal) = on.normal(&face.patch) else { continue };
+            let probe = Probe::at(on.surface.point - normal * (draw() * body.size() / 3.0));
+            let mut witness = body.start();
+            let ticks = (1..1_000).find(|_| {
+                body.step(&Controller::SecondOrder, &mut witness, probe, 1.0 / RATE as f32);
+                witness.is_located
+            });
+            longest = longest.max(ticks.unwrap_or(1_000));
+        }
+        println!("{name}: located after {longest} ticks at most");
+        assert!(longest <= SOON, "{name}: {longest}");
+    }
 }
