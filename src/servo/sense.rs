@@ -98,14 +98,9 @@ fn take_out<K, const JOINTS: usize>(
     let Counts(inside) = within(device, joint, sensors.turns[joint], count);
     let whole = if per_turn == 0 { 0 } else { inside / per_turn / WINDOW * WINDOW };
     sensors.turns[joint] = sensors.turns[joint].wrapping_add(whole);
-    let by = whole as f32 * core::f32::consts::TAU;
     if let Some(last) = sensors.counts {
         let encoder = Encoder { angle_at_zero_rad: sensors.angles_at_zero[joint], ..device.encoders[joint] };
         // By the counts: a difference of large angles would be rounded.
         sensors.angles[joint] = encoder.angle(within(device, joint, sensors.turns[joint], last[joint]));
-    }
-    let sign = if device.encoders[joint].radians_per_count < 0.0 { -1.0 } else { 1.0 };
-    for since in &mut sensors.stillness.since {
-        since[joint] -= by * sign;
     }
 }

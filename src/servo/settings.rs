@@ -305,28 +305,29 @@ pub enum SafeOutput {
 }
 
 /// When a joint sensor counts as stuck: the contact force loads its joint beyond dry friction, and its count stays the
-/// same, while another joint moves far.
+/// same, while the other joints move the probe far.
 ///
-/// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves another joint by `travel_rad`
-/// meanwhile would have to balance the load on this one to within its dry friction all the way, on the one curve on
-/// which it does not turn. Below friction no hand is needed for that, so a smaller torque counts as no load. A device
-/// with one joint has no others: this check never trips there. One joint is checked per tick.
+/// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves the probe by `travel_m`
+/// meanwhile would have to balance the load on this joint to within its dry friction all the way, on the one curve on
+/// which it does not turn. Below friction no hand is needed for that, so a smaller torque counts as no load. The way is
+/// counted in straight pieces of a sixth of it, to and fro just as straight on, so that a small workspace has it too and
+/// a count that flickers adds nothing; without load it pauses. A device with one joint has no others: this check never trips there. One joint is
+/// checked per tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {
     /// Minimum load, as a multiple of the joint's [`crate::device::Device::dry_friction_n_m`]; at least 1.
     pub load: f32,
-    /// How far another joint moves meanwhile, radians.
-    pub travel_rad: f32,
+    /// How far the probe comes meanwhile, m.
+    pub travel_m: f32,
 }
 
 impl StuckLimits {
-    /// Five times dry friction, so that a hand would have to balance the load to a fifth of it, while another joint
-    /// comes 0.6 rad, some 60 mm at the probe. Where simulated hands slide about under load, a Falcon's joint stays
-    /// where it is over 0.5 rad under its own friction and over 0.28 rad under three times that, but never over 0.01
-    /// rad under five times; a joint of a device with little friction turns back while another goes on for 0.27 rad at
-    /// most, of Polhem's short crank.
-    pub const DEFAULT: Self = Self { load: 5.0, travel_rad: 0.6 };
+    /// Five times dry friction, so that a hand would have to balance the load to a fifth of it, over 30 mm. Where
+    /// simulated hands slide about under load, a Falcon's joint stays where it is over 50 mm under its own friction and
+    /// over 28 mm under three times that, but never over 1 mm under five times; a joint of a device with little friction
+    /// turns back while the probe goes on for 26 mm at most, of Polhem.
+    pub const DEFAULT: Self = Self { load: 5.0, travel_m: 0.03 };
 }
 
 /// Limits and reactions of the loop. Start with [`Safety::DEFAULT`].
@@ -420,7 +421,7 @@ impl Safety {
         if !lasts {
             return Err(SafetyError::LinkTimeout);
         }
-        if let Some(StuckLimits { load, travel_rad: travel }) = self.stuck {
+        if let Some(StuckLimits { load, travel_m: travel }) = self.stuck {
             let sensible = load >= 1.0 && travel > 0.0;
             if !sensible {
                 return Err(SafetyError::Stuck);
@@ -599,7 +600,7 @@ mod safety_tests {
         for (load, travel, good) in
             [(1.0, 0.1, true), (0.99, 0.1, false), (5.0, 0.0, false), (f32::NAN, 0.1, false), (5.0, f32::NAN, false)]
         {
-            let safety = Safety { stuck: Some(StuckLimits { load, travel_rad: travel }), ..Safety::DEFAULT };
+            let safety = Safety { stuck: Some(StuckLimits { load, travel_m: travel }), ..Safety::DEFAULT };
             assert_eq!(
                 safety.check(MAX_DAMPING),
                 if good { Ok(()) } else { Err(SafetyError::Stuck) },

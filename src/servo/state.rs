@@ -160,11 +160,11 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
                 VelocityState::BetweenCounts { lag, velocity } => hash.floats([*lag, *velocity]),
             }
         }
-        hash.words([self.sensors.stillness.turn]);
-        for (still, Counts(count)) in self.sensors.stillness.since.into_iter().zip(self.sensors.stillness.counts) {
-            hash.floats(still);
-            hash.words([count as u32]);
+        hash.words([self.sensors.stillness.turn.into()]);
+        for (pieces, Counts(count)) in self.sensors.stillness.pieces.into_iter().zip(self.sensors.stillness.counts) {
+            hash.words([pieces.into(), count as u32]);
         }
+        hash.vectors([self.sensors.stillness.mark]);
         hash.floats([self.drive.margin]);
         hash.vectors([self.contact.probe, self.contact.tool.position, self.contact.tool.velocity]);
         self.contact.witness.for_each_word(|word| hash.words([word]));

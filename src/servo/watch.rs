@@ -3,6 +3,7 @@
 use super::{Guard, Input, Phase, Servo, ServoState, StuckLimits, Surface};
 use crate::device::sensor::ErrorRate;
 use crate::device::{Counts, Kinematics};
+use crate::math::Vec3;
 
 /// Puts a prediction in the place of a few bad frames in a row: the last good counts, carried on at the rates estimated
 /// then. The next bad one reaches the loop as it came, and is a fault in that tick. So does a bad frame while more than
@@ -196,18 +197,24 @@ impl Heartbeat {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stillness<const JOINTS: usize> {
     /// The joint whose turn it is.
-    pub turn: u32,
-    /// The count of each joint when it was last seen to move, or to carry no load.
+    pub turn: u8,
+    /// How many straight pieces the probe has come since each joint moved by a count, while it carried a load.
+    pub pieces: [u8; JOINTS],
+    /// The last count of each joint.
     pub counts: [Counts; JOINTS],
-    /// The angles of all joints then, radians.
-    pub since: [[f32; JOINTS]; JOINTS],
+    /// Where the present piece begins, m.
+    pub mark: Vec3,
 }
+
+/// Straight pieces of the travel that makes a sensor count as stuck; the first may have begun before. Short, because the
+/// loop sees less of the probe's way where the stuck joint is the one that moves.
+const PIECES: u8 = 6;
 
 impl<const JOINTS: usize> Stillness<JOINTS> {
     /// Before the first tick.
-    pub const START: Self = Self { turn: 0, counts: [Counts(0); JOINTS], since: [[0.0; JOINTS]; JOINTS] };
+    pub const START: Self = Self { turn: 0, pieces: [0; JOINTS], counts: [Counts(0); JOINTS], mark: Vec3::ZERO };
 
-    /// Checks the next joint, one per tick: whether it has not moved by a count under load while another moved far.
+    /// Checks the next joint, one per tick: whether it has not moved by a count under load while the probe came far.
     ///
     /// `felt` is the torque of the contact force on each joint, N·m, without gravity compensation, which the links'
     /// weight balances; `friction` is each joint's dry friction. A joint whose friction is not known is not checked.
@@ -217,21 +224,23 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
         limits: StuckLimits,
         friction: &[f32; JOINTS],
         counts: &[Counts; JOINTS],
-        angles: &[f32; JOINTS],
+        probe: Vec3,
         felt: &[f32; JOINTS],
     ) -> bool {
-        let joint = if (self.turn as usize) < JOINTS { self.turn as usize } else { 0 };
-        self.turn = joint as u32 + 1;
-        let bears = || felt[joint].abs() > limits.load * friction[joint] && friction[joint] > 0.0;
-        if counts[joint] == self.counts[joint] && bears() {
-            return angles
-                .iter()
-                .zip(self.since[joint])
-                .any(|(angle, since)| (angle - since).abs() > limits.travel_rad);
+        let piece = limits.travel_m * (1.0 / PIECES as f32);
+        if (probe - self.mark).length_squared() > piece * piece {
+            self.mark = probe;
+            for ((pieces, felt), friction) in self.pieces.iter_mut().zip(felt).zip(friction) {
+                let bears = felt.abs() > limits.load * friction && *friction > 0.0;
+                *pieces = pieces.saturating_add(u8::from(bears));
+            }
         }
-        self.counts[joint] = counts[joint];
-        self.since[joint] = *angles;
-        false
+        let joint = if usize::from(self.turn) < JOINTS { usize::from(self.turn) } else { 0 };
+        self.turn = joint as u8 + 1;
+        if counts[joint] != self.counts[joint] {
+            (self.counts[joint], self.pieces[joint]) = (counts[joint], 0);
+        }
+        self.pieces[joint] > PIECES
     }
 }
 
@@ -270,26 +279,32 @@ mod deadline_tests {
 mod stuck_tests {
     use super::*;
 
-    const LIMITS: StuckLimits = StuckLimits { load: 2.0, travel_rad: 0.2 };
+    const LIMITS: StuckLimits = StuckLimits { load: 2.0, travel_m: 0.06 };
 
-    /// The tick at which it is found, the second joint moving by 0.001 rad a tick and the first as told.
-    fn found(first: impl Fn(u32) -> i32, felt: f32, friction: f32) -> Option<u32> {
+    /// The tick at which it is found, the second joint drawing the probe to and fro over `stroke` m, a third of a
+    /// millimetre a tick, and the first as told.
+    fn found(first: impl Fn(u32) -> i32, stroke: f32, felt: f32, friction: f32) -> Option<u32> {
         let mut stillness = Stillness::<2>::START;
-        (1..1_000).find(|tick| {
-            let counts = [Counts(first(*tick)), Counts(*tick as i32)];
-            let angles = counts.map(|count| count.0 as f32 * 0.001);
-            stillness.is_broken(LIMITS, &[friction; 2], &counts, &angles, &[felt; 2])
+        let ticks = (stroke * 3_000.0) as u32;
+        (1..3_000).find(|tick| {
+            let way = if (tick / ticks).is_multiple_of(2) { tick % ticks } else { ticks - tick % ticks };
+            let counts = [Counts(first(*tick)), Counts(way as i32)];
+            let probe = Vec3::X * (way as f32 / 3_000.0);
+            stillness.is_broken(LIMITS, &[friction; 2], &counts, probe, &[felt; 2])
         })
     }
 
     #[test]
     fn a_joint_that_stands_still_under_load_while_another_moves_is_stuck() {
-        // Seen first at the first tick, and every second one.
-        assert!(matches!(found(|_| 500, -0.3, 0.1), Some(201..=204)));
-        assert_eq!(found(|_| 500, 0.19, 0.1), None, "what friction holds may rest");
-        assert_eq!(found(|_| 500, 0.3, 0.0), None, "friction that is not known may hold anything");
+        // After 60 mm at least and 80 at most, and at every second tick; over and back just as straight on.
+        for stroke in [0.9, 0.045] {
+            assert!(matches!(found(|_| 500, stroke, -0.3, 0.1), Some(180..=250)), "{stroke}");
+        }
+        assert_eq!(found(|_| 500, 0.008, 0.3, 0.1), None, "a count that flickers is no travel");
+        assert_eq!(found(|_| 500, 0.9, 0.19, 0.1), None, "what friction holds may rest");
+        assert_eq!(found(|_| 500, 0.9, 0.3, 0.0), None, "friction that is not known may hold anything");
         assert_eq!(
-            found(|tick| if tick % 150 < 75 { 500 } else { 501 }, 0.3, 0.1),
+            found(|tick| if tick % 150 < 75 { 500 } else { 501 }, 0.9, 0.3, 0.1),
             None,
             "a count now and then is life"
         );

@@ -114,7 +114,7 @@ pub static WATCHFUL: ServoOf<LinkageArm> = Servo::new(
         rendering: Rendering::SMOOTH,
         safety: Safety {
             max_overruns: 1,
-            stuck: Some(StuckLimits { load: 1.0, travel_rad: 0.1 }),
+            stuck: Some(StuckLimits { load: 1.0, travel_m: 0.01 }),
             contact: None,
             ..Safety::DEFAULT
         },

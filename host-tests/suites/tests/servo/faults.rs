@@ -91,7 +91,7 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
             Config {
                 settings: SETTINGS,
                 safety: Safety {
-                    stuck: Some(StuckLimits { travel_rad: 1e-4, ..StuckLimits::DEFAULT }),
+                    stuck: Some(StuckLimits { travel_m: 1e-5, ..StuckLimits::DEFAULT }),
                     ..safety(output)
                 },
                 ..Config::DEFAULT

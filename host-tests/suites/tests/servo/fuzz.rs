@@ -77,7 +77,7 @@ fn fuzz<S: Surface>(
     // The wall lies where counts of zero put the probe, so that a walk about zero touches it: height 285 mm less 80 mm,
     // reach 245 mm less 220.
     let settings = Settings { body_origin_m: vec3(0.025, 0.0, 0.205), ..SETTINGS };
-    let stuck = Some(StuckLimits { load: 1.0, travel_rad: 0.2 });
+    let stuck = Some(StuckLimits { load: 1.0, travel_m: 0.02 });
     let safety = Safety { output, stuck, ..Safety::DEFAULT };
     let servo = Servo::try_new(device, surface, Config { settings, rendering, safety, ..Config::DEFAULT }).unwrap();
     let mut random = Pcg64::seed_from_u64(seed);

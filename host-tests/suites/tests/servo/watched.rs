@@ -4,7 +4,7 @@ use crate::surfaces::WALL;
 use crate::traces::SETTINGS;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Duty};
-use palpate::servo::{Config, Event, Fault, Input, Phase, Safety, Servo, StuckLimits};
+use palpate::servo::{Config, Event, Fault, Input, Phase, Safety, Servo};
 
 #[test]
 fn a_stuck_encoder_is_found_while_the_others_go_on() {
@@ -12,11 +12,7 @@ fn a_stuck_encoder_is_found_while_the_others_go_on() {
     let servo = Servo::new(
         &WOODEN_HAPTICS_2016,
         &WALL,
-        Config {
-            settings: SETTINGS,
-            safety: Safety { stuck: Some(StuckLimits { travel_rad: 0.3, ..StuckLimits::DEFAULT }), ..Safety::DEFAULT },
-            ..Config::DEFAULT
-        },
+        Config { settings: SETTINGS, safety: Safety::DEFAULT, ..Config::DEFAULT },
     );
     let mut state = servo.start();
     let counts = |tick: i32| {
