@@ -88,12 +88,13 @@ pub struct PolarityCheck<const JOINTS: usize> {
 pub struct Protection<const JOINTS: usize> {
     /// Each motor's thermal rating.
     pub motors: [Endurance; JOINTS],
-    /// Maximum speed of each joint while force is given, rad/s.
+    /// Maximum speed of each joint while a contact gives force, and for 50 ms after, rad/s.
     pub max_joint_rates_rad_per_s: [f32; JOINTS],
-    /// Maximum speed of the probe while force is given, m/s.
+    /// The same of the probe, m/s.
     pub max_probe_speed_m_per_s: f32,
     /// The supply's range; `None` where no voltage is measured.
     pub supply: Option<SupplyRange>,
-    /// The watch over encoders that count against their motors; `None` where the inertias are not known.
+    /// The watch over encoders that count against their motors, whose inertias also tell a pressed probe that was let go;
+    /// `None` where they are not known.
     pub polarity: Option<PolarityCheck<JOINTS>>,
 }

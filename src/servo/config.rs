@@ -386,8 +386,8 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             Ok(core) => core,
             Err(error) => return Err(error),
         };
-        match Guarded::try_new(protection, &device.motors, device.dry_friction_n_m, core.rate, core.penalty.max_force_n)
-        {
+        let (wall, max_depth) = (&core.penalty, core.contact_watch.max_depth);
+        match Guarded::try_new(protection, &device.motors, device.dry_friction_n_m, core.rate, wall, max_depth) {
             Ok(guard) => Ok(Self { core, guard }),
             Err(error) => Err(ConfigError::Protection(error)),
         }

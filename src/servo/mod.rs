@@ -22,7 +22,7 @@
 //! | motor driver, homing, stop switch | [`Event`] | `Drive`, `Homing`, `Stopped` |
 //! | calibration in flash damaged, or of another device | [`Event`] | `Calibration` |
 //! | supply out of range, or not measured | [`crate::device::SupplyRange`], [`Event::Supply`] | `Supply` |
-//! | joint or probe too fast under force | [`crate::device::Protection`] | `Overspeed` |
+//! | joint or probe too fast under contact force, or a pressed probe let go | [`crate::device::Protection`] | `Overspeed` |
 //! | encoder against its motor | [`crate::device::PolarityCheck`] | `WrongPolarity` |
 //! | motor too warm | [`Heat`]: its force folds back to the continuous limit | none: a limit |
 //! | too much force | scaled as a whole, its direction kept | none: a limit |

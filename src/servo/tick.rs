@@ -263,20 +263,14 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         let mut felt = pose.torques(state.drive.force);
         if state.phase == Phase::Running {
             let (angles, rates) = (&state.sensors.angles, &state.sensors.rates);
-            let moving = Motion { angles, rates, velocity, pose: &pose };
+            let moving = Motion { angles, rates, velocity, moved, pose: &pose };
             self.guard.limit(&mut state.guard, &moving, &mut state.drive.force, &mut felt)?;
         } else {
             self.guard.force_not_requested(&mut state.guard);
         }
         if let Some(limits) = self.core.safety.stuck
             && !self.guard.withholds_force(&state.guard)
-            && state.sensors.stillness.is_broken(
-                limits,
-                &self.core.device.dry_friction_n_m,
-                &counts,
-                &state.sensors.angles,
-                &felt,
-            )
+            && state.sensors.stillness.is_broken(limits, &self.core.device.dry_friction_n_m, &counts, probe, &felt)
         {
             return Err(Fault::JointStuck);
         }

@@ -211,7 +211,8 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
             // Not before contact ends.
             self.ticks_left = self.ticks_left.max(1);
         }
-        self.servo.guard = self.servo.guard.of_max_force(penalty.max_force_n);
+        let max_depth = core.contact_watch.max_depth;
+        self.servo.guard = self.servo.guard.of_wall(&penalty, max_depth);
     }
 }
 

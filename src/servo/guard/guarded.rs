@@ -2,17 +2,19 @@
 
 use super::heat::{Heat, HeatModel, Winding};
 use super::polarity::{Polarities, PolarityState};
+use super::release::{ReleaseState, ReleaseWatch};
 use super::{Guard, Motion, Remembered};
 use crate::device::{Duty, Motor, Protection, SupplyRange};
 use crate::math::Vec3;
+use crate::render::Penalty;
 use crate::servo::Fault;
 use crate::servo::gate::gate_within;
 
 /// A device's [`Protection`] for a loop's rate and gains.
 ///
 /// The joints take turns, one per tick: a tick checks the rate of one joint and updates the heat of one motor. The
-/// delay is one tick less than the number of joints: half a millisecond for three at 4 kHz. The probe's speed, the
-/// polarity and the supply are checked in every tick.
+/// delay is one tick less than the number of joints: half a millisecond for three at 4 kHz. The polarity, the supply and
+/// the probe's speed are checked in every tick, speeds while a contact gives force and for 50 ms after.
 #[derive(Clone, Copy, Debug)]
 pub struct Guarded<const JOINTS: usize> {
     heat: [HeatModel; JOINTS],
@@ -21,6 +23,9 @@ pub struct Guarded<const JOINTS: usize> {
     max_squared_speed: f32,
     supply: Option<SupplyWatch>,
     signs: Option<Polarities<JOINTS>>,
+    release: ReleaseWatch,
+    /// kg·m²; zero where they are not known.
+    inertia: [f32; JOINTS],
 }
 
 /// The state of [`Guarded`].
@@ -32,6 +37,7 @@ pub struct GuardState<const JOINTS: usize> {
     /// Ticks since the supply was measured.
     supply_age: u32,
     signs: PolarityState<JOINTS>,
+    release: ReleaseState,
 }
 
 impl<const JOINTS: usize> GuardState<JOINTS> {
@@ -64,7 +70,8 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
         motors: &[Motor; JOINTS],
         dry_friction: [f32; JOINTS],
         rate: f32,
-        max_force_n: f32,
+        wall: &Penalty,
+        max_depth: f32,
     ) -> Result<Self, ProtectionError> {
         if let Err(error) = check(&protection, rate) {
             return Err(error);
@@ -84,8 +91,13 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
                 None => None,
             },
             signs: match protection.polarity {
-                Some(watch) => Some(Polarities::new(&watch, dry_friction, rate, max_force_n)),
+                Some(watch) => Some(Polarities::new(&watch, dry_friction, rate, wall.max_force_n)),
                 None => None,
+            },
+            release: ReleaseWatch::new(wall, max_depth, rate),
+            inertia: match protection.polarity {
+                Some(watch) => watch.inertia_kg_m2,
+                None => [0.0; JOINTS],
             },
         })
     }
@@ -102,8 +114,9 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
         self
     }
 
-    fn of_max_force(mut self, max_force_n: f32) -> Self {
-        self.signs = self.signs.map(|signs| signs.of_max_force(max_force_n));
+    fn of_wall(mut self, wall: &Penalty, max_depth_m: f32) -> Self {
+        self.signs = self.signs.map(|signs| signs.of_max_force(wall.max_force_n));
+        self.release = self.release.of_wall(wall, max_depth_m);
         self
     }
 
@@ -113,7 +126,7 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
 
     fn start(&self) -> GuardState<JOINTS> {
         let windings = self.heat.map(|model| model.start());
-        GuardState { turn: 0, windings, supply_age: 0, signs: PolarityState::START }
+        GuardState { turn: 0, windings, supply_age: 0, signs: PolarityState::START, release: ReleaseState::default() }
     }
 
     fn measured(&self, state: &mut GuardState<JOINTS>, millivolts: u32) -> Result<(), Fault> {
@@ -143,20 +156,26 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
         force: &mut Vec3,
         felt: &mut [f32; JOINTS],
     ) -> Result<(), Fault> {
+        if let Some(signs) = &self.signs {
+            signs.look(&mut state.signs, moving, force, felt)?;
+        }
+        // In free air a hand may be as fast as it likes.
+        if !state.release.follow(&self.release, *force, moving.moved) {
+            return Ok(());
+        }
         let turn = state.turn;
         let (Some(rate), Some(most)) = (moving.rates.get(turn), self.max_joint_rates.get(turn)) else { return Ok(()) };
-        if moving.velocity.length_squared() > self.max_squared_speed || rate.abs() > *most {
+        let is_fast = moving.velocity.length_squared() > self.max_squared_speed || rate.abs() > *most;
+        if is_fast || self.release.is_released(&state.release, &self.inertia, moving) {
             return Err(Fault::Overspeed);
         }
-        match &self.signs {
-            Some(signs) => signs.look(&mut state.signs, moving, force, felt),
-            None => Ok(()),
-        }
+        Ok(())
     }
 
     #[inline]
     fn force_not_requested(&self, state: &mut GuardState<JOINTS>) {
         state.signs.end();
+        state.release = ReleaseState::default();
     }
 
     #[inline]
@@ -193,6 +212,8 @@ impl<const JOINTS: usize> Remembered for GuardState<JOINTS> {
             [heat as u32, squares, limit.to_bits()].into_iter().for_each(&mut take);
         }
         take(self.supply_age << 2 | self.turn as u32);
+        take(self.release.work.to_bits());
+        take(self.release.ticks.into());
         self.signs.for_each_word(take);
     }
 }

@@ -7,6 +7,7 @@
 mod guarded;
 mod heat;
 mod polarity;
+mod release;
 
 pub use guarded::{GuardState, Guarded, ProtectionError};
 pub use heat::Heat;
@@ -15,6 +16,7 @@ use super::Fault;
 use super::gate::gate;
 use crate::device::{Duty, Motor, ProbePose};
 use crate::math::Vec3;
+use crate::render::Penalty;
 use core::fmt::Debug;
 
 /// The motion of a tick: the input of a guard.
@@ -26,6 +28,8 @@ pub struct Motion<'a, const JOINTS: usize> {
     pub rates: &'a [f32; JOINTS],
     /// The probe's velocity, m/s.
     pub velocity: Vec3,
+    /// How far the probe moved since the last tick, m.
+    pub moved: Vec3,
     /// Where the probe is, and the Jacobian.
     pub pose: &'a ProbePose<JOINTS>,
 }
@@ -39,9 +43,9 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     #[must_use]
     fn of_motors(self, motors: &[Motor; JOINTS], dry_friction: &[f32; JOINTS]) -> Self;
 
-    /// The same for a loop of another maximum force, N.
+    /// The same for a loop of another wall, which gives contact up at a depth, m.
     #[must_use]
-    fn of_max_force(self, max_force_n: f32) -> Self;
+    fn of_wall(self, wall: &Penalty, max_depth_m: f32) -> Self;
 
     /// Continuous torque limit of each motor, as a fraction of full duty, 0 to 1: for code that drives the motors
     /// without a heat model.
@@ -118,7 +122,7 @@ impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
         self
     }
 
-    fn of_max_force(self, _: f32) -> Self {
+    fn of_wall(self, _: &Penalty, _: f32) -> Self {
         self
     }
 
