@@ -1,6 +1,7 @@
 //! Simulated haptic devices and the hands that hold them, apart from the tool and from the boards.
 //!
 //! - [`plant`]: the device in a hand, in f64 and independent of the library;
+//! - [`motion`]: the loop on a device that moves, with a failure planted, on any plant;
 //! - [`devices`]: device files, as the library's constant and as a plant;
 //! - [`scene`]: scene files;
 //! - [`recorded`]: devices and scenes as plain numbers, also without a standard library;
@@ -22,6 +23,8 @@ pub mod feel;
 pub mod knob;
 #[cfg(feature = "boards")]
 pub mod magnetic;
+#[cfg(feature = "std")]
+pub mod motion;
 #[cfg(feature = "std")]
 pub mod plant;
 pub mod recorded;

@@ -140,6 +140,11 @@ impl Plant {
         self.hand = hand;
     }
 
+    /// From now on the hand aims along this path.
+    pub fn follow(&mut self, path: Box<dyn HandPath>) {
+        self.path = path;
+    }
+
     /// From now on a joint's end stops are here, rad: something got in the way, or broke off.
     pub fn move_stops(&mut self, joint: usize, stops: [f64; 2]) {
         if let Some(place) = self.mechanics.stops.get_mut(joint) {

@@ -12,6 +12,8 @@ mod injection;
 mod jogging;
 mod knob;
 mod limits;
+mod motion;
+mod mujoco;
 mod no_alarm;
 mod passivity;
 mod protected;
