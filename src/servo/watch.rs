@@ -202,11 +202,11 @@ pub struct Stillness<const JOINTS: usize> {
     pub pieces: [u8; JOINTS],
     /// The last count of each joint.
     pub counts: [Counts; JOINTS],
-    /// Where the present piece begins, m.
+    /// Start of the present piece, m.
     pub mark: Vec3,
 }
 
-/// Straight pieces of the travel that makes a sensor count as stuck; the first may have begun before. Short, because the
+/// Straight pieces of the travel that makes a sensor count as stuck; the first may be a part of one. Short, because the
 /// loop sees less of the probe's way where the stuck joint is the one that moves.
 const PIECES: u8 = 6;
 

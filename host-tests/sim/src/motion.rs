@@ -8,7 +8,7 @@ use palpate::track::Contact;
 
 /// A device in a hand, a servo period at a time.
 pub trait Moving {
-    /// What sound encoders read.
+    /// The counts of sound encoders.
     fn counts(&self) -> [i32; 3];
     /// The probe, m from the workspace centre.
     fn position(&self) -> Vector;

@@ -3,7 +3,7 @@
 //! The continuous currents and time constants are those of motors with the torque constants that the sources state,
 //! from memory of their data sheets and not checked against these; inertias are those of the simulated devices at the
 //! middle of their workspaces. Check yours against your motors' data sheets. The maximum speeds are ours: a hand that
-//! touches a surface stays below them, one that is let go from deep in a wall is told by its energy, too.
+//! touches a surface stays below them, one that is let go from deep in a wall is found by its energy, too.
 
 use crate::device::{Endurance, PolarityCheck, Protection};
 

@@ -25,7 +25,7 @@ const AFTER: f32 = 0.05;
 pub(super) struct ReleaseWatch {
     /// Energy that the wall holds at most, J; infinite where nothing is watched.
     energy: f32,
-    /// What the wall's damping takes of it at most, J per m/s.
+    /// Maximum loss of it in the wall's damping, J per m/s.
     loss: f32,
     /// Ticks after the end of the force.
     after: u16,

@@ -115,7 +115,7 @@ fn whatever_goes_wrong_in_whatever_phase_lets_go_in_the_same_tick() {
             let (within, spoil) = match how(fault) {
                 How::Anytime(spoil) => (1, spoil),
                 How::Within(ticks, spoil) => (ticks, spoil),
-                // What gives no force may be turned as fast as a hand likes.
+                // Without a force a dial may be turned as fast as a hand likes.
                 How::Felt(..) if fault == Fault::Overspeed && *when == "free" => continue,
                 How::Felt(ticks, spoil) if *is_felt => (ticks, spoil),
                 How::Felt(..) | How::Reset(_) | How::Never(_) => continue,
