@@ -368,8 +368,8 @@ fn every_number_of_the_tables_is_in_the_words() -> Result<(), Box<dyn Error>> {
             }
         }
         println!("{} numbers spoilt, {refused} refused, the others found by their CRC", count.seen);
-        // Ends of edges and spokes are refused: each says what the other does.
-        assert!(count.seen > 1000 && refused < count.seen / 4);
+        // Indices are a third at most; ends of edges and spokes are refused, for each states the other.
+        assert!(count.seen > 1000 && refused < count.seen / 3);
     }
     Ok(())
 }
