@@ -10,6 +10,7 @@ pub mod commission;
 pub mod cycles;
 pub mod devices;
 mod drawing;
+pub mod faults;
 pub mod feel;
 pub mod figures;
 pub mod firmware;

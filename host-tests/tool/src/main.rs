@@ -2,8 +2,8 @@
 
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
-    accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, feel, figures, firmware, image,
-    import, monitor, page, parts, race, sim, talk, test, zwidth,
+    accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, faults, feel, figures,
+    firmware, image, import, monitor, page, parts, race, sim, talk, test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -27,6 +27,7 @@ enum Command {
     Budgets(budgets::Arguments),
     CLibrary(c_library::Arguments),
     Cycles(cycles::Arguments),
+    Faults(faults::Arguments),
     Closest(closest::Arguments),
     Sim(sim::Arguments),
     Figures(figures::Arguments),
@@ -57,6 +58,7 @@ fn main() -> ExitCode {
         Command::Budgets(arguments) => budgets::run(&arguments),
         Command::CLibrary(arguments) => c_library::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
+        Command::Faults(arguments) => faults::run(&arguments),
         Command::Closest(arguments) => closest::run(&arguments),
         Command::Sim(arguments) => sim::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),

@@ -258,7 +258,7 @@ fn elevate(curve: &mut [u32], chunk: &mut Vec<u32>) {
     }
 }
 
-// What ticks take.
+// The work of ticks.
 
 fn in_body(random: &mut Random, size: f32) -> Vec3 {
     let mut side = || size * random.between(-1.0, 1.0) as f32;

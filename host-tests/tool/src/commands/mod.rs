@@ -11,6 +11,7 @@ pub mod cycles;
 pub mod demo;
 pub mod demo_knob;
 pub mod device;
+pub mod faults;
 pub mod feel;
 pub mod feel_clean;
 pub mod felt;

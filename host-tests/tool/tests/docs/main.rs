@@ -5,6 +5,7 @@
 mod book;
 mod byte_tables;
 mod commands;
+mod faults;
 mod file_page;
 mod links;
 mod mathematics;
