@@ -145,14 +145,22 @@ fn patch_of(
         points
     };
     let sides = [side(0, false), side(1, false), side(2, true), side(3, true)];
+    let has_pole = quad.sides.iter().any(|side| side.wire.is_none());
     let mut best: Option<(Bezier, f64)> = None;
     for least in [[1, 1], [3, 3], [5, 5]] {
         mesh.part.effort.spend(FITTED);
-        let patch = fit_patch(surface, quad, &sides, least);
+        let mut patch = fit_patch(surface, quad, &sides, least, 1.0);
         if best.as_ref().is_some_and(|(other, _)| other.degree == patch.degree) {
             continue;
         }
-        let off = deviation(mesh, face, quad, &patch);
+        let mut off = deviation(mesh, face, quad, &patch);
+        // Beside a pole little holds the inner points where they are.
+        if has_pole && !proof::is_regular(&patch) {
+            let firm = fit_patch(surface, quad, &sides, least, FIRM);
+            if proof::is_regular(&firm) {
+                (off, patch) = (deviation(mesh, face, quad, &firm), firm);
+            }
+        }
         if best.as_ref().is_none_or(|(_, least)| off < 0.9 * least) {
             best = Some((patch, off));
         }
@@ -160,8 +168,11 @@ fn patch_of(
             break;
         }
     }
-    best.unwrap_or_else(|| (fit_patch(surface, quad, &sides, [1, 1]), f64::INFINITY))
+    best.unwrap_or_else(|| (fit_patch(surface, quad, &sides, [1, 1], 1.0), f64::INFINITY))
 }
+
+/// Firmness of a patch with a pole that folded without it.
+const FIRM: f64 = 30.0;
 
 fn deviation(mesh: &Mesh<'_>, face: usize, quad: &Quad, patch: &Bezier) -> f64 {
     const STEPS: usize = 13;

@@ -213,9 +213,10 @@ const TANGENT: f64 = 0.3;
 const STAY: f64 = 0.03;
 const PATCH_ROUNDS: usize = 8;
 
-/// Fits a patch of at least these degrees to the part of a surface that a quad is. `curves` are the borders bottom,
+/// Fits a patch of at least these degrees to the part of a surface that a quad is; with more `firmness` than 1 its inner
+/// points stay nearer to Coons's. `curves` are the borders bottom,
 /// right, top and left, the first and the third along `u`, the others along `v`.
-pub fn fit_patch(surface: &Surface, quad: &Quad, curves: &[Points; 4], least: [usize; 2]) -> Bezier {
+pub fn fit_patch(surface: &Surface, quad: &Quad, curves: &[Points; 4], least: [usize; 2], firmness: f64) -> Bezier {
     let [bottom, right, top, left] = curves;
     let mut patch = Bezier::coons(bottom, top, left, right, least);
     let [p, q] = patch.degree;
@@ -252,7 +253,7 @@ pub fn fit_patch(surface: &Surface, quad: &Quad, curves: &[Points; 4], least: [u
                     let mut row = Vec::with_capacity(count);
                     for i in 1..p {
                         for j in 1..q {
-                            let share = a[0][i] * b[0][j] * STAY;
+                            let share = a[0][i] * b[0][j] * STAY * firmness;
                             row.extend((0..3).map(|c| (3 * unknown(i, j) + c, share * tangent[c])));
                         }
                     }
