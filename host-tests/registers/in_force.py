@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import telemetry
-from bench import A_WHILE, HOMING, Bench
+from bench import A_WHILE, HELD, HOMING, Bench
 from machine import Machine
 
 # A supply is too low once it was so for four ticks: one reading may be noise. One that is too high holds at once.
@@ -105,7 +105,8 @@ class InForce(Bench):
     def drives_again_with_supply(self, machine: Machine) -> bool:
         _, machine.chip.volts, _ = self.BOARD.SUPPLY_RANGE
         machine.chip.press(enable=False)
-        machine.ticks(A_WHILE)
+        # A hold of the supply lasts for 25 ms more, and the button must be up for as long.
+        machine.ticks(HELD)
         machine.chip.press(enable=True)
         machine.ticks(A_WHILE)
         return self.drives(machine)
