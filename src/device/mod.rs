@@ -122,9 +122,27 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
     }
 
     /// Whether a motor is fed by a voltage, so that the supply matters.
-    #[inline]
-    pub fn needs_supply(&self) -> bool {
-        self.feeds.iter().any(|feed| matches!(feed, drive::Feed::Voltage(_)))
+    pub const fn needs_supply(&self) -> bool {
+        let mut joint = 0;
+        while joint < JOINTS {
+            if matches!(self.feeds[joint], drive::Feed::Voltage(_)) {
+                return true;
+            }
+            joint += 1;
+        }
+        false
+    }
+
+    /// Whether a joint turns without end.
+    pub(crate) const fn has_endless(&self) -> bool {
+        let mut joint = 0;
+        while joint < JOINTS {
+            if self.endless(joint).is_some() {
+                return true;
+            }
+            joint += 1;
+        }
+        false
     }
 
     /// The joint angles, radians, at which the encoders count zero: the pose in which homing by [`Reference::Pose`]

@@ -204,6 +204,10 @@ pub(super) struct Core<'a, S, K, const JOINTS: usize> {
     pub rate: f32,
     pub period: f32,
     pub max_move: f32,
+    /// Whether a joint turns without end.
+    pub has_endless: bool,
+    /// Whether a motor is fed by a voltage.
+    pub needs_supply: bool,
     pub max_growth: f32,
     pub eased: Option<Eased>,
     pub fade_step: f32,
@@ -255,6 +259,8 @@ impl<'a, S, K, const JOINTS: usize> Core<'a, S, K, JOINTS> {
             rate,
             period,
             max_move: device.max_joint_rate_rad_per_s * period,
+            has_endless: device.has_endless(),
+            needs_supply: device.needs_supply(),
             max_growth: rendering.max_slew_n_per_s * period,
             eased: eased(&rendering, &penalty, period),
             // A fade no longer than a tick is no fade.

@@ -27,26 +27,18 @@ pub(super) fn sense<K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     estimators: &[VelocityEstimator; JOINTS],
     max_move: f32,
-    placed: bool,
+    (placed, endless): (bool, bool),
     sensors: &mut Sensors<JOINTS>,
     counts: [Counts; JOINTS],
 ) -> Result<Sensed, Fault>
 where
     K: Kinematics<JOINTS>,
 {
+    let (shown, turned) = if endless { unwound(device, sensors, counts) } else { (counts, false) };
     let mut angles = [0.0; JOINTS];
-    let mut turned = false;
-    for joint in 0..JOINTS {
-        let encoder = Encoder { angle_at_zero_rad: sensors.angles_at_zero[joint], ..device.encoders[joint] };
-        let count = within(device, joint, sensors.turns[joint], counts[joint]);
-        angles[joint] = encoder.angle(count);
-        if let Some(per_turn) = device.endless(joint)
-            && !(per_turn.wrapping_mul(-WINDOW)..=per_turn.wrapping_mul(WINDOW)).contains(&count.0)
-        {
-            turned = true;
-            take_out(device, joint, per_turn, sensors, counts[joint]);
-            angles[joint] = encoder.angle(within(device, joint, sensors.turns[joint], counts[joint]));
-        }
+    let encoders = device.encoders.iter().zip(sensors.angles_at_zero);
+    for ((angle, (encoder, angle_at_zero)), count) in angles.iter_mut().zip(encoders).zip(shown) {
+        *angle = Encoder { angle_at_zero_rad: angle_at_zero, ..*encoder }.angle(count);
     }
     let to_stop = device.to_stop(&angles);
     let in_range = to_stop >= 0.0;
@@ -69,6 +61,26 @@ where
     sensors.counts = Some(counts);
     sensors.angles = angles;
     Ok(Sensed { to_stop, turned })
+}
+
+/// The counts without whole turns, of a device some of whose joints turn without end, and whether turns were taken out.
+#[inline(never)]
+fn unwound<K, const JOINTS: usize>(
+    device: &Device<K, JOINTS>,
+    sensors: &mut Sensors<JOINTS>,
+    counts: [Counts; JOINTS],
+) -> ([Counts; JOINTS], bool) {
+    let (mut shown, mut turned) = (counts, false);
+    for (joint, count) in shown.iter_mut().enumerate() {
+        let Some(per_turn) = device.endless(joint) else { continue };
+        *count = within(device, joint, sensors.turns[joint], counts[joint]);
+        if !(per_turn.wrapping_mul(-WINDOW)..=per_turn.wrapping_mul(WINDOW)).contains(&count.0) {
+            turned = true;
+            take_out(device, joint, per_turn, sensors, counts[joint]);
+            *count = within(device, joint, sensors.turns[joint], counts[joint]);
+        }
+    }
+    (shown, turned)
 }
 
 /// A joint's count without the whole turns that were taken out of it. Over the wrap of 32 bits the difference is right.

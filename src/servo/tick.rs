@@ -86,7 +86,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             }
             Event::Chosen { index } => self.core.surface.choose(&mut state.contact.witness, index),
             Event::Supply { millivolts } => {
-                if self.core.device.needs_supply() {
+                if self.core.needs_supply {
                     state.drive.supply.measured(millivolts as f32 / 1e3);
                 }
                 if let Err(fault) = self.guard.measured(&mut state.guard, millivolts) {
@@ -111,7 +111,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     #[inline]
     pub fn tick(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, input: Input<JOINTS>) -> Output<JOINTS> {
         self.watch(state);
-        if self.core.device.needs_supply() {
+        if self.core.needs_supply {
             state.drive.supply.tick();
         }
         let torques = self.feel(state, input);
@@ -190,8 +190,14 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         let first = state.sensors.counts.is_none();
         let homing = self.core.homing.as_ref().filter(|_| !state.readiness.homed);
         let sensors = &mut state.sensors;
-        let Sensed { to_stop, turned } =
-            sense(self.core.device, &self.core.estimators, self.core.max_move, homing.is_none(), sensors, counts)?;
+        let Sensed { to_stop, turned } = sense(
+            self.core.device,
+            &self.core.estimators,
+            self.core.max_move,
+            (homing.is_none(), self.core.has_endless),
+            sensors,
+            counts,
+        )?;
         if turned && let Some(turns) = state.sensors.turns.first() {
             self.core.surface.turn(&mut state.contact.witness, *turns);
         }
