@@ -17,7 +17,9 @@ pub enum DeviceError {
     #[error("joint {0}: the dry friction must be finite and not negative")]
     Friction(usize),
     /// The range's minimum angle is not below its maximum.
-    #[error("joint {0}: the range's minimum must be below its maximum, and both finite or both infinite")]
+    #[error(
+        "joint {0}: the range's minimum must be below its maximum, and both finite, or both infinite of an only joint"
+    )]
     Range(usize),
     /// A joint that turns without end has no whole number of counts a turn.
     #[error("joint {0} turns without end: its encoder needs a whole number of counts a turn, 4 to 16,777,216")]
@@ -55,7 +57,7 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
                 return Err(DeviceError::Friction(joint));
             }
             let [least, greatest] = self.joint_range_rad[joint];
-            if let Some(counts) = self.endless(joint) {
+            if let Some(counts) = self.endless() {
                 // A whole number, but for three roundings.
                 let off = counts as f32 * encoder.radians_per_count.abs() / core::f32::consts::TAU - 1.0;
                 if !(counts >= 4 && counts <= 1 << 24 && off.abs() < 4e-7) {
@@ -78,7 +80,10 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::device::{Encoder, Motor, presets::WOODEN_HAPTICS_2016 as DEVICE};
+    use crate::device::{
+        Encoder, Motor,
+        presets::{GIMBAL_KNOB, WOODEN_HAPTICS_2016 as DEVICE},
+    };
 
     #[test]
     fn every_number_that_no_device_has_is_refused_by_its_joint() {
@@ -97,10 +102,13 @@ mod tests {
         assert_eq!(device.check(), Err(DeviceError::Range(0)));
         device = DEVICE;
         device.joint_range_rad[0] = [f32::NEG_INFINITY, f32::INFINITY];
-        device.encoders[0] = Encoder::geared(2_000.0, 16.0, 0.0);
-        assert_eq!((device.check(), device.endless(0), device.endless(1)), (Ok(()), Some(32_000), None));
-        device.encoders[0] = Encoder::geared(2_000.0, 16.000_1, 0.0);
-        assert_eq!(device.check(), Err(DeviceError::Endless(0)));
+        assert_eq!((device.check(), device.endless()), (Err(DeviceError::Range(0)), None), "one of three");
+        let mut dial = GIMBAL_KNOB;
+        dial.joint_range_rad[0] = [f32::NEG_INFINITY, f32::INFINITY];
+        dial.encoders[0] = Encoder::geared(2_000.0, 16.0, 0.0);
+        assert_eq!((dial.check(), dial.endless()), (Ok(()), Some(32_000)));
+        dial.encoders[0] = Encoder::geared(2_000.0, 16.000_1, 0.0);
+        assert_eq!(dial.check(), Err(DeviceError::Endless(0)));
         device = DEVICE;
         device.joint_range_rad[0] = [f32::NEG_INFINITY, 1.0];
         assert_eq!(device.check(), Err(DeviceError::Range(0)));

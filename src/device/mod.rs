@@ -93,8 +93,8 @@ pub struct Device<K, const JOINTS: usize> {
     pub feeds: [drive::Feed; JOINTS],
     /// Dry friction of each joint, N·m, generously; 0 where it is not known. A joint may stick under a load below it.
     pub dry_friction_n_m: [f32; JOINTS],
-    /// Minimum and maximum angle of each joint, radians: an angle outside is a sensor fault. From −∞ to ∞ the joint
-    /// turns without end; its encoder then has a whole number of counts a turn.
+    /// Minimum and maximum angle of each joint, radians: an angle outside is a sensor fault. From −∞ to ∞ a
+    /// device's only joint turns without end; its encoder then has a whole number of counts a turn.
     pub joint_range_rad: [[f32; 2]; JOINTS],
     /// Below this [`ProbePose::singularity_margin`], m/rad, the device counts as outside its workspace.
     pub min_margin_m_per_rad: f32,
@@ -109,13 +109,15 @@ pub struct Device<K, const JOINTS: usize> {
 }
 
 impl<K, const JOINTS: usize> Device<K, JOINTS> {
-    /// Counts of a turn of a joint that turns without end; `None` of a joint with a range.
-    #[inline]
-    pub const fn endless(&self, joint: usize) -> Option<i32> {
-        let [least, most] = self.joint_range_rad[joint];
+    /// Counts of a turn of a device's only joint, where it turns without end; `None` where joints have a range.
+    pub const fn endless(&self) -> Option<i32> {
+        if JOINTS != 1 {
+            return None;
+        }
+        let [least, most] = self.joint_range_rad[0];
         if least == f32::NEG_INFINITY && most == f32::INFINITY {
             // Rounded to nearest; the cast saturates.
-            Some((core::f32::consts::TAU / self.encoders[joint].radians_per_count.abs() + 0.5) as i32)
+            Some((core::f32::consts::TAU / self.encoders[0].radians_per_count.abs() + 0.5) as i32)
         } else {
             None
         }
@@ -126,18 +128,6 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
         let mut joint = 0;
         while joint < JOINTS {
             if matches!(self.feeds[joint], drive::Feed::Voltage(_)) {
-                return true;
-            }
-            joint += 1;
-        }
-        false
-    }
-
-    /// Whether a joint turns without end.
-    pub(crate) const fn has_endless(&self) -> bool {
-        let mut joint = 0;
-        while joint < JOINTS {
-            if self.endless(joint).is_some() {
                 return true;
             }
             joint += 1;

@@ -204,10 +204,8 @@ pub(super) struct Core<'a, S, K, const JOINTS: usize> {
     pub rate: f32,
     pub period: f32,
     pub max_move: f32,
-    /// Whether a joint turns without end.
-    pub has_endless: bool,
-    /// Whether a motor is fed by a voltage.
-    pub needs_supply: bool,
+    /// Counts of a turn of an only joint that turns without end ([`Device::endless`]).
+    pub per_turn: Option<i32>,
     pub max_growth: f32,
     pub eased: Option<Eased>,
     pub fade_step: f32,
@@ -259,8 +257,7 @@ impl<'a, S, K, const JOINTS: usize> Core<'a, S, K, JOINTS> {
             rate,
             period,
             max_move: device.max_joint_rate_rad_per_s * period,
-            has_endless: device.has_endless(),
-            needs_supply: device.needs_supply(),
+            per_turn: device.endless(),
             max_growth: rendering.max_slew_n_per_s * period,
             eased: eased(&rendering, &penalty, period),
             // A fade no longer than a tick is no fade.
@@ -483,7 +480,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
                 rates: [0.0; JOINTS],
                 velocities: core.estimators.map(|estimator| estimator.start()),
                 angles_at_zero: core.device.encoders.map(|encoder| encoder.angle_at_zero_rad),
-                turns: [0; JOINTS],
+                turns: 0,
                 stillness: Stillness::START,
                 frames_lost: 0,
             },

@@ -45,8 +45,8 @@ pub(super) struct Sensors<const JOINTS: usize> {
     pub velocities: [VelocityState; JOINTS],
     /// Joint angle in the middle of count zero, radians: the encoders' own, or the one that homing found.
     pub angles_at_zero: [f32; JOINTS],
-    /// Whole turns, of the encoder's count, that were taken out of the angle of a joint that turns without end.
-    pub turns: [i32; JOINTS],
+    /// Whole turns, of the encoder's count, that were taken out of the angle of an only joint that turns without end.
+    pub turns: i32,
     /// Since when each joint has not moved under load.
     pub stillness: Stillness<JOINTS>,
     /// Frames lost, late or damaged so far.
@@ -140,8 +140,8 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         self.readiness.homing.words(|word| hash.words([word]));
         hash.floats(self.sensors.angles_at_zero);
         // Of devices that have them.
-        if self.sensors.turns != [0; JOINTS] {
-            hash.words(self.sensors.turns.map(|turns| turns as u32));
+        if self.sensors.turns != 0 {
+            hash.words([self.sensors.turns as u32]);
         }
         let TableCheck { place, crc, passes, read } = self.faults.table_check;
         hash.words([place.record, place.word, crc, passes, u32::from(read.is_some()), read.unwrap_or(0)]);
@@ -349,10 +349,10 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
         self.sensors.counts
     }
 
-    /// Whole turns that were taken out of the angle of each joint that turns without end, by its encoder's counts; 0 of
-    /// a joint with a range. [`Self::angles`] is within eight turns, so that it stays precise.
+    /// Whole turns that were taken out of the angle of a device's only joint, where it turns without end, by its
+    /// encoder's counts; 0 where joints have a range. [`Self::angles`] is within eight turns, so that it stays precise.
     #[inline]
-    pub const fn turns(&self) -> [i32; JOINTS] {
+    pub const fn turns(&self) -> i32 {
         self.sensors.turns
     }
 

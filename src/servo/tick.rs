@@ -86,7 +86,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             }
             Event::Chosen { index } => self.core.surface.choose(&mut state.contact.witness, index),
             Event::Supply { millivolts } => {
-                if self.core.needs_supply {
+                if self.core.device.needs_supply() {
                     state.drive.supply.measured(millivolts as f32 / 1e3);
                 }
                 if let Err(fault) = self.guard.measured(&mut state.guard, millivolts) {
@@ -111,9 +111,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     #[inline]
     pub fn tick(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, input: Input<JOINTS>) -> Output<JOINTS> {
         self.watch(state);
-        if self.core.needs_supply {
-            state.drive.supply.tick();
-        }
+        state.drive.supply.tick();
         let torques = self.feel(state, input);
         let gated = torques.and_then(|Torques { felt, weight, live }| {
             let gated = self.guard.gate(&state.guard, live, &self.core.device.motors, felt, weight);
@@ -190,16 +188,12 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         let first = state.sensors.counts.is_none();
         let homing = self.core.homing.as_ref().filter(|_| !state.readiness.homed);
         let sensors = &mut state.sensors;
-        let Sensed { to_stop, turned } = sense(
-            self.core.device,
-            &self.core.estimators,
-            self.core.max_move,
-            (homing.is_none(), self.core.has_endless),
-            sensors,
-            counts,
-        )?;
-        if turned && let Some(turns) = state.sensors.turns.first() {
-            self.core.surface.turn(&mut state.contact.witness, *turns);
+        let core = &self.core;
+        let placed = homing.is_none();
+        let Sensed { to_stop, turned } =
+            sense(core.device, &core.estimators, core.max_move, core.per_turn, placed, sensors, counts)?;
+        if turned {
+            self.core.surface.turn(&mut state.contact.witness, state.sensors.turns);
         }
         if let Some(homing) = homing {
             return self.home(homing, state, counts, enable);

@@ -59,7 +59,9 @@ impl Supply {
     /// A tick has passed.
     #[inline]
     pub const fn tick(&mut self) {
-        self.age = self.age.saturating_add(1);
+        if self.filtered_v != 0.0 {
+            self.age = self.age.saturating_add(1);
+        }
     }
 
     /// The supply over a feed's constant. A stale or implausible measurement, also NaN and zero, is replaced by a high

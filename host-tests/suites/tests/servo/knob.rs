@@ -141,7 +141,7 @@ fn a_dial_is_as_precise_after_a_million_turns_as_after_one_and_its_detents_stay_
             let _ = servo.tick(&mut state, Input::Sensors { counts: [Counts(place as i32)], enable: true });
             // The middle of the count, in real numbers.
             let exact = (place as f64 + 0.5) / 16_384.0 * TAU;
-            let whole = f64::from(state.turns()[0]) * TAU;
+            let whole = f64::from(state.turns()) * TAU;
             worst_angle = worst_angle.max((whole + f64::from(state.angles()[0]) - exact).abs());
             let in_turn = ((place.rem_euclid(16_384)) as f64 + 0.5) / 16_384.0 * TAU;
             let torque = -0.03 * (24.0 * in_turn).sin();
@@ -151,7 +151,7 @@ fn a_dial_is_as_precise_after_a_million_turns_as_after_one_and_its_detents_stay_
         println!("angle off by {worst_angle:.1e} rad, torque by {worst_torque:.1e} N·m");
         // Two roundings of 50 rad, 4e-6 each; those of the pitch, 200 detents of 2⁻²⁴, by 0.72 N·m/rad.
         assert!(worst_angle < 1e-5 && worst_torque < 3e-5, "{worst_angle} {worst_torque}");
-        assert_eq!(state.turns()[0] / 8 * 8, state.turns()[0]);
+        assert_eq!(state.turns() / 8 * 8, state.turns());
     }
 }
 
@@ -172,7 +172,7 @@ fn a_dial_that_is_turned_on_and_on_has_no_fault_and_no_jerk_released_or_in_force
             (fastest, slowest) = (fastest.max(rate), slowest.min(rate));
         }
         assert!(slowest > 0.0 && fastest < 60.0, "{enable}: {slowest} to {fastest} rad/s");
-        assert!(knob.state().turns()[0] >= 40);
+        assert!(knob.state().turns() >= 40);
     }
 }
 
