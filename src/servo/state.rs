@@ -160,7 +160,7 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
                 VelocityState::BetweenCounts { lag, velocity } => hash.floats([*lag, *velocity]),
             }
         }
-        hash.words([self.sensors.stillness.turn.into()]);
+        hash.words([u32::from(self.sensors.stillness.turn) | u32::from(self.sensors.stillness.due) << 8]);
         for (pieces, Counts(count)) in self.sensors.stillness.pieces.into_iter().zip(self.sensors.stillness.counts) {
             hash.words([pieces.into(), count as u32]);
         }

@@ -196,8 +196,10 @@ impl Heartbeat {
 /// The state of the check for stuck sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stillness<const JOINTS: usize> {
-    /// The joint whose turn it is.
+    /// Whose turn it is: the probe's, or a joint's, counted from 1.
     pub turn: u8,
+    /// Joints whose load at the end of the last piece is not counted yet.
+    pub due: u8,
     /// How many straight pieces the probe has come since each joint moved by a count, while it carried a load.
     pub pieces: [u8; JOINTS],
     /// The last count of each joint.
@@ -212,9 +214,10 @@ const PIECES: u8 = 6;
 
 impl<const JOINTS: usize> Stillness<JOINTS> {
     /// Before the first tick.
-    pub const START: Self = Self { turn: 0, pieces: [0; JOINTS], counts: [Counts(0); JOINTS], mark: Vec3::ZERO };
+    pub const START: Self =
+        Self { turn: 0, due: 0, pieces: [0; JOINTS], counts: [Counts(0); JOINTS], mark: Vec3::ZERO };
 
-    /// Checks the next joint, one per tick: whether it has not moved by a count under load while the probe came far.
+    /// Checks the probe's way or the next joint, one per tick: whether it has not moved by a count under load while the probe came far.
     ///
     /// `felt` is the torque of the contact force on each joint, N·m, without gravity compensation, which the links'
     /// weight balances; `friction` is each joint's dry friction. A joint whose friction is not known is not checked.
@@ -227,16 +230,23 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
         probe: Vec3,
         felt: &[f32; JOINTS],
     ) -> bool {
-        let piece = limits.travel_m * (1.0 / PIECES as f32);
-        if (probe - self.mark).length_squared() > piece * piece {
-            self.mark = probe;
-            for ((pieces, felt), friction) in self.pieces.iter_mut().zip(felt).zip(friction) {
-                let bears = felt.abs() > limits.load * friction && *friction > 0.0;
-                *pieces = pieces.saturating_add(u8::from(bears));
+        let turn = usize::from(self.turn);
+        if turn == 0 || turn > JOINTS {
+            self.turn = 1;
+            let piece = limits.travel_m * (1.0 / PIECES as f32);
+            if (probe - self.mark).length_squared() > piece * piece {
+                (self.mark, self.due) = (probe, JOINTS as u8);
             }
+            return false;
         }
-        let joint = if usize::from(self.turn) < JOINTS { usize::from(self.turn) } else { 0 };
-        self.turn = joint as u8 + 1;
+        let joint = turn - 1;
+        self.turn += 1;
+        if self.due > 0 {
+            self.due -= 1;
+            let friction = friction[joint];
+            let bears = felt[joint].abs() > limits.load * friction && friction > 0.0;
+            self.pieces[joint] = self.pieces[joint].saturating_add(u8::from(bears));
+        }
         if counts[joint] != self.counts[joint] {
             (self.counts[joint], self.pieces[joint]) = (counts[joint], 0);
         }

@@ -9,7 +9,7 @@
 //! a motion by a third, dry friction takes a tenth and the estimated rates lag: so half is asked for, of either.
 
 use super::Motion;
-use crate::math::{Vec3, sqrt};
+use crate::math::Vec3;
 use crate::render::Penalty;
 
 /// Share of the wall's energy, and of the motion's.
@@ -89,8 +89,10 @@ impl ReleaseWatch {
         for (inertia, rate) in inertia.iter().zip(moving.rates) {
             twice += inertia * rate * rate;
         }
-        let speed = sqrt(moving.velocity.length_squared());
         let motion = 0.5 * twice;
-        motion + self.loss * speed >= SHARE * self.energy && state.work >= SHARE * motion
+        // `motion + loss · speed ≥ half of the energy`, squared: no root in the tick.
+        let missing = SHARE * self.energy - motion;
+        let is_enough = missing <= 0.0 || self.loss * self.loss * moving.velocity.length_squared() >= missing * missing;
+        is_enough && state.work >= SHARE * motion
     }
 }
