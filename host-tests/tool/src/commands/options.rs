@@ -322,6 +322,7 @@ impl Scene {
         let [mechanism, device] = self.device.source.unwrap_or_default();
         let shipped = format!(
             "pub use palpate::device::{{{mechanism} as Mechanism, presets::{device} as DEVICE, presets::{device}_PROTECTION as PROTECTION}};\n\
+             /// Each joint on the input and the output of its number.\n\
              pub const WIRING: palpate::commission::Wiring<3> = palpate::commission::Wiring::STRAIGHT;"
         );
         let constants = self.device.constants.map_or(shipped.as_str(), |(source, _)| source);
