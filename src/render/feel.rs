@@ -131,7 +131,8 @@ impl Wave {
         // The casts saturate.
         let part = per_turn - (per_turn + 0.5) as i32 as f32;
         // A whole number of pitches a turn, but for the rounding of the pitch, is meant to be one.
-        if !(part.abs() > 4e-7 * per_turn) {
+        let is_a_part = part.abs() > 4e-7 * per_turn;
+        if !is_a_part {
             return 0.0;
         }
         let part = (part * 4_294_967_296.0) as i32;

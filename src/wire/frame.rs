@@ -14,7 +14,7 @@ use serde::{Serialize, de::DeserializeOwned};
 use thiserror::Error;
 
 /// The capacity for any frame of this crate's messages, bytes, the final `0x00` included; a message may still grow.
-pub const MAX_FRAME: usize = 128;
+pub const MAX_FRAME: usize = 144;
 
 /// Ends a frame, and never occurs inside one. Alone it is an empty frame: nothing to say this tick.
 pub const DELIMITER: u8 = 0;

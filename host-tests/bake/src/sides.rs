@@ -88,12 +88,13 @@ impl<'a> Sides<'a> {
     /// The vertex a point lies on. A side that is one point in the model is a curve of some roundings in the tables:
     /// there, if the vertex is as near.
     fn vertex(&self, foot: Foot, probe: DVec3) -> Option<u16> {
-        let near = self.body.faces()[foot.face].sides.iter().zip(aways(foot.parameters)).find_map(|(side, away)| {
-            let Side::Pole { vertex } = *side else { return None };
-            let at = self.body.vertices()[usize::from(vertex)].point.as_dvec3();
-            let is_as_near = || at.distance(probe) <= foot.distance + POLE_ROUNDING * f64::from(self.body.size());
-            (away <= POLE && is_as_near()).then_some(vertex)
-        });
+        let near =
+            self.body.faces()[foot.face].sides.iter().zip(away_from_sides(foot.parameters)).find_map(|(side, away)| {
+                let Side::Pole { vertex } = *side else { return None };
+                let at = self.body.vertices()[usize::from(vertex)].point.as_dvec3();
+                let is_as_near = || at.distance(probe) <= foot.distance + POLE_ROUNDING * f64::from(self.body.size());
+                (away <= POLE && is_as_near()).then_some(vertex)
+            });
         if near.is_some() {
             return near;
         }
@@ -189,7 +190,7 @@ impl<'a> Sides<'a> {
 }
 
 /// How far parameters are from each side.
-const fn aways([u, v]: [f64; 2]) -> [f64; 4] {
+const fn away_from_sides([u, v]: [f64; 2]) -> [f64; 4] {
     [u, 1.0 - u, v, 1.0 - v]
 }
 

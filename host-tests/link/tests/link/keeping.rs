@@ -1,6 +1,6 @@
 //! Bodies that are kept in the device's flash.
 
-use crate::line::{Bad, device, for_seconds, running};
+use crate::line::{Bad, device, for_seconds, over, running};
 use crate::uploads::{BOX, SPHERE};
 use palpate_link::{Device, Error, Phase, Refused, UploadError, View};
 use palpate_sim::simulated::{Hand, Kind};
@@ -96,7 +96,7 @@ fn flash_is_not_written_while_motors_are_driven_or_enable_is_held() {
 #[test]
 fn a_body_that_was_kept_over_a_bad_line_is_whole() {
     for seed in 0..4 {
-        let mut device = Device::over(Bad::new(Kind::default(), seed)).unwrap();
+        let mut device = over(Bad::new(Kind::default(), seed));
         device.line().spoils = 2_000;
         device.keep(1, BOX, |_, _| ()).unwrap();
         let said = device.line().numbers.len();

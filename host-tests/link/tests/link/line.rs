@@ -39,9 +39,16 @@ pub struct Bad {
     frame: Vec<u8>,
 }
 
-/// Greets a simulated device over such a line.
+/// Greets a simulated device over such a line, and waits until its enable input counts as released.
 pub fn device(kind: Kind) -> Device<Bad> {
-    Device::over(Bad::new(kind, 1)).unwrap()
+    over(Bad::new(kind, 1))
+}
+
+/// The same over a line of one's own.
+pub fn over(line: Bad) -> Device<Bad> {
+    let mut device = Device::over(line).unwrap();
+    for_seconds(&mut device, 0.05);
+    device
 }
 
 /// The same, felt: enabled, and the hand where it was.

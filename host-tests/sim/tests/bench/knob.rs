@@ -348,7 +348,8 @@ fn a_short_an_open_phase_and_a_lost_measurement_of_the_currents_stop_the_motor()
         let mut sound = turned();
         sound.ticks(2_000);
         assert_eq!(sound.bench.board().drives.fault(), None, "{when}");
-        let harms: [(&str, fn(&mut World), CurrentFault, u32); 5] = [
+        type Harm = (&'static str, fn(&mut World), CurrentFault, u32);
+        let harms: [Harm; 5] = [
             // Ohm's law on 2 V or less: more than 1.2 A within L/R, and two readings of it.
             ("short", |world| world.dial.short(0.3), CurrentFault::Over, 2_000),
             ("phase 1 open", |world| world.dial.lose(Some(0)), CurrentFault::Open, 2_000),
