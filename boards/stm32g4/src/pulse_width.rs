@@ -6,7 +6,7 @@
 
 use palpate::device::Duty;
 use palpate::device::drive::SetPointRange;
-use palpate_bench::{Drives as _, NotObeyed};
+use palpate_bench::NotObeyed;
 use stm32g4xx_hal::gpio::{AF6, Output, PA5, PA8, PA9, PA10, PB12};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::pwm::{ActiveHigh, C1, C2, C3, ComplementaryDisabled, Pwm};

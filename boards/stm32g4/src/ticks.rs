@@ -1,7 +1,6 @@
 //! Time: the timer that raises ticks, and the counter that times them.
 
 use palpate_bench::Counter;
-use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
 use stm32g4xx_hal::stm32::{DBGMCU, LPTIMER1, RCC, TIM5, TIM7, lptimer1, tim2};
 use stm32g4xx_hal::time::ExtU32;

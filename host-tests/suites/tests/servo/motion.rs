@@ -189,7 +189,8 @@ fn slides_y(time: f64) -> Vector {
 #[test]
 fn a_count_that_stands_still_under_load_is_found_by_default() {
     let servo = recommended(&WALL, Vec3::ZERO);
-    let paths: [(&str, fn(f64) -> Vector); 2] = [("x", slides_x), ("y", slides_y)];
+    type Path = (&'static str, fn(f64) -> Vector);
+    let paths: [Path; 2] = [("x", slides_x), ("y", slides_y)];
     for (along, path) in paths {
         for planted in [Planted::Nothing, Planted::Frozen(0, 1.5), Planted::Frozen(1, 1.5), Planted::Frozen(2, 1.5)] {
             let script = Script { path, grip: FIRM, planted, seconds: 5.0 };

@@ -352,7 +352,7 @@ fn no_tick_takes_more_than_its_file_allows() {
         let of = [0, 0, 0, 1, 1, 2, 2, 3, 4, 5][(seed % 10) as usize];
         let mut pieces = good[of].clone();
         // Half of them with the list of a single face: their searches end within a few ticks.
-        if seed % 2 == 0 {
+        if seed.is_multiple_of(2) {
             pieces.entries[0] = 31 << 15 | 31 << 5;
         }
         for _ in 0..=(seed / 10) % 12 {

@@ -20,8 +20,10 @@ fn sensor(chip: AmsChip, frames: &[([u8; 2], [u8; 2])]) -> AmsAngle<Mock<u8>> {
     AmsAngle::new(Mock::new(&transactions), chip)
 }
 
+type Diagnostic = ([u8; 2], Result<u8, SensorError<ErrorKind>>);
+
 /// Diagnostics: bit 8 settled, 9 overflow, 10 and 11 field, low byte the gain.
-const DIAGNOSTICS: [([u8; 2], Result<u8, SensorError<ErrorKind>>); 8] = [
+const DIAGNOSTICS: [Diagnostic; 8] = [
     ([0x81, 0x80], Err(SensorError::Damaged)),
     ([0x01, 0x80], Ok(128)),
     ([0x00, 0x80 | 0x01], Err(SensorError::Absent)),
