@@ -9,9 +9,9 @@ use rand_pcg::Pcg64;
 
 /// Of the table check: two for each of 33 words, and two ends.
 pub const TICKS_PER_PASS: u32 = 68;
-/// Until a sensor that stands still is called stuck by limits that allow next to no travel: each joint is looked at
-/// twice.
-pub const STUCK_TICKS: u32 = 12;
+/// Until a sensor that stands still is called stuck by limits that allow next to no travel: eight turns of the probe and
+/// three joints.
+pub const STUCK_TICKS: u32 = 32;
 
 /// What injecting a fault came to.
 pub enum Seen {
@@ -92,8 +92,8 @@ impl Bench<'_> {
                 if felt.abs() < 10.0 * self.device.dry_friction_n_m[joint] || state.counts().is_none() {
                     return Seen::Not; // without load a joint may rest
                 }
-                // The last count again, while the other joints come a count a tick: seven pieces of the way, and three ticks, for one
-                // joint is looked at a tick.
+                // The last count again, while the other joints come a count a tick: seven pieces of the way, one of which
+                // is seen in four ticks, for the joints have their turns between.
                 let mut bad = counts;
                 bad[joint] = state.counts().unwrap()[joint];
                 for _ in 0..STUCK_TICKS {
