@@ -2,7 +2,9 @@
 //! value …`, metres; numbers are printed so that reading them gives the same bits.
 
 use anyhow::{Context as _, ensure};
-use palpate::body::{Body, BodyTables, Edge, EdgeFace, EdgeKind, Face, Locator, Separator, Side, SplineCurve, Vertex};
+use palpate::body::{
+    Body, BodyTables, Edge, EdgeFace, EdgeKind, Face, Locator, Separator, Side, SplineCurve, Spoke, Vertex,
+};
 use palpate::math::Vec3;
 use palpate::patch::{
     Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable, ThirdDerivativeBounds,
@@ -116,12 +118,14 @@ fn body(patch: SplinePatch<'static>, size: f32, lines: &HashMap<&str, &str>) -> 
         kind: EdgeKind::Open,
     };
     let edges: Vec<Edge> = [0, 1, 2, 3].map(edge).into();
-    let vertices = vec![Vertex { point: Vec3::ZERO, outward: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true }];
+    let vertices = vec![Vertex { point: Vec3::ZERO, outward: Vec3::ZERO, first_spoke: 0, spokes: 8, is_open: true }];
+    let spoke = |end: u16| Spoke { direction: Vec3::ZERO, edge: end / 2, at_upper_end: end % 2 == 1 };
+    let spokes: Vec<Spoke> = (0..8).map(spoke).collect();
     Ok(BodyTables {
         faces: faces.leak(),
         edges: edges.leak(),
         vertices: vertices.leak(),
-        spokes: &[],
+        spokes: spokes.leak(),
         locator,
         size_m: size,
         is_convex: false,

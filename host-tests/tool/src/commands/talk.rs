@@ -6,6 +6,7 @@ use crate::models::is_baked;
 use crate::talk::{Console, Emulated, Misunderstood, Step};
 use anyhow::{Context as _, bail};
 use clap::Args;
+use palpate::wire::hold;
 use palpate_link::{Device, Error, Line, Port, SILENCE};
 use palpate_sim::simulated::{Hand, Kind, Simulated};
 use std::io::{IsTerminal as _, Write, stdin, stdout};
@@ -59,8 +60,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 fn talk(line: Box<dyn Line>, hand: Option<&Hand>) -> anyhow::Result<ExitCode> {
     let mut device = Device::over(line)?;
     if let Some(hand) = hand {
-        // A button is asked for once the device has seen it released.
-        device.view(SILENCE)?;
+        // A button is asked for once the device has seen it released for long enough.
+        let until = device.now() + SILENCE;
+        while device.view(SILENCE)?.hold & hold::RELEASE_FIRST != 0 && device.now() < until {}
         hand.enables(true);
     }
     let mut console = Console::new(device, &file_of);
