@@ -170,8 +170,10 @@ impl Desk {
         let heard = self.hellos.len();
         self.send(&HostMessage::Hello { protocol: PROTOCOL });
         self.until("a hello", |desk| desk.hellos.len() > heard);
-        // Force only once the button was let go of since a host was heard.
-        self.tick(false);
+        // Force only once the button was let go of for 25 ms since a host was heard.
+        for _ in 0..(RATE / 32.0) as u32 {
+            self.tick(false);
+        }
         self.hellos[heard]
     }
 
