@@ -205,7 +205,8 @@ def frame(record):
 def record(tick, gap):
     """The fields in the order of docs/reference/wire.md: 1 is a record."""
     before = b"".join(map(varint, (1, tick, tick, 25_000_000, 7, 6250, 6251, 1800, 0)))
-    state = bytes([3, 0]) + varint(0) + bytes([0]) + varint(0) + varint(0) + bytes([0]) + varint(2) + bytes([0, 2])
+    state = bytes([3, 0]) + varint(0) + bytes([0]) + varint(0) + varint(0)
+    state += varint(0) + bytes([0, 0, 0]) + bytes([0]) + varint(2) + bytes([0, 2])
     return before + state + struct.pack("<7f", gap, 0.1, 0.2, 0.3, 1.0, 2.0, 3.0) + b"".join(map(zigzag, (-5, 0, 700)))
 
 
