@@ -4,6 +4,7 @@ use super::candidate_search::MAX_EVALUATIONS_PER_CANDIDATE;
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
 use super::search::MAX_EVALUATIONS;
 use super::table::Body;
+use crate::math::Vec3;
 use crate::tally::TickWork;
 
 /// Maximum number of spokes of a vertex: the only list of a body that a tick walks from its start to its end.
@@ -137,12 +138,12 @@ impl Body<'_> {
 
     /// Ticks that end on a vertex, over an edge or by staying there, or that leave it along an edge.
     const fn worst_at_vertex(&self, index: u16, weights: TickWork) -> WorstTick {
-        let vertex = &self.vertices[index as usize];
+        let vertex = self.vertex_at(index);
         let all = self.spokes_at(vertex);
         let (mut asked, mut contact) = (0, NO_WORK);
         let mut number = 0;
         while number < all.len() {
-            let edge = &self.edges[all[number].edge as usize];
+            let edge = self.edge_at(all[number].edge);
             let ruled = self.ruled(edge);
             asked = if ruled > asked { ruled } else { asked };
             contact = or(contact, self.contact_on_edge(edge), weights);
@@ -164,11 +165,11 @@ impl Body<'_> {
         while side < 4 {
             match &face.sides[side] {
                 Side::Pole { vertex } => {
-                    let count = self.spokes_at(&self.vertices[*vertex as usize]).len();
+                    let count = self.spokes_at(self.vertex_at(*vertex)).len();
                     at_pole = or(at_pole, spokes(count), weights);
                 }
                 Side::Edge { edge, .. } => {
-                    let edge = &self.edges[*edge as usize];
+                    let edge = self.edge_at(*edge);
                     if matches!(edge.kind, EdgeKind::Smooth) {
                         over = or(over, curves(self.ruled(edge)), weights);
                         let mut number = 0;
@@ -192,8 +193,21 @@ impl Body<'_> {
 
     /// [`Body::spokes_of`] in a `const fn`.
     const fn spokes_at(&self, vertex: &Vertex) -> &[Spoke] {
-        let (_, from) = self.spokes.split_at(vertex.first_spoke as usize);
-        from.split_at(vertex.spokes as usize).0
+        let Some((_, from)) = self.spokes.split_at_checked(vertex.first_spoke as usize) else { return &[] };
+        let Some((all, _)) = from.split_at_checked(vertex.spokes as usize) else { return &[] };
+        all
+    }
+
+    // Checked tables name edges and vertices that exist; `get` is not a `const fn`, and an index could panic.
+
+    const fn edge_at(&self, index: u16) -> &Edge<'_> {
+        if (index as usize) < self.edges.len() { &self.edges[index as usize] } else { &Edge::VACANT }
+    }
+
+    const fn vertex_at(&self, index: u16) -> &Vertex {
+        const NONE: Vertex =
+            Vertex { point: Vec3::ZERO, outward: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true };
+        if (index as usize) < self.vertices.len() { &self.vertices[index as usize] } else { &NONE }
     }
 
     const fn face_of(&self, of: EdgeFace) -> Option<&Face<'_>> {
@@ -226,9 +240,9 @@ impl Body<'_> {
             let (u, v) = (corner & 1, corner >> 1);
             let vertex = match &face.sides[u] {
                 Side::Pole { vertex } => *vertex,
-                Side::Edge { edge, reversed, .. } => self.edges[*edge as usize].ends[v ^ (*reversed as usize)],
+                Side::Edge { edge, reversed, .. } => self.edge_at(*edge).ends[(v ^ (*reversed as usize)) & 1],
             };
-            let (mut asked, decides) = self.in_front_at(&self.vertices[vertex as usize]);
+            let (mut asked, decides) = self.in_front_at(self.vertex_at(vertex));
             let sides = [self.side(face, u, weights), self.side(face, 2 + v, weights)];
             if !decides {
                 asked = asked.and(sides[0]).and(sides[1]);
@@ -244,16 +258,16 @@ impl Body<'_> {
 
     /// `is_in_front_of_neighbour`.
     const fn side(&self, face: &Face<'_>, number: usize, weights: TickWork) -> TickWork {
-        match &face.sides[number] {
-            Side::Pole { vertex } => self.outside_at(&self.vertices[*vertex as usize]),
+        match &face.sides[number & 3] {
+            Side::Pole { vertex } => self.outside_at(self.vertex_at(*vertex)),
             Side::Edge { edge, .. } => {
-                let edge = &self.edges[*edge as usize];
+                let edge = self.edge_at(*edge);
                 match edge.kind {
                     EdgeKind::Convex => curves((self.ruled(edge) > 0) as u32),
                     EdgeKind::Smooth => {
                         let [start, end] = edge.ends;
-                        let (start, _) = self.in_front_at(&self.vertices[start as usize]);
-                        let (end, _) = self.in_front_at(&self.vertices[end as usize]);
+                        let (start, _) = self.in_front_at(self.vertex_at(start));
+                        let (end, _) = self.in_front_at(self.vertex_at(end));
                         or(start, end, weights)
                     }
                     EdgeKind::Reflex | EdgeKind::Mixed | EdgeKind::Open => NO_WORK,
@@ -263,7 +277,7 @@ impl Body<'_> {
     }
 
     const fn kind(&self, spoke: &Spoke) -> EdgeKind {
-        self.edges[spoke.edge as usize].kind
+        self.edge_at(spoke.edge).kind
     }
 
     /// `is_outside_at`: whether an edge leads nearer, whether all are smooth, how hollow the faces are, and the planes.
@@ -284,9 +298,9 @@ impl Body<'_> {
         let mut index = 0;
         while index < all.len() {
             match self.kind(&all[index]) {
-                EdgeKind::Convex if count == 3 => return (spokes(index + 1), false),
+                EdgeKind::Convex if count >= 3 => return (spokes(index + 1), false),
                 EdgeKind::Convex => {
-                    sharp[count] = index;
+                    sharp[count] = all[index].edge;
                     count += 1;
                 }
                 EdgeKind::Smooth => {}
@@ -301,20 +315,20 @@ impl Body<'_> {
         let mut pair = 0;
         while pair < 3 && !self.is_convex() {
             // The bulge of the face between two of the edges, or of all faces.
-            let [from, to] = [&all[sharp[pair]], &all[sharp[(pair + 1) % 3]]];
-            let between = if self.have_common_face(from, to) { curves(2) } else { spokes(all.len()) };
+            let between =
+                if self.have_common_face(sharp[pair], sharp[(pair + 1) % 3]) { curves(2) } else { spokes(all.len()) };
             work = work.and(between);
             pair += 1;
         }
         (work, true)
     }
 
-    const fn have_common_face(&self, from: &Spoke, to: &Spoke) -> bool {
-        let (from, to) = (&self.edges[from.edge as usize].faces, &self.edges[to.edge as usize].faces);
+    const fn have_common_face(&self, from: u16, to: u16) -> bool {
+        let (from, to) = (&self.edge_at(from).faces, &self.edge_at(to).faces);
         let mut is_common = false;
         let mut pair = 0;
         while pair < 4 {
-            let [one, other] = [from[pair & 1].face, to[pair >> 1].face];
+            let [one, other] = [from[pair & 1].face, to[pair >> 1 & 1].face];
             is_common |= one == other && (one as usize) < self.faces.len();
             pair += 1;
         }
