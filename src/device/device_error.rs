@@ -56,14 +56,14 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
             if !(friction >= 0.0 && friction < f32::INFINITY) {
                 return Err(DeviceError::Friction(joint));
             }
-            let [least, greatest] = self.joint_range_rad[joint];
+            let [minimum, maximum] = self.joint_range_rad[joint];
             if let Some(counts) = self.endless() {
                 // A whole number, but for three roundings.
                 let off = counts as f32 * encoder.radians_per_count.abs() / core::f32::consts::TAU - 1.0;
                 if !(counts >= 4 && counts <= 1 << 24 && off.abs() < 4e-7) {
                     return Err(DeviceError::Endless(joint));
                 }
-            } else if !(least < greatest && least.is_finite() && greatest.is_finite()) {
+            } else if !(minimum < maximum && minimum.is_finite() && maximum.is_finite()) {
                 return Err(DeviceError::Range(joint));
             }
             joint += 1;

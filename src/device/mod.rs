@@ -114,8 +114,8 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
         if JOINTS != 1 {
             return None;
         }
-        let [least, most] = self.joint_range_rad[0];
-        if least == f32::NEG_INFINITY && most == f32::INFINITY {
+        let [minimum, maximum] = self.joint_range_rad[0];
+        if minimum == f32::NEG_INFINITY && maximum == f32::INFINITY {
             // Rounded to nearest; the cast saturates.
             Some((core::f32::consts::TAU / self.encoders[0].radians_per_count.abs() + 0.5) as i32)
         } else {

@@ -123,8 +123,8 @@ pub enum Fault {
     /// Repeated implausible contact: see [`super::ContactLimits`].
     #[error("contact lost repeatedly")]
     ContactLost = 16,
-    /// A joint or the probe moves faster than it may while a contact gives force or shortly after, or a pressed probe was let
-    /// go.
+    /// A joint or the probe moves faster than it may while a contact gives force or within 50 ms after it, or a pressed
+    /// probe was released.
     #[error("moving too fast under force")]
     Overspeed = 17,
     /// The motors' supply is out of its range, or not measured.

@@ -309,16 +309,17 @@ pub enum SafeOutput {
 ///
 /// A joint at rest under load proves nothing: the hand may hold it. But a hand that moves the probe by `travel_m`
 /// meanwhile would have to balance the load on this joint to within its dry friction all the way, on the one curve on
-/// which it does not turn. Below friction no hand is needed for that, so a smaller torque counts as no load. The way is
-/// counted in straight pieces of a sixth of it, to and fro just as straight on, so that a small workspace has it too and
-/// a count that flickers adds nothing; without load it pauses. A device with one joint has no others: this check never trips there. One joint is
-/// checked per tick.
+/// which it does not turn. Below friction no hand is needed for that, so a smaller torque counts as no load.
+///
+/// The way is counted in straight pieces of a sixth of `travel_m`, forth or back, so that a small workspace has it too
+/// and a count that flickers adds nothing. Without load the count pauses. A device with one joint has no others: this
+/// check never trips there. The probe and the joints take turns, one per tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {
     /// Minimum load, as a multiple of the joint's [`crate::device::Device::dry_friction_n_m`]; at least 1.
     pub load: f32,
-    /// How far the probe comes meanwhile, m.
+    /// Distance that the probe moves meanwhile, m.
     pub travel_m: f32,
 }
 

@@ -178,10 +178,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     ) -> Result<Torques<JOINTS>, Fault> {
         let (counts, enable) = match input {
             Input::Sensors { counts, enable } => (counts, enable),
-            Input::Lost => return Err(count_lost(state, Fault::FrameLost)),
-            Input::Damaged => return Err(count_lost(state, Fault::FrameDamaged)),
-            Input::Magnet => return Err(count_lost(state, Fault::Magnet)),
-            Input::Frozen => return Err(count_lost(state, Fault::Frozen)),
+            bad => return Err(count_lost(state, bad)),
         };
 
         // Counts → joint angles → probe.
@@ -383,7 +380,15 @@ fn stop<W, G, const JOINTS: usize>(state: &mut ServoState<JOINTS, W, G>, fault: 
     state.drive.duties = [Duty::ZERO; JOINTS];
 }
 
-fn count_lost<W, G, const JOINTS: usize>(state: &mut ServoState<JOINTS, W, G>, fault: Fault) -> Fault {
+/// Counts an input without sensors, and names its fault.
+#[cold]
+#[inline(never)]
+fn count_lost<W, G, const JOINTS: usize>(state: &mut ServoState<JOINTS, W, G>, input: Input<JOINTS>) -> Fault {
     state.sensors.frames_lost = state.sensors.frames_lost.wrapping_add(1);
-    fault
+    match input {
+        Input::Damaged => Fault::FrameDamaged,
+        Input::Magnet => Fault::Magnet,
+        Input::Frozen => Fault::Frozen,
+        Input::Lost | Input::Sensors { .. } => Fault::FrameLost,
+    }
 }

@@ -130,7 +130,7 @@ fn what_ends_a_jog_stands_until_the_key_is_let_go() {
     assert_eq!((state.refusal(), state.duties()), (Some(JogRefusal::OtherMotor), [Duty::ZERO; 3]));
 }
 
-/// A motor that a host jogs again and again, after so many ticks of silence or of frames without the key: the counts that
+/// A motor that a host jogs repeatedly, after a number of ticks of silence or of frames without the key: the counts that
 /// it is driven by in all, at two counts a tick while it is driven.
 fn driven(limits: JogLimits<3>, tells: bool) -> (i32, Option<JogRefusal>) {
     let jogging = Jogging::try_new(limits, RATE).unwrap();
