@@ -90,8 +90,8 @@ fn wind<K, const JOINTS: usize>(
         sensors.turns = sensors.turns.wrapping_add(whole);
         let out = sensors.turns.wrapping_mul(per_turn);
         inside = count.wrapping_sub(out);
-        if let Some([Counts(last), ..]) = sensors.counts.as_ref().map(|counts| &counts[..]) {
-            sensors.angles[0] = encoder.angle(Counts(last.wrapping_sub(out)));
+        if let Some(last) = sensors.counts {
+            sensors.angles[0] = encoder.angle(Counts(last[0].0.wrapping_sub(out)));
         }
     }
     *angle = encoder.angle(Counts(inside));

@@ -208,7 +208,7 @@ pub const TABLE: &[Failure] = &[
     row(
         [
             "motor",
-            "motor or encoder is wired the other way",
+            "motor or encoder of a joint in contact is wired the other way",
             "polarity check",
             "a_wrong_sign_is_stopped_within_ten_milliseconds_and_a_millimetre",
         ],
@@ -216,12 +216,17 @@ pub const TABLE: &[Failure] = &[
         Latched(Fault::WrongPolarity),
         Tested,
     ),
+    gap(
+        "sensor",
+        "a reversed encoder of a joint beyond the first keeps the probe from contact",
+        "no contact gives no force; commissioning turns each joint and finds it",
+    ),
     gap("motor", "a winding opens or shorts", "an arm measures no current; its amplifier protects itself"),
     row(
         [
             "clock",
             "a tick takes longer than its period",
-            "cycle counter",
+            "the timer of the ticks",
             "a_tick_that_is_late_is_a_fault_and_its_own_duties_are_taken_back",
         ],
         0.25,
@@ -232,7 +237,7 @@ pub const TABLE: &[Failure] = &[
         [
             "clock",
             "a tick starts late",
-            "cycle counter",
+            "the timer of the ticks",
             "a_tick_that_begins_late_is_a_fault_and_gives_no_duties_of_its_own",
         ],
         0.25,
@@ -242,7 +247,7 @@ pub const TABLE: &[Failure] = &[
     row(
         [
             "clock",
-            "the cycle counter stands still",
+            "the timer of the ticks stands still",
             "start of ticks",
             "a_counter_that_stands_still_is_a_fault_within_two_milliseconds",
         ],
@@ -309,10 +314,10 @@ pub const TABLE: &[Failure] = &[
         [
             "memory",
             "the program hung",
-            "watchdog; reset reason",
+            "watchdog, which resets the chip; reset reason",
             "every_fault_in_every_phase_is_safe_named_and_latched",
         ],
-        0.25,
+        40.0,
         Latched(Fault::WatchdogReset),
         Reset(ResetReason::Watchdog),
     ),
