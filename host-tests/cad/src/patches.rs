@@ -156,9 +156,12 @@ fn patch_of(
         let mut off = deviation(mesh, face, quad, &patch);
         // Beside a pole little holds the inner points where they are.
         if has_pole && !proof::is_regular(&patch) {
-            let firm = fit_patch(surface, quad, &sides, least, FIRM);
-            if proof::is_regular(&firm) {
-                (off, patch) = (deviation(mesh, face, quad, &firm), firm);
+            for firmness in FIRM {
+                let firm = fit_patch(surface, quad, &sides, least, firmness);
+                if proof::is_regular(&firm) {
+                    (off, patch) = (deviation(mesh, face, quad, &firm), firm);
+                    break;
+                }
             }
         }
         if best.as_ref().is_none_or(|(_, least)| off < 0.9 * least) {
@@ -171,8 +174,8 @@ fn patch_of(
     best.unwrap_or_else(|| (fit_patch(surface, quad, &sides, [1, 1], 1.0), f64::INFINITY))
 }
 
-/// Firmness of a patch with a pole that folded without it.
-const FIRM: f64 = 30.0;
+/// Firmness of a patch with a pole that folds without it, tried in turn: the steeper the tip, the more it takes.
+const FIRM: [f64; 3] = [30.0, 1_000.0, 1e6];
 
 fn deviation(mesh: &Mesh<'_>, face: usize, quad: &Quad, patch: &Bezier) -> f64 {
     const STEPS: usize = 13;
