@@ -8,7 +8,7 @@
 //! noted below.
 
 use super::{Rendering, Settings};
-use crate::device::presets;
+use crate::device::{Device, presets};
 
 /// Settings and rendering that go together.
 ///
@@ -28,6 +28,29 @@ pub struct Recommended {
     pub rendering: Rendering,
 }
 
+/// For a device of one's own: the wall of those that ship, or its own maximum where that is lower. Measure it with
+/// `palpate feel --device my.toml`: a hand may feel coarse encoders or a heavy arm even so.
+///
+/// ```
+/// use palpate::device::presets::HAPLY_KIT_V1 as MINE;
+/// use palpate::servo::recommended;
+///
+/// let recommended = recommended::of(&MINE);
+/// assert_eq!(recommended.settings.stiffness_n_per_m, MINE.max_stiffness_n_per_m);
+/// assert_eq!(recommended.settings.max_force_n, MINE.max_force_n);
+/// ```
+pub const fn of<K, const JOINTS: usize>(device: &Device<K, JOINTS>) -> Recommended {
+    wall(
+        device.max_stiffness_n_per_m.min(STIFFNESS_N_PER_M),
+        device.max_damping_n_s_per_m.min(DAMPING_N_S_PER_M),
+        device.max_force_n,
+    )
+}
+
+/// The recommended wall: N/m, and N·s/m.
+const STIFFNESS_N_PER_M: f32 = 500.0;
+const DAMPING_N_S_PER_M: f32 = 2.0;
+
 /// A wall of a stiffness, N/m, and a damping, N·s/m, for a device with a maximum force, N.
 const fn wall(stiffness: f32, damping: f32, max_force: f32) -> Recommended {
     Recommended {
@@ -45,10 +68,10 @@ const fn wall(stiffness: f32, damping: f32, max_force: f32) -> Recommended {
 }
 
 /// For [`presets::WOODEN_HAPTICS_2016`]. Without smoothing a hand feels its counts even at 200 N/m.
-pub const WOODEN_HAPTICS_2016: Recommended = wall(500.0, 2.0, presets::WOODEN_HAPTICS_2016.max_force_n);
+pub const WOODEN_HAPTICS_2016: Recommended = of(&presets::WOODEN_HAPTICS_2016);
 
 /// For [`presets::POLHEM_V2`]. Its friction hides its counts: the smooth rendering is for contact and edges.
-pub const POLHEM_V2: Recommended = wall(500.0, 2.0, presets::POLHEM_V2.max_force_n);
+pub const POLHEM_V2: Recommended = of(&presets::POLHEM_V2);
 
 /// For [`presets::PHANTOM_PREMIUM`]: softer, because the estimated position lags by a count where a joint turns back,
 /// and its friction is too low to hide that: a hand just feels it at 500 N/m.
@@ -59,21 +82,13 @@ pub const PHANTOM_PREMIUM: Recommended = wall(400.0, 2.0, presets::PHANTOM_PREMI
 pub const NOVINT_FALCON: Recommended = wall(400.0, 2.0, presets::NOVINT_FALCON.max_force_n);
 
 /// For [`presets::HAPLY_2DIY_V3`]: as stiff and as damped as the device is recommended for.
-pub const HAPLY_2DIY_V3: Recommended = wall(
-    presets::HAPLY_2DIY_V3.max_stiffness_n_per_m,
-    presets::HAPLY_2DIY_V3.max_damping_n_s_per_m,
-    presets::HAPLY_2DIY_V3.max_force_n,
-);
+pub const HAPLY_2DIY_V3: Recommended = of(&presets::HAPLY_2DIY_V3);
 
 /// For [`presets::HAPLY_KIT_V1`]: as stiff and as damped as the device is recommended for.
-pub const HAPLY_KIT_V1: Recommended = wall(
-    presets::HAPLY_KIT_V1.max_stiffness_n_per_m,
-    presets::HAPLY_KIT_V1.max_damping_n_s_per_m,
-    presets::HAPLY_KIT_V1.max_force_n,
-);
+pub const HAPLY_KIT_V1: Recommended = of(&presets::HAPLY_KIT_V1);
 
 /// For [`presets::HAPKIT`].
-pub const HAPKIT: Recommended = wall(500.0, 2.0, presets::HAPKIT.max_force_n);
+pub const HAPKIT: Recommended = of(&presets::HAPKIT);
 
 #[cfg(test)]
 mod tests {

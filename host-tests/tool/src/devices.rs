@@ -16,20 +16,53 @@ pub enum Chosen {
     Knob,
 }
 
-/// The knob's name on the command line.
-const KNOB: &str = "knob";
-
-/// Takes a device from the command line: by its name, or one's own from its file.
-pub fn parser() -> impl TypedValueParser<Value = Chosen> {
-    NameOrFile
+/// Devices of the command line that feel surfaces: each that ships, or one of them or one's own.
+#[derive(Clone, Copy, Debug)]
+pub enum Arms {
+    /// All of [`DEVICES`].
+    All,
+    /// One of them, or one's own.
+    One(&'static ShippedDevice),
 }
 
-/// A name of [`DEVICES`], or the path of a device file, which ends in `.toml`.
+impl Arms {
+    /// Each of them.
+    pub fn each(self) -> Vec<&'static ShippedDevice> {
+        match self {
+            Self::All => DEVICES.iter().collect(),
+            Self::One(device) => vec![device],
+        }
+    }
+}
+
+/// Takes a device from the command line: by its name, or one's own from its file; or the knob.
+pub fn parser() -> impl TypedValueParser<Value = Chosen> {
+    NameOrFile { other: ["knob", "A knob on a motor with three phases: one joint, demo only"] }
+        .map(|device| device.map_or(Chosen::Knob, Chosen::Arm))
+}
+
+/// Takes a device from the command line: by its name, or one's own from its file; or all that ship.
+pub fn arms_parser() -> impl TypedValueParser<Value = Arms> {
+    NameOrFile { other: ["all", "Each of these"] }.map(|device| device.map_or(Arms::All, Arms::One))
+}
+
+/// A name of [`DEVICES`], or the path of a device file, which ends in `.toml`, or one more name, which stands for
+/// `None`, with its description.
 #[derive(Clone, Copy, Debug)]
-struct NameOrFile;
+struct NameOrFile {
+    other: [&'static str; 2],
+}
+
+impl NameOrFile {
+    /// The names on the command line, and what they stand for.
+    fn names(self) -> impl Iterator<Item = PossibleValue> {
+        let arms = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
+        arms.chain([PossibleValue::new(self.other[0]).help(self.other[1])])
+    }
+}
 
 impl TypedValueParser for NameOrFile {
-    type Value = Chosen;
+    type Value = Option<&'static ShippedDevice>;
 
     fn parse_ref(
         &self,
@@ -42,18 +75,14 @@ impl TypedValueParser for NameOrFile {
             let own = OwnDevice::read(path).map_err(|error| {
                 clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
             })?;
-            return Ok(Chosen::Arm(own_device(&own, &path.display().to_string())));
+            return Ok(Some(own_device(&own, &path.display().to_string())));
         }
-        // The names are the table's: each is found.
-        let chosen = |name: String| {
-            if name == KNOB { Ok(Chosen::Knob) } else { named(&name).map(Chosen::Arm).ok_or("no such device") }
-        };
-        let known = PossibleValuesParser::new(names()).try_map(chosen);
-        known.parse_ref(command, argument, value)
+        // Every other name is the table's.
+        PossibleValuesParser::new(self.names()).map(|name| named(&name)).parse_ref(command, argument, value)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(names()))
+        Some(Box::new(self.names()))
     }
 }
 
@@ -70,10 +99,4 @@ pub fn own(device: &Path) -> anyhow::Result<OwnDevice> {
         }
         None => OwnDevice::read(device)?,
     })
-}
-
-/// The names on the command line, and what they stand for.
-fn names() -> impl Iterator<Item = PossibleValue> {
-    let arms = DEVICES.iter().map(|device| PossibleValue::new(device.name).help(device.about));
-    arms.chain([PossibleValue::new(KNOB).help("A knob on a motor with three phases: one joint, demo only")])
 }

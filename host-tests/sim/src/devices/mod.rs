@@ -1,6 +1,7 @@
 //! A lab's own device, described by a `device.toml`: read and checked, turned into the library's constant, simulated,
 //! and written. A crate apart from the tool, so that other programs can run a loop against a device.
 
+mod c_header;
 mod constant;
 mod plant;
 pub mod preset;
@@ -9,6 +10,7 @@ mod schema;
 mod shipped;
 mod table;
 
+pub use c_header::c_header;
 pub use constant::{settings_source, source};
 pub use preset::Preset;
 pub use read::{DeviceFileError, OwnDevice};

@@ -1,10 +1,10 @@
-//! `palpate device`: the file of one's own device as the library's constant; or the file of a shipped device to start
-//! from.
+//! `palpate device`: the file of one's own device as the library's constants, in Rust or C; or the file of a shipped
+//! device to start from.
 
 use crate::devices;
 use anyhow::{Context, bail};
 use clap::Args;
-use palpate_sim::devices::{OwnDevice, source};
+use palpate_sim::devices::{OwnDevice, c_header, source};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ use std::process::ExitCode;
 pub struct Arguments {
     /// Device file (my.toml), or the name of a shipped device
     device: PathBuf,
-    /// Output: constants (device.rs), or a device file (my.toml)
+    /// Output: constants of Rust (device.rs) or C (device.h), or a device file (my.toml)
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
@@ -30,8 +30,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let own = devices::own(&arguments.device)?;
     let text = match arguments.out.extension().and_then(|extension| extension.to_str()) {
         Some("rs") => source(&own, &name),
+        Some("h") => c_header(&own, &name),
         Some("toml") => toml_of(&own, &format!("Written by `palpate device` from {name}."))?,
-        _ => bail!("{}: --out must end in .rs or .toml", arguments.out.display()),
+        _ => bail!("{}: --out must end in .rs, .h or .toml", arguments.out.display()),
     };
     write(&arguments.out, &text)?;
     println!("{}: {} joints, written to {}", own.file.name, own.file.joint.len(), arguments.out.display());

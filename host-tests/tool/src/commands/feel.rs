@@ -2,16 +2,15 @@
 
 use super::feel_clean;
 use super::felt::Felt;
-use crate::devices::{self, DEVICES, ShippedDevice};
+use crate::devices::{self, Arms, ShippedDevice};
 use crate::feel::table::Worst;
 use crate::feel::{Row, Wish, plot, rows, table};
 use crate::models::ModelFile;
 use crate::report::write_sections;
-use anyhow::{Context, ensure};
-use clap::builder::PossibleValuesParser;
+use anyhow::{Context, bail, ensure};
 use clap::{Args, ValueEnum};
 use palpate::servo::Rendering;
-use palpate::servo::recommended::{self, Recommended};
+use palpate::servo::recommended::Recommended;
 use palpate_sim::feel::{BANDS, Threshold, recorded};
 use palpate_sim::zwidth::Slice;
 use std::path::{Path, PathBuf};
@@ -20,9 +19,9 @@ use std::process::ExitCode;
 /// Measures what a hand feels: steps of force, ripple against human thresholds, drag.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Device, or `all`
-    #[arg(long, default_value = "all", value_parser = names())]
-    device: String,
+    /// Device: a name, your own file (my.toml), or `all`
+    #[arg(long, default_value = "all", value_parser = devices::arms_parser())]
+    device: Arms,
     /// Body whose edges are crossed (three joints): a model file, or the name of a shipped model
     #[arg(long, default_value = "capped_box")]
     model: PathBuf,
@@ -75,26 +74,19 @@ impl Kind {
     }
 }
 
-/// Every device's name, and `all`.
-fn names() -> PossibleValuesParser {
-    PossibleValuesParser::new(DEVICES.iter().map(|device| device.name).chain(["all"]))
-}
-
 /// Runs the command.
 ///
 /// # Errors
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let threshold = arguments.threshold.as_deref().map_or_else(|| Ok(Threshold::approximate()), read_threshold)?;
-    let chosen = devices::named(&arguments.device);
     if let Some(path) = &arguments.recording {
-        let device = chosen.context("--recording needs one device: add --device NAME")?;
+        let Arms::One(device) = arguments.device else { bail!("--recording needs one device: add --device NAME") };
         print_recording(path, device, &threshold)?;
         return Ok(ExitCode::SUCCESS);
     }
     if arguments.clean {
-        let devices: Vec<&ShippedDevice> = chosen.map_or_else(|| DEVICES.iter().collect(), |device| vec![device]);
-        return feel_clean::run(&devices, |device| wish(arguments, device), &threshold, &arguments.out);
+        return feel_clean::run(&arguments.device.each(), |device| wish(arguments, device), &threshold, &arguments.out);
     }
     let file = ModelFile::read(&arguments.model)?;
     let felt = Felt::read(&file.model()?, &file, &arguments.model, None)?;
@@ -103,7 +95,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         Felt::Patch { .. } | Felt::Scene(_) => None,
     };
     let mut all: Vec<(&str, Vec<Row>)> = Vec::new();
-    for device in chosen.map_or_else(|| DEVICES.iter().collect(), |device| vec![device]) {
+    for device in arguments.device.each() {
         let wish = wish(arguments, device);
         let settings = wish.settings(device);
         println!(
@@ -124,8 +116,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 
 /// The settings recommended for a device, with the options that were given.
 fn wish(arguments: &Arguments, device: &ShippedDevice) -> Wish {
-    let recommended = device.recommended().unwrap_or(recommended::WOODEN_HAPTICS_2016);
-    let Recommended { settings, rendering } = recommended;
+    let Recommended { settings, rendering } = device.recommended();
     Wish {
         rate: arguments.rate,
         stiffness: arguments.stiffness.unwrap_or(settings.stiffness_n_per_m),

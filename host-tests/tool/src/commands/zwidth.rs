@@ -7,9 +7,8 @@ mod sweeping;
 use plot::plot;
 use sweeping::{best, sweep_with_bar};
 
-use crate::devices::{self, DEVICES, ShippedDevice};
+use crate::devices::{self, Arms, ShippedDevice};
 use anyhow::Context;
-use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use palpate::device::VelocityMethod;
 use palpate::render::Ease;
@@ -20,9 +19,9 @@ use std::process::ExitCode;
 /// Finds the stiffest and most damped wall of a device: a table, and a plot with the passive bound.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Device, or `all`.
-    #[arg(long, default_value = "woodenhaptics-2016", value_parser = names())]
-    device: String,
+    /// Device: a name, your own file (my.toml), or `all`.
+    #[arg(long, default_value = "woodenhaptics-2016", value_parser = devices::arms_parser())]
+    device: Arms,
     /// Servo rate, Hz; default: 1, 2, 4 and 8 kHz.
     #[arg(long)]
     rate: Option<f64>,
@@ -74,7 +73,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         corner: arguments.corner,
         ease: arguments.ease.then_some(Ease::SMOOTH),
     };
-    let Some(device) = devices::named(&arguments.device) else {
+    let Arms::One(device) = arguments.device else {
         summary::print(&rates, like)?;
         return Ok(ExitCode::SUCCESS);
     };
@@ -87,11 +86,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     plot(&arguments.plot, &slice, &limits)?;
     println!("plot: {}", arguments.plot.display());
     Ok(ExitCode::SUCCESS)
-}
-
-/// Every device's name, and `all`.
-fn names() -> PossibleValuesParser {
-    PossibleValuesParser::new(DEVICES.iter().map(|device| device.name).chain(["all"]))
 }
 
 fn print_table(slice: &Slice, device: &ShippedDevice, arguments: &Arguments, rates: &[f64], limits: &[Limit]) {

@@ -3,6 +3,7 @@
 
 mod arduino;
 mod bad_arguments;
+mod device;
 mod everything;
 mod example;
 mod header;
