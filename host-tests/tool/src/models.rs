@@ -1,7 +1,8 @@
 //! Model files as commands name them: by a path, one that ships by its bare name, a CAD part, which is imported on the
 //! way, or a body that is baked already.
 
-use crate::{cache, cad};
+use crate::cache::{self, Evidence};
+use crate::cad;
 use anyhow::Context as _;
 use glam::DVec3;
 use palpate_bake::file::BakedFile;
@@ -128,10 +129,25 @@ impl ModelFile {
         wanted: Option<&[DVec3]>,
         progress: &(dyn Fn(usize, usize) + Sync),
     ) -> anyhow::Result<BakedBody> {
-        match &self.tables {
-            None => Ok(cache::located(body, &self.text, options, wanted, progress)?),
-            Some(_) => Ok(body),
+        Ok(self.located_with_evidence(body, options, wanted, progress)?.0)
+    }
+
+    /// As [`Self::located`], with the evidence for the locator; a file of tables has none.
+    ///
+    /// # Errors
+    /// Tables that would not fit their indices.
+    pub fn located_with_evidence(
+        &self,
+        body: BakedBody,
+        options: &LocatorOptions,
+        wanted: Option<&[DVec3]>,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> anyhow::Result<(BakedBody, Option<Evidence>)> {
+        if self.tables.is_some() {
+            return Ok((body, None));
         }
+        let (body, evidence) = cache::located(body, &self.text, options, wanted, progress)?;
+        Ok((body, Some(evidence)))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Closest points of a model with the firmware's own code: from a standing start, or tick after tick.
 
+use crate::lower_bound::lower_bound;
 use palpate::body::{Body, BodyWitness, Edge, Face, Feature, Side};
 use palpate::math::Vec3;
 use palpate::track::{Contact, Controller, Probe};
@@ -90,6 +91,12 @@ impl<'a> Solver<'a> {
             return Found { evaluations, is_inside, status: Status::GodObject, ..found };
         }
         Found { evaluations, ..found }
+    }
+
+    /// A bound of the error of a distance that was found, metres; `probe` in metres.
+    pub fn error_bound(&self, found: &Found, probe: Vec3) -> f64 {
+        let distance = found.point.as_dvec3().distance(probe.as_dvec3());
+        (distance - lower_bound(self.baked, probe.as_dvec3())).max(0.0)
     }
 
     fn found(&self, face: usize, parameters: [f32; 2], point: Vec3, probe: Vec3) -> Found {

@@ -7,6 +7,7 @@ pub mod closest;
 pub mod dunes;
 pub mod generate;
 pub mod locating;
+pub mod lower_bound;
 pub mod measured;
 pub mod oracle;
 pub mod rides;

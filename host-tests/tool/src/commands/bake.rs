@@ -4,6 +4,7 @@ use super::check::{self, Loaded};
 use super::output::{print, write_whole};
 use super::progress;
 use super::table_report;
+use crate::cache::Evidence;
 use crate::models::is_baked;
 use anyhow::{Context as _, ensure};
 use clap::Args;
@@ -12,6 +13,7 @@ use palpate_bake::body::BodyBytes;
 use palpate_bake::file::FileFault;
 use palpate_bake::graph;
 use palpate_bake::source::{self, Origin};
+use palpate_bake::survey::Verdict;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -24,7 +26,8 @@ use std::process::ExitCode;
 /// A name that ends in .palp gives a binary body file, for palpate::body::Body::from_bytes and every command that takes
 /// a model.
 ///
-/// Exit status as `check`: 0 certified, 1 usable but not certified (the file is written), 2 bad input (it is not).
+/// Exit status: 0 for a usable body; 1 with --require-certified if it is not certified (the file is written); 2 for bad
+/// input (it is not).
 #[derive(Args, Debug)]
 #[command(group(clap::ArgGroup::new("product").required(true).multiple(true)))]
 pub struct Arguments {
@@ -47,6 +50,9 @@ pub struct Arguments {
     /// Maximum evaluations in one tick; a model above it is refused. The default is the limit of the bench boards.
     #[arg(long, value_name = "EVALUATIONS", default_value_t = TickLimit::BENCH.evaluations)]
     tick_limit: u32,
+    /// Exit status 1 if the body is usable but not certified.
+    #[arg(long)]
+    require_certified: bool,
 }
 
 /// Runs the command.
@@ -57,7 +63,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut loaded = Loaded::read(&arguments.model)?;
     let labels = loaded.body.labels(&loaded.model);
     let is_body = loaded.body.faces.len() > 1;
-    let mut report = None;
+    let (mut report, mut evidence) = (None, None);
     // The automaton has no locator in it.
     if loaded.file.baked().is_some() {
         ensure!(
@@ -71,9 +77,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let progress = |done, all| bar.tell("cells of space", done, all);
         if arguments.table_report {
             let (body, of_locator) = loaded.body.located(&options, &progress)?;
+            evidence = Some(Evidence::of(&of_locator));
             (loaded.body, report) = (body, Some(of_locator));
         } else {
-            loaded.body = loaded.file.located(loaded.body, &options, None, &progress)?;
+            (loaded.body, evidence) = loaded.file.located_with_evidence(loaded.body, &options, None, &progress)?;
         }
     }
     let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
@@ -112,7 +119,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     let verdict = check::worst(&surveys, &flaws);
     eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
-    Ok(check::exit_code(verdict))
+    if verdict == Verdict::Usable {
+        eprintln!("{}", check::NOT_CERTIFIED);
+    }
+    if let Some(evidence) = evidence {
+        eprintln!("{evidence}");
+    }
+    Ok(if arguments.require_certified { check::exit_code(verdict) } else { ExitCode::SUCCESS })
 }
 
 /// Refuses a body whose worst tick takes more evaluations than the limit.
@@ -184,7 +197,7 @@ fn file(loaded: &Loaded) -> Result<Vec<u8>, FileFault> {
 }
 
 /// Bytes of a loaded model's tables on a 32-bit target.
-fn bytes(loaded: &Loaded) -> u64 {
+pub(super) fn bytes(loaded: &Loaded) -> u64 {
     let bytes = if loaded.body.faces.len() > 1 {
         BodyBytes::of(&loaded.body).total()
     } else {

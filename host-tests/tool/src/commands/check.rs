@@ -124,6 +124,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         arguments.model.display(),
         surveys.len()
     )?;
+    if verdict == Verdict::Usable {
+        writeln!(report, "{NOT_CERTIFIED}")?;
+    }
     print(report.as_bytes())?;
     Ok(exit_code(verdict))
 }
@@ -292,6 +295,11 @@ pub(super) fn worst(surveys: &[Survey], flaws: &[Flaw]) -> Verdict {
     }
     surveys.iter().map(|survey| survey.verdict).max().unwrap_or(Verdict::Usable)
 }
+
+/// The meaning of the verdict to a user.
+pub(super) const NOT_CERTIFIED: &str = "\
+not certified: usable on a device, but no proof covers every probe: tracking may rest at a local minimum until the \
+audit finds a nearer point (`palpate check` has the reasons)";
 
 pub(super) fn exit_code(verdict: Verdict) -> ExitCode {
     match verdict {

@@ -13,12 +13,13 @@ use std::process::ExitCode;
 /// Closest points by the firmware's own single-precision code.
 ///
 /// Reads the columns qx,qy,qz (others and lines starting with # are ignored) in the model's unit. Writes a row per
-/// query, in the same sequence: patch,u,v,px,py,pz,gap,steps,status. patch is the name, or the index of an unnamed
+/// query, in the same sequence: patch,u,v,px,py,pz,gap,steps,status,error_bound. patch is the name, or the index of an unnamed
 /// patch; gap is the distance from the query to p, negative inside a closed body; steps counts patch evaluations.
 ///
 /// cold: every row by itself. The locator names the parts of patches that can own the closest point, and a second-order
 /// search runs in each. status: converged; step-limit if a search was stopped short of its minimum; far if the query is
-/// beyond the locator's reach (bake --margin), where its lists are not proved.
+/// beyond the locator's reach (bake --margin), where its lists are not proved. error_bound, of a step-limit row: a bound
+/// of the error of |gap|, by a search in double precision.
 ///
 /// track: rows are successive servo ticks of one probe. The first row is cold; each other row is --ticks ticks of the
 /// tracker, and more after a jump above an eighth of the body's size, to locate it again. status: tracking, or
@@ -70,7 +71,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     drop(bar);
     let solvers = reach.solvers();
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status"])?;
+    writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status", "error_bound"])?;
     let mut state = None;
     for query in queries {
         let found = match (arguments.mode, &mut state) {
@@ -94,8 +95,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             Status::Tracking => "tracking",
             Status::GodObject => "god-object",
         };
+        let bound = match found.status {
+            Status::StepLimit => significant(solvers.of(query.probe).error_bound(&found, query.probe) * per_metre),
+            _ => String::new(),
+        };
         let (label, steps) = (model.patch_label(found.patch), found.evaluations.to_string());
-        let fields = [label.as_str()].into_iter().chain(numbers.iter().map(String::as_str)).chain([&*steps, status]);
+        let fields =
+            [label.as_str()].into_iter().chain(numbers.iter().map(String::as_str)).chain([&*steps, status, &*bound]);
         writer.write_record(fields)?;
     }
     let text = writer.into_inner()?;

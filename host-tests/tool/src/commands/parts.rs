@@ -60,8 +60,7 @@ fn row(part: &Path) -> anyhow::Result<String> {
     loaded.body = body;
     let name = part.file_stem().unwrap_or(part.as_os_str()).to_string_lossy();
     let faces = said(&loaded.file.text, " faces (").map_or_else(|| "–".to_owned(), |number| format!("{number:.0}"));
-    let deviations = ["patches from part ", "part from patches "].map(|way| after(&loaded.file.text, way));
-    let deviation = deviations.into_iter().flatten().reduce(f64::max);
+    let deviation = deviation(&loaded.file.text);
     let proved = 100.0 * report.leaves_by.proved as f64 / report.leaves as f64;
     let mut row = format!(
         "| {name} | {faces} | {} | {} | {} | {} | {seconds:.1} | {proved:.0} |",
@@ -81,6 +80,11 @@ fn row(part: &Path) -> anyhow::Result<String> {
         None => row.push_str(" – |\n"),
     }
     Ok(row)
+}
+
+/// The largest deviation either way, mm, by a model's first lines.
+pub(super) fn deviation(text: &str) -> Option<f64> {
+    ["patches from part ", "part from patches "].into_iter().filter_map(|way| after(text, way)).reduce(f64::max)
 }
 
 /// The number before some words of a model's first lines.

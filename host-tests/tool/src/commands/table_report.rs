@@ -72,6 +72,13 @@ pub(super) fn as_file(bytes: usize, body: &BakedBody) -> Result<String, Error> {
     Ok(report)
 }
 
+/// The names of the bench boards that hold tables of this size.
+pub(super) fn fits(bytes: u64) -> String {
+    let boards = BenchBoard::ALL.into_iter().filter(|board| board.place(Kind::Alone, bytes).is_some());
+    let names: Vec<_> = boards.map(BenchBoard::name).collect();
+    if names.is_empty() { "no bench board".to_owned() } else { names.join(", ") }
+}
+
 /// The place of tables of this size on each bench board.
 pub(super) fn on_boards(bytes: u64) -> Result<String, Error> {
     let mut report = String::new();

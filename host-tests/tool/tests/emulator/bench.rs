@@ -165,7 +165,7 @@ fn baked(name: &Path, folder: &Path) -> (PathBuf, u64) {
     let file = palpate_tool::models::ModelFile::read(name).unwrap();
     let model = file.model().unwrap();
     let body = palpate_bake::BakedBody::new(&model, &file.label).unwrap();
-    let body = cache::located(body.clone(), &file.text, &body.locator_options(), None, &|_, _| ()).unwrap();
+    let (body, _) = cache::located(body.clone(), &file.text, &body.locator_options(), None, &|_, _| ()).unwrap();
     let out_file = format!("{}.rs", name.file_stem().unwrap().to_string_lossy());
     let origin = palpate_bake::source::Origin {
         model_file: &file.name,
