@@ -49,6 +49,7 @@ pub struct Arm {
 
 impl Arm {
     /// The probe's position, m from the workspace centre.
+    #[inline]
     pub fn position(&self, [a, b, c]: Vector) -> Vector {
         let reach = self.first.length * b.sin() + self.second.length * c.cos();
         let height = self.base_height + self.first.length * b.cos() - self.second.length * c.sin();
@@ -56,6 +57,7 @@ impl Arm {
     }
 
     /// `∂position/∂angles` by rows, m/rad.
+    #[inline]
     pub fn jacobian(&self, [a, b, c]: Vector) -> Matrix {
         let (first, second) = (self.first.length, self.second.length);
         let reach = first * b.sin() + second * c.cos();
@@ -90,6 +92,7 @@ impl Arm {
     }
 
     /// The joint-space mass matrix, kg·m²: the kinetic energy is `½ q̇ᵀ M q̇`.
+    #[inline]
     pub fn mass_matrix(&self, [_, b, c]: Vector) -> Matrix {
         let first = self.first.length;
         let about_axis = self.first.mass * self.first.centre * self.first.centre + self.first.inertia;
@@ -108,6 +111,7 @@ impl Arm {
     }
 
     /// Coriolis and centrifugal torques `Ṁ q̇ − ½ ∂(q̇ᵀ M q̇)/∂q`, N·m, on the left of the equation of motion.
+    #[inline]
     pub fn velocity_torques(&self, [_, b, c]: Vector, [rate_a, rate_b, rate_c]: Vector) -> Vector {
         let first = self.first.length;
         let about_axis = self.first.mass * self.first.centre * self.first.centre + self.first.inertia;
@@ -135,6 +139,7 @@ impl Arm {
     }
 
     /// The torques gravity puts on the joints, N·m, on the right of the equation of motion.
+    #[inline]
     pub fn gravity_torques(&self, [_, b, c]: Vector) -> Vector {
         let [lifted_by_first, lifted_by_second] = self.lifted();
         [0.0, self.gravity * lifted_by_first * b.sin(), self.gravity * lifted_by_second * c.cos()]

@@ -3,7 +3,7 @@
 //! With places `xᵢ(q)` and Jacobians `Jᵢ`: `M = D + Σ mᵢ Jᵢᵀ Jᵢ`, velocity torques `Σ mᵢ Jᵢᵀ J̇ᵢ q̇`, gravity
 //! `Σ mᵢ Jᵢᵀ g`. `J̇ q̇` is a central difference of the Jacobian along the motion.
 
-use super::mechanism::Mechanism;
+use super::mechanism::{Dynamics, Mechanism};
 use super::vector::{Matrix, Vector, add_scaled, dot, norm, scaled, times};
 use std::fmt::Debug;
 
@@ -54,6 +54,47 @@ impl<G: Geometry> Lumped<G> {
         points[0].inertia += self.hand_mass;
         points
     }
+
+    fn mass_matrix_of(&self, points: &Points) -> Matrix {
+        let mut mass = [[0.0; 3]; 3];
+        for (joint, row) in mass.iter_mut().enumerate() {
+            row[joint] = if joint < self.joints() { self.joint_inertia[joint] } else { 1.0 };
+        }
+        for point in points.iter().filter(|point| point.inertia != 0.0) {
+            for (i, row) in mass.iter_mut().enumerate() {
+                for (j, entry) in row.iter_mut().enumerate() {
+                    *entry += point.inertia * point.jacobian.iter().map(|row| row[i] * row[j]).sum::<f64>();
+                }
+            }
+        }
+        mass
+    }
+
+    fn velocity_torques_of(&self, here: &Points, angles: Vector, rates: Vector) -> Vector {
+        let speed = norm(rates);
+        if speed == 0.0 {
+            return [0.0; 3];
+        }
+        // A turn of 1e-5 rad: truncation 1e-10 of the curvature, rounding 1e-16 / 1e-5.
+        let step = 1e-5 / speed;
+        let [ahead, behind] = [step, -step].map(|h| self.points(add_scaled(angles, rates, h)));
+        let mut torques = [0.0; 3];
+        for ((point, ahead), behind) in here.iter().zip(&ahead).zip(&behind).filter(|((p, _), _)| p.inertia != 0.0) {
+            let change = add_scaled(times(&ahead.jacobian, rates), times(&behind.jacobian, rates), -1.0);
+            let drift = scaled(change, 0.5 / step * point.inertia);
+            torques = add_scaled(torques, transposed_times(&point.jacobian, drift), 1.0);
+        }
+        torques
+    }
+
+    fn gravity_torques_of(&self, points: &Points) -> Vector {
+        if self.gravity == [0.0; 3] {
+            return [0.0; 3];
+        }
+        points
+            .iter()
+            .fold([0.0; 3], |sum, point| add_scaled(sum, transposed_times(&point.jacobian, self.gravity), point.weight))
+    }
 }
 
 /// `Jᵀ v`.
@@ -79,45 +120,26 @@ impl<G: Geometry> Mechanism for Lumped<G> {
     }
 
     fn mass_matrix(&self, angles: Vector) -> Matrix {
-        let mut mass = [[0.0; 3]; 3];
-        for (joint, row) in mass.iter_mut().enumerate() {
-            row[joint] = if joint < self.joints() { self.joint_inertia[joint] } else { 1.0 };
-        }
-        for point in self.points(angles).iter().filter(|point| point.inertia != 0.0) {
-            for (i, row) in mass.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    *entry += point.inertia * point.jacobian.iter().map(|row| row[i] * row[j]).sum::<f64>();
-                }
-            }
-        }
-        mass
+        self.mass_matrix_of(&self.points(angles))
     }
 
     fn velocity_torques(&self, angles: Vector, rates: Vector) -> Vector {
-        let speed = norm(rates);
-        if speed == 0.0 {
-            return [0.0; 3];
-        }
-        // A turn of 1e-5 rad: truncation 1e-10 of the curvature, rounding 1e-16 / 1e-5.
-        let step = 1e-5 / speed;
-        let [ahead, behind] = [step, -step].map(|h| self.points(add_scaled(angles, rates, h)));
-        let here = self.points(angles);
-        let mut torques = [0.0; 3];
-        for ((point, ahead), behind) in here.iter().zip(&ahead).zip(&behind).filter(|((p, _), _)| p.inertia != 0.0) {
-            let change = add_scaled(times(&ahead.jacobian, rates), times(&behind.jacobian, rates), -1.0);
-            let drift = scaled(change, 0.5 / step * point.inertia);
-            torques = add_scaled(torques, transposed_times(&point.jacobian, drift), 1.0);
-        }
-        torques
+        self.velocity_torques_of(&self.points(angles), angles, rates)
     }
 
     fn gravity_torques(&self, angles: Vector) -> Vector {
-        if self.gravity == [0.0; 3] {
-            return [0.0; 3];
+        self.gravity_torques_of(&self.points(angles))
+    }
+
+    fn dynamics(&self, angles: Vector, rates: Vector) -> Dynamics {
+        let points = self.points(angles);
+        Dynamics {
+            position: points[0].place,
+            jacobian: points[0].jacobian,
+            mass_matrix: self.mass_matrix_of(&points),
+            velocity_torques: self.velocity_torques_of(&points, angles, rates),
+            gravity_torques: self.gravity_torques_of(&points),
         }
-        self.points(angles)
-            .iter()
-            .fold([0.0; 3], |sum, point| add_scaled(sum, transposed_times(&point.jacobian, self.gravity), point.weight))
     }
 
     fn height_energy(&self, angles: Vector) -> f64 {
@@ -169,6 +191,22 @@ mod tests {
             let found = mechanism.velocity_torques(angles, rates);
             // Energies near 0.01 J round at 1e-18 over 2e-5 rad; truncation is of the order of the step squared.
             assert!(norm(difference(found, expected)) < 1e-9, "{mechanism:?}: {found:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn dynamics_at_once_are_those_one_by_one_in_every_bit() {
+        let arm = PlantSettings::wooden_haptics_2016().mechanism(0.05);
+        let arm = (arm, [0.2, 0.5, 0.6], [6.0, -3.0, 4.0]);
+        for (mechanism, angles, rates) in poses().into_iter().chain([arm]) {
+            let at_once = mechanism.dynamics(angles, rates);
+            let bits = |numbers: &[Vector]| numbers.concat().into_iter().map(f64::to_bits).collect::<Vec<_>>();
+            let position = mechanism.position(angles);
+            let [velocity, gravity] = [mechanism.velocity_torques(angles, rates), mechanism.gravity_torques(angles)];
+            assert_eq!(bits(&at_once.jacobian), bits(&mechanism.jacobian(angles)), "{mechanism:?}");
+            assert_eq!(bits(&at_once.mass_matrix), bits(&mechanism.mass_matrix(angles)), "{mechanism:?}");
+            let at_once = [at_once.position, at_once.velocity_torques, at_once.gravity_torques];
+            assert_eq!(bits(&at_once), bits(&[position, velocity, gravity]), "{mechanism:?}");
         }
     }
 

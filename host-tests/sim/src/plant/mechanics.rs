@@ -5,8 +5,8 @@
 //! platform gives the same bits.
 
 use super::friction::dry_friction;
-use super::mechanism::Mechanism;
-use super::vector::{Vector, add_scaled, dot, inverse, times};
+use super::mechanism::{Dynamics, Mechanism};
+use super::vector::{Matrix, Vector, add_scaled, dot, inverse, times};
 
 /// The moving parts: the mechanism, its friction and its state.
 #[derive(Debug)]
@@ -41,31 +41,44 @@ fn stop_torque([least, most]: [f64; 2], angle: f64, rate: f64) -> f64 {
     }
 }
 
+/// The response of the joints at one place and speed.
+struct Response {
+    /// The inverse of the mass matrix.
+    mobility: Matrix,
+    /// N·m.
+    smooth_torques: Vector,
+}
+
+impl Response {
+    /// Under torques that are constant over a step, N·m.
+    fn acceleration(&self, constant: Vector) -> Vector {
+        times(&self.mobility, add_scaled(self.smooth_torques, constant, 1.0))
+    }
+}
+
 impl Mechanics {
     /// One step of `period` s under constant motor torques, N·m. `hand(half_steps, position, velocity)` is the force on
     /// the probe, N, `half_steps` (0, 1, 2) half steps into the step.
     pub fn step(&mut self, period: f64, motor_torques: Vector, hand: impl Fn(usize, Vector, Vector) -> Vector) {
-        let acceleration = |half_steps, angles, rates, constant: Vector| {
-            let torques = add_scaled(self.smooth_torques(half_steps, angles, rates, &hand), constant, 1.0);
-            times(&inverse(&self.mechanism.mass_matrix(angles)), torques)
-        };
+        let at = |half_steps, angles, rates| self.responds(half_steps, angles, rates, &hand);
         let (q, v) = (self.angles, self.rates);
 
+        let first = at(0, q, v);
         let mut constant = motor_torques;
         if self.coulomb != [0.0; 3] {
-            let mobility = inverse(&self.mechanism.mass_matrix(q)).map(|row| row.map(|entry| entry * period));
-            let free_rates = add_scaled(v, acceleration(0, q, v, motor_torques), period);
+            let mobility = first.mobility.map(|row| row.map(|entry| entry * period));
+            let free_rates = add_scaled(v, first.acceleration(motor_torques), period);
             constant = add_scaled(constant, dry_friction(free_rates, &mobility, self.coulomb), 1.0);
         }
 
         let half = 0.5 * period;
-        let a1 = acceleration(0, q, v, constant);
+        let a1 = first.acceleration(constant);
         let v2 = add_scaled(v, a1, half);
-        let a2 = acceleration(1, add_scaled(q, v, half), v2, constant);
+        let a2 = at(1, add_scaled(q, v, half), v2).acceleration(constant);
         let v3 = add_scaled(v, a2, half);
-        let a3 = acceleration(1, add_scaled(q, v2, half), v3, constant);
+        let a3 = at(1, add_scaled(q, v2, half), v3).acceleration(constant);
         let v4 = add_scaled(v, a3, period);
-        let a4 = acceleration(2, add_scaled(q, v3, period), v4, constant);
+        let a4 = at(2, add_scaled(q, v3, period), v4).acceleration(constant);
         let mean = |k: [Vector; 4]| -> Vector {
             core::array::from_fn(|i| (k[0][i] + 2.0 * (k[1][i] + k[2][i]) + k[3][i]) / 6.0)
         };
@@ -73,23 +86,24 @@ impl Mechanics {
         self.rates = add_scaled(v, mean([a1, a2, a3, a4]), period);
     }
 
-    /// All joint torques but the motors' and the dry friction, with the velocity torques taken to the right, N·m.
-    fn smooth_torques(
+    /// The response of the joints: all torques but the motors' and the dry friction, with the velocity
+    /// torques taken to the right.
+    fn responds(
         &self,
         half_steps: usize,
         angles: Vector,
         rates: Vector,
         hand: impl Fn(usize, Vector, Vector) -> Vector,
-    ) -> Vector {
-        let jacobian = self.mechanism.jacobian(angles);
-        let force = hand(half_steps, self.mechanism.position(angles), times(&jacobian, rates));
-        let gravity = self.mechanism.gravity_torques(angles);
-        let velocity = self.mechanism.velocity_torques(angles, rates);
-        core::array::from_fn(|joint| {
+    ) -> Response {
+        let Dynamics { position, jacobian, mass_matrix, velocity_torques, gravity_torques } =
+            self.mechanism.dynamics(angles, rates);
+        let force = hand(half_steps, position, times(&jacobian, rates));
+        let smooth_torques = core::array::from_fn(|joint| {
             let column = [jacobian[0][joint], jacobian[1][joint], jacobian[2][joint]];
-            dot(column, force) + gravity[joint] - velocity[joint] - self.viscous[joint] * rates[joint]
+            dot(column, force) + gravity_torques[joint] - velocity_torques[joint] - self.viscous[joint] * rates[joint]
                 + stop_torque(self.stops[joint], angles[joint], rates[joint])
-        })
+        });
+        Response { mobility: inverse(&mass_matrix), smooth_torques }
     }
 
     /// The probe's position, m from the workspace centre.

@@ -4,6 +4,21 @@ use super::arm::Arm;
 use super::vector::{Matrix, Vector, dot, times};
 use std::fmt::Debug;
 
+/// The terms of the equation of motion at one place and speed.
+#[derive(Clone, Copy, Debug)]
+pub struct Dynamics {
+    /// [`Mechanism::position`].
+    pub position: Vector,
+    /// [`Mechanism::jacobian`].
+    pub jacobian: Matrix,
+    /// [`Mechanism::mass_matrix`].
+    pub mass_matrix: Matrix,
+    /// [`Mechanism::velocity_torques`].
+    pub velocity_torques: Vector,
+    /// [`Mechanism::gravity_torques`].
+    pub gravity_torques: Vector,
+}
+
 /// Geometry and inertia of a device's moving parts.
 ///
 /// One to three joints; the entries of the others are zero in vectors and Jacobians, and one on the mass matrix's
@@ -27,6 +42,17 @@ pub trait Mechanism: Debug + Send + Sync {
     fn gravity_torques(&self, angles: Vector) -> Vector;
     /// Energy of height, J, from some zero.
     fn height_energy(&self, angles: Vector) -> f64;
+
+    /// All of it at once, in the same bits: what several of these need is computed once.
+    fn dynamics(&self, angles: Vector, rates: Vector) -> Dynamics {
+        Dynamics {
+            position: self.position(angles),
+            jacobian: self.jacobian(angles),
+            mass_matrix: self.mass_matrix(angles),
+            velocity_torques: self.velocity_torques(angles, rates),
+            gravity_torques: self.gravity_torques(angles),
+        }
+    }
 
     /// Kinetic energy, J.
     fn kinetic_energy(&self, angles: Vector, rates: Vector) -> f64 {

@@ -36,7 +36,7 @@ pub use encoder::{Encoder, EncoderFault};
 pub use five_bar::{FiveBarSettings, LinkLump, LinkageArmSettings};
 pub use hand::{HandPath, HandSettings, StillHand};
 pub use lumped::{Geometry, Lumped, Point, Points};
-pub use mechanism::Mechanism;
+pub use mechanism::{Dynamics, Mechanism};
 pub use motor::{Amplifier, Motor, Winding};
 pub use paddle::PaddleSettings;
 pub use path::{PathError, TouchingPath};
