@@ -55,9 +55,9 @@ fn length(vector: Vector) -> f64 {
     vector.iter().map(|each| each.powi(2)).sum::<f64>().sqrt()
 }
 
-/// A plant with the motors of some joints turned round.
+/// A plant with the motors of some joints turned round. Eight steps a tick: knocks take milliseconds.
 fn turned(plant: &PlantSettings, wrong: &[bool; 3]) -> PlantSettings {
-    let mut plant = *plant;
+    let mut plant = PlantSettings { sub_steps: 8, ..*plant };
     for (joint, wrong) in plant.joints.iter_mut().zip(wrong) {
         if *wrong {
             let way = &mut joint.motor_direction;
