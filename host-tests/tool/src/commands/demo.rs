@@ -4,7 +4,7 @@ use super::options::{Scene, SceneOptions};
 use super::{demo_knob, page, progress, rate, sim};
 use crate::budgets::Budget;
 use crate::devices::Chosen;
-use crate::firmware::{self, Board, Choice, Firmware, Progress, SetUpError, Transport};
+use crate::firmware::{self, Board, Choice, Firmware, Program, Progress, SetUpError, Transport};
 use crate::report::{Page, Summary, plots, write_page};
 use crate::simulation::{self, Trace};
 use anyhow::{Context, bail};
@@ -126,11 +126,17 @@ pub enum Preparation {
     Tables(anyhow::Error),
 }
 
-/// Bakes the scene into an image.
+/// Bakes the scene into the image of one transport.
 ///
 /// # Errors
 /// The missing tool, or the failure.
-pub fn prepare(board: Board, scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
+pub fn program(board: Board, scene: &Scene, transport: Transport, progress: &Progress) -> Result<Program, Preparation> {
+    let (_folder, choice) = write_tables(board, scene).map_err(Preparation::Tables)?;
+    Program::prepare_with(&choice, transport.binary(), &[], progress).map_err(Preparation::SetUp)
+}
+
+/// Bakes the scene into the images of both.
+fn prepare(board: Board, scene: &Scene, progress: &Progress) -> Result<Firmware, Preparation> {
     let (_folder, choice) = write_tables(board, scene).map_err(Preparation::Tables)?;
     firmware::prepare(&choice, progress).map_err(Preparation::SetUp)
 }

@@ -3,7 +3,7 @@
 use super::progress;
 use crate::commission::{Device, KeyHeld};
 use crate::drawing::{BLUE_INK, Drawing, DrawingResult, GREEN_INK, RED_INK, draw, thinned};
-use crate::firmware::{Board, Image, Link as _, LinkError, Program, Progress, SetUpError};
+use crate::firmware::{Board, Image, Link as _, LinkError, Program, Progress, SetUpError, Transport};
 use crate::knob::turning::{HostEnd, TICKS, Turned, curve, size, turn, worst_detent};
 use crate::knob::{
     DIAL_ZERO, FEELS, KnobLine, NAMES, Recording, SEARCH, SharedKnob, TOLD_OF_SUPPLY, device, record, recorded, servo,
@@ -77,7 +77,7 @@ pub fn on_board(board: Board, compensated: bool) -> anyhow::Result<Run> {
         }
         Err(error) => return Err(error.into()),
     };
-    let mut emulator = program.start_over_fifos()?;
+    let mut emulator = program.start_over(Transport::Fifo)?;
     let bar = progress::ticks(TICKS);
     let exchange = |sensors: &_| -> Result<_, LinkError> { emulator.exchange(sensors) };
     let turned = turn(DialSettings::gimbal_knob(), exchange, |done| bar.tell(done))?;

@@ -85,12 +85,12 @@ impl Program {
         Running::start(&self.qemu, &self.image)
     }
 
-    /// Starts it where it speaks over FIFOs.
+    /// Starts it where it speaks over this transport alone.
     ///
     /// # Errors
     /// If the emulator does not start.
-    pub fn start_over_fifos(&self) -> Result<Emulator, LinkError> {
-        Emulator::start(&self.qemu, &self.image, Transport::Fifo)
+    pub fn start_over(&self, transport: Transport) -> Result<Emulator, LinkError> {
+        Emulator::start(&self.qemu, &self.image, transport)
     }
 
     /// Starts it where it speaks over FIFOs and tells of itself over its UART: the line it does that on comes with it.

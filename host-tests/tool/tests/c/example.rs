@@ -2,7 +2,7 @@
 
 use crate::running::{alone, capped_box, is_wanted, run as run_program};
 use clap::Parser;
-use palpate_tool::commands::demo::prepare;
+use palpate_tool::commands::demo::program;
 use palpate_tool::commands::options::{Scene, SceneOptions};
 use palpate_tool::firmware::{Board, Link, Progress, Transport};
 use palpate_tool::in_c;
@@ -59,12 +59,11 @@ fn the_example_in_c_computes_the_bits_of_the_image_in_rust_and_cannot_panic() {
 
     let Demo { options } = Demo::parse_from(["demo"]);
     let scene = options.scene().expect("the demo's scene");
-    let in_c = trace(&options, &scene, &mut example.start_over_fifos().expect("the emulator starts"));
-    let rust = prepare(Board::M4, &scene, &progress).expect("the image builds");
-    let image = rust.images.of(Transport::Fifo);
+    let in_c = trace(&options, &scene, &mut example.start_over(Transport::Fifo).expect("the emulator starts"));
+    let rust = program(Board::M4, &scene, Transport::Fifo, &progress).expect("the image builds");
     // The same look finds them where they are: what the program around the loop in Rust expects, it says by a panic.
-    assert!(!panicking(&image.elf).is_empty(), "the look is blind");
-    let in_rust = trace(&options, &scene, &mut rust.start(Transport::Fifo).expect("the emulator starts"));
+    assert!(!panicking(&rust.image.elf).is_empty(), "the look is blind");
+    let in_rust = trace(&options, &scene, &mut rust.start_over(Transport::Fifo).expect("the emulator starts"));
     assert_eq!(in_c.samples.len(), in_rust.samples.len());
     for (there, here) in in_c.samples.iter().zip(&in_rust.samples) {
         let mut report = there.report;
@@ -83,7 +82,7 @@ fn the_example_in_c_computes_the_bits_of_the_image_in_rust_and_cannot_panic() {
         format!("{:08x}", of_c.state_hash),
         format!("{:08x}", of_rust.state_hash)
     );
-    println!("  {:<28} {:>9} {:>9}", "flash, bytes", example.image.flash, image.flash);
-    println!("  {:<28} {:>9} {:>9}", "static RAM, bytes", example.image.ram, image.ram);
+    println!("  {:<28} {:>9} {:>9}", "flash, bytes", example.image.flash, rust.image.flash);
+    println!("  {:<28} {:>9} {:>9}", "static RAM, bytes", example.image.ram, rust.image.ram);
     println!("  {:<28} {:>9} {:>9}", "a tick, instructions at most", most(&in_c), most(&in_rust));
 }

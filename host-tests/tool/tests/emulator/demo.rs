@@ -4,7 +4,7 @@
 use crate::running::{boards, is_wanted};
 use clap::Parser;
 use palpate::servo::Fault;
-use palpate_tool::commands::demo::prepare;
+use palpate_tool::commands::demo::program;
 use palpate_tool::commands::options::{RATES, Scene, SceneOptions};
 use palpate_tool::commands::rate::in_time;
 use palpate_tool::firmware::{Board, Link, Progress, Transport};
@@ -32,8 +32,8 @@ fn traces(arguments: &[&str]) -> [Trace; 2] {
 fn traces_on(board: Board, arguments: &[&str]) -> [Trace; 2] {
     let Demo { options } = Demo::parse_from(arguments);
     let scene = options.scene().expect("the demo's scene");
-    let firmware = prepare(board, &scene, &Progress::new()).expect("the image builds");
-    let mut emulator = firmware.start(Transport::Fifo).expect("the emulator starts");
+    let firmware = program(board, &scene, Transport::Fifo, &Progress::new()).expect("the image builds");
+    let mut emulator = firmware.start_over(Transport::Fifo).expect("the emulator starts");
     let device = trace(&options, &scene, &mut emulator);
     let host = trace(&options, &scene, scene.host_loop().expect("good settings").as_mut());
 
@@ -90,8 +90,8 @@ fn felt(part: &str, first: f32) -> (Vec<(f32, Option<Fault>)>, Summary) {
     options.change_rate(&mut scene, first).expect("a rate");
     let mut tried = Vec::new();
     let run = |scene: &Scene| {
-        let firmware = prepare(Board::M4, scene, &Progress::new()).expect("the image builds");
-        let run = trace(&options, scene, &mut firmware.start(Transport::Fifo).expect("the emulator starts"));
+        let firmware = program(Board::M4, scene, Transport::Fifo, &Progress::new()).expect("the image builds");
+        let run = trace(&options, scene, &mut firmware.start_over(Transport::Fifo).expect("the emulator starts"));
         tried.push((scene.settings.rate_hz, Summary::new(&run).fault.map(|(fault, _)| fault)));
         Ok(run)
     };

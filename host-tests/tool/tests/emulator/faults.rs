@@ -7,7 +7,7 @@ use clap::Parser;
 use palpate::servo::{Fault, Phase, ResetReason};
 use palpate::wire::Sensors;
 use palpate::wire::frame::{self, DELIMITER, MAX_FRAME};
-use palpate_tool::commands::demo::prepare;
+use palpate_tool::commands::demo::program;
 use palpate_tool::commands::options::SceneOptions;
 use palpate_tool::firmware::{Board, Emulator, Link, LinkError, Progress};
 
@@ -107,8 +107,9 @@ fn a_tick_that_takes_longer_than_its_period() {
         return;
     }
     let Scene { options } = Scene::parse_from(["scene", "--rate", "50000"]);
-    let image = prepare(Board::M4, &options.scene().unwrap(), &Progress::new()).expect("the image builds");
-    let mut emulator = image.start(TRANSPORTS[0]).unwrap();
+    let [uart, _] = TRANSPORTS;
+    let image = program(Board::M4, &options.scene().unwrap(), uart, &Progress::new()).expect("the image builds");
+    let mut emulator = image.start_over(uart).unwrap();
     for tick in 0..20 {
         let report = emulator.exchange(&sensors(tick)).unwrap();
         assert_eq!((report.fault, report.phase), (Fault::Overrun.code(), Phase::Fault as u8), "tick {tick}");
