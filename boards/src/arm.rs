@@ -1,9 +1,9 @@
-//! The servo of a board with three joints: an arm with all protection of its device, which runs by itself. No host
-//! watches it; if a host commands the scene, set `Safety::link_timeout_s`.
+//! The servo of a board with three joints: an arm with all protection of its device, which runs by itself. A host that
+//! commands the scene must not fall silent: set `Safety::link_timeout_s`.
 
 use palpate::device::{Device, Homing, Kinematics, Protection, Reference};
 use palpate::scene::{BodyStore, Limits, Material, Motion, Part, Scene, Slot};
-use palpate::servo::{Config, Guarded, Servo, Settings, Surface};
+use palpate::servo::{Config, Guarded, Safety, Servo, Settings, Surface};
 use palpate::track::Placement;
 
 /// The servo of an arm on a surface.
@@ -26,12 +26,13 @@ pub const fn arm_servo<S: Surface, K: Kinematics<3>>(
     settings: Settings,
     protection: Protection<3>,
     reference: Option<Reference<3>>,
+    safety: Safety,
 ) -> ArmServo<S, K> {
     let homing = match reference {
         Some(reference) => Some(homing(device, reference, settings.rate_hz)),
         None => None,
     };
-    Servo::protected(device, surface, protection, Config { settings, homing, ..Config::DEFAULT })
+    Servo::protected(device, surface, protection, Config { settings, homing, safety, ..Config::DEFAULT })
 }
 
 /// The scene of a slot: its body rests, with the loop's own stiffness and damping.
@@ -47,14 +48,14 @@ pub const fn one_slot<S: BodyStore, K>(
 
 /// Declares `This`, which a board's loop runs: an arm in a `static`, so that the compiler knows every number of it.
 ///
-/// `arm!(tables::Surface = tables::SURFACE, device, SETTINGS);`, where `device` is a module with the constants that
+/// `arm!(tables::Surface = tables::SURFACE, device, SETTINGS, SAFETY);`, where `device` is a module with the constants that
 /// `palpate device` writes: `Mechanism`, `DEVICE`, `PROTECTION`, `REFERENCE`, `WIRING`. Without one of them it does not
 /// compile.
 #[macro_export]
 macro_rules! arm {
-    ($Surface:ty = $surface:expr, $device:ident, $settings:expr) => {
+    ($Surface:ty = $surface:expr, $device:ident, $settings:expr, $safety:expr) => {
         static SERVO: $crate::ArmServo<$Surface, $device::Mechanism> =
-            $crate::arm_servo(&$device::DEVICE, $surface, $settings, $device::PROTECTION, $device::REFERENCE);
+            $crate::arm_servo(&$device::DEVICE, $surface, $settings, $device::PROTECTION, $device::REFERENCE, $safety);
 
         /// The servo that the loop runs.
         pub struct This;

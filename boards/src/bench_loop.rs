@@ -1,6 +1,7 @@
 //! The tick of a board.
 
 use crate::acknowledging::Acknowledging;
+use crate::confirming::{Asked, Confirming, Outcome};
 use crate::light::is_lit;
 use crate::mailbox::Plain;
 use crate::set_up::SetUp;
@@ -71,11 +72,13 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     /// Ticks done, in whatever phase.
     ticks: u32,
     acknowledging: Acknowledging,
+    confirming: Confirming,
     /// Takes the servo's place once the host asks for it; `None` where jogging is not offered.
     set_up: Option<SetUp<JOINTS>>,
     is_set_up: bool,
-    /// Whether a host has said anything, or need not.
+    /// Whether the link is watched: a host has said something, or commanded something where none is needed.
     is_host_heard: bool,
+    needs_host: bool,
 }
 
 impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B, JOINTS> {
@@ -104,6 +107,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             rate: rate as u32,
             ticks: 0,
             acknowledging: Acknowledging::new(rate),
+            confirming: Confirming::new(rate),
             began: None,
             window: PeriodWindow::of_period(settings.clock as f32, rate),
             // Limits that make no sense jog nothing.
@@ -113,6 +117,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             }),
             is_set_up: false,
             is_host_heard: !felt.servo().watches_link(),
+            needs_host: settings.needs_host,
             felt,
         }
     }
@@ -145,7 +150,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         let asks = self.interlock.next(panel.enable, verdict.hold != 0);
         // Homing by hand needs no motors: a device is homed and its encoders are looked at before their supply is on.
         let needs_no_motors = !self.state.homed() && !self.felt.servo().homing_drives();
-        let homes = self.by_hand.next(panel.enable, false) && needs_no_motors;
+        let homes = self.by_hand.next(panel.enable, self.confirming.is_asked()) && needs_no_motors;
         let enable = asks || homes;
 
         let input = match self.board.read() {
@@ -232,22 +237,24 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     fn listen(&mut self, panel: &Panel) {
         let commands = self.mailbox.take();
         if commands.has(Plain::Alive) {
-            self.is_host_heard = true;
+            self.is_host_heard |= self.needs_host;
             self.felt.servo().note(&mut self.state, Event::LinkAlive);
         }
         if commands.has(Plain::Stop) {
             self.felt.servo().note(&mut self.state, Event::Stop);
+            self.confirming.cancel();
             if let Some(set_up) = &mut self.set_up {
                 set_up.stop();
             }
         }
-        if commands.has(Plain::SetUp) {
-            self.begin_to_set_up();
+        if commands.has(Plain::SetUp) && self.may_be_set_up() {
+            self.confirming.ask(Asked::SetUp);
         }
         if let Some(index) = commands.chosen() {
             self.felt.servo().note(&mut self.state, Event::Chosen { index });
         }
         if let Some((number, order)) = self.mailbox.take_order() {
+            self.is_host_heard = true;
             let refused = if self.is_set_up {
                 Some(Refused::SetUp)
             } else {
@@ -255,19 +262,26 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             };
             self.mailbox.put_answer(Answer { number, refused });
         }
-        let by_hand = self.acknowledging.next(panel);
-        if by_hand || commands.has(Plain::Acknowledge) {
-            let was_fault = self.state.fault().is_some();
-            self.felt.servo().note(&mut self.state, Event::Acknowledged);
-            // If enable was held during the acknowledge, require a release first.
-            if was_fault && self.state.fault().is_none() {
-                self.interlock.lock();
-                self.by_hand.lock();
-            }
+        if commands.has(Plain::Acknowledge) && self.is_reset_pending() && self.interlock.is_released() {
+            self.confirming.ask(Asked::Acknowledge);
+        }
+        if self.acknowledging.next(panel) {
+            self.acknowledge();
         }
         // Whatever fault stood before it was acknowledged.
         if self.felt.is_miscalibrated() && self.state.fault().is_none() {
             self.felt.servo().note(&mut self.state, Event::CalibrationRefused);
+        }
+    }
+
+    /// Somebody at the device has acknowledged a reset that is a fault.
+    fn acknowledge(&mut self) {
+        let was_fault = self.state.fault().is_some();
+        self.felt.servo().note(&mut self.state, Event::Acknowledged);
+        // If enable was held during the acknowledge, require a release first.
+        if was_fault && self.state.fault().is_none() {
+            self.interlock.lock();
+            self.by_hand.lock();
         }
     }
 
@@ -280,9 +294,14 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// The host wants to set the device up. Nobody is surprised by it: not while anything is driven, not while somebody
     /// holds the enable button, nor before a reset that is a fault has been acknowledged. The servo is stopped first,
     /// and that is latched, whatever else goes wrong.
-    fn begin_to_set_up(&mut self) {
+    fn may_be_set_up(&self) -> bool {
         let is_quiet = self.is_quiet() && !self.is_reset_pending() && !self.mailbox.writing().is_granted();
-        if self.set_up.is_none() || self.is_set_up || !is_quiet {
+        self.set_up.is_some() && !self.is_set_up && is_quiet
+    }
+
+    /// And a person has confirmed it.
+    fn begin_to_set_up(&mut self) {
+        if !self.may_be_set_up() {
             return;
         }
         self.felt.servo().note(&mut self.state, Event::Stop);
@@ -304,12 +323,21 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         if !self.is_host_heard {
             // Nothing was lost that was never there.
             self.felt.servo().note(&mut self.state, Event::LinkAlive);
-            holds |= hold::NO_HOST;
+            holds |= if self.needs_host { hold::NO_HOST } else { 0 };
         }
-        if self.mailbox.writing().answer(self.is_quiet(), false) {
-            holds |= hold::WRITING;
+        let outcome = self.confirming.next(&self.interlock);
+        match outcome {
+            Some(Outcome::Confirmed(Asked::SetUp)) => self.begin_to_set_up(),
+            Some(Outcome::Confirmed(Asked::Acknowledge)) => self.acknowledge(),
+            _ => {}
         }
-        holds
+        let is_off = matches!(self.state.output(), Output::Off);
+        holds | self.confirming.holds(outcome, self.mailbox.writing(), (&self.interlock, is_off), false)
+    }
+
+    /// Whether a person is asked to hold the enable button, and to release it.
+    pub const fn asks_to_confirm(&self) -> bool {
+        self.confirming.is_asked()
     }
 
     /// A tick of a device that is being set up.
@@ -318,7 +346,8 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         if is_late {
             set_up.overran(&mut self.board);
         }
-        set_up.tick(&mut self.board, (&mut self.hold, &mut self.interlock), panel, self.mailbox);
+        let supervisors = (&mut self.hold, &mut self.interlock, &mut self.confirming);
+        set_up.tick(&mut self.board, supervisors, panel, self.mailbox);
         if self.overran(began)
             && let Some(set_up) = &mut self.set_up
         {

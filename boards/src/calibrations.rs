@@ -72,6 +72,8 @@ impl<'a> Calibrating<'a> {
             Word::AskedInSetUp => return None,
             Word::Granted => self.flash.map_or(Err(KeepError::NoFlash), |flash| flash.keep(joints.as_ref())),
             Word::NotSetUp => Err(KeepError::NotSetUp),
+            Word::NotConfirmed => Err(KeepError::NotConfirmed),
+            Word::Worn => Err(KeepError::Worn),
             Word::Denied | Word::Free | Word::Asked => Err(KeepError::Driven),
         };
         mailbox.writing().end();

@@ -170,10 +170,14 @@ impl<'a> Idle<'a> {
 
     fn take(&mut self, command: HostMessage, watchdog: &mut impl Watchdog) {
         match command {
+            // A host that was not understood may stop the device, and nothing else.
+            HostMessage::Alive | HostMessage::Acknowledge | HostMessage::SetUp | HostMessage::Jog(_)
+                if !self.is_greeted => {}
             HostMessage::Alive => self.mailbox.put(Plain::Alive),
             HostMessage::Stop => self.mailbox.put(Plain::Stop),
-            HostMessage::Acknowledge => self.mailbox.put(Plain::Acknowledge),
-            HostMessage::SetUp => self.mailbox.put(Plain::SetUp),
+            // Repeated until a person has confirmed it.
+            HostMessage::Acknowledge => self.mailbox.put_both(Plain::Alive, Plain::Acknowledge),
+            HostMessage::SetUp => self.mailbox.put_both(Plain::Alive, Plain::SetUp),
             HostMessage::Jog(jog) => self.mailbox.put_jog(jog),
             HostMessage::Hello { protocol } => {
                 // Another host counts from the start.

@@ -76,6 +76,11 @@ impl Interlock {
         !self.is_open
     }
 
+    /// Ticks in a row in which the input was pressed.
+    pub(crate) const fn pressed(&self) -> u32 {
+        self.pressed
+    }
+
     /// Whether the input has been released without a break for as long as opens the interlock.
     pub const fn is_released(&self) -> bool {
         self.released >= self.release_ticks

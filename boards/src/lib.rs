@@ -65,6 +65,7 @@ mod board;
 mod calibrations;
 mod chopper;
 mod clock_check;
+mod confirming;
 #[cfg(feature = "cortex")]
 #[allow(unsafe_code)]
 pub mod cortex;

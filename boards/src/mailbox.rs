@@ -71,6 +71,10 @@ impl Mailbox {
         self.commands.fetch_or(plain as u32, Ordering::Relaxed);
     }
 
+    pub(crate) fn put_both(&self, one: Plain, other: Plain) {
+        self.commands.fetch_or(one as u32 | other as u32, Ordering::Relaxed);
+    }
+
     pub(crate) fn put_jog(&self, jog: Jog) {
         let Jog { number, key, motor, duty } = jog;
         self.jog.put([number, key, u32::from(motor) | u32::from(duty as u16) << 16]);

@@ -1,5 +1,6 @@
 //! A device that is being set up: one motor at a time, gently, while somebody holds a key.
 
+use crate::confirming::Confirming;
 use crate::led::Led;
 use crate::{Board, Hold, Interlock, Mailbox, NotObeyed, Panel};
 use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging, Wiring};
@@ -120,7 +121,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
     pub fn tick<B: Board<JOINTS>>(
         &mut self,
         board: &mut B,
-        (holds, interlock): (&mut Hold, &mut Interlock),
+        (holds, interlock, confirming): (&mut Hold, &mut Interlock, &mut Confirming),
         panel: &Panel,
         mailbox: &Mailbox,
     ) {
@@ -128,12 +129,10 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         if let Some(volts) = panel.supply {
             self.supply.measured(volts);
         }
-        let is_quiet = !self.state.is_live() && interlock.is_released();
         let mut verdict = holds.next(panel, self.state.is_live());
         // A key held meanwhile moves nothing: enable is locked.
-        if mailbox.writing().answer(is_quiet, true) {
-            verdict.hold |= hold::WRITING;
-        }
+        let outcome = confirming.next(interlock);
+        verdict.hold |= confirming.holds(outcome, mailbox.writing(), (interlock, !self.state.is_live()), true);
         self.enable = interlock.next(panel.enable, verdict.hold != 0) && !self.is_stopped;
         let stopped = if self.is_stopped { hold::STOP } else { 0 };
         self.hold = verdict.hold | stopped | if interlock.is_locked() { hold::RELEASE_FIRST } else { 0 };

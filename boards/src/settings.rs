@@ -19,13 +19,16 @@ pub struct Settings {
     /// Seconds within which the stop input or the supply must say why an amplifier that was driving is no longer ready.
     /// The motors are off meanwhile; after it, it is the amplifier's own fault.
     pub ready_grace: f32,
+    /// Of a servo that watches its link ([`palpate::servo::Safety::link_timeout_s`]): whether there is no force before a
+    /// host was heard. Otherwise the link is watched from a host's first command on.
+    pub needs_host: bool,
     /// Limits of jogging while the device is set up; `None` offers nothing of the kind.
     pub jog: Option<JogSettings>,
 }
 
 impl Settings {
     /// 20 ticks a record, which 500,000 baud carry at 4 kHz; two bad frames bridged; no supply watched; 50 ms for a
-    /// contactor to fall; [`JogSettings::DEFAULT`].
+    /// contactor to fall; a host where the link is watched; [`JogSettings::DEFAULT`].
     pub const fn new(clock: u32) -> Self {
         Self {
             clock,
@@ -33,6 +36,7 @@ impl Settings {
             bad_frames: FrameBridge::<1>::DEFAULT_IN_A_ROW,
             supply: None,
             ready_grace: 0.05,
+            needs_host: true,
             jog: Some(JogSettings::DEFAULT),
         }
     }

@@ -45,6 +45,8 @@ impl<'a> Taking<'a> {
     pub fn take(&mut self, number: u16, part: &Upload, mailbox: &Mailbox, pause: &mut dyn FnMut()) -> Option<Answer> {
         let put = match *part {
             Upload::Keep { .. } if self.flash.is_none() => Err(UploadError::NoFlash),
+            // The tick is asked already: its answer is on its way.
+            Upload::Keep { .. } if self.asked.is_some_and(|(asked, _)| asked == number) => return None,
             Upload::Keep { bytes } => {
                 if self.held.is_some() {
                     self.begin_to_keep(bytes, mailbox, pause)
@@ -93,9 +95,13 @@ impl<'a> Taking<'a> {
                 self.held = Some(mailbox.ticks());
                 self.begin_to_keep(bytes, mailbox, pause)
             }
-            Word::Denied | Word::NotSetUp | Word::Free => {
+            refused => {
                 mailbox.writing().end();
-                Err(UploadError::Driven)
+                Err(match refused {
+                    Word::NotConfirmed => UploadError::NotConfirmed,
+                    Word::Worn => UploadError::Worn,
+                    _ => UploadError::Driven,
+                })
             }
         };
         self.asked = None;

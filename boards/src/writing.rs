@@ -23,6 +23,10 @@ pub(crate) enum Word {
     AskedInSetUp = 4,
     /// It is to be set up first.
     NotSetUp = 5,
+    /// Nobody confirmed it.
+    NotConfirmed = 6,
+    /// It was written too often since the reset.
+    Worn = 7,
 }
 
 impl Writing {
@@ -38,6 +42,8 @@ impl Writing {
             3 => Word::Denied,
             4 => Word::AskedInSetUp,
             5 => Word::NotSetUp,
+            6 => Word::NotConfirmed,
+            7 => Word::Worn,
             _ => Word::Free,
         }
     }
@@ -62,18 +68,19 @@ impl Writing {
         self.0.store(Word::Free as u32, Ordering::Release);
     }
 
-    /// The tick's answer, if it is asked; and whether the motors have to stay off.
-    #[inline]
-    pub fn answer(&self, is_quiet: bool, is_set_up: bool) -> bool {
-        let answer = match self.word() {
-            Word::Granted => return true,
-            Word::Asked | Word::AskedInSetUp if !is_quiet => Word::Denied,
-            Word::Asked if is_set_up => Word::Denied,
-            Word::AskedInSetUp if !is_set_up => Word::NotSetUp,
-            Word::Asked | Word::AskedInSetUp => Word::Granted,
-            Word::Free | Word::Denied | Word::NotSetUp => return false,
-        };
+    /// The tick's answer.
+    pub fn put(&self, answer: Word) {
         self.0.store(answer as u32, Ordering::Relaxed);
-        answer == Word::Granted
+    }
+
+    /// Why the tick refuses what main asks for; `None` if a person may confirm it.
+    #[inline]
+    pub fn refusal(&self, is_quiet: bool, is_set_up: bool) -> Option<Word> {
+        match (self.word(), is_set_up) {
+            _ if !is_quiet => Some(Word::Denied),
+            (Word::Asked, true) => Some(Word::Denied),
+            (Word::AskedInSetUp, false) => Some(Word::NotSetUp),
+            _ => None,
+        }
     }
 }

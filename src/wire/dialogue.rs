@@ -77,6 +77,12 @@ pub enum KeepError {
     /// The flash did not take it: none is kept now that is whole.
     #[error("flash write error: the calibration was not saved")]
     Flash,
+    /// Nobody held the enable button and released it.
+    #[error("not confirmed at the device: hold the enable button for half a second, then release it")]
+    NotConfirmed,
+    /// Flash was written as often as it may be between two resets.
+    #[error("flash was written too often since the last reset; reset the device")]
+    Worn,
 }
 
 /// The identity and limits of a device.

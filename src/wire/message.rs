@@ -129,9 +129,12 @@ pub mod hold {
     pub const WRITING: u8 = 1 << 4;
     /// The loop watches its link ([`crate::servo::Safety::link_timeout_s`]), and no host was heard yet.
     pub const NO_HOST: u8 = 1 << 5;
+    /// The host asks for something that a person must confirm: hold the enable button for half a second, then release
+    /// it.
+    pub const CONFIRM: u8 = 1 << 6;
 }
 
-/// To a device that runs by itself.
+/// To a device that runs by itself. Until a [`Self::Hello`] in its version has come it takes [`Self::Stop`] alone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum HostMessage {
@@ -139,10 +142,11 @@ pub enum HostMessage {
     Alive,
     /// Stop: [`crate::servo::Event::Stop`], latched.
     Stop,
-    /// Go on after a reset by the watchdog or a brown-out: [`crate::servo::Event::Acknowledged`].
+    /// Go on after a reset by the watchdog or a brown-out: [`crate::servo::Event::Acknowledged`]. A person must confirm
+    /// it ([`hold::CONFIRM`]).
     Acknowledge,
     /// Let go of the servo until the next reset, and be set up: [`crate::commission`]. Taken only while nothing is
-    /// driven and the enable input is released.
+    /// driven and the enable input is released. A person must confirm it ([`hold::CONFIRM`]).
     SetUp,
     /// One motor, while a key is held; taken only by a device that is being set up.
     Jog(crate::commission::Jog),
@@ -167,8 +171,8 @@ pub enum HostMessage {
         part: super::upload::Upload,
     },
     /// Stores the results of commissioning in the device's flash, or clears them; used from the next reset on. Only in
-    /// commissioning mode, while no motor is driven and the enable input is released. Answered by its number
-    /// ([`super::Answer`]).
+    /// commissioning mode, while no motor is driven and the enable input is released, and once a person has confirmed it
+    /// ([`hold::CONFIRM`]). Answered by its number ([`super::Answer`]).
     Calibrate {
         /// As an order's.
         number: u16,

@@ -80,4 +80,10 @@ pub enum UploadError {
         /// Where.
         at: u32,
     },
+    /// Nobody held the enable button and released it.
+    #[error("not confirmed at the device: hold the enable button for half a second, then release it")]
+    NotConfirmed,
+    /// Flash was written as often as it may be between two resets.
+    #[error("flash was written too often since the last reset; reset the device")]
+    Worn,
 }

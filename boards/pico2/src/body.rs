@@ -3,7 +3,7 @@
 use palpate::math::vec3;
 #[cfg(feature = "host")]
 use palpate::scene::Slot;
-use palpate::servo::Settings;
+use palpate::servo::{Safety, Settings};
 #[cfg(not(feature = "accept"))]
 use palpate_bench::Offers;
 #[cfg(feature = "host")]
@@ -25,15 +25,21 @@ pub const SETTINGS: Settings = Settings {
     body_origin_m: vec3(-0.05, -0.05, -0.06),
 };
 
+/// A host that has commanded something and falls silent for a tenth of a second is gone.
+pub const SAFETY: Safety = Safety {
+    link_timeout_s: if cfg!(feature = "host") { 0.1 } else { Safety::DEFAULT.link_timeout_s },
+    ..Safety::DEFAULT
+};
+
 /// The body: `cargo palpate firmware --board BOARD --body MODEL build --release` puts another one here.
 mod tables {
     include!(env!("PALPATE_BODY_FILE"));
 }
 
 #[cfg(not(feature = "host"))]
-palpate_bench::arm!(tables::Surface = tables::SURFACE, own, SETTINGS);
+palpate_bench::arm!(tables::Surface = tables::SURFACE, own, SETTINGS, SAFETY);
 #[cfg(feature = "host")]
-palpate_bench::arm!(OneSlot<RamStore> = &SCENE, own, SETTINGS);
+palpate_bench::arm!(OneSlot<RamStore> = &SCENE, own, SETTINGS, SAFETY);
 
 /// Bodies from a host.
 #[cfg(feature = "host")]

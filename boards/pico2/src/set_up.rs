@@ -26,7 +26,8 @@ use crate::ticks::{Clock, Ticks};
 use crate::{Loop, Message, SHARED, chip, pins, port, supply, usb};
 
 /// The settings of this board's loop.
-pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
+pub const BENCH: Settings =
+    Settings { supply: Some(SupplyRange::TWENTY_FOUR), needs_host: false, ..Settings::new(CLOCK) };
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]

@@ -1,7 +1,7 @@
 //! Settings of this board: the file to change first. The build chooses device (`--device`) and body (`--body`).
 
 use palpate::math::vec3;
-use palpate::servo::Settings;
+use palpate::servo::{Safety, Settings};
 
 /// The device: this board's own, or that of `--device`.
 pub mod own {
@@ -19,10 +19,16 @@ pub const SETTINGS: Settings = Settings {
     body_origin_m: vec3(-0.05, -0.05, -0.06),
 };
 
+/// A host that has commanded something and falls silent for a tenth of a second is gone.
+pub const SAFETY: Safety = Safety {
+    link_timeout_s: if cfg!(feature = "host") { 0.1 } else { Safety::DEFAULT.link_timeout_s },
+    ..Safety::DEFAULT
+};
+
 /// The body: `cargo palpate firmware --board stm32g4 --body MODEL build --release` puts another one here.
 pub mod tables {
     include!(env!("PALPATE_BODY_FILE"));
 }
 
 #[cfg(not(feature = "host"))]
-palpate_bench::arm!(tables::Surface = tables::SURFACE, own, SETTINGS);
+palpate_bench::arm!(tables::Surface = tables::SURFACE, own, SETTINGS, SAFETY);

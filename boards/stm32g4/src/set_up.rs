@@ -23,7 +23,8 @@ use crate::{Loop, Message, SHARED, amplifiers};
 use set_points::{Drives, Light};
 
 /// The settings of this board's loop.
-pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(CLOCK) };
+pub const BENCH: Settings =
+    Settings { supply: Some(SupplyRange::TWENTY_FOUR), needs_host: false, ..Settings::new(CLOCK) };
 
 /// The watchdog's timeout, ms: with a host after the 25 ms that a page of flash takes to be erased, motors held off.
 const TIMEOUT_MS: u32 = if cfg!(feature = "host") { 40 } else { 20 };

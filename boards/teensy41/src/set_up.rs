@@ -23,7 +23,8 @@ use crate::watchdog::Rtwdog;
 use crate::{Loop, Message, SHARED, chip, port, usb};
 
 /// The settings of this board's loop.
-pub const BENCH: Settings = Settings { supply: Some(SupplyRange::TWENTY_FOUR), ..Settings::new(IPG_FREQUENCY) };
+pub const BENCH: Settings =
+    Settings { supply: Some(SupplyRange::TWENTY_FOUR), needs_host: false, ..Settings::new(IPG_FREQUENCY) };
 
 type Sensors = Angles<Lpspi, Output, CycleDelay<Clock>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;

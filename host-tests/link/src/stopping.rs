@@ -2,11 +2,13 @@
 
 use crate::{ALIVE, Device, Error, Line};
 use palpate::servo::Fault;
-use palpate::wire::HostMessage;
+use palpate::wire::{HostMessage, hold};
 use std::time::Duration;
 
 /// How long the stop is repeated without a confirmation.
 const STOPS: Duration = Duration::from_millis(500);
+/// How long a person is waited for who is to confirm something: longer than the device waits.
+const CONFIRMED: Duration = Duration::from_secs(35);
 
 impl<L: Line> Device<L> {
     /// Stops the device, in any state, until it is reset: repeats the message until the device confirms the stop. A
@@ -36,28 +38,29 @@ impl<L: Line> Device<L> {
         Err(Error::NotStopped { line: self.line.name(), tries })
     }
 
-    /// Continues after a reset by the watchdog or a brown-out, once a person has checked the device. The enable button
-    /// has to be released and pressed again before there is force.
+    /// Continues after a reset by the watchdog or a brown-out, once a person has checked the device, held its enable
+    /// button for half a second and released it, within half a minute. Pressing it again gives force.
     ///
     /// # Errors
     /// A line that broke, a device that is silent, or [`Error::Fault`] if another fault has stopped it.
     pub fn acknowledge(&mut self) -> Result<(), Error> {
         self.usable()?;
         self.view = None;
-        let began = self.line.now();
-        while self.since(began) < STOPS {
+        let (began, mut is_asked) = (self.line.now(), false);
+        while self.since(began) < STOPS || (is_asked && self.since(began) < CONFIRMED) {
             self.send(&HostMessage::Acknowledge)?;
             self.view = None;
             self.pause(ALIVE)?;
-            if let Some((view, _)) = self.view
-                && view.fault == 0
-            {
-                return Ok(());
+            if let Some((view, _)) = self.view {
+                is_asked = view.hold & hold::CONFIRM != 0;
+                if view.fault == 0 {
+                    return Ok(());
+                }
             }
         }
         match self.viewed_fault().or(self.recorded_fault()) {
             Some(fault) => Err(Error::Fault(fault)),
-            None => Err(Error::Silent { line: self.line.name(), waited: STOPS }),
+            None => Err(Error::Silent { line: self.line.name(), waited: self.since(began) }),
         }
     }
 

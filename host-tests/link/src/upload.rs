@@ -9,7 +9,9 @@ use std::time::Duration;
 
 /// How long the device may take to check a whole body, which it does below its ticks.
 const CHECKS: Duration = Duration::from_secs(2);
-/// How often the device may ask for a part that it has been sent.
+/// How long a try waits for a person who is to confirm it: 20 of them are more than the device waits.
+const CONFIRMS: Duration = Duration::from_secs(2);
+/// Maximum number of requests for a part that was sent already.
 const RESUMES: u32 = 100;
 /// How often a part is sent in all: it is longer than an order, there are many, and it may come twice.
 const PART_TRIES: u32 = 20;
@@ -32,7 +34,8 @@ impl<L: Line> Device<L> {
         self.order(Command::Take { body })
     }
 
-    /// Writes a body's file into the device's flash, and replaces a body of the scene by it: now and after every reset,
+    /// Once a person at the device has held its enable button for half a second and released it, within half a minute:
+    /// writes a body's file into the device's flash, and replaces a body of the scene by it: now and after every reset,
     /// with or without a host. The motors are off until it is written. The start of the write erases the earlier stored
     /// body.
     ///
@@ -59,19 +62,18 @@ impl<L: Line> Device<L> {
         self.put_back(body)
     }
 
-    /// Flash is not written while its body is in use: the built-in body is put back first.
+    /// Flash is not written while its body is in use: the built-in body is put back first, so that a person confirms once.
     fn begin_to_keep(&mut self, body: u8, bytes: u32) -> Result<(), Error> {
-        let begin = Upload::Keep { bytes };
-        match self.part(begin, ANSWER) {
-            Err(Error::Refused { reason: Refused::Upload(UploadError::Felt), .. }) => {
-                self.put_back(body)?;
-                if let Err(refused) = self.part(begin, ANSWER) {
-                    // Somebody has asked for force meanwhile: it is felt again.
-                    self.order(Command::Take { body })?;
-                    return Err(refused);
-                }
+        let is_kept = self.hello().kept != 0;
+        if is_kept {
+            self.put_back(body)?;
+        }
+        if let Err(refused) = self.part(Upload::Keep { bytes }, CONFIRMS) {
+            if is_kept {
+                // It is rendered again.
+                self.order(Command::Take { body })?;
             }
-            begun => begun?,
+            return Err(refused);
         }
         self.set_kept(0);
         Ok(())

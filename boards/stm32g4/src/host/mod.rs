@@ -19,7 +19,7 @@ use stm32g4xx_hal::stm32::FLASH;
 
 use self::flash::{BODY_BYTES, Bank2, START};
 use crate::body::own::{DEVICE, Mechanism, PROTECTION, REFERENCE, WIRING};
-use crate::body::{SETTINGS, tables};
+use crate::body::{SAFETY, SETTINGS, tables};
 
 /// Faces and edges of some 60 patches: more RAM for them would be less for the code of the tick.
 const FACES: usize = 64;
@@ -37,7 +37,7 @@ static SLOT: Slot<Store> = Slot::exchangeable(tables::SURFACE, &STORE);
 static SCENE: OneSlot<Store> = one_slot(&SLOT, &DEVICE, &SETTINGS);
 
 /// A configuration that is refused does not compile.
-const SERVO: ArmServo<OneSlot<Store>, Mechanism> = arm_servo(&DEVICE, &SCENE, SETTINGS, PROTECTION, REFERENCE);
+const SERVO: ArmServo<OneSlot<Store>, Mechanism> = arm_servo(&DEVICE, &SCENE, SETTINGS, PROTECTION, REFERENCE, SAFETY);
 
 /// The servo on the device as commissioning found it: in RAM, made at each start.
 pub struct This {

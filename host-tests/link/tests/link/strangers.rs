@@ -111,7 +111,8 @@ fn one_that_is_being_set_up_feels_nothing_and_says_so() {
     crate::line::for_seconds(&mut device, 0.1);
     let set_up = frame::pack(&HostMessage::SetUp, &mut buffer).unwrap();
     device.line().send(set_up).unwrap();
-    device.line().device.run(100);
+    // The hand confirms it.
+    device.line().device.run(3_500);
     for _ in 0..10 {
         let _ = device.tend();
     }

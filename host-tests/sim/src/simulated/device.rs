@@ -83,6 +83,8 @@ pub struct Simulated {
     ticks: u32,
     began: Instant,
     is_paced: bool,
+    /// Ticks for which the hand has confirmed what the device asks.
+    confirms: Option<u32>,
 }
 
 /// Options of the simulated device.
@@ -183,7 +185,7 @@ impl Simulated {
         if kind.keeps_bodies {
             board.idle = board.idle.keeping(keeping);
         }
-        Ok(Self { board, hand, flash, ticks: 0, began: Instant::now(), is_paced: false })
+        Ok(Self { board, hand, flash, ticks: 0, began: Instant::now(), is_paced: false, confirms: None })
     }
 
     /// Limits the simulation to real time.
@@ -212,6 +214,15 @@ impl Simulated {
     fn tick(&mut self) {
         self.board.tick(BYTES);
         self.ticks += 1;
+        // The hand confirms what the device asks it to: the button for 0.6 s, unless it holds it already.
+        if self.board.bench.asks_to_confirm() {
+            self.confirms = self.confirms.map_or(Some(0), |ticks| Some(ticks + 1));
+        } else {
+            self.confirms = None;
+        }
+        if let Some(ticks) = self.confirms {
+            self.hand.enables(ticks < RATE * 6 / 10);
+        }
     }
 
     /// Simulated time since power-on.

@@ -96,6 +96,14 @@ impl Device {
         }
     }
 
+    /// A person holds the enable button for half a second, and releases it.
+    fn confirm(&mut self) {
+        for (pressed, ticks) in [(true, 2_100), (false, 150)] {
+            self.rig.set(|world| world.button = pressed);
+            (0..ticks).for_each(|_| self.tick());
+        }
+    }
+
     /// Greeted, with its button released for long enough.
     fn hello(&mut self) {
         self.send(&HostMessage::Hello { protocol: PROTOCOL });
@@ -108,6 +116,9 @@ impl Device {
         self.send(&HostMessage::Upload { number: self.number, part });
         if matches!(part, Upload::Keep { .. }) {
             self.tick();
+            if self.answer.is_none() {
+                self.confirm();
+            }
         }
         let answer = self.answer.expect("an answer");
         assert_eq!(answer.number, self.number);
@@ -273,6 +284,7 @@ fn a_device_that_is_set_up_writes_no_flash() {
     device.hello();
     device.send(&HostMessage::SetUp);
     device.tick();
+    device.confirm();
     assert_eq!(device.part(KEEP), refused(UploadError::Driven));
     assert_eq!(*device.flash.came.borrow(), []);
 }

@@ -21,8 +21,13 @@ impl Host {
     /// At a knob that is being set up, with its button up.
     fn new() -> Self {
         let mut device = Device::new(Rig::new(ResetReason::PowerOn));
+        device.send(&HostMessage::Hello { protocol: PROTOCOL });
         (0..150).for_each(|_| device.tick());
         device.send(&HostMessage::SetUp);
+        for (pressed, ticks) in [(true, 2_100), (false, 150)] {
+            device.rig.set(|world| world.button = pressed);
+            (0..ticks).for_each(|_| device.tick());
+        }
         (0..150).for_each(|_| device.tick());
         assert!(device.told.iter().any(|told| matches!(told, DeviceMessage::Reading(_))), "it is being set up");
         Self { device, number: 0 }

@@ -93,7 +93,10 @@ fn an_order_is_answered_once_the_tick_has_had_it_and_again_where_it_comes_again(
     assert_eq!(device.answers, [Answer { number: 5, refused: Some(Refused::Upload(UploadError::NoRoom)) }]);
     (0..150).for_each(|_| device.tick());
     device.send(&HostMessage::SetUp);
-    device.tick();
+    for (pressed, ticks) in [(true, 2_100), (false, 150)] {
+        device.rig.set(|world| world.button = pressed);
+        (0..ticks).for_each(|_| device.tick());
+    }
     device.order(6);
     device.tick();
     assert_eq!(device.answers[1..], [Answer { number: 6, refused: Some(Refused::SetUp) }]);

@@ -3,7 +3,7 @@
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{Config, Event, Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::wire::{HostMessage, frame};
+use palpate::wire::{HostMessage, PROTOCOL, frame};
 use palpate_bench::{Cause, Idle, Memo, Port, ResetFlags, Watchdog};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
@@ -149,7 +149,8 @@ impl Watchdog for Bowl {
 /// Sends a command to the loop over its port.
 fn send(rig: &mut Rig<SerialArm>, command: HostMessage) {
     let mut buffer = [0; frame::MAX_FRAME];
-    let bytes = frame::pack(&command, &mut buffer).unwrap();
+    let mut bytes = frame::pack(&HostMessage::Hello { protocol: PROTOCOL }, &mut buffer).unwrap().to_vec();
+    bytes.extend_from_slice(frame::pack(&command, &mut buffer).unwrap());
     let mut line = Line(bytes.iter());
     let mut queue = palpate::wire::telemetry::Queue::<_, 2>::new();
     let (_, records) = queue.split();
@@ -162,12 +163,17 @@ fn send(rig: &mut Rig<SerialArm>, command: HostMessage) {
 #[test]
 fn the_host_acknowledges_a_reset_and_nothing_else() {
     let mut rig = rig(ResetReason::Watchdog);
-    rig.ticks_off(10);
+    rig.ticks_off(150);
     send(&mut rig, HostMessage::Alive);
     rig.ticks_off(10);
     assert_eq!(rig.fault(), Some(Fault::WatchdogReset));
     send(&mut rig, HostMessage::Acknowledge);
     rig.ticks_off(10);
+    assert_eq!(rig.fault(), Some(Fault::WatchdogReset), "nobody has confirmed it");
+    for (pressed, ticks) in [(true, 2_100), (false, 150)] {
+        rig.set(|world| world.button = pressed);
+        rig.ticks_off(ticks);
+    }
     assert_eq!(rig.fault(), None);
     rig.press_until_it_runs();
     // Its stop is latched, whoever acknowledges.
@@ -187,8 +193,10 @@ fn an_enable_that_is_held_while_the_host_acknowledges_gives_no_force() {
     rig.ticks_off(100);
     send(&mut rig, HostMessage::Acknowledge);
     rig.ticks_off(4_000);
-    assert_eq!((rig.state().phase(), rig.fault()), (Phase::Armed, None));
-    rig.press_until_it_runs();
+    rig.set(|world| world.button = false);
+    rig.ticks_off(1_000);
+    // It was held from before: that confirms nothing.
+    assert_eq!(rig.fault(), Some(Fault::WatchdogReset));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use palpate::device::{Endurance, Protection, SerialArm};
 use palpate::patch::SplinePatch;
 use palpate::servo::{Config, Fault, Guard, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo, Unguarded};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{DeviceMessage, HostMessage, Reading, hold};
+use palpate::wire::{DeviceMessage, HostMessage, PROTOCOL, Reading, hold};
 use palpate_bench::{Idle, Settings};
 use palpate_sim::rig::{RATE, Rig, SETTINGS, WALL, World, held_at, settings};
 use palpate_sim::simulated::{NoWatchdog, Wire};
@@ -51,7 +51,18 @@ impl<G: Guard<3> + 'static> Device<G> {
         let mut rig = Rig::new(servo, held_at([0.0, 0.0, 0.02]), of, reset);
         let records = rig.take_records();
         let idle = Idle::new(rig.mailbox, records, Heartbeat::default());
-        Self { rig, idle, wire: Wire::default(), receiver: Receiver::new(), last: None, number: 0 }
+        let (wire, receiver) = (Wire::default(), Receiver::new());
+        let mut device = Self { rig, idle, wire, receiver, last: None, number: 0 };
+        device.send(HostMessage::Hello { protocol: PROTOCOL });
+        device
+    }
+
+    /// A person holds the enable button for half a second, and releases it.
+    fn confirm(&mut self) {
+        for (pressed, ticks) in [(true, 2_100), (false, 150)] {
+            self.rig.set(|world| world.button = pressed);
+            (0..ticks).for_each(|_| self.tick());
+        }
     }
 
     fn send(&mut self, command: HostMessage) {
@@ -93,6 +104,9 @@ impl<G: Guard<3> + 'static> Device<G> {
     fn set_up(mut self) -> Self {
         self.ticks(150);
         self.send(HostMessage::SetUp);
+        self.ticks(10);
+        assert!(self.last.is_none(), "nobody has confirmed it");
+        self.confirm();
         self.ticks(150);
         assert!(self.last.is_some(), "it is being set up");
         self.rig.set(|world| world.button = true);
@@ -363,6 +377,7 @@ fn a_jog_to_a_device_that_is_not_set_up_does_nothing_and_is_forgotten() {
     assert!(device.rig.is_off());
     device.send(HostMessage::SetUp);
     device.ticks(10);
+    device.confirm();
     device.rig.set(|world| world.button = true);
     device.assert_off(100);
     assert_eq!(device.reading().number, 0);
@@ -473,9 +488,81 @@ fn after_a_reset_by_the_watchdog_nothing_is_set_up_before_it_is_acknowledged() {
         assert!(device.rig.is_off() && device.last.is_none());
     }
     device.rig.set(|world| world.button = false);
-    device.send(HostMessage::Acknowledge);
     device.ticks(150);
+    device.send(HostMessage::Acknowledge);
+    device.ticks(10);
+    assert_eq!(device.rig.fault(), Some(Fault::WatchdogReset), "nobody has confirmed it");
+    device.confirm();
+    assert_eq!(device.rig.fault(), None);
     device.send(HostMessage::SetUp);
     device.ticks(10);
+    device.confirm();
     assert!(device.last.is_some(), "it is being set up");
+}
+
+#[test]
+fn a_host_that_has_not_said_hello_may_stop_the_device_and_nothing_else() {
+    for protocol in [None, Some(PROTOCOL - 1), Some(PROTOCOL + 1)] {
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
+        let mut device = Device::of(servo, ResetReason::Watchdog, &settings());
+        device.wire.to_device.clear();
+        if let Some(protocol) = protocol {
+            device.send(HostMessage::Hello { protocol });
+        }
+        device.ticks(150);
+        for command in [HostMessage::Acknowledge, HostMessage::SetUp] {
+            device.send(command);
+            device.confirm();
+            assert_eq!((device.rig.fault(), device.last), (Some(Fault::WatchdogReset), None), "{protocol:?}");
+        }
+        device.hold_key(200, 0, 5_000);
+        assert!(device.rig.is_off());
+        device.send(HostMessage::Stop);
+        device.ticks(2);
+        assert!(device.rig.is_off() && device.rig.fault().is_some());
+    }
+    // Stop, of a device that gives force.
+    let mut device = Device::new(&settings(), Safety::DEFAULT);
+    device.wire.to_device.clear();
+    device.rig.press_until_it_runs();
+    device.send(HostMessage::Stop);
+    device.assert_off(10);
+    assert_eq!(device.rig.fault(), Some(Fault::Stopped));
+}
+
+#[test]
+fn only_a_button_that_is_held_for_half_a_second_and_released_confirms() {
+    let asked = || {
+        let mut device = Device::new(&settings(), Safety::DEFAULT);
+        device.ticks(150);
+        device.send(HostMessage::SetUp);
+        device.ticks(10);
+        device
+    };
+    // Not a tap, not one that chatters, not one that is held on, and no press meanwhile gives force.
+    for (pressed, released, times) in [(400, 150, 5), (400, 2, 12), (20_000, 0, 1)] {
+        let mut device = asked();
+        for _ in 0..times {
+            device.rig.set(|world| world.button = true);
+            device.assert_off(pressed);
+            device.rig.set(|world| world.button = false);
+            device.assert_off(released);
+        }
+        assert_eq!(device.last, None, "{pressed} ticks");
+    }
+    // Too late: half a minute is 120,000 ticks.
+    let mut device = asked();
+    device.assert_off(120_100);
+    device.confirm();
+    assert_eq!(device.last, None);
+    device.rig.press_until_it_runs();
+    // A stop ends it.
+    let mut device = asked();
+    device.send(HostMessage::Stop);
+    device.confirm();
+    assert_eq!(device.last, None);
+    // In time.
+    let mut device = asked();
+    device.confirm();
+    assert!(device.last.is_some());
 }

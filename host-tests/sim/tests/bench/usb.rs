@@ -5,7 +5,7 @@ use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{Config, Fault, Heartbeat, ResetReason, Safety, Servo};
 use palpate::wire::frame::{DELIMITER, MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{DeviceMessage, HostMessage};
+use palpate::wire::{DeviceMessage, HostMessage, PROTOCOL};
 use palpate_bench::usb::{Bytes, Cdc, Either, PACKET, Plug, TURNS};
 use palpate_bench::{Idle, Port, Watchdog};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
@@ -348,6 +348,7 @@ fn a_plug_that_is_pulled_is_a_link_that_is_lost() {
             idle.step(&mut line, &mut Counted::default());
         }
     };
+    mock.wires().out.push_back(frame(&HostMessage::Hello { protocol: PROTOCOL }));
     for _ in 0..400 {
         mock.wires().out.push_back(frame(&HostMessage::Alive));
         tick(&mut rig);

@@ -7,8 +7,8 @@ use crate::monitor::{Figures, Monitor, Table};
 use crate::simulation;
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
-use palpate::wire::HostMessage;
 use palpate::wire::frame::{self, MAX_FRAME};
+use palpate::wire::{HostMessage, PROTOCOL};
 use std::fs::File;
 use std::io::{self, ErrorKind, IsTerminal, Read, Write, stdout};
 use std::path::PathBuf;
@@ -58,7 +58,7 @@ pub struct Arguments {
 enum Sent {
     /// Stops the device; latched
     Stop,
-    /// Resumes after a reset by the watchdog or a brown-out
+    /// Resumes after a reset by the watchdog or a brown-out, once the enable button was held for half a second
     Acknowledge,
 }
 
@@ -92,8 +92,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let _ = port.write_data_terminal_ready(true);
         if let Some(sent) = arguments.send {
             let mut buffer = [0; MAX_FRAME];
-            let frame = frame::pack(&sent.command(), &mut buffer)?;
-            port.write_all(frame).with_context(|| format!("cannot write to the serial port {path}"))?;
+            // It takes no command but a stop before a hello.
+            let mut frames = frame::pack(&HostMessage::Hello { protocol: PROTOCOL }, &mut buffer)?.to_vec();
+            frames.extend_from_slice(frame::pack(&sent.command(), &mut buffer)?);
+            port.write_all(&frames).with_context(|| format!("cannot write to the serial port {path}"))?;
         }
         view.watch(&mut port)?;
     } else {

@@ -13,7 +13,11 @@ const SILENCES: u32 = 200;
 /// How often a device is asked to be set up, and how often the line is looked at after each.
 const ASKED: u32 = 40;
 const LOOKS: u32 = 10;
-/// How long the enable button may take to be let go of, in fiftieths of a second.
+/// The same while a person is to confirm it, which the device waits half a minute for.
+const CONFIRMED: u32 = 350;
+/// For how long a simulated hand holds the button to confirm, ticks: 0.6 s at 4 kHz.
+const HELD: u32 = 2_400;
+/// Maximum wait for the release of the enable button, in fiftieths of a second.
 const RELEASES: u32 = 1_500;
 
 /// The bytes between this program and a device.
@@ -30,6 +34,14 @@ pub trait Line {
     /// # Errors
     /// As [`Self::send`].
     fn receive(&mut self) -> anyhow::Result<Vec<u8>>;
+
+    /// Presses the enable button or releases it, where this program can: one that is simulated. Whether it did.
+    ///
+    /// # Errors
+    /// As [`Self::send`].
+    fn press(&mut self, _: bool) -> anyhow::Result<bool> {
+        Ok(false)
+    }
 
     /// Resets the device if this program can, as it can a simulated one; returns whether it did.
     ///
@@ -82,6 +94,10 @@ pub struct Device {
     marked: Marked,
     /// To the last that was to be kept.
     answer: Option<Answer>,
+    /// The tick and the holds that it reported last.
+    holds: Option<(u32, u8)>,
+    /// The tick at which a person was asked to confirm.
+    confirms: Option<u32>,
 }
 
 impl Device {
@@ -102,6 +118,8 @@ impl Device {
             calibrated: None,
             marked: Marked::default(),
             answer: None,
+            holds: None,
+            confirms: None,
         };
         device.set_up()?;
         Ok(device)
@@ -109,7 +127,10 @@ impl Device {
 
     /// Greets it, hears how it is calibrated, and has it set up.
     fn set_up(&mut self) -> anyhow::Result<()> {
-        for _ in 0..ASKED {
+        for asked in 0..CONFIRMED {
+            if asked >= ASKED && self.confirms.is_none() {
+                break;
+            }
             self.send(HostMessage::Hello { protocol: PROTOCOL })?;
             self.send(HostMessage::SetUp)?;
             for _ in 0..LOOKS {
@@ -147,7 +168,10 @@ impl Device {
         // Another number than any before, for the device remembers the last.
         let number = self.last.tick as u16;
         self.answer = None;
-        for _ in 0..ASKED {
+        for asked in 0..CONFIRMED {
+            if asked >= ASKED && self.confirms.is_none() {
+                break;
+            }
             self.send(HostMessage::Calibrate { number, joints })?;
             for _ in 0..LOOKS {
                 self.look()?;
@@ -167,7 +191,7 @@ impl Device {
         let is_reset = self.line.reset()?;
         if is_reset {
             (self.calibrated, self.marked) = (None, Marked::default());
-            (self.receiver, self.last) = (Receiver::new(), Reading::default());
+            (self.receiver, self.last, self.holds) = (Receiver::new(), Reading::default(), None);
             self.bytes.clear();
             self.set_up()?;
         }
@@ -261,17 +285,43 @@ impl Device {
         let came = self.line.receive()?;
         self.bytes.extend(came);
         let mut newest = None;
+        let mut holds = self.holds;
         for byte in self.bytes.drain(..) {
             match self.receiver.feed(byte) {
-                Some(Received::Message(DeviceMessage::Reading(reading))) => newest = Some(reading),
+                Some(Received::Message(DeviceMessage::Reading(reading))) => {
+                    newest = Some(reading);
+                    holds = Some((reading.tick, reading.hold));
+                }
+                Some(Received::Message(DeviceMessage::Record(record))) => holds = Some((record.tick, record.hold)),
+                Some(Received::Message(DeviceMessage::View(view))) => holds = Some((view.tick, view.hold)),
                 Some(Received::Message(DeviceMessage::Calibrated(calibrated))) => self.calibrated = Some(calibrated),
                 Some(Received::Message(DeviceMessage::Marked(marked))) => self.marked = marked,
                 Some(Received::Message(DeviceMessage::Answer(answer))) => self.answer = Some(answer),
-                // Records of before are no readings.
                 _ => {}
             }
         }
+        self.holds = holds;
+        self.confirm()?;
         Ok(newest)
+    }
+
+    /// Has a person confirm what the device waits for; a simulated hand does it.
+    fn confirm(&mut self) -> anyhow::Result<()> {
+        let Some((tick, holds)) = self.holds else { return Ok(()) };
+        match (holds & hold::CONFIRM != 0, self.confirms) {
+            (true, None) => {
+                if !self.line.press(true)? {
+                    println!("To confirm, hold the device's enable button for half a second, then release it.");
+                }
+                self.confirms = Some(tick);
+            }
+            (true, Some(since)) if tick.wrapping_sub(since) > HELD => {
+                self.line.press(false)?;
+            }
+            (false, Some(_)) => self.confirms = None,
+            _ => {}
+        }
+        Ok(())
     }
 
     fn send(&mut self, command: HostMessage) -> anyhow::Result<()> {
@@ -290,6 +340,7 @@ pub(crate) fn said(reading: &Reading) -> String {
         (hold::RELEASE_FIRST, "enable has to be released first"),
         (hold::WRITING, "flash is being written"),
         (hold::NO_HOST, "no host was heard yet"),
+        (hold::CONFIRM, "hold the enable button for half a second, then release it"),
     ];
     let mut reasons: Vec<String> =
         holds.iter().filter(|(bit, _)| reading.hold & bit != 0).map(|(_, reason)| (*reason).to_owned()).collect();

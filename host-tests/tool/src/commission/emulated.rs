@@ -64,6 +64,11 @@ impl Line for EmulatedLine {
         }
     }
 
+    fn press(&mut self, pressed: bool) -> anyhow::Result<bool> {
+        self.world.lock().unwrap_or_else(PoisonError::into_inner).enable = pressed;
+        Ok(true)
+    }
+
     /// Another emulator, with the flash of the first.
     fn reset(&mut self) -> anyhow::Result<bool> {
         let flash = self.pins.flash()?;

@@ -84,6 +84,7 @@ pub struct HostLine {
     board: Started,
     flash: &'static Flash,
     start: Box<dyn Fn(&'static Flash) -> anyhow::Result<Started>>,
+    world: Arc<Mutex<World>>,
 }
 
 impl HostLine {
@@ -106,11 +107,11 @@ impl HostLine {
         world: &Arc<Mutex<World>>,
     ) -> anyhow::Result<Self> {
         let flash: &'static Flash = Box::leak(Box::new(Flash::new()));
-        let world = Arc::clone(world);
+        let (world, at_line) = (Arc::clone(world), Arc::clone(world));
         let (protection, wiring, homing) = (own.protection, own.wiring(), own.file.homing);
         let start = Box::new(move |flash| started((device, protection, wiring), homing, &world, flash));
         let board = start(flash)?;
-        Ok(Self { board, flash, start })
+        Ok(Self { board, flash, start, world: at_line })
     }
 }
 
@@ -167,6 +168,11 @@ impl Line for HostLine {
             self.board.tick(BYTES);
         }
         Ok(std::mem::take(&mut self.board.wire.from_device))
+    }
+
+    fn press(&mut self, pressed: bool) -> anyhow::Result<bool> {
+        self.world.lock().unwrap_or_else(PoisonError::into_inner).enable = pressed;
+        Ok(true)
     }
 
     fn reset(&mut self) -> anyhow::Result<bool> {

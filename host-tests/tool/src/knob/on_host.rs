@@ -106,6 +106,7 @@ impl AtPins<1> for SharedKnob {
 /// A line to the knob's loop in this very program.
 pub struct KnobLine {
     board: SimulatedBoard<SimulatedBench<This, SharedKnob, 1>>,
+    knob: SharedKnob,
 }
 
 impl KnobLine {
@@ -114,7 +115,8 @@ impl KnobLine {
         // It lives as long as the program, as a board's statics do.
         let servo = servo(Box::leak(Box::new(device(None))), SEARCH, PROTECTION);
         let settings = Settings { jog: Some(JOG), ..Settings::new(CLOCK_HZ) };
-        Self { board: SimulatedBoard::new(This(servo), knob.clone(), &settings, ResetReason::PowerOn) }
+        let board = SimulatedBoard::new(This(servo), knob.clone(), &settings, ResetReason::PowerOn);
+        Self { board, knob: knob.clone() }
     }
 }
 
@@ -129,5 +131,10 @@ impl Line for KnobLine {
             self.board.tick(BYTES);
         }
         Ok(std::mem::take(&mut self.board.wire.from_device))
+    }
+
+    fn press(&mut self, pressed: bool) -> anyhow::Result<bool> {
+        self.knob.world().enable = pressed;
+        Ok(true)
     }
 }

@@ -250,6 +250,7 @@ fn said(view: &View) -> String {
         (hold::RELEASE_FIRST, "enable has to be released first"),
         (hold::WRITING, "flash is being written"),
         (hold::NO_HOST, "no host was heard yet"),
+        (hold::CONFIRM, "hold the enable button for half a second, then release it"),
     ];
     let holds: String =
         holds.iter().filter(|(bit, _)| view.hold & bit != 0).map(|(_, why)| format!("; {why}")).collect();

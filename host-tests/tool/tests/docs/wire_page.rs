@@ -94,6 +94,9 @@ fn reasons_of_a_refused_calibration_have_their_documented_numbers() {
         CalibrationError::Torque { joint: 7 },
         CalibrationError::Friction { joint: 7 },
         CalibrationError::ZeroOf { joint: 7 },
+        CalibrationError::Stiffness,
+        CalibrationError::Damping,
+        CalibrationError::Force { joint: 7 },
     ];
     for (number, error) in (0..).zip(errors) {
         let mut buffer = [0; MAX_FRAME];

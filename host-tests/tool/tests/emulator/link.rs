@@ -441,8 +441,16 @@ fn a_body_is_kept_only_while_no_motor_is_driven_and_none_is_driven_until_it_is()
         desk.tick(false);
     }
     desk.send(&HostMessage::Upload { number: 2, part: keep });
-    while desk.answers.last().is_none_or(|answer| answer.number != 2) {
+    // Until it is asked for.
+    for _ in 0..200 {
         desk.tick(false);
+    }
+    // Confirmed by the button, held for 0.6 s and released.
+    for tick in 0_u32.. {
+        if desk.answers.last().is_some_and(|answer| answer.number == 2) {
+            break;
+        }
+        desk.tick(tick < 2_400);
     }
     assert_eq!(desk.answers.last(), Some(&Answer { number: 2, refused: None }));
     let driven = desk.driven;
