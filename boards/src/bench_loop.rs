@@ -79,6 +79,8 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     /// Whether the link is watched: a host has said something, or commanded something where none is needed.
     is_host_heard: bool,
     needs_host: bool,
+    /// Whether the drives were enabled in the last tick.
+    drove: bool,
 }
 
 impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B, JOINTS> {
@@ -118,6 +120,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             is_set_up: false,
             is_host_heard: !felt.servo().watches_link(),
             needs_host: settings.needs_host,
+            drove: false,
             felt,
         }
     }
@@ -135,6 +138,9 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         }
         if is_late {
             self.felt.servo().note(&mut self.state, Event::Overrun);
+        }
+        if !self.drove && self.board.reads_enabled() {
+            self.felt.servo().note(&mut self.state, Event::DriveFault);
         }
         if self.felt.servo().device().needs_supply()
             && let Some(volts) = panel.supply
@@ -343,6 +349,10 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// A tick of a device that is being set up.
     fn jog(&mut self, (began, is_late): (u32, bool), panel: &Panel) {
         let Some(set_up) = &mut self.set_up else { return };
+        // A line that stays enabled ends commissioning.
+        if !set_up.is_live() && self.board.reads_enabled() {
+            set_up.stop();
+        }
         if is_late {
             set_up.overran(&mut self.board);
         }
@@ -375,12 +385,19 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             self.board.aim(self.felt.wiring().outputs(fields));
         }
         let obeyed = match self.state.output() {
-            Output::Drive(duties) if self.drives(verdict) => self.board.drive(self.felt.wiring().outputs(duties)),
-            Output::Drive(_) | Output::Off => self.board.release(),
+            Output::Drive(duties) if self.drives(verdict) => {
+                self.drove = true;
+                self.board.drive(self.felt.wiring().outputs(duties))
+            }
+            Output::Drive(_) | Output::Off => {
+                self.drove = false;
+                self.board.release()
+            }
         };
         if obeyed.is_err() {
             self.felt.servo().note(&mut self.state, Event::DriveFault);
             // Release the drives that still respond.
+            self.drove = false;
             let _ = self.board.release();
         }
     }

@@ -58,6 +58,14 @@ pub trait Passive<const JOINTS: usize> {
     /// A drive that failed.
     fn release(&mut self) -> Result<(), NotObeyed>;
 
+    /// Whether the pin of a line that enables a drive reads as on, whatever was written to it; false where a board
+    /// cannot read it. The loop asks in the tick after a release: a line that is on then is a fault of the drives,
+    /// before the first force too.
+    #[inline]
+    fn reads_enabled(&self) -> bool {
+        false
+    }
+
     /// The light, on or off.
     fn show(&mut self, lit: bool);
 }

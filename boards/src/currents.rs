@@ -141,4 +141,9 @@ impl<D: Drives<1>, C: PhaseCurrents> Drives<1> for CurrentWatched<D, C> {
         self.driven = None;
         self.drives.release()
     }
+
+    #[inline]
+    fn reads_enabled(&self) -> bool {
+        self.drives.reads_enabled()
+    }
 }

@@ -21,6 +21,12 @@ pub trait Drives<const JOINTS: usize> {
     /// # Errors
     /// A drive that failed.
     fn release(&mut self) -> Result<(), NotObeyed>;
+
+    /// Whether the pin of a line that enables a drive reads as on; false where it cannot be read.
+    #[inline]
+    fn reads_enabled(&self) -> bool {
+        false
+    }
 }
 
 fn obeyed(all: bool) -> Result<(), NotObeyed> {
@@ -105,5 +111,41 @@ impl<D: Drives<JOINTS>, E: OutputPin, const JOINTS: usize> Drives<JOINTS> for Sw
     fn release(&mut self) -> Result<(), NotObeyed> {
         let off = self.enable.set_low().is_ok();
         obeyed(self.drives.release().is_ok() & off)
+    }
+}
+
+/// Drives whose enable lines are read back at their pins, past whatever was written to them.
+#[derive(Debug)]
+pub struct ReadBack<D, F = fn() -> bool> {
+    drives: D,
+    reads_enabled: F,
+}
+
+impl<D, F> ReadBack<D, F> {
+    /// These drives. `reads_enabled` is whether any of their enable pins reads as on.
+    pub const fn new(drives: D, reads_enabled: F) -> Self {
+        Self { drives, reads_enabled }
+    }
+}
+
+impl<D: Drives<JOINTS>, F: Fn() -> bool, const JOINTS: usize> Drives<JOINTS> for ReadBack<D, F> {
+    #[inline]
+    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+        self.drives.aim(fields);
+    }
+
+    #[inline]
+    fn apply(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
+        self.drives.apply(duties)
+    }
+
+    #[inline]
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        self.drives.release()
+    }
+
+    #[inline]
+    fn reads_enabled(&self) -> bool {
+        (self.reads_enabled)()
     }
 }

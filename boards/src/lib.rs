@@ -43,6 +43,10 @@
 //! - Broken wires stop: stop is a closed contact, ready is a level that the amplifier has to give.
 //! - While a hold lasts nothing is driven, not even to damp. After it, force comes by the soft start, and only once
 //!   enable has been seen released.
+//! - Before a hello in its version a device takes a stop and nothing else. Set-up, an acknowledge and each write of
+//!   flash wait until a person has held the enable button for half a second and released it.
+//! - An enable line that reads as on after its release is a fault of the drives; a word of the program in RAM that
+//!   differs from its image stops the program.
 //! - A host sets the device up only while nothing is driven and enable is released. The servo is then stopped for good,
 //!   and a motor moves only while enable is held, after it was seen released, *and* the host's key is held, as frames
 //!   that must keep coming say. Only a reset leads back.
@@ -105,7 +109,7 @@ pub use chopper::{Chopped, Chopper, ChopperSettings};
 pub use clock_check::{ClockCheck, ClocksDisagree};
 pub use currents::{CurrentFault, CurrentLimits, CurrentWatch, CurrentWatched, PhaseCurrents};
 pub use delay::{Counter, CycleDelay, cycles};
-pub use drives::{Drives, Switched};
+pub use drives::{Drives, ReadBack, Switched};
 pub use hold::{Hold, Verdict};
 pub use idle::{Idle, Offers, Port, Watchdog};
 pub use interlock::Interlock;

@@ -77,6 +77,11 @@ where
     }
 
     #[inline]
+    fn reads_enabled(&self) -> bool {
+        self.drives.reads_enabled()
+    }
+
+    #[inline]
     fn show(&mut self, lit: bool) {
         // An LED failure is ignored.
         let _ = self.light.set_state(PinState::from(lit));

@@ -3,8 +3,11 @@ watchdog."""
 
 from __future__ import annotations
 
-from bench import A_WHILE, OF_EXCEPTION, OF_PANIC, Bench
-from machine import HARD_FAULT, INTERRUPTS, NMI, SYSTEM_TICK, USAGE_FAULT, Machine
+import struct
+
+import telemetry
+from bench import A_WHILE, HELD, OF_EXCEPTION, OF_PANIC, Bench
+from machine import HARD_FAULT, INTERRUPTS, NMI, STOPS, SYSTEM_TICK, USAGE_FAULT, Machine
 
 # An interrupt of the chip that no board uses.
 STRAY = 3
@@ -58,6 +61,29 @@ class AtStops(Bench):
         machine.exception(INTERRUPTS + machine.chip.TICK, returns=None)
         machine.exception(HARD_FAULT, returns=False)
         self.assert_stops(machine, OF_EXCEPTION)
+
+    def test_word_of_the_program_that_differs_from_its_image_stops(self) -> None:
+        machine = self.after_set_up()
+        # The image's: the copy's own might be run before it is compared.
+        changed = machine.image.symbol(machine.chip.CODE_IMAGE) + 4 * 500
+        (word,) = struct.unpack("<I", machine.memory(changed, 4))
+        machine.unicorn.mem_write(changed, struct.pack("<I", word ^ 1 << 7))
+        for _ in range(HELD):
+            if not machine.is_masked():
+                machine.ticks(1)
+        machine.run(STOPS)
+        self.assertTrue(machine.is_masked())
+        self.assert_memo(machine, OF_PANIC)
+
+    def test_enable_line_that_reads_high_though_released_is_a_fault_before_any_force(self) -> None:
+        machine = self.once_homed()
+        machine.ticks(A_WHILE)
+        self.assertNotEqual(self.last(machine).phase, telemetry.FAULT)
+        machine.chip.short_enable()
+        machine.chip.press(enable=True)
+        machine.ticks(A_WHILE)
+        self.assertEqual(self.last(machine).phase, telemetry.FAULT)
+        self.assert_set_points_rest(machine)
 
     def test_light_says_of_a_stop(self) -> None:
         machine = self.after_set_up()

@@ -89,6 +89,8 @@ class Imxrt1062(Chip):
 
     def reset(self, machine, **reasons: bool) -> None:
         self.machine, self.stands_since = machine, None
+        # Pins that something outside holds high.
+        self.shorted = set()
         self.keep(SRC.SRSR, sum(1 << REASONS[reason] for reason, is_so in reasons.items() if is_so))
         # The always-on domain keeps what it holds over every reset ("SNVS_LP general purpose registers").
         self.always_on = getattr(self, "always_on", {})
@@ -150,7 +152,7 @@ class Imxrt1062(Chip):
         else:
             for port, block in GPIO.items():
                 if address == block.PSR:
-                    value = sum(self.level(port, pin) << pin for pin in range(32))
+                    value = sum(self.pad_status(port, pin) << pin for pin in range(32))
         return value
 
     def alias(self, address: int, value: int, mask: int) -> tuple[int, int, int]:

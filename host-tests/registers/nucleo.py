@@ -82,6 +82,10 @@ class Nucleo(Stm32g4):
         else:
             del self.levels[self.STOP if line == "stop" else self.READY[int(number) - 1]]
 
+    def short_enable(self) -> None:
+        """Something holds the first enable line high."""
+        self.shorted.add(self.ENABLES[0])
+
     def enable_lines(self) -> list:
         """What each enable line is: a level, or None while the chip leaves it to the resistor on the board."""
         return [self.level(*pin) if self.mode(*pin) == 1 else None for pin in self.ENABLES]

@@ -35,7 +35,7 @@ class Pico2(Rp2350):
     TICK = 8
     # Cycles of a tick.
     PERIOD = 150_000_000 // 4_000
-    INPUTS = (BUTTON, STOP, *READY, *SELECTS)
+    INPUTS = (BUTTON, STOP, *READY, *SELECTS, *ENABLES)
     # A flag of its own, which power-on does not raise.
     BROWN_OUT, BY_PIN = {"brown_out": True}, {"pin": True}
     # The share of a width that drives nothing.
@@ -85,6 +85,10 @@ class Pico2(Rp2350):
             self.sensors[int(number) - 1].answers = False
         else:
             del self.levels[{"stop": STOP, "button": BUTTON}.get(line) or READY[int(number) - 1]]
+
+    def short_enable(self) -> None:
+        """Something holds the enable line high."""
+        self.shorted.add(ENABLES[0])
 
     def enable_lines(self) -> list:
         """What the enable line is: a level, or None while the chip leaves it to the resistor on the board."""

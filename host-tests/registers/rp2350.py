@@ -110,6 +110,8 @@ class Rp2350(Chip):
         hold, so does the reason of the last reset of the chip, and pads stay out of isolation ("Chip-level resets",
         "Pad isolation latches"). `tool` is the boot ROM's reboot, some time after a reset that left no memo."""
         self.machine, self.stands_since = machine, None
+        # Pins that something outside holds high.
+        self.shorted = set()
         is_of_chip = any(CHIP_LEVEL.get(reason) for reason, is_so in reasons.items() if is_so)
         if is_of_chip or "tool" in reasons or not hasattr(self, "scratch"):
             # What reaches each pad: what was written last while it was not isolated.
@@ -248,6 +250,8 @@ class Rp2350(Chip):
 
     def level(self, pin: int) -> int:
         """What is on a pin: its own output, the level from outside, or its pull."""
+        if pin in self.shorted:
+            return 1
         if self.is_output(pin):
             return self.word(SIO.GPIO_OUT) >> pin & 1
         outside = self.level_outside(pin)

@@ -30,7 +30,7 @@ GPIO = {
 TIM1, TIM2, TIM3, TIM4, TIM5, TIM7 = (
     Block(
         f"TIM{number}", base, CR1=0, SMCR=8, DIER=0xC, SR=0x10, CCMR1=0x18, CCMR2=0x1C, CCER=0x20, CNT=0x24, PSC=0x28, ARR=0x2C,
-        CCR1=0x34, CCR2=0x38, CCR3=0x3C, CCR4=0x40, BDTR=0x44,
+        EGR=0x14, CCR1=0x34, CCR2=0x38, CCR3=0x3C, CCR4=0x40, BDTR=0x44,
     )
     for number, base in ((1, 0x4001_2C00), (2, 0x4000_0000), (3, 0x4000_0400), (4, 0x4000_0800), (5, 0x4000_0C00),
                          (7, 0x4000_1400))
@@ -128,6 +128,8 @@ class Stm32g4(Chip):
         self.slow = 1.0
         # What has failed of what SYSCFG connects to the break.
         self.failures = 0
+        # Whether the break works, and pins that something outside holds high.
+        self.ends_widths, self.shorted = True, set()
 
     def is_lost(self, address: int) -> bool:
         """A peripheral without its clock takes nothing and gives nothing ("Peripheral clock enable registers")."""
@@ -197,6 +199,11 @@ class Stm32g4(Chip):
         if address in (timer.SR for timer in TIMERS):
             # Flags are cleared by writing 0.
             value &= self.word(address)
+        elif address == TIM1.EGR and value >> 7 & 1 and self.ends_widths:
+            # "BG: a break event is generated. MOE bit is cleared and BIF flag is set".
+            self.keep(TIM1.BDTR, self.word(TIM1.BDTR) & ~(1 << MOE))
+            self.keep(TIM1.SR, self.word(TIM1.SR) | 1 << 7)
+            value = 0
         elif address == TIM1.BDTR and self.breaks(value):
             # "MOE: cleared by hardware as soon as one of the break inputs is active".
             value &= ~(1 << MOE)
@@ -266,6 +273,8 @@ class Stm32g4(Chip):
 
     def level(self, port: str, pin: int) -> int:
         """What is on a pin: its own output, the level from outside, or its pull."""
+        if (port, pin) in self.shorted:
+            return 1
         if self.mode(port, pin) == 1:
             return self.word(GPIO[port].ODR) >> pin & 1
         outside = self.level_outside(port, pin)

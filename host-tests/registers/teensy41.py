@@ -24,6 +24,7 @@ TO_PULLS = 0x1F0
 class Teensy41(Imxrt1062):
     """The board."""
 
+    CODE_IMAGE = "__sitext"
     # PIT ("CM7 interrupts").
     TICK = 122
     # Cycles of a tick.
@@ -48,6 +49,8 @@ class Teensy41(Imxrt1062):
 
     def level(self, port: int, bit: int) -> int:
         """What is on a pin: its own output, the level from outside, its pull; or whatever was last there (keeper)."""
+        if (port, bit) in self.shorted:
+            return 1
         if self.word(GPIO[port].GDIR) >> bit & 1:
             return self.word(GPIO[port].DR) >> bit & 1
         pad = PADS.get((port, bit))
@@ -70,6 +73,16 @@ class Teensy41(Imxrt1062):
         answers = [sensor.exchange(frame) for sensor in selected]
         assert len(answers) < 2, "one at a time"
         return self.silence if not answers or answers[0] is None else answers[0]
+
+    def pad_status(self, port: int, bit: int) -> int:
+        """An output's pad is read with SION alone ("GPIO pad status register", "Software input on")."""
+        pad = PADS.get((port, bit))
+        is_blind = self.word(GPIO[port].GDIR) >> bit & 1 and (pad is None or not self.word(IOMUXC + pad) >> 4 & 1)
+        return 0 if is_blind else self.level(port, bit)
+
+    def short_enable(self) -> None:
+        """Something holds the first enable line high."""
+        self.shorted.add(ENABLES[0][:2])
 
     def duties(self) -> list[float]:
         """What each amplifier makes of its pins: a width of 10 to 90 %, and a direction, high for ahead."""

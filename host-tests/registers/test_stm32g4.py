@@ -9,15 +9,19 @@ import telemetry
 import unicorn
 from at_resets import AtResets
 from at_stops import AtStops
-from bench import A_WHILE
+from bench import A_WHILE, OF_PANIC
 from in_force import SUPPLY_TICKS, InForce
 from in_set_up import InSetUp
 from nucleo import Nucleo
 from on_stack import OnStack
 from stm32g4 import (
-    ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, DAMAGE, DBGMCU, FLASH, GPIO, LOCKUP, OSSI, PARITY, PWR, RCC, SRAM_PE,
+    ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, DAMAGE, DBGMCU, FLASH, GPIO, LOCKUP, MOE, OSSI, PARITY, PWR, RCC, SRAM_PE,
     SUPPLY, TIM1, TIM2, TIM3, TIM4,
 )  # fmt: skip
+
+
+# Half-words of code, more than set-up has.
+LONG_SET_UP = 1_000_000
 
 
 class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
@@ -105,6 +109,18 @@ class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
         self.assertLess(calibrates, on)
 
     # What ends the set-points without the program.
+
+    def test_break_is_tried_in_set_up_and_one_that_does_not_work_drives_nothing(self) -> None:
+        machine = self.after_set_up()
+        self.assertTrue([entry for entry in machine.log.writes(TIM1.EGR) if entry.written >> 7 & 1])
+        self.assertTrue(machine.chip.word(TIM1.BDTR) >> MOE & 1, "it is taken back")
+        machine = self.new_machine()
+        machine.reset(power=True)
+        machine.chip.ends_widths = False
+        machine.run(LONG_SET_UP)
+        self.assertTrue(machine.is_masked())
+        self.assert_memo(machine, OF_PANIC)
+        self.assert_never_high(machine)
 
     def test_core_that_locks_up_damaged_memory_and_a_falling_supply_end_the_set_points(self) -> None:
         for failure in (LOCKUP, PARITY, SUPPLY, DAMAGE):

@@ -56,6 +56,12 @@ pub fn reset(watchdog: &WATCHDOG, power: &POWMAN) -> ResetReason {
     flags.reason(of_this_reset)
 }
 
+/// Whether the pin that switches the bridges on reads as high.
+pub fn reads_enabled() -> bool {
+    // SAFETY: read alone.
+    unsafe { (*SIO::ptr()).gpio_in().read().bits() & 1 << ENABLE_PIN != 0 }
+}
+
 /// Takes the motors' power away, by the register. Before anything else too: a reset of the core alone leaves the level
 /// as it was, and a pin that becomes an output shows it.
 pub fn motors_off() {

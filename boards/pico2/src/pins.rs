@@ -3,7 +3,7 @@
 use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::HBridge;
 use palpate_bench::sensors::Angles;
-use palpate_bench::{CycleDelay, Parts, Switched};
+use palpate_bench::{CycleDelay, Parts, ReadBack, Switched};
 use rp235x_hal::gpio::{
     DynPinId, FunctionSio, FunctionSpi, Pin, PullDown, PullNone, PullUp, SioInput, SioOutput, bank0,
 };
@@ -27,7 +27,7 @@ type Switch = Pin<DynPinId, FunctionSio<SioInput>, PullUp>;
 type Ready = Pin<DynPinId, FunctionSio<SioInput>, PullNone>;
 /// Output A of a slice and a direction pin.
 type Bridge<S> = HBridge<Channel<Slice<S, FreeRunning>, A>, Output>;
-type Drives = Switched<(Bridge<Pwm5>, Bridge<Pwm6>, Bridge<Pwm7>), Output>;
+type Drives = ReadBack<Switched<(Bridge<Pwm5>, Bridge<Pwm6>, Bridge<Pwm7>), Output>>;
 type Sensors = Angles<Bus, Output, CycleDelay<Clock>, 3>;
 /// All of them.
 pub type Board = Parts<Clock, Ticks, Sensors, Drives, Switch, Switch, Ready, Volts, Output, 3>;

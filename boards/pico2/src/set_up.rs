@@ -4,10 +4,10 @@ use cortex_m::peripheral::NVIC;
 use palpate::device::SupplyRange;
 use palpate::device::drive::HBridge;
 use palpate::wire::telemetry::Queue;
-use palpate_bench::cortex::{Below, Cycles};
+use palpate_bench::cortex::{Below, Cycles, program_check};
 use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either, Plain};
-use palpate_bench::{Cause, ClocksDisagree, CycleDelay, Lines, Parts, Port, Settings, Switched};
+use palpate_bench::{Cause, ClocksDisagree, CycleDelay, Lines, Parts, Port, ReadBack, Settings, Switched};
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock as _, init_clocks_and_plls};
 use rp235x_hal::fugit::RateExtU32;
@@ -91,7 +91,7 @@ pub fn set_up(
         counter: clock,
         timer: Ticks::start(slices.pwm0),
         sensors,
-        drives: Switched::new(bridges, enable),
+        drives: ReadBack::new(Switched::new(bridges, enable), chip::reads_enabled as fn() -> bool),
         lines: Lines {
             enable: pins.gpio17.into_pull_up_input().into_dyn_pin(),
             enable_level: false,
@@ -122,5 +122,5 @@ pub fn set_up(
         }
         watchdog
     };
-    Below { messages, cycles, reset, port, clocks: move || ring.step(), start }
+    Below { messages, cycles, reset, port, clocks: move || ring.step(), program: program_check(), start }
 }

@@ -2,6 +2,30 @@
 //! what and where.
 
 use core::arch::global_asm;
+use core::ptr::addr_of;
+
+use super::{ProgramCheck, ProgramCopy};
+
+// SAFETY: the memory map defines them.
+unsafe extern "C" {
+    static __hot_start: u32;
+    static __hot_end: u32;
+    static __hot_image: u32;
+    static __tables_start: u32;
+    static __tables_end: u32;
+    static __tables_image: u32;
+}
+
+/// The check of the copies made here.
+pub fn program_check() -> ProgramCheck<2> {
+    // SAFETY: the memory map's own places, whole words; nothing writes there after the copying.
+    unsafe {
+        ProgramCheck::new([
+            ProgramCopy::new(addr_of!(__hot_start), addr_of!(__hot_end), addr_of!(__hot_image)),
+            ProgramCopy::new(addr_of!(__tables_start), addr_of!(__tables_end), addr_of!(__tables_image)),
+        ])
+    }
+}
 
 // cortex-m-rt's reset handler calls `__pre_init` first of all. In assembly, since no Rust may run before its memory is
 // there.

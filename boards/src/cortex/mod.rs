@@ -2,6 +2,7 @@
 //! copying the hot path into the fastest memory.
 
 mod accept;
+mod copies;
 #[cfg(feature = "copy")]
 mod copy;
 mod cycles;
@@ -11,6 +12,9 @@ mod program;
 mod stop;
 
 pub use accept::{core_id, fail};
+pub use copies::{ProgramCheck, ProgramCopy};
+#[cfg(feature = "copy")]
+pub use copy::program_check;
 pub use cycles::Cycles;
 pub use hand_over::HandOver;
 pub use memo::MemoCell;

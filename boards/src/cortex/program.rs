@@ -1,6 +1,6 @@
 //! The program of a board on the bench, once all is set up: the interrupt that ticks, and what runs below it.
 
-use super::{Cycles, HandOver, core_id, fail};
+use super::{Cycles, HandOver, ProgramCheck, core_id, fail};
 use crate::accept::{Acceptance, Chip, Examiner};
 use crate::{Bench, Board, ClocksDisagree, Felt, Idle, Mailbox, Offers, Passive, Port, Settings, Watchdog};
 use palpate::servo::{Heartbeat, ResetReason};
@@ -88,6 +88,8 @@ pub struct Below<M: 'static, P, K, S> {
     pub port: P,
     /// Compares the chip's clocks, a step each turn. If they disagree, the program panics: the motors are off at once.
     pub clocks: K,
+    /// Compares the program in RAM with its images: whole before the first tick, then a few words each turn.
+    pub program: ProgramCheck<2>,
     /// Starts the watchdog and the ticks: once everything that takes its time is done.
     pub start: S,
 }
@@ -104,10 +106,12 @@ impl<P: Port, W: Watchdog, K: FnMut() -> Result<(), ClocksDisagree>, S: FnOnce()
         let idle =
             Idle::new(mailbox, self.messages, Heartbeat::default()).saying(settings.rate_hz, settings.max_force_n);
         let mut idle = offers.offer(idle);
+        self.program.all();
         let mut watchdog = (self.start)();
         loop {
             idle.step(&mut self.port, &mut watchdog);
             agree((self.clocks)());
+            let _ = self.program.step();
         }
     }
 }
@@ -122,12 +126,14 @@ impl<P: Port, W: Watchdog, K: FnMut() -> Result<(), ClocksDisagree>, S: FnOnce()
     ) -> ! {
         let chip = Chip { core: core_id(), reset: self.reset };
         let mut examiner = Examiner::new(felt, settings, chip, mailbox, self.messages, self.cycles);
+        self.program.all();
         let mut watchdog = (self.start)();
         loop {
             if let Some(failure) = examiner.step(&mut self.port, &mut watchdog) {
                 fail(failure);
             }
             agree((self.clocks)());
+            let _ = self.program.step();
         }
     }
 }

@@ -38,6 +38,12 @@ pub fn amplifiers<A: SetDutyCycle, B: SetDutyCycle, C: SetDutyCycle>(
     )
 }
 
+/// Whether any of the enable pins reads as high.
+pub fn reads_enabled() -> bool {
+    // SAFETY: read alone.
+    unsafe { (*GPIOC::ptr()).idr().read().bits() & 0b111 != 0 }
+}
+
 /// Takes the motors' power away, by the registers. Before anything else too: a debugger may have reset the core alone,
 /// and the pins are as they were.
 pub fn motors_off() {

@@ -60,7 +60,18 @@ pub fn outputs(
     a.enable();
     b.enable();
     c.enable();
+    // The enable pins are low: a break of the program's own must end the widths, or nothing is driven at all.
+    registers().egr().write(|w| w.bg().set_bit());
+    assert!(registers().bdtr().read().moe().bit_is_clear(), "the break of the set-points does not work");
+    take_back();
     (a, b, c)
+}
+
+/// Takes back a break that is over.
+fn take_back() {
+    // SAFETY: zeros clear flags, ones leave them.
+    registers().sr().write(|w| unsafe { w.bits(!BREAKS) });
+    registers().bdtr().modify(|_, w| w.moe().set_bit());
 }
 
 fn registers() -> &'static tim1::RegisterBlock {
@@ -86,9 +97,7 @@ impl palpate_bench::Drives<3> for Drives {
     fn apply(&mut self, duties: [Duty; 3]) -> Result<(), NotObeyed> {
         let is_off = || registers().bdtr().read().moe().bit_is_clear();
         if is_off() {
-            // SAFETY: zeros clear flags, ones leave them.
-            registers().sr().write(|w| unsafe { w.bits(!BREAKS) });
-            registers().bdtr().modify(|_, w| w.moe().set_bit());
+            take_back();
         }
         if is_off() {
             self.broken = self.broken.saturating_add(1);

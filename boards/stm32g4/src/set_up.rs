@@ -3,9 +3,9 @@
 use cortex_m::peripheral::NVIC;
 use palpate::device::SupplyRange;
 use palpate::wire::telemetry::Queue;
-use palpate_bench::cortex::{Below, Cycles};
+use palpate_bench::cortex::{Below, Cycles, program_check};
 use palpate_bench::sensors::{Counters, max_steps};
-use palpate_bench::{Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, Parts, Port, Settings};
+use palpate_bench::{Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, Parts, Port, ReadBack, Settings};
 use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
@@ -31,7 +31,7 @@ const TIMEOUT_MS: u32 = if cfg!(feature = "host") { 40 } else { 20 };
 
 type Pin = AnyPin<Input>;
 /// The parts that the loop runs on.
-pub type Board = Parts<Clock, Ticks, Counters<Encoders, 3>, Drives, Pin, Pin, Pin, Volts, Light, 3>;
+pub type Board = Parts<Clock, Ticks, Counters<Encoders, 3>, ReadBack<Drives>, Pin, Pin, Pin, Volts, Light, 3>;
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -74,7 +74,7 @@ pub fn set_up(
         palpate::device::drive::NoPin,
     );
     let drives = amplifiers::amplifiers(outputs, enables, ways, set_points::RANGE, set_points::DWELL);
-    let drives = set_points::guarded(drives);
+    let drives = ReadBack::new(set_points::guarded(drives), amplifiers::reads_enabled as fn() -> bool);
 
     let pins = (
         (a.pa0.into_alternate(), a.pa1.into_alternate(), b.pb10.into_pull_down_input().into_alternate()),
@@ -122,5 +122,5 @@ pub fn set_up(
         }
         Iwdg(watchdog)
     };
-    Below { messages, cycles, reset, port, clocks: move || clocks.step(), start: start_ticks }
+    Below { messages, cycles, reset, port, clocks: move || clocks.step(), program: program_check(), start: start_ticks }
 }

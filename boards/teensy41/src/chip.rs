@@ -1,9 +1,12 @@
 //! Reset, watchdog and stop of the i.MX RT1062.
 
+use core::ptr::addr_of;
+
 use imxrt_ral::gpio::GPIO1;
 use imxrt_ral::snvs::SNVS;
 use imxrt_ral::src::SRC;
 use imxrt_ral::{modify_reg, read_reg, write_reg};
+use palpate_bench::cortex::{ProgramCheck, ProgramCopy};
 use palpate_bench::{Cause, Memo, ResetFlags};
 
 /// Pins 16, 17 and 18, which enable the amplifiers, are these bits of GPIO1.
@@ -39,6 +42,34 @@ pub fn reset() -> (ResetFlags, Memo) {
         ..ResetFlags::default()
     };
     (flags, memo)
+}
+
+// SAFETY: the run time defines them.
+unsafe extern "C" {
+    static __stext: u32;
+    static __etext: u32;
+    static __sitext: u32;
+    static __srodata: u32;
+    static __erodata: u32;
+    static __sirodata: u32;
+}
+
+/// The check of what the run time copies before main.
+pub fn program_check() -> ProgramCheck<2> {
+    // SAFETY: the run time's own symbols, whole words; nothing writes there after the copying.
+    unsafe {
+        ProgramCheck::new([
+            ProgramCopy::new(addr_of!(__stext), addr_of!(__etext), addr_of!(__sitext)),
+            ProgramCopy::new(addr_of!(__srodata), addr_of!(__erodata), addr_of!(__sirodata)),
+        ])
+    }
+}
+
+/// Whether any of the amplifiers' enable pins reads as high.
+pub fn reads_enabled() -> bool {
+    // SAFETY: read alone.
+    let port = unsafe { GPIO1::instance() };
+    read_reg!(imxrt_ral::gpio, port, PSR) & ENABLE_BITS != 0
 }
 
 /// Takes the motors' power away, by the register. Before anything else too: a reset of the core alone leaves the levels

@@ -7,7 +7,7 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either};
-use palpate_bench::{Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Parts, Port, Settings};
+use palpate_bench::{Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Parts, Port, ReadBack, Settings};
 use teensy4_bsp::Interrupt;
 use teensy4_bsp::board::{self, IPG_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
@@ -29,7 +29,7 @@ pub const BENCH: Settings =
 type Sensors = Angles<Lpspi, Output, CycleDelay<Clock>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
 /// The parts that the loop runs on.
-pub type Board = Parts<Clock, Ticks, Sensors, [Amplifier; 3], Input, Input, Input, Volts, Output, 3>;
+pub type Board = Parts<Clock, Ticks, Sensors, ReadBack<[Amplifier; 3]>, Input, Input, Input, Volts, Output, 3>;
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -46,6 +46,10 @@ pub fn set_up(
     let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, usb, gpt1, .. } =
         board::t41(board::instances());
     // Motors first: not enabled.
+    // Their levels are read back, which an output's pad takes "SION" for.
+    iomuxc::set_sion(&mut pins.p16);
+    iomuxc::set_sion(&mut pins.p17);
+    iomuxc::set_sion(&mut pins.p18);
     let enables = [gpio1.output(pins.p16).ok(), gpio1.output(pins.p17).ok(), gpio1.output(pins.p18).ok()];
     let ways = [gpio4.output(pins.p2).ok(), gpio4.output(pins.p3).ok(), gpio2.output(pins.p7).ok()];
     let selects = [gpio2.output(pins.p8).ok(), gpio2.output(pins.p9).ok(), gpio2.output(pins.p10).ok()];
@@ -69,11 +73,14 @@ pub fn set_up(
     let [a, b, c] = unsafe { [SM::SM0, SM::SM1, SM::SM2].map(|submodule| PulseWidth::start(submodule)) };
     // As WoodenHaptics configures its amplifiers: 10 % is no current, and a pin says which way.
     let range = SetPointRange::TEN_TO_NINETY;
-    let drives = [
-        SetPointDrive::with_direction(a, enable_a, way_a, range, DWELL),
-        SetPointDrive::with_direction(b, enable_b, way_b, range, DWELL),
-        SetPointDrive::with_direction(c, enable_c, way_c, range, DWELL),
-    ];
+    let drives = ReadBack::new(
+        [
+            SetPointDrive::with_direction(a, enable_a, way_a, range, DWELL),
+            SetPointDrive::with_direction(b, enable_b, way_b, range, DWELL),
+            SetPointDrive::with_direction(c, enable_c, way_c, range, DWELL),
+        ],
+        chip::reads_enabled as fn() -> bool,
+    );
 
     let mut bus = board::lpspi(lpspi4, LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 }, 8_000_000);
     bus.set_mode(MODE_1);
@@ -122,5 +129,5 @@ pub fn set_up(
         }
         watchdog
     };
-    Below { messages, cycles, reset, port, clocks: move || clocks.step(), start }
+    Below { messages, cycles, reset, port, clocks: move || clocks.step(), program: chip::program_check(), start }
 }

@@ -13,7 +13,7 @@ use palpate::servo::{Fault, Guard, PatchWitness, Phase, ResetReason, Servo, Serv
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, max_step};
-use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, Settings, Supply, Timer};
+use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, ReadBack, Settings, Supply, Timer};
 use std::cell::RefCell;
 use std::convert::Infallible;
 use std::rc::Rc;
@@ -79,6 +79,8 @@ pub struct World {
     pub widths: [f64; 3],
     /// Levels of the enable lines.
     pub enables: [bool; 3],
+    /// Whether something holds one of them high.
+    pub is_enable_shorted: bool,
     /// Level of the LED's line.
     pub light: bool,
     /// Value of its counter.
@@ -266,8 +268,10 @@ impl Sensors<3> for Spoilt {
 }
 
 type Amplifier = SetPointDrive<Width, Out>;
+/// The amplifiers, whose enable lines are read back.
+type Amplifiers = ReadBack<[Amplifier; 3], Box<dyn Fn() -> bool>>;
 /// All that a board has for the loop.
-pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, [Amplifier; 3], In, In, In, Volts, Out, 3>;
+pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, Amplifiers, In, In, In, Volts, Out, 3>;
 
 /// A servo that a test made, whether it could not be made with the calibration that is kept, and its wiring.
 pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch<'static>, K, 3, G>, pub bool, pub Wiring<3>);
@@ -352,6 +356,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
         reading: 200,
         widths: [0.5; 3],
         enables: [false; 3],
+        is_enable_shorted: false,
         light: false,
         // Near its end, so that it wraps.
         cycles: u32::MAX - 1_000,
@@ -377,11 +382,16 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
     ];
     let amplifier =
         |joint: usize| SetPointDrive::new(Width(of(), joint), Out(of(), enables[joint]), SetPointRange::TEN_TO_NINETY);
+    let at_pins = of();
+    let reads_enabled: Box<dyn Fn() -> bool> = Box::new(move || {
+        let world = at_pins.borrow();
+        world.is_enable_shorted || world.enables != [false; 3]
+    });
     let board = Parts {
         counter: SimulatedClock(of()),
         timer: Interrupts,
         sensors: Spoilt { world: of(), reader: Reader::Counters(Counters::new(Timers(of()), steps)), ahead: None },
-        drives: [amplifier(0), amplifier(1), amplifier(2)],
+        drives: ReadBack::new([amplifier(0), amplifier(1), amplifier(2)], reads_enabled),
         lines: Lines {
             enable: In(of(), |world| world.button),
             enable_level: true,

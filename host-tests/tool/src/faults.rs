@@ -200,6 +200,17 @@ pub const TABLE: &[Failure] = &[
         Planted(|rig, _| rig.set(|world| world.ready_wires[1] = false)),
     ),
     row(
+        [
+            "line",
+            "an enable line stays on",
+            "read back in the tick after its release",
+            "an_enable_line_that_reads_on_though_it_was_released_is_a_fault",
+        ],
+        0.25,
+        Latched(Fault::Drive),
+        Planted(|rig, _| rig.set(|world| (world.button, world.is_enable_shorted) = (false, true))),
+    ),
+    row(
         ["motor", "an amplifier fails", "its ready line; a fault after 50 ms", "an_amplifiers_own_fault_is_latched"],
         0.25,
         Latched(Fault::Drive),
@@ -254,6 +265,17 @@ pub const TABLE: &[Failure] = &[
         2.0,
         Latched(Fault::Overrun),
         Planted(|rig, _| rig.set(|world| world.cycles = 0x1234_5678)),
+    ),
+    row(
+        [
+            "clock",
+            "two oscillators of the chip disagree by a fifth",
+            "counted in main, 32 times a second",
+            "test_clock_that_disagrees_with_another_of_the_chip_stops",
+        ],
+        100.0,
+        Latched(Fault::WatchdogReset),
+        Tested,
     ),
     row(
         [
@@ -333,6 +355,17 @@ pub const TABLE: &[Failure] = &[
         Tested,
     ),
     row(
+        [
+            "memory",
+            "the core locks up or a word is damaged (Nucleo)",
+            "break of the timer",
+            "test_core_that_locks_up_damaged_memory_and_a_falling_supply_end_the_set_points",
+        ],
+        0.25,
+        Latched(Fault::WatchdogReset),
+        Tested,
+    ),
+    row(
         ["memory", "a force is not a number", "every tick", "every_fault_in_every_phase_is_safe_named_and_latched"],
         0.25,
         Latched(Fault::NotFinite),
@@ -349,7 +382,17 @@ pub const TABLE: &[Failure] = &[
         Latched(Fault::Calibration),
         Tested,
     ),
-    gap("memory", "a word of the program changes", "only the tables have a CRC"),
+    row(
+        [
+            "memory",
+            "a word of the program in RAM changes",
+            "compared with its image in flash",
+            "test_word_of_the_program_that_differs_from_its_image_stops",
+        ],
+        1_000.0,
+        Latched(Fault::WatchdogReset),
+        Tested,
+    ),
     row(
         [
             "host",

@@ -18,10 +18,10 @@ use palpate::device::drive::NoPin;
 use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
-use palpate_bench::cortex::Shared;
+use palpate_bench::cortex::{Shared, program_check};
 use palpate_bench::knob::{JOG, SETTINGS, SUPPLY};
 use palpate_bench::sensors::{Angles, max_step};
-use palpate_bench::{Bench, Cause, ClockCheck, CycleDelay, Idle, Lines, Memo, Parts, Settings};
+use palpate_bench::{Bench, Cause, ClockCheck, CycleDelay, Idle, Lines, Memo, Parts, ReadBack, Settings};
 use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
@@ -39,7 +39,7 @@ const BENCH: Settings = Settings { supply: Some(SUPPLY), jog: Some(JOG), ..Setti
 type Pin = AnyPin<Input>;
 type Bus = Spi<SPI1, (PA5<AF5>, PA6<AF5>, PA7<AF5>)>;
 type Sensor = Angles<Bus, PB6<Output>, CycleDelay<Clock>, 1>;
-type Board = Parts<Clock, Ticks, Sensor, [Stage; 1], Pin, Pin, Pin, Volts, NoPin, 2>;
+type Board = Parts<Clock, Ticks, Sensor, ReadBack<[Stage; 1]>, Pin, Pin, Pin, Volts, NoPin, 2>;
 type Loop = Bench<'static, This, Board, 1>;
 
 static SHARED: Shared<Loop> = Shared::new();
@@ -84,7 +84,7 @@ fn main() -> ! {
         counter: clock,
         timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
         sensors: sensor,
-        drives: [stage],
+        drives: ReadBack::new([stage], stage::reads_enabled as fn() -> bool),
         lines: Lines {
             // The blue button: high while pressed.
             enable: c.pc13.into_floating_input().erase(),
@@ -101,6 +101,8 @@ fn main() -> ! {
     let (producer, records) = QUEUE.split();
     SHARED.hand_over(LOOP.insert(Bench::new(This, board, &BENCH, reset, producer, &SHARED.mailbox)));
     MEMO.write(Memo::new(Cause::Running));
+    let mut program = program_check();
+    program.all();
     let mut clocks = ClockCheck::new((clock, CLOCK), (Slow::start(chip.LPTIMER1), Slow::FREQUENCY));
     let mut watchdog = Iwdg(IndependentWatchdog::new(chip.IWDG));
     watchdog.0.start(20.millis());
@@ -117,5 +119,6 @@ fn main() -> ! {
         if let Err(wrong) = clocks.step() {
             panic!("{wrong}");
         }
+        let _ = program.step();
     }
 }

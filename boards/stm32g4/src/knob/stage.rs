@@ -32,6 +32,12 @@ pub fn stage(timers: (TIM2, TIM3), (a, b, c): Pins, enable: PA9<Output>, rcc: &m
     ThreePhase::new((a, b, c), enable, MODULATION)
 }
 
+/// Whether the enable pin reads as high.
+pub fn reads_enabled() -> bool {
+    // SAFETY: read alone.
+    unsafe { (*GPIOA::ptr()).idr().read().idr9().bit_is_set() }
+}
+
 /// Takes the motor's power away, by the registers. Before anything else too: a debugger may have reset the core alone,
 /// and the pins are as they were.
 pub fn motors_off() {

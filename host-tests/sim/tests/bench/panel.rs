@@ -345,3 +345,21 @@ fn the_light_tells_driving_from_holding_and_both_from_a_fault() {
     assert_eq!(rig.fault(), Some(Fault::FrameDamaged));
     assert_eq!(light(&mut rig), (2_000, 4));
 }
+
+#[test]
+fn an_enable_line_that_reads_on_though_it_was_released_is_a_fault() {
+    // Before the first force, and after it: in the tick that follows the release.
+    let mut early = rig();
+    early.ticks_off(150);
+    early.set(|world| world.is_enable_shorted = true);
+    early.tick();
+    assert_eq!(early.fault(), Some(Fault::Drive));
+    let mut rig = rig();
+    rig.press_until_it_runs();
+    rig.set(|world| world.is_enable_shorted = true);
+    rig.ticks(100);
+    assert_eq!(rig.fault(), None, "it is on because the loop wants it");
+    rig.set(|world| world.button = false);
+    rig.ticks_off(2);
+    assert_eq!(rig.fault(), Some(Fault::Drive));
+}
