@@ -168,7 +168,7 @@ impl Surface {
 
     /// Makes the control points of poles of a parameter one point, to the last bit: the tangent around a pole is zero,
     /// and not some rounding in which a search would believe.
-    fn gather_poles(&mut self, axis: usize) {
+    pub fn gather_poles(&mut self, axis: usize) {
         for end in (0..2).filter(|end| self.poles[axis][*end]) {
             let along = if end == 0 { 0 } else { self.counts[axis] - 1 };
             let other = self.counts[1 - axis];

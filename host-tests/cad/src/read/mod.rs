@@ -1,5 +1,6 @@
 //! STEP in: which solids and shells, where they are placed, and their faces.
 
+mod offset;
 mod shape;
 mod statements;
 
@@ -48,6 +49,7 @@ pub fn read(path: &Path, only: Option<&str>, tolerance: f64) -> Result<Part, Imp
     let bytes = fs::read(path).map_err(cannot)?;
     let text = String::from_utf8_lossy(&bytes);
     let text = statements::with_directions(&text);
+    let (text, offsets) = statements::without_offsets(&text);
     // The reader says it does not panic; a part is not worth the tool's life if it does.
     let read = std::panic::catch_unwind(|| step_io::read(text.as_bytes()));
     let (model, report) = match read {
@@ -65,7 +67,7 @@ pub fn read(path: &Path, only: Option<&str>, tolerance: f64) -> Result<Part, Imp
     if let Some(statements::Nonsense { id, kind, reason }) = statements::find(&statements) {
         return Err(ImportError::Entity { file, id, kind, reason });
     }
-    let numbers = Numbers::new(&statements);
+    let numbers = Numbers::new(&statements, offsets);
     let gathered = std::panic::catch_unwind(|| gather(&model, &file, only, &numbers, tolerance));
     let mut part = gathered.unwrap_or_else(|_| {
         Err(ImportError::Syntax { file: file.clone(), message: "its entities do not fit together".to_owned() })

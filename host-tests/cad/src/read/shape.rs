@@ -1,13 +1,17 @@
 //! A shell's faces as NURBS: surfaces, chained loops, edges shared by their keys.
 
+use super::offset;
 use super::statements::Numbers;
 use crate::error::ImportError;
 use crate::nurbs::{Curve, MAX_DEGREE, Surface};
 use crate::part::{self, Edge, Face, Part, Use};
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use std::collections::HashMap;
 use step_io::scene::{self, NurbsCurve, NurbsSurface, Shell, SurfaceKind};
 use step_io::{EntityKey, Orientation};
+
+/// Of the tolerance, what the pieces of an offset surface may use up.
+const SHARE_OF_OFFSETS: f64 = 0.02;
 
 /// Faces on their way into a part.
 pub(super) struct Gather<'p> {
@@ -45,13 +49,23 @@ impl<'p> Gather<'p> {
 
     fn face(&mut self, face: &scene::Face<'_>, turned: bool) -> Result<(), ImportError> {
         let name = self.unique(face.name());
-        let kind = kind(&face.surface().kind());
+        let mut kind = kind(&face.surface().kind());
         let number = self.numbers.of(face.key()).map(|(number, _)| number);
         let label = part::label(&name, number);
         let cannot = |reason: String| ImportError::face(&label, reason);
         let surface =
             face.to_nurbs().ok_or_else(|| cannot(format!("its surface ({kind}) is of a kind that is not read")))?;
         let mut surface = self.surface(&surface).map_err(cannot)?;
+        if let Some(distance) = number.and_then(|number| self.numbers.offsets.get(&number)) {
+            kind = "offset";
+            (0..2).for_each(|axis| surface.gather_poles(axis));
+            let fitted = offset::offset(&surface, distance * self.scale, SHARE_OF_OFFSETS * self.tolerance);
+            surface = fitted.ok_or_else(|| {
+                cannot("its surface, an offset, is not met by cubic pieces; export the part with B-splines".to_owned())
+            })?;
+            surface.find_ends(self.near().max(SHARE_OF_OFFSETS * self.tolerance));
+            (0..2).for_each(|axis| surface.gather_poles(axis));
+        }
         let against = face.orientation() == Orientation::Reversed;
         let mut loops = Vec::new();
         for bound in face.bounds() {
@@ -75,7 +89,7 @@ impl<'p> Gather<'p> {
         }
         let parts = surface.parts_between_points(self.near());
         if !parts.is_empty() {
-            surface = self.part_of_edges(parts, &loops).ok_or_else(|| {
+            surface = self.part_of_edges(parts, &loops, against != turned).ok_or_else(|| {
                 let reason =
                     "its surface goes through one point, and the face lies on both sides of it: split it there";
                 cannot(reason.to_owned())
@@ -93,14 +107,14 @@ impl<'p> Gather<'p> {
         Ok(())
     }
 
-    /// Distance below which two points are one, millimetres.
+    /// Distance below which two points of a surface are one, millimetres.
     fn near(&self) -> f64 {
-        self.part.precision.max(1e-6)
+        self.part.precision.min(0.1 * self.tolerance).max(1e-6)
     }
 
     /// The part of a surface that holds all edges of a face. A sphere that is swept twice, on either side of its axis,
     /// has two such parts: there an edge at the start of the sweep decides, which lies at the start of the parameter.
-    fn part_of_edges(&self, parts: Vec<Surface>, loops: &[Vec<Use>]) -> Option<Surface> {
+    fn part_of_edges(&self, parts: Vec<Surface>, loops: &[Vec<Use>], flip: bool) -> Option<Surface> {
         let edges: Vec<&Edge> = loops.iter().flatten().map(|used| &self.part.edges[used.edge]).collect();
         let holds = |part: &Surface| {
             let points = edges.iter().flat_map(|edge| [0.0, 0.3, 0.5, 0.7, 1.0].map(|share| edge.at(share)[0]));
@@ -114,8 +128,21 @@ impl<'p> Gather<'p> {
             edges.iter().any(|edge| [0.3, 0.7].iter().all(|at| is_at_start(share(edge, *at))))
         };
         let mut fitting: Vec<Surface> = parts.into_iter().filter(holds).collect();
-        let first = fitting.iter().position(starts_sweep).unwrap_or(0);
-        (first < fitting.len()).then(|| fitting.swap_remove(first))
+        // Without edges, the part that has the solid behind it.
+        let volume = |part: &Surface| {
+            const STEPS: u32 = 24;
+            let centre = part.at(DVec2::new(part.range(0)[0], part.range(1)[0])).point;
+            let at =
+                |k: u32, axis: usize| part.range(axis)[0] + part.period(axis) * (f64::from(k) + 0.5) / f64::from(STEPS);
+            let all = (0..STEPS * STEPS).map(|k| part.at(DVec2::new(at(k % STEPS, 0), at(k / STEPS, 1))));
+            all.map(|jet| (jet.point - centre).dot(jet.cross())).sum::<f64>()
+        };
+        let is_outward = |part: &Surface| edges.is_empty() && (volume(part) < 0.0) == flip;
+        let first = fitting.iter().position(starts_sweep).or_else(|| fitting.iter().position(is_outward)).unwrap_or(0);
+        if first >= fitting.len() {
+            return None;
+        }
+        Some(fitting.swap_remove(first))
     }
 
     fn unique(&mut self, own: &str) -> String {
@@ -232,7 +259,7 @@ fn reversed(mut curve: Curve) -> Curve {
     curve
 }
 
-const fn kind(kind: &SurfaceKind<'_>) -> &'static str {
+fn kind(kind: &SurfaceKind<'_>) -> &'static str {
     match kind {
         SurfaceKind::Plane(_) => "plane",
         SurfaceKind::Cylindrical(_) => "cylinder",
@@ -247,6 +274,8 @@ const fn kind(kind: &SurfaceKind<'_>) -> &'static str {
         | SurfaceKind::QuasiUniform(_)
         | SurfaceKind::Uniform(_)
         | SurfaceKind::Bezier(_) => "b-spline",
+        // The form that a rational one has in a file.
+        SurfaceKind::Other("COMPLEX") => "rational b-spline",
         SurfaceKind::Other(keyword) => keyword,
         _ => "surface",
     }

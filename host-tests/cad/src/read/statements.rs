@@ -87,6 +87,50 @@ pub(super) fn with_directions(text: &str) -> Cow<'_, str> {
     Cow::Owned(whole)
 }
 
+/// The surfaces of which the reader knows the offsets itself.
+const SIMPLE: [&str; 6] = [
+    "PLANE",
+    "CYLINDRICAL_SURFACE",
+    "CONICAL_SURFACE",
+    "SPHERICAL_SURFACE",
+    "TOROIDAL_SURFACE",
+    // Of an offset there is none.
+    "OFFSET_SURFACE",
+];
+
+/// The text with the surface itself in place of each offset of free form, and the distances by the faces' numbers.
+pub(super) fn without_offsets(text: &str) -> (Cow<'_, str>, HashMap<u64, f64>) {
+    let all = statements(text);
+    if !all.iter().any(|of| of.kind == "OFFSET_SURFACE") {
+        return (Cow::Borrowed(text), HashMap::new());
+    }
+    let number = |field: Option<&str>| field.and_then(|field| field.trim().strip_prefix('#')?.parse::<u64>().ok());
+    let by_number: HashMap<u64, &Statement<'_>> = all.iter().map(|of| (of.id, of)).collect();
+    let mut distances: HashMap<u64, f64> = HashMap::new();
+    let (mut whole, mut done) = (String::with_capacity(text.len()), 0);
+    for of in all.iter().filter(|of| of.kind == "OFFSET_SURFACE") {
+        let mut fields = of.arguments.rsplit(',').skip(1);
+        let distance = fields.next().and_then(|field| field.trim().parse::<f64>().ok());
+        let basis = number(fields.next()).and_then(|basis| by_number.get(&basis));
+        let (Some(distance), Some(basis)) = (distance, basis) else { continue };
+        if SIMPLE.contains(&basis.kind.as_str()) {
+            continue;
+        }
+        distances.insert(of.id, distance);
+        let end = of.arguments.as_ptr() as usize - text.as_ptr() as usize;
+        whole += text[done..end].trim_end().trim_end_matches("OFFSET_SURFACE");
+        // Of a complex entity the arguments are all of it.
+        whole += if basis.kind.contains('+') { "" } else { &basis.kind };
+        whole += basis.arguments;
+        done = end + of.arguments.len();
+    }
+    whole += &text[done..];
+    let faces = all.iter().filter(|of| matches!(of.kind.as_str(), "ADVANCED_FACE" | "FACE_SURFACE"));
+    let of_face = |of: &Statement<'_>| Some((of.id, *distances.get(&number(of.arguments.rsplit(',').nth(1))?)?));
+    let distances = faces.filter_map(of_face).collect();
+    (Cow::Owned(whole), distances)
+}
+
 /// Numbers of the entities that messages name.
 pub(super) struct Numbers {
     faces: Vec<u64>,
@@ -94,10 +138,12 @@ pub(super) struct Numbers {
     breps: Vec<u64>,
     hollow_breps: Vec<u64>,
     occurrences: Vec<u64>,
+    /// How far a face lies off the surface that the file has for it, in its unit.
+    pub(super) offsets: HashMap<u64, f64>,
 }
 
 impl Numbers {
-    pub(super) fn new(statements: &[Statement<'_>]) -> Self {
+    pub(super) fn new(statements: &[Statement<'_>], offsets: HashMap<u64, f64>) -> Self {
         let of = |kind: &str| statements.iter().filter(|of| of.kind == kind).map(|of| of.id).collect();
         Self {
             faces: of("ADVANCED_FACE"),
@@ -105,6 +151,7 @@ impl Numbers {
             breps: of("MANIFOLD_SOLID_BREP"),
             hollow_breps: of("BREP_WITH_VOIDS"),
             occurrences: of("NEXT_ASSEMBLY_USAGE_OCCURRENCE"),
+            offsets,
         }
     }
 
