@@ -60,6 +60,38 @@ impl Surface {
 
     /// The foot from nowhere: the best of a grid first.
     pub fn locate(&self, point: DVec3) -> Foot {
+        let feet = self.starts(point).into_iter().take(4).map(|uv| self.project(point, uv));
+        feet.min_by(|a, b| a.distance.total_cmp(&b.distance)).unwrap_or(Foot {
+            uv: DVec2::ZERO,
+            point: DVec3::ZERO,
+            distance: f64::INFINITY,
+        })
+    }
+
+    /// The foot near a guess; where that is farther off than `limit`, as on the wrong turn of a thread, the foot within
+    /// it that is nearest to the guess.
+    pub fn project_within(&self, point: DVec3, guess: DVec2, limit: f64) -> Foot {
+        let near = self.project(point, guess);
+        if near.distance <= limit {
+            return near;
+        }
+        let around = |mut foot: Foot| {
+            for axis in (0..2).filter(|axis| self.closed[*axis]) {
+                foot.uv[axis] += ((guess[axis] - foot.uv[axis]) / self.period(axis)).round() * self.period(axis);
+            }
+            foot
+        };
+        let far = |foot: &Foot| {
+            let way = (foot.uv - guess).abs();
+            (way.x / self.period(0)).max(way.y / self.period(1))
+        };
+        let feet = self.starts(point).into_iter().take(64).map(|uv| around(self.project(point, uv)));
+        let within = feet.filter(|foot| foot.distance <= limit);
+        within.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(near)
+    }
+
+    /// A grid of parameters, those of the nearest points first.
+    fn starts(&self, point: DVec3) -> Vec<DVec2> {
         let lines = [0, 1].map(|axis| {
             let knots = &self.knots[axis][self.degree[axis]..=self.counts[axis]];
             let spans = knots.windows(2).filter(|pair| pair[0] < pair[1]);
@@ -67,20 +99,10 @@ impl Surface {
                 .flat_map(|pair| (0..6).map(|k| pair[0] + (pair[1] - pair[0]) * (f64::from(k) + 0.5) / 6.0))
                 .collect::<Vec<_>>()
         });
-        let mut starts: Vec<(f64, DVec2)> = Vec::new();
-        for u in &lines[0] {
-            for v in &lines[1] {
-                let uv = DVec2::new(*u, *v);
-                starts.push((self.at(uv).point.distance_squared(point), uv));
-            }
-        }
+        let all = lines[0].iter().flat_map(|u| lines[1].iter().map(|v| DVec2::new(*u, *v)));
+        let mut starts: Vec<_> = all.map(|uv| (self.at(uv).point.distance_squared(point), uv)).collect();
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let feet = starts.iter().take(4).map(|(_, uv)| self.project(point, *uv));
-        feet.min_by(|a, b| a.distance.total_cmp(&b.distance)).unwrap_or(Foot {
-            uv: DVec2::ZERO,
-            point: DVec3::ZERO,
-            distance: f64::INFINITY,
-        })
+        starts.into_iter().map(|(_, uv)| uv).collect()
     }
 
     /// Into the range of each parameter that does not close.

@@ -143,16 +143,17 @@ fn trace_edge(mesh: &Mesh<'_>, face: &Face, used: Use, limit: f64) -> Result<Pat
     let mut feet = vec![DVec2::ZERO; STEPS + 1];
     let middle = STEPS / 2;
     let start = surface.locate(point(middle));
+    let start = surface.project_within(point(middle), start.uv, limit);
     let mut farthest = start.distance;
     feet[middle] = start.uv;
     for k in middle + 1..=STEPS {
         let guess = if k > middle + 1 { feet[k - 1] * 2.0 - feet[k - 2] } else { feet[k - 1] };
-        let foot = surface.project(point(k), guess);
+        let foot = surface.project_within(point(k), guess, limit);
         farthest = farthest.max(foot.distance);
         feet[k] = foot.uv;
     }
     for k in (0..middle).rev() {
-        let foot = surface.project(point(k), feet[k + 1] * 2.0 - feet[k + 2]);
+        let foot = surface.project_within(point(k), feet[k + 1] * 2.0 - feet[k + 2], limit);
         farthest = farthest.max(foot.distance);
         feet[k] = foot.uv;
     }
