@@ -12,7 +12,7 @@ pub const SHARE_OF_EDGES: f64 = 0.6;
 /// Rounds of cutting.
 const ROUNDS: usize = 12;
 /// A curve that is off its chord by less than this share of the tolerance is a straight line.
-const STRAIGHT: f64 = 0.02;
+pub const STRAIGHT: f64 = 0.02;
 /// The effort of fitting a patch of some degrees and measuring it.
 const FITTED: u64 = 12_000;
 /// The most patches a body can have.

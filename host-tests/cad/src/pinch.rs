@@ -6,6 +6,7 @@
 
 use crate::error::ImportError;
 use crate::part::{Edge, Part, Use};
+use crate::patches::STRAIGHT;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -69,10 +70,13 @@ fn refuse_close(part: &Part, face: usize, tolerance: f64) -> Result<(), ImportEr
                 continue;
             }
             let (distance, at) = nearest(part, edges[a], edges[b], &points[a], &points[b]);
-            if distance < tolerance && !is_end_of_a_sliver(part, face, [first, second], at, tolerance) {
+            // Straight lines stay where they are.
+            let is_straight = [a, b].iter().all(|k| bend(&points[*k]) <= STRAIGHT * tolerance);
+            let least = if is_straight { 5.0 * STRAIGHT * tolerance } else { tolerance };
+            if distance < least && !is_end_of_a_sliver(part, face, [first, second], at, tolerance) {
                 let reason = format!(
                     "its {} passes its {} {distance:.6} mm off at {}: nothing between them can be kept within \
-                     {tolerance} mm",
+                     {tolerance} mm; choose a tolerance below a third of that, or take the step out of the part",
                     first.label(edges[a]),
                     second.label(edges[b]),
                     place(at)
@@ -98,6 +102,13 @@ fn is_end_of_a_sliver(part: &Part, face: usize, pair: [&Edge; 2], at: DVec3, tol
 
 fn samples(part: &Part, edge: usize) -> Vec<DVec3> {
     (0..=SAMPLES).map(|k| part.edges[edge].at(k as f64 / SAMPLES as f64)[0]).collect()
+}
+
+/// How far an edge strays from its chord.
+fn bend(points: &[DVec3]) -> f64 {
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let way = (last - first).normalize_or_zero();
+    points.iter().map(|point| (*point - first).reject_from_normalized(way).length()).fold(0.0, f64::max)
 }
 
 /// A box around an edge: between two samples it strays by less than they are apart.

@@ -14,12 +14,21 @@ const LEAST: f64 = 1e-6;
 /// Shares of an edge at which it is compared with another.
 const COMPARED: i32 = 16;
 
-/// Sews a part, up to its own precision and no farther than `tolerance`, millimetres.
+/// Sews a part, up to its own precision and no farther than `tolerance`, millimetres: only where it does not close
+/// without, because a file that claims little may have steps that are smaller.
 ///
 /// # Errors
 /// A loop whose edges do not follow each other, or a solid that stays open.
 pub fn sew(part: &mut Part, tolerance: f64) -> Result<(), ImportError> {
-    let near = part.precision.min(tolerance).max(LEAST);
+    let mut exact = part.clone();
+    if sewn(&mut exact, LEAST).is_ok() {
+        *part = exact;
+        return Ok(());
+    }
+    sewn(part, part.precision.min(tolerance).max(LEAST))
+}
+
+fn sewn(part: &mut Part, near: f64) -> Result<(), ImportError> {
     merge_vertices(part, near);
     leave_out_slivers(part, near);
     check_loops(part, near)?;
