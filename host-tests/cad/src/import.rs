@@ -192,16 +192,16 @@ fn divided(part: &Part, fine: &Fine, triangles: bool, options: &Options) -> Resu
     let (quads, mesh, made) = fewest(part, fine, triangles, options.tolerance)?;
     let turned = check::check(part, &made).map_err(single)?;
     if !turned.is_empty() {
+        const HEALED: &str = "healed: with their whole shell, these faces lie inside out in the file: ";
         let mut part = part.clone();
-        for face in turned {
-            let label = part.faces[face].label();
-            let remark = format!("healed: {label} and its whole shell lie inside out in the file");
-            if part.remarks.contains(&remark) {
-                return Err(single(ImportError::face(label, "rays do not tell its outward side")));
-            }
-            part.faces[face].flip = !part.faces[face].flip;
-            part.remarks.push(remark);
+        if part.remarks.iter().any(|remark| remark.starts_with(HEALED)) {
+            let label = part.faces[turned[0]].label();
+            return Err(single(ImportError::face(label, "rays do not tell its outward side; export the part again")));
         }
+        let mut labels: Vec<String> = turned.iter().map(|face| part.faces[*face].label()).collect();
+        labels.dedup();
+        part.remarks.push(HEALED.to_owned() + &labels.join(", "));
+        turned.into_iter().for_each(|face| part.faces[face].flip = !part.faces[face].flip);
         return divided(&part, fine, triangles, options);
     }
     let mut counts = vec![0; part.faces.len()];

@@ -132,6 +132,41 @@ fn editions_of_a_schema_are_read_and_others_named() {
     assert!(message.contains("IFC4") && message.contains("CONFIGURATION_CONTROL_3D_DESIGN"), "{message}");
 }
 
+fn volume(of: &Imported) -> f64 {
+    let line = of.report.iter().find(|line| line.starts_with("volume")).unwrap();
+    line.split_whitespace().nth(2).unwrap().parse().unwrap()
+}
+
+/// A box of 20 mm about a ball of 6 mm whose shell's sense is turned: one face of the file becomes six.
+#[test]
+fn a_void_that_is_turned_is_turned_back() {
+    let found = volume(&part("turned_void").unwrap());
+    assert!((found - (8_000.0 - 288.0 * std::f64::consts::PI)).abs() < 1e-3 * 452.0, "{found}");
+}
+
+/// A tube of 10 mm about a circle of 1 mm crosses its axis: the outer part, by its closed form.
+#[test]
+fn a_torus_may_cross_its_axis() {
+    let sphere = fs::read_to_string(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/parts/s06.step")).unwrap();
+    let (large, small, angle) = (1.0_f64, 10.0_f64, (-0.1_f64).acos());
+    // π ∫ (R + r cos φ)² r cos φ dφ from −angle to angle.
+    let (sine, twice) = (angle.sin(), (2.0 * angle).sin());
+    let of_square = angle + 0.5 * twice;
+    let of_cube = 2.0 * (sine - sine.powi(3) / 3.0);
+    let terms = large * large * 2.0 * sine + 2.0 * large * small * of_square + small * small * of_cube;
+    let known = std::f64::consts::PI * small * terms;
+    let text = sphere.replace("SPHERICAL_SURFACE('',#23,20.)", "TOROIDAL_SURFACE('',#23,1.,10.)");
+    let text = text.replace("(1.224646799147E-15,-2.999519565324E-31,-20.)", "(0.,0.,-9.949874371066)");
+    let found = volume(&imported("spindle", &text).unwrap());
+    assert!((found - known).abs() < 1e-3 * 1_460.0, "{found}, {known} known");
+}
+
+/// A box of 20 × 20 × 10 mm with half of its top 5 µm higher, in a file that claims 10 µm.
+#[test]
+fn a_step_below_the_files_precision_is_kept() {
+    assert!((volume(&part("low_step").unwrap()) - 4_001.0).abs() < 1e-3);
+}
+
 /// A circle passes 0.25 µm from its vertex.
 #[test]
 fn a_vertex_beside_its_edge_is_taken_up_to_the_tolerance() {
