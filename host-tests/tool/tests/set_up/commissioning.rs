@@ -28,7 +28,9 @@ fn devices() -> impl Iterator<Item = (&'static ShippedDevice, OwnDevice)> {
     })
 }
 
-fn lab(own: &OwnDevice, planted: Planted) -> Lab {
+/// Eight steps of the plant a tick: what is found takes many ticks each.
+fn lab(own: &OwnDevice, mut planted: Planted) -> Lab {
+    planted.plant.sub_steps = 8;
     let world = World::shared(planted).expect("a bench");
     let line = Box::new(HostLine::new(own, &world).expect("a device"));
     let device = Commissioned::connect(line, Box::new(KeyHeld)).expect("it answers");
