@@ -5,7 +5,7 @@ use crate::divide::{self, Manner, Turning};
 use crate::error::ImportError;
 use crate::measure::{self, Measured};
 use crate::mesh::Mesh;
-use crate::part::Part;
+use crate::part::{Face, Part};
 use crate::patches::{self, Made};
 use crate::spheres::Hollow;
 use crate::wires::{FINEST, Fine, outlined};
@@ -68,6 +68,7 @@ pub struct Imported {
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut part = read::read(path, options.solid.as_deref(), options.tolerance)?;
     sew::sew(&mut part, options.tolerance)?;
+    refuse_too_many(&part)?;
     heal::take_out_seams(&mut part);
     pinch::refuse(&part, options.tolerance)?;
     turn::turn(&mut part, options.tolerance)?;
@@ -83,6 +84,31 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
         whole.effort.renew();
         lightening(whole, Way { triangles: true, ..way }, options).map_err(|_| error)
     })
+}
+
+/// The minimum number of quads in a face: `V / 2 + h − 1` in a plane with `V` vertices and `h` holes, where a round loop
+/// has four sides.
+fn fewest_quads(face: &Face) -> usize {
+    if face.kind != "plane" {
+        return 1;
+    }
+    let vertices: usize = face.loops.iter().map(|sides| if sides.len() == 1 { 4 } else { sides.len() }).sum();
+    (vertices / 2 + face.loops.len()).saturating_sub(2).max(1)
+}
+
+/// Refuses a part that cannot have few enough patches, before any work.
+fn refuse_too_many(part: &Part) -> Result<(), ImportError> {
+    let all: usize = part.faces.iter().map(fewest_quads).sum();
+    let Some(most) = part.faces.iter().max_by_key(|face| fewest_quads(face)).filter(|_| all > patches::MOST) else {
+        return Ok(());
+    };
+    let reason = format!(
+        "it needs {} patches at least, and the whole part {all}; a body has {} at most: import one solid (--solid), or \
+         leave out small features",
+        fewest_quads(most),
+        patches::MOST
+    );
+    Err(ImportError::face(most.label(), reason))
 }
 
 /// How a part is tried.
@@ -262,4 +288,21 @@ fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), Im
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_of_too_many_patches_is_refused_before_any_work() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/parts/perforated_plate.step");
+        let mut part = read::read(&file, None, 0.01).unwrap();
+        // 2 × ((8 + 35 × 4) / 2 + 35 − 1) in the planes with the holes and round corners, and one in each other face.
+        assert_eq!(part.faces.iter().map(fewest_quads).sum::<usize>(), 2 * 108 + 4 + 39);
+        assert!(refuse_too_many(&part).is_ok());
+        part.faces = vec![part.faces; 5].concat();
+        let message = refuse_too_many(&part).unwrap_err().to_string();
+        assert!(message.contains("needs 108 patches") && message.contains("whole part 1295"), "{message}");
+    }
 }

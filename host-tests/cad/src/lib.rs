@@ -41,5 +41,6 @@ mod turn;
 mod wires;
 
 pub use bezier::Bezier;
+pub use effort::show_progress;
 pub use error::ImportError;
 pub use import::{Imported, Options, Patch, import};

@@ -1,5 +1,5 @@
-//! `palpate-cad PART.step OUT.toml TOLERANCE_MM [--solid NAME] [--picture FILE.svg]`: what `cargo palpate import` runs,
-//! which has the help.
+//! `palpate-cad PART.step OUT.toml TOLERANCE_MM [--solid NAME] [--picture FILE.svg] [--progress]`: what `cargo
+//! palpate import` runs, which has the help.
 
 use palpate_cad::{Options, import};
 use std::path::{Path, PathBuf};
@@ -35,6 +35,10 @@ fn run() -> Result<(), String> {
     let mut options = Options { tolerance, ..Options::default() };
     let mut picture = None;
     while let Some(word) = words.next() {
+        if word == "--progress" {
+            palpate_cad::show_progress();
+            continue;
+        }
         let value = words.next().ok_or_else(|| format!("{word} needs a value"))?;
         match word.as_str() {
             "--solid" => options.solid = Some(value),

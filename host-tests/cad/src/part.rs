@@ -1,6 +1,6 @@
 //! A part as the file has it: faces, loops, oriented edges and vertices, in millimetres, placements applied.
 
-use crate::effort::Effort;
+use crate::effort::{Effort, Memory};
 use crate::nurbs::{Curve, Surface};
 use glam::DVec3;
 
@@ -23,6 +23,8 @@ pub struct Part {
     pub remarks: Vec<String>,
     /// The remaining effort for it.
     pub effort: Effort,
+    /// Tilings and patches that were found before.
+    pub memory: Memory,
 }
 
 /// A solid, or a shell by itself.

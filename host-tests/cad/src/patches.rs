@@ -5,7 +5,9 @@ use crate::error::ImportError;
 use crate::fit::{FittedCurve, fit_curve, fit_patch};
 use crate::mesh::{Mesh, Quad};
 use crate::{proof, strips};
+use std::collections::hash_map::DefaultHasher;
 use std::collections::{BTreeSet, HashMap};
+use std::hash::{Hash as _, Hasher as _};
 
 /// Of the tolerance, what the curves of edges may use up.
 pub const SHARE_OF_EDGES: f64 = 0.6;
@@ -134,7 +136,6 @@ fn patch_of(
     curves: &HashMap<usize, FittedCurve>,
     tolerance: f64,
 ) -> (Bezier, f64) {
-    let surface = &mesh.part.faces[face].surface;
     let side = |k: usize, turned: bool| -> Points {
         let side = &quad.sides[k];
         let Some((wire, against)) = side.wire else { return vec![mesh.nodes[side.ends[0]]; 2] };
@@ -145,11 +146,25 @@ fn patch_of(
         points
     };
     let sides = [side(0, false), side(1, false), side(2, true), side(3, true)];
+    let mut hasher = DefaultHasher::new();
+    let paths = quad.sides.each_ref().map(|side| (&side.path, side.wire.is_none()));
+    format!("{} {paths:?} {sides:?}", mesh.part.faces[face].name).hash(&mut hasher);
+    let (key, memory) = (hasher.finish(), &mesh.part.memory);
+    memory.get(key).unwrap_or_else(|| {
+        let fitted = fit(mesh, face, quad, &sides, tolerance);
+        memory.keep(key, fitted.clone());
+        fitted
+    })
+}
+
+fn fit(mesh: &Mesh<'_>, face: usize, quad: &Quad, sides: &[Points; 4], tolerance: f64) -> (Bezier, f64) {
+    let surface = &mesh.part.faces[face].surface;
     let has_pole = quad.sides.iter().any(|side| side.wire.is_none());
     let mut best: Option<(Bezier, f64)> = None;
     for least in [[1, 1], [3, 3], [5, 5]] {
         mesh.part.effort.spend(FITTED);
-        let mut patch = fit_patch(surface, quad, &sides, least, 1.0);
+        mesh.part.effort.tell(&mesh.part.faces[face].name);
+        let mut patch = fit_patch(surface, quad, sides, least, 1.0);
         if best.as_ref().is_some_and(|(other, _)| other.degree == patch.degree) {
             continue;
         }
@@ -157,7 +172,7 @@ fn patch_of(
         // Beside a pole little holds the inner points where they are.
         if has_pole && !proof::is_regular(&patch) {
             for firmness in FIRM {
-                let firm = fit_patch(surface, quad, &sides, least, firmness);
+                let firm = fit_patch(surface, quad, sides, least, firmness);
                 if proof::is_regular(&firm) {
                     (off, patch) = (deviation(mesh, face, quad, &firm), firm);
                     break;
@@ -171,7 +186,7 @@ fn patch_of(
             break;
         }
     }
-    best.unwrap_or_else(|| (fit_patch(surface, quad, &sides, [1, 1], 1.0), f64::INFINITY))
+    best.unwrap_or_else(|| (fit_patch(surface, quad, sides, [1, 1], 1.0), f64::INFINITY))
 }
 
 /// Firmness of a patch with a pole that folds without it, tried in turn: the steeper the tip, the more it takes.

@@ -1,12 +1,13 @@
 //! The importer of CAD parts: a program of its own, because its reader takes minutes to compile. It is built when a
 //! part is first imported.
 
-use crate::firmware::{Progress, SetUpError, output, without_outer_cargo};
+use crate::firmware::{Progress, SetUpError, output, told, without_outer_cargo};
 use crate::repository;
 use anyhow::{Context as _, bail};
 use std::env;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// The importer, built.
 #[derive(Debug)]
@@ -78,9 +79,12 @@ impl Importer {
         if let Some(picture) = &wishes.picture {
             command.arg("--picture").arg(picture);
         }
-        let done = command.output().with_context(|| format!("{} does not run", self.path.display()))?;
+        command.arg("--progress").stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().with_context(|| format!("{} does not run", self.path.display()))?;
+        let lines = child.stderr.take().map(BufReader::new).into_iter().flat_map(BufRead::lines);
+        let message = told(lines.map_while(Result::ok));
+        let done = child.wait_with_output()?;
         if !done.status.success() {
-            let message = String::from_utf8_lossy(&done.stderr).trim().to_owned();
             if message.is_empty() {
                 bail!("{}: the importer exited with {} and no message", part.display(), done.status);
             }

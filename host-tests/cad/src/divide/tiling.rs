@@ -14,7 +14,9 @@ use crate::nurbs::Surface;
 use crate::path::Path;
 use glam::DVec2;
 use std::collections::HashMap;
+use std::collections::hash_map::DefaultHasher;
 use std::f64::consts::TAU;
+use std::hash::{Hash as _, Hasher as _};
 use std::rc::Rc;
 
 /// Quads tried in a search without points inside.
@@ -26,13 +28,58 @@ const LARGE: usize = 22;
 /// A tiling that costs less than this a quad is taken without looking whether points inside help.
 const GOOD: f64 = 1.6;
 
+/// Points inside a region, and its quads.
+type Tiling = (Vec<DVec2>, Vec<Candidate>);
+
+/// A hash of everything that a tiling follows from.
+fn key(face: &str, plane: &Plane, scale: DVec2, manner: Manner) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (face, manner.turning == Turning::Free, manner.triangles).hash(&mut hasher);
+    let mut firsts = HashMap::new();
+    for (index, vertex) in plane.vertices.iter().enumerate() {
+        // Two vertices may be one node.
+        firsts.entry(vertex.node).or_insert(index).hash(&mut hasher);
+    }
+    for border in &plane.borders {
+        (border.ends, border.place, border.points.len()).hash(&mut hasher);
+    }
+    let angles = plane.vertices.iter().filter_map(|vertex| vertex.angle).flatten();
+    let points = plane.borders.iter().flat_map(|border| border.points.iter().copied());
+    let numbers = points.chain(angles).chain([scale]).flat_map(|point| point.to_array().map(f64::to_bits));
+    numbers.for_each(|number| number.hash(&mut hasher));
+    hasher.finish()
+}
+
 /// Tiles a face's region.
 ///
 /// # Errors
 /// If no tiling was found.
 pub fn quads(mesh: &mut Mesh<'_>, face: usize, manner: Manner) -> Result<Vec<Quad>, ImportError> {
     let scale = scale(mesh, face);
-    let plane = Plane::new(mesh, face, scale);
+    let mut plane = Plane::new(mesh, face, scale);
+    let key = key(&mesh.part.faces[face].name, &plane, scale, manner);
+    let memory = &mesh.part.memory;
+    let tiling: Option<Tiling> = memory.get(key).unwrap_or_else(|| {
+        let tiling = search(mesh, face, manner, scale, &plane);
+        // With more effort a search might have succeeded.
+        if tiling.is_some() || !mesh.part.effort.is_spent() {
+            memory.keep(key, tiling.clone());
+        }
+        tiling
+    });
+    let Some((points, found)) = tiling else {
+        let count = mesh.regions[face].loops.iter().map(Vec::len).sum::<usize>();
+        let reason = format!(
+            "no division into quads was found for its outline of {count} sides ({})",
+            mesh.part.faces[face].kind
+        );
+        return Err(ImportError::too_much(mesh.part, face, reason));
+    };
+    plane.vertices.extend(vertices(points));
+    Ok(build(mesh, face, scale, &plane, &found))
+}
+
+fn search(mesh: &Mesh<'_>, face: usize, manner: Manner, scale: DVec2, plane: &Plane) -> Option<Tiling> {
     let (surface, effort) = (&mesh.part.faces[face].surface, &mesh.part.effort);
     let turn = |from: DVec2, to: DVec2| match manner.turning {
         Turning::Free => 0.0,
@@ -44,12 +91,12 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize, manner: Manner) -> Result<Vec<Qua
         let mut trial = plane.clone();
         let points = match round {
             0 => Vec::new(),
-            1 => inward(&plane, 0.23),
-            2 => middles(&plane, 3),
-            3 => [inward(&plane, 0.3), middles(&plane, 1)].concat(),
-            4 => middles(&plane, 6),
-            5 => inward(&plane, 0.23),
-            _ => [inward(&plane, 0.15), middles(&plane, 4)].concat(),
+            1 => inward(plane, 0.23),
+            2 => middles(plane, 3),
+            3 => [inward(plane, 0.3), middles(plane, 1)].concat(),
+            4 => middles(plane, 6),
+            5 => inward(plane, 0.23),
+            _ => [inward(plane, 0.15), middles(plane, 4)].concat(),
         };
         trial.vertices.extend(vertices(points));
         let most = if manner.triangles || (1..4).contains(&round) { TRIES_INSIDE } else { TRIES };
@@ -66,18 +113,11 @@ pub fn quads(mesh: &mut Mesh<'_>, face: usize, manner: Manner) -> Result<Vec<Qua
             break;
         }
     }
-    let found =
-        best.map(|(_, plane, found)| (plane, found)).or_else(|| behind_a_ring(&plane, &turn, manner.triangles, effort));
-    let Some((mut plane, found)) = found else {
-        let count = mesh.regions[face].loops.iter().map(Vec::len).sum::<usize>();
-        let reason = format!(
-            "no division into quads was found for its outline of {count} sides ({})",
-            mesh.part.faces[face].kind
-        );
-        return Err(ImportError::too_much(mesh.part, face, reason));
-    };
-    smooth(&mut plane, &found);
-    Ok(build(mesh, face, scale, &plane, &found))
+    let found = best.map(|(_, trial, found)| (trial, found));
+    let (mut trial, found) = found.or_else(|| behind_a_ring(plane, &turn, manner.triangles, effort))?;
+    smooth(&mut trial, &found);
+    let points = trial.vertices[plane.vertices.len()..].iter().map(|vertex| vertex.point).collect();
+    Some((points, found))
 }
 
 /// How far a surface's normal turns along a straight line of its parameters, radians.

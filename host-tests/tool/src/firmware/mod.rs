@@ -39,7 +39,7 @@ pub use memory::{Kind, Memory, Place, report};
 pub use process::{SetUpError, without_outer_cargo};
 pub(crate) use process::{apt_install, on_path, output};
 pub use program::Program;
-pub use progress::Progress;
+pub use progress::{Progress, told};
 pub use qemu::{Pace, Qemu};
 pub use toolchain::Toolchain;
 pub use transport::Transport;

@@ -48,3 +48,26 @@ impl Progress {
         result
     }
 }
+
+/// Shows the importer's lines of progress, at a terminal as one line, elsewhere one every ten seconds, and returns the
+/// others.
+pub fn told(lines: impl Iterator<Item = String>) -> String {
+    const EVERY: Duration = Duration::from_secs(10);
+    let bar = ProgressBar::new_spinner();
+    let (mut others, mut last) = (Vec::new(), Instant::now());
+    for line in lines {
+        let Some(state) = line.strip_prefix("progress: ") else {
+            others.push(line);
+            continue;
+        };
+        if stderr().is_terminal() {
+            bar.set_message(format!("dividing {state}"));
+            bar.tick();
+        } else if last.elapsed() >= EVERY {
+            last = Instant::now();
+            eprintln!("dividing {state}");
+        }
+    }
+    bar.finish_and_clear();
+    others.join("\n").trim().to_owned()
+}
