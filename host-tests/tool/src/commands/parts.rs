@@ -3,6 +3,7 @@
 use super::check::Loaded;
 use super::output::print;
 use super::progress;
+use crate::cad;
 use crate::processor;
 use crate::queries;
 use crate::reach::Reach;
@@ -10,7 +11,9 @@ use anyhow::{Context as _, ensure};
 use clap::Args;
 use palpate_bake::BakedBody;
 use palpate_bake::body::BodyBytes;
+use serde::Deserialize;
 use std::fmt::Write as _;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -22,11 +25,47 @@ use std::time::Instant;
 /// --table-report` has the rest). If PART.csv lies beside PART.step, with columns qx,qy,qz,dist,inside: the largest
 /// error of a cold query's distance, and the rows on the wrong side. If PART_track.csv does: the largest error at one
 /// tick per row.
+///
+/// A folder stands for the parts in it. A list (public.toml) names parts of public repositories; --checkouts has each
+/// repository as OWNER/NAME. The reason of a part that is refused follows the table. Exit status 1 if a part is refused or
+/// absent.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Parts: .step or .stp files, or models
+    /// Parts: .step or .stp files, models, folders, or lists
     #[arg(value_name = "PART.step", required = true)]
     parts: Vec<PathBuf>,
+    /// Folder with the repositories of a list
+    #[arg(long, value_name = "FOLDER", default_value = ".")]
+    checkouts: PathBuf,
+}
+
+/// A list of public parts.
+#[derive(Deserialize)]
+struct List {
+    part: Vec<Public>,
+}
+
+/// A part of a public repository.
+#[derive(Deserialize)]
+struct Public {
+    repository: String,
+    path: PathBuf,
+}
+
+/// The files that an argument stands for.
+fn files(of: &Path, checkouts: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    if of.is_dir() {
+        let mut files: Vec<_> = fs::read_dir(of)?.flatten().map(|entry| entry.path()).collect();
+        files.retain(|file| cad::is_part(file));
+        files.sort();
+        return Ok(files);
+    }
+    if of.extension().is_some_and(|extension| extension == "toml")
+        && let Ok(List { part }) = toml::from_str(&fs::read_to_string(of)?)
+    {
+        return Ok(part.iter().map(|part| checkouts.join(&part.repository).join(&part.path)).collect());
+    }
+    Ok(vec![of.to_path_buf()])
 }
 
 /// The names of the columns.
@@ -41,10 +80,21 @@ const HEADER: &str = "\
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     print(HEADER.as_bytes())?;
-    for part in &arguments.parts {
-        print(row(part)?.as_bytes())?;
+    let mut refused = String::new();
+    for argument in &arguments.parts {
+        for part in files(argument, &arguments.checkouts).with_context(|| argument.display().to_string())? {
+            match row(&part) {
+                Ok(row) => print(row.as_bytes())?,
+                Err(error) => {
+                    let name = part.file_stem().unwrap_or(part.as_os_str()).to_string_lossy();
+                    print(format!("| {name} |{}\n", " – |".repeat(10)).as_bytes())?;
+                    writeln!(refused, "{}: {error:#}", part.display())?;
+                }
+            }
+        }
     }
-    Ok(ExitCode::SUCCESS)
+    print(refused.as_bytes())?;
+    Ok(ExitCode::from(u8::from(!refused.is_empty())))
 }
 
 fn row(part: &Path) -> anyhow::Result<String> {
