@@ -3,8 +3,8 @@
 
 CadQuery goes into a virtual environment in target/occt; nothing else on the machine is touched. The tool is the one in
 PALPATE_TOOL, or cargo builds it. Part N is of kind N modulo 7 in each of three dialects by turns (parts.py); compare.py
-imports and compares; an import or its queries may take SECONDS of a processor. Ends with 1 if a part is silently wrong,
-if a planted fault is not noticed, or if fewer parts than LEAST_IMPORTED are imported.
+imports and compares; an import may take SECONDS of a processor, its queries three times that. Ends with 1 if a part is
+silently wrong, if a planted fault is not noticed, or if fewer parts than LEAST_IMPORTED are imported.
 """
 
 from __future__ import annotations
