@@ -349,10 +349,6 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// A tick of a device that is being set up.
     fn jog(&mut self, (began, is_late): (u32, bool), panel: &Panel) {
         let Some(set_up) = &mut self.set_up else { return };
-        // A line that stays enabled ends commissioning.
-        if !set_up.is_live() && self.board.reads_enabled() {
-            set_up.stop();
-        }
         if is_late {
             set_up.overran(&mut self.board);
         }
