@@ -6,6 +6,7 @@ pub mod commission;
 pub mod device;
 pub mod math;
 mod message;
+pub mod pair;
 pub mod patch;
 pub mod render;
 pub mod scene;

@@ -89,7 +89,7 @@ impl Body<'_> {
     /// The neighbour beyond a side of the face that holds the witness point. Both sides of the edge may be the same
     /// face.
     #[inline(always)]
-    pub(super) fn neighbour_of_side(edge: &Edge, from: Feature, number: usize) -> EdgeFace {
+    pub(crate) fn neighbour_of_side(edge: &Edge, from: Feature, number: usize) -> EdgeFace {
         let [first, second] = edge.faces;
         let is_first = from == Feature::Face(first.face) && usize::from(first.side) == number;
         if is_first { second } else { first }
@@ -97,7 +97,7 @@ impl Body<'_> {
 
     /// A face of an edge, and the parameters there of a point of the edge.
     #[inline(never)]
-    pub(super) fn position_on_face(&self, of: EdgeFace, t: f32) -> Option<(u16, [f32; 2])> {
+    pub(crate) fn position_on_face(&self, of: EdgeFace, t: f32) -> Option<(u16, [f32; 2])> {
         match self.faces.get(usize::from(of.face))?.sides.get(usize::from(of.side))? {
             Side::Edge { reversed, .. } => Some((of.face, on_side(of.side, *reversed, 0.0, t))),
             Side::Pole { .. } => None,

@@ -144,7 +144,7 @@ impl Body<'_> {
 
     /// The edge along which the distance to a probe at the offset `towards` falls most steeply from a vertex, and how
     /// far along its tangent the probe is, metres; `None` if no edge leads nearer.
-    pub(super) fn steepest(&self, vertex: &Vertex, towards: Vec3) -> Option<(f32, &Spoke)> {
+    pub(crate) fn steepest(&self, vertex: &Vertex, towards: Vec3) -> Option<(f32, &Spoke)> {
         let mut steepest: Option<(f32, &Spoke)> = None;
         for spoke in counted(self.spokes_of(vertex)) {
             let fall = towards.dot(spoke.direction);

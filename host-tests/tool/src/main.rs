@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
     accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, faults, feel, figures,
-    firmware, image, import, monitor, page, parts, race, sim, talk, test, zwidth,
+    firmware, image, import, monitor, page, pair, parts, race, sim, talk, test, zwidth,
 };
 use std::process::ExitCode;
 
@@ -36,6 +36,7 @@ enum Command {
     Import(import::Arguments),
     Monitor(monitor::Arguments),
     Page(page::Arguments),
+    Pair(pair::Arguments),
     Parts(parts::Arguments),
     Talk(talk::Arguments),
     Zwidth(zwidth::Arguments),
@@ -67,6 +68,7 @@ fn main() -> ExitCode {
         Command::Import(arguments) => import::run(&arguments),
         Command::Monitor(arguments) => monitor::run(&arguments),
         Command::Page(arguments) => page::run(&arguments),
+        Command::Pair(arguments) => pair::run(&arguments),
         Command::Parts(arguments) => parts::run(&arguments),
         Command::Talk(arguments) => talk::run(&arguments),
         Command::Zwidth(arguments) => zwidth::run(&arguments),

@@ -1,7 +1,7 @@
 //! Query points from a CSV file.
 
 use anyhow::{Context as _, bail, ensure};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use palpate::math::Vec3;
 use palpate_bake::Model;
 use std::path::Path;
@@ -24,42 +24,76 @@ const FARTHEST: f64 = 1e9;
 /// # Errors
 /// The first fault, with file and line.
 pub fn read(path: &Path, model: &Model) -> anyhow::Result<Vec<Query>> {
-    let file = path.display();
     let per_metre = model.unit.per_metre();
+    let rows = columns(path, ["qx", "qy", "qz"], |_| FARTHEST * per_metre)?;
+    let query = |(_, given)| {
+        let given = DVec3::from_array(given);
+        Query { given, probe: (given / per_metre - model.centre).as_vec3() }
+    };
+    Ok(rows.into_iter().map(query).collect())
+}
+
+/// Reads the columns `qw`, `qx`, `qy`, `qz`, a unit quaternion, and `px`, `py`, `pz` in the unit of a model, metres
+/// when returned: the poses of a tool in the model's own frame.
+///
+/// # Errors
+/// The first fault, with file and line.
+pub fn read_poses(path: &Path, model: &Model) -> anyhow::Result<Vec<(DQuat, DVec3)>> {
+    /// The last digits of a printed quaternion.
+    const ROUNDED: f64 = 1e-3;
+    let per_metre = model.unit.per_metre();
+    let names = ["qw", "qx", "qy", "qz", "px", "py", "pz"];
+    let rows = columns(path, names, |column| if column < 4 { 1.0 + ROUNDED } else { FARTHEST * per_metre })?;
+    let pose = |(line, [w, x, y, z, px, py, pz]): (u64, [f64; 7])| {
+        let (turn, length) = (DQuat::from_xyzw(x, y, z, w), DQuat::from_xyzw(x, y, z, w).length());
+        let file = path.display();
+        ensure!((length - 1.0).abs() <= ROUNDED, "{file}:{line}: qw, qx, qy, qz has length {length}, not 1");
+        Ok((turn.normalize(), DVec3::new(px, py, pz) / per_metre))
+    };
+    rows.into_iter().map(pose).collect()
+}
+
+/// The numbers of some columns, with the line of each row. A number is at most `farthest` of its column.
+fn columns<const N: usize>(
+    path: &Path,
+    names: [&str; N],
+    farthest: impl Fn(usize) -> f64,
+) -> anyhow::Result<Vec<(u64, [f64; N])>> {
+    let file = path.display();
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .from_path(path)
         .with_context(|| format!("{file}: cannot be read"))?;
     let header = reader.headers().with_context(|| format!("{file}: cannot be read"))?.clone();
-    ensure!(!header.is_empty(), "{file}: empty: a header with qx, qy, qz is needed");
-    let mut columns = [0; 3];
-    for (column, name) in columns.iter_mut().zip(["qx", "qy", "qz"]) {
+    ensure!(!header.is_empty(), "{file}: empty: a header with {} is needed", names.join(", "));
+    let mut places = [0; N];
+    for (place, name) in places.iter_mut().zip(names) {
         let mut positions = header.iter().enumerate().filter(|(_, field)| *field == name).map(|(index, _)| index);
-        *column = positions.next().with_context(|| format!("{file}: {}", missing(name, &header)))?;
+        *place = positions.next().with_context(|| format!("{file}: {}", missing(name, &header)))?;
         ensure!(positions.next().is_none(), "{file}: column {name} stands twice in the header");
     }
-    let mut queries = Vec::new();
+    let mut rows = Vec::new();
     for record in reader.records() {
         // The reader names the line itself.
         let record = record.with_context(|| file.to_string())?;
         let line = record.position().map_or(0, csv::Position::line);
-        let mut coordinates = [0.0; 3];
-        for (coordinate, (column, name)) in coordinates.iter_mut().zip(columns.iter().zip(["qx", "qy", "qz"])) {
-            let field = record.get(*column).unwrap_or_default();
-            *coordinate = field
+        let mut numbers = [0.0; N];
+        for (index, number) in numbers.iter_mut().enumerate() {
+            let (name, field) = (names[index], record.get(places[index]).unwrap_or_default());
+            *number = field
                 .parse::<f64>()
                 .ok()
                 .with_context(|| format!("{file}:{line}: {name} is \"{field}\", not a number"))?;
-            if !coordinate.is_finite() {
-                bail!("{file}:{line}: {name} is {coordinate}");
+            if !number.is_finite() {
+                bail!("{file}:{line}: {name} is {number}");
             }
-            ensure!(coordinate.abs() <= FARTHEST * per_metre, "{file}:{line}: {name} is beyond {FARTHEST:e} m");
+            let most = farthest(index);
+            ensure!(number.abs() <= most, "{file}:{line}: {name} is {number}, beyond {most:e}");
         }
-        let given = DVec3::from_array(coordinates);
-        queries.push(Query { given, probe: (given / per_metre - model.centre).as_vec3() });
+        rows.push((line, numbers));
     }
-    Ok(queries)
+    Ok(rows)
 }
 
 /// Why a column is not there, as far as the header tells.

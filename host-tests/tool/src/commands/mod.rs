@@ -24,6 +24,7 @@ pub mod monitor;
 pub mod options;
 mod output;
 pub mod page;
+pub mod pair;
 pub mod parts;
 pub mod progress;
 pub mod race;

@@ -1,0 +1,22 @@
+//! A tool with a shape against a body: the closest pair of their points.
+//!
+//! A [`Tool`] is a convex core and a radius. The witness points of body and core move in one *joint* step of second
+//! order, with one certificate: the distance between them is the Lyapunov function of both, and of both automata that
+//! switch faces (theory §13). [`Body::locate_tool`] finds the pair without history, [`Body::step_tool`] follows it.
+//!
+//! A tick: a joint step for the pair ([`step`](self)), the core's corners as points and the rivals; then the switch to
+//! the next face; then the nearest becomes the pair; then, on bodies that are not convex, some cells of the audit.
+
+mod cells;
+mod common_normal;
+mod hand_over;
+mod quadratic;
+mod step;
+mod tool;
+mod tracker;
+
+#[cfg(doc)]
+use crate::body::Body;
+pub use step::{Foot, Pair};
+pub use tool::{Core, Tool, ToolError};
+pub use tracker::{Closest, DEFAULT_CELLS, MAX_CELLS, ToolStatus, ToolWitness};

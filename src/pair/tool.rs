@@ -1,0 +1,172 @@
+//! A tool: a convex core and the radius of the ball that rolls on it.
+
+use super::step::Foot;
+use crate::body::{Body, EdgeKind, Spoke};
+use crate::math::{Vec3, inverse_sqrt, saturate, vec3};
+use core::fmt;
+
+/// The convex core of a tool. Half lengths in metres, about the origin of the tool's frame.
+#[derive(Clone, Copy, Debug)]
+pub enum Core<'a> {
+    /// The origin: a ball.
+    Point,
+    /// A segment along z: a stylus or a finger.
+    Segment {
+        /// Half its length.
+        half: f32,
+    },
+    /// A solid box.
+    Box {
+        /// Half its sides.
+        half: [f32; 3],
+    },
+    /// A convex body.
+    Body(&'a Body<'a>),
+}
+
+/// A convex core and a radius: the tool is the core with a ball rolled over it.
+#[derive(Clone, Copy, Debug)]
+pub struct Tool<'a> {
+    core: Core<'a>,
+    radius: f32,
+}
+
+/// Why a tool is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ToolError {
+    /// A half length is negative or not finite.
+    Half,
+    /// The radius is negative or not finite.
+    Radius,
+    /// The core is a body that is not convex.
+    NotConvex,
+}
+
+impl fmt::Display for ToolError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Half => "half: half lengths must be finite and not negative",
+            Self::Radius => "radius: must be finite and not negative",
+            Self::NotConvex => "core: the body of a tool must be certified convex; split it into convex tools",
+        })
+    }
+}
+
+impl core::error::Error for ToolError {}
+
+impl<'a> Tool<'a> {
+    /// A tool of a core and a radius, metres.
+    ///
+    /// # Errors
+    /// A length that is negative or not finite, and a core that is not convex.
+    pub const fn new(core: Core<'a>, radius: f32) -> Result<Self, ToolError> {
+        let bad = match &core {
+            Core::Point => None,
+            Core::Segment { half } if is_length(*half) => None,
+            Core::Box { half: [x, y, z] } if is_length(*x) && is_length(*y) && is_length(*z) => None,
+            Core::Segment { .. } | Core::Box { .. } => Some(ToolError::Half),
+            Core::Body(body) if body.is_convex() => None,
+            Core::Body(_) => Some(ToolError::NotConvex),
+        };
+        match bad {
+            Some(error) => Err(error),
+            None if !is_length(radius) => Err(ToolError::Radius),
+            None => Ok(Self { core, radius }),
+        }
+    }
+
+    /// The core.
+    pub const fn core(&self) -> &Core<'a> {
+        &self.core
+    }
+
+    /// The radius, metres.
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// Where the core's point may be.
+    pub(super) fn region(&self) -> Region<'a> {
+        match self.core {
+            Core::Point => Region::Solid { middle: Vec3::ZERO, half: Vec3::ZERO },
+            Core::Segment { half } => Region::Solid { middle: Vec3::ZERO, half: vec3(0.0, 0.0, half) },
+            Core::Box { half } => Region::Solid { middle: Vec3::ZERO, half: Vec3::from_array(half) },
+            Core::Body(body) => Region::Surface(body),
+        }
+    }
+
+    /// The corners of the core: at most `N` of them.
+    pub(super) fn corners<const N: usize>(&self) -> [Option<Foot>; N] {
+        let mut corners = [None; N];
+        let mut free = corners.iter_mut();
+        match self.region() {
+            Region::Surface(body) => {
+                for vertex in body.vertices() {
+                    let first = usize::from(vertex.first_spoke);
+                    let spokes = body.spokes().get(first..first + usize::from(vertex.spokes)).unwrap_or(&[]);
+                    let edge_of = |spoke: &Spoke| body.edges().get(usize::from(spoke.edge));
+                    let is_sharp = |spoke: &&Spoke| edge_of(spoke).is_some_and(|edge| edge.kind != EdgeKind::Smooth);
+                    let Some(spoke) = spokes.iter().find(is_sharp) else { continue };
+                    let t = if spoke.at_upper_end { 1.0 } else { 0.0 };
+                    let place = edge_of(spoke).and_then(|edge| body.position_on_face(edge.faces[0], t));
+                    if let (Some((face, at)), Some(corner)) = (place, free.next()) {
+                        *corner = Some(Foot::on(body, face, at));
+                    }
+                }
+            }
+            Region::Solid { middle, half } => {
+                for signs in 0..8_u8 {
+                    let is_upper = [0, 1, 2].map(|axis| signs >> axis & 1 == 1);
+                    let half = half.to_array();
+                    let is_double = (0..3).any(|axis| is_upper[axis] && half[axis] <= 0.0);
+                    if let (false, Some(corner)) = (is_double, free.next()) {
+                        let at: [f32; 3] = core::array::from_fn(|k| if is_upper[k] { half[k] } else { -half[k] });
+                        *corner = Some(Foot::in_solid(middle + Vec3::from_array(at)));
+                    }
+                }
+            }
+        }
+        corners
+    }
+}
+
+/// Where the core's point may be: in a box of its coordinates, or on the faces of a body.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Region<'a> {
+    Solid { middle: Vec3, half: Vec3 },
+    Surface(&'a Body<'a>),
+}
+
+impl Region<'_> {
+    /// A single point.
+    pub const fn point(middle: Vec3) -> Self {
+        Self::Solid { middle, half: Vec3::ZERO }
+    }
+
+    /// The nearest point to another, in the tool's frame, and the face of the body that holds it with its parameters.
+    pub fn nearest(&self, to: Vec3) -> (Vec3, u16, [f32; 2]) {
+        match self {
+            Self::Solid { middle, half } => {
+                let along = |x: f32, middle: f32, half: f32| saturate(x, middle - half, middle + half);
+                let x = along(to.x, middle.x, half.x);
+                (vec3(x, along(to.y, middle.y, half.y), along(to.z, middle.z, half.z)), 0, [0.0; 2])
+            }
+            Self::Surface(body) => {
+                let located = body.locate(to);
+                (located.point, located.face, located.parameters)
+            }
+        }
+    }
+}
+
+/// The unit vector along a vector; zero of zero.
+pub(super) fn unit(vector: Vec3) -> Vec3 {
+    let squared = vector.length_squared();
+    if squared > f32::MIN_POSITIVE { vector * inverse_sqrt(squared) } else { Vec3::ZERO }
+}
+
+const fn is_length(x: f32) -> bool {
+    x >= 0.0 && x < f32::INFINITY
+}

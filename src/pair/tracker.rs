@@ -1,0 +1,400 @@
+//! Location and tracking of a tool: the closest pair, the core's corners, and the rivals that may become the pair.
+
+use super::cells::{Cells, Visit};
+use super::common_normal;
+use super::step::{Foot, Moved, Pair};
+use super::tool::{Core, Region, Tool};
+use crate::body::{Body, EdgeKind};
+use crate::math::{Vec3, sqrt};
+use crate::track::Placement;
+
+/// Corners of a core that are tracked.
+const CORNERS: usize = 8;
+/// Other minima of a body that is not convex that are tracked.
+const RIVALS: usize = 4;
+/// Cells that the audit visits in a tick by default.
+pub const DEFAULT_CELLS: u16 = 16;
+/// Maximum cells that a location visits.
+pub const MAX_CELLS: u16 = 16_384;
+/// Maximum steps of a descent in a location.
+const MAX_STEPS: u32 = 48;
+/// Rounds of projections in turn before the first descent of a location.
+const ROUNDS: usize = 3;
+/// Relative to the size: minima that are farther than the pair by less are tracked beside it.
+const LOOKAHEAD: f32 = 0.03;
+/// Relative to the size: bodies nearer than this intersect, as far as their coordinates tell.
+const TOUCHING: f32 = 1.0e-6;
+/// Relative to the size: a pair takes the place of another if it is nearer by more.
+const NEARER: f32 = 3.0e-8;
+/// Relative to the size: witness points nearer than this are those of one minimum.
+const SAME: f32 = 1.0e-3;
+/// Motion of the core between two ticks, relative to the body's size, above which it has jumped: locate it again.
+const JUMP: f32 = 0.03;
+
+/// What is known of the closest pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ToolStatus {
+    /// The points follow the closest pair.
+    Following,
+    /// The points are at rest, and no step lowers their distance. On a convex body they are the closest pair.
+    AtRest,
+    /// Body and core intersect. Between smooth convex bodies the distance is minus the depth, otherwise at least it.
+    Inside,
+    /// The points rest on the far side of a convex body. Locate the tool again.
+    Behind,
+    /// The tool has jumped. Locate it again.
+    Jumped,
+    /// A location used up its steps or cells: another pair may be nearer.
+    StepLimit,
+}
+
+/// The closest pair of a body and a tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest {
+    /// Distance of body and core less the tool's radius, metres.
+    pub distance: f32,
+    /// The point on the body, metres, in the frame of its tables.
+    pub body: Vec3,
+    /// The point of the core, metres, in the tool's frame.
+    pub core: Vec3,
+    /// Evaluations of patches spent.
+    pub evaluations: u32,
+    /// What is known of it.
+    pub status: ToolStatus,
+}
+
+/// State of the tracker of a tool.
+#[derive(Clone, Copy, Debug)]
+pub struct ToolWitness {
+    pair: Pair,
+    /// The core's corners, each with its nearest point of the body.
+    corners: [Option<Pair>; CORNERS],
+    rivals: [Option<Pair>; RIVALS],
+    /// The descent from a cell of the audit.
+    explorer: Option<Pair>,
+    cells: Cells,
+    placement: Placement,
+    /// Whether the pair is that of the common normal.
+    is_inside: bool,
+}
+
+/// A body and a tool at a pose, and what has been spent on them.
+struct Scene<'a> {
+    body: &'a Body<'a>,
+    region: Region<'a>,
+    placement: &'a Placement,
+    evaluations: u32,
+}
+
+impl<'a> Body<'a> {
+    /// Finds the closest pair of this body and a tool, without history.
+    ///
+    /// Projections in turn on body and core, which on convex ones tend to the closest pair from any start, then the
+    /// joint step. The signs of the normals prove the result on convex bodies. Otherwise all cells of the body that can
+    /// hold a nearer point are searched, at most [`MAX_CELLS`].
+    pub fn locate_tool(&self, tool: &Tool, placement: &Placement) -> (ToolWitness, Closest) {
+        let mut scene = Scene { body: self, region: tool.region(), placement, evaluations: 0 };
+        let mut status = ToolStatus::AtRest;
+        let (mut pair, mut is_at_rest) = scene.first();
+        let mut state = ToolWitness {
+            pair,
+            corners: [None; CORNERS],
+            rivals: [None; RIVALS],
+            explorer: None,
+            cells: Cells::default(),
+            placement: *placement,
+            is_inside: false,
+        };
+        if !(self.is_convex() && is_at_rest && scene.is_global(&pair)) {
+            let is_whole = scene.search(&mut pair, &mut is_at_rest, &mut state.rivals);
+            if !(is_whole && is_at_rest) {
+                status = ToolStatus::StepLimit;
+            }
+        }
+        let mut distance = scene.distance(&pair);
+        let is_apart = distance > TOUCHING * self.size() && (scene.is_global(&pair) || !scene.has_inside());
+        if !is_apart {
+            status = ToolStatus::Inside;
+            let common = match *tool.core() {
+                Core::Body(core) if common_normal::is_smooth(self) && common_normal::is_smooth(core) => {
+                    common_normal::locate(self, core, placement, &mut scene.evaluations)
+                }
+                _ => None,
+            };
+            distance = -distance;
+            if let Some((at, depth)) = common {
+                (pair, distance, state.is_inside) = (at, -depth, true);
+            }
+        }
+        (state.pair, state.corners) = (pair, tool.corners().map(|corner| corner.map(|b| scene.beneath(b))));
+        let closest = Closest {
+            distance: distance - tool.radius(),
+            body: pair.a.point(),
+            core: pair.b.point(),
+            evaluations: scene.evaluations,
+            status,
+        };
+        (state, closest)
+    }
+
+    /// One tick: follows the closest pair of this body and a tool with a few steps, each of at most one evaluation of
+    /// the body and one of the core and as many for their switches. On bodies that are not convex it visits `cells` of
+    /// the audit too.
+    ///
+    /// The distance at rest never rises by more than rounding. The nearest of the pair, the corners and the rivals is
+    /// the result.
+    pub fn step_tool(&self, tool: &Tool, state: &mut ToolWitness, placement: &Placement, cells: u16) -> Closest {
+        let mut scene = Scene { body: self, region: tool.region(), placement, evaluations: 0 };
+        let has_jumped = state.has_jumped(placement, self.size());
+        state.placement = *placement;
+        if state.is_inside
+            && let Core::Body(core) = *tool.core()
+        {
+            let depth =
+                common_normal::follow(&mut state.pair, self, core, placement, 3, &mut scene.evaluations);
+            state.is_inside = depth.is_some_and(|depth| depth > 0.0);
+            if let Some(depth) = depth
+                && state.is_inside
+            {
+                return scene.closest(&state.pair, -depth - tool.radius(), ToolStatus::Inside);
+            }
+        }
+        let moved = scene.tick(&mut state.pair);
+        for corner in state.corners.iter_mut().flatten() {
+            let b = corner.b;
+            scene.tick_on(&Region::point(b.point()), corner);
+            corner.b = b;
+        }
+        for rival in state.rivals.iter_mut().flatten() {
+            scene.tick(rival);
+        }
+        if !self.is_convex() {
+            scene.audit(state, cells);
+        }
+        scene.exchange(state);
+        let distance = scene.distance(&state.pair);
+        let status = if has_jumped {
+            ToolStatus::Jumped
+        } else if distance <= TOUCHING * self.size() {
+            ToolStatus::Inside
+        } else if self.is_convex() && moved == Moved::AtRest && !scene.is_global(&state.pair) {
+            ToolStatus::Behind
+        } else if moved == Moved::AtRest {
+            ToolStatus::AtRest
+        } else {
+            ToolStatus::Following
+        };
+        scene.closest(&state.pair, distance - tool.radius(), status)
+    }
+}
+
+impl ToolWitness {
+    /// The closest pair.
+    pub const fn pair(&self) -> &Pair {
+        &self.pair
+    }
+
+    /// The pair, the corners and the rivals: what may come into contact.
+    pub fn pairs(&self) -> impl Iterator<Item = &Pair> {
+        core::iter::once(&self.pair).chain(self.corners.iter().flatten()).chain(self.rivals.iter().flatten())
+    }
+
+    /// Whether the core's witness point or its axes have moved far since the last tick.
+    fn has_jumped(&self, placement: &Placement, size: f32) -> bool {
+        let point = self.pair.b.point();
+        let moved = placement.point_to_a(point) - self.placement.point_to_a(point);
+        let turned = [0, 1, 2].map(|axis| (placement.axes[axis] - self.placement.axes[axis]).length_squared());
+        let limit = JUMP * size;
+        // Not so for a pose that is not finite.
+        !(moved.length_squared() <= limit * limit && turned.iter().all(|turn| *turn <= 0.1))
+    }
+}
+
+impl Scene<'_> {
+    fn distance(&self, pair: &Pair) -> f32 {
+        sqrt(pair.difference(self.placement).length_squared())
+    }
+
+    const fn closest(&self, pair: &Pair, distance: f32, status: ToolStatus) -> Closest {
+        Closest {
+            distance,
+            body: pair.a.point(),
+            core: pair.b.point(),
+            evaluations: self.evaluations,
+            status,
+        }
+    }
+
+    /// A step of the pair, and then the switches: asked before the step, with the new pose, motion along an edge would
+    /// hide that the pair wants to cross it.
+    fn tick(&mut self, pair: &mut Pair) -> Moved {
+        let region = self.region;
+        self.tick_on(&region, pair)
+    }
+
+    fn tick_on(&mut self, region: &Region, pair: &mut Pair) -> Moved {
+        let mut moved = pair.step(self.body, region, self.placement);
+        self.evaluations += 1;
+        let towards = -pair.difference(self.placement);
+        let mut switched = pair.a.hand_over(self.body, towards);
+        if let Region::Surface(core) = region {
+            self.evaluations += 1;
+            switched |= pair.b.hand_over(core, -self.placement.direction_to_b(towards));
+        }
+        if switched {
+            (moved, self.evaluations) = (Moved::Nearer, self.evaluations + 1);
+        }
+        moved
+    }
+
+    /// Steps until the pair rests. Returns whether it does.
+    fn descend(&mut self, pair: &mut Pair) -> bool {
+        // A step at rest still refines the points.
+        let mut rests = 0;
+        for _ in 0..MAX_STEPS {
+            rests = if self.tick(pair) == Moved::AtRest { rests + 1 } else { 0 };
+            if rests == 3 {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The nearest point of the body to a point of the core.
+    fn beneath(&mut self, b: Foot) -> Pair {
+        let located = self.body.locate(self.placement.point_to_a(b.point()));
+        self.evaluations += u32::from(located.evaluations);
+        Pair { a: Foot::on(self.body, located.face, located.parameters), b, halvings: 0 }
+    }
+
+    /// A first pair and its descent, by projections in turn from the core's point nearest to the body's middle.
+    fn first(&mut self) -> (Pair, bool) {
+        let (mut point, ..) = self.region.nearest(self.placement.point_to_b(Vec3::ZERO));
+        let mut pair = self.beneath(Foot::in_solid(point));
+        for _ in 0..ROUNDS {
+            pair = Pair::facing(pair.a, &self.region, self.placement);
+            point = pair.b.point();
+            pair.a = self.beneath(Foot::in_solid(point)).a;
+        }
+        pair = Pair::facing(pair.a, &self.region, self.placement);
+        let is_at_rest = self.descend(&mut pair);
+        (pair, is_at_rest)
+    }
+
+    /// Searches all cells that can hold a nearer pair. Returns whether it came to the end.
+    fn search(&mut self, best: &mut Pair, is_at_rest: &mut bool, rivals: &mut [Option<Pair>; RIVALS]) -> bool {
+        let (mut cells, mut least) = (Cells::default(), self.distance(best));
+        let margin = if self.body.is_convex() { 0.0 } else { LOOKAHEAD * self.body.size() };
+        for _ in 0..MAX_CELLS {
+            self.evaluations += 1;
+            match cells.visit(self.body, &self.region, self.placement, least + margin) {
+                Visit::Nothing => {}
+                Visit::End => return true,
+                Visit::Start(start) => {
+                    if rivals.iter().flatten().chain([&*best]).any(|known| Cells::holds(&start.a, &known.a)) {
+                        continue;
+                    }
+                    let mut pair = start;
+                    let rests = self.descend(&mut pair);
+                    let distance = self.distance(&pair);
+                    if distance < least - NEARER * self.body.size() {
+                        let second = core::mem::replace(best, pair);
+                        (least, *is_at_rest) = (distance, rests);
+                        pair = second;
+                    }
+                    self.keep(best, rivals, pair);
+                }
+            }
+        }
+        false
+    }
+
+    /// Keeps a rival, unless it is known, or all that are known are nearer.
+    fn keep(&self, best: &Pair, rivals: &mut [Option<Pair>; RIVALS], rival: Pair) {
+        if rivals.iter().flatten().chain([best]).any(|known| self.is_same(known, &rival)) {
+            return;
+        }
+        let mut entering = Some(rival);
+        for slot in rivals {
+            if let Some(pair) = entering
+                && slot.is_none_or(|known| self.distance(&pair) < self.distance(&known))
+            {
+                entering = core::mem::replace(slot, entering);
+            }
+        }
+    }
+
+    fn is_same(&self, one: &Pair, other: &Pair) -> bool {
+        let same = SAME * self.body.size();
+        (one.a.point() - other.a.point()).length_squared() <= same * same
+            && (one.b.point() - other.b.point()).length_squared() <= same * same
+    }
+
+    /// Visits some cells, and follows the descent from one that may hold another minimum.
+    fn audit(&mut self, state: &mut ToolWitness, cells: u16) {
+        let bound = self.distance(&state.pair) + LOOKAHEAD * self.body.size();
+        for _ in 0..cells {
+            if let Some(mut explorer) = state.explorer {
+                let moved = self.tick(&mut explorer);
+                state.explorer = (moved != Moved::AtRest).then_some(explorer);
+                if moved == Moved::AtRest && self.distance(&explorer) < bound {
+                    self.keep(&state.pair, &mut state.rivals, explorer);
+                }
+                continue;
+            }
+            self.evaluations += 1;
+            if let Visit::Start(start) = state.cells.visit(self.body, &self.region, self.placement, bound) {
+                let is_known = state.rivals.iter().flatten().chain([&state.pair]).any(|known| {
+                    Cells::holds(&start.a, &known.a)
+                });
+                state.explorer = (!is_known).then_some(start);
+            }
+        }
+    }
+
+    /// Makes the nearest of pair, corners and rivals the pair; drops rivals that are far, or one with another.
+    fn exchange(&self, state: &mut ToolWitness) {
+        let mut least = self.distance(&state.pair) - NEARER * self.body.size();
+        for corner in state.corners.iter().flatten() {
+            let distance = self.distance(corner);
+            if distance < least {
+                (least, state.pair) = (distance, *corner);
+            }
+        }
+        for rival in state.rivals.iter_mut().flatten() {
+            let distance = self.distance(rival);
+            if distance < least {
+                least = distance;
+                core::mem::swap(rival, &mut state.pair);
+            }
+        }
+        let far = least + 2.0 * LOOKAHEAD * self.body.size();
+        for index in 0..RIVALS {
+            let Some(rival) = state.rivals[index] else { continue };
+            let before = &state.rivals[..index];
+            if self.distance(&rival) > far
+                || before.iter().flatten().chain([&state.pair]).any(|known| self.is_same(known, &rival))
+            {
+                state.rivals[index] = None;
+            }
+        }
+    }
+
+    /// Whether the body has an inside: no open edge.
+    fn has_inside(&self) -> bool {
+        self.body.edges().iter().all(|edge| edge.kind != EdgeKind::Open)
+    }
+
+    /// The sign test: whether the two support planes part the bodies. A rest of convex bodies is then their closest
+    /// pair. A solid's nearest point needs no test.
+    fn is_global(&self, pair: &Pair) -> bool {
+        let difference = pair.difference(self.placement);
+        let of_body = pair.a.outward(self.body).dot(difference) < 0.0;
+        of_body
+            && match &self.region {
+                Region::Solid { .. } => true,
+                Region::Surface(core) => pair.b.outward(core).dot(self.placement.direction_to_b(difference)) > 0.0,
+            }
+    }
+}
