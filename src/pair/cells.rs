@@ -17,14 +17,14 @@ use crate::track::Placement;
 const MAX_LEVEL: u8 = 4;
 
 /// The next cell: a face, and a path in its quad-tree, two bits a level.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cells {
     face: u16,
     level: u8,
     path: u16,
 }
 
-/// What a visit found.
+/// Result of a visit.
 pub(super) enum Visit {
     /// Nothing here; other cells follow.
     Nothing,
@@ -35,10 +35,13 @@ pub(super) enum Visit {
 }
 
 impl Cells {
+    /// All of the first face.
+    pub const START: Self = Self { face: 0, level: 0, path: 0 };
+
     /// Looks at the next cell, with one evaluation of the body and one projection on the core.
     pub fn visit(&mut self, body: &Body, region: &Region, placement: &Placement, bound: f32) -> Visit {
         if usize::from(self.face) >= body.faces().len() {
-            *self = Self::default();
+            *self = Self::START;
             return Visit::End;
         }
         let [middle, half] = self.square();
@@ -108,7 +111,7 @@ impl Cells {
             (self.level, self.path) = (self.level - 1, self.path >> 2);
         }
         if self.level == 0 {
-            *self = Self { face: self.face + 1, ..Self::default() };
+            *self = Self { face: self.face + 1, ..Self::START };
         }
     }
 }
@@ -119,7 +122,7 @@ mod tests {
 
     #[test]
     fn the_cells_of_a_level_cover_a_face_once() {
-        let mut cells = Cells { level: MAX_LEVEL, ..Cells::default() };
+        let mut cells = Cells { level: MAX_LEVEL, ..Cells::START };
         let mut seen = [[0_u8; 16]; 16];
         while cells.face == 0 {
             if cells.level < MAX_LEVEL {

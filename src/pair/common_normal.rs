@@ -1,7 +1,7 @@
 //! Where two smooth convex bodies intersect: the pair of points whose normals are opposite and whose difference is
-//! along them, by Newton's method. Its depth is the least translation that separates the bodies.
+//! along them, by Newton's method. Its depth is the smallest translation that separates the bodies.
 //!
-//! Unlike the closest pair it is no minimum of the distance (theory §13), so that no Lyapunov function guards it: starts
+//! Unlike the closest pair it is no minimum of the distance (theory §7), so that no Lyapunov function guards it: starts
 //! come from the support points of sampled normals. Regular through contact where the curvatures do not both vanish.
 
 use super::step::{Foot, Pair};

@@ -2,9 +2,9 @@
 //!
 //! A [`Tool`] is a convex core and a radius. The witness points of body and core move in one *joint* step of second
 //! order, with one certificate: the distance between them is the Lyapunov function of both, and of both automata that
-//! switch faces (theory §13). [`Body::locate_tool`] finds the pair without history, [`Body::step_tool`] follows it.
+//! switch faces (theory §14). [`Body::locate_tool`] finds the pair without history, [`Body::step_tool`] follows it.
 //!
-//! A tick: a joint step for the pair ([`step`](self)), the core's corners as points and the rivals; then the switch to
+//! A tick: a joint step for the pair , the core's corners as points and the rivals; then the switch to
 //! the next face; then the nearest becomes the pair; then, on bodies that are not convex, some cells of the audit.
 
 mod cells;

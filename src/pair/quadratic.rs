@@ -119,9 +119,8 @@ mod tests {
         for _ in 0..2_000 {
             let columns: [[f32; 7]; SIZE] = core::array::from_fn(|_| core::array::from_fn(|_| random()));
             let product = |i: usize, k: usize| (0..7).map(|j| columns[i][j] * columns[k][j]).sum::<f32>();
-            let hessian = core::array::from_fn(|i| {
-                core::array::from_fn(|k| product(i, k) + if i == k { 0.1 } else { 0.0 })
-            });
+            let hessian =
+                core::array::from_fn(|i| core::array::from_fn(|k| product(i, k) + if i == k { 0.1 } else { 0.0 }));
             let at_border = random() > 0.0;
             let model = Quadratic {
                 gradient: core::array::from_fn(|_| 3.0 * random()),

@@ -3,7 +3,7 @@
 //! `x` are the parameters of the body's point `f(x)`, `y` the coordinates of the core's point `h(y)`: parameters of a
 //! face, or coordinates in a solid. With `d` the step in both, `a = Df d_A − Dh d_B`, `b = D²f[d_A, d_A] − D²h[d_B,
 //! d_B]` and `s = −gᵀd`, the difference `ΔR = f − h` is a quadratic plus a remainder, so that theory §12's lemma holds
-//! as it stands: `R (‖ΔR(t d)‖ − R) ≤ −s t + …`. A solid's `h` is linear, and has no remainder.
+//! as it stands (§14): `R (‖ΔR(t d)‖ − R) ≤ −s t + …`. A solid's `h` is linear, and has no remainder.
 
 use super::quadratic::{Quadratic, SIZE, Step};
 use super::tool::Region;
@@ -41,11 +41,12 @@ pub struct Pair {
     pub a: Foot,
     /// On the core.
     pub b: Foot,
-    /// Number of halvings of the next step: one more after each rejected step in a row.
-    pub(super) halvings: u8,
+    /// Number of halvings of the next step: one more after each rejected step in a row. None is rejected with valid
+    /// bounds on faces that are C¹.
+    pub halvings: u8,
 }
 
-/// What a step did.
+/// Outcome of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Moved {
     /// Both points moved, and are not farther apart.

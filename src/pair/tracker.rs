@@ -18,6 +18,8 @@ pub const DEFAULT_CELLS: u16 = 16;
 pub const MAX_CELLS: u16 = 16_384;
 /// Maximum steps of a descent in a location.
 const MAX_STEPS: u32 = 48;
+/// Steps without a fall of the distance after which a descent ends.
+const MAX_STALLS: u32 = 12;
 /// Rounds of projections in turn before the first descent of a location.
 const ROUNDS: usize = 3;
 /// Relative to the size: minima that are farther than the pair by less are tracked beside it.
@@ -31,7 +33,7 @@ const SAME: f32 = 1.0e-3;
 /// Motion of the core between two ticks, relative to the body's size, above which it has jumped: locate it again.
 const JUMP: f32 = 0.03;
 
-/// What is known of the closest pair.
+/// State of the closest pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ToolStatus {
@@ -60,7 +62,7 @@ pub struct Closest {
     pub core: Vec3,
     /// Evaluations of patches spent.
     pub evaluations: u32,
-    /// What is known of it.
+    /// State of the pair.
     pub status: ToolStatus,
 }
 
@@ -97,15 +99,7 @@ impl<'a> Body<'a> {
         let mut scene = Scene { body: self, region: tool.region(), placement, evaluations: 0 };
         let mut status = ToolStatus::AtRest;
         let (mut pair, mut is_at_rest) = scene.first();
-        let mut state = ToolWitness {
-            pair,
-            corners: [None; CORNERS],
-            rivals: [None; RIVALS],
-            explorer: None,
-            cells: Cells::default(),
-            placement: *placement,
-            is_inside: false,
-        };
+        let mut state = ToolWitness::new(pair, placement);
         if !(self.is_convex() && is_at_rest && scene.is_global(&pair)) {
             let is_whole = scene.search(&mut pair, &mut is_at_rest, &mut state.rivals);
             if !(is_whole && is_at_rest) {
@@ -138,6 +132,23 @@ impl<'a> Body<'a> {
         (state, closest)
     }
 
+    /// The state with the witness points on a face of the body and a face of the core; on a core that is no body, at its
+    /// nearest point. Its corners are not tracked.
+    pub fn start_tool(
+        &self,
+        tool: &Tool,
+        placement: &Placement,
+        (face, parameters): (u16, [f32; 2]),
+        (core_face, core_parameters): (u16, [f32; 2]),
+    ) -> ToolWitness {
+        let a = Foot::on(self, face, parameters);
+        let pair = match tool.region() {
+            region @ Region::Solid { .. } => Pair::facing(a, &region, placement),
+            Region::Surface(core) => Pair { a, b: Foot::on(core, core_face, core_parameters), halvings: 0 },
+        };
+        ToolWitness::new(pair, placement)
+    }
+
     /// One tick: follows the closest pair of this body and a tool with a few steps, each of at most one evaluation of
     /// the body and one of the core and as many for their switches. On bodies that are not convex it visits `cells` of
     /// the audit too.
@@ -151,8 +162,7 @@ impl<'a> Body<'a> {
         if state.is_inside
             && let Core::Body(core) = *tool.core()
         {
-            let depth =
-                common_normal::follow(&mut state.pair, self, core, placement, 3, &mut scene.evaluations);
+            let depth = common_normal::follow(&mut state.pair, self, core, placement, 3, &mut scene.evaluations);
             state.is_inside = depth.is_some_and(|depth| depth > 0.0);
             if let Some(depth) = depth
                 && state.is_inside
@@ -190,6 +200,18 @@ impl<'a> Body<'a> {
 }
 
 impl ToolWitness {
+    const fn new(pair: Pair, placement: &Placement) -> Self {
+        Self {
+            pair,
+            corners: [None; CORNERS],
+            rivals: [None; RIVALS],
+            explorer: None,
+            cells: Cells::START,
+            placement: *placement,
+            is_inside: false,
+        }
+    }
+
     /// The closest pair.
     pub const fn pair(&self) -> &Pair {
         &self.pair
@@ -217,13 +239,7 @@ impl Scene<'_> {
     }
 
     const fn closest(&self, pair: &Pair, distance: f32, status: ToolStatus) -> Closest {
-        Closest {
-            distance,
-            body: pair.a.point(),
-            core: pair.b.point(),
-            evaluations: self.evaluations,
-            status,
-        }
+        Closest { distance, body: pair.a.point(), core: pair.b.point(), evaluations: self.evaluations, status }
     }
 
     /// A step of the pair, and then the switches: asked before the step, with the new pose, motion along an edge would
@@ -250,11 +266,15 @@ impl Scene<'_> {
 
     /// Steps until the pair rests. Returns whether it does.
     fn descend(&mut self, pair: &mut Pair) -> bool {
-        // A step at rest still refines the points.
-        let mut rests = 0;
+        // Steps at rest still refine the points. Where rounding hands a point to and fro between two faces, the distance
+        // tells.
+        let (mut rests, mut stalls, mut least) = (0, 0, self.distance(pair));
         for _ in 0..MAX_STEPS {
             rests = if self.tick(pair) == Moved::AtRest { rests + 1 } else { 0 };
-            if rests == 3 {
+            let distance = self.distance(pair);
+            let falls = distance < least - NEARER * self.body.size();
+            (stalls, least) = if falls { (0, distance) } else { (stalls + 1, least) };
+            if rests == 3 || stalls == MAX_STALLS {
                 return true;
             }
         }
@@ -284,7 +304,7 @@ impl Scene<'_> {
 
     /// Searches all cells that can hold a nearer pair. Returns whether it came to the end.
     fn search(&mut self, best: &mut Pair, is_at_rest: &mut bool, rivals: &mut [Option<Pair>; RIVALS]) -> bool {
-        let (mut cells, mut least) = (Cells::default(), self.distance(best));
+        let (mut cells, mut least) = (Cells::START, self.distance(best));
         let margin = if self.body.is_convex() { 0.0 } else { LOOKAHEAD * self.body.size() };
         for _ in 0..MAX_CELLS {
             self.evaluations += 1;
@@ -345,9 +365,8 @@ impl Scene<'_> {
             }
             self.evaluations += 1;
             if let Visit::Start(start) = state.cells.visit(self.body, &self.region, self.placement, bound) {
-                let is_known = state.rivals.iter().flatten().chain([&state.pair]).any(|known| {
-                    Cells::holds(&start.a, &known.a)
-                });
+                let is_known =
+                    state.rivals.iter().flatten().chain([&state.pair]).any(|known| Cells::holds(&start.a, &known.a));
                 state.explorer = (!is_known).then_some(start);
             }
         }

@@ -4,6 +4,7 @@ mod body_source;
 mod committed;
 mod flaws;
 mod models;
+mod pair_steps;
 mod random_patches;
 mod second_order;
 mod splitting;

@@ -6,3 +6,4 @@ mod guarantee;
 mod limits;
 mod pairs;
 mod sweep;
+mod tools;

@@ -24,7 +24,7 @@ use std::process::ExitCode;
 /// the body, tx,ty,tz the point of the core in the tool's frame; steps counts patch evaluations.
 ///
 /// cold: every row by itself. status: converged; inside if body and core intersect: between smooth convex bodies
-/// distance is then minus the depth, otherwise the depth is not known, and at least what is printed; behind if the
+/// distance is then minus the depth, otherwise the depth is at least minus distance; behind if the
 /// points rest on the far side of a convex body; step-limit if a search was stopped short.
 ///
 /// track: rows are successive servo ticks of one tool. The first row is cold; each other row is --ticks ticks, and a

@@ -8,6 +8,7 @@ mod from_cad;
 mod golden;
 mod installed;
 mod outside;
+mod pair;
 mod protected_demo;
 mod queries;
 mod race;
