@@ -97,10 +97,10 @@ fn a_tool_that_goes_round_a_ball_is_followed_in_one_tick_a_row() {
         let (first, axis, spin) = (turn(&mut random), direction(&mut random), direction(&mut random));
         let start = axis.any_orthonormal_vector() * (radius + half.length() + 0.05 * size);
         let mut state = None;
-        for tick in 0..600 {
-            // Round the middle at 0.3 m/s and spinning by 2 rad/s, at 4 kHz, on a ball of 0.06 m.
+        for tick in 0..3_000 {
+            // Round the middle at 0.3 m/s and spinning by 2 rad/s, at 4 kHz.
             let time = f64::from(tick) / 4000.0;
-            let about = DQuat::from_axis_angle(axis, 0.3 / 0.06 * time * 4.0);
+            let about = DQuat::from_axis_angle(axis, 0.3 / start.length() * time);
             let turn = DQuat::from_axis_angle(spin, 2.0 * time) * first;
             let origin = about * start;
             let (tool, placement) = (Tool::new(core(half), 0.0).expect("a tool"), placement(turn, origin));
@@ -158,33 +158,29 @@ fn a_box_that_rocks_on_a_flat_side_keeps_its_distance() {
     assert!(worst <= 3e-7, "{worst:e}");
 }
 
+/// A box under the flat bottom of a box with a dome: its far sides hold rests.
 #[test]
 fn every_start_on_convex_bodies_ends_at_the_closest_pair_or_is_named_behind() {
-    let (ball, _) = body("sphere_body");
-    let (base, _) = body("capped_box");
-    let (radius, size) = (radius(&ball), f64::from(ball.size()));
+    let (base, centre) = body("capped_box");
+    let size = f64::from(base.size());
+    let half = DVec3::new(0.012, 0.007, 0.004);
+    let tool = Tool::new(core(half), 0.0).expect("a tool");
     let mut random = Random::new(39);
     let (mut behind, mut global) = (0, 0);
     for round in 0..600 {
-        let half = DVec3::from_array(HALVES[round % 3]) * radius;
         let turn = turn(&mut random);
-        let origin = direction(&mut random) * (radius + half.length() + size * random.scale(1e-3, 0.3));
-        let placement = placement(turn, origin);
-        // The ball as a core sees the same box from its side: both as the body and as the tool.
-        let tool = if round % 4 == 3 { Tool::new(Core::Body(&ball), 0.0) } else { Tool::new(core(half), 0.0) };
-        let tool = tool.expect("a tool");
-        let (on, expected) = match tool.core() {
-            Core::Body(_) => (&ball, origin.length() - 2.0 * radius),
-            _ => (&ball, from_ball(radius, half, turn, origin)),
-        };
-        if expected < 1e-3 * size {
-            continue;
-        }
+        let reach = (0..8).map(|signs| {
+            let sign = |axis: i32| if signs >> axis & 1 == 1 { 1.0 } else { -1.0 };
+            (turn * (half * DVec3::new(sign(0), sign(1), sign(2)))).z
+        });
+        let expected = size * random.scale(1e-3, 0.5);
+        let origin = DVec3::new(0.03, 0.02, -expected - reach.fold(0.0, f64::max));
+        let placement = placement(turn, origin - centre);
         let mut start = || (random.between(0.0, 5.999) as u16, [(); 2].map(|()| random.between(0.0, 1.0) as f32));
-        let mut state = on.start_tool(&tool, &placement, start(), start());
-        let mut found = on.step_tool(&tool, &mut state, &placement, 0);
+        let mut state = base.start_tool(&tool, &placement, start(), start());
+        let mut found = base.step_tool(&tool, &mut state, &placement, 0);
         for _ in 0..200 {
-            found = on.step_tool(&tool, &mut state, &placement, 0);
+            found = base.step_tool(&tool, &mut state, &placement, 0);
         }
         if found.status == ToolStatus::Behind {
             behind += 1;
@@ -196,19 +192,6 @@ fn every_start_on_convex_bodies_ends_at_the_closest_pair_or_is_named_behind() {
     }
     println!("{global} starts ended at the closest pair, {behind} behind");
     assert!(global > 100 && behind > 20, "{global} {behind}");
-    // Sharp edges: every start below a flat side ends at it, or is named.
-    let (tool, placement) =
-        (Tool::new(Core::Box { half: [0.004; 3] }, 0.0).expect("a tool"), placement(DQuat::IDENTITY, DVec3::Z * -0.06));
-    let (_, expected) = base.locate_tool(&tool, &placement);
-    for face in 0..base.faces().len() as u16 {
-        let mut state = base.start_tool(&tool, &placement, (face, [0.3, 0.6]), (0, [0.5; 2]));
-        let mut found = expected;
-        for _ in 0..200 {
-            found = base.step_tool(&tool, &mut state, &placement, 0);
-        }
-        let is_it = (found.distance - expected.distance).abs() <= 1e-6 * base.size();
-        assert!(is_it || found.status == ToolStatus::Behind, "face {face}: {found:?}");
-    }
 }
 
 #[test]
@@ -227,7 +210,11 @@ fn two_balls_that_intersect_have_the_depth_of_their_centres() {
             let placement = placement(turn, towards * (2.0 * radius - depth));
             let mut followed = state.as_mut().map(|state| ball.step_tool(&tool, state, &placement, 0));
             // The tracker reports contact, and has the depth from the next location on.
-            if followed.is_none_or(|found| found.status == ToolStatus::Inside && found.distance >= 0.0) {
+            let is_lost = |found: palpate::pair::Closest| match found.status {
+                ToolStatus::Inside => found.distance >= 0.0,
+                status => status == ToolStatus::Behind,
+            };
+            if followed.is_none_or(is_lost) {
                 let (start, found) = ball.locate_tool(&tool, &placement);
                 (state, followed) = (Some(start), Some(found));
                 located += 1;
