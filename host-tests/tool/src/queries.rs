@@ -89,7 +89,7 @@ fn columns<const N: usize>(
                 bail!("{file}:{line}: {name} is {number}");
             }
             let most = farthest(index);
-            ensure!(number.abs() <= most, "{file}:{line}: {name} is {number}, beyond {most:e}");
+            ensure!(number.abs() <= most, "{file}:{line}: {name} is beyond {most:e}");
         }
         rows.push((line, numbers));
     }

@@ -38,7 +38,7 @@ pub struct Arguments {
     /// Core of the tool: point, segment:H along z, box:X,Y,Z (half lengths), or a model of a convex body.
     #[arg(long, value_name = "TOOL")]
     tool: String,
-    /// Radius of the ball around the core; default: 0.
+    /// Radius of the ball around the core.
     #[arg(long, value_name = "R", default_value_t = 0.0)]
     radius: f64,
     /// Poses (CSV with a header).
