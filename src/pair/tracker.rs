@@ -102,6 +102,9 @@ impl<'a> Body<'a> {
         let mut state = ToolWitness::new(pair, placement);
         if !(self.is_convex() && is_at_rest && scene.is_global(&pair)) {
             let is_whole = scene.search(&mut pair, &mut is_at_rest, &mut state.rivals);
+            for _ in 0..ROUNDS {
+                is_at_rest = is_at_rest || scene.descend(&mut pair);
+            }
             if !(is_whole && is_at_rest) {
                 status = ToolStatus::StepLimit;
             }
