@@ -75,10 +75,7 @@ impl Quadratic {
             }
             way[i] = -slope[i];
             for k in 0..=i {
-                let mut sum = self.hessian[i][k];
-                for j in 0..k {
-                    sum -= factor[i][j] * factor[k][j];
-                }
+                let sum = (0..k).fold(self.hessian[i][k], |sum, j| sum - factor[i][j] * factor[k][j]);
                 if k < i {
                     // The row of a held variable is 0.
                     factor[i][k] = if held[k] { 0.0 } else { sum * factor[k][k] };

@@ -121,7 +121,8 @@ impl Pair {
         };
         let size = body.size() + placement.origin.abs().max_element();
         let rise = next.difference(placement).length_squared() - squared;
-        if !(rise <= ROUNDING * size * sqrt(squared)) {
+        let is_no_rise = rise <= ROUNDING * size * sqrt(squared);
+        if !is_no_rise {
             self.halvings = if self.halvings < MAX_HALVINGS { self.halvings + 1 } else { MAX_HALVINGS };
             return Moved::Rejected;
         }
@@ -191,7 +192,7 @@ impl Joint {
         let model = |hessian| Quadratic { gradient, hessian, lower: self.lower, upper: self.upper };
         let mut best: Option<(Step, f32, f32)> = None;
         if pair.halvings == 0 {
-            let newton = self.newton(&metric);
+            let newton = self.newton();
             for shift in SHIFTS {
                 let shifted = core::array::from_fn(|i| core::array::from_fn(|k| newton[i][k] + shift * metric[i][k]));
                 let Some(step) = model(shifted).minimiser() else { continue };
@@ -215,15 +216,9 @@ impl Joint {
         best.map(|(step, slope, share)| (step.map(|w| share * w), share * slope))
     }
 
-    /// `H`, from `J`: with the second derivatives, and the products across the two bodies.
-    fn newton(&self, metric: &[Step; SIZE]) -> [Step; SIZE] {
-        let mut hessian = *metric;
-        for i in 0..2 {
-            for k in 2..SIZE {
-                let product = self.columns[i].dot(self.columns[k]);
-                (hessian[i][k], hessian[k][i]) = (product, product);
-            }
-        }
+    /// `H`: all products of the tangents, and the second derivatives.
+    fn newton(&self) -> [Step; SIZE] {
+        let mut hessian = self.columns.map(|column| self.columns.map(|other| column.dot(other)));
         for (block, second) in self.second.iter().enumerate() {
             let ([uu, uv, vv], i) = (second.along(self.difference), 2 * block);
             hessian[i][i] += uu;
