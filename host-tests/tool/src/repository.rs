@@ -7,17 +7,19 @@ use thiserror::Error;
 /// There is none around.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "firmware images, boards, budgets and the race need palpate's repository, and neither the working directory nor a \
-     folder above it is one: run this in a checkout"
+    "firmware images, boards, budgets, the race and CAD parts need palpate's repository, and neither the working \
+     directory nor a folder above it is one: run this in a checkout"
 )]
 pub struct NoRepository;
 
-/// The repository that the working directory is in; in a program that cargo runs, else the one of its package.
+/// The repository that the working directory is in; else the one of the package that cargo runs, or the one in whose
+/// target folder this program lies.
 ///
 /// # Errors
-/// If there is none. The folder that this tool was built in is not asked: it may be gone, or another version's.
+/// If there is none.
 pub fn root() -> Result<PathBuf, NoRepository> {
-    let starts = [env::current_dir().ok(), env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from)];
+    let starts =
+        [env::current_dir().ok(), env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from), env::current_exe().ok()];
     starts.iter().flatten().find_map(|start| around(start)).map(Path::to_path_buf).ok_or(NoRepository)
 }
 
