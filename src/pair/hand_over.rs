@@ -138,3 +138,28 @@ fn conormal(foot: &Foot, number: usize) -> Vec3 {
     let stretch = along.length_squared();
     if stretch > f32::MIN_POSITIVE { across - along * (across.dot(along) / stretch) } else { across }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::vec3;
+    use crate::patch::{CurvedPoint, SecondDerivatives, SurfacePoint};
+
+    /// On a skewed border the derivative across may lead in where the face does not: only the conormal tells.
+    #[test]
+    fn the_conormal_is_normal_to_the_border_and_leads_into_the_face() {
+        // A flat face over the parallelogram of (2, 0) and (3, 1), to the left of (3, 1) along u = 0.
+        let surface =
+            SurfacePoint { point: Vec3::ZERO, tangent_u: vec3(2.0, 0.0, 0.0), tangent_v: vec3(3.0, 1.0, 0.0) };
+        let foot =
+            Foot { face: 0, parameters: [0.0; 2], curved: CurvedPoint { surface, second: SecondDerivatives::NONE } };
+        // (2, 0) less its part 6/10 of (3, 1), and (3, 1) less its part along x.
+        let [u, v] = [vec3(0.2, -0.6, 0.0), vec3(0.0, 1.0, 0.0)];
+        for (number, expected) in [u, -u, v, -v].into_iter().enumerate() {
+            assert!((conormal(&foot, number) - expected).length() < 1e-6, "side {number}");
+        }
+        // Along the border u = 0 and out of the face, though with the derivative across.
+        let towards = surface.tangent_v - u;
+        assert!(towards.dot(surface.tangent_u) > 0.0 && towards.dot(conormal(&foot, 0)) < 0.0);
+    }
+}
