@@ -189,5 +189,7 @@ mod tests {
         check([5, 4], Coefficients::Polynomial(&const { entries::<3, 30>() }));
         check([2, 2], Coefficients::Rational(&const { entries::<4, 9>() }));
         check([3, 5], Coefficients::Rational(&const { entries::<4, 24>() }));
+        check([2, 1], Coefficients::Rational(&const { entries::<4, 6>() }));
+        check([4, 4], Coefficients::Rational(&const { entries::<4, 25>() }));
     }
 }
