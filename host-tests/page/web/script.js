@@ -94,17 +94,6 @@ export class Script {
     return this.page.body.device.nanosecondsATick(400_000);
   }
 
-  /** Milliseconds of this thread for each of so many frames of a 60th of a second, a stroll from a time on, s. */
-  work(frames, time = 0) {
-    const { page } = this;
-    Object.assign(page.loop, { clock: time, strolls: true, stands: false });
-    return Array.from({ length: frames }, () => {
-      const began = performance.now();
-      page.advance(1 / 60);
-      return performance.now() - began;
-    });
-  }
-
   about() {
     const { body, room } = this.page,
       { size, centre, faces, edges, vertices } = body.device;

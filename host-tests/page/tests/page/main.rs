@@ -14,4 +14,3 @@ mod regions;
 mod replay;
 mod stylus;
 mod tool;
-mod work;
