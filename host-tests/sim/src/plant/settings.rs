@@ -132,6 +132,16 @@ pub struct PlantSettings {
 }
 
 impl PlantSettings {
+    /// The same in as many sub-steps as a test needs, or in those of the environment's `PALPATE_SUB_STEPS`.
+    ///
+    /// # Panics
+    /// If that is no number.
+    #[must_use]
+    pub fn in_sub_steps(self, enough: u32) -> Self {
+        let asked = std::env::var("PALPATE_SUB_STEPS").ok();
+        Self { sub_steps: asked.map_or(enough, |count| count.parse().expect("PALPATE_SUB_STEPS")), ..self }
+    }
+
     /// The mechanism, with a hand of `hand_mass` kg on the probe.
     pub fn mechanism(&self, hand_mass: f64) -> Box<dyn Mechanism> {
         let along = |direction: Vector| scaled(direction, self.gravity);

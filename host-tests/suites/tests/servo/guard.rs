@@ -38,7 +38,7 @@ fn stays_cool<K: Kinematics<3>>(bench: &Bench<K>) {
     let deep = 1.3 * f64::from(bench.device.max_force_n / bench.device.max_stiffness_n_per_m);
     let path = Down { speed: 0.01, from: 0.002 };
     // Windings take seconds: four steps a tick follow a hand of 20,000 N/m.
-    let settings = PlantSettings { sub_steps: 4, ..bench.plant };
+    let settings = bench.plant.in_sub_steps(4);
     let mut plant = Plant::new(&settings, hand, Box::new(Hold(path, deep)), RATE).unwrap();
     let mut motors = bench.heat.map(Thermal::cold);
     let mut state = servo.start();

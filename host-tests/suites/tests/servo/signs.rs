@@ -57,7 +57,7 @@ fn length(vector: Vector) -> f64 {
 
 /// A plant with the motors of some joints turned round. Eight steps a tick: knocks take milliseconds.
 fn turned(plant: &PlantSettings, wrong: &[bool; 3]) -> PlantSettings {
-    let mut plant = PlantSettings { sub_steps: 8, ..*plant };
+    let mut plant = plant.in_sub_steps(8);
     for (joint, wrong) in plant.joints.iter_mut().zip(wrong) {
         if *wrong {
             let way = &mut joint.motor_direction;
