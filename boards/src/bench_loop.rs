@@ -333,7 +333,11 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         }
         let outcome = self.confirming.next(&self.interlock);
         match outcome {
-            Some(Outcome::Confirmed(Asked::SetUp)) => self.begin_to_set_up(),
+            Some(Outcome::Confirmed(Asked::SetUp)) => {
+                self.begin_to_set_up();
+                // The servo that was just stopped damps nothing in its last tick.
+                holds |= hold::CONFIRM;
+            }
             Some(Outcome::Confirmed(Asked::Acknowledge)) => self.acknowledge(),
             _ => {}
         }
@@ -349,6 +353,10 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
     /// A tick of a device that is being set up.
     fn jog(&mut self, (began, is_late): (u32, bool), panel: &Panel) {
         let Some(set_up) = &mut self.set_up else { return };
+        // A line that stays enabled ends commissioning.
+        if !set_up.is_live() && self.board.reads_enabled() {
+            set_up.stop();
+        }
         if is_late {
             set_up.overran(&mut self.board);
         }

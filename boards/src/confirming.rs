@@ -65,9 +65,9 @@ impl Confirming {
         self.asked.is_some()
     }
 
-    /// Whatever waits is over with the next tick.
+    /// Whatever waits is over with the next tick, held button or not.
     pub const fn cancel(&mut self) {
-        self.left = 1;
+        (self.was_held, self.left) = (false, 1);
     }
 
     /// Main asks for flash: what holds the motors off meanwhile. `outcome` is that of this tick.

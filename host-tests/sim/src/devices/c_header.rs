@@ -50,14 +50,14 @@ fn constants<K>(text: &mut String, kind: &str, mechanism: &str, device: &Device<
                 feed.back_emf_fraction,
             ],
         };
-        let (encoder, [least, greatest]) = (device.encoders[joint], device.joint_range_rad[joint]);
+        let (encoder, [min, max]) = (device.encoders[joint], device.joint_range_rad[joint]);
         let numbers = [
             encoder.radians_per_count,
             encoder.angle_at_zero_rad,
             device.motors[joint].torque_at_full_n_m,
             device.dry_friction_n_m[joint],
-            least,
-            greatest,
+            min,
+            max,
         ];
         list(numbers.map(number).into_iter().chain([list(feed.map(number))]))
     });

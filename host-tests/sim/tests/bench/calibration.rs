@@ -316,6 +316,19 @@ fn a_loop_that_is_calibrated_is_the_loop_of_that_device_bit_for_bit() {
 }
 
 #[test]
+fn flash_is_written_thirty_two_times_between_two_resets_and_no_more() {
+    let page = Page::erased();
+    let mut device = Device::set_up(&page);
+    for write in 0..32 {
+        assert_eq!(device.keep(Some(joints())), None, "{write}");
+    }
+    assert_eq!(device.keep(None), refused(KeepError::Worn));
+    assert_eq!(found(&page), Calibrated::Kept { crc: Calibration(joints()).crc() });
+    // After a reset again.
+    assert_eq!(Device::set_up(&page).keep(None), None);
+}
+
+#[test]
 fn nothing_is_written_while_a_motor_may_move_or_by_a_device_that_is_not_set_up() {
     let page = Page::erased();
     // Not set up: quiet, or giving force.
