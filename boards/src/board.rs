@@ -9,6 +9,8 @@ use thiserror::Error;
 pub struct Panel {
     /// Force is asked for.
     pub enable: bool,
+    /// The two channels of the enable input differ ([`crate::TwoChannels`]).
+    pub enable_disagrees: bool,
     /// Stop is pressed, or its wire is broken.
     pub stop: bool,
     /// Every amplifier says that it is ready.

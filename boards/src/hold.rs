@@ -35,6 +35,8 @@ pub struct Hold {
     last: u8,
     clear_in: u32,
     clear_ticks: u32,
+    /// Ticks for which stop must still be pressed before the first force.
+    untested: u32,
     /// Ticks left in which somebody may say why an amplifier is no longer ready.
     unexplained: Option<u32>,
 }
@@ -61,6 +63,7 @@ impl Hold {
             last: 0,
             clear_in: 0,
             clear_ticks: ticks(CLEAR_S, rate),
+            untested: if settings.tests_stop { ticks(CLEAR_S, rate) } else { 0 },
             unexplained: None,
         }
     }
@@ -69,7 +72,10 @@ impl Hold {
     #[inline]
     pub fn next(&mut self, panel: &Panel, drives: bool) -> Verdict {
         let mut verdict = Verdict::default();
-        if panel.stop {
+        if self.untested > 0 {
+            self.untested = if panel.stop { self.untested - 1 } else { self.clear_ticks };
+        }
+        if panel.stop || self.untested > 0 {
             verdict.hold |= hold::STOP;
         }
         if self.is_out_of_range(panel.supply) {
@@ -84,6 +90,9 @@ impl Hold {
         }
         if !panel.ready {
             verdict.hold |= hold::NOT_READY;
+        }
+        if panel.enable_disagrees {
+            verdict.hold |= hold::ENABLE;
         }
         match &mut self.unexplained {
             Some(0) => verdict.is_drive_fault = true,

@@ -113,7 +113,7 @@ pub use drives::{Drives, ReadBack, Switched};
 pub use hold::{Hold, Verdict};
 pub use idle::{Idle, Offers, Port, Watchdog};
 pub use interlock::Interlock;
-pub use lines::{Divider, Lines, NoSupply, Supply};
+pub use lines::{Divider, EnableInput, Lines, NoSupply, OneChannel, Pressed, Supply, TwoChannels};
 pub use mailbox::Mailbox;
 pub use parts::{Parts, Timer};
 pub use reset::{Cause, Memo, ResetFlags};

@@ -1,7 +1,7 @@
 //! A board that is made of embedded-hal's parts.
 
 use crate::sensors::{BadFrame, Sensors};
-use crate::{Board, Counter, Drives, Lines, NotObeyed, Panel, Passive, Supply};
+use crate::{Board, Counter, Drives, EnableInput, Lines, NotObeyed, Panel, Passive, Supply};
 use embedded_hal::digital::{InputPin, OutputPin, PinState};
 use palpate::device::{Counts, Duty, ElectricalAngle};
 
@@ -35,7 +35,7 @@ where
     I: Timer,
     S: Sensors<JOINTS>,
     D: Drives<JOINTS>,
-    E: InputPin,
+    E: EnableInput,
     T: InputPin,
     R: InputPin,
     V: Supply,

@@ -22,13 +22,17 @@ pub struct Settings {
     /// Of a servo that watches its link ([`palpate::servo::Safety::link_timeout_s`]): whether there is no force before a
     /// host was heard. Otherwise the link is watched from a host's first command on.
     pub needs_host: bool,
+    /// Whether there is no force after a reset before the stop button has been pressed, and let go of: a contact that is
+    /// welded, or a wire to ground, shows in no other way.
+    pub tests_stop: bool,
     /// Limits of jogging while the device is set up; `None` offers nothing of the kind.
     pub jog: Option<JogSettings>,
 }
 
 impl Settings {
     /// 20 ticks a record, which 500,000 baud carry at 4 kHz; two bad frames bridged; no supply watched; 50 ms for a
-    /// contactor to fall; a host where the link is watched; [`JogSettings::DEFAULT`].
+    /// contactor to fall; a host where the link is watched; stop untested;
+    /// [`JogSettings::DEFAULT`].
     pub const fn new(clock: u32) -> Self {
         Self {
             clock,
@@ -37,6 +41,7 @@ impl Settings {
             supply: None,
             ready_grace: 0.05,
             needs_host: true,
+            tests_stop: false,
             jog: Some(JogSettings::DEFAULT),
         }
     }

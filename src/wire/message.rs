@@ -117,7 +117,8 @@ pub struct Record {
 
 /// The bits of [`Record::hold`]: external reasons that keep the motors off without a fault of the loop.
 pub mod hold {
-    /// The stop input is pressed, or its wire is broken.
+    /// The stop input is pressed, its wire is broken, or it has still to be pressed once since the reset, where the board
+    /// asks for that.
     pub const STOP: u8 = 1 << 0;
     /// An amplifier is not ready, has no supply, or its wire is broken.
     pub const NOT_READY: u8 = 1 << 1;
@@ -132,6 +133,8 @@ pub mod hold {
     /// The host asks for something that a person must confirm: hold the enable button for half a second, then release
     /// it.
     pub const CONFIRM: u8 = 1 << 6;
+    /// The two channels of the enable input differed for too long: both have to be seen released.
+    pub const ENABLE: u8 = 1 << 7;
 }
 
 /// To a device that runs by itself. Until a [`Self::Hello`] in its version has come it takes [`Self::Stop`] alone.

@@ -62,7 +62,7 @@ impl Passive<3> for Wired {
     }
 
     fn panel(&mut self) -> Panel {
-        Panel { enable: false, stop: false, ready: true, supply: None }
+        Panel { enable: false, enable_disagrees: false, stop: false, ready: true, supply: None }
     }
 
     /// The device at rest in the middle of its workspace.

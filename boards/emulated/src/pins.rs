@@ -66,7 +66,13 @@ impl<L: Link> Passive<3> for Pins<L> {
             Some(Received::Message(sensors)) if sensors.tick == self.tick => Some(sensors),
             _ => None,
         };
-        Panel { enable: self.sensors.is_some_and(|sensors| sensors.enable), stop: false, ready: true, supply: None }
+        Panel {
+            enable: self.sensors.is_some_and(|sensors| sensors.enable),
+            enable_disagrees: false,
+            stop: false,
+            ready: true,
+            supply: None,
+        }
     }
 
     fn read(&mut self) -> Result<[Counts; 3], BadFrame> {

@@ -3,7 +3,7 @@
 use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::HBridge;
 use palpate_bench::sensors::Angles;
-use palpate_bench::{CycleDelay, Parts, ReadBack, Switched};
+use palpate_bench::{CycleDelay, OneChannel, Parts, ReadBack, Switched};
 use rp235x_hal::gpio::{
     DynPinId, FunctionSio, FunctionSpi, Pin, PullDown, PullNone, PullUp, SioInput, SioOutput, bank0,
 };
@@ -30,7 +30,7 @@ type Bridge<S> = HBridge<Channel<Slice<S, FreeRunning>, A>, Output>;
 type Drives = ReadBack<Switched<(Bridge<Pwm5>, Bridge<Pwm6>, Bridge<Pwm7>), Output>>;
 type Sensors = Angles<Bus, Output, CycleDelay<Clock>, 3>;
 /// All of them.
-pub type Board = Parts<Clock, Ticks, Sensors, Drives, Switch, Switch, Ready, Volts, Output, 3>;
+pub type Board = Parts<Clock, Ticks, Sensors, Drives, OneChannel<Switch>, Switch, Ready, Volts, Output, 3>;
 
 /// A slice that runs.
 type Running<S> = Slice<S, FreeRunning>;

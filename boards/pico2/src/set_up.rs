@@ -7,7 +7,7 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles, program_check};
 use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either, Plain};
-use palpate_bench::{Cause, ClocksDisagree, CycleDelay, Lines, Parts, Port, ReadBack, Settings, Switched};
+use palpate_bench::{Cause, ClocksDisagree, CycleDelay, Lines, OneChannel, Parts, Port, ReadBack, Settings, Switched};
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock as _, init_clocks_and_plls};
 use rp235x_hal::fugit::RateExtU32;
@@ -93,8 +93,7 @@ pub fn set_up(
         sensors,
         drives: ReadBack::new(Switched::new(bridges, enable), chip::reads_enabled as fn() -> bool),
         lines: Lines {
-            enable: pins.gpio17.into_pull_up_input().into_dyn_pin(),
-            enable_level: false,
+            enable: OneChannel { pin: pins.gpio17.into_pull_up_input().into_dyn_pin(), pressed_level: false },
             stop: pins.gpio21.into_pull_up_input().into_dyn_pin(),
             ready: [
                 pins.gpio18.reconfigure().into_dyn_pin(),

@@ -5,7 +5,9 @@ use palpate::device::SupplyRange;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles, program_check};
 use palpate_bench::sensors::{Counters, max_steps};
-use palpate_bench::{Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, Parts, Port, ReadBack, Settings};
+use palpate_bench::{
+    Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, OneChannel, Parts, Port, ReadBack, Settings,
+};
 use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
@@ -31,7 +33,8 @@ const TIMEOUT_MS: u32 = if cfg!(feature = "host") { 40 } else { 20 };
 
 type Pin = AnyPin<Input>;
 /// The parts that the loop runs on.
-pub type Board = Parts<Clock, Ticks, Counters<Encoders, 3>, ReadBack<Drives>, Pin, Pin, Pin, Volts, Light, 3>;
+pub type Board =
+    Parts<Clock, Ticks, Counters<Encoders, 3>, ReadBack<Drives>, OneChannel<Pin>, Pin, Pin, Volts, Light, 3>;
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -95,8 +98,7 @@ pub fn set_up(
         drives,
         lines: Lines {
             // The blue button: high while pressed.
-            enable: c.pc13.into_floating_input().erase(),
-            enable_level: true,
+            enable: OneChannel { pin: c.pc13.into_floating_input().erase(), pressed_level: true },
             stop: b.pb0.into_pull_up_input().erase(),
             ready: [
                 c.pc3.into_pull_down_input().erase(),

@@ -7,7 +7,9 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Angles, max_steps};
 use palpate_bench::usb::{Cdc, Either};
-use palpate_bench::{Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Parts, Port, ReadBack, Settings};
+use palpate_bench::{
+    Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, OneChannel, Parts, Port, ReadBack, Settings,
+};
 use teensy4_bsp::Interrupt;
 use teensy4_bsp::board::{self, IPG_FREQUENCY, Lpspi, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
@@ -29,7 +31,8 @@ pub const BENCH: Settings =
 type Sensors = Angles<Lpspi, Output, CycleDelay<Clock>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
 /// The parts that the loop runs on.
-pub type Board = Parts<Clock, Ticks, Sensors, ReadBack<[Amplifier; 3]>, Input, Input, Input, Volts, Output, 3>;
+pub type Board =
+    Parts<Clock, Ticks, Sensors, ReadBack<[Amplifier; 3]>, OneChannel<Input>, Input, Input, Volts, Output, 3>;
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -107,8 +110,7 @@ pub fn set_up(
     let port = Either::new(plug, port::Uart(lpuart(lpuart6, pins.p1, pins.p0, port::BAUD)));
 
     let lines = Lines {
-        enable,
-        enable_level: false,
+        enable: OneChannel { pin: enable, pressed_level: false },
         stop,
         ready: [ready_a, ready_b, ready_c],
         supply: Volts::new(adc1, supply),

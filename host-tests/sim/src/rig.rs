@@ -13,7 +13,9 @@ use palpate::servo::{Fault, Guard, PatchWitness, Phase, ResetReason, Servo, Serv
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, max_step};
-use palpate_bench::{Bench, Counter, Felt, Lines, Mailbox, Parts, ReadBack, Settings, Supply, Timer};
+use palpate_bench::{
+    Bench, Counter, Felt, Lines, Mailbox, OneChannel, Parts, ReadBack, Settings, Supply, Timer, TwoChannels,
+};
 use std::cell::RefCell;
 use std::convert::Infallible;
 use std::rc::Rc;
@@ -51,6 +53,8 @@ pub struct World {
     pub plant: Plant,
     /// Whether the button is pressed.
     pub button: bool,
+    /// Whether its second contact is closed; `None` while that works.
+    pub second_contact: Option<bool>,
     /// Whether the contact of the stop button is open: pressed, or its wire is off.
     pub stop_open: bool,
     /// Whether the wires of the ready lines are whole.
@@ -271,7 +275,8 @@ type Amplifier = SetPointDrive<Width, Out>;
 /// The amplifiers, whose enable lines are read back.
 type Amplifiers = ReadBack<[Amplifier; 3], Box<dyn Fn() -> bool>>;
 /// All that a board has for the loop.
-pub type SimulatedBoard = Parts<SimulatedClock, Interrupts, Spoilt, Amplifiers, In, In, In, Volts, Out, 3>;
+pub type SimulatedBoard =
+    Parts<SimulatedClock, Interrupts, Spoilt, Amplifiers, TwoChannels<In, In>, In, In, Volts, Out, 3>;
 
 /// A servo that a test made, whether it could not be made with the calibration that is kept, and its wiring.
 pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch<'static>, K, 3, G>, pub bool, pub Wiring<3>);
@@ -342,6 +347,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
     let world = World {
         plant,
         button: false,
+        second_contact: None,
         stop_open: false,
         ready_wires: [true; 3],
         amplifiers_well: true,
@@ -393,8 +399,14 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
         sensors: Spoilt { world: of(), reader: Reader::Counters(Counters::new(Timers(of()), steps)), ahead: None },
         drives: ReadBack::new([amplifier(0), amplifier(1), amplifier(2)], reads_enabled),
         lines: Lines {
-            enable: In(of(), |world| world.button),
-            enable_level: true,
+            enable: TwoChannels::new(
+                OneChannel { pin: In(of(), |world| world.button), pressed_level: true },
+                OneChannel {
+                    pin: In(of(), |world| !world.second_contact.unwrap_or(world.button)),
+                    pressed_level: false,
+                },
+                RATE as f32,
+            ),
             stop: In(of(), |world| world.stop_open),
             ready: ready.map(|level| In(of(), level)),
             supply: Volts(of()),

@@ -183,10 +183,37 @@ pub const TABLE: &[Failure] = &[
         Planted(|rig, _| rig.set(|world| world.button = false)),
     ),
     row(
+        [
+            "line",
+            "one of two enable contacts stays closed",
+            "force needs both; both must open within 0.5 s of each other",
+            "one_of_two_contacts_asks_for_nothing_and_one_that_stays_closed_holds_until_both_were_open",
+        ],
+        0.25,
+        Hold,
+        Planted(|rig, _| rig.set(|world| (world.button, world.second_contact) = (false, Some(true)))),
+    ),
+    gap(
+        "line",
+        "the only enable contact stays closed",
+        "no force before it was seen released, but letting go is not seen: wire two (`TwoChannels`)",
+    ),
+    row(
         ["line", "the stop wire breaks", "every tick", "a_broken_stop_wire_stops"],
         0.25,
         Hold,
         Planted(|rig, _| rig.set(|world| world.stop_open = true)),
+    ),
+    row(
+        [
+            "line",
+            "the stop contact is welded or its wire is shorted, with `tests_stop`",
+            "no force before it was pressed once",
+            "where_the_stop_button_is_tested_there_is_no_force_before_it_was_pressed_and_let_go_of",
+        ],
+        0.0,
+        Hold,
+        Tested,
     ),
     row(
         [
@@ -232,7 +259,18 @@ pub const TABLE: &[Failure] = &[
         "a reversed encoder of a joint beyond the first keeps the probe from contact",
         "no contact gives no force; commissioning turns each joint and finds it",
     ),
-    gap("motor", "a winding opens or shorts", "an arm measures no current; its amplifier protects itself"),
+    gap("motor", "a winding of an arm opens or shorts", "an arm measures no current; its amplifier protects itself"),
+    row(
+        [
+            "motor",
+            "a winding opens or shorts, behind `CurrentWatched`",
+            "phase currents",
+            "a_short_an_open_phase_and_a_lost_measurement_of_the_currents_stop_the_motor",
+        ],
+        500.0,
+        Latched(Fault::Drive),
+        Tested,
+    ),
     row(
         [
             "clock",

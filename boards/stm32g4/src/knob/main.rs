@@ -21,7 +21,7 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Shared, program_check};
 use palpate_bench::knob::{JOG, SETTINGS, SUPPLY};
 use palpate_bench::sensors::{Angles, max_step};
-use palpate_bench::{Bench, Cause, ClockCheck, CycleDelay, Idle, Lines, Memo, Parts, ReadBack, Settings};
+use palpate_bench::{Bench, Cause, ClockCheck, CycleDelay, Idle, Lines, Memo, OneChannel, Parts, ReadBack, Settings};
 use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
@@ -39,7 +39,7 @@ const BENCH: Settings = Settings { supply: Some(SUPPLY), jog: Some(JOG), ..Setti
 type Pin = AnyPin<Input>;
 type Bus = Spi<SPI1, (PA5<AF5>, PA6<AF5>, PA7<AF5>)>;
 type Sensor = Angles<Bus, PB6<Output>, CycleDelay<Clock>, 1>;
-type Board = Parts<Clock, Ticks, Sensor, ReadBack<[Stage; 1]>, Pin, Pin, Pin, Volts, NoPin, 2>;
+type Board = Parts<Clock, Ticks, Sensor, ReadBack<[Stage; 1]>, OneChannel<Pin>, Pin, Pin, Volts, NoPin, 2>;
 type Loop = Bench<'static, This, Board, 1>;
 
 static SHARED: Shared<Loop> = Shared::new();
@@ -87,8 +87,7 @@ fn main() -> ! {
         drives: ReadBack::new([stage], stage::reads_enabled as fn() -> bool),
         lines: Lines {
             // The blue button: high while pressed.
-            enable: c.pc13.into_floating_input().erase(),
-            enable_level: true,
+            enable: OneChannel { pin: c.pc13.into_floating_input().erase(), pressed_level: true },
             stop: c.pc0.into_pull_up_input().erase(),
             // The shield's fault and reset lines, both high while it is well, whichever of the two goes where.
             ready: [b.pb0.into_pull_down_input().erase(), a.pa1.into_pull_down_input().erase()],

@@ -63,7 +63,7 @@ struct AtArm {
 
 impl AtPins<3> for AtArm {
     fn panel(&mut self) -> Panel {
-        Panel { enable: self.hand.is_enabling(), stop: false, ready: true, supply: None }
+        Panel { enable: self.hand.is_enabling(), enable_disagrees: false, stop: false, ready: true, supply: None }
     }
 
     fn counts(&mut self) -> Result<[Counts; 3], BadFrame> {

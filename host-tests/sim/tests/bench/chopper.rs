@@ -64,7 +64,7 @@ fn bus() -> (Rc<RefCell<Bus>>, Chopped<Pins, Pins>) {
 
 /// Whether a loop with this supply is held in this tick.
 fn holds(hold: &mut Hold, supply: Option<f32>) -> bool {
-    let panel = Panel { enable: true, stop: false, ready: true, supply };
+    let panel = Panel { enable: true, enable_disagrees: false, stop: false, ready: true, supply };
     hold.next(&panel, true).hold & hold::SUPPLY != 0
 }
 

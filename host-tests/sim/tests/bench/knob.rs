@@ -11,8 +11,8 @@ use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Sensors};
 use palpate_bench::{
-    Bench, Counter, CurrentFault, CurrentLimits, CurrentWatched, Felt, Lines, Mailbox, Parts, PhaseCurrents, Settings,
-    Supply, Timer,
+    Bench, Counter, CurrentFault, CurrentLimits, CurrentWatched, Felt, Lines, Mailbox, OneChannel, Parts,
+    PhaseCurrents, Settings, Supply, Timer,
 };
 use palpate_sim::knob::{JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
 use palpate_sim::plant::{DialSettings, Fingers, MagneticFault};
@@ -158,8 +158,18 @@ impl PhaseCurrents for Amps {
 const LIMITS: CurrentLimits = CurrentLimits { max_a: 1.2, open_a: 0.06 };
 
 pub type Stage = ThreePhase<Width, Width, Width, Enable>;
-pub type Board =
-    Parts<Clock, Clock, Behind, CurrentWatched<[Stage; 1], Amps>, In, In, In, Clock, palpate::device::drive::NoPin, 2>;
+pub type Board = Parts<
+    Clock,
+    Clock,
+    Behind,
+    CurrentWatched<[Stage; 1], Amps>,
+    OneChannel<In>,
+    In,
+    In,
+    Clock,
+    palpate::device::drive::NoPin,
+    2,
+>;
 
 pub struct Rig {
     pub world: Shared,
@@ -196,8 +206,7 @@ impl Rig {
             sensors: Behind(of(), Frozen::AS5047P),
             drives: CurrentWatched::new([ThreePhase::new(widths, Enable(of()), MODULATION)], Amps(of()), LIMITS),
             lines: Lines {
-                enable: In(of(), |world| world.button),
-                enable_level: true,
+                enable: OneChannel { pin: In(of(), |world| world.button), pressed_level: true },
                 stop: In(of(), |world| world.stop_open),
                 ready: [In(of(), |world| world.ready[0]), In(of(), |world| world.ready[1])],
                 supply: Clock(of()),

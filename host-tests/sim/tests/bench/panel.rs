@@ -4,6 +4,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{SerialArm, SupplyRange};
 use palpate::servo::{Config, Fault, Phase, ResetReason, SafeOutput, Safety, Servo};
 use palpate::wire::hold;
+use palpate_bench::Settings;
 use palpate_sim::rig::{Rig, SETTINGS, WALL, World, held_at, settings};
 
 fn rig() -> Rig<SerialArm> {
@@ -198,6 +199,70 @@ fn a_stop_that_chatters_ends_nothing_and_a_spike_on_enable_asks_for_nothing() {
         rig.set(|world| world.button = false);
         rig.ticks_off(3);
     }
+}
+
+#[test]
+fn one_of_two_contacts_asks_for_nothing_and_one_that_stays_closed_holds_until_both_were_open() {
+    // A wire off: the other contact alone does nothing.
+    let mut alone = rig();
+    alone.ticks(150);
+    alone.set(|world| (world.button, world.second_contact) = (true, Some(false)));
+    alone.ticks_off(4_000);
+    assert!(told(&mut alone) & hold::ENABLE != 0);
+
+    // Welded: the first release is the last force.
+    let mut welded = rig();
+    welded.press_until_it_runs();
+    welded.set(|world| (world.button, world.second_contact) = (false, Some(true)));
+    welded.ticks_off(1_990);
+    assert!(told(&mut welded) & hold::ENABLE == 0, "contacts may differ for half a second");
+    welded.ticks_off(30);
+    assert!(told(&mut welded) & hold::ENABLE != 0);
+    welded.set(|world| world.button = true);
+    welded.ticks_off(2_000);
+    // Repaired while it is held.
+    welded.set(|world| world.second_contact = None);
+    welded.ticks_off(2_000);
+    welded.set(|world| world.button = false);
+    welded.ticks_off(300);
+    assert_eq!((welded.fault(), told(&mut welded)), (None, 0));
+    welded.press_until_it_runs();
+
+    // A hand is slow: contacts that differ for a third of a second.
+    let mut slow = rig();
+    slow.ticks(150);
+    slow.set(|world| (world.button, world.second_contact) = (true, Some(false)));
+    slow.ticks_off(1_300);
+    slow.set(|world| world.second_contact = None);
+    slow.ticks(40);
+    assert!(!slow.is_off());
+}
+
+#[test]
+fn where_the_stop_button_is_tested_there_is_no_force_before_it_was_pressed_and_let_go_of() {
+    let servo = Servo::new(&WOODEN_HAPTICS_2016, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
+    let settings = Settings { tests_stop: true, ..settings() };
+    let mut rig = Rig::new(servo, held_at([0.0, 0.0, -0.004]), &settings, ResetReason::PowerOn);
+    let press = |rig: &mut Rig<SerialArm>| {
+        rig.set(|world| world.button = false);
+        rig.ticks_off(150);
+        rig.set(|world| world.button = true);
+        rig.ticks_off(2_000);
+    };
+    press(&mut rig);
+    assert_eq!(told(&mut rig) & hold::STOP, hold::STOP);
+    // A spike is no press.
+    rig.set(|world| world.stop_open = true);
+    rig.ticks_off(10);
+    rig.set(|world| world.stop_open = false);
+    press(&mut rig);
+    rig.set(|world| world.stop_open = true);
+    rig.ticks_off(400);
+    // While it is held nothing moves either.
+    press(&mut rig);
+    rig.set(|world| (world.stop_open, world.button) = (false, false));
+    rig.ticks_off(150);
+    rig.press_until_it_runs();
 }
 
 #[test]

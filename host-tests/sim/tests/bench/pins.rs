@@ -7,7 +7,8 @@ use palpate::device::drive::{Drive, HBridge, SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Duty, ElectricalAngle};
 use palpate_bench::sensors::{BadFrame, Counters, Readings};
 use palpate_bench::{
-    Board, ClockCheck, Counter, Divider, Drives, Lines, NoSupply, NotObeyed, Panel, Parts, Passive, Switched, Timer,
+    Board, ClockCheck, Counter, Divider, Drives, Lines, NoSupply, NotObeyed, OneChannel, Panel, Parts, Passive,
+    Switched, Timer,
 };
 use std::cell::Cell;
 use std::io::ErrorKind;
@@ -70,9 +71,10 @@ fn fails() -> MockError {
 
 /// What lines at these levels say.
 fn panel(enable: Pin, enable_level: bool, stop: Pin, ready: [Pin; 2]) -> Panel {
-    let mut lines = Lines { enable, enable_level, stop, ready, supply: NoSupply };
+    let enable = OneChannel { pin: enable, pressed_level: enable_level };
+    let mut lines = Lines { enable, stop, ready, supply: NoSupply };
     let panel = lines.read();
-    lines.enable.done();
+    lines.enable.pin.done();
     lines.stop.done();
     lines.ready.iter_mut().for_each(Pin::done);
     panel
@@ -124,8 +126,7 @@ fn amplifiers_are_enabled_behind_their_set_points_and_disabled_before_them() {
         sensors: Counters::new(Three([10, 20, 30]), [5; 3]),
         drives: [amplifier(&[500, 500], &steps), amplifier(&[900, 500], &steps), amplifier(&[100, 500], &steps)],
         lines: Lines {
-            enable: reads(State::High),
-            enable_level: true,
+            enable: OneChannel { pin: reads(State::High), pressed_level: true },
             stop: reads(State::Low),
             ready: [reads(State::High)],
             supply: NoSupply,
@@ -142,7 +143,7 @@ fn amplifiers_are_enabled_behind_their_set_points_and_disabled_before_them() {
     board.sensors = Counters::new(Three([10, 20, 30]), [5; 3]);
     board.drives.into_iter().for_each(done);
     board.light.done();
-    board.lines.enable.done();
+    board.lines.enable.pin.done();
     board.lines.stop.done();
     board.lines.ready.iter_mut().for_each(Pin::done);
 }

@@ -40,7 +40,7 @@ struct Cabled {
 
 impl AtPins<3> for Cabled {
     fn panel(&mut self) -> Panel {
-        Panel { enable: self.button, stop: false, ready: true, supply: None }
+        Panel { enable: self.button, enable_disagrees: false, stop: false, ready: true, supply: None }
     }
 
     fn counts(&mut self) -> Result<[Counts; 3], BadFrame> {

@@ -340,6 +340,7 @@ pub(crate) fn said(reading: &Reading) -> String {
         (hold::RELEASE_FIRST, "enable has to be released first"),
         (hold::WRITING, "flash is being written"),
         (hold::NO_HOST, "no host was heard yet"),
+        (hold::ENABLE, "the two contacts of the enable button differ: release it; one that stays closed is broken"),
         (hold::CONFIRM, "hold the enable button for half a second, then release it"),
     ];
     let mut reasons: Vec<String> =

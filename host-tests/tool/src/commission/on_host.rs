@@ -60,7 +60,7 @@ impl AtBench {
 
 impl AtPins<3> for AtBench {
     fn panel(&mut self) -> Panel {
-        Panel { enable: self.world().enable, stop: false, ready: true, supply: None }
+        Panel { enable: self.world().enable, enable_disagrees: false, stop: false, ready: true, supply: None }
     }
 
     fn counts(&mut self) -> Result<[Counts; 3], BadFrame> {

@@ -89,7 +89,7 @@ impl Felt<1> for This {
 
 impl AtPins<1> for SharedKnob {
     fn panel(&mut self) -> Panel {
-        Panel { enable: self.world().enable, stop: false, ready: true, supply: None }
+        Panel { enable: self.world().enable, enable_disagrees: false, stop: false, ready: true, supply: None }
     }
 
     fn counts(&mut self) -> Result<[Counts; 1], BadFrame> {
