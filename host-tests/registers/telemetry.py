@@ -9,6 +9,7 @@ from dataclasses import dataclass
 HELLO, RECORD = 0, 1
 POWER_ON, PIN, SOFTWARE, WATCHDOG, BROWN_OUT, PANIC, EXCEPTION, TOOL = 0, 1, 2, 3, 4, 6, 7, 8
 CALIBRATE, ARMED, RUNNING, FAULT = 1, 2, 3, 4
+LINK_LOST = 8
 STOP, NOT_READY, SUPPLY, RELEASE_FIRST = 1, 2, 4, 8
 VARIABLE = ("tick", "number", "clock", "began", "shortest", "longest", "took", "dropped")
 
@@ -43,6 +44,12 @@ def unstuffed(frame: bytes) -> bytes:
         if length < 0xFF and at < len(frame):
             message.append(0)
     return bytes(message)
+
+
+def framed(message: bytes) -> bytes:
+    """A message, shorter than a block of COBS, as a host sends it."""
+    blocks = (message + zlib.crc32(message).to_bytes(4, "little")).split(b"\0")
+    return b"".join(bytes([len(block) + 1]) + block for block in blocks) + b"\0"
 
 
 def records(line: bytes) -> list[Record]:

@@ -12,6 +12,7 @@ from machine import NMI, Machine
 from nucleo import Nucleo
 from on_stack import OnStack
 from stm32g4 import BK_ECC, DBANK, ECCD, FLASH
+from with_host import WithHost
 from with_wiring import WithWiring
 
 # The second bank of the flash, and its last page.
@@ -19,7 +20,7 @@ BANK_2, BANK_SIZE = 0x0804_0000, 0x4_0000
 CALIBRATION = BANK_2 + BANK_SIZE - 0x800
 
 
-class Stm32g4WithHost(InSetUp, OnStack, AtStops, WithWiring, unittest.TestCase):
+class Stm32g4WithHost(WithHost, InSetUp, OnStack, AtStops, WithWiring, unittest.TestCase):
     BOARD, NAME = Nucleo, "stm32g4_host"
 
     # Erasing a page of flash takes up to 25 ms.
