@@ -48,6 +48,32 @@ class OnStack(Bench):
         left = self.deepest(machine) - FLOATS - start
         self.assertGreater(left, LEFT * (top - start), f"{top - start} bytes")
 
+    # Instructions after which the board has tested its memory; 0 where it does not.
+    TESTED = 500_000
+
+    def test_bit_of_memory_that_sticks_keeps_the_program_from_starting(self) -> None:
+        if not self.TESTED:
+            return
+        start, top = self.stack()
+        machine = self.new_machine()
+        machine.reset(power=True)
+        machine.run(self.TESTED)
+        self.assertTrue(machine.log.entries, "without a fault it has gone on by then")
+        places = (start, top - 4, self.image.symbol("__ebss") - 4)
+        for place in places:
+            for bit, level in ((0, 0), (13, 1)):
+                with self.subTest(place=hex(place), bit=bit, level=level):
+                    machine = self.new_machine()
+                    machine.reset(power=True)
+
+                    def sticks(uc, _access, at, _size, _value, _data, bit=bit, level=level) -> None:
+                        word = int.from_bytes(uc.mem_read(at, 4), "little") & ~(1 << bit) | level << bit
+                        uc.mem_write(at, word.to_bytes(4, "little"))
+
+                    machine.unicorn.hook_add(unicorn.UC_HOOK_MEM_READ, sticks, begin=place, end=place)
+                    machine.run(self.TESTED)
+                    self.assertEqual(machine.log.entries, [], "nothing but memory was touched")
+
     def test_stack_that_overflows_stops_the_core(self) -> None:
         machine = self.while_driving()
         start, _ = self.stack()

@@ -8,7 +8,10 @@ from at_stops import AtStops
 from in_set_up import InSetUp
 from on_stack import OnStack
 from pico2 import Pico2
+from with_host import WithHost
 
 
-class PicoWithHost(InSetUp, OnStack, AtStops, unittest.TestCase):
-    BOARD, NAME = Pico2, "pico2_host"
+class PicoWithHost(WithHost, InSetUp, OnStack, AtStops, unittest.TestCase):
+    BOARD, NAME, WINDOW = Pico2, "pico2_host", 0.0
+    # Two bodies' worth of memory.
+    TESTED = 2_000_000

@@ -8,8 +8,10 @@ from at_stops import AtStops
 from in_set_up import InSetUp
 from on_stack import OnStack
 from teensy41 import Teensy41
+from with_host import WithHost
 from with_wiring import WithWiring
 
 
-class TeensyWithHost(InSetUp, OnStack, AtStops, WithWiring, unittest.TestCase):
+class TeensyWithHost(WithHost, InSetUp, OnStack, AtStops, WithWiring, unittest.TestCase):
     BOARD, NAME = Teensy41, "teensy41_host"
+    TESTED = 0
