@@ -19,6 +19,14 @@ pub trait Port {
     fn receive(&mut self) -> Option<u8>;
 }
 
+/// The watchdog is fed every eighth tick at most: every 2 ms at 4 kHz. A watchdog with a window opens after
+/// [`WINDOW_MS`].
+pub const HEARTBEAT: Heartbeat = Heartbeat::every(8);
+
+/// Time within which a watchdog with a window must not be fed again, ms: its own oscillator is up to a tenth off, and
+/// main feeds it after the tick by as long as a turn takes.
+pub const WINDOW_MS: u32 = 1;
+
 /// The hardware's watchdog.
 pub trait Watchdog {
     /// Feeds it.

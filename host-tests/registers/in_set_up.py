@@ -12,8 +12,8 @@ RATE, BAUD = 4_000, 500_000
 class InSetUp(Bench):
     """Set-up."""
 
-    # s.
-    WATCHDOG = 0.020
+    # s. Before the window opens the watchdog must not be fed; 0 where the chip has none.
+    WATCHDOG, WINDOW = 0.020, 0.001
 
     def test_enable_lines_are_low_outputs_before_anything_else_of_the_motors(self) -> None:
         machine = self.after_set_up()
@@ -41,11 +41,27 @@ class InSetUp(Bench):
         machine.ticks(A_WHILE)
         fed = machine.chip.feeds()
         machine.ticks(A_WHILE)
-        self.assertGreater(machine.chip.feeds() - fed, A_WHILE // 8)
+        # Every eighth tick, and as much again is left.
+        self.assertGreater(machine.chip.feeds() - fed, A_WHILE // 16)
         machine.run(20_000)
         fed = machine.chip.feeds()
         machine.run(200_000)
         self.assertEqual(machine.chip.feeds(), fed)
+
+    def test_watchdog_is_fed_within_its_window_alone(self) -> None:
+        machine = self.after_set_up()
+        if self.WINDOW:
+            self.assertAlmostEqual(machine.chip.watchdog_window(), self.WINDOW, delta=0.15 * self.WINDOW)
+        fed, last = machine.chip.feeds(), 0
+        for tick in range(1, A_WHILE):
+            machine.ticks(1)
+            now = machine.chip.feeds()
+            if now > fed:
+                self.assertEqual(now, fed + 1)
+                # An oscillator may be a tenth fast, and main feeds some turns after the tick: half of the time is left.
+                self.assertGreater((tick - last) / RATE, 2 * self.WINDOW * 0.99)
+                fed, last = now, tick
+        self.assertGreater(last, 0)
 
     def test_nothing_can_delay_the_tick(self) -> None:
         machine = self.after_set_up()

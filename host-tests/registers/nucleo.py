@@ -147,6 +147,10 @@ class Nucleo(Stm32g4):
         """Its clock, divided by 4, 8, 16 and so on, counts down from RLR ("IWDG_PR", "IWDG_RLR")."""
         return (self.word(IWDG.RLR) & 0xFFF) * (4 << (self.word(IWDG.PR) & 7)) / LSI
 
+    def watchdog_window(self) -> float:
+        """Fed while it counts above WINR it resets the chip ("Window option")."""
+        return ((self.word(IWDG.RLR) & 0xFFF) - (self.word(IWDG.WINR) & 0xFFF)) * (4 << (self.word(IWDG.PR) & 7)) / LSI
+
     def baud(self) -> float:
         """Of the bus's clock, with sixteen samples a bit ("USART baud rate generation")."""
         assert self.word(RCC.CCIPR) >> 2 & 3 == 0 and not self.word(USART2.CR1) >> 15 & 1

@@ -183,3 +183,7 @@ class Teensy41(Imxrt1062):
         status = self.word(WDOG3.CS)
         assert status >> EN & 1 and status >> 8 & 3 == 1 and not status >> 12 & 1, "it runs, of LPO_CLK"
         return (self.word(WDOG3.TOVAL) & 0xFFFF) / LOW_POWER
+
+    def watchdog_window(self) -> float:
+        """Fed before WIN counts it resets the chip ("Window mode")."""
+        return (self.word(WDOG3.WIN) & 0xFFFF) / LOW_POWER if self.word(WDOG3.CS) >> 15 & 1 else 0.0

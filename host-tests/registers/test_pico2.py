@@ -18,7 +18,7 @@ from with_angle_sensors import WithAngleSensors
 
 
 class Pico(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
-    BOARD, NAME = Pico2, "pico2"
+    BOARD, NAME, WINDOW = Pico2, "pico2", 0.0
 
     # Pins.
 

@@ -175,21 +175,36 @@ impl PeriodWindow {
     }
 }
 
-/// Decides whether the hardware watchdog may be fed: only where ticks have gone on since it was fed last.
+/// Decides whether the hardware watchdog may be fed: only where so many ticks have gone on since it was fed last. A
+/// watchdog with a window then finds a program that feeds it too early.
 ///
 /// Feed it from the idle loop with this, never from the tick's own interrupt: then either of the two that hangs is
 /// found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Heartbeat {
     ticks: u32,
+    apart: u32,
 }
 
 impl Heartbeat {
+    /// Feeds once in so many ticks at most.
+    pub const fn every(ticks: u32) -> Self {
+        Self { ticks: 0, apart: if ticks > 0 { ticks } else { 1 } }
+    }
+
     /// Whether to feed, from [`super::ServoState::ticks`].
     pub const fn may_feed(&mut self, ticks: u32) -> bool {
-        let beats = ticks != self.ticks;
-        self.ticks = ticks;
+        let beats = ticks.wrapping_sub(self.ticks) >= self.apart;
+        if beats {
+            self.ticks = ticks;
+        }
         beats
+    }
+}
+
+impl Default for Heartbeat {
+    fn default() -> Self {
+        Self::every(1)
     }
 }
 
@@ -282,6 +297,9 @@ mod deadline_tests {
         let mut heartbeat = Heartbeat::default();
         assert!(heartbeat.may_feed(5) && heartbeat.may_feed(6));
         assert!(!heartbeat.may_feed(6));
+        let mut slow = Heartbeat::every(8);
+        let fed = [7, 8, 15, 16, 16, 30].map(|ticks| slow.may_feed(ticks));
+        assert_eq!(fed, [false, true, false, true, false, true]);
     }
 }
 

@@ -10,19 +10,23 @@ pub use ticks::{Clock, Slow, Ticks};
 
 use palpate::servo::ResetReason;
 use palpate_bench::cortex::MemoCell;
-use palpate_bench::{Memo, Port, ResetFlags, Watchdog};
+use palpate_bench::{Memo, Port, ResetFlags, WINDOW_MS, Watchdog};
 use stm32g4xx_hal::gpio::{AF7, PA2, PA3};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::pwr::VoltageScale;
 use stm32g4xx_hal::rcc::{Config, PllConfig, PllMDiv, PllNMul, PllRDiv, PllSrc, Rcc};
 use stm32g4xx_hal::serial::{FullConfig, Serial};
-use stm32g4xx_hal::stm32::{FLASH, PWR, RCC, USART2};
+use stm32g4xx_hal::stm32::{FLASH, IWDG, PWR, RCC, USART2};
+use stm32g4xx_hal::time::ExtU32;
 
 // Clocks, power and reset, as the reference manual (RM0440) requires.
 
 /// 16 MHz / 4 · 85 / 2: the most that the chip takes.
 pub const CLOCK: u32 = 170_000_000;
+
+/// Looks until the watchdog must have taken its window: six cycles of a divided clock of 32 kHz, 1 ms at most.
+const LOOKS: u32 = 1_000_000;
 
 /// The memo for after the next reset. `used`, since the compiler must not assume its first value.
 #[unsafe(link_section = ".uninit.MEMO")]
@@ -109,8 +113,32 @@ impl Port for Usart {
     }
 }
 
-/// The independent watchdog.
-pub struct Iwdg(pub IndependentWatchdog);
+/// The independent watchdog, with a window.
+pub struct Iwdg(IndependentWatchdog);
+
+impl Iwdg {
+    /// Starts it for good: it is fed within so many milliseconds, and not before [`WINDOW_MS`].
+    ///
+    /// # Panics
+    /// If it does not take its window: then nobody would notice that it is fed too early.
+    pub fn start(registers: IWDG, timeout_ms: u32) -> Self {
+        let mut watchdog = IndependentWatchdog::new(registers);
+        watchdog.start(timeout_ms.millis());
+        // The HAL's own start with a window feeds once more at once, which is too early. Writing the window feeds it
+        // (RM0440, "Configuring the IWDG when the window option is enabled").
+        // SAFETY: nobody else uses the registers of the watchdog that this owns.
+        let registers = unsafe { &*IWDG::ptr() };
+        let counts = registers.rlr().read().rl().bits();
+        let closed = u32::from(counts) * WINDOW_MS / timeout_ms;
+        let window = counts - closed as u16;
+        registers.kr().write(|w| w.key().unlock());
+        // SAFETY: twelve bits, as RLR has.
+        registers.winr().write(|w| unsafe { w.win().bits(window) });
+        let took = (0..LOOKS).any(|_| registers.sr().read().bits() == 0);
+        assert!(took && registers.winr().read().win().bits() == window, "the watchdog did not take its window");
+        Self(watchdog)
+    }
+}
 
 impl Watchdog for Iwdg {
     #[inline]

@@ -10,7 +10,6 @@ use palpate_bench::{
 };
 use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
-use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals};
 use stm32g4xx_hal::time::ExtU32;
@@ -115,14 +114,13 @@ pub fn set_up(
     MEMO.write(Memo::new(Cause::Running));
     let mut clocks = ClockCheck::new((clock, CLOCK), (Slow::start(chip.LPTIMER1), Slow::FREQUENCY));
     let start_ticks = move || {
-        let mut watchdog = IndependentWatchdog::new(chip.IWDG);
-        watchdog.start(TIMEOUT_MS.millis());
+        let watchdog = Iwdg::start(chip.IWDG, TIMEOUT_MS);
         // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
         unsafe {
             core.NVIC.set_priority(Interrupt::TIM7, 0);
             NVIC::unmask(Interrupt::TIM7);
         }
-        Iwdg(watchdog)
+        watchdog
     };
     Below { messages, cycles, reset, port, clocks: move || clocks.step(), program: program_check(), start: start_ticks }
 }

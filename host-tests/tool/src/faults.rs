@@ -21,6 +21,8 @@ pub enum Reaction {
     Latched(Fault),
     /// The motors are off until the cause has gone and enable was released.
     Hold,
+    /// The program does not start: the motors stay off.
+    NoStart,
 }
 
 /// How the row is shown.
@@ -73,7 +75,7 @@ fn bad(rig: &mut Rig<SerialArm>, kind: BadFrame) {
     rig.set(|world| (world.kind, world.bad) = (kind, 1));
 }
 
-use Reaction::{Hold, Latched};
+use Reaction::{Hold, Latched, NoStart};
 use Shown::{Planted, Reset, Tested};
 
 /// Every failure, by part.
@@ -384,6 +386,28 @@ pub const TABLE: &[Failure] = &[
     row(
         [
             "memory",
+            "the program feeds the watchdog too early (Nucleo, Teensy)",
+            "window of the watchdog; reset reason",
+            "test_watchdog_is_fed_within_its_window_alone",
+        ],
+        1.0,
+        Latched(Fault::WatchdogReset),
+        Tested,
+    ),
+    row(
+        [
+            "memory",
+            "a bit of stack or variables sticks at the start (Nucleo, Pico 2)",
+            "March X before the program starts",
+            "test_bit_of_memory_that_sticks_keeps_the_program_from_starting",
+        ],
+        0.0,
+        NoStart,
+        Tested,
+    ),
+    row(
+        [
+            "memory",
             "a word of the capped box's tables changes",
             "CRC, a word every second tick",
             "every_fault_in_every_phase_is_safe_named_and_latched",
@@ -495,7 +519,7 @@ impl Failure {
     pub fn is_as_stated(&self, found: &Found) -> bool {
         let fault = match self.reaction {
             Latched(fault) => Some(fault),
-            Hold => None,
+            Hold | NoStart => None,
         };
         found.off_ms.is_some_and(|time| time <= self.within_ms) && found.fault == fault
     }
@@ -551,6 +575,9 @@ pub fn page() -> String {
                 fault.code()
             ),
             (_, Hold) => writeln!(page, "| {part} | {failure} | {detected_by} | {within_ms} | off, hold | `{test}` |"),
+            (_, NoStart) => {
+                writeln!(page, "| {part} | {failure} | {detected_by} | {within_ms} | no start | `{test}` |")
+            }
         };
     }
     let gaps = TABLE.iter().filter(|row| matches!(row.shown, Shown::Gap(_))).count();

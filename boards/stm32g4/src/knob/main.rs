@@ -15,16 +15,16 @@ use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
 use embedded_hal::spi::MODE_1;
 use palpate::device::drive::NoPin;
-use palpate::servo::Heartbeat;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Shared, program_check};
 use palpate_bench::knob::{JOG, SETTINGS, SUPPLY};
 use palpate_bench::sensors::{Angles, max_step};
-use palpate_bench::{Bench, Cause, ClockCheck, CycleDelay, Idle, Lines, Memo, OneChannel, Parts, ReadBack, Settings};
+use palpate_bench::{
+    Bench, Cause, ClockCheck, CycleDelay, HEARTBEAT, Idle, Lines, Memo, OneChannel, Parts, ReadBack, Settings,
+};
 use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
-use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::spi::Spi;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, SPI1, interrupt};
@@ -103,15 +103,13 @@ fn main() -> ! {
     let mut program = program_check();
     program.all();
     let mut clocks = ClockCheck::new((clock, CLOCK), (Slow::start(chip.LPTIMER1), Slow::FREQUENCY));
-    let mut watchdog = Iwdg(IndependentWatchdog::new(chip.IWDG));
-    watchdog.0.start(20.millis());
+    let mut watchdog = Iwdg::start(chip.IWDG, 20);
     // SAFETY: the interrupt takes what is handed over, and main touches nothing of it any more.
     unsafe {
         core.NVIC.set_priority(Interrupt::TIM7, 0);
         NVIC::unmask(Interrupt::TIM7);
     }
-    let mut idle =
-        Idle::new(&SHARED.mailbox, records, Heartbeat::default()).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
+    let mut idle = Idle::new(&SHARED.mailbox, records, HEARTBEAT).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
     loop {
         idle.step(&mut port, &mut watchdog);
         choice.look(&SHARED.mailbox);

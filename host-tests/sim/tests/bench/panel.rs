@@ -220,6 +220,11 @@ fn one_of_two_contacts_asks_for_nothing_and_one_that_stays_closed_holds_until_bo
     assert!(told(&mut welded) & hold::ENABLE != 0);
     welded.set(|world| world.button = true);
     welded.ticks_off(2_000);
+    // Let go of for less than half a second, and pressed again.
+    welded.set(|world| world.button = false);
+    welded.ticks_off(300);
+    welded.set(|world| world.button = true);
+    welded.ticks_off(2_000);
     // Repaired while it is held.
     welded.set(|world| world.second_contact = None);
     welded.ticks_off(2_000);

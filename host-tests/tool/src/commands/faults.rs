@@ -44,6 +44,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let verdict = match (is_as_stated, row.reaction) {
             (true, Reaction::Latched(fault)) => format!("off, {}: {fault}", fault.code()),
             (true, Reaction::Hold) => "off, hold".to_owned(),
+            (true, Reaction::NoStart) => "no start".to_owned(),
             (false, _) => format!("NOT AS STATED: {fault:?}"),
         };
         println!("{head}{:>12}{time:>12}{motion_mm:>12.3}  {verdict}", row.within_ms);
