@@ -14,4 +14,4 @@ from with_host import WithHost
 class PicoWithHost(WithHost, InSetUp, OnStack, AtStops, unittest.TestCase):
     BOARD, NAME, WINDOW = Pico2, "pico2_host", 0.0
     # Two bodies' worth of memory.
-    TESTED = 2_000_000
+    TESTED = 3_000_000
