@@ -39,10 +39,10 @@ impl Supply for NoSupply {
     }
 }
 
-/// What the enable input says.
+/// A reading of the enable input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pressed {
-    /// Force is asked for.
+    /// Force is requested.
     pub is_pressed: bool,
     /// Its two channels differ: it is not pressed then.
     pub disagrees: bool,

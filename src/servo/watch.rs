@@ -175,8 +175,8 @@ impl PeriodWindow {
     }
 }
 
-/// Decides whether the hardware watchdog may be fed: only where so many ticks have gone on since it was fed last. A
-/// watchdog with a window then finds a program that feeds it too early.
+/// Decides whether the hardware watchdog may be fed: only where at least a given number of ticks has passed since
+/// it was fed last. A watchdog with a window then finds a program that feeds it too early.
 ///
 /// Feed it from the idle loop with this, never from the tick's own interrupt: then either of the two that hangs is
 /// found.
@@ -187,7 +187,7 @@ pub struct Heartbeat {
 }
 
 impl Heartbeat {
-    /// Feeds once in so many ticks at most.
+    /// Feeds once in this number of ticks at most.
     pub const fn every(ticks: u32) -> Self {
         Self { ticks: 0, apart: if ticks > 0 { ticks } else { 1 } }
     }

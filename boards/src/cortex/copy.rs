@@ -4,7 +4,7 @@
 //! The test is March X: a pattern written upwards, read and its complement written upwards, read and the pattern written
 //! downwards, read. It finds bits that stick, bits that do not change and addresses that meet (van de Goor, "Using March
 //! tests to test SRAMs", IEEE Design & Test 10(1), 1993). Memory that fails keeps the program from starting: no motor has
-//! been enabled. What lies in `.uninit` outlives resets and is left alone; of the copies `ProgramCheck` makes sure.
+//! been enabled. The section `.uninit` outlives resets and is left alone; `ProgramCheck` compares the copies.
 
 use core::arch::global_asm;
 use core::ptr::addr_of;

@@ -117,7 +117,7 @@ impl Port for Usart {
 pub struct Iwdg(IndependentWatchdog);
 
 impl Iwdg {
-    /// Starts it for good: it is fed within so many milliseconds, and not before [`WINDOW_MS`].
+    /// Starts it for good: it must be fed within this time, and not before [`WINDOW_MS`].
     ///
     /// # Panics
     /// If it does not take its window: then nobody would notice that it is fed too early.
