@@ -3,7 +3,8 @@
 //! Circles that bound one tube are cut where the lines along it meet them. Where a circle lies in a plane, the cuts
 //! look towards the corners of the other outlines there, so that the quads between are as square as they can be.
 
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{Mesh, Side, Source};
+use crate::trace;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
@@ -175,14 +176,23 @@ fn phase(mesh: &Mesh<'_>, group: &[(usize, [f64; 2])], count: usize) -> f64 {
                 continue;
             }
             for outline in region.loops.iter().filter(|outline| !outline.iter().any(on)) {
-                let closed = outline.len() == 1;
-                let points = outline.iter().map(|side| {
+                let edge = |side: &Side| match side.wire.map(|(wire, _)| &mesh.wires[wire].source) {
+                    Some(Source::Edge { edge, .. }) => Some(*edge),
+                    _ => None,
+                };
+                let first = edge(&outline[0]);
+                // Of a round hole the corners are cuts, if it is cut already.
+                let closed = outline.len() == 1
+                    || first.is_some_and(|edge| mesh.part.edges[edge].is_closed())
+                        && outline.iter().all(|side| edge(side) == first)
+                        && trace::area(outline) < 0.0;
+                let points = outline[..if closed { 1 } else { outline.len() }].iter().map(|side| {
                     if !closed {
                         return mesh.nodes[side.ends[0]];
                     }
-                    // Another circle: its centre, towards which one should look between two cuts.
-                    let points = side.path.polyline().map(|uv| face.surface.at(uv).point);
-                    points.sum::<glam::DVec3>() / side.path.polyline().count() as f64
+                    // A circle: its centre, towards which one should look between two cuts.
+                    let all = || outline.iter().flat_map(|side| side.path.polyline());
+                    all().map(|uv| face.surface.at(uv).point).sum::<glam::DVec3>() / all().count() as f64
                 });
                 for point in points {
                     let far = samples.iter().enumerate().map(|(k, sample)| (sample.distance(point), k));

@@ -66,6 +66,15 @@ fn distances_are_the_kernels() {
     }
 }
 
+/// Thirty-five holes in a grid and four round corners. The minimum for a plane is `V / 2 + h − 1` quads: with four
+/// vertices a hole 108 above and below; four more for each hole, and one for each of the eight sides.
+#[test]
+fn holes_in_a_grid_are_cut_between_their_neighbours() {
+    let least = 2 * 108 + 4 * 35 + 8;
+    let patches = imported("perforated_plate").patches.len();
+    assert!((least..least + least / 10).contains(&patches), "{patches} patches, {least} at least");
+}
+
 /// The file has the whole curve, turned about an axis that it crosses. Half an ellipsoid with half axes 12, 12 and 7 mm;
 /// a cylinder of 10 × 5 mm under an arc of radius 30 mm about a centre 2 mm beyond the axis: a tip.
 #[test]
