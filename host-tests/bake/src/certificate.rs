@@ -13,11 +13,12 @@
 //! Where a proof fails, random probes are sampled; they can disprove the property, or remain the only evidence.
 
 use super::BakedPatch;
-use super::convexity::Convexity;
+use super::convexity::{Convexity, convexity};
 use super::locator::{StoredSurface, Territory};
 use super::patch::NurbsPatch;
 use crate::random::Random;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::fmt;
 
 /// The evidence for a property.
@@ -81,6 +82,8 @@ pub struct Cut {
     pub at: f64,
 }
 
+/// Half the angle, degrees, of a cone in which any two normals are less than 90° apart.
+const NORMALS: f64 = 45.0;
 /// Random probes tried where there is no proof.
 const SAMPLES: usize = 400;
 /// Boxes of probes tried for the proof at one range.
@@ -125,7 +128,7 @@ impl Certificate {
             };
         };
         let cone_angle = territory.cone_angle().to_degrees();
-        let normal_cone = if cone_angle < 45.0 {
+        let normal_cone = if cone_angle < NORMALS {
             Finding::Proved
         } else {
             Finding::Failed(format!("normals may lie {:.0}° apart", (2.0 * cone_angle).min(180.0)))
@@ -150,6 +153,28 @@ impl Certificate {
             equilibrium,
             proved_range,
         }
+    }
+
+    /// Whether [`Self::new`] would prove all of every patch. The quickest properties go first, for all
+    /// patches: one patch that fails spares the others their proof.
+    pub fn all_hold(patches: &[(&NurbsPatch, &BakedPatch)], range: f64) -> bool {
+        let creases_of = |patch: &NurbsPatch| [0, 1].map(|axis| creases(patch, axis));
+        let territory = |patch: &NurbsPatch, baked: &BakedPatch| Territory::new(baked, &creases_of(patch), range);
+        let has_shape = |(patch, baked): &(&NurbsPatch, &BakedPatch)| {
+            creases_of(patch).iter().all(Vec::is_empty)
+                && baked.shape.min_stretch > 0.0
+                && matches!(convexity(patch, baked), Convexity::Proved | Convexity::UpToRounding(_))
+        };
+        let may_hold = |(patch, baked): &(&NurbsPatch, &BakedPatch)| {
+            territory(patch, baked).is_some_and(|territory| {
+                territory.cone_angle().to_degrees() < NORMALS
+                    && !matches!(sample(&StoredSurface::new(baked), territory.turn(), range), Finding::Failed(_))
+            })
+        };
+        let holds = |(patch, baked): &(&NurbsPatch, &BakedPatch)| {
+            territory(patch, baked).is_some_and(|territory| territory.has_one_minimum(range, BOXES))
+        };
+        patches.par_iter().all(has_shape) && patches.par_iter().all(may_hold) && patches.par_iter().all(holds)
     }
 
     /// Whether all of it is proved.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use palpate::patch::{Curvature, Patch as _, SplinePatch};
+use palpate_bake::certificate::Certificate;
 use palpate_bake::source::{self, Origin};
 use palpate_bake::survey::Survey;
 use palpate_bake::{BakedPatch, Model};
@@ -122,6 +123,8 @@ fn the_shapes_of_the_models_are_proved_as_they_are_known() -> Result<(), Box<dyn
         let parsed = palpate_suites::model(name);
         let baked = BakedPatch::new(&parsed.patches[0])?;
         let survey = Survey::new(&parsed.patches[0], &baked, RANGE);
+        let holds = Certificate::all_hold(&[(&parsed.patches[0], &baked)], RANGE);
+        assert_eq!(holds, survey.certificate.is_certified(), "{name}");
         assert!(survey.convexity.to_string().starts_with(convexity), "{name}: {}", survey.convexity);
         let Curvature { min: least, max: greatest } = baked.shape.curvature;
         if let Some([low, high]) = known {

@@ -9,7 +9,12 @@ use std::error::Error;
 const RANGE: f64 = 0.03;
 
 fn surveys(model: &Model) -> Result<Vec<Survey>, Box<dyn Error>> {
-    let survey = |patch| Ok(Survey::new(patch, &BakedPatch::new(patch)?, RANGE));
+    let survey = |patch| {
+        let baked = BakedPatch::new(patch)?;
+        let survey = Survey::new(patch, &baked, RANGE);
+        assert_eq!(Certificate::all_hold(&[(patch, &baked)], RANGE), survey.certificate.is_certified());
+        Ok(survey)
+    };
     model.patches.iter().map(survey).collect()
 }
 

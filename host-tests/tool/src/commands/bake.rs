@@ -100,12 +100,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(file) = &arguments.graph {
         write_whole(file, graph::graph(&loaded.body, &loaded.model.name, &labels).as_bytes())?;
     }
-    let surveys = loaded.surveys();
     if arguments.table_report {
         let text = match &report {
             Some(report) => table_report::of_body(&loaded.body, report)?,
             None if is_body => String::new(),
-            None => table_report::of_patches(&surveys)?,
+            None => table_report::of_patches(&loaded.surveys())?,
         };
         let mut text = text + &table_report::of_tick(&tables)? + &table_report::on_boards(bytes(&loaded))?;
         if is_body {
@@ -117,7 +116,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     for flaw in &flaws {
         eprintln!("{}: {}", arguments.model.display(), loaded.describe(flaw));
     }
-    let verdict = check::worst(&surveys, &flaws);
+    let verdict = loaded.verdict(&flaws);
     eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
     if verdict == Verdict::Usable {
         eprintln!("{}", check::NOT_CERTIFIED);

@@ -7,7 +7,7 @@ use clap::Args;
 use palpate::body::EdgeKind;
 use palpate::track::{Integrator, PerformanceLimits};
 use palpate_bake::body::BakedSide;
-use palpate_bake::certificate::Finding;
+use palpate_bake::certificate::{Certificate, Finding};
 use palpate_bake::flaws::{self, Flaw};
 use palpate_bake::locator::LocatorOptions;
 use palpate_bake::survey::{Regularity, Survey, Verdict};
@@ -71,8 +71,20 @@ impl Loaded {
 
     /// One for each face.
     pub(super) fn surveys(&self) -> Vec<Survey> {
-        let range = LocatorOptions::default().margin * f64::from(self.body.size);
+        let range = self.range();
         self.body.faces.par_iter().map(|face| Survey::new(&face.surface, &face.patch, range)).collect()
+    }
+
+    /// The verdict that [`worst`] gives, without surveys: one face that is not certified ends it.
+    pub(super) fn verdict(&self, flaws: &[Flaw]) -> Verdict {
+        let faces: Vec<_> = self.body.faces.iter().map(|face| (&face.surface, &face.patch)).collect();
+        let is_certified = !flaws.iter().any(Flaw::is_wrong) && Certificate::all_hold(&faces, self.range());
+        if is_certified { Verdict::Certified } else { Verdict::Usable }
+    }
+
+    /// The distance over a face for which it is certified, metres.
+    fn range(&self) -> f64 {
+        LocatorOptions::default().margin * f64::from(self.body.size)
     }
 
     /// Flaws of the body as a whole.
@@ -289,7 +301,7 @@ fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::
 
 /// The verdict on a model is that on its worst patch; a certificate of its patches does not hold for a body that
 /// intersects itself.
-pub(super) fn worst(surveys: &[Survey], flaws: &[Flaw]) -> Verdict {
+fn worst(surveys: &[Survey], flaws: &[Flaw]) -> Verdict {
     if flaws.iter().any(Flaw::is_wrong) {
         return Verdict::Usable;
     }
