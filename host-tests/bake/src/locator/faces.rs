@@ -10,6 +10,7 @@ use glam::DVec3;
 use palpate::body::{Candidate, GRID};
 use palpate::math::Vec3;
 use palpate::patch::SplinePatch;
+use std::cell::Cell;
 use std::ops::Range;
 
 /// All faces.
@@ -402,15 +403,18 @@ impl Rectangle {
     }
 }
 
-// The regions of a cell as places where descents may begin, in groups that lie together.
+// The regions of a cell as places where descents may begin, in a tree of boxes.
 
-/// Starts of a group: those that came from one part of a face follow each other.
-const TOGETHER: usize = 12;
+/// Starts of a leaf: those that came from one part of a face follow each other.
+const TOGETHER: usize = 4;
 
 /// All of them.
 pub(super) struct Starts {
     starts: Vec<Start>,
-    groups: Vec<Group>,
+    /// The root first, each before those in it.
+    boxes: Vec<TurnedBox>,
+    /// The one that was found nearer last: it is likely to be again.
+    last: Cell<usize>,
 }
 
 /// A region.
@@ -420,45 +424,63 @@ pub(super) struct Start {
     near: Osculating,
 }
 
-/// Some of them in a ball, metres.
-struct Group {
-    centre: Vec3,
-    radius: f32,
+/// Some of them, which follow each other, in a box, metres.
+struct TurnedBox {
+    frame: [Vec3; 3],
+    /// Along the frame's axes.
+    middle: Vec3,
+    half: Vec3,
+    /// Of a leaf; empty if it holds boxes.
     starts: Range<usize>,
+    /// The first box behind those in it.
+    next: usize,
 }
 
 impl Starts {
     pub(super) fn new(faces: &Faces, regions: &[Region<'_>]) -> Self {
         let starts: Vec<_> = regions.iter().map(|region| Start::new(faces, region)).collect();
-        let first = (0..starts.len()).step_by(TOGETHER);
-        let groups = first.map(|first| Group::of(&starts, first..(first + TOGETHER).min(starts.len()))).collect();
-        Self { starts, groups }
+        let mut boxes = Vec::new();
+        if !starts.is_empty() {
+            TurnedBox::add(&mut boxes, &starts, 0..starts.len());
+        }
+        Self { starts, boxes, last: Cell::new(0) }
     }
 
-    /// The distance of the one that is nearest to a probe, metres; `None` if none is nearer than `distance`.
-    pub(super) fn nearest(&self, distance: f32, probe: Vec3) -> Option<f32> {
-        let mut nearest = distance;
-        for group in &self.groups {
-            if group.is_within(nearest, probe) {
-                for start in &self.starts[group.starts.clone()] {
-                    if start.near.is_within(nearest, probe) {
-                        nearest = nearest.min(start.near.distance(probe));
-                    }
-                }
-            }
+    /// Whether any is nearer to a probe than a distance, metres.
+    pub(super) fn any_nearer(&self, distance: f32, probe: Vec3) -> bool {
+        let is_nearer = |start: &Start| start.near.is_within(distance, probe) && start.near.distance(probe) < distance;
+        if self.starts.get(self.last.get()).is_some_and(is_nearer) {
+            return true;
         }
-        (nearest < distance).then_some(nearest)
+        let nearer = self.about(distance, probe).find(|index| is_nearer(&self.starts[*index]));
+        self.last.set(nearer.unwrap_or_default());
+        nearer.is_some()
     }
 
     /// Those nearer than a distance, with theirs, the nearest first.
     pub(super) fn nearer(&self, distance: f32, probe: Vec3) -> Vec<(f32, &Start)> {
-        let groups = self.groups.iter().filter(|group| group.is_within(distance, probe));
-        let starts = groups.flat_map(|group| &self.starts[group.starts.clone()]);
+        let starts = self.about(distance, probe).map(|index| &self.starts[index]);
         let within = starts.filter(|start| start.near.is_within(distance, probe));
         let mut nearer: Vec<_> =
             within.map(|start| (start.near.distance(probe), start)).filter(|(to, _)| *to < distance).collect();
         nearer.sort_by(|a, b| a.0.total_cmp(&b.0));
         nearer
+    }
+
+    /// The starts in leaves that may be within a distance, by rising index.
+    fn about(&self, distance: f32, probe: Vec3) -> impl Iterator<Item = usize> {
+        let mut next = 0;
+        let leaves = std::iter::from_fn(move || {
+            loop {
+                let around = self.boxes.get(next)?;
+                let is_within = around.is_within(distance, probe);
+                next = if is_within { next + 1 } else { around.next };
+                if is_within && !around.starts.is_empty() {
+                    return Some(around.starts.clone());
+                }
+            }
+        });
+        leaves.flatten()
     }
 }
 
@@ -483,17 +505,33 @@ impl Start {
     }
 }
 
-impl Group {
-    fn of(all: &[Start], starts: Range<usize>) -> Self {
-        let middles = || all[starts.clone()].iter().map(|start| start.near.middle);
-        let centre = middles().sum::<Vec3>() / starts.len() as f32;
-        let reach = all[starts.clone()].iter().map(|start| start.near.middle.distance(centre) + start.near.radius);
-        Self { centre, radius: reach.fold(0.0, f32::max), starts }
+impl TurnedBox {
+    /// Adds one with all that it holds.
+    fn add(boxes: &mut Vec<Self>, all: &[Start], starts: Range<usize>) {
+        let middle = starts.start + starts.len() / 2;
+        let frame = all[middle].near.frame();
+        let bounds = all[starts.clone()].iter().map(|start| start.near.bounds(&frame));
+        let [low, high] =
+            bounds.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], [a, b]| [low.min(a), high.max(b)]);
+        let is_leaf = starts.len() <= TOGETHER;
+        let held = if is_leaf { starts.clone() } else { 0..0 };
+        let index = boxes.len();
+        boxes.push(Self { frame, middle: 0.5 * (low + high), half: 0.5 * (high - low), starts: held, next: 0 });
+        if !is_leaf {
+            // Faces apart, if there are several.
+            let borders =
+                (starts.start + 1..starts.end).filter(|at| all[*at].candidate.face != all[*at - 1].candidate.face);
+            let middle = borders.min_by_key(|border| border.abs_diff(middle)).unwrap_or(middle);
+            Self::add(boxes, all, starts.start..middle);
+            Self::add(boxes, all, middle..starts.end);
+        }
+        boxes[index].next = boxes.len();
     }
 
     /// Whether any of it may be nearer than a distance.
     fn is_within(&self, distance: f32, probe: Vec3) -> bool {
-        let reach = distance + self.radius;
-        reach > 0.0 && self.centre.distance_squared(probe) < reach * reach
+        let along = Vec3::from_array(self.frame.map(|axis| axis.dot(probe)));
+        let beyond = ((along - self.middle).abs() - self.half).max(Vec3::ZERO);
+        beyond.length_squared() <= distance.max(0.0) * distance.max(0.0)
     }
 }

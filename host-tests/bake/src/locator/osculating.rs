@@ -6,6 +6,8 @@ use palpate::math::Vec3;
 
 /// Allowance for the surface's third order in the distance, relative to its value at the corners.
 const SAFETY: f64 = 1.5;
+/// More than `f32` rounds, relative to lengths.
+const ROUNDED: f32 = 2e-6;
 
 /// The surface about the middle of a rectangle of its parameters; lengths in metres.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +57,30 @@ impl Osculating {
             off: (SAFETY * off) as f32,
             sag: (SAFETY * off + sag) as f32,
         }
+    }
+
+    /// Axes along and across it.
+    pub(super) fn frame(&self) -> [Vec3; 3] {
+        let [along, across] = self.first;
+        match (along.try_normalize(), along.cross(across).try_normalize()) {
+            (Some(along), Some(normal)) => [along, normal.cross(along), normal],
+            _ => Vec3::AXES,
+        }
+    }
+
+    /// Its minimum and maximum along the axes of a frame: [`Self::distance`] is at least that of a box so large.
+    pub(super) fn bounds(&self, frame: &[Vec3; 3]) -> [Vec3; 2] {
+        let along = |vector: Vec3| Vec3::from_array(frame.map(|axis| axis.dot(vector)));
+        let [half_u, half_v] = self.half;
+        let [uu, uv, vv] = self.second.map(along);
+        let [uu, vv] = [uu * (0.5 * half_u * half_u), vv * (0.5 * half_v * half_v)];
+        let slope = along(self.first[0]).abs() * half_u + along(self.first[1]).abs() * half_v;
+        let both = slope + uv.abs() * (half_u * half_v) + self.off + ROUNDED * (self.middle.length() + self.radius);
+        let middle = along(self.middle);
+        [
+            middle + uu.min(Vec3::ZERO) + vv.min(Vec3::ZERO) - both,
+            middle + uu.max(Vec3::ZERO) + vv.max(Vec3::ZERO) + both,
+        ]
     }
 
     /// Whether [`Self::distance`] may be below a distance; quickly.

@@ -109,14 +109,11 @@ impl<'a> Sampler<'a> {
     fn fault_at(&self, list: &[Candidate], probe: Vec3) -> Option<Fault> {
         let mut best = f32::INFINITY;
         let mut left = self.evaluations;
-        let mut least = None;
         for candidate in list {
             // The nearest first: where it ends near enough, the others can only end nearer, and it mostly does. So the
             // starts are asked behind it, for what is nearer still.
             self.descended(candidate, probe, &mut best, &mut left);
-            let enough = distance(best) - self.tolerance;
-            least = least.or_else(|| self.starts.nearest(enough, probe));
-            if least.is_none_or(|least| least >= enough) {
+            if !self.starts.any_nearer(distance(best) - self.tolerance, probe) {
                 return None;
             }
         }
