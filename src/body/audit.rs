@@ -1,19 +1,126 @@
-//! The search for a global start (after a jump too), and the rolling audit of a tracker that follows.
+//! The search for a global start (after a jump too), and the audit of a tracker that follows.
 
+use super::candidate_search::{CandidateSearch, CandidateStatus};
 use super::feature::Feature;
-use super::search::{Best, Rival, Search};
+use super::locator::Candidate;
+use super::search::{Best, Search};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
-use crate::math::Vec3;
+use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::track::{Contact, Witness};
 
-/// Relative difference of the distances above which the tracker changes to another candidate: far above the rounding
-/// of `f32`, far below what a hand can feel.
+/// Relative difference of the squared distances above which the tracker changes to another candidate: far above the
+/// rounding of `f32`, far below what a hand can feel.
 const NEARER: f32 = 1.0e-3;
+/// Relative to the body's size: a candidate is searched until it is certain to be farther by this. The more, the
+/// longer the audit may rest.
+const MARGIN: f32 = 0.01;
+/// Maximum evaluations of one candidate in a pass.
+pub(super) const MAX_EVALUATIONS_IN_AUDIT: u8 = 6;
+/// Part of a root that covers its rounding.
+const BELOW: f32 = 1.0 - 4.0 * f32::EPSILON;
+/// No entry of the locator.
+const NONE: u16 = u16::MAX;
+
+/// The search beside the tracker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Seeking {
+    /// For a start.
+    Start(Search),
+    /// For a point that is nearer than the tracker's.
+    Nearer(Audit),
+}
+
+/// The audit: passes over the candidates of the probe's cell. A pass gives a certificate: while the probe stays in the
+/// cell and near, no candidate holds a nearer point. It rests that long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Audit {
+    descending: CandidateSearch,
+    /// The probe for which the candidate is searched: a minimum that moved with the probe would never be found.
+    asked: Vec3,
+    /// The probe at the start of the pass, the lower bound of the distance there of all candidates so far, and how far
+    /// the cell's walls were, metres.
+    anchor: Vec3,
+    floor: f32,
+    room: f32,
+    /// Index of the entry, and of the first of the list.
+    entry: u16,
+    first: u16,
+    /// The entry that set the floor, and that of the last pass: it comes first in the next one.
+    nearest: u16,
+    favourite: u16,
+    /// The entries that hold the tracker's point as their only minimum.
+    held: [u16; 2],
+    is_done: bool,
+}
+
+/// The faces that hold the tracker's point, with `(u, v)`: two on an edge.
+type Places = [Option<(u16, [f32; 2])>; 2];
+
+/// Whether the tracker's point is the nearest of a candidate: `φ` has one minimum there, and the tracker goes to it.
+fn holds(candidate: &Candidate, places: &Places) -> bool {
+    let [lower, upper] = candidate.rectangle();
+    let is_within = |[u, v]: [f32; 2]| lower[0] <= u && u <= upper[0] && lower[1] <= v && v <= upper[1];
+    candidate.convex && places.iter().flatten().any(|(face, at)| *face == candidate.face && is_within(*at))
+}
+
+impl Audit {
+    /// A pass in the cell of a probe; in the same cell with the entry first that was nearest in the last pass.
+    fn new(body: &Body, probe: Vec3, last: Option<&Self>) -> Self {
+        let (first, room) = body.locator.cell(probe);
+        let first = first as u16;
+        let favourite = last.filter(|last| last.first == first).map_or(NONE, |last| last.nearest);
+        let entry = if favourite == NONE { first } else { favourite };
+        Self {
+            descending: CandidateSearch::new(body.candidate(usize::from(entry)), MAX_EVALUATIONS_IN_AUDIT),
+            asked: probe,
+            anchor: probe,
+            floor: f32::INFINITY,
+            room,
+            entry,
+            first,
+            nearest: NONE,
+            favourite,
+            held: [NONE; 2],
+            is_done: false,
+        }
+    }
+
+    /// Whether no candidate is nearer than the tracker's point, by the certificate of the last pass.
+    fn is_certain(&self, body: &Body, probe: Vec3, distance: f32, places: &Places) -> bool {
+        let moved = sqrt_from_above((probe - self.anchor).length_squared());
+        let is_held = |entry: &u16| *entry == NONE || holds(&body.candidate(usize::from(*entry)), places);
+        moved <= self.room && distance * (1.0 - 0.5 * NEARER) + moved <= self.floor && self.held.iter().all(is_held)
+    }
+
+    /// Takes the lower bound of `φ` of the candidate, and goes on to the next; the last one ends the pass.
+    fn go_on(&mut self, body: &Body, at_least: f32) {
+        let floor = sqrt(2.0 * at_least) * BELOW - sqrt_from_above((self.asked - self.anchor).length_squared());
+        if floor < self.floor {
+            (self.floor, self.nearest) = (floor, self.entry);
+        }
+        self.skip(body);
+    }
+
+    fn skip(&mut self, body: &Body) {
+        let was_favourite = self.entry == self.favourite;
+        let mut is_last = !was_favourite && !self.descending.candidate.more;
+        self.entry = if was_favourite { self.first } else { self.entry + 1 };
+        // It has had its turn.
+        if !is_last && self.entry == self.favourite {
+            is_last = !body.candidate(usize::from(self.entry)).more;
+            self.entry += 1;
+        }
+        self.is_done = is_last;
+        if !is_last {
+            self.descending = CandidateSearch::new(body.candidate(usize::from(self.entry)), MAX_EVALUATIONS_IN_AUDIT);
+        }
+    }
+}
 
 impl Body<'_> {
-    /// One part of the search for a start, or of the rolling audit: its start, half an evaluation, or its end.
-    /// `follows`: the probe is near that of the last tick. Returns whether the tracker may step.
+    /// One part of the search for a start: the evaluations of a tick, and its end. `follows`: the probe is near that of
+    /// the last tick. Returns whether the tracker may step.
     #[inline(never)]
     pub(super) fn search(&self, state: &mut BodyWitness, probe: Vec3, follows: bool, step: &mut BodyStep) -> bool {
         if !follows {
@@ -27,51 +134,86 @@ impl Body<'_> {
         }
         let before = core::mem::replace(&mut state.probe, probe);
         // Behind a convex body's surface there is no force: tracker and audit take turns.
-        let is_located = state.is_located;
-        let steps_too = is_located && (state.contact != Contact::Behind || !self.is_convex());
-        let Some(search) = &mut state.search else {
-            state.search = Some(Search::new(self, probe));
-            return steps_too;
+        let steps_too = state.is_located && (state.contact != Contact::Behind || !self.is_convex());
+        let mut search = match state.seeking {
+            Some(Seeking::Start(search)) => search,
+            _ => Search::new(self, probe),
         };
+        for _ in 0..self.effort.candidates {
+            step.evaluations += u8::from(search.found().is_none());
+            search.advance(self, probe);
+        }
+        state.seeking = Some(Seeking::Start(search));
+        let Some(found) = search.found() else { return steps_too };
+        // The tracker steps first from the point that was just found.
+        (state.is_audited, state.is_trackers_turn, state.seeking) = (true, false, None);
         // The tracker has not stepped for this probe yet: its distance for the last probe counts too.
         let away = |probe: Vec3| (state.witness.surface.point - probe).length_squared();
         let (now, last) = (away(probe), away(before));
         let nearer = (0.5 - 0.5 * NEARER) * if last < now { last } else { now };
-        let Some(found) = search.found() else {
-            // In front of a convex body no other point is nearer.
-            let asks = state.is_audited && !self.is_convex();
-            let places = || self.places(&state.feature, &state.witness);
-            let rival = asks.then(|| Rival { half_squared: nearer, places: places() });
-            search.advance_against(self, probe, rival.as_ref());
-            step.evaluations += u8::from(search.has_evaluated());
-            // No tracker steps until it is located: there is time for both halves.
-            if !is_located {
-                search.advance(self, probe);
-                step.evaluations += u8::from(search.has_evaluated());
-            }
-            return steps_too;
-        };
-        let is_audit = state.is_audited && !self.is_convex();
-        // The tracker steps first from the point that was just found.
-        (state.is_audited, state.is_trackers_turn) = (true, false);
         if !state.is_located || found.half_squared < nearer {
-            self.set_down(state, &found, probe, nearer, step);
-            // The point is not nearer for the present probe: continue with the other candidates.
-            if is_audit
-                && !step.switched
-                && let Some(search) = &mut state.search
-            {
-                search.resume(self);
-                return steps_too;
-            }
+            self.set_down(state, &found, nearer, step);
         }
-        state.search = None;
         steps_too && !step.switched
     }
 
-    /// The faces that hold the witness point, with `(u, v)` on each.
+    /// The audit of a tick on a body that is not convex, after the tracker's steps. At most the evaluations of
+    /// [`super::Effort`], and one for a point that is nearer.
     #[inline(never)]
-    fn places(&self, feature: &Feature, witness: &Witness) -> [Option<(u16, [f32; 2])>; 2] {
+    pub(super) fn audit(&self, state: &mut BodyWitness, is_settled: bool, step: &mut BodyStep) {
+        let probe = state.probe;
+        let squared = (state.witness.surface.point - probe).length_squared();
+        let (known, distance) = ((0.5 - 0.5 * NEARER) * squared, sqrt_from_above(squared));
+        // A tracker that is on its way is not at a minimum.
+        let places = if is_settled { self.places(&state.feature, &state.witness) } else { [None; 2] };
+        let mut audit = match &state.seeking {
+            Some(Seeking::Nearer(audit)) if !audit.is_done => *audit,
+            Some(Seeking::Nearer(audit)) if audit.is_certain(self, probe, distance, &places) => return,
+            Some(Seeking::Nearer(last)) => Audit::new(self, probe, Some(last)),
+            _ => Audit::new(self, probe, None),
+        };
+        let (mut left, far) = (self.effort.candidates, distance + MARGIN * self.size);
+        while !audit.is_done {
+            if audit.descending.is_fresh() {
+                if holds(&audit.descending.candidate, &places)
+                    && let Some(free) = audit.held.iter_mut().find(|held| **held == NONE)
+                {
+                    *free = audit.entry;
+                    audit.skip(self);
+                    continue;
+                }
+                audit.asked = probe;
+            }
+            if left == 0 {
+                break;
+            }
+            left -= 1;
+            step.evaluations += 1;
+            let progress = self.search_on(&mut audit.descending, audit.asked, 0.5 * far * far);
+            let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, at_least, .. } =
+                audit.descending;
+            let falls = progress == Some(CandidateStatus::Falling);
+            if (!falls || left == 0) && half_squared < known {
+                let found = Best { face, parameters, half_squared };
+                self.set_down(state, &found, known, step);
+                if step.switched {
+                    // The point that was left may be the next that is nearer.
+                    state.seeking = None;
+                    return;
+                }
+            }
+            match progress {
+                Some(CandidateStatus::Falling) => {}
+                Some(CandidateStatus::Beaten) => audit.go_on(self, at_least),
+                Some(CandidateStatus::Found) => audit.go_on(self, half_squared),
+                Some(CandidateStatus::Exhausted) | None => audit.go_on(self, 0.0),
+            }
+        }
+        state.seeking = Some(Seeking::Nearer(audit));
+    }
+
+    /// The faces that hold the witness point, with `(u, v)` on each.
+    fn places(&self, feature: &Feature, witness: &Witness) -> Places {
         match feature {
             Feature::Face(index) => [Some((*index, witness.parameters)), None],
             Feature::Edge(index) => match self.edges.get(usize::from(*index)) {
@@ -84,12 +226,12 @@ impl Body<'_> {
 
     /// Moves the witness point to the result of the search if `½ ‖P − Q‖²` is below `nearer` there, m², or if it was
     /// not located before. One evaluation.
-    fn set_down(&self, state: &mut BodyWitness, found: &Best, probe: Vec3, nearer: f32, step: &mut BodyStep) {
+    fn set_down(&self, state: &mut BodyWitness, found: &Best, nearer: f32, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(found.face)) else { return };
         let reached = face.patch.evaluate_apart(found.parameters);
         step.evaluations += 1;
         // The probe has moved since the search started.
-        let is_nearer = 0.5 * (reached.surface.point - probe).length_squared() < nearer;
+        let is_nearer = 0.5 * (reached.surface.point - state.probe).length_squared() < nearer;
         if !state.is_located || is_nearer {
             state.witness.rest_at(found.parameters, &reached);
             (state.feature, state.is_located, step.switched) = (Feature::Face(found.face), true, true);

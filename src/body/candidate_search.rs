@@ -35,8 +35,8 @@ pub struct CandidateSearch {
     pub half_squared: f32,
     /// Where the next evaluation will be, or the last one was.
     trial: [f32; 2],
-    /// The result of the last evaluation, until [`Self::judge`] uses it.
-    seen: Option<DistanceDerivatives>,
+    /// Lower bound of `φ` over the rectangle, once the search is [`CandidateStatus::Beaten`], m².
+    pub(super) at_least: f32,
     halvings: u8,
     /// Evaluations left.
     left: u8,
@@ -72,7 +72,7 @@ impl CandidateSearch {
             parameters,
             half_squared: f32::INFINITY,
             trial: parameters,
-            seen: None,
+            at_least: 0.0,
             halvings: 0,
             left: evaluations,
             may_skip_last_evaluation: true,
@@ -85,61 +85,71 @@ impl CandidateSearch {
         self
     }
 
-    /// Both halves of a step at one go.
+    /// One evaluation, and the choice of the next parameters. `known` is the `φ` to beat, m²; `size` is the body's,
+    /// metres; `poles` as of [`super::Face::poles`].
     pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> CandidateStatus {
-        self.evaluate(patch, probe);
-        if poles == 0 { self.judge(patch, known, size) } else { self.judge_near_pole(patch, poles, known, size) }
+        // Without poles their arithmetic is not compiled in.
+        if poles == 0 {
+            self.step_apart(patch, probe, known, size)
+        } else {
+            self.step_near_pole(patch, poles, probe, known, size)
+        }
     }
 
     /// Whether nothing has been evaluated yet.
     pub(super) const fn is_fresh(&self) -> bool {
-        self.seen.is_none() && self.half_squared == f32::INFINITY
+        self.half_squared == f32::INFINITY
     }
 
-    /// Whether the last evaluation is still to be judged.
-    pub const fn has_evaluated(&self) -> bool {
-        self.seen.is_some()
-    }
-
-    /// Where the last evaluation was, and `φ` there, m², until it is judged.
-    pub(super) fn seen(&self) -> Option<([f32; 2], f32)> {
-        self.seen.map(|seen| (self.trial, seen.half_squared))
-    }
-
-    /// The first half of a step: one evaluation.
     #[inline(never)]
-    pub fn evaluate(&mut self, patch: &SplinePatch, probe: Vec3) {
-        let curved = patch.evaluate_curved(self.trial[0], self.trial[1]);
-        self.left = self.left.wrapping_sub(1);
-        self.seen = Some(DistanceDerivatives::new(&curved, curved.surface.point - probe));
+    fn step_apart(&mut self, patch: &SplinePatch, probe: Vec3, known: f32, size: f32) -> CandidateStatus {
+        self.judged(patch, 0, self.seen(patch, probe), known, size)
     }
 
-    /// The second half of a step on a face without poles: chooses the next parameters. The arithmetic of poles is not
-    /// compiled in. `known` is the `φ` to beat, m²; `size` is the body's, metres.
     #[inline(never)]
-    pub fn judge(&mut self, patch: &SplinePatch, known: f32, size: f32) -> CandidateStatus {
-        self.judged(patch, 0, known, size)
-    }
-
-    /// The second half on a face that may have poles ([`super::Face::poles`]).
-    #[inline(never)]
-    pub fn judge_near_pole(&mut self, patch: &SplinePatch, poles: u8, known: f32, size: f32) -> CandidateStatus {
-        // In the second call the compiler knows that there are poles.
-        if poles == 0 { self.judge(patch, known, size) } else { self.judged(patch, poles, known, size) }
+    fn step_near_pole(
+        &mut self,
+        patch: &SplinePatch,
+        poles: u8,
+        probe: Vec3,
+        known: f32,
+        size: f32,
+    ) -> CandidateStatus {
+        self.judged(patch, poles, self.seen(patch, probe), known, size)
     }
 
     #[inline(always)]
-    fn judged(&mut self, patch: &SplinePatch, poles: u8, known: f32, size: f32) -> CandidateStatus {
-        let Some(seen) = self.seen.take() else { return CandidateStatus::Falling };
+    fn seen(&self, patch: &SplinePatch, probe: Vec3) -> DistanceDerivatives {
+        let curved = patch.evaluate_apart(self.trial);
+        DistanceDerivatives::new(&curved, curved.surface.point - probe)
+    }
+
+    #[inline(always)]
+    fn judged(
+        &mut self,
+        patch: &SplinePatch,
+        poles: u8,
+        seen: DistanceDerivatives,
+        known: f32,
+        size: f32,
+    ) -> CandidateStatus {
+        self.left = self.left.wrapping_sub(1);
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
             let pole = Pole::nearest(poles, at, patch, size);
             let model = Model::new(pole.map_or(seen, |pole| seen.near_pole(pole)));
             let [lower, upper] = self.candidate.rectangle();
             let range = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
-            // A convex function lies above its tangent plane.
-            if self.candidate.convex && known < half_squared && half_squared + model.max_fall(range) > known {
-                return CandidateStatus::Beaten;
+            if known < half_squared {
+                self.at_least = least(&patch.shape(), &seen, range);
+                // A convex function lies above its tangent plane.
+                let above = half_squared + model.max_fall(range);
+                if self.candidate.convex && above > self.at_least {
+                    self.at_least = above;
+                }
+                if self.at_least > known {
+                    return CandidateStatus::Beaten;
+                }
             }
             (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
             let (change, fall) = model.step(&seen, pole, range);
@@ -178,6 +188,24 @@ impl CandidateSearch {
         let exhausted = self.left == 0 || self.halvings >= MAX_HALVINGS;
         if exhausted { CandidateStatus::Exhausted } else { CandidateStatus::Falling }
     }
+}
+
+/// Lower bound of `φ` over a range around a point: along the direction from the point to the probe, the patch comes
+/// nearer by its tangents and by the bound of its second derivatives at most. None at a crease.
+#[inline]
+fn least(shape: &ShapeBounds, seen: &DistanceDerivatives, [lower, upper]: [[f32; 2]; 2]) -> f32 {
+    let (second, third) = (&shape.second_derivatives, &shape.third_derivatives);
+    let most = |axis: usize| if -lower[axis] > upper[axis] { -lower[axis] } else { upper[axis] };
+    let (x, y) = (most(0), most(1));
+    let bend = 0.5 * (second.uu * x * x + 2.0 * second.uv * x * y + second.vv * y * y);
+    let along = |axis: usize| {
+        let (low, high) = (seen.gradient[axis] * lower[axis], seen.gradient[axis] * upper[axis]);
+        if low < high { low } else { high }
+    };
+    let distance = sqrt_from_above(2.0 * seen.half_squared);
+    let least = (2.0 * seen.half_squared + along(0) + along(1)) / distance - bend;
+    let is_known = least > 0.0 && third.jump_uu < f32::INFINITY && third.jump_vv < f32::INFINITY;
+    if is_known { 0.5 * least * least } else { 0.0 }
 }
 
 /// Whether `φ` is proved to be near the quadratic model's value at its minimiser over a rectangle, and to have little

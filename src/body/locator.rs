@@ -108,6 +108,12 @@ impl Locator<'_> {
     /// completeness is not proved. At most [`MAX_DEPTH`] rounds.
     #[inline]
     pub fn list(&self, probe: Vec3) -> usize {
+        self.cell(probe).0
+    }
+
+    /// The same, with the distance from the probe to the nearest wall of its cell, metres, below 0 outside.
+    #[inline]
+    pub(super) fn cell(&self, probe: Vec3) -> (usize, f32) {
         let mut centre = self.corner + Vec3::splat(0.5 * self.side);
         let mut quarter = 0.25 * self.side;
         let mut node = 0;
@@ -115,15 +121,16 @@ impl Locator<'_> {
         for _ in 0..core::hint::black_box(MAX_DEPTH) {
             let upper = [probe.x >= centre.x, probe.y >= centre.y, probe.z >= centre.z];
             let child = usize::from(upper[0]) | usize::from(upper[1]) << 1 | usize::from(upper[2]) << 2;
-            let Some(code) = self.nodes.get(node).and_then(|children| children.get(child)) else { return 0 };
+            let Some(code) = self.nodes.get(node).and_then(|children| children.get(child)) else { break };
+            centre += Vec3::from_array(upper.map(|upper| if upper { quarter } else { -quarter }));
             if code & LEAF != 0 {
-                return usize::from(code & !LEAF);
+                let off = (probe - centre).abs().max_element();
+                return (usize::from(code & !LEAF), quarter - off);
             }
             node = usize::from(*code);
-            centre += Vec3::from_array(upper.map(|upper| if upper { quarter } else { -quarter }));
             quarter *= 0.5;
         }
-        0
+        (0, 0.0)
     }
 
     /// Whether the root cube holds the probe.

@@ -36,7 +36,7 @@ pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES, MAX_LIST
 pub use search::{Located, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
 pub use table::{Body, BodyError, BodyTables};
 pub use table_words::TableCursor;
-pub use tick_bound::{MAX_SPOKES, TickLimit, WorstTick};
+pub use tick_bound::{Effort, MAX_SPOKES, TickLimit, WorstTick};
 pub use tracker::{BodyStep, BodyWitness};
 
 pub use crate::tally::TickWork;

@@ -1,7 +1,7 @@
-//! The global start: the candidates of the probe's cell, half an evaluation at a time.
+//! The global start: the candidates of the probe's cell, one evaluation at a time.
 //!
-//! A servo tick carries half an evaluation: the search runs beside the tracker until it ends, and starts again in the
-//! cell where the probe then is. [`Body::locate`] runs the same search in one call.
+//! A servo tick carries a few evaluations ([`super::Effort`]), until the search ends. [`Body::locate`] runs the same
+//! search in one call.
 
 use super::candidate_search::{
     CandidateSearch, CandidateStatus, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
@@ -20,18 +20,15 @@ pub const MAX_EVALUATIONS_CONVEX: u16 = 32;
 /// A search between two evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Search {
-    descending: CandidateSearch,
+    pub(super) descending: CandidateSearch,
     /// Index of the candidate's entry.
-    entry: u16,
+    pub(super) entry: u16,
     evaluations: u16,
     best: Best,
-    /// In the audit: the probe and the distance to beat at the start of the candidate. A minimum that moved with the
-    /// probe would never be found.
-    asked: Option<(Vec3, f32)>,
     /// Whether a candidate ended before its minimum.
     exhausted: bool,
     /// Once the search has ended: whether every candidate was searched to its end.
-    ended: Option<bool>,
+    pub(super) ended: Option<bool>,
 }
 
 /// The nearest point so far.
@@ -40,29 +37,6 @@ pub(super) struct Best {
     pub face: u16,
     pub parameters: [f32; 2],
     pub half_squared: f32,
-}
-
-/// The tracker's point, for which the audit looks for a nearer one.
-#[derive(Clone, Copy)]
-pub(super) struct Rival {
-    /// Bound of `½ ‖P − Q‖²` for a nearer point, m².
-    pub half_squared: f32,
-    /// The faces that hold it, with `(u, v)`: two on an edge.
-    pub places: [Option<(u16, [f32; 2])>; 2],
-}
-
-impl Rival {
-    /// Whether the tracker's point is the nearest of a candidate: `φ` has one minimum there, and the tracker goes to
-    /// it.
-    #[inline]
-    fn holds(&self, candidate: &Candidate) -> bool {
-        let [lower, upper] = candidate.rectangle();
-        let is_within = |[u, v]: [f32; 2]| lower[0] <= u && u <= upper[0] && lower[1] <= v && v <= upper[1];
-        let is_its = |place: &Option<(u16, [f32; 2])>| {
-            place.is_some_and(|(face, parameters)| face == candidate.face && is_within(parameters))
-        };
-        candidate.convex && self.places.iter().any(is_its)
-    }
 }
 
 /// The closest point of a body to a probe, from a query without history ([`Body::locate`]).
@@ -111,65 +85,23 @@ impl Search {
             entry: entry as u16,
             evaluations: 0,
             best: Best { face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
-            asked: None,
             exhausted: false,
             ended: None,
         }
     }
 
-    /// Whether the last half step was an evaluation.
-    pub const fn has_evaluated(&self) -> bool {
-        self.descending.has_evaluated()
-    }
-
-    /// Half a step: one evaluation, or the choice of the next parameters. The probe may move a little between two
-    /// calls. Does nothing once the search has ended.
-    #[inline]
+    /// One evaluation. The probe may move a little between two calls. Does nothing once the search has ended.
+    #[inline(never)]
     pub fn advance(&mut self, body: &Body, probe: Vec3) {
-        self.advance_against(body, probe, None);
-    }
-
-    /// The same for the audit, which ends at the first point that is nearer than the `rival`. Candidates that are
-    /// certain to hold none are skipped.
-    #[inline(always)]
-    pub(super) fn advance_against(&mut self, body: &Body, probe: Vec3, rival: Option<&Rival>) {
         if self.ended.is_some() {
             return;
         }
         let Candidate { face, .. } = self.descending.candidate;
-        let Some(Face { patch, .. }) = body.faces.get(usize::from(face)) else {
+        let Some(progress) = body.search_on(&mut self.descending, probe, self.best.half_squared) else {
             self.ended = Some(false);
             return;
         };
-        if !self.descending.has_evaluated() {
-            if let Some(rival) = rival
-                && self.descending.is_fresh()
-            {
-                if rival.holds(&self.descending.candidate) {
-                    self.go_on(body, CandidateStatus::Beaten);
-                    return;
-                }
-                self.asked = Some((probe, rival.half_squared));
-            }
-            let asked = rival.and(self.asked);
-            self.descending.evaluate(patch, asked.map_or(probe, |(probe, _)| probe));
-            self.evaluations += 1;
-            if let Some((_, known)) = asked
-                && let Some((parameters, half_squared)) = self.descending.seen()
-                && half_squared < known
-            {
-                self.best = Best { face, parameters, half_squared };
-                self.ended = Some(true);
-            }
-            return;
-        }
-        let asked = rival.and(self.asked);
-        let known = asked.map_or(self.best.half_squared, |(_, known)| known);
-        let progress = if body.has_poles {
-            self.descending.judge_near_pole(patch, body.poles_of(face), known, body.size)
-        } else {
-            self.descending.judge(patch, known, body.size)
-        };
+        self.evaluations += 1;
         if progress == CandidateStatus::Exhausted {
             self.exhausted = true;
         }
@@ -177,17 +109,7 @@ impl Search {
         if half_squared < self.best.half_squared {
             self.best = Best { face, parameters, half_squared };
         }
-        if asked.is_some() && half_squared < known {
-            self.ended = Some(true);
-        } else {
-            self.go_on(body, progress);
-        }
-    }
-
-    /// Continues with the next candidate, after one whose point is not nearer.
-    pub(super) fn resume(&mut self, body: &Body) {
-        (self.ended, self.best.half_squared) = (None, f32::INFINITY);
-        self.go_on(body, CandidateStatus::Beaten);
+        self.go_on(body, progress);
     }
 
     /// Continues with the next evaluation or candidate, or ends.
@@ -232,8 +154,7 @@ impl Body<'_> {
     /// then one for the point.
     pub fn locate(&self, probe: Vec3) -> Located {
         let mut search = Search::new(self, probe);
-        // Two halves an evaluation.
-        for _ in 0..2 * MAX_EVALUATIONS {
+        for _ in 0..MAX_EVALUATIONS {
             search.advance(self, probe);
             if search.ended.is_some() {
                 break;
@@ -282,8 +203,17 @@ impl Body<'_> {
         }
     }
 
+    /// One evaluation in a candidate; `None` if its face does not exist.
+    #[inline]
+    pub(super) fn search_on(&self, search: &mut CandidateSearch, probe: Vec3, known: f32) -> Option<CandidateStatus> {
+        let Candidate { face, .. } = search.candidate;
+        let on = self.faces.get(usize::from(face))?;
+        let poles = if self.has_poles { on.poles() } else { 0 };
+        Some(search.step(&on.patch, poles, probe, known, self.size))
+    }
+
     /// A search from the middle of the candidate at an index.
-    fn descending(&self, entry: usize) -> CandidateSearch {
+    pub(super) fn descending(&self, entry: usize) -> CandidateSearch {
         let candidate = self.candidate(entry);
         // A convex body's lists are short, and no audit follows.
         if self.is_convex() {
@@ -298,7 +228,7 @@ impl Body<'_> {
     }
 
     /// The candidate at an index; the constructor checked that lists end.
-    fn candidate(&self, entry: usize) -> Candidate {
+    pub(super) fn candidate(&self, entry: usize) -> Candidate {
         self.locator.candidate(entry).unwrap_or(Candidate::whole(0))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
 use super::locator::{Candidate, LEAF, Locator, MAX_FACES, MAX_LIST};
-use super::tick_bound::MAX_SPOKES;
+use super::tick_bound::{Effort, MAX_SPOKES};
 use crate::math::Vec3;
 use crate::track::Contact;
 use core::fmt;
@@ -40,6 +40,8 @@ pub struct Body<'a> {
     /// Whether any edge is smooth; otherwise a step that ends at the border of a face skips the test.
     pub(super) has_smooth_edges: bool,
     pub(super) baked_crc: Option<NonZeroU32>,
+    /// The work of a tick.
+    pub(super) effort: Effort,
 }
 
 /// The tables of a body, before their checks: [`BodyTables::checked`] makes the [`Body`].
@@ -230,6 +232,7 @@ impl<'a> BodyTables<'a> {
             has_poles,
             has_smooth_edges,
             baked_crc: None,
+            effort: Effort::BENCH,
         };
         if let Err(error) = body.check_features() {
             return Err(error);
@@ -248,6 +251,17 @@ impl<'a> Body<'a> {
     #[must_use]
     pub const fn with_crc(self, baked: u32) -> Self {
         Self { baked_crc: NonZeroU32::new(baked), ..self }
+    }
+
+    /// The same body with another effort in each tick.
+    #[must_use]
+    pub const fn with_effort(self, effort: Effort) -> Self {
+        Self { effort, ..self }
+    }
+
+    /// The effort in each tick.
+    pub const fn effort(&self) -> Effort {
+        self.effort
     }
 
     /// The CRC-32 that the tables had when they were baked.

@@ -1,8 +1,7 @@
 //! The worst-case work of one tick on a body, from its tables (theory §10): a bound of every tick, whatever the probe.
 
-use super::candidate_search::MAX_EVALUATIONS_PER_CANDIDATE;
+use super::audit::MAX_EVALUATIONS_IN_AUDIT;
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
-use super::search::MAX_EVALUATIONS;
 use super::table::Body;
 use crate::math::Vec3;
 use crate::tally::TickWork;
@@ -32,6 +31,33 @@ impl TickLimit {
     pub const BENCH: Self = Self { evaluations: 256 };
     /// No limit but that of any tables, for a host.
     pub const NONE: Self = Self { evaluations: u32::MAX };
+}
+
+/// Work that a tick may spend: part of the configuration ([`Body::with_effort`]) and of [`Body::worst_tick`]. Below 1
+/// counts as 1.
+///
+/// ```
+/// use palpate::body::Effort;
+///
+/// // The fastest tick, for a slow core or a high rate.
+/// assert_eq!(Effort::ONE, Effort { steps: 1, candidates: 1 });
+/// assert!(Effort::ONE.steps < Effort::BENCH.steps);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Effort {
+    /// Steps of the tracker. One is enough on the way; the others are taken after a switch to another feature, at a
+    /// border and after a step that was cut short or rejected.
+    pub steps: u8,
+    /// Evaluations of the search for a start, and of the audit.
+    pub candidates: u8,
+}
+
+impl Effort {
+    /// One of each.
+    pub const ONE: Self = Self { steps: 1, candidates: 1 };
+    /// The effort of the bench boards, and the default of a body.
+    pub const BENCH: Self = Self { steps: 4, candidates: 8 };
 }
 
 /// The worst tick on a body.
@@ -93,15 +119,14 @@ impl Body<'_> {
             worst = worst.or(self.worst_on_face(&self.faces[index], weights));
             index += 1;
         }
-        worst
+        self.with_effort_of(worst, weights)
     }
 
-    /// Bound of the ticks of one pass of the audit on a body that is not convex: each evaluation takes two, each
-    /// candidate that is skipped or not nearer one. A pass stops after [`MAX_EVALUATIONS`].
+    /// Bound of the ticks of one pass of the audit on a body that is not convex: of each candidate at most six
+    /// evaluations, at [`Effort::candidates`] a tick. A nearer point that six find is taken within two passes.
     pub const fn audit_ticks(&self) -> u32 {
-        let list = self.locator.longest_list() as u32;
-        let (all, most) = (list * MAX_EVALUATIONS_PER_CANDIDATE as u32, MAX_EVALUATIONS as u32);
-        2 + 2 * if all < most { all } else { most } + 2 * list
+        let all = self.locator.longest_list() as u32 * MAX_EVALUATIONS_IN_AUDIT as u32;
+        all.div_ceil(if self.effort.candidates > 1 { self.effort.candidates as u32 } else { 1 })
     }
 
     /// [`Self::worst_tick`] in evaluations; calls `pause` between the features.
@@ -115,12 +140,45 @@ impl Body<'_> {
             pause();
             worst = worst.or(self.worst_on_face(face, TickWork::EACH));
         }
-        worst
+        self.with_effort_of(worst, TickWork::EACH)
     }
 
-    /// The audit beside the tracker: an evaluation of its own. On a convex body the two take turns.
-    const fn audit(&self) -> TickWork {
-        if self.is_convex() { NO_WORK } else { PATCH }
+    /// A tick whose last step and contact take `last`, with the steps before it and the search: on a convex body that
+    /// and the tracker take turns.
+    const fn with_effort_of(&self, last: WorstTick, weights: TickWork) -> WorstTick {
+        let Effort { steps, candidates } = self.effort;
+        let before = steps.saturating_sub(1) as u32 * self.worst_step(weights).weighed(weights);
+        // The point that it hands over is evaluated too.
+        let search = TickWork { patches: candidates as u32 + 1, ..NO_WORK }.weighed(weights);
+        let tracked = WorstTick { cost: before + last.cost, ..last };
+        if self.is_convex() {
+            tracked.or(WorstTick { cost: search, vertex: None })
+        } else {
+            WorstTick { cost: search + tracked.cost, ..tracked }
+        }
+    }
+
+    /// The step of the tracker that takes longest, without contact.
+    const fn worst_step(&self, weights: TickWork) -> TickWork {
+        let (mut worst, mut over, mut index) = (PATCH, NO_WORK, 0);
+        while index < self.edges.len() {
+            let edge = &self.edges[index];
+            let asked = curves(self.ruled(edge));
+            if matches!(edge.kind, EdgeKind::Smooth) {
+                over = or(over, asked, weights);
+            }
+            worst = or(worst, or(asked.and(PATCH), asked.and(curves(1)), weights), weights);
+            index += 1;
+        }
+        index = 0;
+        let mut most = 0;
+        while index < self.vertices.len() {
+            let count = self.vertices[index].spokes as usize;
+            most = if count > most { count } else { most };
+            index += 1;
+        }
+        let at_pole = if self.has_poles { spokes(most) } else { NO_WORK };
+        or(or(worst, PATCH.and(over).and(at_pole), weights), spokes(most).and(curves(2)), weights)
     }
 
     /// Ticks that start on an edge: both faces are asked, then one is entered, or a step along the edge is tried.
@@ -129,7 +187,7 @@ impl Body<'_> {
         let mut index = 0;
         while index < self.edges.len() {
             let edge = &self.edges[index];
-            let asked = self.audit().and(curves(self.ruled(edge))).and(self.contact_on_edge(edge));
+            let asked = curves(self.ruled(edge)).and(self.contact_on_edge(edge));
             worst = or(worst, or(asked.and(PATCH), asked.and(curves(1)), weights), weights);
             index += 1;
         }
@@ -153,7 +211,7 @@ impl Body<'_> {
         let comes = or(curves(asked), spokes(all.len()), weights).and(stays);
         // At the end of the spoke, and a step from there.
         let leaves = spokes(all.len()).and(curves(2)).and(contact);
-        let worst = self.audit().and(or(comes, leaves, weights));
+        let worst = or(comes, leaves, weights);
         WorstTick { cost: worst.weighed(weights), vertex: Some(index) }
     }
 
@@ -187,7 +245,7 @@ impl Body<'_> {
             }
             side += 1;
         }
-        let worst = self.audit().and(PATCH).and(at_pole).and(over).and(worst);
+        let worst = PATCH.and(at_pole).and(over).and(worst);
         WorstTick { cost: worst.weighed(weights), vertex }
     }
 

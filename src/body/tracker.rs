@@ -1,9 +1,9 @@
-//! The tracker of a body: in each tick the Voronoi switch, or one controller step on the active feature (theory §9).
+//! The tracker of a body: in each tick Voronoi switches and controller steps on the active feature (theory §9).
 
+use super::audit::Seeking;
 use super::curve::CurvePoint;
 use super::edge_step::EdgeStep;
 use super::feature::{EdgeFace, Face, Feature};
-use super::search::Search;
 use super::table::Body;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::patch::SplinePatch;
@@ -61,8 +61,8 @@ pub struct BodyWitness {
     pub(super) is_trackers_turn: bool,
     /// On an edge: whether the last tick asked all of its faces, and none took the probe.
     pub(super) no_face_took_probe: bool,
-    /// The search for a global start, or the rolling audit, while it runs.
-    pub(super) search: Option<Search>,
+    /// The search for a global start, or the audit.
+    pub(super) seeking: Option<Seeking>,
     /// The probe of the last tick; infinite before the first.
     pub(super) probe: Vec3,
     /// While the body is touched: upper bound of the distance from the probe to a witness point that follows it,
@@ -85,21 +85,23 @@ pub struct BodyStep {
     /// Whether the body is touched with a witness point farther from the probe than the probe has moved since contact
     /// started.
     pub unexplained: bool,
+    /// Whether the last step has entered a face over an edge. That is work enough for a tick: the borders of the new
+    /// face are for the next one.
+    pub(super) hands_over: bool,
 }
 
 const _: () = assert!(size_of::<BodyWitness>() <= 256);
 
 impl BodyStep {
     /// A tick that did nothing.
-    pub(super) const NOTHING: Self =
-        Self { outcome: Outcome::AtRest, switched: false, searched: false, evaluations: 0, unexplained: false };
-
-    /// Whether it has entered a face over an edge. That is work enough for a tick: the borders of the new face are for
-    /// the next one.
-    #[inline]
-    pub(super) fn hands_over(&self) -> bool {
-        self.switched && self.outcome == Outcome::AtRest
-    }
+    pub(super) const NOTHING: Self = Self {
+        outcome: Outcome::AtRest,
+        switched: false,
+        searched: false,
+        evaluations: 0,
+        unexplained: false,
+        hands_over: false,
+    };
 }
 
 impl Body<'_> {
@@ -116,7 +118,7 @@ impl Body<'_> {
             is_audited: false,
             is_trackers_turn: false,
             no_face_took_probe: false,
-            search: None,
+            seeking: None,
             probe: Vec3::INFINITY,
             reach: 0.0,
         }
@@ -150,14 +152,13 @@ impl Body<'_> {
         step
     }
 
-    /// Moves the witness point towards the closest point: a switch to a neighbouring feature, or one controller step
-    /// on the active one; at most one evaluation of a patch, and half of one for the search, or one at its end.
-    /// Bounded, and without a panic; a probe that is not finite moves nothing. `period_s` is the servo period,
-    /// seconds.
+    /// Moves the witness point towards the closest point, by the steps of the [`Effort`](super::Effort): each a switch
+    /// to a neighbouring feature, or one controller step on the active one; then the audit. Bounded, and without a
+    /// panic; a probe that is not finite moves nothing. `period_s` is the servo period, seconds.
     ///
     /// The distance to the probe never rises by more than rounding, at a switch neither. Outside, the witness point
     /// ends at a point that no neighbouring feature improves: on a convex body with the probe in front of it that is
-    /// the closest one, otherwise the rolling audit finds it. While the body is touched there is no audit: the witness
+    /// the closest one, otherwise the audit finds it. While the body is touched there is no audit: the witness
     /// point is the god-object (theory §11), which hands over across common edges only.
     ///
     /// Contact decides, so [`Self::update_contact`] belongs after each tick that was not `searched`. Without it the
@@ -165,63 +166,100 @@ impl Body<'_> {
     #[inline(always)]
     pub fn track(&self, controller: &Controller, state: &mut BodyWitness, probe: Probe, period_s: f32) -> BodyStep {
         let mut step = BodyStep::NOTHING;
-        let is_curved = controller.is_second_order();
         let follows = self.follows(state, probe.position);
         let has_turn = follows && self.has_turn(state);
-        if !has_turn && !self.search(state, probe.position, follows, &mut step) {
+        let audits = !has_turn && follows && state.is_audited && !self.is_convex();
+        if !has_turn && !audits && !self.search(state, probe.position, follows, &mut step) {
             step.searched = true;
             return step;
         }
         state.probe = probe.position;
+        let (mut left, mut switched) = (self.effort.steps, false);
+        let is_settled = loop {
+            let goes_on = self.step_once(controller, state, probe, period_s, &mut step);
+            if !goes_on || left <= 1 {
+                break !goes_on;
+            }
+            left -= 1;
+            switched |= step.switched;
+            (step.switched, step.outcome) = (false, Outcome::AtRest);
+        };
+        step.hands_over = step.switched && step.outcome == Outcome::AtRest;
+        step.switched |= switched;
+        if audits {
+            self.audit(state, is_settled, &mut step);
+        }
+        step
+    }
+
+    /// One step of the tracker: a switch to a neighbouring feature, or one controller step. Returns whether another one
+    /// would bring the witness point nearer.
+    #[inline(always)]
+    fn step_once(
+        &self,
+        controller: &Controller,
+        state: &mut BodyWitness,
+        probe: Probe,
+        period_s: f32,
+        step: &mut BodyStep,
+    ) -> bool {
+        let is_curved = controller.is_second_order();
         let mut from = EdgeFace::NONE.face;
         match state.feature {
             Feature::Face(index) => {
                 from = index;
                 let stays = state.witness.is_free || state.witness.mode == BoundaryMode::Interior;
-                if (stays || !self.leave_face(index, state, &mut step))
+                if (stays || !self.leave_face(index, state, step))
                     && let Some(face) = self.faces.get(usize::from(index))
                 {
-                    if is_curved {
-                        self.step_curved(face, state, probe.position, &mut step);
+                    let is_full = if is_curved {
+                        self.step_curved(face, state, probe.position, step)
                     } else {
                         step.outcome = controller.step(&face.patch, &mut state.witness, probe, period_s).outcome;
                         step.evaluations += 1;
-                    }
-                    return step;
+                        true
+                    };
+                    let is_free = state.witness.is_free || state.witness.mode == BoundaryMode::Interior;
+                    return step.switched || !is_full || !is_free;
                 }
             }
-            Feature::Vertex(index) => self.leave_vertex(index, state, &mut step),
+            Feature::Vertex(index) => self.leave_vertex(index, state, step),
             Feature::Edge(_) => {}
         }
         // Also an edge that was reached in this tick.
         if let Feature::Edge(index) = state.feature {
-            self.tick_on_edge(index, from, is_curved, state, &mut step);
+            self.tick_on_edge(index, from, is_curved, state, step);
         }
-        step
+        let has_reached_end = step.outcome == Outcome::Moved && state.witness.mode == BoundaryMode::Corner;
+        step.switched || has_reached_end || step.outcome == Outcome::Rejected
     }
 
-    /// One second-order step on a face. A step that ends at a smooth edge ends on the neighbour.
+    /// One second-order step on a face. A step that ends at a smooth edge ends on the neighbour. Returns whether it was
+    /// taken in full.
     #[inline(always)]
-    fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
+    fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) -> bool {
         let aim = match Aim::in_full(&face.patch, &state.witness, probe) {
             Ok(aim) => aim,
-            Err(_) if self.has_poles && self.step_near_pole(face, state, step) => return,
+            Err(_) if self.has_poles && self.step_near_pole(face, state, step) => {
+                return step.outcome != Outcome::Rejected;
+            }
             Err(most) => Aim::in_part(most, &face.patch, &state.witness, probe),
         };
         if aim.beyond != BoundaryMode::Interior
             && self.has_smooth_edges
             && self.step_over_smooth_edge(face, &aim, state, step)
         {
-            return;
+            return step.outcome != Outcome::Rejected;
         }
         state.witness.mode = aim.beyond;
         if !aim.has_slope() {
-            return;
+            return true;
         }
         let [u, v] = aim.landing.parameters;
         let reached = face.patch.evaluate_curved(u, v);
         step.evaluations += 1;
         step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
+        step.outcome != Outcome::Rejected && aim.gain >= 1.0
     }
 
     /// Whether the probe is near that of the last tick; false if it is not finite.
@@ -293,7 +331,7 @@ impl Body<'_> {
 impl BodyWitness {
     /// Starts the search again; until it ends there is no contact.
     pub(crate) fn forget(&mut self) {
-        (self.is_located, self.is_audited, self.search) = (false, false, None);
+        (self.is_located, self.is_audited, self.seeking) = (false, false, None);
         self.contact = Contact::Behind;
     }
 

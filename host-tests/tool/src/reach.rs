@@ -1,7 +1,7 @@
 //! Tables for queries: those that ship, and others for queries beyond their reach.
 
 use glam::DVec3;
-use palpate::body::Body;
+use palpate::body::{Body, Effort};
 use palpate::math::Vec3;
 use palpate_bake::BakedBody;
 use palpate_bake::body::TableFault;
@@ -53,6 +53,15 @@ impl Reach {
             None
         };
         Ok(Self { shipped, far })
+    }
+
+    /// The same at another effort in a tick.
+    #[must_use]
+    pub fn with_effort(mut self, effort: Effort) -> Self {
+        for tables in self.far.iter_mut().chain([&mut self.shipped]) {
+            tables.body = tables.body.with_effort(effort);
+        }
+        self
     }
 
     /// The solvers of the queries.

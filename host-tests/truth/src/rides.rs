@@ -100,21 +100,3 @@ impl Rides {
         body.step(&Controller::SecondOrder, state, Probe::at(position), 1.0 / self.rate);
     }
 }
-
-/// The longest list of candidates of a body's cells, and the maximum number of ticks of one pass of the audit over it:
-/// its start and its end, both halves of each evaluation that a candidate may cost, and one more where a candidate
-/// looked nearer but was not.
-pub fn longest_pass(body: &Body) -> (u32, u32) {
-    let mut longest = 0;
-    let mut length = 0;
-    for index in 0..body.locator().entries.len() {
-        length += 1;
-        if body.locator().candidate(index).is_none_or(|candidate| !candidate.more) {
-            longest = longest.max(length);
-            length = 0;
-        }
-    }
-    let evaluations = (longest * u32::from(palpate::body::MAX_EVALUATIONS_PER_CANDIDATE))
-        .min(u32::from(palpate::body::MAX_EVALUATIONS));
-    (longest, 2 + 3 * evaluations)
-}

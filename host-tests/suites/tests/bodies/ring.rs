@@ -5,7 +5,7 @@ use palpate_truth::body_oracle::BodyOracle;
 use palpate_truth::generate::Random;
 use std::f64::consts::TAU;
 
-/// Directions from the origin.
+/// Directions from the centre.
 const NODES: u32 = 720;
 /// Every ray begins this far out, metres.
 const FAR: f64 = 1.0;
@@ -16,23 +16,23 @@ const STEPS: u32 = 200;
 pub struct Ring(Vec<DVec3>);
 
 impl Ring {
-    /// In a plane through the origin, which is inside: from far out along each ray until the surface is as near as the
+    /// In a plane through a centre, which is inside: from far out along each ray until the surface is as near as the
     /// gap, metres.
-    pub fn around(oracle: &BodyOracle<'_>, seed: u64, gap: f64) -> Self {
+    pub fn around(oracle: &BodyOracle<'_>, centre: DVec3, seed: u64, gap: f64) -> Self {
         let [across, along, _] = Random::new(seed).axes();
         let node = |index: u32| {
             let (sine, cosine) = (TAU * f64::from(index) / f64::from(NODES)).sin_cos();
             let ray = across * cosine + along * sine;
             let mut reach = FAR;
             for _ in 0..STEPS {
-                let left = oracle.nearest(ray * reach, 0.0)[0].1.distance - gap;
+                let left = oracle.nearest(centre + ray * reach, 0.0)[0].1.distance - gap;
                 reach -= left;
                 // A hundredth of a row's step.
                 if left < 1e-7 || reach <= 0.0 {
                     break;
                 }
             }
-            ray * reach.max(0.0)
+            centre + ray * reach.max(0.0)
         };
         Self((0..NODES).map(node).collect())
     }

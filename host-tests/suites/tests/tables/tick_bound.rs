@@ -4,7 +4,9 @@
 //! `PALPATE_FILES` says how many files are made.
 
 use super::spoiled_files::{baked, mend, section, with_body};
-use palpate::body::{Body, BodyBuffer, BodyError, BodyWitness, Edge, Face, FileError, Section, TickLimit, TickWork};
+use palpate::body::{
+    Body, BodyBuffer, BodyError, BodyWitness, Edge, Effort, Face, FileError, Section, TickLimit, TickWork,
+};
 use palpate::math::{Vec3, vec3};
 use palpate::tally;
 use palpate::track::{Contact, Controller, Probe};
@@ -408,6 +410,9 @@ fn the_worst_tick_of_a_body_that_ships_takes_at_least_half_of_its_bound() {
         .map(|name| {
             let mut random = Random::new(0xb0d7);
             let found = with_body(&baked(name), |body| {
+                // With more effort a tick takes its longest way at most as often.
+                assert!(body.worst_tick(TickWork::EACH).cost <= TickLimit::BENCH.evaluations, "{name}");
+                let body = &body.with_effort(Effort::ONE);
                 let mut worst = Worst::of(body);
                 worst.everywhere(body, 800, &mut random);
                 worst
@@ -420,7 +425,7 @@ fn the_worst_tick_of_a_body_that_ships_takes_at_least_half_of_its_bound() {
         println!("{name:<18}{bound:>8}{measured:>8}  {work:?}");
     }
     for (name, Worst { bounds: [bound, ..], measured: [measured, ..], .. }) in rows {
-        assert!(bound <= 2 * measured && bound <= TickLimit::BENCH.evaluations, "{name}: {bound}, {measured}");
+        assert!(bound <= 2 * measured, "{name}: {bound}, {measured}");
     }
 }
 

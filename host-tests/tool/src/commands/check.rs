@@ -12,7 +12,7 @@ use palpate_bake::flaws::{self, Flaw};
 use palpate_bake::locator::LocatorOptions;
 use palpate_bake::survey::{Regularity, Survey, Verdict};
 use palpate_bake::{BakedBody, Model, Unit};
-use palpate_truth::rides::{self, Lateness, Rides};
+use palpate_truth::rides::{Lateness, Rides};
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -289,7 +289,7 @@ fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::
             "the body is convex: in front of it the witness point follows the nearest point, and there is no audit"
         )?;
     } else {
-        let (candidates, pass) = rides::longest_pass(&body);
+        let (candidates, pass) = (body.locator().longest_list(), body.audit_ticks());
         writeln!(
             report,
             "the audit looks at all candidates of the probe's cell, {candidates} at most, within {pass} ticks ({:.0} ms) by construction",

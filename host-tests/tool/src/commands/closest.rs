@@ -6,6 +6,7 @@ use crate::models::ModelFile;
 use crate::queries;
 use crate::reach::Reach;
 use clap::{Args, ValueEnum};
+use palpate::body::Effort;
 use palpate_truth::closest::Status;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -22,7 +23,7 @@ use std::process::ExitCode;
 /// of the error of |gap|, by a search in double precision.
 ///
 /// track: rows are successive servo ticks of one probe. The first row is cold; each other row is --ticks ticks of the
-/// tracker, and more after a jump above an eighth of the body's size, to locate it again. status: tracking, or
+/// tracker at --effort, and more after a jump above an eighth of the body's size, to locate it again. status: tracking, or
 /// god-object in contact: p then stays where the probe went in, and the sign of gap is its own.
 #[derive(Args, Debug)]
 pub struct Arguments {
@@ -35,12 +36,23 @@ pub struct Arguments {
     /// Relation of the rows.
     #[arg(long, value_enum, default_value_t = Mode::Cold)]
     mode: Mode,
-    /// Controller steps per row, for --mode track.
+    /// Servo ticks per row, for --mode track.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     ticks: u32,
+    /// Steps and evaluations of the audit that a tick may spend, each 1 to 255; default: that of the boards.
+    #[arg(long, value_name = "STEPS,CANDIDATES", value_parser = effort, default_value = "4,8")]
+    effort: Effort,
     /// Output; default: standard output.
     #[arg(long, value_name = "OUT.csv")]
     out: Option<PathBuf>,
+}
+
+fn effort(text: &str) -> Result<Effort, String> {
+    let number = |text: &str| text.parse().ok().filter(|number| *number > 0_u8);
+    let found = text
+        .split_once(',')
+        .and_then(|(steps, candidates)| Some(Effort { steps: number(steps)?, candidates: number(candidates)? }));
+    found.ok_or_else(|| "an effort is two whole numbers from 1 to 255, such as 4,8".into())
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -67,7 +79,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let options = baked.locator_options();
     let shipped = file.located(baked, &options, None, &progress)?;
     let far = |body, options: &_, probes: &_| file.located(body, options, Some(probes), &progress);
-    let reach = Reach::new(shipped, &probes, far)?;
+    let reach = Reach::new(shipped, &probes, far)?.with_effort(arguments.effort);
     drop(bar);
     let solvers = reach.solvers();
     let mut writer = csv::Writer::from_writer(Vec::new());
