@@ -9,7 +9,7 @@ use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::math::Vec3;
 use crate::patch::{SecondDerivatives, SurfacePoint};
-use crate::track::{BoundaryMode, Witness};
+use crate::track::{BoundaryMode, Outcome, Witness};
 
 impl Body<'_> {
     /// Hands over through the side that holds the witness point. While the witness point is free there is no need: the
@@ -99,6 +99,11 @@ impl Body<'_> {
             {
                 let entry = beyond.entry(&border, border.along.stretch, is_curved, state, f32::INFINITY);
                 self.enter_face(&entry, is_curved, state, step);
+                // At a corner the face may take the probe over this edge and not over the other one.
+                if step.outcome == Outcome::Rejected && border.along.is_held(t) {
+                    step.outcome = Outcome::AtRest;
+                    step.switched = self.rest_on_vertex(if t <= 0.0 { edge.ends[0] } else { edge.ends[1] }, state);
+                }
                 return;
             }
         }
