@@ -147,7 +147,9 @@ impl Body<'_> {
     /// and the tracker take turns.
     const fn with_effort_of(&self, last: WorstTick, weights: TickWork) -> WorstTick {
         let Effort { steps, candidates } = self.effort;
-        let before = steps.saturating_sub(1) as u32 * self.worst_step(weights).weighed(weights);
+        // One more on an edge that the last one has reached.
+        let before = if steps > 1 { steps as u32 } else { 0 };
+        let before = before * self.worst_step(weights).weighed(weights);
         // The point that it hands over is evaluated too.
         let search = TickWork { patches: candidates as u32 + 1, ..NO_WORK }.weighed(weights);
         let tracked = WorstTick { cost: before + last.cost, ..last };

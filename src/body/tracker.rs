@@ -177,7 +177,9 @@ impl Body<'_> {
         let (mut left, mut switched) = (self.effort.steps, false);
         let is_settled = loop {
             let goes_on = self.step_once(controller, state, probe, period_s, &mut step);
-            if !goes_on || left <= 1 {
+            // Contact needs the answer of an edge's faces: one that the last step has reached is asked as well.
+            let last = u8::from(self.effort.steps <= 1 || !matches!(state.feature, Feature::Edge(_)));
+            if !goes_on || left <= last {
                 break !goes_on;
             }
             left -= 1;
