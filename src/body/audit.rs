@@ -52,12 +52,15 @@ pub(super) struct Audit {
     /// The entries that hold the tracker's point as their only minimum.
     held: [u16; 2],
     is_done: bool,
+    /// Whether the candidate's point is nearer, and waits for the evaluation of the next tick.
+    waits: bool,
 }
 
 /// The faces that hold the tracker's point, with `(u, v)`: two on an edge.
 type Places = [Option<(u16, [f32; 2])>; 2];
 
 /// Whether the tracker's point is the nearest of a candidate: `φ` has one minimum there, and the tracker goes to it.
+#[inline(never)]
 fn holds(candidate: &Candidate, places: &Places) -> bool {
     let [lower, upper] = candidate.rectangle();
     let is_within = |[u, v]: [f32; 2]| lower[0] <= u && u <= upper[0] && lower[1] <= v && v <= upper[1];
@@ -83,6 +86,7 @@ impl Audit {
             favourite,
             held: [NONE; 2],
             is_done: false,
+            waits: false,
         }
     }
 
@@ -94,6 +98,7 @@ impl Audit {
     }
 
     /// Takes the lower bound of `φ` of the candidate, and goes on to the next; the last one ends the pass.
+    #[inline(never)]
     fn go_on(&mut self, body: &Body, at_least: f32) {
         let floor = sqrt(2.0 * at_least) * BELOW - sqrt_from_above((self.asked - self.anchor).length_squared());
         if floor < self.floor {
@@ -135,16 +140,20 @@ impl Body<'_> {
         let before = core::mem::replace(&mut state.probe, probe);
         // Behind a convex body's surface there is no force: tracker and audit take turns.
         let steps_too = state.is_located && (state.contact != Contact::Behind || !self.is_convex());
-        let mut search = match state.seeking {
-            Some(Seeking::Start(search)) => search,
-            _ => Search::new(self, probe),
-        };
-        for _ in 0..self.effort.candidates {
-            step.evaluations += u8::from(search.found().is_none());
+        let mut left = self.effort.candidates;
+        if !matches!(state.seeking, Some(Seeking::Start(_))) {
+            state.seeking = Some(Seeking::Start(Search::new(self, probe)));
+            // To find the list takes an evaluation's time.
+            left -= 1;
+        }
+        let Some(Seeking::Start(search)) = &mut state.seeking else { return steps_too };
+        while search.found().is_none() && left > 0 {
+            left -= 1;
+            step.evaluations += 1;
             search.advance(self, probe);
         }
-        state.seeking = Some(Seeking::Start(search));
-        let Some(found) = search.found() else { return steps_too };
+        // The point that was found takes an evaluation too.
+        let Some(found) = search.found().filter(|_| left > 0) else { return steps_too };
         // The tracker steps first from the point that was just found.
         (state.is_audited, state.is_trackers_turn, state.seeking) = (true, false, None);
         // The tracker has not stepped for this probe yet: its distance for the last probe counts too.
@@ -158,7 +167,8 @@ impl Body<'_> {
     }
 
     /// The audit of a tick on a body that is not convex, after the tracker's steps. At most the evaluations of
-    /// [`super::Effort`], and one for a point that is nearer.
+    /// [`super::Effort`], and one for a point that is nearer. At an effort of one, the start of a pass and that point
+    /// have a tick of their own.
     #[inline(never)]
     pub(super) fn audit(&self, state: &mut BodyWitness, is_settled: bool, step: &mut BodyStep) {
         let probe = state.probe;
@@ -166,13 +176,25 @@ impl Body<'_> {
         let (known, distance) = ((0.5 - 0.5 * NEARER) * squared, sqrt_from_above(squared));
         // A tracker that is on its way is not at a minimum.
         let places = if is_settled { self.places(&state.feature, &state.witness) } else { [None; 2] };
+        let (is_single, far) = (self.effort.candidates == 1, distance + MARGIN * self.size);
+        let mut left = self.effort.candidates;
         let mut audit = match &state.seeking {
             Some(Seeking::Nearer(audit)) if !audit.is_done => *audit,
             Some(Seeking::Nearer(audit)) if audit.is_certain(self, probe, distance, &places) => return,
-            Some(Seeking::Nearer(last)) => Audit::new(self, probe, Some(last)),
-            _ => Audit::new(self, probe, None),
+            last => {
+                left -= u8::from(is_single);
+                let last = if let Some(Seeking::Nearer(last)) = last { Some(last) } else { None };
+                Audit::new(self, probe, last)
+            }
         };
-        let (mut left, far) = (self.effort.candidates, distance + MARGIN * self.size);
+        if audit.waits {
+            let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, .. } = audit.descending;
+            self.set_down(state, &Best { face, parameters, half_squared }, known, step);
+            audit.waits = false;
+            audit.go_on(self, 0.0);
+            state.seeking = (!step.switched).then_some(Seeking::Nearer(audit));
+            return;
+        }
         while !audit.is_done {
             if audit.descending.is_fresh() {
                 if holds(&audit.descending.candidate, &places)
@@ -193,6 +215,10 @@ impl Body<'_> {
             let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, at_least, .. } =
                 audit.descending;
             let falls = progress == Some(CandidateStatus::Falling);
+            if is_single && half_squared < known {
+                audit.waits = true;
+                break;
+            }
             if (!falls || left == 0) && half_squared < known {
                 let found = Best { face, parameters, half_squared };
                 self.set_down(state, &found, known, step);
@@ -213,6 +239,7 @@ impl Body<'_> {
     }
 
     /// The faces that hold the witness point, with `(u, v)` on each.
+    #[inline(never)]
     fn places(&self, feature: &Feature, witness: &Witness) -> Places {
         match feature {
             Feature::Face(index) => [Some((*index, witness.parameters)), None],
@@ -226,6 +253,7 @@ impl Body<'_> {
 
     /// Moves the witness point to the result of the search if `½ ‖P − Q‖²` is below `nearer` there, m², or if it was
     /// not located before. One evaluation.
+    #[inline(never)]
     fn set_down(&self, state: &mut BodyWitness, found: &Best, nearer: f32, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(found.face)) else { return };
         let reached = face.patch.evaluate_apart(found.parameters);

@@ -37,7 +37,7 @@ impl Body<'_> {
                             return;
                         }
                         Contact::InFront | Contact::Touching
-                            if !step.hands_over && self.releases_at_border(face, state, away) =>
+                            if !step.hands_over() && self.releases_at_border(face, state, away) =>
                         {
                             return;
                         }

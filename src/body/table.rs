@@ -256,7 +256,9 @@ impl<'a> Body<'a> {
     /// The same body with another effort in each tick.
     #[must_use]
     pub const fn with_effort(self, effort: Effort) -> Self {
-        Self { effort, ..self }
+        let steps = if effort.steps > 0 { effort.steps } else { 1 };
+        let candidates = if effort.candidates > 0 { effort.candidates } else { 1 };
+        Self { effort: Effort { steps, candidates }, ..self }
     }
 
     /// The effort in each tick.

@@ -74,7 +74,7 @@ pub struct BodyWitness {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BodyStep {
-    /// Outcome of the step.
+    /// Outcome of the last step; moved as well if it is at rest after a switch.
     pub outcome: Outcome,
     /// Whether the active feature changed.
     pub switched: bool,
@@ -85,9 +85,8 @@ pub struct BodyStep {
     /// Whether the body is touched with a witness point farther from the probe than the probe has moved since contact
     /// started.
     pub unexplained: bool,
-    /// Whether the last step has entered a face over an edge. That is work enough for a tick: the borders of the new
-    /// face are for the next one.
-    pub(super) hands_over: bool,
+    /// Whether the step was shortened.
+    pub(super) is_cut: bool,
 }
 
 const _: () = assert!(size_of::<BodyWitness>() <= 256);
@@ -100,8 +99,15 @@ impl BodyStep {
         searched: false,
         evaluations: 0,
         unexplained: false,
-        hands_over: false,
+        is_cut: false,
     };
+
+    /// Whether the last step has entered a face over an edge. That is work enough for a tick: the borders of the new
+    /// face are for the next one.
+    #[inline]
+    pub(super) fn hands_over(&self) -> bool {
+        self.switched && self.outcome == Outcome::AtRest
+    }
 }
 
 impl Body<'_> {
@@ -174,28 +180,35 @@ impl Body<'_> {
             return step;
         }
         state.probe = probe.position;
-        let (mut left, mut switched) = (self.effort.steps, false);
-        let is_settled = loop {
-            let goes_on = self.step_once(controller, state, probe, period_s, &mut step);
-            // Contact needs the answer of an edge's faces: one that the last step has reached is asked as well.
-            let last = u8::from(self.effort.steps <= 1 || !matches!(state.feature, Feature::Edge(_)));
-            if !goes_on || left <= last {
-                break !goes_on;
-            }
-            left -= 1;
-            switched |= step.switched;
-            (step.switched, step.outcome) = (false, Outcome::AtRest);
-        };
-        step.hands_over = step.switched && step.outcome == Outcome::AtRest;
-        step.switched |= switched;
+        self.step_once(controller, state, probe, period_s, &mut step);
+        if self.effort.steps > 1 && controller.is_second_order() && state.goes_on(&step) {
+            self.step_on(state, &mut step);
+        }
         if audits {
-            self.audit(state, is_settled, &mut step);
+            self.audit(state, !state.goes_on(&step), &mut step);
         }
         step
     }
 
-    /// One step of the tracker: a switch to a neighbouring feature, or one controller step. Returns whether another one
-    /// would bring the witness point nearer.
+    /// The steps of a tick after its first.
+    #[cold]
+    #[inline(never)]
+    fn step_on(&self, state: &mut BodyWitness, step: &mut BodyStep) {
+        let (mut left, mut switched) = (self.effort.steps, step.switched);
+        // Contact needs the answer of an edge's faces: one that the last step has reached is asked as well.
+        while left > u8::from(!matches!(state.feature, Feature::Edge(_))) && state.goes_on(step) {
+            left -= 1;
+            (step.switched, step.outcome, step.is_cut) = (false, Outcome::AtRest, false);
+            self.step_once(&Controller::SecondOrder, state, Probe::at(state.probe), 0.0, step);
+            switched |= step.switched;
+        }
+        if switched && !step.switched && step.outcome == Outcome::AtRest {
+            step.outcome = Outcome::Moved;
+        }
+        step.switched = switched;
+    }
+
+    /// One step of the tracker: a switch to a neighbouring feature, or one controller step.
     #[inline(always)]
     fn step_once(
         &self,
@@ -204,7 +217,7 @@ impl Body<'_> {
         probe: Probe,
         period_s: f32,
         step: &mut BodyStep,
-    ) -> bool {
+    ) {
         let is_curved = controller.is_second_order();
         let mut from = EdgeFace::NONE.face;
         match state.feature {
@@ -214,15 +227,13 @@ impl Body<'_> {
                 if (stays || !self.leave_face(index, state, step))
                     && let Some(face) = self.faces.get(usize::from(index))
                 {
-                    let is_full = if is_curved {
-                        self.step_curved(face, state, probe.position, step)
+                    if is_curved {
+                        self.step_curved(face, state, probe.position, step);
                     } else {
                         step.outcome = controller.step(&face.patch, &mut state.witness, probe, period_s).outcome;
                         step.evaluations += 1;
-                        true
-                    };
-                    let is_free = state.witness.is_free || state.witness.mode == BoundaryMode::Interior;
-                    return step.switched || !is_full || !is_free;
+                    }
+                    return;
                 }
             }
             Feature::Vertex(index) => self.leave_vertex(index, state, step),
@@ -232,36 +243,36 @@ impl Body<'_> {
         if let Feature::Edge(index) = state.feature {
             self.tick_on_edge(index, from, is_curved, state, step);
         }
-        let has_reached_end = step.outcome == Outcome::Moved && state.witness.mode == BoundaryMode::Corner;
-        step.switched || has_reached_end || step.outcome == Outcome::Rejected
     }
 
-    /// One second-order step on a face. A step that ends at a smooth edge ends on the neighbour. Returns whether it was
-    /// taken in full.
+    /// One second-order step on a face. A step that ends at a smooth edge ends on the neighbour.
     #[inline(always)]
-    fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) -> bool {
+    fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
         let aim = match Aim::in_full(&face.patch, &state.witness, probe) {
             Ok(aim) => aim,
             Err(_) if self.has_poles && self.step_near_pole(face, state, step) => {
-                return step.outcome != Outcome::Rejected;
+                return;
             }
-            Err(most) => Aim::in_part(most, &face.patch, &state.witness, probe),
+            Err(most) => {
+                let aim = Aim::in_part(most, &face.patch, &state.witness, probe);
+                step.is_cut = aim.gain < 1.0;
+                aim
+            }
         };
         if aim.beyond != BoundaryMode::Interior
             && self.has_smooth_edges
             && self.step_over_smooth_edge(face, &aim, state, step)
         {
-            return step.outcome != Outcome::Rejected;
+            return;
         }
         state.witness.mode = aim.beyond;
         if !aim.has_slope() {
-            return true;
+            return;
         }
         let [u, v] = aim.landing.parameters;
         let reached = face.patch.evaluate_curved(u, v);
         step.evaluations += 1;
         step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
-        step.outcome != Outcome::Rejected && aim.gain >= 1.0
     }
 
     /// Whether the probe is near that of the last tick; false if it is not finite.
@@ -335,6 +346,17 @@ impl BodyWitness {
     pub(crate) fn forget(&mut self) {
         (self.is_located, self.is_audited, self.seeking) = (false, false, None);
         self.contact = Contact::Behind;
+    }
+
+    /// Whether another step would bring the witness point nearer.
+    #[inline]
+    fn goes_on(&self, step: &BodyStep) -> bool {
+        let moves = match self.feature {
+            Feature::Face(_) => step.is_cut || !(self.witness.is_free || self.witness.mode == BoundaryMode::Interior),
+            // An end of an edge was reached.
+            _ => step.outcome == Outcome::Moved && self.witness.mode == BoundaryMode::Corner,
+        };
+        step.switched || step.outcome == Outcome::Rejected || moves
     }
 
     #[inline]
