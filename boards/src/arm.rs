@@ -48,7 +48,7 @@ pub const fn one_slot<S: BodyStore, K>(
 
 /// Declares `This`, which a board's loop runs: an arm in a `static`, so that the compiler knows every number of it.
 ///
-/// `arm!(tables::Surface = tables::SURFACE, device, SETTINGS, SAFETY);`, where `device` is a module with the constants that
+/// `arm!(tables::Surface = &SURFACE, device, SETTINGS, SAFETY);`, where `device` is a module with the constants that
 /// `palpate device` writes: `Mechanism`, `DEVICE`, `PROTECTION`, `REFERENCE`, `WIRING`. Without one of them it does not
 /// compile.
 #[macro_export]

@@ -19,7 +19,7 @@ use palpate::wire::telemetry::{Producer, Queue};
 use palpate_bench::store::{Bodies, Both, Kept, PretendedFlash};
 use palpate_bench::{Bench, Felt, Idle, Mailbox, Settings};
 use palpate_emulated::board::BOARD;
-use palpate_emulated::body::{DEVICE, Mechanism, SETTINGS, WIRING};
+use palpate_emulated::body::{DEVICE, EFFORT, Mechanism, SETTINGS, WIRING};
 use palpate_emulated::link_semihosting::FifoLink;
 use palpate_emulated::link_uart::Uart;
 use palpate_emulated::pins::{NoWatchdog, Pins};
@@ -35,12 +35,13 @@ type Flash = Kept<240, 600>;
 type Store = Both<'static, Memory, Flash>;
 type Surface = Scene<'static, Slot<'static, Store>, 2>;
 
-static BODIES: Memory = Bodies::new();
+static BODIES: Memory = Bodies::with_effort(EFFORT);
 /// No emulator here has flash that a program can write: RAM with its rules, which a reset empties.
 static FLASH: PretendedFlash<16_384> = PretendedFlash::new();
-static KEPT: Flash = Kept::new(FLASH.region());
+static KEPT: Flash = Kept::with_effort(FLASH.region(), EFFORT);
 static STORE: Store = Both(&BODIES, &KEPT);
-static SLOTS: [Slot<Store>; 2] = [Slot::fixed(tables::SURFACE), Slot::exchangeable(tables::SURFACE, &STORE)];
+static BODY: Body = tables::with_effort(EFFORT);
+static SLOTS: [Slot<Store>; 2] = [Slot::fixed(&BODY), Slot::exchangeable(&BODY, &STORE)];
 /// Side by side, the second to the right of the first.
 static SCENE: Surface = Scene::new(
     Limits::of(&DEVICE, SETTINGS.rate_hz),
@@ -85,9 +86,6 @@ type Loop = Bench<'static, This, Pins<FifoLink>, 3>;
 /// The interrupt's end of the queue, on its way there from main.
 static HANDED_OVER: Mutex<Cell<Option<Producer<'static, Record>>>> = Mutex::new(Cell::new(None));
 static MAILBOX: Mailbox = Mailbox::new();
-
-// A body's tables are its own: nothing else in this image knows what they are.
-const _: &Body<'static> = tables::SURFACE;
 
 #[entry]
 fn main() -> ! {

@@ -1,6 +1,6 @@
 //! Tables and settings in flash, chosen when the image is built (see `build.rs`).
 
-use palpate::body::{Body, Edge, Face, Spoke, Vertex};
+use palpate::body::{Body, Edge, Effort, Face, Spoke, Vertex};
 #[cfg(feature = "protected")]
 use palpate::device::{Endurance, PolarityCheck, Protection, SupplyRange};
 use palpate::servo::{self, Config, Guard, Input, Rendering, Servo, ServoState};
@@ -40,6 +40,10 @@ pub type State = StateOf<Chosen>;
 const _: () = assert!(size_of::<Face>() == 228 && size_of::<Edge>() == 52 && size_of::<Vertex>() == 32);
 const _: () = assert!(size_of::<Spoke>() == 16 && size_of::<Body>() == 80);
 
+/// A period at 4 kHz is 3,906 instructions here, fewer than [`Effort::BENCH`] may take.
+pub const EFFORT: Effort = Effort::ONE;
+static SURFACE: tables::Surface = tables::with_effort(EFFORT);
+
 /// How the surface feels.
 const RENDERING: Rendering = if cfg!(feature = "smooth") { Rendering::SMOOTH } else { Rendering::PLAIN };
 
@@ -47,14 +51,14 @@ const RENDERING: Rendering = if cfg!(feature = "smooth") { Rendering::SMOOTH } e
 #[cfg(not(feature = "protected"))]
 pub static SERVO: Loop<Chosen> = Servo::new(
     &DEVICE,
-    tables::SURFACE,
+    &SURFACE,
     Config { settings: SETTINGS, rendering: RENDERING, safety: settings::SAFETY, ..Config::DEFAULT },
 );
 /// Everything the servo knows, in flash.
 #[cfg(feature = "protected")]
 pub static SERVO: Loop<Chosen> = Servo::protected(
     &DEVICE,
-    tables::SURFACE,
+    &SURFACE,
     protection(),
     Config { settings: SETTINGS, rendering: RENDERING, safety: settings::SAFETY, ..Config::DEFAULT },
 );

@@ -2,7 +2,7 @@
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU32, Ordering};
-use palpate::body::{Body, BodyBuffer, Edge, Face, FileError, TickLimit};
+use palpate::body::{Body, BodyBuffer, Edge, Effort, Face, FileError, TickLimit};
 
 /// The holder of a bank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +20,8 @@ enum Holder {
 pub(crate) struct Bank<const FACES: usize, const EDGES: usize> {
     holder: AtomicU32,
     built: UnsafeCell<Built<FACES, EDGES>>,
+    /// Of ticks on its bodies.
+    effort: Effort,
 }
 
 struct Built<const FACES: usize, const EDGES: usize> {
@@ -44,8 +46,9 @@ impl<const FACES: usize, const EDGES: usize> Built<FACES, EDGES> {
 unsafe impl<const FACES: usize, const EDGES: usize> Sync for Bank<FACES, EDGES> {}
 
 impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
-    pub const fn new() -> Self {
+    pub const fn new(effort: Effort) -> Self {
         Self {
+            effort,
             holder: AtomicU32::new(Holder::Main as u32),
             built: UnsafeCell::new(Built { faces: [Face::VACANT; FACES], edges: [Edge::VACANT; EDGES], body: None }),
         }
@@ -95,7 +98,7 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
         built.clear();
         let Built { faces, edges, body } = built;
         match Body::from_bytes_with(file, BodyBuffer { faces, edges }, TickLimit::BENCH, pause) {
-            Ok(found) => *body = Some(found),
+            Ok(found) => *body = Some(found.with_effort(self.effort)),
             Err(error) => {
                 // SAFETY: as above, and nothing of `built` is used any more.
                 unsafe { (*self.built.get()).clear() };

@@ -5,7 +5,7 @@ use super::incoming::{Incoming, refusal};
 use crate::Uploads;
 use core::cell::{Cell, UnsafeCell};
 use core::sync::atomic::{AtomicBool, Ordering};
-use palpate::body::Body;
+use palpate::body::{Body, Effort};
 use palpate::scene::BodyStore;
 use palpate::wire::{Upload, UploadError};
 
@@ -34,8 +34,13 @@ pub struct Writing<const WORDS: usize, const FACES: usize, const EDGES: usize> {
 impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Bodies<WORDS, FACES, EDGES> {
     /// Nothing in it.
     pub const fn new() -> Self {
+        Self::with_effort(Effort::BENCH)
+    }
+
+    /// The same for ticks of another effort.
+    pub const fn with_effort(effort: Effort) -> Self {
         Self {
-            banks: [const { Bank::new() }; 2],
+            banks: [Bank::new(effort), Bank::new(effort)],
             files: [const { Words(UnsafeCell::new([0; WORDS])) }; 2],
             is_written: AtomicBool::new(false),
         }

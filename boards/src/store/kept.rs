@@ -7,7 +7,7 @@ use core::cell::{Cell, RefCell};
 use core::hint::black_box;
 use core::sync::atomic::{AtomicBool, Ordering};
 use embedded_storage::nor_flash::NorFlash;
-use palpate::body::{Body, FileError};
+use palpate::body::{Body, Effort, FileError};
 use palpate::scene::BodyStore;
 use palpate::wire::{CHUNK, Upload, UploadError};
 
@@ -67,7 +67,12 @@ pub struct Keeping<F, const FACES: usize, const EDGES: usize> {
 impl<const FACES: usize, const EDGES: usize> Kept<FACES, EDGES> {
     /// Nothing known of what lies there.
     pub const fn new(region: Region) -> Self {
-        Self { bank: Bank::new(), region, is_written: AtomicBool::new(false) }
+        Self::with_effort(region, Effort::BENCH)
+    }
+
+    /// The same for ticks of another effort.
+    pub const fn with_effort(region: Region, effort: Effort) -> Self {
+        Self { bank: Bank::new(effort), region, is_written: AtomicBool::new(false) }
     }
 
     /// Main's end, once, before the loop is made; and why what lies there is no body, if it is none. If it is one, it

@@ -5,7 +5,7 @@ use crate::handle::{Handle, Kind};
 use crate::pointers::{finite, get, put, row, take_slots};
 use crate::status::{Status, code};
 use core::ffi::c_void;
-use palpate_core::body::{Body, BodyBuffer, Edge, Face, FileHead};
+use palpate_core::body::{Body, BodyBuffer, Edge, Effort, Face, FileHead};
 use palpate_core::math::Vec3;
 
 /// A body whose file and working memory the caller owns.
@@ -121,7 +121,8 @@ pub unsafe extern "C" fn palpate_body_load(
             // SAFETY: what is left of it.
             unsafe { take_slots(rest, left, head.edges, Edge::VACANT) }?.0
         };
-        let body = Body::from_bytes(file, BodyBuffer { faces, edges })?;
+        // On any board.
+        let body = Body::from_bytes(file, BodyBuffer { faces, edges })?.with_effort(Effort::ONE);
         // SAFETY: the place that was vacated.
         unsafe { Handle::fill(place, Loaded { crc: body.baked_crc(), felt: Felt(body) }) };
         Ok(())

@@ -3,7 +3,7 @@
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
 use alloc::vec;
-use palpate::body::{Body, BodyBuffer, BodyWitness, Edge, Face, Feature, FileHead, TableCursor};
+use palpate::body::{Body, BodyBuffer, BodyWitness, Edge, Effort, Face, Feature, FileHead, TableCursor};
 use palpate::math::Vec3;
 use palpate::patch::SplinePatch;
 use palpate::servo::{BakedTables, PatchWitness, Surface, Touched, Tracked};
@@ -185,7 +185,9 @@ impl Loaded {
         let head = FileHead::of(bytes).map_err(|error| error.to_string())?;
         let faces = Box::leak(vec![Face::VACANT; head.faces].into_boxed_slice());
         let edges = Box::leak(vec![Edge::VACANT; head.edges].into_boxed_slice());
+        // As the emulated boards, whose runs it replays.
         let body = Body::from_bytes(bytes, BodyBuffer { faces, edges }).map_err(|error| error.to_string())?;
+        let body = body.with_effort(Effort::ONE);
         let body: &'static Body<'static> = Box::leak(Box::new(body));
         // As the tool's commands take a file: a body of one face is felt as its patch.
         let felt = match body.faces() {

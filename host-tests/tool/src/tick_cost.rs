@@ -11,6 +11,9 @@ use std::collections::BTreeMap;
 const CYCLES_OF_TEN: u32 = 22;
 /// Instructions of a tick beside its evaluations: the row "servo tick, smooth, worst", evaluations included.
 const BESIDE: &str = "servo tick, smooth, worst";
+/// Instructions of a step or of a search with an evaluation of a patch of [`EVALUATION`].
+const STEP: &str = "closest point of the capped box, any, worst";
+const EVALUATION: &str = "second order, polynomial, degree (3, 3)";
 /// Instructions to find the spans of a patch or curve of several: eight rounds of bisection along each parameter.
 const SPANS: u32 = 2 * 8 * 12;
 /// Instructions of a look at a spoke with its edge, that edge's two faces and their curvature.
@@ -33,7 +36,8 @@ impl Budget {
         let degree = if u == v { u } else { u.max(v).max(4) };
         let kind = kind(patch.coefficients());
         let spans = if patch.breaks().iter().all(|breaks| breaks.len() == 2) { 0 } else { SPANS };
-        self.of(&format!("second order, {kind}, degree ({degree}, {degree})")) + spans
+        let step = self.of(STEP) - self.of(EVALUATION);
+        self.of(&format!("second order, {kind}, degree ({degree}, {degree})")) + spans + step
     }
 
     /// In proportion to the degree, of the row of the highest.

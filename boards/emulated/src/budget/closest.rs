@@ -7,7 +7,7 @@ use palpate::body::{Body, BodyStep, BodyWitness, Feature};
 use palpate::math::{Vec3, sin_cos, vec3};
 use palpate::track::{Contact, Controller, Outcome, Probe};
 
-use super::tables::capped_box::BODY;
+use super::tables::CAPPED_BOX;
 use super::tally::Tally;
 use crate::timer::InstructionCounter;
 
@@ -68,7 +68,7 @@ pub fn probe(tick: u32) -> Vec3 {
 /// # Errors
 /// The walk missed a feature, or a step was rejected.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
-    walk(counter, &BODY, "closest point of the capped box", true)
+    walk(counter, &CAPPED_BOX, "closest point of the capped box", true)
 }
 
 /// The walk on a body that is the capped box. `in_parts`: with each kind of tick by itself.

@@ -6,6 +6,7 @@ use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, FileError, TickLimit}
 use semihosting::println;
 
 use super::closest;
+use crate::body::EFFORT;
 use crate::timer::InstructionCounter;
 
 static CAPPED_BOX: &Aligned<[u8]> = &Aligned(*include_bytes!("../../../bodies/capped_box.palp"));
@@ -43,7 +44,7 @@ fn counted<'a>(
     let bytes = black_box(bytes);
     let (body, instructions) = counter.count(|| load(bytes, room, &mut || ()));
     println!("\"loading {name}, {} bytes\" = {instructions}", bytes.len());
-    body.map_err(|_| "a body's file was refused")
+    body.map(|body| body.with_effort(EFFORT)).map_err(|_| "a body's file was refused")
 }
 
 /// The longest that a watchdog waits while a file is loaded.

@@ -10,7 +10,7 @@ use palpate::track::{Contact, Controller, Placement};
 
 use super::closest::probe;
 use super::servo::{APPROACH, Walk};
-use super::tables::capped_box::BODY;
+use super::tables::CAPPED_BOX;
 use super::tally::Tally;
 use crate::body::{DEVICE, Mechanism, SETTINGS};
 use crate::timer::InstructionCounter;
@@ -25,7 +25,7 @@ const MIDDLE: Vec3 = vec3(0.03, 0.02, 0.017);
 const SPHERE: Sphere = Sphere { centre_m: MIDDLE, radius_m: 0.04 };
 
 const fn part(motion: Motion) -> Part<'static, Body<'static>> {
-    Part { sphere: SPHERE, ..Part::new(&BODY, motion, MATERIAL) }
+    Part { sphere: SPHERE, ..Part::new(&CAPPED_BOX, motion, MATERIAL) }
 }
 
 const fn at(x: f32, y: f32, z: f32) -> Placement {

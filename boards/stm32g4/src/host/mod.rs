@@ -19,7 +19,7 @@ use stm32g4xx_hal::stm32::FLASH;
 
 use self::flash::{BODY_BYTES, Bank2, START};
 use crate::body::own::{DEVICE, Mechanism, PROTECTION, REFERENCE, WIRING};
-use crate::body::{SAFETY, SETTINGS, tables};
+use crate::body::{EFFORT, SAFETY, SETTINGS, SURFACE};
 
 /// Faces and edges of some 60 patches: more RAM for them would be less for the code of the tick.
 const FACES: usize = 64;
@@ -30,10 +30,10 @@ type Store = Kept<FACES, EDGES>;
 
 // SAFETY: of the chip's second bank, which nothing of this program lies in (`regions/hosted.x`) and only `Bank2`
 // writes.
-static STORE: Store = Kept::new(unsafe { Region::new(START as *const u32, BODY_BYTES) });
+static STORE: Store = Kept::with_effort(unsafe { Region::new(START as *const u32, BODY_BYTES) }, EFFORT);
 
 /// One patch alone is no body: choose a model of one.
-static SLOT: Slot<Store> = Slot::exchangeable(tables::SURFACE, &STORE);
+static SLOT: Slot<Store> = Slot::exchangeable(&SURFACE, &STORE);
 static SCENE: OneSlot<Store> = one_slot(&SLOT, &DEVICE, &SETTINGS);
 
 /// A configuration that is refused does not compile.

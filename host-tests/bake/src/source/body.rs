@@ -257,6 +257,11 @@ fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
         /// The body.
         #[allow(dead_code)]
         pub const SURFACE: &Surface = &BODY;
+        /// The body with another effort in each tick.
+        #[allow(dead_code)]
+        pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
+            BODY.with_effort(effort)
+        }
         #centre
     }
 }

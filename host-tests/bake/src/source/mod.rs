@@ -93,6 +93,11 @@ pub fn rust_source(origin: &Origin<'_>, patches: &[BakedPatch]) -> Result<String
         /// The first patch.
         #[allow(dead_code)]
         pub const SURFACE: &Surface = &PATCHES[0];
+        /// The first patch: a tick of a patch takes one step at any effort.
+        #[allow(dead_code)]
+        pub const fn with_effort(_: palpate::body::Effort) -> Surface {
+            PATCHES[0]
+        }
         /// CRC-32 of its numbers, [`palpate::patch::SplinePatch::table_crc`], computed when it was baked.
         #[allow(dead_code)]
         pub const TABLE_CRC: u32 = #crc;

@@ -21,7 +21,12 @@ pub fn source(
     // Those of bodies of one model are there once.
     let first = |index: usize| tables.iter().position(|other| *other == tables[index]).unwrap_or(index);
     for (index, table) in tables.iter().enumerate().filter(|(index, _)| first(*index) == *index) {
-        let _ = writeln!(text, "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}", file.body[index].model);
+        let _ = writeln!(
+            text,
+            "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}\n\
+             static BODY_{index}: palpate::body::Body = body_{index}::with_effort(palpate::body::Effort::ONE);",
+            file.body[index].model
+        );
     }
     let count = tables.len();
     let Limits {
@@ -35,7 +40,7 @@ pub fn source(
     let _ = writeln!(
         text,
         "/// What is felt.\npub type Surface = palpate::scene::Scene<'static, palpate::body::Body<'static>, {count}>;\n\
-         /// The scene.\n#[rustfmt::skip]\nstatic SCENE: Surface = palpate::scene::Scene::new(\n    \
+         /// The scene.\n#[rustfmt::skip]\nconst fn scene() -> Surface {{\n    palpate::scene::Scene::new(\n    \
          palpate::scene::Limits {{ max_stiffness_n_per_m: {max_stiffness:?}, max_damping_n_s_per_m: {max_damping:?}, \
          max_force_n: {max_force:?}, release_n_per_s: {let_go:?}, rate_hz: {rate:?}, max_speed_m_per_s: {max_speed:?} }},\n    ["
     );
@@ -44,7 +49,7 @@ pub fn source(
         let (centre, radius) = (vector(part.sphere.centre_m), part.sphere.radius_m);
         let _ = writeln!(
             text,
-            "        palpate::scene::Part {{ surface: &body_{}::BODY, motion: {}, material: {}, \
+            "        palpate::scene::Part {{ surface: &BODY_{}, motion: {}, material: {}, \
              sphere: palpate::scene::Sphere {{ centre_m: {centre}, radius_m: {radius:?} }}, group: {} }},",
             first(index),
             motion(&entry.movement(shape), limits.rate_hz),
@@ -52,7 +57,10 @@ pub fn source(
             part.group
         );
     }
-    text += "    ],\n);\n/// The scene.\npub const SURFACE: &Surface = &SCENE;\n";
+    text += "    ],\n)\n}\nstatic SCENE: Surface = scene();\n\
+             /// The scene.\n#[allow(dead_code)]\npub const SURFACE: &Surface = &SCENE;\n\
+             /// The scene: its bodies have the effort of the emulated boards.\n#[allow(dead_code)]\n\
+             pub const fn with_effort(_: palpate::body::Effort) -> Surface {\n    scene()\n}\n";
     text
 }
 

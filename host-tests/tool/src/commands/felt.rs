@@ -6,7 +6,7 @@ use crate::drawing::View;
 use crate::models::ModelFile;
 use anyhow::Context;
 use glam::DVec3;
-use palpate::body::Body;
+use palpate::body::{Body, Effort};
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
 use palpate::scene::Limits;
@@ -66,7 +66,8 @@ impl Felt {
         let progress = |done, all| bar.tell("cells of space", done, all);
         let baked = from.located(baked, &options, None, &progress)?;
         drop(bar);
-        let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?));
+        // That of the emulated boards, whose loop this is.
+        let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?.with_effort(Effort::ONE)));
         Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone() })
     }
 

@@ -6,7 +6,7 @@ use crate::models::ModelFile;
 use crate::page::{RecordedBody, RecordedScene};
 use anyhow::Context;
 use glam::DVec3;
-use palpate::body::Body;
+use palpate::body::{Body, Effort};
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
 use palpate::scene::{Limits, Motion, Scene};
@@ -69,7 +69,8 @@ impl FeltScene {
                 centre: model.centre,
             };
             tables.push(body_source(&origin, &baked, &baked.labels(&model))?);
-            let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?));
+            // That of the emulated boards, whose loop this is.
+            let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?.with_effort(Effort::ONE)));
             bodies.push((body, shape(body, model.centre)));
             sources.push(Source { digest: model_file.digest(), model, baked });
         }

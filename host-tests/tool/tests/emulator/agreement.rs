@@ -2,12 +2,13 @@
 
 use crate::path::{TICKS, sensors};
 use crate::running::{TRANSPORTS, firmware_of};
+use palpate::body::Effort;
 use palpate::device::Counts;
 use palpate::servo::{Config, Event, Input, Servo};
 use palpate::wire::Report;
 use palpate_tool::firmware::{Board, Link};
 
-/// The very tables and settings of the image.
+/// The very tables, effort and settings of the image.
 mod tables {
     include!("../../../../boards/bodies/capped_box.rs");
 }
@@ -16,9 +17,10 @@ mod settings {
     include!("../../../../boards/emulated/settings.rs");
 }
 
+static SURFACE: tables::Surface = tables::with_effort(Effort::ONE);
 static SERVO: Servo<'static, tables::Surface, settings::Mechanism, 3> = Servo::new(
     &settings::DEVICE,
-    tables::SURFACE,
+    &SURFACE,
     Config { settings: settings::SETTINGS, safety: settings::SAFETY, ..Config::DEFAULT },
 );
 
