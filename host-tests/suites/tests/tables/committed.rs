@@ -44,8 +44,8 @@ fn numbers_of_the_source_read_back_as_the_same_bits() -> Result<(), Box<dyn Erro
     let file = syn::parse_file(&source)?;
     assert_eq!(
         file.items.len(),
-        8,
-        "two sets of borders, the coefficients, PATCHES, Surface, SURFACE, TABLE_CRC, CENTRE"
+        9,
+        "two sets of borders, the coefficients, PATCHES, Surface, SURFACE, with_effort, TABLE_CRC, CENTRE"
     );
     let start = source.find("COEFFICIENTS: [[f32; 3]; 4] = ").ok_or("no coefficients")?;
     let body = source[start..].split_once("= ").and_then(|(_, rest)| rest.split_once(';')).ok_or("no end")?.0;

@@ -1,6 +1,6 @@
 //! Whether C is compiled here, and what of it.
 
-use palpate::body::{Body, BodyBuffer, Edge, Face, FileHead};
+use palpate::body::{Body, BodyBuffer, Edge, Effort, Face, FileHead};
 use palpate_tool::firmware::Progress;
 use palpate_tool::in_c::{self, WITH_C};
 use palpate_tool::repository;
@@ -52,7 +52,9 @@ pub fn with_capped_box<T>(then: impl FnOnce(&Body<'_>) -> T) -> T {
     let bytes: &[u8] = bytemuck::cast_slice(&words);
     let head = FileHead::of(bytes).expect("a body's file");
     let (mut faces, mut edges) = (vec![Face::VACANT; head.faces], vec![Edge::VACANT; head.edges]);
-    then(&Body::from_bytes(bytes, BodyBuffer { faces: &mut faces, edges: &mut edges }).expect("a body"))
+    let body = Body::from_bytes(bytes, BodyBuffer { faces: &mut faces, edges: &mut edges }).expect("a body");
+    // As the library for C has it.
+    then(&body.with_effort(Effort::ONE))
 }
 
 /// A program of the host from a source of the C crate, linked with the library.

@@ -21,6 +21,8 @@ const SMOOTH: u32 = 120;
 /// square and the exact certificate in the one tick. While nothing is located a tick searches twice as much as the 687
 /// of a single search, so that a probe inside is located within 10 ms.
 const ANY_TICK: u32 = 1_050;
+/// The most by which a tick on a body from a file and one on the same statics may differ: a branch or two.
+const STATIC: u32 = 4;
 /// The most that a body's path costs a tick, over one that rests.
 const PATH: u32 = 80;
 /// The most for the closest point on a face of degree 3, away from its border.
@@ -75,11 +77,15 @@ fn compare(board: Board) {
             "{board:?}: the closest point on a face, {side}, takes {closest} instructions, an evaluation {evaluation}"
         );
     }
-    // A body from a file is felt by the same code at the same cost.
+    // A body from a file is tracked by the same code at the same cost, but for branches that the numbers of a static
+    // decide when it is compiled.
     for part in ["median", "worst"] {
         let [statics, file] =
             ["", " from its file"].map(|from| of(&format!("closest point of the capped box{from}, any, {part}")));
-        assert_eq!(file, statics, "{board:?}: a tick, {part}, of a body from a file and of statics");
+        assert!(
+            file.abs_diff(statics) <= STATIC,
+            "{board:?}: a tick, {part}, takes {file} on a body from a file and {statics} on statics"
+        );
     }
     for part in ["median", "worst"] {
         let [rest, path] =
