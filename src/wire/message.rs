@@ -135,6 +135,21 @@ pub mod hold {
     pub const CONFIRM: u8 = 1 << 6;
     /// The two channels of the enable input differed for too long: both have to be seen released.
     pub const ENABLE: u8 = 1 << 7;
+
+    /// The reason of each of these holds, for a person.
+    pub fn reasons(holds: u8) -> impl Iterator<Item = &'static str> {
+        const REASONS: [(u8, &str); 8] = [
+            (STOP, "stop is pressed, or has still to be pressed once"),
+            (NOT_READY, "an amplifier is not ready"),
+            (SUPPLY, "the supply is out of its range"),
+            (RELEASE_FIRST, "enable has to be released first"),
+            (WRITING, "flash is being written"),
+            (NO_HOST, "no host was heard yet"),
+            (CONFIRM, "hold the enable button for half a second, then release it"),
+            (ENABLE, "the two contacts of the enable button differ: release it; one that stays closed is broken"),
+        ];
+        REASONS.into_iter().filter(move |(bit, _)| holds & bit != 0).map(|(_, reason)| reason)
+    }
 }
 
 /// To a device that runs by itself. Until a [`Self::Hello`] in its version has come it takes [`Self::Stop`] alone.

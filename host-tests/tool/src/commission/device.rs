@@ -333,18 +333,7 @@ impl Device {
 
 /// The reason why the motors are off according to a reading, as the rest of a sentence.
 pub(crate) fn said(reading: &Reading) -> String {
-    let holds = [
-        (hold::STOP, "stop is pressed"),
-        (hold::NOT_READY, "an amplifier is not ready"),
-        (hold::SUPPLY, "the supply is out of its range"),
-        (hold::RELEASE_FIRST, "enable has to be released first"),
-        (hold::WRITING, "flash is being written"),
-        (hold::NO_HOST, "no host was heard yet"),
-        (hold::ENABLE, "the two contacts of the enable button differ: release it; one that stays closed is broken"),
-        (hold::CONFIRM, "hold the enable button for half a second, then release it"),
-    ];
-    let mut reasons: Vec<String> =
-        holds.iter().filter(|(bit, _)| reading.hold & bit != 0).map(|(_, reason)| (*reason).to_owned()).collect();
+    let mut reasons: Vec<String> = hold::reasons(reading.hold).map(str::to_owned).collect();
     reasons.extend(JogRefusal::from_code(reading.refusal).map(|refusal| refusal.to_string()));
     if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) }
 }

@@ -243,17 +243,7 @@ fn said(view: &View) -> String {
         Some(Phase::Reset) | None => "reset",
     };
     let fault = Fault::from_code(view.fault).map_or_else(String::new, |fault| format!(": {fault}"));
-    let holds = [
-        (hold::STOP, "stop is pressed"),
-        (hold::NOT_READY, "an amplifier is not ready"),
-        (hold::SUPPLY, "the supply is out of its range"),
-        (hold::RELEASE_FIRST, "enable has to be released first"),
-        (hold::WRITING, "flash is being written"),
-        (hold::NO_HOST, "no host was heard yet"),
-        (hold::CONFIRM, "hold the enable button for half a second, then release it"),
-    ];
-    let holds: String =
-        holds.iter().filter(|(bit, _)| view.hold & bit != 0).map(|(_, why)| format!("; {why}")).collect();
+    let holds: String = hold::reasons(view.hold).map(|why| format!("; {why}")).collect();
     format!(
         "at {} mm, {} mm/s; body {}, {contact}, gap {:.2} mm; force {force} N; {phase}{fault}{holds}",
         millimetres(view.position),
