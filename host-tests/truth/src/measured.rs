@@ -10,7 +10,8 @@ use std::sync::Mutex;
 use std::{env, fs};
 
 /// Variables that make tests longer than by default: then not every number has a row.
-const LENGTHS: [&str; 5] = ["PALPATE_PAIRS", "PALPATE_PROBES", "PALPATE_STARTS", "PALPATE_STEPS", "PALPATE_TICKS"];
+const LENGTHS: [&str; 6] =
+    ["PALPATE_PAIRS", "PALPATE_PROBES", "PALPATE_SPOILED", "PALPATE_STARTS", "PALPATE_STEPS", "PALPATE_TICKS"];
 
 /// One writer at a time; test binaries run one after the other.
 static WRITING: Mutex<()> = Mutex::new(());
