@@ -115,7 +115,7 @@ fn wavy(seed: u64) -> String {
 
 #[test]
 fn single_queries_around_open_wavy_patches_are_right_near_and_far() {
-    let count = from_environment("PALPATE_PROBES", 20_000);
+    let count = from_environment("PALPATE_PROBES", 5_000);
     let query = |seed: u64| {
         let model = Model::parse(&wavy(seed), "wavy").unwrap_or_else(|error| panic!("{error}"));
         wrong(&model, "wavy", count)
