@@ -64,42 +64,43 @@ impl Basis {
     fn new(knots: &[f64], degree: usize, count: usize, t: f64) -> Self {
         let upper = knots[degree + 1..count].partition_point(|knot| *knot <= t) + degree;
         let span = upper.min(count - 1);
-        let mut rows = [[0.0; MAX_DEGREE + 1]; 3];
+        // values[k] keeps the functions of degree − k, aligned so that entry i belongs to point span − degree + i.
+        let mut values = [[0.0; MAX_DEGREE + 1]; 3];
         let mut row = [0.0; MAX_DEGREE + 1];
         row[0] = 1.0;
-        // rows[k] keeps the functions of degree − k, aligned so that entry i belongs to point span − degree + i.
         for level in 0..=degree {
+            let mut carry = 0.0;
+            for (i, value) in row.iter_mut().enumerate().take(level) {
+                let (low, high) = (knots[span + 1 + i - level], knots[span + 1 + i]);
+                let share = if high > low { *value / (high - low) } else { 0.0 };
+                *value = carry + (high - t) * share;
+                carry = (t - low) * share;
+            }
             if level > 0 {
-                let mut next = [0.0; MAX_DEGREE + 1];
-                for (i, value) in row.iter().enumerate().take(level) {
-                    let (low, high) = (knots[span + 1 + i - level], knots[span + 1 + i]);
-                    let share = if high > low { value / (high - low) } else { 0.0 };
-                    next[i] += (high - t) * share;
-                    next[i + 1] += (t - low) * share;
-                }
-                row = next;
+                row[level] = carry;
             }
             if degree - level < 3 {
-                rows[degree - level] = row;
+                values[degree - level][..=level].copy_from_slice(&row[..=level]);
             }
         }
-        let differentiate = |lower: &[f64; MAX_DEGREE + 1], level: usize| {
-            let mut result = [0.0; MAX_DEGREE + 1];
-            for i in 0..level {
+        let differentiate = |lower: &mut [f64; MAX_DEGREE + 1], level: usize| {
+            let mut carry = 0.0;
+            for (i, value) in lower.iter_mut().enumerate().take(level) {
                 let width = knots[span + 1 + i] - knots[span + 1 + i - level];
-                let share = if width > 0.0 { level as f64 * lower[i] / width } else { 0.0 };
-                result[i] -= share;
-                result[i + 1] += share;
+                let share = if width > 0.0 { level as f64 * *value / width } else { 0.0 };
+                *value = carry - share;
+                carry = share;
             }
-            result
+            lower[level] = carry;
         };
-        let first = if degree >= 1 { differentiate(&rows[1], degree) } else { [0.0; MAX_DEGREE + 1] };
-        let second = if degree >= 2 {
-            differentiate(&differentiate(&rows[2], degree - 1), degree)
-        } else {
-            [0.0; MAX_DEGREE + 1]
-        };
-        Self { first: span - degree, values: [rows[0], first, second] }
+        if degree >= 1 {
+            differentiate(&mut values[1], degree);
+        }
+        if degree >= 2 {
+            differentiate(&mut values[2], degree - 1);
+            differentiate(&mut values[2], degree);
+        }
+        Self { first: span - degree, values }
     }
 }
 
@@ -281,8 +282,8 @@ impl Surface {
     /// The point and its derivatives.
     pub fn at(&self, uv: DVec2) -> Jet {
         let uv = self.wrapped(uv);
-        let [along_u, along_v] = [(0, uv.x), (1, uv.y)]
-            .map(|(axis, t)| Basis::new(&self.knots[axis], self.degree[axis], self.counts[axis], t));
+        let along = |axis: usize| Basis::new(&self.knots[axis], self.degree[axis], self.counts[axis], uv[axis]);
+        let (along_u, along_v) = (along(0), along(1));
         let mut sums = [DVec4::ZERO; 6];
         for i in 0..=self.degree[0] {
             let row = (along_u.first + i) * self.counts[1] + along_v.first;
