@@ -271,7 +271,7 @@ pub(crate) fn patched<'p>(
     manner: Manner,
 ) -> Result<(usize, Mesh<'p>, Vec<Made>), Vec<ImportError>> {
     let mut mesh = outlined(part, fine, tolerance).map_err(single)?;
-    divide::parity::balance(&mut mesh);
+    divide::parity::balance(&mut mesh).map_err(single)?;
     // An odd number of sides is no harm where one quad may have a side of no length.
     divide::parity::even(&mut mesh).or_else(|error| if manner.triangles { Ok(()) } else { Err(single(error)) })?;
     divide::divide(&mut mesh, manner)?;

@@ -27,7 +27,7 @@ pub fn even(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
             let at = mesh.even(wire, 2);
             mesh.cut(wire, &at);
         }
-        balance(mesh);
+        balance(mesh)?;
     }
     let face = (0..mesh.regions.len()).find(|face| is_odd(mesh, *face));
     face.map_or(Ok(()), |face| Err(ImportError::too_much(mesh.part, face, "its outline keeps an odd number of sides")))
@@ -150,14 +150,35 @@ fn exits(mesh: &Mesh<'_>, face: usize, entered: Option<usize>) -> Vec<usize> {
 // Cuts handed on: a region with four corners wants as many cuts on a side as on the one opposite, at about the same
 // places.
 
-/// Cuts sides until opposite ones of every region with four corners agree. Stops at a maximum number of wires and
-/// leaves the other regions as they are.
-pub fn balance(mesh: &mut Mesh<'_>) {
+/// Cuts sides until opposite ones of every region with four corners agree.
+///
+/// # Errors
+/// If that does not end, as where a face meets itself through others, once more cut on one side: the face that asks for
+/// the most cuts.
+pub fn balance(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
     let most = 4 * mesh.wires.len() + 400;
+    let mut lengths = HashMap::new();
+    // How often each face was, and where nothing is to be cut until a side of the face is.
+    let mut asked = vec![0; mesh.regions.len()];
+    let mut settled = vec![false; mesh.regions.len()];
     while mesh.wires.len() < most {
-        let Some((face, place, at)) = (0..mesh.regions.len()).find_map(|face| wanted(mesh, face)) else { return };
+        let open = (0..mesh.regions.len()).find_map(|face| {
+            let cut = if settled[face] { None } else { wanted(mesh, face, &mut lengths) };
+            settled[face] = cut.is_none();
+            cut.map(|(place, at)| (face, place, at))
+        });
+        let Some((face, place, at)) = open else { return Ok(()) };
+        asked[face] += 1;
+        let wire = mesh.regions[face].loops[0][place].wire.map(|(wire, _)| wire);
+        for (other, region) in mesh.regions.iter().enumerate() {
+            let has = |side: &Side| side.wire.map(|(of, _)| of) == wire;
+            settled[other] &= other != face && !region.loops.iter().flatten().any(has);
+        }
         cut_at(mesh, face, place, at);
     }
+    let busiest = (0..asked.len()).max_by_key(|face| asked[*face]).unwrap_or(0);
+    let reason = "cuts across it come back to it without end, as where it winds round more than once";
+    Err(ImportError::too_much(mesh.part, busiest, reason))
 }
 
 /// Cuts one side of a face's outer outline at a parameter.
@@ -174,7 +195,7 @@ pub fn cut_at(mesh: &mut Mesh<'_>, face: usize, place: usize, at: f64) {
 }
 
 /// A side that is to be cut, and where.
-fn wanted(mesh: &Mesh<'_>, face: usize) -> Option<(usize, usize, f64)> {
+fn wanted(mesh: &Mesh<'_>, face: usize, lengths: &mut HashMap<usize, f64>) -> Option<(usize, f64)> {
     let Shape::Grid(starts) = Shape::of(mesh, face) else { return None };
     let sides = &mesh.regions[face].loops[0];
     let all = four(sides, starts);
@@ -185,8 +206,8 @@ fn wanted(mesh: &Mesh<'_>, face: usize) -> Option<(usize, usize, f64)> {
         }
         let (many, few, start) = if a.len() > b.len() { (a, b, starts[k + 2]) } else { (b, a, starts[k]) };
         // Where the longer list is cut, seen from the other end.
-        let wished: Vec<f64> = shares(mesh, many).iter().map(|share| 1.0 - share).collect();
-        let borders = shares(mesh, few);
+        let wished: Vec<f64> = shares(mesh, many, lengths).iter().map(|share| 1.0 - share).collect();
+        let borders = shares(mesh, few, lengths);
         let lonely = |share: &f64| borders.iter().map(|border| (border - share).abs()).fold(f64::INFINITY, f64::min);
         let share = wished.iter().copied().max_by(|x, y| lonely(x).total_cmp(&lonely(y)))?;
         let ends: Vec<f64> = [0.0].into_iter().chain(borders).chain([1.0]).collect();
@@ -201,15 +222,15 @@ fn wanted(mesh: &Mesh<'_>, face: usize) -> Option<(usize, usize, f64)> {
                 (0..ends.len() - 1).max_by(|i, j| (ends[i + 1] - ends[*i]).total_cmp(&(ends[j + 1] - ends[*j])))?;
             (widest, 0.5)
         };
-        return Some((face, (start + piece) % sides.len(), at));
+        return Some(((start + piece) % sides.len(), at));
     }
     None
 }
 
-/// The shares of the length at which a list of sides is cut; of poles, of their number.
-fn shares(mesh: &Mesh<'_>, sides: &[&Side]) -> Vec<f64> {
-    let length = |side: &&Side| side.wire.map_or(1e-12, |(wire, _)| mesh.extent(wire).0);
-    let lengths: Vec<f64> = sides.iter().map(length).collect();
+/// The shares of the length at which a list of sides is cut; of poles, of their number. `known` has lengths of wires.
+fn shares(mesh: &Mesh<'_>, sides: &[&Side], known: &mut HashMap<usize, f64>) -> Vec<f64> {
+    let mut length = |wire: usize| *known.entry(wire).or_insert_with(|| mesh.extent(wire).0);
+    let lengths: Vec<f64> = sides.iter().map(|side| side.wire.map_or(1e-12, |(wire, _)| length(wire))).collect();
     let whole: f64 = lengths.iter().sum();
     let mut sum = 0.0;
     let mut along = |length: &f64| {
