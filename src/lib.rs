@@ -4,6 +4,7 @@
 pub mod body;
 pub mod commission;
 pub mod device;
+pub mod field;
 pub mod math;
 mod message;
 pub mod pair;

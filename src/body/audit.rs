@@ -6,6 +6,7 @@ use super::locator::Candidate;
 use super::search::{Best, Search};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
+use crate::field::Displacement;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::track::{Contact, Witness};
 
@@ -69,8 +70,8 @@ fn holds(candidate: &Candidate, places: &Places) -> bool {
 
 impl Audit {
     /// A pass in the cell of a probe; in the same cell with the entry first that was nearest in the last pass.
-    fn new(body: &Body, probe: Vec3, last: Option<&Self>) -> Self {
-        let (first, room) = body.locator.cell(probe);
+    fn new<D: Displacement>(body: &Body<'_, D>, probe: Vec3, last: Option<&Self>) -> Self {
+        let (first, room) = body.locator.cell(body.at_rest(probe));
         let first = first as u16;
         let favourite = last.filter(|last| last.first == first).map_or(NONE, |last| last.nearest);
         let entry = if favourite == NONE { first } else { favourite };
@@ -91,7 +92,7 @@ impl Audit {
     }
 
     /// Whether no candidate is nearer than the tracker's point, by the certificate of the last pass.
-    fn is_certain(&self, body: &Body, probe: Vec3, distance: f32, places: &Places) -> bool {
+    fn is_certain<D: Displacement>(&self, body: &Body<'_, D>, probe: Vec3, distance: f32, places: &Places) -> bool {
         let moved = sqrt_from_above((probe - self.anchor).length_squared());
         let is_held = |entry: &u16| *entry == NONE || holds(&body.candidate(usize::from(*entry)), places);
         moved <= self.room && distance * (1.0 - 0.5 * NEARER) + moved <= self.floor && self.held.iter().all(is_held)
@@ -99,7 +100,7 @@ impl Audit {
 
     /// Takes the lower bound of `φ` of the candidate, and goes on to the next; the last one ends the pass.
     #[inline(never)]
-    fn go_on(&mut self, body: &Body, at_least: f32) {
+    fn go_on<D: Displacement>(&mut self, body: &Body<'_, D>, at_least: f32) {
         let floor = sqrt(2.0 * at_least) * BELOW - sqrt_from_above((self.asked - self.anchor).length_squared());
         if floor < self.floor {
             (self.floor, self.nearest) = (floor, self.entry);
@@ -107,7 +108,7 @@ impl Audit {
         self.skip(body);
     }
 
-    fn skip(&mut self, body: &Body) {
+    fn skip<D: Displacement>(&mut self, body: &Body<'_, D>) {
         let was_favourite = self.entry == self.favourite;
         let mut is_last = !was_favourite && !self.descending.candidate.more;
         self.entry = if was_favourite { self.first } else { self.entry + 1 };
@@ -123,7 +124,7 @@ impl Audit {
     }
 }
 
-impl Body<'_> {
+impl<D: Displacement> Body<'_, D> {
     /// One part of the search for a start: the evaluations of a tick, and its end. `follows`: the probe is near that of
     /// the last tick. Returns whether the tracker may step.
     #[inline(never)]
@@ -187,6 +188,10 @@ impl Body<'_> {
                 Audit::new(self, probe, last)
             }
         };
+        // A certificate is of one shape: a body that deforms is searched without end.
+        if !self.by.is_rest() {
+            audit.floor = 0.0;
+        }
         if audit.waits {
             let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, .. } = audit.descending;
             self.set_down(state, &Best { face, parameters, half_squared }, known, step);
@@ -256,7 +261,7 @@ impl Body<'_> {
     #[inline(never)]
     fn set_down(&self, state: &mut BodyWitness, found: &Best, nearer: f32, step: &mut BodyStep) {
         let Some(face) = self.faces.get(usize::from(found.face)) else { return };
-        let reached = face.patch.evaluate_apart(found.parameters);
+        let reached = self.patch(face).evaluate_apart(found.parameters);
         step.evaluations += 1;
         // The probe has moved since the search started.
         let is_nearer = 0.5 * (reached.surface.point - state.probe).length_squared() < nearer;

@@ -1,11 +1,13 @@
 //! Release of contact over a border: a probe behind a face may be in front of the next face beyond a sharp edge.
 //! Contact ends in the tick that reaches the edge, without a force pulse.
 
-use super::feature::{Edge, EdgeKind, Face, Separator, Side};
+use super::deformed::Cross;
+use super::feature::{Edge, EdgeKind, Face, Side};
 use super::table::Body;
 use super::tracker::BodyWitness;
+use crate::field::{Displaced, Displacement};
 use crate::math::Vec3;
-use crate::patch::{Patch as _, SecondDerivativeBounds, SplinePatch};
+use crate::patch::{Patch as _, SecondDerivativeBounds};
 use crate::track::BoundaryMode;
 
 /// Distance from a border, in parameters, below which the neighbour is asked: the witness point may still be on its
@@ -38,7 +40,7 @@ pub(super) const HOLLOW: f32 = 1.0e-6;
 /// Ratio of the squared weights of a rational patch along a border: 2 on a quarter of a circle, with a margin of 2.
 const WEIGHTS: f32 = 4.0;
 
-impl Body<'_> {
+impl<D: Displacement> Body<'_, D> {
     /// Ends contact if the probe is in front of the neighbour beyond the nearest border: the probe has then left the
     /// body over an edge or a vertex, though it is behind this face. Returns whether contact ended.
     #[inline(always)]
@@ -66,7 +68,7 @@ impl Body<'_> {
             None => None,
         };
         let vertex = vertex.and_then(|vertex| self.vertices.get(usize::from(vertex)));
-        match vertex.and_then(|vertex| self.is_in_front_at(vertex, probe - vertex.point)) {
+        match vertex.and_then(|vertex| self.is_in_front_at(vertex, probe - self.place(vertex))) {
             Some(is_over) => {
                 if is_over {
                     self.update_contact_at_border(state, Some(true));
@@ -103,7 +105,7 @@ impl Body<'_> {
             Some(Side::Edge { edge, reversed, .. }) => (*edge, *reversed),
             Some(Side::Pole { vertex }) => {
                 let Some(vertex) = self.vertices.get(usize::from(*vertex)) else { return false };
-                return self.is_outside_at(vertex, state.probe - vertex.point) == Some(true);
+                return self.is_outside_at(vertex, state.probe - self.place(vertex)) == Some(true);
             }
             None => return false,
         };
@@ -123,16 +125,18 @@ impl Body<'_> {
             }
             EdgeKind::Reflex | EdgeKind::Mixed | EdgeKind::Open => return false,
         }
-        let of = Self::neighbour_of_side(edge, state.feature, number);
+        let of = edge.neighbour_of_side(state.feature, number);
         let Some(beyond) = self.faces.get(usize::from(of.face)) else { return false };
         // Derivative of the neighbour across the side, of any sign and length; for a plane, its inverse.
         let mut is_plane = true;
         let cross = match beyond.sides.get(usize::from(of.side)) {
-            Some(Side::Edge { separator: Separator::Plane { across, .. }, .. }) => *across,
-            Some(Side::Edge { separator: Separator::Ruled(cross), .. }) => {
-                is_plane = false;
-                cross.point(t())
-            }
+            Some(Side::Edge { separator, .. }) => match self.cross(edge, separator, t()) {
+                Cross::Plane { across, .. } => across,
+                Cross::Ruled(cross) => {
+                    is_plane = false;
+                    cross
+                }
+            },
             _ => return false,
         };
         let normal = tangent.cross(cross);
@@ -143,7 +147,7 @@ impl Body<'_> {
         let is_in_front = if is_lower { height * rise < 0.0 } else { height * rise > 0.0 };
         is_in_front && {
             let length = normal.length_squared();
-            let most = bulge(&beyond.patch, of.side < 2, &Rim { tangent: *tangent, cross, is_plane, along }, away);
+            let most = bulge(self.patch(beyond), of.side < 2, &Rim { tangent: *tangent, cross, is_plane, along }, away);
             height * height > most * most * length
         }
     }
@@ -153,7 +157,7 @@ impl Body<'_> {
     fn is_past_end(&self, edge: &Edge, t: f32, probe: Vec3) -> bool {
         let (end, from_end) = if t > 0.5 { (1, 1.0 - t) } else { (0, t) };
         let Some(vertex) = self.vertices.get(usize::from(edge.ends[end])) else { return false };
-        from_end <= AT_END && self.is_in_front_at(vertex, probe - vertex.point) == Some(true)
+        from_end <= AT_END && self.is_in_front_at(vertex, probe - self.place(vertex)) == Some(true)
     }
 }
 
@@ -173,7 +177,7 @@ pub(super) struct Rim {
 /// of the second derivatives limit it too, for the change of parameters that leads there. Beyond the end of the border
 /// another face decides.
 #[inline(always)]
-pub(super) fn bulge(patch: &SplinePatch, is_across_u: bool, rim: &Rim, away: Vec3) -> f32 {
+pub(super) fn bulge<D: Displacement>(patch: Displaced<'_, D>, is_across_u: bool, rim: &Rim, away: Vec3) -> f32 {
     let shape = patch.shape();
     let least = shape.curvature.min;
     if !(least < -HOLLOW && least > f32::NEG_INFINITY) {

@@ -6,6 +6,7 @@
 use super::locator::Candidate;
 use super::pole::Pole;
 use super::quadratic_model::{DistanceDerivatives, Model};
+use crate::field::{Displaced, Displacement, Rigid};
 use crate::math::{Vec3, saturate, sqrt_from_above};
 use crate::patch::{Patch as _, ShapeBounds, SplinePatch};
 
@@ -88,6 +89,18 @@ impl CandidateSearch {
     /// One evaluation, and the choice of the next parameters. `known` is the `φ` to beat, m²; `size` is the body's,
     /// metres; `poles` as of [`super::Face::poles`].
     pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> CandidateStatus {
+        self.step_on(Displaced { rest: patch, by: Rigid }, poles, probe, known, size)
+    }
+
+    /// The same on a displaced patch.
+    pub(super) fn step_on<D: Displacement>(
+        &mut self,
+        patch: Displaced<'_, D>,
+        poles: u8,
+        probe: Vec3,
+        known: f32,
+        size: f32,
+    ) -> CandidateStatus {
         // Without poles their arithmetic is not compiled in.
         if poles == 0 {
             self.step_apart(patch, probe, known, size)
@@ -102,14 +115,20 @@ impl CandidateSearch {
     }
 
     #[inline(never)]
-    fn step_apart(&mut self, patch: &SplinePatch, probe: Vec3, known: f32, size: f32) -> CandidateStatus {
+    fn step_apart<D: Displacement>(
+        &mut self,
+        patch: Displaced<'_, D>,
+        probe: Vec3,
+        known: f32,
+        size: f32,
+    ) -> CandidateStatus {
         self.judged(patch, 0, self.seen(patch, probe), known, size)
     }
 
     #[inline(never)]
-    fn step_near_pole(
+    fn step_near_pole<D: Displacement>(
         &mut self,
-        patch: &SplinePatch,
+        patch: Displaced<'_, D>,
         poles: u8,
         probe: Vec3,
         known: f32,
@@ -119,15 +138,15 @@ impl CandidateSearch {
     }
 
     #[inline(always)]
-    fn seen(&self, patch: &SplinePatch, probe: Vec3) -> DistanceDerivatives {
+    fn seen<D: Displacement>(&self, patch: Displaced<'_, D>, probe: Vec3) -> DistanceDerivatives {
         let curved = patch.evaluate_apart(self.trial);
         DistanceDerivatives::new(&curved, curved.surface.point - probe)
     }
 
     #[inline(always)]
-    fn judged(
+    fn judged<D: Displacement>(
         &mut self,
-        patch: &SplinePatch,
+        patch: Displaced<'_, D>,
         poles: u8,
         seen: DistanceDerivatives,
         known: f32,
@@ -136,7 +155,7 @@ impl CandidateSearch {
         self.left = self.left.wrapping_sub(1);
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
-            let pole = Pole::nearest(poles, at, patch, size);
+            let pole = Pole::nearest(poles, at, patch.rest, size);
             let model = Model::new(pole.map_or(seen, |pole| seen.near_pole(pole)));
             let [lower, upper] = self.candidate.rectangle();
             let range = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
@@ -176,7 +195,7 @@ impl CandidateSearch {
             }
         } else {
             self.halvings += 1;
-            self.trial = match Pole::nearest(poles, self.parameters, patch, size) {
+            self.trial = match Pole::nearest(poles, self.parameters, patch.rest, size) {
                 None => [0, 1].map(|axis| 0.5 * (self.parameters[axis] + at[axis])),
                 Some(pole) => {
                     let half = pole.halved([0, 1].map(|axis| at[axis] - self.parameters[axis]));

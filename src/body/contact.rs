@@ -3,6 +3,7 @@
 use super::feature::{EdgeKind, Face, Feature};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
+use crate::field::Displacement;
 use crate::math::{Vec3, inverse_sqrt, sqrt_from_above};
 use crate::patch::Patch as _;
 use crate::track::{BoundaryMode, Contact, is_inside};
@@ -11,7 +12,7 @@ use crate::track::{BoundaryMode, Contact, is_inside};
 /// off, it cannot be in front of a neighbour that bends away, unless it is deeper than six radii of the bend.
 const BELOW: f32 = 0.75;
 
-impl Body<'_> {
+impl<D: Displacement> Body<'_, D> {
     /// Updates normal, signed gap and contact for the probe and the step of the last [`Self::track`]. Changes nothing
     /// until the witness point is located, and for a probe that is not finite.
     #[inline(always)]
@@ -62,9 +63,9 @@ impl Body<'_> {
             }
             Feature::Vertex(index) => {
                 let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
-                let towards = probe - vertex.point;
+                let towards = probe - self.place(vertex);
                 // Before the first face there is no side to stay on.
-                let known = || if state.normal == Vec3::ZERO { towards.dot(vertex.outward) } else { state.gap };
+                let known = || if state.normal == Vec3::ZERO { towards.dot(self.outward(vertex)) } else { state.gap };
                 let is_outward = || self.is_outside_at(vertex, towards).unwrap_or_else(|| known() >= 0.0);
                 let is_outward = (!vertex.is_open).then(is_outward);
                 self.update_contact_at_border(state, is_outward);
@@ -76,7 +77,7 @@ impl Body<'_> {
     /// point: the closest point is no longer unique, and no proof covers the tracker (theory §11).
     pub fn is_too_deep(&self, state: &BodyWitness) -> bool {
         let Feature::Face(index) = state.feature else { return false };
-        let curvature = |face: &super::feature::Face| face.patch.shape().curvature.max;
+        let curvature = |face: &super::feature::Face| self.patch(face).shape().curvature.max;
         self.faces.get(usize::from(index)).is_some_and(|face| -state.gap * curvature(face) > 1.0)
     }
 
@@ -113,7 +114,7 @@ impl Body<'_> {
     /// face, because a step may end at a pole from anywhere.
     #[inline(never)]
     fn normal_at_pole(&self, face: &Face, parameters: [f32; 2]) -> Option<Vec3> {
-        let outward = self.vertices.get(usize::from(self.pole_at(face, parameters)?))?.outward;
+        let outward = self.outward(self.vertices.get(usize::from(self.pole_at(face, parameters)?))?);
         (outward != Vec3::ZERO).then_some(outward)
     }
 

@@ -1,7 +1,7 @@
 //! One step along an edge: the controller of one parameter.
 
 use super::curve::SplineCurve;
-use super::feature::{Edge, Separator};
+use super::deformed::Cross;
 use crate::math::{Vec3, saturate, sqrt_from_above};
 
 /// Minimum second derivative of `½ ‖ΔR‖²` at which the model is solved, relative to `‖c'‖²`.
@@ -78,9 +78,16 @@ impl EdgeStep {
         (t <= 0.0 && self.gradient >= 0.0) || (t >= 1.0 && self.gradient <= 0.0)
     }
 
-    /// The parameter after one second-order step, if it is certified: theory §12 in one parameter, by bounds alone.
+    /// The parameter after one second-order step, if it is certified: theory §12 in one parameter, by bounds alone, of
+    /// `‖c''‖`, `‖c'''‖` and the jumps of `c''`.
     #[inline]
-    pub(super) fn minimiser(&self, edge: &Edge, half_second: Vec3, t: f32) -> Option<f32> {
+    pub(super) fn minimiser(
+        &self,
+        curve: &SplineCurve,
+        [second, third, jump]: [f32; 3],
+        half_second: Vec3,
+        t: f32,
+    ) -> Option<f32> {
         let hessian = self.hessian(half_second);
         let is_convex = hessian > MIN_CURVATURE * self.stretch;
         if !is_convex {
@@ -90,25 +97,25 @@ impl EdgeStep {
         let change = target - t;
         let (slope, square) = (-self.gradient * change, change * change);
         let distance = sqrt_from_above(self.difference.length_squared());
-        let bend = edge.curve.second_derivative * square;
-        let twist = edge.third_derivative * square * change.abs();
+        let bend = second * square;
+        let twist = third * square * change.abs();
         let length = sqrt_from_above(slope + distance * bend);
         let more = bend * (2.0 * length + bend) + (2.0 / 3.0) * (distance * twist);
-        let beyond = edge.curve.beyond_knots(t, target);
-        let is_certain = more <= slope && (beyond <= 0.0 || more + 2.0 * distance * edge.jump * beyond <= slope);
+        let beyond = curve.beyond_knots(t, target);
+        let is_certain = more <= slope && (beyond <= 0.0 || more + 2.0 * distance * jump * beyond <= slope);
         is_certain.then_some(target)
     }
 
     /// The parameter after one first-order step, cut at the ends: Eq. (1)'s law `−g/G` with the longest gain that is
     /// proved to lower the distance, by the argument of [`crate::track::certified_gain`] in one parameter.
     #[inline]
-    pub(super) fn advanced(&self, curve: &SplineCurve, t: f32) -> f32 {
+    pub(super) fn advanced(&self, second_derivative: f32, t: f32) -> f32 {
         if !(self.stretch > f32::MIN_POSITIVE && self.gradient != 0.0) {
             return t;
         }
         let change = -self.gradient / self.stretch;
         let slope = -self.gradient * change;
-        let bend = curve.second_derivative * change * change;
+        let bend = second_derivative * change * change;
         let (length, distance) = (sqrt_from_above(slope), sqrt_from_above(self.difference.length_squared()));
         let gain = slope / (slope + bend * (bend + 2.0 * length + distance));
         let target = t + if gain < 1.0 { gain } else { 1.0 } * change;
@@ -116,19 +123,18 @@ impl EdgeStep {
         saturate(target, 0.0, 1.0)
     }
 
-    /// Position of the probe relative to the border of a face, at the parameter `t` of its edge with this tangent.
+    /// Position of the probe relative to the border of a face, at a point of its edge with this tangent.
     #[inline]
-    pub(super) fn inward(&self, separator: &Separator, tangent: Vec3, t: f32, probe: Vec3) -> BorderSide {
-        match separator {
-            Separator::Plane { across, offset } => {
+    pub(super) fn inward(&self, cross: &Cross, tangent: Vec3, probe: Vec3) -> BorderSide {
+        match cross {
+            Cross::Plane { across, offset } => {
                 let product = *offset - across.dot(probe);
                 BorderSide { product, square: 1.0, scale: across.length_squared(), skew: 0.0 }
             }
             // The conormal is the part of the cross derivative that is normal to the edge; multiplied by the squared
             // tangent it needs no division.
-            Separator::Ruled(cross) => {
-                let cross = cross.point(t);
-                let (out, skew) = (self.difference.dot(cross), cross.dot(tangent));
+            Cross::Ruled(cross) => {
+                let (out, skew) = (self.difference.dot(*cross), cross.dot(tangent));
                 if self.stretch <= f32::MIN_POSITIVE {
                     return BorderSide { product: out, square: f32::INFINITY, scale: 1.0, skew: 0.0 };
                 }
@@ -166,23 +172,17 @@ mod tests {
         // w = 1/4, s = 1/4, K w² = 1/2: the gain is s / ((√s + K w²)² + 1.3 K w²) = 0.25 / 1.65, with
         // roots from above.
         let expected = 0.25 + 0.25 * 0.25 / 1.65;
-        let found = along.advanced(&curve, 0.25);
+        let found = along.advanced(curve.second_derivative, 0.25);
         let shortest = 0.25 + 0.25 * 0.25 / (1.65 * crate::math::ROOT_EXCESS * crate::math::ROOT_EXCESS);
         assert!(shortest <= found && found <= expected + f32::EPSILON, "{found}");
         // Where nothing bends, all the way.
-        assert_eq!(along.advanced(&straight(0.0), 0.25), 0.5);
+        assert_eq!(along.advanced(0.0, 0.25), 0.5);
     }
 
     /// A face that grows by 4 m a unit of its parameter away from the edge, towards −y, its separator given both ways:
     /// as a plane, and by a cross derivative that slants along the edge.
-    fn separators() -> [Separator<'static>; 2] {
-        let ruled = SplineCurve {
-            degree: 0,
-            breaks: &[0.0, 1.0],
-            coefficients: Coefficients::Polynomial(&[[3.0, 4.0, 0.0]]),
-            second_derivative: 0.0,
-        };
-        [Separator::Plane { across: vec3(0.0, 0.25, 0.0), offset: 0.0 }, Separator::Ruled(ruled)]
+    fn separators() -> [Cross; 2] {
+        [Cross::Plane { across: vec3(0.0, 0.25, 0.0), offset: 0.0 }, Cross::Ruled(vec3(3.0, 4.0, 0.0))]
     }
 
     #[test]
@@ -192,7 +192,7 @@ mod tests {
             let probe = vec3(0.1, height, 0.0);
             let along = EdgeStep::new(at.point, at.tangent, probe);
             for separator in &separators() {
-                let inward = along.inward(separator, at.tangent, 0.5, probe);
+                let inward = along.inward(separator, at.tangent, probe);
                 assert_eq!(inward.is_beyond(), is_beyond, "{height}, {separator:?}");
             }
         }
@@ -206,7 +206,7 @@ mod tests {
         let along = EdgeStep::new(at.point, at.tangent, probe);
         // Across, w = 1/4. EdgeStep, 2 Δt − 3 w = 0.2 where the derivative slants, 2 Δt = 0.2 where it does not.
         for (separator, beside) in separators().iter().zip([0.6, 0.975]) {
-            let inward = along.inward(separator, at.tangent, 0.5, probe);
+            let inward = along.inward(separator, at.tangent, probe);
             let ([inside, t], slope) = inward.landing(&along, along.stretch, 0.5, 1.0);
             // A few roundings of numbers near 1.
             assert!((inside - 0.25).abs() < 4.0 * f32::EPSILON, "{inside}");
@@ -215,7 +215,7 @@ mod tests {
             assert!((slope - 1.0).abs() < 8.0 * f32::EPSILON, "{slope}");
         }
         let [plane, _] = separators();
-        let inward = along.inward(&plane, at.tangent, 0.5, probe);
+        let inward = along.inward(&plane, at.tangent, probe);
         assert_eq!(
             inward.landing(&along, along.stretch, 0.5, f32::INFINITY).0[0],
             0.0,

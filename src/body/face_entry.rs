@@ -9,6 +9,7 @@ use super::edge_step::{BorderSide, EdgeStep, MIN_STRETCH};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
+use crate::field::{Displaced, Displacement};
 use crate::math::Vec3;
 use crate::patch::Patch as _;
 use crate::track::{Aim, BoundaryMode, Outcome, mode_at};
@@ -40,15 +41,15 @@ pub(super) struct Entry {
 
 /// The face beyond a border, at a point of it.
 #[derive(Clone, Copy)]
-pub(super) struct Neighbour<'a> {
-    face: &'a Face<'a>,
+pub(super) struct Neighbour<'a, D> {
+    patch: Displaced<'a, D>,
     of: EdgeFace,
     /// Whether the side runs against the edge.
     is_reversed: bool,
     inward: BorderSide,
 }
 
-impl Neighbour<'_> {
+impl<D: Displacement> Neighbour<'_, D> {
     /// Whether the face's region holds the probe.
     #[inline(always)]
     pub(super) fn takes_probe(&self) -> bool {
@@ -66,9 +67,9 @@ impl Neighbour<'_> {
         state: &BodyWitness,
         known: f32,
     ) -> Entry {
-        let Self { face, of, is_reversed, inward } = self;
+        let Self { patch, of, is_reversed, inward } = self;
         let ([inside, t], fall) = if is_curved && state.witness.halvings == 0 {
-            entry_landing(face, inward, &border.along, [border.t, hessian], [state.gap, known])
+            entry_landing(*patch, inward, &border.along, [border.t, hessian], [state.gap, known])
         } else {
             ([0.0, border.t], 0.0)
         };
@@ -76,23 +77,20 @@ impl Neighbour<'_> {
     }
 }
 
-impl Body<'_> {
-    /// A face of an edge, relative to a point of the edge.
+impl<D: Displacement> Body<'_, D> {
+    /// A face of an edge, relative to a point of that edge.
     #[inline(always)]
-    pub(super) fn neighbour(&self, of: EdgeFace, border: &EdgePoint, probe: Vec3) -> Option<Neighbour<'_>> {
+    pub(super) fn neighbour(
+        &self,
+        edge: &Edge,
+        of: EdgeFace,
+        border: &EdgePoint,
+        probe: Vec3,
+    ) -> Option<Neighbour<'_, D>> {
         let face = self.faces.get(usize::from(of.face))?;
         let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
-        let inward = border.along.inward(separator, border.tangent, border.t, probe);
-        Some(Neighbour { face, of, is_reversed: *reversed, inward })
-    }
-
-    /// The neighbour beyond a side of the face that holds the witness point. Both sides of the edge may be the same
-    /// face.
-    #[inline(always)]
-    pub(crate) fn neighbour_of_side(edge: &Edge, from: Feature, number: usize) -> EdgeFace {
-        let [first, second] = edge.faces;
-        let is_first = from == Feature::Face(first.face) && usize::from(first.side) == number;
-        if is_first { second } else { first }
+        let inward = border.along.inward(&self.cross(edge, separator, border.t), border.tangent, probe);
+        Some(Neighbour { patch: self.patch(face), of, is_reversed: *reversed, inward })
     }
 
     /// A face of an edge, and the parameters there of a point of the edge.
@@ -110,7 +108,7 @@ impl Body<'_> {
         let Some(face) = self.faces.get(usize::from(entry.face)) else { return };
         step.evaluations += 1;
         if is_curved {
-            let reached = face.patch.evaluate_apart(entry.parameters);
+            let reached = self.patch(face).evaluate_apart(entry.parameters);
             let before = (state.witness.surface.point - state.probe).length_squared();
             let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - entry.fall;
             // At the border the distance is unchanged.
@@ -121,7 +119,7 @@ impl Body<'_> {
             }
             state.witness.rest_at(entry.parameters, &reached);
         } else {
-            state.witness.set_down(&face.patch, entry.parameters, false);
+            state.witness.set_down(&self.patch(face), entry.parameters, false);
         }
         (state.feature, step.switched) = (Feature::Face(entry.face), true);
     }
@@ -138,7 +136,7 @@ impl Body<'_> {
     ) -> bool {
         let Some((entry, side)) = self.entry_over_smooth_edge(face, aim, state) else { return false };
         let Some(other) = self.faces.get(usize::from(entry.face)) else { return false };
-        let reached = other.patch.evaluate_apart(entry.parameters);
+        let reached = self.patch(other).evaluate_apart(entry.parameters);
         step.evaluations += 1;
         let probe = state.probe;
         step.outcome =
@@ -176,7 +174,7 @@ impl Body<'_> {
         if edge.kind != EdgeKind::Smooth {
             return None;
         }
-        let other = Self::neighbour_of_side(edge, state.feature, number);
+        let other = edge.neighbour_of_side(state.feature, number);
         let t = if *reversed { 1.0 - along } else { along };
         // The border by the Taylor expansion at the witness point.
         let step = [u - witness.parameters[0], v - witness.parameters[1]];
@@ -186,9 +184,9 @@ impl Body<'_> {
             if is_along_v { (surface.tangent_v, second.half_vv) } else { (surface.tangent_u, second.half_uu) };
         let tangent = if *reversed { -tangent } else { tangent };
         let border = EdgePoint { along: EdgeStep::new(point, tangent, state.probe), tangent, t };
-        let beyond = self.neighbour(other, &border, state.probe)?;
+        let beyond = self.neighbour(edge, other, &border, state.probe)?;
         let hessian = border.along.hessian(half_second);
-        let entry = beyond.entry(&border, hessian, true, state, face.bend(state.gap));
+        let entry = beyond.entry(&border, hessian, true, state, bend(self.patch(face), state.gap));
         Some((entry, other.side))
     }
 }
@@ -200,27 +198,25 @@ impl Body<'_> {
 /// offset `ρ` spans the angle `ρ / (1 + κ gap)`, by the maximum `κ` in front, by the minimum behind. Without a bound,
 /// the curvature `known` of the face before is the estimate; without that, the entry is at the border.
 #[inline(never)]
-fn entry_landing(
-    face: &Face,
+fn entry_landing<D: Displacement>(
+    patch: Displaced<'_, D>,
     inward: &BorderSide,
     along: &EdgeStep,
     [t, hessian]: [f32; 2],
     [gap, known]: [f32; 2],
 ) -> ([f32; 2], f32) {
-    let bound = face.bend(gap);
+    let bound = bend(patch, gap);
     let stretch = 1.0 + if bound.is_finite() { bound } else { known } * gap;
     let stretch = if stretch > MIN_STRETCH { stretch } else { f32::INFINITY };
     let (landing, slope) = inward.landing(along, hessian, t, stretch);
     (landing, 2.0 * MIN_FALL * slope)
 }
 
-impl Face<'_> {
-    /// Bound of the normal curvature that shortens steps on this side of the surface, 1/m.
-    #[inline]
-    fn bend(&self, gap: f32) -> f32 {
-        let curvature = &self.patch.shape().curvature;
-        if gap > 0.0 { curvature.max } else { curvature.min }
-    }
+/// Bound of the normal curvature that shortens steps on this side of the surface, 1/m.
+#[inline]
+fn bend<D: Displacement>(patch: Displaced<'_, D>, gap: f32) -> f32 {
+    let curvature = &patch.shape().curvature;
+    if gap > 0.0 { curvature.max } else { curvature.min }
 }
 
 /// The parameters of a face at the distance `inside` from one of its sides, at the edge's parameter `t`.

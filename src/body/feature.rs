@@ -107,6 +107,15 @@ pub struct Edge<'a> {
 }
 
 impl Edge<'_> {
+    /// The neighbour beyond a side of the face that holds the witness point. Both sides of the edge may be the same
+    /// face.
+    #[inline(always)]
+    pub(crate) fn neighbour_of_side(&self, from: Feature, number: usize) -> EdgeFace {
+        let [first, second] = self.faces;
+        let is_first = from == Feature::Face(first.face) && usize::from(first.side) == number;
+        if is_first { second } else { first }
+    }
+
     /// Content of an unused slot: a point, without faces.
     pub const VACANT: Self = Self {
         curve: SplineCurve {

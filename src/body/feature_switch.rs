@@ -7,11 +7,12 @@ use super::feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Side, Spoke, Verte
 use super::inside_test::counted;
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
+use crate::field::Displacement;
 use crate::math::Vec3;
 use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::track::{BoundaryMode, Outcome, Witness};
 
-impl Body<'_> {
+impl<D: Displacement> Body<'_, D> {
     /// Hands over through the side that holds the witness point. While the witness point is free there is no need: the
     /// controller brings it to the side through which the probe has left, and there the measure numbers of the
     /// projection errors change sign as the probe passes the separator. Returns whether the tick is spent, or the
@@ -94,7 +95,7 @@ impl Body<'_> {
         let faces = if comes_from_face || !step.switched { &edge.faces[..] } else { &[] };
         for of in faces.iter().copied() {
             if of.face != from
-                && let Some(beyond) = self.neighbour(of, &border, probe)
+                && let Some(beyond) = self.neighbour(edge, of, &border, probe)
                 && beyond.takes_probe()
             {
                 let entry = beyond.entry(&border, border.along.stretch, is_curved, state, f32::INFINITY);
@@ -138,12 +139,12 @@ impl Body<'_> {
     #[inline(never)]
     pub(super) fn leave_vertex(&self, index: u16, state: &mut BodyWitness, step: &mut BodyStep) {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return };
-        if let Some((_, spoke)) = self.steepest(vertex, state.probe - vertex.point)
-            && let Some(curve) = self.edges.get(usize::from(spoke.edge)).map(|edge| &edge.curve)
+        if let Some((_, spoke)) = self.steepest(vertex, state.probe - self.place(vertex))
+            && let Some(edge) = self.edges.get(usize::from(spoke.edge))
         {
             step.switched = true;
             let t = if spoke.at_upper_end { 1.0 } else { 0.0 };
-            state.rest_on_edge(spoke.edge, t, &curve.evaluate(t));
+            state.rest_on_edge(spoke.edge, t, &self.on_edge(edge, t));
         }
     }
 
@@ -152,7 +153,7 @@ impl Body<'_> {
     pub(crate) fn steepest(&self, vertex: &Vertex, towards: Vec3) -> Option<(f32, &Spoke)> {
         let mut steepest: Option<(f32, &Spoke)> = None;
         for spoke in counted(self.spokes_of(vertex)) {
-            let fall = towards.dot(spoke.direction);
+            let fall = towards.dot(self.spoke_direction(vertex, spoke));
             if fall > 0.0 && steepest.is_none_or(|(most, _)| fall > most) {
                 steepest = Some((fall, spoke));
             }
@@ -164,7 +165,7 @@ impl Body<'_> {
     pub(super) fn rest_on_vertex(&self, index: u16, state: &mut BodyWitness) -> bool {
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return false };
         state.feature = Feature::Vertex(index);
-        let surface = SurfacePoint { point: vertex.point, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
+        let surface = SurfacePoint { point: self.place(vertex), tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
         state.witness = Witness {
             parameters: [0.0; 2],
             surface,

@@ -1,9 +1,11 @@
 //! Inside or outside a closed body, by the faces that meet at an edge or a vertex.
 
 use super::border_release::{HOLLOW, Rim, bulge};
-use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
+use super::deformed::Cross;
+use super::feature::{Edge, EdgeFace, EdgeKind, Face, Side, Spoke, Vertex};
 use super::table::Body;
 use super::tracker::BodyWitness;
+use crate::field::Displacement;
 use crate::math::Vec3;
 use crate::patch::Patch as _;
 use crate::tally;
@@ -14,7 +16,7 @@ const STEEP: f32 = 0.1;
 /// The same without hollow faces: the rounding of coordinates for a probe at a distance of 10⁻⁵ sizes.
 const LEVEL: f32 = 0.01;
 
-impl Body<'_> {
+impl<D: Displacement> Body<'_, D> {
     /// Whether a probe is well above the surface on both sides of a smooth edge, by the tangent plane at the witness
     /// point: `n = t × m`, with `m` out of a face over the edge.
     #[inline(never)]
@@ -22,9 +24,8 @@ impl Body<'_> {
         let [of, _] = edge.faces;
         let Some(face) = self.faces.get(usize::from(of.face)) else { return false };
         let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return false };
-        let across = match separator {
-            Separator::Plane { across, .. } => *across,
-            Separator::Ruled(cross) => cross.point(state.witness.parameters[0]),
+        let across = match self.cross(edge, separator, state.witness.parameters[0]) {
+            Cross::Plane { across, .. } | Cross::Ruled(across) => across,
         };
         let (tangent, away) = (state.witness.surface.tangent_u, state.probe - state.witness.surface.point);
         let normal = tangent.cross(across);
@@ -32,7 +33,11 @@ impl Body<'_> {
         let is_turned = matches!(of.side, 1 | 2) != *reversed;
         let outward = if is_turned { -face.patch.orientation() } else { face.patch.orientation() };
         let height = outward * normal.dot(away);
-        let hollowest = edge.faces.iter().filter_map(|of| self.faces.get(usize::from(of.face))).fold(0.0, hollower);
+        let hollowest = edge
+            .faces
+            .iter()
+            .filter_map(|of| self.faces.get(usize::from(of.face)))
+            .fold(0.0, |least, face| self.hollower(least, face));
         is_steep(height, normal.length_squared() * away.length_squared(), hollowest)
     }
 
@@ -40,9 +45,9 @@ impl Body<'_> {
     /// leads nearer, `outward` decides. Well above a smooth vertex, and in front of three convex edges, the probe is
     /// outside; behind these a face decides.
     pub(super) fn is_outside_at(&self, vertex: &Vertex, towards: Vec3) -> Option<bool> {
-        let height = towards.dot(vertex.outward);
+        let height = towards.dot(self.outward(vertex));
         let spokes = self.spokes_of(vertex);
-        if height != 0.0 && counted(spokes).all(|spoke| towards.dot(spoke.direction) <= 0.0) {
+        if height != 0.0 && counted(spokes).all(|spoke| towards.dot(self.spoke_direction(vertex, spoke)) <= 0.0) {
             return Some(height > 0.0);
         }
         // Smooth edges alone have no planes between them.
@@ -72,10 +77,10 @@ impl Body<'_> {
             return None;
         }
         // `t = αa + βb + γc` has `α (a × b)·c = t·(b × c)`, and so on: behind all three none is below 0.
-        let [a, b, c] = sharp;
-        let volume = a.direction.cross(b.direction).dot(c.direction);
-        Some([[a, b], [b, c], [c, a]].into_iter().any(|[from, to]| {
-            let normal = from.direction.cross(to.direction);
+        let [a, b, c] = sharp.map(|spoke| (spoke, self.spoke_direction(vertex, spoke)));
+        let volume = a.1.cross(b.1).dot(c.1);
+        Some([[a, b], [b, c], [c, a]].into_iter().any(|[(from, along), (to, beside)]| {
+            let normal = along.cross(beside);
             let height = normal.dot(towards);
             let is_in_front = height * volume < 0.0;
             is_in_front
@@ -97,8 +102,8 @@ impl Body<'_> {
         let of = first.faces.iter().find(is_common)?;
         let face = self.faces.get(usize::from(of.face))?;
         let [along, beside] = [from, to].map(|spoke| if spoke.at_upper_end { 1.0 } else { 0.0 });
-        let (tangent, cross) = (first.curve.evaluate(along).tangent, second.curve.evaluate(beside).tangent);
-        Some(bulge(&face.patch, of.side < 2, &Rim { tangent, cross, is_plane: false, along }, towards))
+        let (tangent, cross) = (self.on_edge(first, along).tangent, self.on_edge(second, beside).tangent);
+        Some(bulge(self.patch(face), of.side < 2, &Rim { tangent, cross, is_plane: false, along }, towards))
     }
 
     /// Minimum curvature of the faces around a vertex, 1/m, if one is hollow; otherwise 0. Poles do not count.
@@ -106,7 +111,13 @@ impl Body<'_> {
     fn hollowest_at(&self, vertex: &Vertex) -> f32 {
         let spokes = counted(self.spokes_of(vertex));
         let faces = spokes.filter_map(|spoke| self.edges.get(usize::from(spoke.edge))).flat_map(|edge| edge.faces);
-        faces.filter_map(|of| self.faces.get(usize::from(of.face))).fold(0.0, hollower)
+        faces.filter_map(|of| self.faces.get(usize::from(of.face))).fold(0.0, |least, face| self.hollower(least, face))
+    }
+
+    /// The lower of a curvature and a face's minimum. A face without a bound, at a pole, does not count.
+    fn hollower(&self, hollowest: f32, face: &Face) -> f32 {
+        let least = self.patch(face).shape().curvature.min;
+        if least < hollowest && least > f32::NEG_INFINITY { least } else { hollowest }
     }
 
     fn is_of_kind(&self, spoke: &Spoke, kind: EdgeKind) -> bool {
@@ -130,10 +141,4 @@ pub(super) fn counted(spokes: &[Spoke]) -> impl Iterator<Item = &Spoke> {
 fn is_steep(height: f32, squared: f32, hollowest: f32) -> bool {
     let least = if hollowest < -HOLLOW { STEEP } else { LEVEL };
     height > 0.0 && height * height > least * least * squared
-}
-
-/// The lower of a curvature and a face's minimum. A face without a bound, at a pole, does not count.
-fn hollower(hollowest: f32, face: &Face) -> f32 {
-    let least = face.patch.shape().curvature.min;
-    if least < hollowest && least > f32::NEG_INFINITY { least } else { hollowest }
 }

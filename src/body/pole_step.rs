@@ -7,11 +7,12 @@ use super::pole::{Pole, at_pole};
 use super::quadratic_model::{DistanceDerivatives, Model};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
+use crate::field::Displacement;
 use crate::math::{Vec3, saturate, sqrt_from_above};
 use crate::patch::CurvedPoint;
 use crate::track::{Outcome, Witness, mode_at};
 
-impl Body<'_> {
+impl<D: Displacement> Body<'_, D> {
     /// One second-order step on a face that has a pole. There the certificate is of little use, because bounds over
     /// the whole face ignore that all derivatives are small around the pole. The evaluation decides; a step that is
     /// not nearer is rejected, and the next one is certified. Returns whether the step was tried.
@@ -25,7 +26,7 @@ impl Body<'_> {
         let Some(plan) = PoleStep::new(face, parameters, &at, state.probe, self.size) else {
             return self.leave_pole(face, state, step);
         };
-        let reached = face.patch.evaluate_apart(plan.parameters);
+        let reached = self.patch(face).evaluate_apart(plan.parameters);
         step.evaluations += 1;
         let before = (surface.point - state.probe).length_squared();
         let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - 2.0 * MIN_FALL * plan.fall;
@@ -46,11 +47,12 @@ impl Body<'_> {
     fn leave_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Some(index) = self.pole_at(face, state.witness.parameters) else { return false };
         let Some(vertex) = self.vertices.get(usize::from(index)) else { return false };
-        let (towards, before) = (state.probe - vertex.point, state.probe - state.witness.surface.point);
+        let point = self.place(vertex);
+        let (towards, before) = (state.probe - point, state.probe - state.witness.surface.point);
         let [now, before] = [towards, before].map(Vec3::length_squared);
         let Some((fall, _)) = self.steepest(vertex, towards) else { return false };
         let is_worth_it = 0.5 * fall * fall > worth(before, self.size);
-        if !is_worth_it || !self.is_no_rise(now, before, vertex.point, state.probe) {
+        if !is_worth_it || !self.is_no_rise(now, before, point, state.probe) {
             return false;
         }
         step.switched = self.rest_on_vertex(index, state);

@@ -9,6 +9,7 @@ use super::candidate_search::{
 use super::feature::Face;
 use super::locator::{Candidate, GRID};
 use super::table::Body;
+use crate::field::Displacement;
 use crate::math::{Vec3, sqrt};
 use crate::patch::{Patch as _, SplinePatch};
 
@@ -78,8 +79,8 @@ impl Located {
 
 impl Search {
     /// A search in the cell of a probe, before its first evaluation.
-    pub fn new(body: &Body, probe: Vec3) -> Self {
-        let entry = body.locator.list(probe);
+    pub fn new<D: Displacement>(body: &Body<'_, D>, probe: Vec3) -> Self {
+        let entry = body.locator.list(body.at_rest(probe));
         Self {
             descending: body.descending(entry),
             entry: entry as u16,
@@ -92,7 +93,7 @@ impl Search {
 
     /// One evaluation. The probe may move a little between two calls. Does nothing once the search has ended.
     #[inline(never)]
-    pub fn advance(&mut self, body: &Body, probe: Vec3) {
+    pub fn advance<D: Displacement>(&mut self, body: &Body<'_, D>, probe: Vec3) {
         if self.ended.is_some() {
             return;
         }
@@ -114,7 +115,7 @@ impl Search {
 
     /// Continues with the next evaluation or candidate, or ends.
     #[inline]
-    fn go_on(&mut self, body: &Body, progress: CandidateStatus) {
+    fn go_on<D: Displacement>(&mut self, body: &Body<'_, D>, progress: CandidateStatus) {
         let most = if body.is_convex() { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
         let falls = progress == CandidateStatus::Falling;
         if !falls && !self.descending.candidate.more {
@@ -148,7 +149,7 @@ fn is_on_grid(parameters: [f32; 2]) -> bool {
     (u * v).abs() < NEAR
 }
 
-impl Body<'_> {
+impl<D: Displacement> Body<'_, D> {
     /// The closest point of the body to a probe, without history. At most [`MAX_EVALUATIONS`] of patches, on a convex
     /// body [`MAX_EVALUATIONS_CONVEX`], and [`MAX_EVALUATIONS_PER_CANDIDATE`] if the list turns out not to hold it;
     /// then one for the point.
@@ -165,7 +166,7 @@ impl Body<'_> {
         }
         let Best { face, parameters, .. } = search.best;
         let patch = self.faces.get(usize::from(face)).map_or(&SplinePatch::VACANT, |face| &face.patch);
-        let point = patch.evaluate(parameters[0], parameters[1]).point;
+        let point = self.by.point(patch.evaluate(parameters[0], parameters[1]).point);
         let distance_squared = (point - probe).length_squared();
         let Search { evaluations, ended, .. } = search;
         Located { face, parameters, point, evaluations, complete: ended.unwrap_or(false), distance_squared }
@@ -176,7 +177,7 @@ impl Body<'_> {
     #[inline(never)]
     fn go_beyond_rectangle(&self, search: &mut Search, probe: Vec3) {
         let Best { face: index, parameters, half_squared } = search.best;
-        let list = self.locator.entries.get(self.locator.list(probe)..).unwrap_or(&[]);
+        let list = self.locator.entries.get(self.locator.list(self.at_rest(probe))..).unwrap_or(&[]);
         let mut is_cut = false;
         for candidate in list.iter().map(|entry| Candidate::unpack(*entry)) {
             is_cut |= candidate.face == index && candidate.cuts(parameters);
@@ -187,12 +188,13 @@ impl Body<'_> {
         if !is_cut {
             return;
         }
-        let Some(Face { patch, .. }) = self.faces.get(usize::from(index)) else { return };
+        let Some(patch) = self.faces.get(usize::from(index)).map(|face| self.patch(face)) else { return };
         let most = MAX_EVALUATIONS_PER_CANDIDATE;
         let mut descending = CandidateSearch::from(Candidate::whole(index), parameters, most).with_last_evaluation();
         for _ in 0..most {
             search.evaluations += 1;
-            if descending.step(patch, self.poles_of(index), probe, f32::INFINITY, self.size) != CandidateStatus::Falling
+            if descending.step_on(patch, self.poles_of(index), probe, f32::INFINITY, self.size)
+                != CandidateStatus::Falling
             {
                 break;
             }
@@ -209,7 +211,7 @@ impl Body<'_> {
         let Candidate { face, .. } = search.candidate;
         let on = self.faces.get(usize::from(face))?;
         let poles = if self.has_poles { on.poles() } else { 0 };
-        Some(search.step(&on.patch, poles, probe, known, self.size))
+        Some(search.step_on(self.patch(on), poles, probe, known, self.size))
     }
 
     /// A search from the middle of the candidate at an index.
@@ -229,6 +231,9 @@ impl Body<'_> {
 
     /// The candidate at an index; the constructor checked that lists end.
     pub(super) fn candidate(&self, entry: usize) -> Candidate {
-        self.locator.candidate(entry).unwrap_or(Candidate::whole(0))
+        let mut candidate = self.locator.candidate(entry).unwrap_or(Candidate::whole(0));
+        // Proved at rest only.
+        candidate.convex &= self.by.is_rest();
+        candidate
     }
 }

@@ -3,6 +3,7 @@
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
 use super::locator::{Candidate, LEAF, Locator, MAX_FACES, MAX_LIST};
 use super::tick_bound::{Effort, MAX_SPOKES};
+use crate::field::Rigid;
 use crate::math::Vec3;
 use crate::track::Contact;
 use core::fmt;
@@ -25,7 +26,7 @@ use core::num::NonZeroU32;
 /// # Ok::<(), palpate::body::FileError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Body<'a> {
+pub struct Body<'a, D = Rigid> {
     pub(super) faces: &'a [Face<'a>],
     pub(super) edges: &'a [Edge<'a>],
     pub(super) vertices: &'a [Vertex],
@@ -42,6 +43,8 @@ pub struct Body<'a> {
     pub(super) baked_crc: Option<NonZeroU32>,
     /// The work of a tick.
     pub(super) effort: Effort,
+    /// By which the tables are deformed: a rigid body has none.
+    pub(super) by: D,
 }
 
 /// The tables of a body, before their checks: [`BodyTables::checked`] makes the [`Body`].
@@ -233,6 +236,7 @@ impl<'a> BodyTables<'a> {
             has_smooth_edges,
             baked_crc: None,
             effort: Effort::BENCH,
+            by: Rigid,
         };
         if let Err(error) = body.check_features() {
             return Err(error);
@@ -302,11 +306,6 @@ impl<'a> Body<'a> {
     /// The largest side of the bounding box, metres.
     pub const fn size(&self) -> f32 {
         self.size
-    }
-
-    /// Whether a probe outside has no local minimum of the distance but the closest point.
-    pub const fn is_convex(&self) -> bool {
-        matches!(self.sure_from, Contact::InFront)
     }
 
     const fn check_features(&self) -> Result<(), BodyError> {
@@ -417,6 +416,13 @@ impl<'a> Body<'a> {
             index += 1;
         }
         Ok(())
+    }
+}
+
+impl<D> Body<'_, D> {
+    /// Whether a probe outside has no local minimum of the distance but the closest point.
+    pub const fn is_convex(&self) -> bool {
+        matches!(self.sure_from, Contact::InFront)
     }
 }
 

@@ -5,8 +5,9 @@ use super::curve::CurvePoint;
 use super::edge_step::EdgeStep;
 use super::feature::{EdgeFace, Face, Feature};
 use super::table::Body;
+use crate::field::Displacement;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
-use crate::patch::SplinePatch;
+use crate::patch::Patch as _;
 use crate::track::{Aim, BoundaryMode, Contact, Controller, Outcome, Probe, Witness};
 
 /// Motion of a probe between two ticks, relative to the body's size, above which it has jumped: it is located again
@@ -110,13 +111,13 @@ impl BodyStep {
     }
 }
 
-impl Body<'_> {
+impl<D: Displacement> Body<'_, D> {
     /// The state before the first tick: the closest point is not known.
     pub fn start(&self) -> BodyWitness {
         BodyWitness {
             feature: Feature::Face(0),
             // There is a face, but the compiler does not know that.
-            witness: Witness::at(self.faces.first().map_or(&SplinePatch::VACANT, |face| &face.patch), 0.5, 0.5),
+            witness: Witness::at(&self.patch(self.faces.first().unwrap_or(&Face::VACANT)), 0.5, 0.5),
             normal: Vec3::ZERO,
             gap: 0.0,
             contact: Contact::Behind,
@@ -136,7 +137,7 @@ impl Body<'_> {
         let mut state = self.start();
         if let Some(on) = self.faces.get(usize::from(face)) {
             state.feature = Feature::Face(face);
-            state.witness = Witness::at(&on.patch, u, v);
+            state.witness = Witness::at(&self.patch(on), u, v);
             state.is_located = true;
         }
         state
@@ -230,7 +231,7 @@ impl Body<'_> {
                     if is_curved {
                         self.step_curved(face, state, probe.position, step);
                     } else {
-                        step.outcome = controller.step(&face.patch, &mut state.witness, probe, period_s).outcome;
+                        step.outcome = controller.step(&self.patch(face), &mut state.witness, probe, period_s).outcome;
                         step.evaluations += 1;
                     }
                     return;
@@ -248,13 +249,13 @@ impl Body<'_> {
     /// One second-order step on a face. A step that ends at a smooth edge ends on the neighbour.
     #[inline(always)]
     fn step_curved(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &mut BodyStep) {
-        let aim = match Aim::in_full(&face.patch, &state.witness, probe) {
+        let aim = match Aim::in_full(&self.patch(face), &state.witness, probe) {
             Ok(aim) => aim,
             Err(_) if self.has_poles && self.step_near_pole(face, state, step) => {
                 return;
             }
             Err(most) => {
-                let aim = Aim::in_part(most, &face.patch, &state.witness, probe);
+                let aim = Aim::in_part(most, &self.patch(face), &state.witness, probe);
                 step.is_cut = aim.gain < 1.0;
                 aim
             }
@@ -270,7 +271,7 @@ impl Body<'_> {
             return;
         }
         let [u, v] = aim.landing.parameters;
-        let reached = face.patch.evaluate_curved(u, v);
+        let reached = self.patch(face).evaluate_curved(u, v);
         step.evaluations += 1;
         step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
     }
@@ -313,15 +314,17 @@ impl Body<'_> {
     ) -> Outcome {
         let Some(edge) = self.edges.get(usize::from(index)) else { return Outcome::AtRest };
         let (t, probe) = (state.witness.parameters[0], state.probe);
-        let minimiser = if is_curved { along.minimiser(edge, state.witness.second.half_uu, t) } else { None };
+        let bounds = self.edge_bounds(edge);
+        let half_second = state.witness.second.half_uu;
+        let minimiser = if is_curved { along.minimiser(&edge.curve, bounds, half_second, t) } else { None };
         let next = match minimiser {
             Some(next) => next,
-            None => along.advanced(&edge.curve, t),
+            None => along.advanced(bounds[0], t),
         };
         if next == t {
             return Outcome::AtRest;
         }
-        let reached = edge.curve.evaluate(next);
+        let reached = self.on_edge(edge, next);
         let before = along.difference.length_squared();
         if !self.is_no_rise((reached.point - probe).length_squared(), before, reached.point, probe) {
             return Outcome::Rejected;

@@ -57,7 +57,7 @@ impl Foot {
         let along = self.parameters[usize::from(number < 2)];
         let is_out = conormal(self, number).dot(towards) < 0.0;
         let t = if *reversed { 1.0 - along } else { along };
-        let of = Body::neighbour_of_side(edge, Feature::Face(self.face), number);
+        let of = edge.neighbour_of_side(Feature::Face(self.face), number);
         let Some((beyond, parameters)) = is_out.then(|| body.position_on_face(of, t)).flatten() else { return false };
         let next = Self::on(body, beyond, parameters);
         let lets_go = conormal(&next, usize::from(of.side)).dot(towards) > 0.0;
@@ -109,7 +109,7 @@ impl Foot {
                 }
                 let along = self.parameters[usize::from(number < 2)];
                 let t = if *reversed { 1.0 - along } else { along };
-                let of = Body::neighbour_of_side(edge, Feature::Face(self.face), number);
+                let of = edge.neighbour_of_side(Feature::Face(self.face), number);
                 let beyond = body.position_on_face(of, t).map(|(face, at)| Self::on(body, face, at));
                 own + beyond.map_or(Vec3::ZERO, |beyond| unit(beyond.normal(body)))
             }

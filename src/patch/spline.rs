@@ -33,6 +33,12 @@ impl<'a> SplinePatch<'a> {
         self.spans.is_rational()
     }
 
+    /// The proved bounds, in place.
+    #[inline(always)]
+    pub(crate) const fn bounds_of_shape(&self) -> &ShapeBounds {
+        &self.shape
+    }
+
     /// The same table with another baked CRC, which the servo loop compares with flash (see
     /// [`crate::servo::Safety::checks_tables`]). [`SplineTable::checked`] sets it: this is for a face that is used
     /// without its body. 0 is no CRC: one table in 2³² is not checked.

@@ -1,0 +1,67 @@
+//! A displaced patch.
+
+use super::Displacement;
+use crate::patch::{CurvedPoint, Patch, SecondDerivativeBounds, ShapeBounds, SplinePatch, SurfacePoint};
+
+/// A patch of a body at rest, displaced: a pointer and the displacement.
+#[derive(Clone, Copy, Debug)]
+pub struct Displaced<'p, D> {
+    pub(crate) rest: &'p SplinePatch<'p>,
+    pub(crate) by: D,
+}
+
+impl<D: Displacement> Displaced<'_, D> {
+    /// [`Patch::evaluate_curved`] in a copy of its own.
+    #[inline(always)]
+    pub(crate) fn evaluate_apart(&self, parameters: [f32; 2]) -> CurvedPoint {
+        let mut point = self.rest.evaluate_apart(parameters);
+        self.by.displace_curved(&mut point);
+        point
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_rational(&self) -> bool {
+        self.rest.is_rational()
+    }
+}
+
+impl<D: Displacement> Patch for Displaced<'_, D> {
+    #[inline(always)]
+    fn evaluate(&self, u: f32, v: f32) -> SurfacePoint {
+        let mut point = self.rest.evaluate(u, v);
+        self.by.displace(&mut point);
+        point
+    }
+
+    #[inline(always)]
+    fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
+        let mut point = self.rest.evaluate_curved(u, v);
+        self.by.displace_curved(&mut point);
+        point
+    }
+
+    #[inline(always)]
+    fn beyond_knots(&self, from: [f32; 2], to: [f32; 2]) -> [f32; 2] {
+        self.rest.beyond_knots(from, to)
+    }
+
+    #[inline(always)]
+    fn bounds(&self) -> SecondDerivativeBounds {
+        self.shape().second_derivatives
+    }
+
+    #[inline(always)]
+    fn shape(&self) -> ShapeBounds {
+        self.by.shape(self.rest.bounds_of_shape())
+    }
+
+    #[inline(always)]
+    fn orientation(&self) -> f32 {
+        self.rest.orientation()
+    }
+
+    #[inline(always)]
+    fn size(&self) -> f32 {
+        self.rest.size()
+    }
+}
