@@ -23,6 +23,7 @@ pub mod graph;
 mod jet;
 pub mod locator;
 mod model;
+pub mod modes;
 pub mod parallel;
 mod patch;
 mod random;

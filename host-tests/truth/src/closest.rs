@@ -1,7 +1,8 @@
 //! Closest points of a model with the firmware's own code: from a standing start, or tick after tick.
 
 use crate::lower_bound::lower_bound;
-use palpate::body::{Body, BodyWitness, Edge, Face, Feature, Side};
+use palpate::body::{Body, BodyWitness, Edge, Face, Feature, Side, Soft, SoftWitness};
+use palpate::field::{Displacement as _, Mode};
 use palpate::math::Vec3;
 use palpate::track::{Contact, Controller, Probe};
 use palpate_bake::BakedBody;
@@ -99,6 +100,14 @@ impl<'a> Solver<'a> {
         (distance - lower_bound(self.baked, probe.as_dvec3())).max(0.0)
     }
 
+    /// The same for the body deformed by modes: a search on it, and the tracker from there.
+    ///
+    /// # Panics
+    /// If the modes are not valid.
+    pub fn deformed(&self, modes: &'a [Mode]) -> SoftSolver<'_> {
+        SoftSolver { rigid: self, soft: Soft::new(*self.body, modes).unwrap() }
+    }
+
     fn found(&self, face: usize, parameters: [f32; 2], point: Vec3, probe: Vec3) -> Found {
         let source = &self.baked.faces[face].source;
         Found {
@@ -128,6 +137,74 @@ impl<'a> Solver<'a> {
         let of = self.body.edges()[usize::from(edge)].faces[0];
         let face = usize::from(of.face);
         (face, on_side(&self.body.faces()[face], of.side, t))
+    }
+}
+
+/// Finds closest points of a body that deforms.
+#[derive(Debug)]
+pub struct SoftSolver<'a> {
+    rigid: &'a Solver<'a>,
+    soft: Soft<'a>,
+}
+
+impl SoftSolver<'_> {
+    /// Ticks of the tracker after the search: it goes over the borders of the candidates that the list names.
+    const SETTLING: u32 = 16;
+
+    /// The closest point from a standing start at a `q` that stays, and the state to track on from. Metres.
+    pub fn cold(&self, probe: Vec3, q: &[f32]) -> (Found, SoftWitness) {
+        let located = self.soft.locate(probe, q);
+        let mut state = self.soft.start();
+        let mut settled = 0;
+        let mut evaluations = u32::from(located.evaluations);
+        while settled < Self::SETTLING {
+            let step = self.soft.step(&Controller::SecondOrder, &mut state, Probe::at(probe), q, 1.0);
+            settled += u32::from(state.body.is_located);
+            evaluations += u32::from(step.body.evaluations);
+        }
+        let mut found = self.found(&state.body, probe, q);
+        if located.point.distance(probe) < found.point.distance(probe) {
+            found = self.at(usize::from(located.face), located.parameters, located.point, probe, q);
+        }
+        let status = match (self.soft.rest().locator().holds(probe), located.complete) {
+            (false, _) => Status::Far,
+            (true, true) => Status::Converged,
+            (true, false) => Status::StepLimit,
+        };
+        (Found { evaluations, status, ..found }, state)
+    }
+
+    /// [`Solver::track`] at this row's `q`. Metres.
+    pub fn track(&self, state: &mut SoftWitness, probe: Vec3, q: &[f32], ticks: u32) -> Found {
+        let (mut evaluations, mut spent) = (0, 0);
+        while spent < ticks || !state.body.is_located {
+            spent += 1;
+            let step = self.soft.step(&Controller::SecondOrder, state, Probe::at(probe), q, 1.0);
+            evaluations += u32::from(step.body.evaluations);
+        }
+        let found = self.found(&state.body, probe, q);
+        if state.body.contact == Contact::Touching {
+            let is_inside = self.rigid.is_closed && state.body.gap < 0.0;
+            return Found { evaluations, is_inside, status: Status::GodObject, ..found };
+        }
+        Found { evaluations, ..found }
+    }
+
+    /// Whether every `q` is within its mode's limit.
+    pub fn holds(&self, q: &[f32]) -> bool {
+        self.soft.field(q).holds(q)
+    }
+
+    fn found(&self, state: &BodyWitness, probe: Vec3, q: &[f32]) -> Found {
+        let (face, parameters) = self.rigid.on_a_face(state);
+        self.at(face, parameters, state.witness.surface.point, probe, q)
+    }
+
+    /// A probe is inside if the point that is displaced to it is inside the body at rest (theory §15).
+    fn at(&self, face: usize, parameters: [f32; 2], point: Vec3, probe: Vec3, q: &[f32]) -> Found {
+        let rest = (&self.soft.field(q)).undo(probe, 0.0);
+        let is_inside = self.rigid.cold(rest).0.is_inside;
+        Found { point, is_inside, ..self.rigid.found(face, parameters, point, rest) }
     }
 }
 

@@ -18,6 +18,7 @@ mod rides;
 mod ring;
 mod scene;
 mod signs;
+mod soft;
 mod tour;
 mod tracker;
 mod walk;

@@ -2,6 +2,7 @@
 
 mod body_source;
 mod committed;
+mod displaced;
 mod flaws;
 mod models;
 mod pair_steps;

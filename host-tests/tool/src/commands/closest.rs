@@ -7,7 +7,8 @@ use crate::queries;
 use crate::reach::Reach;
 use clap::{Args, ValueEnum};
 use palpate::body::Effort;
-use palpate_truth::closest::Status;
+use palpate_bake::modes;
+use palpate_truth::closest::{Found, Status};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -22,6 +23,9 @@ use std::process::ExitCode;
 /// beyond the locator's reach (bake --margin), where its lists are not proved. error_bound, of a step-limit row: a bound
 /// of the error of |gap|, by a search in double precision.
 ///
+/// --modes: the body deforms; every row has its own q. cold then goes on from the search with ticks of the tracker. A q beyond the
+/// budget of the file is set to it, and the row's status ends with "clamped".
+///
 /// track: rows are successive servo ticks of one probe. The first row is cold; each other row is --ticks ticks of the
 /// tracker at --effort, and more after a jump above an eighth of the body's size, to locate it again. status: tracking, or
 /// god-object in contact: p then stays where the probe went in, and the sign of gap is its own.
@@ -33,6 +37,9 @@ pub struct Arguments {
     /// Queries (CSV with a header).
     #[arg(long, value_name = "IN.csv")]
     queries: PathBuf,
+    /// Modes of deformation: the queries then have columns q0,q1,… too, metres.
+    #[arg(long, value_name = "MODES.toml")]
+    modes: Option<PathBuf>,
     /// Relation of the rows.
     #[arg(long, value_enum, default_value_t = Mode::Cold)]
     mode: Mode,
@@ -71,7 +78,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let file = ModelFile::read(&arguments.model)?;
     let model = file.model()?;
     let per_metre = model.unit.per_metre();
-    let queries = queries::read(&arguments.queries, &model)?;
+    let modes = arguments.modes.as_ref().map(|path| modes::read(path, &model)).transpose()?;
+    let queries = queries::read(&arguments.queries, &model, modes.as_ref().map_or(0, Vec::len))?;
     let baked = file.body(&model)?;
     let probes: Vec<_> = queries.iter().map(|query| query.probe).collect();
     let bar = progress::work();
@@ -85,15 +93,24 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status", "error_bound"])?;
     let mut state = None;
+    let mut deformed_state = None;
     for query in queries {
-        let found = match (arguments.mode, &mut state) {
-            (Mode::Track, Some(state)) => solvers.of_all().track(state, query.probe, arguments.ticks),
-            (Mode::Track, None) => {
-                let (found, start) = solvers.of_all().cold(query.probe);
-                state = Some(start);
-                found
+        let (mut is_clamped, probe, ticks) = (false, query.probe, arguments.ticks);
+        let (own, common) = (solvers.of(probe), solvers.of_all());
+        let found = match (&modes, arguments.mode) {
+            (Some(modes), mode) => {
+                is_clamped = !own.deformed(modes).holds(&query.q);
+                match (mode, &mut deformed_state) {
+                    (Mode::Track, Some(state)) => common.deformed(modes).track(state, probe, &query.q, ticks),
+                    (Mode::Track, None) => start(&mut deformed_state, common.deformed(modes).cold(probe, &query.q)),
+                    (Mode::Cold, _) => own.deformed(modes).cold(probe, &query.q).0,
+                }
             }
-            (Mode::Cold, _) => solvers.of(query.probe).cold(query.probe).0,
+            (None, Mode::Track) => match &mut state {
+                Some(state) => common.track(state, probe, ticks),
+                None => start(&mut state, common.cold(probe)),
+            },
+            (None, Mode::Cold) => own.cold(probe).0,
         };
         let point = (found.point.as_dvec3() + model.centre) * per_metre;
         let [u, v] = found.parameters;
@@ -107,13 +124,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             Status::Tracking => "tracking",
             Status::GodObject => "god-object",
         };
+        let status = if is_clamped { format!("{status} clamped") } else { status.to_owned() };
         let bound = match found.status {
-            Status::StepLimit => significant(solvers.of(query.probe).error_bound(&found, query.probe) * per_metre),
+            Status::StepLimit if modes.is_none() => significant(own.error_bound(&found, probe) * per_metre),
             _ => String::new(),
         };
         let (label, steps) = (model.patch_label(found.patch), found.evaluations.to_string());
         let fields =
-            [label.as_str()].into_iter().chain(numbers.iter().map(String::as_str)).chain([&*steps, status, &*bound]);
+            [label.as_str()].into_iter().chain(numbers.iter().map(String::as_str)).chain([&*steps, &*status, &*bound]);
         writer.write_record(fields)?;
     }
     let text = writer.into_inner()?;
@@ -122,6 +140,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         None => print(&text)?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Keeps the state of a track's first row.
+fn start<S>(state: &mut Option<S>, (found, first): (Found, S)) -> Found {
+    *state = Some(first);
+    found
 }
 
 /// Nine significant digits: enough to tell any two `f32` apart.

@@ -168,7 +168,7 @@ fn errors(loaded: &Loaded, path: &Path, mode: Mode) -> anyhow::Result<Option<Err
     if !path.is_file() {
         return Ok(None);
     }
-    let queries = queries::read(path, &loaded.model)?;
+    let queries = queries::read(path, &loaded.model, 0)?;
     let known = known(path)?;
     ensure!(queries.len() == known.len(), "{}: rows without a distance", path.display());
     // As `closest` does it: the tables that ship, and others for what lies beyond their reach.

@@ -3,6 +3,7 @@
 mod baking;
 mod body_file;
 mod cache;
+mod deform;
 mod figures;
 mod from_cad;
 mod golden;
