@@ -12,7 +12,6 @@ use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, s
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals};
-use stm32g4xx_hal::time::ExtU32;
 
 use crate::body::SETTINGS;
 use crate::encoders::Encoders;

@@ -28,7 +28,7 @@ use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinSta
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::spi::Spi;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, SPI1, interrupt};
-use stm32g4xx_hal::time::{ExtU32, RateExtU32};
+use stm32g4xx_hal::time::RateExtU32;
 
 use crate::choice::Choice;
 use crate::felt::{DEVICE, This};
