@@ -20,7 +20,7 @@ fn the_scene_that_ships_is_what_it_says() {
     file.scene::<3>(LIMITS, &bodies).unwrap();
     let text = source(&file, LIMITS, &bodies, &["tables".to_owned(), "tables".to_owned(), "tables".to_owned()]);
     assert_eq!(text.matches("mod body_").count(), 1, "tables of one model are there once");
-    assert_eq!(text.matches("surface: &body_0::BODY").count(), 3);
+    assert_eq!(text.matches("surface: &BODY_0,").count(), 3);
 }
 
 /// The shipped scene with one text in the place of another.
