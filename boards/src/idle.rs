@@ -19,9 +19,13 @@ pub trait Port {
     fn receive(&mut self) -> Option<u8>;
 }
 
-/// The watchdog is fed every eighth tick at most: every 2 ms at 4 kHz. A watchdog with a window opens after
-/// [`WINDOW_MS`].
-pub const HEARTBEAT: Heartbeat = Heartbeat::every(8);
+/// How often the watchdog of a loop of `rate` Hz is fed: at least 2 ms apart, twice [`WINDOW_MS`], at any rate.
+pub const fn heartbeat(rate: f32) -> Heartbeat {
+    let ticks = 0.002 * rate;
+    // The casts saturate, and take NaN for 0.
+    let whole = ticks as u32;
+    Heartbeat::every(if (whole as f32) < ticks { whole.saturating_add(1) } else { whole })
+}
 
 /// Time within which a watchdog with a window must not be fed again, ms: its own oscillator is up to a tenth off, and
 /// main feeds it after the tick by as long as a turn takes.

@@ -111,7 +111,7 @@ pub use currents::{CurrentFault, CurrentLimits, CurrentWatch, CurrentWatched, Ph
 pub use delay::{Counter, CycleDelay, cycles};
 pub use drives::{Drives, ReadBack, Switched};
 pub use hold::{Hold, Verdict};
-pub use idle::{HEARTBEAT, Idle, Offers, Port, WINDOW_MS, Watchdog};
+pub use idle::{Idle, Offers, Port, WINDOW_MS, Watchdog, heartbeat};
 pub use interlock::Interlock;
 pub use lines::{Divider, EnableInput, Lines, NoSupply, OneChannel, Pressed, Supply, TwoChannels};
 pub use mailbox::Mailbox;

@@ -3,7 +3,7 @@
 use crate::exercise::Runner;
 use crate::exercise::tally::Tally;
 use crate::outbox::Outbox;
-use crate::{Felt, HEARTBEAT, Mailbox, Port, Settings, Watchdog};
+use crate::{Felt, Mailbox, Port, Settings, Watchdog, heartbeat};
 use palpate::servo::{BakedTables as _, Heartbeat, ResetReason, TableCheck};
 use palpate::wire::acceptance::{Counted, Failure, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{Received, Receiver};
@@ -65,7 +65,7 @@ impl<'a, W: Stopwatch> Examiner<'a, W> {
             identity,
             mailbox,
             ticks,
-            heartbeat: HEARTBEAT,
+            heartbeat: heartbeat(felt.servo().settings().rate_hz),
             stopwatch,
             receiver: Receiver::new(),
             outbox: Outbox::new(),

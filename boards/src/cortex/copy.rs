@@ -102,7 +102,7 @@ global_asm!(
     "    ldmia r2!, {{r4}}",
     "    cmp r4, r3",
     "    beq 9b",
-    // It stays here. No watchdog runs yet that would try again and again.
+    // It stays here: no watchdog runs yet.
     "10: b 10b",
     ".pool",
     ".size __pre_init, . - __pre_init",

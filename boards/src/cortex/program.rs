@@ -2,7 +2,7 @@
 
 use super::{Cycles, HandOver, ProgramCheck, core_id, fail};
 use crate::accept::{Acceptance, Chip, Examiner};
-use crate::{Bench, Board, ClocksDisagree, Felt, HEARTBEAT, Idle, Mailbox, Offers, Passive, Port, Settings, Watchdog};
+use crate::{Bench, Board, ClocksDisagree, Felt, Idle, Mailbox, Offers, Passive, Port, Settings, Watchdog, heartbeat};
 use palpate::servo::ResetReason;
 use palpate::wire::Record;
 use palpate::wire::acceptance::Ticks;
@@ -103,7 +103,8 @@ fn agree(clocks: Result<(), ClocksDisagree>) {
 impl<P: Port, W: Watchdog, K: FnMut() -> Result<(), ClocksDisagree>, S: FnOnce() -> W> Below<Record, P, K, S> {
     /// Serves the host, and feeds the watchdog while ticks go on.
     pub fn run(mut self, mailbox: &Mailbox, settings: &palpate::servo::Settings, offers: &impl Offers) -> ! {
-        let idle = Idle::new(mailbox, self.messages, HEARTBEAT).saying(settings.rate_hz, settings.max_force_n);
+        let idle = Idle::new(mailbox, self.messages, heartbeat(settings.rate_hz))
+            .saying(settings.rate_hz, settings.max_force_n);
         let mut idle = offers.offer(idle);
         self.program.all();
         let mut watchdog = (self.start)();

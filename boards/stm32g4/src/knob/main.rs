@@ -21,7 +21,7 @@ use palpate_bench::cortex::{Shared, program_check};
 use palpate_bench::knob::{JOG, SETTINGS, SUPPLY};
 use palpate_bench::sensors::{Angles, max_step};
 use palpate_bench::{
-    Bench, Cause, ClockCheck, CycleDelay, HEARTBEAT, Idle, Lines, Memo, OneChannel, Parts, ReadBack, Settings,
+    Bench, Cause, ClockCheck, CycleDelay, Idle, Lines, Memo, OneChannel, Parts, ReadBack, Settings, heartbeat,
 };
 use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
@@ -109,7 +109,8 @@ fn main() -> ! {
         core.NVIC.set_priority(Interrupt::TIM7, 0);
         NVIC::unmask(Interrupt::TIM7);
     }
-    let mut idle = Idle::new(&SHARED.mailbox, records, HEARTBEAT).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
+    let mut idle =
+        Idle::new(&SHARED.mailbox, records, heartbeat(SETTINGS.rate_hz)).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
     loop {
         idle.step(&mut port, &mut watchdog);
         choice.look(&SHARED.mailbox);

@@ -4,7 +4,7 @@ use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::servo::{Config, Heartbeat, ResetReason, Servo};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver};
 use palpate::wire::{DeviceMessage, PROTOCOL};
-use palpate_bench::{Idle, Port, Watchdog};
+use palpate_bench::{Idle, Port, WINDOW_MS, Watchdog, heartbeat};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
 #[derive(Default)]
@@ -62,6 +62,20 @@ fn the_watchdog_is_fed_once_a_tick_and_starves_when_ticks_stop_whatever_the_line
         }
         assert_eq!(watchdog.0, 100);
         assert_eq!(line.sent.is_empty(), every == 0);
+    }
+}
+
+#[test]
+fn the_watchdog_is_fed_within_its_window_at_any_rate() {
+    for rate in [100.0, 400.0, 600.0, 999.0, 1_000.0, 1_500.0, 4_000.0, 10_000.0, 20_000.0, 40_000.0] {
+        let mut heartbeat = heartbeat(rate);
+        let fed: Vec<u32> = (1..=10_000).filter(|tick| heartbeat.may_feed(*tick)).collect();
+        for pair in [0].iter().chain(&fed).zip(&fed) {
+            let apart_ms = 1e3 * f64::from(pair.1 - pair.0) / f64::from(rate);
+            // Half of it is for an oscillator that is a tenth off and for main, which feeds some turns after the tick;
+            // the timeout is 20 ms.
+            assert!(apart_ms > 1.99 * f64::from(WINDOW_MS) && apart_ms <= 10.0, "{rate} Hz: {apart_ms} ms");
+        }
     }
 }
 
