@@ -249,7 +249,8 @@ fn a_good_board_is_accepted_by_its_cycles_too() {
     let found = found(&mut device, &[Failure::Hang, Failure::Panic, Failure::Exception]);
     assert_eq!(failed(&found, 1_000), Vec::<&str>::new());
     assert!((found.identity.clock, found.ticks.len()) == (CLOCK, 51), "{}", found.ticks.len());
-    assert!(device.fed.0 > 20_000, "fed {} times", device.fed.0);
+    // Every eighth tick (`palpate_bench::heartbeat`).
+    assert!(device.fed.0 > 20_000 / 8, "fed {} times", device.fed.0);
     // A counter that does not count, and a core that waits for its memory.
     assert_eq!(failed(&found, EVEN + 1), ["longest tick of the script"]);
     assert_eq!(failed(&found, EVEN / 2 - 1), ["longest tick of the script"]);
