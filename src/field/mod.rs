@@ -6,9 +6,11 @@
 
 mod displaced;
 mod jet;
+mod modal;
 mod mode;
 
 pub use displaced::Displaced;
+pub use modal::{Modal, ModalStep};
 pub use mode::{Bump, Field, FieldBounds, MAX_MODES, Mode, Quadratic};
 
 use crate::math::Vec3;

@@ -23,6 +23,13 @@ impl Quadratic {
     /// No displacement.
     pub const ZERO: Self = Self { constant: Vec3::ZERO, linear: [Vec3::ZERO; 3], quadratic: [Vec3::ZERO; 6] };
 
+    /// `ψ(X)` for 1 m of `q`.
+    fn at(&self, at: Vec3) -> Vec3 {
+        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (self.linear, self.quadratic);
+        let (a, b, c) = (xx * at.x + xy * at.y + xz * at.z, yy * at.y + yz * at.z, zz * at.z);
+        self.constant + (x + a) * at.x + (y + b) * at.y + (z + c) * at.z
+    }
+
     /// Adds another, `q` times.
     #[inline]
     fn add(&mut self, other: &Self, q: f32) {
@@ -61,6 +68,11 @@ pub struct Bump {
 }
 
 impl Bump {
+    fn at(&self, at: Vec3) -> Vec3 {
+        let left = 1.0 - (at - self.at).length_squared() / (self.radius * self.radius);
+        if left > 0.0 { self.direction * (left * left * left) } else { Vec3::ZERO }
+    }
+
     /// Adds the bump, `q` times.
     #[inline]
     fn add_to(&self, jet: &mut Jet, at: Vec3, q: f32) {
@@ -129,6 +141,15 @@ pub struct Mode {
 }
 
 impl Mode {
+    /// The displacement of a point of the body at rest, metres per metre of `q`.
+    pub fn displacement(&self, at: Vec3) -> Vec3 {
+        let of_field = self.field.at(at);
+        match &self.bump {
+            Some(bump) => of_field + bump.at(at),
+            None => of_field,
+        }
+    }
+
     /// Whether its numbers can be a mode's: bounds and limit are finite and not negative, a radius is positive.
     pub const fn is_valid(&self) -> bool {
         let has_radius = match self.bump {

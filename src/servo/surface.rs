@@ -151,6 +151,12 @@ pub trait Tracked: Copy + Debug + PartialEq {
         None
     }
 
+    /// The push along the normal, N, of a surface that moves under it; `None` where the loop's penalty gives it.
+    #[inline]
+    fn push(&self) -> Option<f32> {
+        None
+    }
+
     /// Gives every word of the state to a hash.
     fn for_each_word(&self, take: impl FnMut(u32));
 }
