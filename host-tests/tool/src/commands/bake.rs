@@ -3,6 +3,7 @@
 use super::check::{self, Loaded};
 use super::output::{print, write_whole};
 use super::progress;
+use super::soft;
 use super::table_report;
 use crate::cache::Evidence;
 use crate::models::is_baked;
@@ -25,6 +26,11 @@ use std::process::ExitCode;
 ///
 /// A name that ends in .palp gives a binary body file, for palpate::body::Body::from_bytes and every command that takes
 /// a model.
+///
+/// --soft: the body deforms. Of a closed body of one elastic material (youngs_modulus_pa, poissons_ratio, density_kg_per_m3,
+/// damping_ratio) the modes of lowest frequency that a quadratic displacement of space holds go to a modes file, beside
+/// --out or in the current directory: NAME.modes.toml, as closest --modes and sim --modes read it. Rust source gets them
+/// too: MODES and MOTION. A file with modes of your own ([[mode]]) instead of a material is checked.
 ///
 /// Exit status: 0 for a usable body; 1 with --require-certified if it is not certified (the file is written); 2 for bad
 /// input (it is not).
@@ -50,6 +56,15 @@ pub struct Arguments {
     /// Maximum evaluations in one tick; a model above it is refused. The default is the limit of the bench boards.
     #[arg(long, value_name = "EVALUATIONS", default_value_t = TickLimit::BENCH.evaluations)]
     tick_limit: u32,
+    /// Material of a body that deforms, or modes of your own.
+    #[arg(long, value_name = "MATERIAL.toml", group = "product")]
+    soft: Option<PathBuf>,
+    /// Number of modes, 1 to 8.
+    #[arg(long, value_name = "M", default_value_t = 4, requires = "soft")]
+    modes: usize,
+    /// Faces that do not move; default: the body is free.
+    #[arg(long, value_name = "FACE", num_args = 1.., requires = "soft")]
+    held: Vec<String>,
     /// Exit status 1 if the body is usable but not certified.
     #[arg(long)]
     require_certified: bool,
@@ -83,6 +98,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             (loaded.body, evidence) = loaded.file.located_with_evidence(loaded.body, &options, None, &progress)?;
         }
     }
+    let soft = arguments.soft.as_ref().map(|file| soft::modes(&loaded, file, arguments.modes, &arguments.held));
+    let soft = soft.transpose()?;
     let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
     check_tick(&loaded.file.label, &tables, arguments.tick_limit)?;
     if let Some(out) = arguments.out.as_ref().filter(|out| is_baked(out)) {
@@ -94,8 +111,17 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             model: loaded.file.bytes(),
             centre: loaded.model.centre,
         };
-        let text = source::source(&origin, &loaded.model, &loaded.body)?;
+        let mut text = source::source(&origin, &loaded.model, &loaded.body)?;
+        if let Some(soft) = &soft {
+            text += &source::modes_source(&soft.modes)?;
+        }
         write_whole(out, text.as_bytes())?;
+    }
+    if let Some(soft) = &soft {
+        let path = soft::path(arguments.out.as_deref(), &arguments.model);
+        write_whole(&path, soft.file.as_bytes())?;
+        print(soft.report.as_bytes())?;
+        print(format!("{}\n", path.display()).as_bytes())?;
     }
     if let Some(file) = &arguments.graph {
         write_whole(file, graph::graph(&loaded.body, &loaded.model.name, &labels).as_bytes())?;
