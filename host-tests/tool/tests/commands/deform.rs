@@ -176,7 +176,7 @@ fn a_material_gives_modes_that_closest_and_the_compiler_take() -> Result<(), Box
         "{printed}"
     );
     let modes = folder.join("grip.modes.toml");
-    let rows = "qx,qy,qz,q0,q1,q2,q3\n80,20,10,0,0,0,0\n80,20,10,0.0005,0,0,0\n80,20,10,1,0,0,0\n";
+    let rows = "qx,qy,qz,q0,q1,q2,q3\n80,20,10,0,0,0,0\n80,20,10,0.0005,0.0005,0.0005,0.0005\n80,20,10,1,0,0,0\n";
     let found = self::printed(&closest("capped_box", &modes, rows, "cold")?)?;
     assert!((found[0].gap - 20.0).abs() < 1e-4 && (found[1].gap - 20.0).abs() > 1e-3);
     assert!(found[2].status.ends_with("clamped"));
