@@ -1287,7 +1287,7 @@ pub const SURFACE: &Surface = &BODY;
 /// The body with another effort in each tick.
 #[allow(dead_code)]
 pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
-    BODY.with_effort(effort)
+    BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH)
 }
 /// Where the origin of these tables lies in the model, metres: a place of the model less this is one of the
 /// tables. With the model's own origin at `o` in the device's frame, `body_origin_m` is `o + CENTRE`.

@@ -56,6 +56,10 @@ pub struct Arguments {
     /// Maximum evaluations in one tick; a model above it is refused. The default is the limit of the bench boards.
     #[arg(long, value_name = "EVALUATIONS", default_value_t = TickLimit::BENCH.evaluations)]
     tick_limit: u32,
+    /// Maximum modelled cycles of one tick; a model above it is refused, at the lowest effort too. The default is three
+    /// quarters of the period of the slowest bench board at 4 kHz.
+    #[arg(long, value_name = "CYCLES", default_value_t = TickLimit::BENCH.cycles)]
+    tick_cycles: u32,
     /// Material of a body that deforms, or modes of your own.
     #[arg(long, value_name = "MATERIAL.toml", group = "product")]
     soft: Option<PathBuf>,
@@ -100,8 +104,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     let soft = arguments.soft.as_ref().map(|file| soft::modes(&loaded, file, arguments.modes, &arguments.held));
     let soft = soft.transpose()?;
-    let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
-    check_tick(&loaded.file.label, &tables, arguments.tick_limit)?;
+    let limit = TickLimit { evaluations: arguments.tick_limit, cycles: arguments.tick_cycles };
+    let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?.fitted(limit);
+    check_tick(&loaded.file.label, &tables, limit)?;
     if let Some(out) = arguments.out.as_ref().filter(|out| is_baked(out)) {
         write_whole(out, &file(&loaded)?)?;
     } else if let Some(out) = &arguments.out {
@@ -132,7 +137,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             None if is_body => String::new(),
             None => table_report::of_patches(&loaded.surveys())?,
         };
-        let mut text = text + &table_report::of_tick(&tables)? + &table_report::on_boards(bytes(&loaded))?;
+        let mut text = text + &table_report::of_tick(&tables, limit)? + &table_report::on_boards(bytes(&loaded))?;
         if is_body {
             text += &table_report::as_file(file(&loaded)?.len(), &loaded.body)?;
         }
@@ -153,8 +158,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(if arguments.require_certified { check::exit_code(verdict) } else { ExitCode::SUCCESS })
 }
 
-/// Refuses a body whose worst tick takes more evaluations than the limit.
-fn check_tick(label: &str, body: &Body<'_>, limit: u32) -> anyhow::Result<()> {
+/// Refuses a body whose worst tick takes more than the limit.
+fn check_tick(label: &str, body: &Body<'_>, limit: TickLimit) -> anyhow::Result<()> {
     let worst = body.worst_tick(TickWork::EACH);
     let place = worst.vertex.and_then(|index| body.vertices().get(usize::from(index)));
     let place = place.map_or_else(String::new, |vertex| {
@@ -162,10 +167,18 @@ fn check_tick(label: &str, body: &Body<'_>, limit: u32) -> anyhow::Result<()> {
         format!(" near the vertex at ({x:.3}, {y:.3}, {z:.3}) mm from the middle, where {} edges end", vertex.spokes)
     });
     ensure!(
-        worst.cost <= limit,
-        "{label}: a tick may take {} evaluations{place}, the limit is {limit}; merge faces that meet there, or raise \
+        worst.cost <= limit.evaluations,
+        "{label}: a tick may take {} evaluations{place}, the limit is {}; merge faces that meet there, or raise \
          --tick-limit if the board is fast enough",
-        worst.cost
+        worst.cost,
+        limit.evaluations
+    );
+    let cycles = body.worst_cycles();
+    ensure!(
+        cycles <= limit.cycles,
+        "{label}: a tick may take {cycles} modelled cycles{place} at the lowest effort, the limit is {}; lower the \
+         degree of its patches, or raise --tick-cycles if the board is faster or its rate lower",
+        limit.cycles
     );
     Ok(())
 }
