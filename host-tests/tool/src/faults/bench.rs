@@ -36,7 +36,7 @@ pub struct Subject {
     device: &'static ShippedDevice,
 }
 
-/// What a change sees and moves before a tick.
+/// The bench as a change sees and moves it before a tick.
 pub struct Touch<'a> {
     /// Ticks since the start.
     pub tick: u32,
@@ -46,7 +46,7 @@ pub struct Touch<'a> {
     pub magnets: Option<RefMut<'a, Table>>,
     /// Messages that the host sends.
     pub sends: Vec<HostMessage>,
-    /// What every pose becomes.
+    /// Set, it replaces a coordinate of every pose.
     pub poison: &'a Cell<Option<f32>>,
     /// Contacts that were given up so far.
     pub lost: u32,
