@@ -9,6 +9,7 @@
 #![no_main]
 
 mod body;
+mod bus;
 mod chip;
 mod port;
 mod pulse_width;
