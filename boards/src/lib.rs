@@ -109,7 +109,7 @@ pub use chopper::{Chopped, Chopper, ChopperSettings};
 pub use clock_check::{ClockCheck, ClocksDisagree};
 pub use currents::{CurrentFault, CurrentLimits, CurrentWatch, CurrentWatched, PhaseCurrents};
 pub use delay::{Counter, CycleDelay, cycles};
-pub use drives::{Drives, ReadBack, Switched};
+pub use drives::{Breakable, Drives, ReadBack, Switched};
 pub use hold::{Hold, Verdict};
 pub use idle::{Idle, Offers, Port, WINDOW_MS, Watchdog, heartbeat};
 pub use interlock::Interlock;

@@ -11,6 +11,7 @@
 mod body;
 mod bus;
 mod chip;
+mod fault_input;
 mod port;
 mod pulse_width;
 mod set_up;
