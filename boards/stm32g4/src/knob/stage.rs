@@ -8,7 +8,7 @@ use stm32g4xx_hal::gpio::{AF1, AF2, Output, PA9, PB4, PB10, PC7};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::pwm::{ActiveHigh, C1, C2, C3, ComplementaryImpossible, Pwm};
 use stm32g4xx_hal::rcc::Rcc;
-use stm32g4xx_hal::stm32::{GPIOA, TIM2, TIM3, tim2};
+use stm32g4xx_hal::stm32::{GPIOA, GPIOC, TIM2, TIM3, tim2};
 use stm32g4xx_hal::time::RateExtU32;
 
 use palpate_bench::knob::MODULATION;
@@ -75,8 +75,11 @@ pub fn reads_enabled() -> bool {
 /// Takes the motor's power away, by the registers. Before anything else too: a debugger may have reset the core alone,
 /// and the pins are as they were.
 pub fn motors_off() {
-    // SAFETY: nobody else uses it meanwhile, and the write takes power away: the enable pin low.
-    unsafe { (*GPIOA::ptr()).bsrr().write(|w| w.br9().set_bit()) };
+    // SAFETY: nobody else uses them meanwhile, and each write takes power away: the enable pin and the chopper's low.
+    unsafe {
+        (*GPIOA::ptr()).bsrr().write(|w| w.br9().set_bit());
+        (*GPIOC::ptr()).bsrr().write(|w| w.br1().set_bit());
+    }
 }
 
 #[unsafe(no_mangle)]
