@@ -38,8 +38,8 @@ pub(super) const TABLE: &[Failure] = &[
     row(
         [
             "memory",
-            "a bit of stack or variables sticks at the start (Nucleo, Pico 2)",
-            "March X before the program starts",
+            "a bit of stack or variables sticks at the start",
+            "March X before the program starts; on the Teensy word by word",
             "test_bit_of_memory_that_sticks_keeps_the_program_from_starting",
         ],
         0.0,
