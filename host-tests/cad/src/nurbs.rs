@@ -207,8 +207,9 @@ impl Surface {
             let place = 0.5 * (a + b);
             let is_inside = (place - low).min(high - place) > 1e-9 * (high - low);
             if is_inside && width(place) <= near {
-                // A knot there is the place.
-                let knot = self.knots[axis].iter().find(|knot| (*knot - place).abs() < 1e-9 * (high - low));
+                // A knot there is the place: where the line only touches the axis, the search ends beside it.
+                let is_place = |knot: &&f64| (**knot - place).abs() < 1e-4 * (high - low) && width(**knot) <= near;
+                let knot = self.knots[axis].iter().find(is_place);
                 places.push(knot.copied().unwrap_or(place));
             }
         }
@@ -345,12 +346,24 @@ impl Surface {
             let fixed = self.range(axis)[end];
             self.at(if axis == 0 { DVec2::new(fixed, along) } else { DVec2::new(along, fixed) })
         };
-        let is_pole = |axis: usize, end: usize| {
-            (1..=STEPS).all(|k| at(axis, end, k).point.distance(at(axis, end, 0).point) <= near)
+        // How far the line along the other parameter strays from its start.
+        let extent = |axis: usize, share: f64| {
+            let [[low, high], other] = [axis, 1 - axis].map(|axis| self.range(axis));
+            let fixed = low + (high - low) * share;
+            let point = |k: usize| {
+                let along = other[0] + (other[1] - other[0]) * k as f64 / STEPS as f64;
+                self.at(if axis == 0 { DVec2::new(fixed, along) } else { DVec2::new(along, fixed) }).point
+            };
+            (1..=STEPS).map(|k| point(k).distance(point(0))).fold(0.0, f64::max)
         };
+        // A strip that is narrow everywhere has no pole, nor does it meet itself.
+        let is_strip = |axis: usize| [0.3, 0.45, 0.65].into_iter().all(|share| extent(axis, share) <= near);
+        let is_pole = |axis: usize, end: usize| !is_strip(axis) && extent(axis, end as f64) <= near;
         let poles = [0, 1].map(|axis| [0, 1].map(|end| is_pole(axis, end)));
         let touching = [0, 1].map(|axis| {
-            poles[axis] != [true; 2] && (0..=STEPS).all(|k| at(axis, 0, k).point.distance(at(axis, 1, k).point) <= near)
+            poles[axis] != [true; 2]
+                && !is_strip(1 - axis)
+                && (0..=STEPS).all(|k| at(axis, 0, k).point.distance(at(axis, 1, k).point) <= near)
         });
         // A crease along the seam is an edge, and no place to go through.
         let is_smooth = |axis: usize| {
