@@ -144,7 +144,11 @@ pub(super) struct Numbers {
 
 impl Numbers {
     pub(super) fn new(statements: &[Statement<'_>], offsets: HashMap<u64, f64>) -> Self {
-        let of = |kind: &str| statements.iter().filter(|of| of.kind == kind).map(|of| of.id).collect();
+        let of = |kind: &str| {
+            let mut all: Vec<u64> = statements.iter().filter(|of| of.kind == kind).map(|of| of.id).collect();
+            all.sort_unstable();
+            all
+        };
         Self {
             faces: of("ADVANCED_FACE"),
             edges: of("EDGE_CURVE"),
@@ -155,8 +159,8 @@ impl Numbers {
         }
     }
 
-    /// The number and the type of an entity. The reader keeps entities of a type in the order of the file, and a file
-    /// of which it dropped any of these types is refused.
+    /// The number and the type of an entity. The reader keeps entities of a type in the order of their numbers, and a
+    /// file of which it dropped any of these types is refused.
     pub(super) fn of(&self, key: EntityKey) -> Option<(u64, &'static str)> {
         let (numbers, index, kind) = match key {
             EntityKey::AdvancedFace(id) => (&self.faces, id.0, "ADVANCED_FACE"),
