@@ -9,7 +9,7 @@ use crate::part::{Face, Part};
 use crate::patches::{self, Made};
 use crate::spheres::Hollow;
 use crate::wires::{FINEST, Fine, outlined};
-use crate::{check, emit, heal, picture, pinch, read, report, sew, spheres, split, turn};
+use crate::{check, emit, heal, picture, pinch, read, report, reread, sew, spheres, split, turn};
 use std::path::Path;
 
 /// How often faces that are too much at once are made easier.
@@ -19,6 +19,11 @@ const SECOND_THOUGHTS: usize = 3;
 /// A face with more loops than this, or more edges, is split before it is tried.
 const MOST_LOOPS: usize = 12;
 const MOST_EDGES: usize = 64;
+/// Of the tolerance, what patches are fitted within after one was measured to be farther off.
+const FINER: f64 = 0.7;
+const FINEST_FIT: f64 = 0.2;
+const NOT_COMPARED: &str = "a second reading of the file does not follow its products: units and placements of the \
+                            result are not compared with it";
 
 /// Settings of an import.
 #[derive(Clone, Debug)]
@@ -59,6 +64,8 @@ pub struct Imported {
     pub report: Vec<String>,
     /// The picture, if it was asked for.
     pub picture: Option<String>,
+    /// The volume inside the patches, mm³, which means nothing where they are open, and their area, mm².
+    pub volume_and_area: [f64; 2],
 }
 
 /// Imports a part.
@@ -67,11 +74,36 @@ pub struct Imported {
 /// A fault of the file or of the part; or the first face that cannot be divided into patches within the tolerance.
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
     let mut part = read::read(path, options.solid.as_deref(), options.tolerance)?;
+    let reread = reread::read(path);
+    match &reread {
+        Some(reread) => reread.compare_outlines(&part, options.solid.is_none())?,
+        None => part.remarks.push(NOT_COMPARED.to_owned()),
+    }
     sew::sew(&mut part, options.tolerance)?;
     refuse_too_many(&part)?;
     heal::take_out_seams(&mut part);
-    pinch::refuse(&part, options.tolerance)?;
+    let gap = pinch::refuse(&part, options.tolerance)?;
     turn::turn(&mut part, options.tolerance)?;
+    // A vertex may be as far off its edge, and the patches off that.
+    let near = options.tolerance + part.precision.max(options.tolerance);
+    let mut options = options.clone();
+    if let Some(gap) = gap {
+        options.tolerance = options.tolerance.min(gap.width / pinch::TOLERANCES_IN_A_GAP);
+        part.remarks.push(format!("{}: imported within {:.6} mm", gap.reason, options.tolerance));
+    }
+    let named = part.clone();
+    let imported = divided_somehow(part, &options)?;
+    if let Some(reread) = &reread {
+        reread.compare_senses(&named)?;
+        let patches: Vec<&Bezier> = imported.patches.iter().map(|patch| &patch.surface).collect();
+        let vertices = options.solid.is_none().then_some(near);
+        reread.compare_patches(&named, &patches, vertices, imported.volume_and_area)?;
+    }
+    Ok(imported)
+}
+
+/// Patches of a part, by the ways that there are.
+fn divided_somehow(mut part: Part, options: &Options) -> Result<Imported, ImportError> {
     let whole = part.clone();
     if spheres::without_poles(&mut part, Hollow::Halved) == Hollow::Halved
         && let Ok(done) = lightening(part, Way { hollow: Hollow::Halved, triangles: false }, options)
@@ -215,7 +247,18 @@ struct Divided {
 
 /// All that comes after the part is as it should be.
 fn divided(part: &Part, fine: &Fine, triangles: bool, options: &Options) -> Result<Divided, Vec<ImportError>> {
-    let (quads, mesh, made) = fewest(part, fine, triangles, options.tolerance)?;
+    divided_within(part, fine, triangles, options, options.tolerance)
+}
+
+/// With patches that are fitted within `fit`, which is the tolerance or less, millimetres.
+fn divided_within(
+    part: &Part,
+    fine: &Fine,
+    triangles: bool,
+    options: &Options,
+    fit: f64,
+) -> Result<Divided, Vec<ImportError>> {
+    let (quads, mesh, made) = fewest(part, fine, triangles, fit)?;
     let turned = check::check(part, &made).map_err(single)?;
     if !turned.is_empty() {
         const HEALED: &str = "healed: with their whole shell, these faces lie inside out in the file: ";
@@ -228,19 +271,27 @@ fn divided(part: &Part, fine: &Fine, triangles: bool, options: &Options) -> Resu
         labels.dedup();
         part.remarks.push(HEALED.to_owned() + &labels.join(", "));
         turned.into_iter().for_each(|face| part.faces[face].flip = !part.faces[face].flip);
-        return divided(&part, fine, triangles, options);
+        return divided_within(&part, fine, triangles, options, fit);
     }
     let mut counts = vec![0; part.faces.len()];
     made.iter().for_each(|made| counts[made.face] += 1);
     let busiest = (0..counts.len()).max_by_key(|face| counts[*face]).filter(|_| made.len() >= 2 * quads);
     let measured = measure::measure(&mesh, &made, options.tolerance);
-    refuse_far(part, &measured, options.tolerance).map_err(single)?;
+    if let Err(error) = refuse_far(part, &measured, options.tolerance) {
+        // A fit looks at fewer points than the measurement. A face without an edge cannot be made easier otherwise.
+        let is_bare = matches!(error, ImportError::Face { index: Some(face), .. } if part.faces[face].loops.is_empty());
+        let least = if is_bare { FINEST_FIT } else { FINER };
+        let is_last = fit <= least * options.tolerance || part.effort.is_spent();
+        let finer = || divided_within(part, fine, triangles, options, FINER * fit);
+        return if is_last { Err(single(error)) } else { finer() };
+    }
     let report = report::lines(&mesh, &made, &measured, options.tolerance);
     let model = emit::toml(part, &made, &report);
     let picture = options.picture.then(|| picture::svg(part, &made, &measured, options.tolerance));
     let patch = |(name, made): (String, Made)| Patch { name, surface: made.bezier, flip: part.faces[made.face].flip };
     let patches = emit::names(part, &made).into_iter().zip(made).map(patch).collect();
-    Ok(Divided { imported: Imported { model, patches, report, picture }, busiest })
+    let volume_and_area = [measured.volume[0], measured.area[0]];
+    Ok(Divided { imported: Imported { model, patches, report, picture, volume_and_area }, busiest })
 }
 
 /// The patches of a part. Where quads had to be halved for them, which goes on through all quads on the way, lines that

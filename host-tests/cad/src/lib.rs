@@ -7,7 +7,8 @@
 //! outline close there, and [`wires`] cuts it into pieces; [`divide`] cuts regions into quads without a side that ends
 //! on another's middle, or [`split`] makes less of a face first; [`patches`] gives each wire one curve, shared by both
 //! its faces, and each quad one polynomial patch ([`fit`], [`strips`], [`proof`]); [`measure`] compares the result with
-//! the part, both ways; [`check`] refuses a result that is no solid; [`emit`] writes the model.
+//! the part, both ways; [`check`] refuses a result that is no solid, and [`reread`] one that the file's text contradicts;
+//! [`emit`] writes the model.
 
 mod bezier;
 mod check;
@@ -32,6 +33,7 @@ mod project;
 mod proof;
 mod read;
 mod report;
+mod reread;
 mod sew;
 mod spheres;
 mod split;

@@ -53,6 +53,8 @@ pub struct Face {
     pub flip: bool,
     /// Oriented edges, chained: each ends at the start of the next.
     pub loops: Vec<Vec<Use>>,
+    /// Whether the loops run against the file's, which were turned round.
+    pub is_healed: bool,
 }
 
 /// An edge as a loop runs along it.

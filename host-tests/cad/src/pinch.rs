@@ -1,8 +1,7 @@
 //! Outlines that touch themselves: refused at once, with the edges and their distance.
 //!
-//! A face that passes one vertex twice has no width there; nor has a strip between two edges nearer than the tolerance,
-//! because any curves that near might cross. No division into quads exists there, and the search would take minutes to
-//! find that out.
+//! A face that passes one vertex twice has no width there, and no division into quads exists. A strip between two edges
+//! nearer than the tolerance needs a smaller one, or the curves beside it might cross.
 
 use crate::error::ImportError;
 use crate::part::{Edge, Part, Use};
@@ -14,17 +13,36 @@ use std::collections::HashMap;
 const SAMPLES: usize = 32;
 /// Edges of one face that are compared in pairs; one with more is left to the search.
 const MOST_EDGES: usize = 256;
+/// The curves on both sides of a gap stray by a tolerance each.
+pub const TOLERANCES_IN_A_GAP: f64 = 3.0;
+/// The narrowest gap for which the tolerance is lowered, as a part of it: patches and time grow as it falls.
+const NARROWEST: f64 = 0.1;
 
-/// Refuses faces whose outlines touch themselves, within `tolerance`, millimetres.
+/// A strip narrower than the tolerance.
+#[derive(Debug)]
+pub struct Gap {
+    /// Millimetres.
+    pub width: f64,
+    /// Face, edges, place and width.
+    pub reason: String,
+}
+
+/// Refuses faces whose outlines touch themselves, within a tenth of `tolerance`, millimetres; gives the narrowest gap
+/// below it.
 ///
 /// # Errors
 /// The first such face, with the edges, where, and how far apart.
-pub fn refuse(part: &Part, tolerance: f64) -> Result<(), ImportError> {
+pub fn refuse(part: &Part, tolerance: f64) -> Result<Option<Gap>, ImportError> {
+    let mut narrowest: Option<Gap> = None;
     for face in 0..part.faces.len() {
         refuse_pinched(part, face)?;
-        refuse_close(part, face, tolerance)?;
+        if let Some(gap) = refuse_close(part, face, tolerance)?
+            && narrowest.as_ref().is_none_or(|other| gap.width < other.width)
+        {
+            narrowest = Some(gap);
+        }
     }
-    Ok(())
+    Ok(narrowest)
 }
 
 /// A vertex that the outline passes twice. Where the face has an edge twice, as along a crease, that is no pinch.
@@ -51,13 +69,14 @@ fn refuse_pinched(part: &Part, face: usize) -> Result<(), ImportError> {
 }
 
 /// Two edges without a common end that are nearer than the tolerance.
-fn refuse_close(part: &Part, face: usize, tolerance: f64) -> Result<(), ImportError> {
+fn refuse_close(part: &Part, face: usize, tolerance: f64) -> Result<Option<Gap>, ImportError> {
+    let mut narrowest: Option<Gap> = None;
     let of = &part.faces[face];
     let mut edges: Vec<usize> = of.loops.iter().flatten().map(|used| used.edge).collect();
     edges.sort_unstable();
     edges.dedup();
     if edges.len() > MOST_EDGES {
-        return Ok(());
+        return Ok(None);
     }
     let points: Vec<Vec<DVec3>> = edges.iter().map(|edge| samples(part, *edge)).collect();
     let boxes: Vec<[DVec3; 2]> = points.iter().map(|points| around(points)).collect();
@@ -74,18 +93,22 @@ fn refuse_close(part: &Part, face: usize, tolerance: f64) -> Result<(), ImportEr
             let is_straight = [a, b].iter().all(|k| bend(&points[*k]) <= STRAIGHT * tolerance);
             let least = if is_straight { 5.0 * STRAIGHT * tolerance } else { tolerance };
             if distance < least && !is_end_of_a_sliver(part, face, [first, second], at, tolerance) {
-                let reason = format!(
-                    "its {} passes its {} {distance:.6} mm off at {}: nothing between them can be kept within \
-                     {tolerance} mm; choose a tolerance below a third of that, or take the step out of the part",
-                    first.label(edges[a]),
-                    second.label(edges[b]),
-                    place(at)
-                );
-                return Err(ImportError::face(of.label(), reason));
+                let [a, b] = [first.label(edges[a]), second.label(edges[b])];
+                let reason = format!("its {a} passes its {b} {distance:.6} mm off at {}", place(at));
+                if distance < NARROWEST * tolerance {
+                    let reason = format!(
+                        "{reason}: nothing between them can be kept within {tolerance} mm; choose a tolerance below a \
+                         third of that, or take the step out of the part"
+                    );
+                    return Err(ImportError::face(of.label(), reason));
+                }
+                if narrowest.as_ref().is_none_or(|other| distance < other.width) {
+                    narrowest = Some(Gap { width: distance, reason: format!("{}: {reason}", of.label()) });
+                }
             }
         }
     }
-    Ok(())
+    Ok(narrowest)
 }
 
 /// Whether two edges are that near because a third joins their ends there that is as short.

@@ -60,6 +60,7 @@ fn borders_of(part: &Part, face: usize, loops: &[Traced]) -> Vec<Border> {
 }
 
 fn reverse_loops(part: &mut Part, face: usize, borders: &mut [Vec<Border>]) {
+    part.faces[face].is_healed = true;
     for uses in &mut part.faces[face].loops {
         uses.reverse();
         uses.iter_mut().for_each(|used| used.reversed = !used.reversed);

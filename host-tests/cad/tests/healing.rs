@@ -161,12 +161,6 @@ fn a_torus_may_cross_its_axis() {
     assert!((found - known).abs() < 1e-3 * 1_460.0, "{found}, {known} known");
 }
 
-/// A box of 20 × 20 × 10 mm with half of its top 5 µm higher, in a file that claims 10 µm.
-#[test]
-fn a_step_below_the_files_precision_is_kept() {
-    assert!((volume(&part("low_step").unwrap()) - 4_001.0).abs() < 1e-3);
-}
-
 /// A circle passes 0.25 µm from its vertex.
 #[test]
 fn a_vertex_beside_its_edge_is_taken_up_to_the_tolerance() {
@@ -208,9 +202,17 @@ fn an_outline_that_touches_itself_is_refused_by_face_and_edges() {
     let message = part("tangent_hole").unwrap_err();
     assert!(message.contains("(#17)") && message.contains("touches itself at (0.000, 15.000, 15.000) mm"), "{message}");
     assert_eq!(message.matches("edge #").count(), 2, "{message}");
-    // A hole that leaves a wall of half the tolerance.
-    let message = part("thin_wall").unwrap_err();
-    assert!(message.contains("passes its edge #") && message.contains("0.005000 mm off"), "{message}");
+}
+
+/// A hole of 10 mm that leaves a wall of half the tolerance in a box of 40 × 30 × 10 mm.
+#[test]
+fn a_wall_thinner_than_the_tolerance_lowers_it() {
+    let thin = part("thin_wall").unwrap();
+    let is_said = |line: &String| line.contains("0.005000 mm off") && line.contains("imported within 0.001667 mm");
+    assert!(thin.report.iter().any(is_said), "{:?}", thin.report);
+    let off = thin.volume_and_area[0] - (12_000.0 - 250.0 * std::f64::consts::PI);
+    // A sixth of the wall, over the hole's 314 mm².
+    assert!(off.abs() < 314.0 * 0.005 / 6.0, "{off} mm³");
 }
 
 /// The same part as its file has it in millimetres, control point by control point.
@@ -227,4 +229,45 @@ fn lengths_are_in_the_files_unit() {
             }
         }
     }
+}
+
+/// Two products, each in its own context: one of them in centimetres makes no part of one size.
+#[test]
+fn solids_in_different_units_are_refused() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/parts/s11.step");
+    let text = fs::read_to_string(path).unwrap();
+    let unit = ".MILLI.,.METRE.";
+    assert!(text.matches(unit).count() > 1);
+    let last = text.rfind(unit).unwrap();
+    let text = format!("{}.CENTI.,.METRE.{}", &text[..last], &text[last + unit.len()..]);
+    let message = imported("units", &text).unwrap_err();
+    assert!(message.contains("face ") && message.contains("in one unit"), "{message}");
+}
+
+/// Validation properties, as systems write them for whoever reads the file: 24,000 − 720 π mm³.
+#[test]
+fn a_volume_that_the_file_has_is_compared() {
+    let product =
+        whole().split(" = PRODUCT_DEFINITION_SHAPE('','',").nth(1).unwrap().split(')').next().unwrap().to_owned();
+    let with = |volume: f64, area: f64| {
+        let text = format!(
+            "#9001 = PROPERTY_DEFINITION('geometric validation property','volume of part',{product});\n\
+             #9002 = PROPERTY_DEFINITION_REPRESENTATION(#9001,#9003);\n\
+             #9003 = REPRESENTATION('volume',(#9004,#9005),#9010);\n\
+             #9004 = MEASURE_REPRESENTATION_ITEM('volume measure',VOLUME_MEASURE({volume:?}),#9006);\n\
+             #9005 = MEASURE_REPRESENTATION_ITEM('surface area measure',AREA_MEASURE({area:?}),#9008);\n\
+             #9006 = DERIVED_UNIT((#9007));\n#9007 = DERIVED_UNIT_ELEMENT(#9011,3.);\n\
+             #9008 = DERIVED_UNIT((#9009));\n#9009 = DERIVED_UNIT_ELEMENT(#9011,2.);\n\
+             #9010 = (GEOMETRIC_REPRESENTATION_CONTEXT(3)REPRESENTATION_CONTEXT('',''));\n\
+             #9011 = (LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.CENTI.,.METRE.));\n"
+        );
+        let whole = whole();
+        let end = whole.rfind("ENDSEC;").unwrap();
+        imported("properties", &format!("{}{text}{}", &whole[..end], &whole[end..]))
+    };
+    use std::f64::consts::PI;
+    let (volume, area) = (24.0 - 0.72 * PI, 52.0 + 2.4 * PI - 0.72 * PI);
+    with(volume, area).unwrap();
+    assert!(with(1.01 * volume, area).unwrap_err().contains("volume"));
+    assert!(with(volume, 1.01 * area).unwrap_err().contains("area"));
 }

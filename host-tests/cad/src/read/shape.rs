@@ -103,6 +103,7 @@ impl<'p> Gather<'p> {
             surface,
             flip: against != turned,
             loops,
+            is_healed: false,
         });
         Ok(())
     }

@@ -1,0 +1,148 @@
+//! The statements of a STEP file as they stand there: numbers, types, fields, references.
+
+use std::collections::HashMap;
+
+/// The parts of a statement: each a type and its fields, unparsed. All but complex entities have one.
+pub(super) type Record<'t> = Vec<(&'t str, &'t str)>;
+
+/// All statements by their numbers.
+pub(super) struct Records<'t> {
+    by_number: HashMap<u64, Record<'t>>,
+}
+
+impl<'t> Records<'t> {
+    pub fn new(text: &'t str) -> Self {
+        let by_number = statements(text).filter_map(record).collect();
+        Self { by_number }
+    }
+
+    pub fn get(&self, id: u64) -> Option<&Record<'t>> {
+        self.by_number.get(&id)
+    }
+
+    /// The fields of the part of a type.
+    pub fn part(&self, id: u64, kind: &str) -> Option<Vec<&'t str>> {
+        let of = self.get(id)?.iter().find(|(own, _)| *own == kind)?;
+        Some(fields(of.1))
+    }
+
+    /// Whether a statement has a part of a type.
+    pub fn is(&self, id: u64, kind: &str) -> bool {
+        self.get(id).is_some_and(|record| record.iter().any(|(own, _)| *own == kind))
+    }
+
+    /// All with a part of a type, in the order of their numbers.
+    pub fn all(&self, kind: &str) -> Vec<u64> {
+        let mut all: Vec<u64> = self.by_number.keys().copied().filter(|id| self.is(*id, kind)).collect();
+        all.sort_unstable();
+        all
+    }
+
+    /// What a statement refers to, in all its parts.
+    pub fn references(&self, id: u64) -> Vec<u64> {
+        let parts = self.get(id).map_or(&[][..], Vec::as_slice);
+        parts.iter().flat_map(|(_, fields)| references(fields)).collect()
+    }
+}
+
+/// Pieces between semicolons outside names and remarks.
+fn statements(text: &str) -> impl Iterator<Item = &str> {
+    let (mut start, mut at) = (0, 0);
+    let bytes = text.as_bytes();
+    std::iter::from_fn(move || {
+        let (mut is_name, mut is_remark) = (false, false);
+        while at < bytes.len() {
+            let here = &bytes[at..];
+            at += 1;
+            if is_remark {
+                is_remark = !here.starts_with(b"*/");
+            } else if here[0] == b'\'' {
+                is_name = !is_name;
+            } else if !is_name && here.starts_with(b"/*") {
+                is_remark = true;
+            } else if !is_name && here[0] == b';' {
+                let piece = &text[start..at - 1];
+                start = at;
+                return Some(piece);
+            }
+        }
+        None
+    })
+}
+
+fn record(mut statement: &str) -> Option<(u64, Record<'_>)> {
+    while let Some(remark) = statement.trim_start().strip_prefix("/*") {
+        statement = remark.split_once("*/")?.1;
+    }
+    let (id, rest) = statement.trim().strip_prefix('#')?.split_once('=')?;
+    let rest = rest.trim();
+    let mut rest = rest.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(rest);
+    let mut parts = Vec::new();
+    while let Some(open) = rest.find('(') {
+        let kind = rest[..open].trim();
+        let length = enclosed(&rest[open..])?;
+        parts.push((kind, &rest[open + 1..open + length - 1]));
+        rest = &rest[open + length..];
+    }
+    Some((id.trim().parse().ok()?, parts))
+}
+
+/// The length of a text in parentheses, with both.
+fn enclosed(text: &str) -> Option<usize> {
+    let (mut depth, mut is_name) = (0, false);
+    for (at, c) in text.bytes().enumerate() {
+        is_name ^= c == b'\'';
+        depth += match c {
+            b'(' if !is_name => 1,
+            b')' if !is_name => -1,
+            _ => 0,
+        };
+        if depth == 0 {
+            return Some(at + 1);
+        }
+    }
+    None
+}
+
+/// Fields between commas, outside names and lists.
+pub(super) fn fields(text: &str) -> Vec<&str> {
+    let (mut depth, mut is_name, mut start) = (0, false, 0);
+    let mut all = Vec::new();
+    for (at, c) in text.bytes().enumerate() {
+        is_name ^= c == b'\'';
+        match c {
+            b'(' if !is_name => depth += 1,
+            b')' if !is_name => depth -= 1,
+            b',' if !is_name && depth == 0 => {
+                all.push(text[start..at].trim());
+                start = at + 1;
+            }
+            _ => (),
+        }
+    }
+    all.push(text[start..].trim());
+    all
+}
+
+/// The number behind `#`.
+pub(super) fn reference(field: &str) -> Option<u64> {
+    field.strip_prefix('#')?.trim().parse().ok()
+}
+
+/// A number, or that in a typed field such as `LENGTH_MEASURE(25.4)`.
+pub(super) fn number(field: &str) -> Option<f64> {
+    let inner = field.rsplit_once('(').map_or(field, |(_, inner)| inner.trim_end_matches(')'));
+    inner.trim().parse().ok()
+}
+
+/// The references in fields, outside names.
+pub(super) fn references(text: &str) -> Vec<u64> {
+    let parts = text.split('\'').step_by(2);
+    let words = parts.flat_map(|part| part.split('#').skip(1));
+    words.filter_map(|word| word.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()).collect()
+}
+
+/// The numbers of a list such as `(1.,2.,3.)`.
+pub(super) fn numbers(field: &str) -> Vec<f64> {
+    field.trim_matches(['(', ')']).split(',').filter_map(|number| number.trim().parse().ok()).collect()
+}
