@@ -176,7 +176,7 @@ fn check_tick(label: &str, body: &Body<'_>, limit: TickLimit) -> anyhow::Result<
     let cycles = body.worst_cycles();
     ensure!(
         cycles <= limit.cycles,
-        "{label}: a tick may take {cycles} modelled cycles{place} at the lowest effort, the limit is {}; lower the \
+        "{label}: a tick may take {cycles} modelled cycles at the lowest effort{place}, the limit is {}; lower the \
          degree of its patches, or raise --tick-cycles if the board is faster or its rate lower",
         limit.cycles
     );
