@@ -20,8 +20,9 @@ const MOST_POINTS: usize = 2_000_000;
 const SHAPES: [&str; 5] =
     ["MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "FACETED_BREP", "SHELL_BASED_SURFACE_MODEL", "FACE_BASED_SURFACE_MODEL"];
 /// The relative difference that is allowed between a volume or area in the file and that of the patches: systems give
-/// four digits and more.
-const STATED: f64 = 2e-3;
+/// four digits and more; an area grows by the tolerance over the radius too. To a volume, what the tolerance encloses
+/// over the area is added.
+const STATED: [f64; 2] = [2e-3, 5e-3];
 
 /// A vertex where the file places it, millimetres.
 struct Point {
@@ -427,10 +428,11 @@ impl Reread {
             );
             return Err(ImportError::face(label, reason));
         }
-        for ((stated, found), (kind, unit)) in
-            self.stated.into_iter().zip(whole).zip([("volume", "mm³"), ("area", "mm²")])
-        {
-            if let Some(stated) = stated.filter(|stated| (found - stated).abs() > STATED * stated.abs()) {
+        // Half of it is the tolerance, or more.
+        let slack = [0.5 * near * whole[1], 0.0];
+        for (k, (kind, unit)) in [("volume", "mm³"), ("area", "mm²")].into_iter().enumerate() {
+            let (found, allowed) = (whole[k], |stated: f64| STATED[k] * stated.abs() + slack[k]);
+            if let Some(stated) = self.stated[k].filter(|stated| (found - stated).abs() > allowed(*stated)) {
                 let reason = format!(
                     "its {kind} is {found:.3} {unit}, and {stated:.3} by the file's own validation properties; export \
                      the part again"
