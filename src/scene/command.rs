@@ -8,7 +8,7 @@ use crate::device::Kinematics;
 use crate::math::{Vec3, inverse_sqrt, vec3};
 use crate::patch::{Patch, SplinePatch};
 use crate::render::Friction;
-use crate::servo::{Guard, Knob, KnobWitness, OnePatch, Servo, ServoState, Surface};
+use crate::servo::{Guard, Knob, KnobWitness, OnePatch, Servo, ServoState, SoftBody, Surface};
 use crate::track::Placement;
 use thiserror::Error;
 
@@ -235,6 +235,7 @@ pub trait Commanded: Surface {
 }
 
 impl Commanded for Body<'_> {}
+impl Commanded for SoftBody<'_> {}
 impl Commanded for SplinePatch<'_> {}
 impl<P: Patch> Commanded for OnePatch<P> {}
 
