@@ -183,6 +183,18 @@ fn a_material_gives_modes_that_closest_and_the_compiler_take() -> Result<(), Box
     let source = fs::read_to_string(folder.join("grip.rs"))?;
     assert!(source.contains("pub static MODES: [palpate::field::Mode; 4]"));
     assert!(source.contains("pub const MOTION: [palpate::field::Modal; 4]"));
+    // Those of the foam box that ships.
+    let foam = root("soft/foam.toml");
+    let foam = foam.to_str().ok_or("a path")?;
+    let run = bake(folder, &["capped_box", "--soft", foam, "--held", "bottom", "--modes", "8", "--out", "foam.rs"])?;
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    let source = fs::read_to_string(folder.join("foam.rs"))?;
+    let at = source.find("/// Modes of deformation").ok_or("no modes")?;
+    let shipped = fs::read_to_string(root("../boards/bodies/capped_box_modes.rs"))?;
+    assert!(
+        shipped.ends_with(&source[at..]),
+        "boards/bodies/capped_box_modes.rs has drifted: its first line has the command"
+    );
     // Modes of one's own are checked, and go on as they are.
     let run = bake(folder, &["capped_box", "--soft", "grip.modes.toml", "--out", "again.palp"])?;
     assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
