@@ -146,12 +146,16 @@ pub fn widths(servo: &KnobServo, state: &KnobState, modulation: &Modulation) -> 
 /// 0.23 V.
 pub const MODULATION: Modulation = Modulation { dead_fraction: 0.0125, ripple_fraction: 0.019 };
 
-/// The report of a tick over a link, with the widths in the place of duties: −32,767 to 32,767 for none to all of a
-/// period, and −32,768 for a stage that is disabled.
-pub fn report(state: &KnobState, widths: Option<[f32; 3]>, instructions: u32) -> Report {
-    let duties = match widths {
+/// The widths in the place of a report's duties: −32,767 to 32,767 for none to all of a period, and −32,768 for a stage
+/// that is disabled.
+pub fn duties(widths: Option<[f32; 3]>) -> [i16; 3] {
+    match widths {
         Some(widths) => widths.map(|width| ((width - 0.5) * 65_534.0) as i16),
         None => [i16::MIN; 3],
-    };
-    Report { duties, ..Report::new(state, instructions) }
+    }
+}
+
+/// The report of a tick over a link, with the widths in the place of duties.
+pub fn report(state: &KnobState, widths: Option<[f32; 3]>, instructions: u32) -> Report {
+    Report { duties: duties(widths), ..Report::new(state, instructions) }
 }

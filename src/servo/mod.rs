@@ -54,7 +54,7 @@ pub use config::{Config, ConfigError, Loop, Servo, State};
 pub use contact::ContactLimits;
 pub use fault::{Event, Fault, Output, Phase, ResetReason};
 pub use guard::{Guard, GuardState, Guarded, Heat, Motion, ProtectionError, Remembered, Unguarded};
-pub use knob::{Knob, KnobError, KnobWitness};
+pub use knob::{DialState, Knob, KnobError, KnobWitness, MAX_RETURN_RAD};
 pub use settings::{Rendering, RenderingError, SafeOutput, Safety, SafetyError, Settings, SettingsError, StuckLimits};
 pub use soft::{SoftBody, SoftContact};
 pub use state::ServoState;

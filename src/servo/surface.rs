@@ -95,6 +95,9 @@ pub trait Surface: BakedTables {
     /// Selects an entry, where the surface offers several ([`super::Event::Chosen`]).
     fn choose(&self, _: &mut Self::Witness, _: u8) {}
 
+    /// Force starts with this tick: the loop comes to [`super::Phase::Running`].
+    fn start_force(&self, _: &mut Self::Witness) {}
+
     /// Whole turns, of the encoder's count, that are no part of the first joint's angle any more
     /// ([`super::ServoState::turns`]).
     fn turn(&self, _: &mut Self::Witness, _: i32) {}

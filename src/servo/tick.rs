@@ -227,7 +227,11 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             state.drive.drives = live;
             return Ok(Torques { felt: self.safe_torques(state, &pose, velocity), live, ..Torques::NONE });
         }
-        state.phase = self.next_phase(state, enable);
+        let phase = self.next_phase(state, enable);
+        if phase == Phase::Running && state.phase != Phase::Running {
+            self.core.surface.start_force(&mut state.contact.witness);
+        }
+        state.phase = phase;
 
         // Probe, or the virtual tool it pulls → witness point.
         let held = Tool { position: probe, velocity };
