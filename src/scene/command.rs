@@ -8,9 +8,7 @@ use crate::device::Kinematics;
 use crate::math::{Vec3, inverse_sqrt, vec3};
 use crate::patch::{Patch, SplinePatch};
 use crate::render::{Feel, FeelPart, Friction};
-use crate::servo::{
-    DialState, Guard, Knob, KnobError, KnobWitness, OnePatch, Servo, ServoState, SoftBody, Surface,
-};
+use crate::servo::{DialState, Guard, Knob, KnobError, KnobWitness, OnePatch, Servo, ServoState, SoftBody, Surface};
 use crate::track::Placement;
 use thiserror::Error;
 
