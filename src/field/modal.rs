@@ -151,7 +151,7 @@ const fn overdamped(spring: f32, drag: f32) -> [[f32; 2]; 2] {
 /// `e^x − 1` for `x ≤ 0`.
 const fn exp_less_one(x: f32) -> f32 {
     // Below, e^x is under half a unit in the last place of 1.
-    if !(x > -17.4) {
+    if x <= -17.4 {
         return -1.0;
     }
     let (mut part, mut halvings) = (x, 0);
