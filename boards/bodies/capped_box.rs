@@ -1284,7 +1284,7 @@ pub type Surface = palpate::body::Body<'static>;
 /// The body.
 #[allow(dead_code)]
 pub const SURFACE: &Surface = &BODY;
-/// The body with another effort in each tick.
+/// The body with another effort in each tick, as far as it fits the bench boards' period.
 #[allow(dead_code)]
 pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
     BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH)
