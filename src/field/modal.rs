@@ -165,7 +165,7 @@ const fn exp_less_one(x: f32) -> f32 {
         order -= 1;
     }
     while halvings > 0 {
-        sum += sum + sum * sum;
+        sum = 2.0 * sum + sum * sum;
         halvings -= 1;
     }
     sum
