@@ -4,6 +4,7 @@ use super::audit::MAX_EVALUATIONS_IN_AUDIT;
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
 use super::table::Body;
 use super::tick_cost as cost;
+use crate::field::Rigid;
 use crate::math::Vec3;
 use crate::tally::TickWork;
 
@@ -122,7 +123,7 @@ const fn or(one: TickWork, other: TickWork, weights: TickWork) -> TickWork {
     if other.weighed(weights) > one.weighed(weights) { other } else { one }
 }
 
-impl Body<'_> {
+impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
     /// Bound of the work of every tick ([`Body::step`] with the default controller), proved for these tables: the sum of
     /// the evaluations, each with its weight ([`TickWork::EACH`] counts evaluations). A first-order law adds
     /// [`Integrator::evaluations`](crate::track::Integrator::evaluations) less one.

@@ -3,7 +3,10 @@
 use super::jet::Jet;
 use super::{Displacement, Rigid};
 use crate::math::{Vec3, saturate, sqrt_from_above};
-use crate::patch::{Curvature, CurvedPoint, SecondDerivativeBounds, ShapeBounds, SurfacePoint, ThirdDerivativeBounds};
+use crate::patch::{
+    ALL_KINDS, Curvature, CurvedPoint, KindSet, SecondDerivativeBounds, ShapeBounds, SurfacePoint,
+    ThirdDerivativeBounds,
+};
 
 /// Maximum number of modes of a body.
 pub const MAX_MODES: usize = 8;
@@ -256,6 +259,8 @@ impl<'a> Field<'a> {
 }
 
 impl Displacement for &Field<'_> {
+    type Kinds = KindSet<ALL_KINDS>;
+
     #[inline(always)]
     fn is_rest(&self) -> bool {
         self.is_rest
@@ -301,7 +306,7 @@ impl Displacement for &Field<'_> {
 
     fn curve_bounds(&self, rest: [f32; 3], stretch: impl FnOnce() -> f32) -> [f32; 3] {
         if self.is_rest {
-            return Rigid.curve_bounds(rest, stretch);
+            return Rigid::<ALL_KINDS>.curve_bounds(rest, stretch);
         }
         let FieldBounds { stretch: epsilon, bend, twist, .. } = self.bounds;
         let ([second, third, jump], stretch) = (rest, stretch());

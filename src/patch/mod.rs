@@ -9,6 +9,7 @@ mod crc;
 mod curved;
 mod curved_point;
 mod horner;
+mod kinds;
 mod shape;
 mod span_grid;
 mod spans;

@@ -261,7 +261,7 @@ pub trait Commanded: Surface {
     }
 }
 
-impl Commanded for Body<'_> {}
+impl<const KINDS: u32> Commanded for Body<'_, crate::field::Rigid<KINDS>> {}
 impl Commanded for SoftBody<'_> {}
 impl Commanded for SplinePatch<'_> {}
 impl<P: Patch> Commanded for OnePatch<P> {}

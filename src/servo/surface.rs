@@ -175,7 +175,7 @@ pub struct Touched {
     pub unexplained: bool,
 }
 
-impl Surface for Body<'_> {
+impl<const KINDS: u32> Surface for Body<'_, Rigid<KINDS>> {
     type Witness = BodyWitness;
 
     fn rest(&self) -> BodyWitness {
@@ -198,7 +198,7 @@ impl Surface for Body<'_> {
     }
 }
 
-impl BakedTables for Body<'_> {
+impl<const KINDS: u32> BakedTables for Body<'_, Rigid<KINDS>> {
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         Self::table_word(self, cursor)
     }
