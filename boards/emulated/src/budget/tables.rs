@@ -10,7 +10,7 @@ pub mod table1c {
 }
 
 /// Six bicubic faces of one span, at this board's effort.
-pub static CAPPED_BOX: Body = capped_box::with_effort(EFFORT);
+pub static CAPPED_BOX: Body = capped_box::BODY.with_effort(EFFORT);
 
 /// The same.
 pub mod capped_box {
