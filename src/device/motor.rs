@@ -20,6 +20,13 @@ impl Duty {
         Self(((fraction * 32_767.0 + half) as i32).clamp(-32_767, 32_767) as i16)
     }
 
+    /// As [`Self::from_fraction`], of a fraction that is known to be within ±1.
+    #[inline]
+    pub(crate) fn within_scale(fraction: f32) -> Self {
+        let half = if fraction < 0.0 { -0.5 } else { 0.5 };
+        Self((fraction * 32_767.0 + half) as i32 as i16)
+    }
+
     /// As [`Self::from_fraction`] in fewer instructions, of a number: a NaN is full scale here. A half goes to the even
     /// one.
     #[inline]

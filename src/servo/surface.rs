@@ -1,8 +1,9 @@
 //! The surfaces that the loop can track: a patch, a body, or one of your own.
 
 use crate::body::{Body, BodyWitness, Feature, TableCursor};
+use crate::field::Rigid;
 use crate::math::Vec3;
-use crate::patch::{Patch, SplinePatch, crc32};
+use crate::patch::{Patch, SplinePatch, crc32, crc32_of, crc32_with};
 use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 use core::fmt::Debug;
 
@@ -373,8 +374,8 @@ pub struct TableCheck {
     pub crc: u32,
     /// How often the whole table was found good.
     pub passes: u32,
-    /// A word that is read, and not yet in the CRC.
-    pub read: Option<u32>,
+    /// Whether the last word that was read is not yet in the CRC; `crc` then holds both ([`crc32_with`]).
+    pub is_read: bool,
 }
 
 impl TableCheck {
@@ -382,12 +383,14 @@ impl TableCheck {
     /// were read to their end and their CRC is not the expected one.
     #[inline]
     pub fn step<S: BakedTables>(&mut self, surface: &S, expected: u32) -> bool {
-        if let Some(word) = self.read.take() {
-            self.crc = crc32(self.crc, word);
+        if self.is_read {
+            (self.crc, self.is_read) = (crc32_of(self.crc), false);
             return true;
         }
         let found = surface.table_word(self.place);
-        self.read = found;
+        if let Some(word) = found {
+            (self.crc, self.is_read) = (crc32_with(self.crc, word), true);
+        }
         let Some(next) = self.place.after(found) else {
             let good = self.crc == expected;
             *self = Self { passes: self.passes.wrapping_add(u32::from(good)), ..Self::default() };

@@ -323,7 +323,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     fn restart_estimators(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) {
         state.sensors.counts = None;
         state.sensors.rates = [0.0; JOINTS];
-        state.sensors.velocities = self.core.estimators.map(|estimator| estimator.start());
+        state.sensors.lags = [0.0; JOINTS];
     }
 
     /// At most one step a tick; [`Phase::Fault`] is never left.
