@@ -365,7 +365,7 @@ impl Tracked for PatchWitness {
 }
 
 /// Progress of the check that the tables in flash are those that were baked: they are read whole before the first tick,
-/// and then repeatedly, a word every second tick.
+/// and then repeatedly, a word every eighth tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TableCheck {
     /// The next word.
@@ -379,6 +379,9 @@ pub struct TableCheck {
 }
 
 impl TableCheck {
+    /// Every so many ticks the loop takes a step; two steps are a word.
+    pub const EVERY: u32 = 4;
+
     /// Reads one word more, or takes the last one into the CRC: some 40 instructions either way. False if the tables
     /// were read to their end and their CRC is not the expected one.
     #[inline]

@@ -50,10 +50,10 @@ pub(super) const TABLE: &[Failure] = &[
         [
             "memory",
             "a word of the capped box's tables changes",
-            "CRC, a word every second tick",
+            "CRC, a word every eighth tick",
             "every_fault_in_every_phase_is_safe_named_and_latched",
         ],
-        2_000.0,
+        6_500.0,
         Latched(Fault::TableCorrupt),
         Tested,
     ),
