@@ -29,8 +29,8 @@ impl SplinePatch<'_> {
             Spans::RationalBilinear(spans) => whole::<K, 4, 2, 4>(spans, &self.grid, u, v),
             Spans::RationalBiquadratic(spans) => whole::<K, 4, 3, 9>(spans, &self.grid, u, v),
             Spans::RationalBicubic(spans) => whole::<K, 4, 4, 16>(spans, &self.grid, u, v),
-            Spans::Rows(entries) => by_rows::<K, 3>(entries, &self.grid, u, v),
-            Spans::RationalRows(entries) => by_rows::<K, 4>(entries, &self.grid, u, v),
+            Spans::Rows(entries) => rows::<K, 3>(entries, &self.grid, u, v),
+            Spans::RationalRows(entries) => rows::<K, 4>(entries, &self.grid, u, v),
         }
     }
 
@@ -82,6 +82,20 @@ where
     taylor::evaluate::<D, Q>(coefficients, s, t).into()
 }
 
+/// Evaluates a span of any other degree. A single one of degree (1, 2) or (2, 1), a plane with a parabola for a border
+/// or a piece of a cylinder, is found without a search.
+#[inline(always)]
+fn rows<K: Kinds, const D: usize>(entries: &[[f32; D]], grid: &SpanGrid, u: f32, v: f32) -> CurvedPoint
+where
+    CurvedPoint: From<Taylor<D>>,
+{
+    match (grid.degree, <&[[f32; D]; 6]>::try_from(entries)) {
+        ([2, 1], Ok(only)) if const { kinds::has::<K, D>([2, 1]) } => unrolled::<D, 2, 6>(only, u - 0.5, v - 0.5),
+        ([1, 2], Ok(only)) if const { kinds::has::<K, D>([1, 2]) } => unrolled::<D, 3, 6>(only, u - 0.5, v - 0.5),
+        _ => by_rows::<K, D>(entries, grid, u, v),
+    }
+}
+
 /// Evaluates a span of any other degree. Those of spheres, cylinders and cones and of surfaces of revolution have code
 /// of their own, unrolled as that of the common degrees; the rest share loops.
 #[inline(never)]
@@ -105,13 +119,12 @@ where
 }
 
 /// Rows of `Q`, `N` coefficients in all.
-#[inline(never)]
+#[inline(always)]
 fn all_rows<const D: usize, const Q: usize, const N: usize>(rows: &[[f32; D]], s: f32, t: f32) -> CurvedPoint
 where
     CurvedPoint: From<Taylor<D>>,
 {
-    rows.first_chunk::<N>()
-        .map_or(CurvedPoint::NOWHERE, |coefficients| taylor::evaluate::<D, Q>(coefficients, s, t).into())
+    rows.first_chunk::<N>().map_or(CurvedPoint::NOWHERE, |coefficients| unrolled::<D, Q, N>(coefficients, s, t))
 }
 
 impl From<Taylor<3>> for CurvedPoint {
