@@ -223,3 +223,27 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
         fed
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use super::presets::{GIMBAL_KNOB, WOODEN_HAPTICS_2016};
+
+    #[test]
+    fn the_distance_to_the_nearest_stop_is_that_of_every_joint() {
+        let ranges = WOODEN_HAPTICS_2016.joint_range_rad;
+        let middle = ranges.map(|[least, most]| 0.5 * (least + most));
+        for joint in 0..3 {
+            let [least, most] = ranges[joint];
+            for step in -200..=10_200 {
+                let mut angles = middle;
+                angles[joint] = least + (most - least) * step as f32 * 1e-4;
+                let expected = RIM.min(angles[joint] - least).min(most - angles[joint]);
+                assert_eq!(WOODEN_HAPTICS_2016.to_stop(&angles), expected, "joint {joint}, {angles:?}");
+            }
+        }
+        assert!(!(WOODEN_HAPTICS_2016.to_stop(&[f32::NAN; 3]) < 0.0));
+        // An endless joint has no stop.
+        assert_eq!(GIMBAL_KNOB.to_stop(&[40.0]), RIM);
+    }
+}

@@ -128,6 +128,14 @@ mod tests {
     }
 
     #[test]
+    fn within_scale_the_duty_is_that_of_a_number() {
+        for step in -1_000_000..=1_000_000 {
+            let fraction = step as f32 * 1e-6;
+            assert_eq!(Duty::within_scale(fraction), Duty::from_number(fraction), "{fraction}");
+        }
+    }
+
+    #[test]
     fn every_duty_comes_back_from_its_fraction() {
         for duty in -32_767..=32_767 {
             assert_eq!(Duty::from_fraction(Duty(duty).fraction()), Duty(duty));
