@@ -226,8 +226,8 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use super::presets::{GIMBAL_KNOB, WOODEN_HAPTICS_2016};
+    use super::*;
 
     #[test]
     fn the_distance_to_the_nearest_stop_is_that_of_every_joint() {
