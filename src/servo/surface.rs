@@ -379,7 +379,7 @@ pub struct TableCheck {
 }
 
 impl TableCheck {
-    /// Every so many ticks the loop takes a step; two steps are a word.
+    /// Number of ticks between two steps; two steps are a word.
     pub const EVERY: u32 = 4;
 
     /// Reads one word more, or takes the last one into the CRC: some 40 instructions either way. False if the tables
