@@ -1,10 +1,12 @@
 //! The boards' knob on the host: its loop at the simulated dial.
 
 mod hosted;
+#[cfg(feature = "link")]
 mod simulated;
 
 pub use hosted::HostKnob;
 pub use palpate_bench::knob::*;
+#[cfg(feature = "link")]
 pub use simulated::{KnobFlash, KnobWorld, SharedKnob, SimulatedKnob};
 
 /// Angle of the simulated dial at which its sensor starts to count, radians.
