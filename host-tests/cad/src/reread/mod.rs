@@ -35,7 +35,7 @@ struct Point {
 /// seen from the surface's own normal, the face on the left.
 type Outline = HashMap<(u64, bool), usize>;
 
-/// What the file says by its text.
+/// The parts, outlines and places that the file's text states.
 pub struct Reread {
     /// Faces by their numbers.
     outlines: HashMap<u64, Outline>,
@@ -382,7 +382,7 @@ impl Reread {
         Ok(())
     }
 
-    /// Holds a part as it was divided against the file: the outline of every face runs as there, or is told to be
+    /// Holds a part as it was divided against the file: the outline of every face runs as there, or is marked as
     /// healed. On a surface that closes on itself it would bound another part of it.
     ///
     /// # Errors

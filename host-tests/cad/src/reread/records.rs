@@ -38,7 +38,7 @@ impl<'t> Records<'t> {
         all
     }
 
-    /// What a statement refers to, in all its parts.
+    /// The statements that a statement refers to, in all its parts.
     pub fn references(&self, id: u64) -> Vec<u64> {
         let parts = self.get(id).map_or(&[][..], Vec::as_slice);
         parts.iter().flat_map(|(_, fields)| references(fields)).collect()
