@@ -24,7 +24,8 @@ use std::time::Instant;
 /// seconds over all cores and clock seconds; fraction of the locator's leaves with a proof of the way down (`bake
 /// --table-report` has the rest). If PART.csv lies beside PART.step, with columns qx,qy,qz,dist,inside: the largest
 /// error of a cold query's distance, and the rows on the wrong side. If PART_track.csv does: the largest error at one
-/// tick per row.
+/// tick per row. Last, patches for each face, the import's processor seconds, and the most memory taken so far, import or
+/// bake.
 ///
 /// A folder stands for the parts in it. A list (public.toml) names parts of public repositories; --checkouts has each
 /// repository as OWNER/NAME. The reason of a part that is refused follows the table. Exit status 1 if a part is refused or
@@ -70,8 +71,8 @@ fn files(of: &Path, checkouts: &Path) -> anyhow::Result<Vec<PathBuf>> {
 
 /// The names of the columns.
 const HEADER: &str = "\
-| part | faces | patches | deviation, mm | flash, bytes | bake, processor s | clock s | proved, % | cold, mm | wrong side | track, mm |
-|---|---|---|---|---|---|---|---|---|---|---|
+| part | faces | patches | deviation, mm | flash, bytes | bake, processor s | clock s | proved, % | cold, mm | wrong side | track, mm | patches a face | import, processor s | memory, MB |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
 ";
 
 /// Runs the command.
@@ -87,7 +88,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
                 Ok(row) => print(row.as_bytes())?,
                 Err(error) => {
                     let name = part.file_stem().unwrap_or(part.as_os_str()).to_string_lossy();
-                    print(format!("| {name} |{}\n", " – |".repeat(10)).as_bytes())?;
+                    print(format!("| {name} |{}\n", " – |".repeat(13)).as_bytes())?;
                     writeln!(refused, "{}: {error:#}", part.display())?;
                 }
             }
@@ -98,7 +99,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 }
 
 fn row(part: &Path) -> anyhow::Result<String> {
+    let before = processor::seconds_of_children();
     let mut loaded = Loaded::read(part)?;
+    let imported = processor::seconds_of_children().zip(before).map(|(now, before)| now - before);
     let options = loaded.body.locator_options();
     let bar = progress::work();
     let (begun, spent) = (Instant::now(), processor::seconds());
@@ -109,16 +112,19 @@ fn row(part: &Path) -> anyhow::Result<String> {
     drop(bar);
     loaded.body = body;
     let name = part.file_stem().unwrap_or(part.as_os_str()).to_string_lossy();
-    let faces = said(&loaded.file.text, " faces (").map_or_else(|| "–".to_owned(), |number| format!("{number:.0}"));
+    let faces = said(&loaded.file.text, " faces (");
+    let patches = loaded.model.patches.len();
+    let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
     let deviation = deviation(&loaded.file.text);
     let proved = 100.0 * report.leaves_by.proved as f64 / report.leaves as f64;
     let mut row = format!(
-        "| {name} | {faces} | {} | {} | {} | {} | {seconds:.1} | {proved:.0} |",
-        loaded.model.patches.len(),
-        deviation.map_or_else(|| "–".to_owned(), |deviation| format!("{deviation:.4}")),
+        "| {name} | {} | {patches} | {} | {} | {} | {seconds:.1} | {proved:.0} |",
+        or_none(faces.map(|faces| format!("{faces:.0}"))),
+        or_none(deviation.map(|deviation| format!("{deviation:.4}"))),
         BodyBytes::of(&loaded.body).total(),
-        spent.map_or_else(|| "–".to_owned(), |spent| format!("{spent:.1}")),
+        or_none(spent.map(|spent| format!("{spent:.1}"))),
     );
+    let memory = processor::megabytes();
     let cold = errors(&loaded, &part.with_extension("csv"), Mode::Cold)?;
     let track = errors(&loaded, &part.with_file_name(format!("{name}_track.csv")), Mode::Track)?;
     match cold {
@@ -126,9 +132,12 @@ fn row(part: &Path) -> anyhow::Result<String> {
         None => row.push_str(" – | – |"),
     }
     match track {
-        Some(Errors { greatest, .. }) => writeln!(row, " {greatest:.4} |")?,
-        None => row.push_str(" – |\n"),
+        Some(Errors { greatest, .. }) => write!(row, " {greatest:.4} |")?,
+        None => row.push_str(" – |"),
     }
+    let share = or_none(faces.map(|faces| format!("{:.1}", patches as f64 / faces)));
+    let imported = or_none(imported.map(|seconds| format!("{seconds:.1}")));
+    writeln!(row, " {share} | {imported} | {} |", or_none(memory.map(|memory| format!("{memory:.0}"))))?;
     Ok(row)
 }
 
