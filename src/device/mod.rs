@@ -242,7 +242,8 @@ mod tests {
                 assert_eq!(WOODEN_HAPTICS_2016.to_stop(&angles), expected, "joint {joint}, {angles:?}");
             }
         }
-        assert!(!(WOODEN_HAPTICS_2016.to_stop(&[f32::NAN; 3]) < 0.0));
+        // Angles that are not numbers are refused before; they are beyond no stop.
+        assert_eq!(WOODEN_HAPTICS_2016.to_stop(&[f32::NAN; 3]), RIM);
         // An endless joint has no stop.
         assert_eq!(GIMBAL_KNOB.to_stop(&[40.0]), RIM);
     }

@@ -28,7 +28,7 @@ impl<F: NorFlash> KeptFeels<F> {
         const { assert!(HEAD.is_multiple_of(F::READ_SIZE), "a record is read whole") };
         let kept = Self { flash: RefCell::new(flash), in_use: Cell::new(KeptFeel::None) };
         let found = kept.read();
-        let feel = found.as_ref().and_then(|words| of_words(words));
+        let feel = found.as_ref().and_then(of_words);
         kept.in_use.set(match (feel, found) {
             (Some(_), _) => KeptFeel::Used,
             (None, Some(words)) if words.iter().all(|word| *word == u32::MAX) => KeptFeel::None,
