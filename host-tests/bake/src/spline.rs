@@ -34,33 +34,33 @@ impl Spans {
     /// every span, relative to the largest coordinate and weight: a plane that is given as a bicubic patch is bilinear.
     /// Returns the degree that is left.
     pub fn lower(&mut self, mut degree: [usize; 2]) -> [usize; 2] {
-        let largest = |powers: &[DVec4]| powers.iter().fold(DVec4::ZERO, |most, power| most.max(power.abs()));
-        let all = self.powers.iter().fold(DVec4::ZERO, |most, powers| most.max(largest(powers)));
-        let coordinate = all.truncate().max_element();
-        let least = DVec4::new(coordinate, coordinate, coordinate, all.w) * BELOW_SINGLE;
+        let Self { breaks, powers: spans } = self;
+        let half = |axis: usize, span: usize| 0.5 * f64::from(breaks[axis][span + 1] - breaks[axis][span]);
+        let spans_v = breaks[1].len() - 1;
+        // Where the span is widest, a power adds its coefficient times these.
+        let reach = |span: usize, [k, l]: [usize; 2]| {
+            power_of(half(0, span / spans_v), k) * power_of(half(1, span % spans_v), l)
+        };
+        let linear = |(span, powers): (usize, &Vec<DVec4>)| {
+            let along = [(1, [0, 1]), (degree[1] + 1, [1, 0])];
+            along.iter().fold(powers[0].abs(), |sum, (index, power)| sum + powers[*index].abs() * reach(span, *power))
+        };
+        let largest = spans.iter().enumerate().map(linear).fold(DVec4::ZERO, DVec4::max);
+        let coordinate = largest.truncate().max_element();
+        let least = DVec4::new(coordinate, coordinate, coordinate, largest.w) * BELOW_SINGLE;
         for axis in [0, 1] {
             while degree[axis] > 1 {
                 let (columns, highest) = (degree[1] + 1, degree[axis]);
                 let power = |index: usize| [index / columns, index % columns];
-                let half = |axis: usize, span: usize| {
-                    let breaks = &self.breaks[axis];
-                    0.5 * f64::from(breaks[span + 1] - breaks[span])
-                };
-                let spans_v = self.breaks[1].len() - 1;
                 let is_small = |(span, powers): (usize, &Vec<DVec4>)| {
-                    let halves = [half(0, span / spans_v), half(1, span % spans_v)];
-                    powers.iter().enumerate().filter(|(index, _)| power(*index)[axis] == highest).all(
-                        |(index, entry)| {
-                            let [k, l] = power(index);
-                            let reach = power_of(halves[0], k) * power_of(halves[1], l);
-                            (entry.abs() * reach).cmple(least).all()
-                        },
-                    )
+                    let of_it = powers.iter().enumerate().filter(|(index, _)| power(*index)[axis] == highest);
+                    let added: DVec4 = of_it.map(|(index, entry)| entry.abs() * reach(span, power(index))).sum();
+                    added.cmple(least).all()
                 };
-                if !self.powers.iter().enumerate().all(is_small) {
+                if !spans.iter().enumerate().all(is_small) {
                     break;
                 }
-                for powers in &mut self.powers {
+                for powers in spans.iter_mut() {
                     let kept = powers.iter().enumerate().filter(|(index, _)| power(*index)[axis] < highest);
                     *powers = kept.map(|(_, entry)| *entry).collect();
                 }
