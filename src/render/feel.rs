@@ -123,7 +123,7 @@ pub enum FeelPart {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum FeelError {
-    /// A pitch that is not between 0 and half a turn, a centre beyond a turn, or a number that is not finite.
+    /// A pitch that is not between 1e-4 rad and half a turn, a centre beyond a turn, or a number that is not finite.
     Detents,
     /// See [`super::DetentsError`].
     Clicks,
@@ -172,10 +172,14 @@ const fn is_size(x: f32) -> bool {
     x >= 0.0 && x < f32::INFINITY
 }
 
+/// The shortest pitch, radians, a quarter of a count of 14 bits. Of a shorter one the number of pitches in an angle no
+/// longer has a fraction in single precision, and a constant torque would be left.
+const MIN_PITCH_RAD: f32 = 1e-4;
+
 impl Wave {
     /// Of a centre that is far, or a pitch that is long, a constant torque would be left.
     const fn is_valid(&self) -> bool {
-        self.pitch_rad > 0.0
+        self.pitch_rad >= MIN_PITCH_RAD
             && self.pitch_rad <= 0.5 * TAU
             && is_size(self.torque_n_m)
             && self.centre_rad >= -TAU
@@ -283,7 +287,7 @@ impl Feel {
         waves[0].max(waves[1]).max(self.clicks.map_or(0.0, |clicks| clicks.pitch))
     }
 
-    /// How far spring, end stops and the outer clicks are from leaving a dial at this angle where it is, radians.
+    /// How far spring, end stops, the outer clicks and the notch are from leaving a dial at this angle where it is, radians.
     pub(crate) fn pull(&self, angle: f32) -> f32 {
         let mut far = 0.0_f32;
         let mut outside = |[least, most]: [f32; 2]| far = far.max(least - angle).max(angle - most);
@@ -295,6 +299,12 @@ impl Feel {
         }
         if let Some(clicks) = &self.clicks {
             outside([clicks.first as f32 * clicks.pitch, clicks.last as f32 * clicks.pitch]);
+        }
+        if let Some(notch) = &self.notch {
+            let off = (angle - notch.at_rad).abs();
+            if off < 0.5 * notch.width_rad {
+                far = far.max(off);
+            }
         }
         far
     }
@@ -380,7 +390,7 @@ impl Feel {
             return Err(FeelError::Detents);
         }
         if let Some(clicks) = self.clicks
-            && (clicks.try_new().is_err() || clicks.pitch > 0.5 * TAU)
+            && (clicks.try_new().is_err() || clicks.pitch < MIN_PITCH_RAD || clicks.pitch > 0.5 * TAU)
         {
             return Err(FeelError::Clicks);
         }
@@ -399,7 +409,12 @@ impl Feel {
             stiffness_n_m_per_rad: stiffness,
             damping_n_m_s_per_rad: damping,
         }) = self.ends
-            && !(least < most && least.is_finite() && most.is_finite() && is_size(stiffness) && is_size(damping))
+            && !(least < most
+                && most - least < f32::INFINITY
+                && least.is_finite()
+                && most.is_finite()
+                && is_size(stiffness)
+                && is_size(damping))
         {
             return Err(FeelError::Ends);
         }

@@ -232,6 +232,10 @@ impl Knob {
         if !near {
             return Err(KnobError::Far);
         }
+        // New clicks hold the dial in the detent that is nearest, whichever held it before.
+        if part.clicks.is_some() {
+            state.click = feel.detent(state.whole.unwrap_or(0.0));
+        }
         (state.own, state.feel, state.switched) = (Some(feel), self.feels.len() as u8, true);
         Ok(())
     }
@@ -350,7 +354,8 @@ impl Surface for Knob {
         state.whole = Some(whole);
         if let Some(feel) = self.feels.get(usize::from(state.feel)).or(state.own.as_ref()) {
             let wanted = feel.torque_after(state.turns, whole, &mut state.click, angle, rate);
-            let wanted = saturate(wanted, -self.most, self.most);
+            // No feel that passes its check gives another; a torque that is no number must not become the maximum.
+            let wanted = if wanted.is_finite() { saturate(wanted, -self.most, self.most) } else { 0.0 };
             if state.switched {
                 state.left_over = state.torque - wanted;
                 state.switched = false;
@@ -438,7 +443,7 @@ impl Tracked for KnobWitness {
 mod tests {
     use super::*;
     use crate::device::presets::GIMBAL_KNOB;
-    use crate::render::{Ends, Spring, Wave};
+    use crate::render::{Detents, Ends, Notch, Spring, Wave};
 
     static FEELS: [Feel; 4] = [
         Feel::FREE,
@@ -500,5 +505,29 @@ mod tests {
         assert_eq!(refused(Feel { detents: wave(0.0, 0.01), ..Feel::FREE }), KnobError::Feel(FeelError::Detents));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &[], LET_GO), Err(KnobError::Feels));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &FEELS, 0.0), Err(KnobError::LetGo));
+    }
+
+    #[test]
+    fn no_part_of_a_host_holds_the_dial_with_a_constant_torque_or_takes_it_far() {
+        let mut state = KNOB.rest();
+        follow(&mut state, 1.5);
+        // So short that an angle has no fraction of it left.
+        let wave = Wave { pitch_rad: 1e-40, torque_n_m: 0.0, centre_rad: 0.0 };
+        assert_eq!(KNOB.set(&mut state, FeelPart::Detents(Some(wave))), Err(KnobError::Feel(FeelError::Detents)));
+        // The dial is in it, far from its middle.
+        let notch = Notch { at_rad: 0.0, width_rad: 3.1, torque_n_m: 1e-3 };
+        assert_eq!(KNOB.set(&mut state, FeelPart::Notch(Some(notch))), Err(KnobError::Far));
+        let clicks = Detents {
+            pitch: 1.4,
+            stiffness: 1e-3,
+            damping: 0.0,
+            snap: 1.0,
+            first: -3,
+            last: 3,
+            wall_stiffness: 1e-3,
+            max_force: 0.01,
+        };
+        assert_eq!(KNOB.set(&mut state, FeelPart::Clicks(Some(clicks))), Ok(()));
+        assert_eq!(state.click, 1, "the nearest detent, not the one of a feel without clicks");
     }
 }
