@@ -29,7 +29,7 @@ const COUNT: usize = if cfg!(feature = "soft-eight") {
 
 /// The body with another effort in each tick.
 pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
-    let Ok(soft) = palpate::body::Soft::new(rest::with_effort(effort), deformed::MODES.split_at(COUNT).0) else {
+    let Ok(soft) = palpate::body::Soft::new(rest::BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH), deformed::MODES.split_at(COUNT).0) else {
         panic!("modes")
     };
     let Ok(surface) = palpate::servo::SoftBody::new(soft, deformed::MOTION.split_at(COUNT).0, &super::SETTINGS) else {

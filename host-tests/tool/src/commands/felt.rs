@@ -88,7 +88,7 @@ impl SoftModes {
              pub const fn with_effort(effort: palpate::body::Effort) -> Surface {{\n    \
              let settings = palpate::servo::Settings {{ rate_hz: {rate_hz:?}, stiffness_n_per_m: {stiffness_n_per_m:?}, \
              damping_n_s_per_m: {damping_n_s_per_m:?}, max_force_n: {max_force_n:?}, ..palpate::servo::Settings::DEFAULT }};\n    \
-             let Ok(soft) = palpate::body::Soft::new(rest::with_effort(effort), &rest::MODES) else {{ panic!(\"modes\") }};\n    \
+             let Ok(soft) = palpate::body::Soft::new(rest::BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH), &rest::MODES) else {{ panic!(\"modes\") }};\n    \
              let Ok(surface) = palpate::servo::SoftBody::new(soft, &rest::MOTION, &settings) else {{ panic!(\"motion\") }};\n    \
              surface\n}}\n"
         ))
