@@ -32,6 +32,7 @@ mod pinch;
 mod project;
 mod proof;
 mod read;
+mod remarks;
 mod report;
 mod reread;
 mod sew;

@@ -6,6 +6,7 @@ mod statements;
 
 use crate::error::ImportError;
 use crate::part::Part;
+use crate::remarks::without_remarks;
 use glam::{DAffine3, DMat3, DVec3};
 use shape::Gather;
 use statements::Numbers;
@@ -48,6 +49,7 @@ pub fn read(path: &Path, only: Option<&str>, tolerance: f64) -> Result<Part, Imp
     }
     let bytes = fs::read(path).map_err(cannot)?;
     let text = String::from_utf8_lossy(&bytes);
+    let text = without_remarks(&text);
     let text = statements::with_directions(&text);
     let (text, offsets) = statements::without_offsets(&text);
     // The reader says it does not panic; a part is not worth the tool's life if it does.

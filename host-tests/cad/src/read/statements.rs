@@ -2,6 +2,7 @@
 //! mind.
 
 use crate::error::ImportError;
+use crate::remarks::pieces;
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use step_io::{DropKind, EntityKey, Error, Report};
@@ -30,9 +31,9 @@ pub(super) fn statement(text: &str) -> Option<(u64, String, usize)> {
     Some((id.trim().parse().ok()?, kind, rest.len()))
 }
 
-/// All of them, as far as a glance tells: a semicolon in a name hides the statement that it is in.
+/// All of them, of a text without remarks.
 pub(super) fn statements(text: &str) -> Vec<Statement<'_>> {
-    let all = text.split(';').filter_map(|part| {
+    let all = pieces(text).filter_map(|part| {
         let (id, kind, rest) = statement(part)?;
         let rest = &part[part.len() - rest..];
         let arguments = rest.strip_prefix(kind.as_str()).unwrap_or(rest).trim();

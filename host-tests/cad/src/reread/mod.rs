@@ -7,6 +7,7 @@ mod records;
 use crate::bezier::Bezier;
 use crate::error::ImportError;
 use crate::part::Part;
+use crate::remarks::without_remarks;
 use glam::{DAffine3, DMat3, DVec3};
 use records::{Records, fields, number, numbers, reference, references};
 use std::collections::hash_map::Entry;
@@ -17,12 +18,16 @@ use std::path::Path;
 const DEEPEST: usize = 64;
 const MOST_POINTS: usize = 2_000_000;
 /// Entities that hold faces.
-const SHAPES: [&str; 5] =
-    ["MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "FACETED_BREP", "SHELL_BASED_SURFACE_MODEL", "FACE_BASED_SURFACE_MODEL"];
+const SHAPES: [&str; 3] = ["MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "SHELL_BASED_SURFACE_MODEL"];
 /// The relative difference that is allowed between a volume or area in the file and that of the patches: systems give
-/// four digits and more; an area grows by the tolerance over the radius too. To a volume, what the tolerance encloses
+/// four digits and more; an area grows by the tolerance over the radius too: it is
+/// compared where the tolerance is below a thousandth of its root. To a volume, what the tolerance encloses
 /// over the area is added.
 const STATED: [f64; 2] = [2e-3, 5e-3];
+
+/// The measures that are compared, by type and by the name that CAD systems have agreed on.
+const MEASURES: [(&str, &str); 2] =
+    [("VOLUME_MEASURE", "'volume measure'"), ("AREA_MEASURE", "'surface area measure'")];
 
 /// A vertex where the file places it, millimetres.
 struct Point {
@@ -53,13 +58,17 @@ pub fn read(path: &Path) -> Option<Reread> {
 }
 
 fn of_text(text: &str) -> Option<Reread> {
-    let records = Records::new(text);
+    let text = without_remarks(text);
+    let records = Records::new(&text);
     let mut walk = Walk::new(&records)?;
     let roots = walk.roots();
     for root in &roots {
         walk.product(*root, DAffine3::IDENTITY, 0)?;
     }
     if walk.placed.is_empty() {
+        if !records.all("MAPPED_ITEM").is_empty() {
+            return None;
+        }
         let units: Vec<f64> = walk.units.values().copied().collect();
         let unit = *units.first()?;
         if units.iter().any(|other| *other != unit) {
@@ -230,9 +239,18 @@ impl<'r, 't> Walk<'r, 't> {
         if depth > DEEPEST {
             return None;
         }
+        let start = self.placed.len();
         for of in self.representations(product) {
             self.items(of, placement, depth)?;
         }
+        // A solid that two representations of a product list is one.
+        let mut own: Vec<(u64, DAffine3, f64)> = Vec::new();
+        for placed in self.placed.split_off(start) {
+            if !own.iter().any(|(solid, by, _)| *solid == placed.0 && *by == placed.1) {
+                own.push(placed);
+            }
+        }
+        self.placed.extend(own);
         for (part, relation) in self.uses.get(&product).cloned().unwrap_or_default() {
             let own = self.representations(part);
             let by = match relation {
@@ -309,7 +327,7 @@ impl<'r, 't> Walk<'r, 't> {
         let definition = self.records.part(reference(of.first()?)?, "PROPERTY_DEFINITION")?;
         let shape = self.records.part(reference(definition.get(2)?)?, "PRODUCT_DEFINITION_SHAPE");
         let shape = shape.and_then(|shape| reference(shape.get(2)?)).or_else(|| reference(definition.get(2)?));
-        if !definition.first()?.contains("validation") || shape != Some(root) {
+        if *definition.first()? != "'geometric validation property'" || shape != Some(root) {
             return None;
         }
         let list = self.representation(reference(of.get(1)?)?)?;
@@ -321,8 +339,10 @@ impl<'r, 't> Walk<'r, 't> {
                 Some((all[at], reference(all.get(at + 1)?)?))
             });
             let Some((measure, unit)) = measure else { continue };
-            for (k, kind) in ["VOLUME_MEASURE", "AREA_MEASURE"].into_iter().enumerate() {
-                if measure.starts_with(kind) {
+            let named = |name: &str| own.iter().any(|(_, part)| part.contains(name));
+            for (k, (kind, name)) in MEASURES.into_iter().enumerate() {
+                // Areas of shells by themselves and wetted areas have other names.
+                if measure.starts_with(kind) && named(name) && self.records.is(unit, "DERIVED_UNIT") {
                     let length = below(self.records, unit, &["LENGTH_UNIT"]);
                     let scale = millimetres(self.records, *length.first()?, 0)?;
                     found[k] = Some(number(measure)? * scale.powi(3 - k as i32));
@@ -362,7 +382,8 @@ impl Reread {
     /// # Errors
     /// The first face that differs.
     pub fn compare_outlines(&self, part: &Part, is_whole: bool) -> Result<(), ImportError> {
-        if is_whole && part.faces.len() != self.faces {
+        // A face that two shells of a model list is read twice.
+        if is_whole && part.faces.len() < self.faces {
             let reason = format!("{} of its {} faces were read; export the part again", part.faces.len(), self.faces);
             return Err(ImportError::face(part.name.clone(), reason));
         }
@@ -392,12 +413,17 @@ impl Reread {
             let Some(wanted) = face.number.and_then(|number| self.outlines.get(&number)) else { continue };
             let mut senses = face.loops.iter().flatten().filter_map(|used| {
                 let number = part.edges[used.edge].number?;
+                // Both ways round: a seam, of whose two edges in the file one may be left.
+                if face.loops.iter().flatten().any(|o| o.edge == used.edge && o.reversed != used.reversed) {
+                    return None;
+                }
                 let [with, against] = [!used.reversed, used.reversed].map(|way| wanted.contains_key(&(number, way)));
                 // Of an edge that was joined to another's the file's face knows nothing.
                 Some(with || !against)
             });
             if senses.any(|is_right| !is_right) {
-                let reason = "its outline runs against the file's: it is the wrong part of its surface";
+                let reason = "its outline runs against the file's: it is the wrong part of its surface; export the part again, \
+                              with the face split";
                 return Err(ImportError::face(face.label(), reason));
             }
         }
@@ -428,9 +454,16 @@ impl Reread {
             );
             return Err(ImportError::face(label, reason));
         }
+        // An open part has no volume, and the shells of such a part have areas of their own.
+        if part.solids.iter().any(|solid| !solid.is_closed) {
+            return Ok(());
+        }
         // Half of it is the tolerance, or more.
         let slack = [0.5 * near * whole[1], 0.0];
-        for (k, (kind, unit)) in [("volume", "mm³"), ("area", "mm²")].into_iter().enumerate() {
+        let is_fine = near <= 1e-3 * whole[1].sqrt();
+        for (k, (kind, unit)) in
+            [("volume", "mm³"), ("area", "mm²")].into_iter().take(1 + usize::from(is_fine)).enumerate()
+        {
             let (found, allowed) = (whole[k], |stated: f64| STATED[k] * stated.abs() + slack[k]);
             if let Some(stated) = self.stated[k].filter(|stated| (found - stated).abs() > allowed(*stated)) {
                 let reason = format!(

@@ -1,5 +1,6 @@
 //! The statements of a STEP file as they stand there: numbers, types, fields, references.
 
+use crate::remarks::pieces;
 use std::collections::HashMap;
 
 /// The parts of a statement: each a type and its fields, unparsed. All but complex entities have one.
@@ -11,8 +12,9 @@ pub(super) struct Records<'t> {
 }
 
 impl<'t> Records<'t> {
+    /// The statements of a text without remarks.
     pub fn new(text: &'t str) -> Self {
-        let by_number = statements(text).filter_map(record).collect();
+        let by_number = pieces(text).filter_map(record).collect();
         Self { by_number }
     }
 
@@ -45,35 +47,7 @@ impl<'t> Records<'t> {
     }
 }
 
-/// Pieces between semicolons outside names and remarks.
-fn statements(text: &str) -> impl Iterator<Item = &str> {
-    let (mut start, mut at) = (0, 0);
-    let bytes = text.as_bytes();
-    std::iter::from_fn(move || {
-        let (mut is_name, mut is_remark) = (false, false);
-        while at < bytes.len() {
-            let here = &bytes[at..];
-            at += 1;
-            if is_remark {
-                is_remark = !here.starts_with(b"*/");
-            } else if here[0] == b'\'' {
-                is_name = !is_name;
-            } else if !is_name && here.starts_with(b"/*") {
-                is_remark = true;
-            } else if !is_name && here[0] == b';' {
-                let piece = &text[start..at - 1];
-                start = at;
-                return Some(piece);
-            }
-        }
-        None
-    })
-}
-
-fn record(mut statement: &str) -> Option<(u64, Record<'_>)> {
-    while let Some(remark) = statement.trim_start().strip_prefix("/*") {
-        statement = remark.split_once("*/")?.1;
-    }
+fn record(statement: &str) -> Option<(u64, Record<'_>)> {
     let (id, rest) = statement.trim().strip_prefix('#')?.split_once('=')?;
     let rest = rest.trim();
     let mut rest = rest.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(rest);
