@@ -142,7 +142,7 @@ impl Mailbox {
         self.feel.take_message()
     }
 
-    /// Chooses a feel of a table of at most 256 ([`palpate::servo::Event::Chosen`]). Call it from
+    /// Chooses a feel of a table of at most 255 ([`palpate::servo::Event::Chosen`]). Call it from
     /// one place only.
     pub fn choose(&self, index: u8) {
         self.commands.fetch_and(!(0xff << CHOSEN_SHIFT), Ordering::Relaxed);

@@ -131,7 +131,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     report += "\n";
     report += &table_report::of_tick(&fitted, boards)?;
     if !fitted.fits(boards) {
-        writeln!(report, "a tick may take longer than the bench boards allow: `palpate bake` has limits of your own")?;
+        writeln!(
+            report,
+            "a tick may exceed the bench boards' limit: for a faster board raise `palpate bake --tick-cycles`"
+        )?;
     }
     if arguments.rides > 0 {
         ride(&mut report, arguments, &loaded)?;

@@ -41,7 +41,7 @@ pub struct SceneOptions {
     /// One patch of the model, by name or index; default: all patches as one body
     #[arg(long)]
     pub patch: Option<String>,
-    /// Modes of a body that deforms (bake --soft)
+    /// Modes file of a body that deforms, as `palpate bake` writes it
     #[arg(long, value_name = "MODES.toml")]
     pub modes: Option<PathBuf>,
     /// Device: a name, or your own file (my.toml); a surface needs three joints
